@@ -1,0 +1,2 @@
+//! Every chore of Muslin as one command.
+fn main() {}
