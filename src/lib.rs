@@ -1,1 +1,27 @@
-//! Cloth.
+#![doc = include_str!("../README.md")]
+
+mod arena;
+mod cloth;
+mod error;
+mod fabric;
+mod geom;
+mod math;
+mod mesh;
+mod solver;
+mod state;
+
+pub use cloth::Cloth;
+pub use cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
+pub use cloth::query::Hit;
+pub use cloth::view::{Stats, View};
+pub use error::{Error, Result};
+pub use fabric::material::{Material, Preset};
+pub use fabric::weave::LinkKind;
+pub use glam;
+pub use solver::profile::Clock;
+pub use solver::stage::Stage;
+pub use state::colliders::{Collider, ColliderDesc, Shape};
+pub use state::events::{Event, EventKind};
+pub use state::grabs::Grab;
+pub use state::settings::Settings;
+pub use state::wind::{Wind, WindModel};

@@ -1,0 +1,182 @@
+//! What a cloth is made from: a grid, or any triangle mesh.
+
+use crate::error::{Error, Result, check, check_finite, check_index};
+use crate::fabric::material::Material;
+use crate::state::settings::Settings;
+use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// For `extra_particles`: room for as many particles again as the cloth starts with.
+pub const AS_MANY_AGAIN: u32 = u32::MAX;
+
+/// No cloth has more particles than this, tears included.
+pub(crate) const MAX_PARTICLES: u64 = 1 << 22;
+
+/// Which particles of a new grid are pinned where they are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u32)]
+pub enum PinMode {
+    /// None: it falls.
+    None = 0,
+    /// The whole first row.
+    #[default]
+    TopEdge = 1,
+    /// The two ends of the first row.
+    TopCorners = 2,
+    /// All four corners.
+    Corners = 3,
+}
+
+/// A regular grid of particles; particle = row · columns + column.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GridDesc {
+    /// Particles across; 40. At least 2.
+    pub columns: u32,
+    /// Particles down; 40. At least 2.
+    pub rows: u32,
+    /// Distance between neighbours [m]; 0.05. Above 0.
+    pub spacing: f32,
+    /// Where particle (0, 0), the top left, is [m]; the origin.
+    pub origin: Vec3,
+    /// Unit direction of a row; +x.
+    pub right: Vec3,
+    /// Unit direction of a column, square to `right`; −y.
+    pub down: Vec3,
+    /// What is pinned from the start; the top edge.
+    pub pin_mode: PinMode,
+    /// Particles that tears may add; [`AS_MANY_AGAIN`].
+    pub extra_particles: u32,
+    /// What it is made of.
+    pub material: Material,
+    /// How its time runs.
+    pub settings: Settings,
+}
+
+impl Default for GridDesc {
+    fn default() -> Self {
+        Self {
+            columns: 40,
+            rows: 40,
+            spacing: 0.05,
+            origin: Vec3::ZERO,
+            right: Vec3::X,
+            down: Vec3::NEG_Y,
+            pin_mode: PinMode::TopEdge,
+            extra_particles: AS_MANY_AGAIN,
+            material: Material::default(),
+            settings: Settings::default(),
+        }
+    }
+}
+
+impl GridDesc {
+    pub(crate) fn check(&self) -> Result<()> {
+        check(self.columns >= 2, "columns", "be at least 2")?;
+        check(self.rows >= 2, "rows", "be at least 2")?;
+        let count = u64::from(self.columns) * u64::from(self.rows);
+        check(count <= MAX_PARTICLES, "columns", "make at most 4194304 particles with `rows`")?;
+        check(self.spacing.is_finite() && self.spacing > 0.0, "spacing", "be above 0 and finite")?;
+        check_finite(self.origin, "origin")?;
+        let unit = |v: Vec3| (v.length_squared() - 1.0).abs() < 1.0e-3;
+        check(unit(self.right), "right", "be a unit direction")?;
+        check(unit(self.down), "down", "be a unit direction")?;
+        check(self.right.dot(self.down).abs() < 1.0e-3, "down", "be square to `right`")?;
+        check_extra(self.extra_particles, count)?;
+        self.material.check()?;
+        self.settings.check()
+    }
+
+    pub(crate) fn capacity(&self) -> usize {
+        capacity((self.columns * self.rows) as usize, self.extra_particles)
+    }
+
+    /// The particles that `pin_mode` pins, lowest first.
+    pub(crate) fn pinned(&self) -> Vec<u32> {
+        let (last, count) = (self.columns - 1, self.columns * self.rows);
+        match self.pin_mode {
+            PinMode::None => Vec::new(),
+            PinMode::TopEdge => (0..self.columns).collect(),
+            PinMode::TopCorners => vec![0, last],
+            PinMode::Corners => vec![0, last, count - self.columns, count - 1],
+        }
+    }
+}
+
+/// Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MeshDesc {
+    /// Where the vertices are at rest [m]; particle = vertex.
+    pub positions: Vec<Vec3>,
+    /// Three vertices a triangle, counter-clockwise seen from its front.
+    pub indices: Vec<u32>,
+    /// Texture coordinates, one a vertex; or none at all.
+    pub uvs: Vec<Vec2>,
+    /// Vertices that are pinned from the start.
+    pub pinned: Vec<u32>,
+    /// Vertices nearer to each other than this are one [m]; −1 leaves all apart. Nothing else is
+    /// supported yet.
+    pub weld_distance: f32,
+    /// Particles that tears may add; [`AS_MANY_AGAIN`].
+    pub extra_particles: u32,
+    /// What it is made of.
+    pub material: Material,
+    /// How its time runs.
+    pub settings: Settings,
+}
+
+impl Default for MeshDesc {
+    fn default() -> Self {
+        Self {
+            positions: Vec::new(),
+            indices: Vec::new(),
+            uvs: Vec::new(),
+            pinned: Vec::new(),
+            weld_distance: -1.0,
+            extra_particles: AS_MANY_AGAIN,
+            material: Material::default(),
+            settings: Settings::default(),
+        }
+    }
+}
+
+impl MeshDesc {
+    pub(crate) fn check(&self) -> Result<()> {
+        let count = self.positions.len() as u64;
+        check(count >= 3, "positions", "hold at least 3 vertices")?;
+        check(count <= MAX_PARTICLES, "positions", "hold at most 4194304 vertices")?;
+        self.positions.iter().try_for_each(|position| check_finite(*position, "positions"))?;
+        let triples = !self.indices.is_empty() && self.indices.len().is_multiple_of(3);
+        check(triples, "indices", "hold three for each of one or more triangles")?;
+        check(
+            self.uvs.is_empty() || self.uvs.len() == self.positions.len(),
+            "uvs",
+            "be as many as `positions`, or none",
+        )?;
+        let finite = self.uvs.iter().all(|uv| uv.is_finite());
+        check(finite, "uvs", "be finite")?;
+        for vertex in &self.pinned {
+            check_index(*vertex, self.positions.len(), "pinned")?;
+        }
+        if self.weld_distance.is_nan() || self.weld_distance >= 0.0 {
+            return Err(Error::Unsupported { what: "a `weld_distance` of 0 or more" });
+        }
+        check_extra(self.extra_particles, count)?;
+        self.material.check()?;
+        self.settings.check()
+    }
+
+    pub(crate) fn capacity(&self) -> usize {
+        capacity(self.positions.len(), self.extra_particles)
+    }
+}
+
+fn check_extra(extra: u32, count: u64) -> Result<()> {
+    let fits = extra == AS_MANY_AGAIN || count + u64::from(extra) <= 2 * MAX_PARTICLES;
+    check(fits, "extra_particles", "leave at most 8388608 particles in all")
+}
+
+fn capacity(count: usize, extra: u32) -> usize {
+    count + if extra == AS_MANY_AGAIN { count } else { extra as usize }
+}

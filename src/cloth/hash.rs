@@ -1,0 +1,39 @@
+//! The state of a cloth as one number: equal on every machine that was told the same.
+
+use super::Cloth;
+use crate::math::mix::Mixer;
+
+impl Cloth {
+    /// A hash over all that the next tick depends on: positions, history, velocities, masses,
+    /// triangles, pins, grabs and time.
+    pub fn state_hash(&self) -> u64 {
+        let (world, mut mixer) = (&self.world, Mixer::new(0));
+        let p = &world.particles;
+        for columns in [&p.x, &p.x_prev, &p.v] {
+            for column in [&columns.x, &columns.y, &columns.z] {
+                mixer.floats(column);
+            }
+        }
+        mixer.floats(&p.mass);
+        mixer.floats(&p.w);
+        mixer.words(world.mesh.triangles.as_flattened());
+        mixer.words(&world.mesh.source);
+        for pin in world.pins.iter() {
+            mixer.word(pin.particle);
+            mixer.floats(&pin.from.to_array());
+            mixer.floats(&pin.target.to_array());
+        }
+        for held in world.grabs.iter() {
+            mixer.word(held.particle);
+            mixer.floats(&held.target.to_array());
+        }
+        for body in world.colliders.iter() {
+            for pose in [&body.last, &body.next] {
+                mixer.floats(&pose.position.to_array());
+                mixer.floats(&pose.rotation.to_array());
+            }
+        }
+        mixer.word(world.tick);
+        mixer.finish()
+    }
+}

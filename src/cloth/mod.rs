@@ -1,0 +1,447 @@
+//! The public noun: takes edits, runs ticks, hands out what a renderer reads.
+
+pub(crate) mod desc;
+mod hash;
+pub(crate) mod query;
+mod save;
+mod tear;
+pub(crate) mod view;
+mod world;
+
+use crate::error::{Result, check, check_finite, check_index};
+use crate::fabric::material::Material;
+use crate::fabric::weave::LinkKind;
+use crate::math::float_env::guarded;
+use crate::solver::profile::Clock;
+use crate::solver::{World, pipeline};
+use crate::state::colliders::{Body, Collider, ColliderDesc};
+use crate::state::events::Event;
+use crate::state::grabs::{Grab, Held};
+use crate::state::settings::Settings;
+use crate::state::wind::Wind;
+use desc::{GridDesc, MeshDesc};
+use glam::{Quat, Vec3};
+use view::Outputs;
+use world::Origin;
+
+/// A piece of cloth.
+///
+/// It moves in fixed ticks: [`Cloth::advance`] runs those that a frame owes, [`Cloth::step`] a given
+/// number. The same calls give the same bits on every platform. A refused call changes nothing.
+#[derive(Debug)]
+pub struct Cloth {
+    origin: Origin,
+    world: World,
+    outputs: Outputs,
+    /// Time that `advance` was given and has not run yet [s].
+    owed: f64,
+    /// Whether pins changed since the tethers were measured.
+    pins_changed: bool,
+    topology_revision: u32,
+    state_revision: u32,
+}
+
+impl Clone for Cloth {
+    /// Another cloth in the same state; handles of grabs and colliders hold for both.
+    fn clone(&self) -> Self {
+        let mut copy = Self {
+            origin: self.origin.clone(),
+            world: self.world.clone(),
+            outputs: Outputs::new(&self.world),
+            owed: self.owed,
+            pins_changed: self.pins_changed,
+            topology_revision: self.topology_revision,
+            state_revision: self.state_revision,
+        };
+        // A cloned list has no spare room; what tears need is reserved anew.
+        copy.world.reserve(self.world.capacity());
+        copy.outputs = Outputs::new(&copy.world);
+        copy.outputs.set_uvs(&copy.origin);
+        copy.outputs.follow_topology(&copy.world);
+        copy.outputs.follow(&copy.world);
+        copy
+    }
+}
+
+impl Cloth {
+    /// Makes a cloth from a regular grid.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field of `desc` that cannot be, and the rule.
+    pub fn grid(desc: &GridDesc) -> Result<Self> {
+        desc.check()?;
+        Self::from_origin(Origin::Grid(desc.clone()))
+    }
+
+    /// Makes a cloth from any triangle mesh.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex) names
+    /// the field of `desc` that cannot be; [`Error::BadMesh`](crate::Error::BadMesh) the first triangle
+    /// or vertex that cannot be cloth.
+    pub fn mesh(desc: &MeshDesc) -> Result<Self> {
+        desc.check()?;
+        Self::from_origin(Origin::Mesh(desc.clone()))
+    }
+
+    fn from_origin(origin: Origin) -> Result<Self> {
+        let world = guarded(|| origin.world())?;
+        let mut outputs = Outputs::new(&world);
+        outputs.set_uvs(&origin);
+        outputs.follow_topology(&world);
+        outputs.follow(&world);
+        Ok(Self {
+            origin,
+            world,
+            outputs,
+            owed: 0.0,
+            pins_changed: false,
+            topology_revision: 1,
+            state_revision: 1,
+        })
+    }
+
+    /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs
+    /// and no events. Settings, material, wind and colliders stay as they are.
+    pub fn reset(&mut self) {
+        // The descriptor was good enough once, so it is again.
+        let Ok(mut fresh) = guarded(|| self.origin.world()) else {
+            return;
+        };
+        core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
+        fresh.settings = self.world.settings.clone();
+        fresh.material = self.world.material.clone();
+        fresh.wind = self.world.wind.clone();
+        fresh.profile.set_clock(self.world.profile.clock());
+        // Grabs are let go, and their handles stay stale.
+        core::mem::swap(&mut fresh.grabs, &mut self.world.grabs);
+        fresh.grabs.clear();
+        fresh.scratch.tear.reserve(fresh.settings.max_tears_per_tick as usize);
+        self.world = fresh;
+        guarded(|| {
+            self.world.weigh();
+            self.world.weave.stiffen(&self.world.material);
+            self.world.tether();
+        });
+        self.owed = 0.0;
+        self.pins_changed = false;
+        self.changed_topology();
+        self.changed_state();
+    }
+
+    /// How time runs.
+    pub fn settings(&self) -> &Settings {
+        &self.world.settings
+    }
+
+    /// Changes how time runs, from the next tick on. Velocities stay as they are.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
+    pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
+        settings.check()?;
+        let world = &mut self.world;
+        let changes_step = settings.substep() != world.settings.substep();
+        world.scratch.tear.reserve(settings.max_tears_per_tick as usize);
+        world.settings = settings;
+        if changes_step {
+            guarded(|| world.particles.restart_history(world.settings.substep()));
+        }
+        Ok(())
+    }
+
+    /// What it is made of.
+    pub fn material(&self) -> &Material {
+        &self.world.material
+    }
+
+    /// Changes what it is made of, from the next tick on. Velocities stay as they are.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
+    pub fn set_material(&mut self, material: Material) -> Result<()> {
+        material.check()?;
+        let world = &mut self.world;
+        let reweigh = material.density != world.material.density;
+        world.material = material;
+        guarded(|| {
+            world.weave.stiffen(&world.material);
+            if reweigh {
+                world.weigh();
+            }
+        });
+        Ok(())
+    }
+
+    /// The air around it.
+    pub fn wind(&self) -> &Wind {
+        &self.world.wind
+    }
+
+    /// Changes the air around it, from the next tick on.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
+    pub fn set_wind(&mut self, wind: Wind) -> Result<()> {
+        wind.check()?;
+        self.world.wind = wind;
+        Ok(())
+    }
+
+    /// Runs the ticks that a frame of `seconds` [s] owes, and says how many ran.
+    ///
+    /// What is left over waits for the next frame, see [`Cloth::blend`]. A late frame owes at most
+    /// `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) if `seconds` is negative or not finite.
+    pub fn advance(&mut self, seconds: f32) -> Result<u32> {
+        check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")?;
+        let (ticks, owed) = guarded(|| {
+            let tick = f64::from(self.world.settings.tick);
+            let owed = self.owed + f64::from(seconds);
+            let whole = (owed / tick).floor();
+            let most = self.world.settings.max_ticks_per_advance;
+            let ticks = if whole < f64::from(most) { whole as u32 } else { most };
+            (ticks, owed - whole * tick)
+        });
+        self.owed = if owed > 0.0 { owed } else { 0.0 };
+        self.step(ticks);
+        Ok(ticks)
+    }
+
+    /// Runs exactly `ticks` ticks.
+    pub fn step(&mut self, ticks: u32) {
+        self.world.profile.restart();
+        if ticks == 0 {
+            return;
+        }
+        guarded(|| {
+            if core::mem::take(&mut self.pins_changed) {
+                self.world.tether();
+            }
+            let vertices = self.world.mesh.vertex_count();
+            (0..ticks).for_each(|_| pipeline::tick(&mut self.world));
+            if self.world.mesh.vertex_count() != vertices {
+                self.changed_topology();
+            }
+        });
+        self.changed_state();
+    }
+
+    /// The share of a tick that `advance` still owes, 0 to 1: how far to blend from the last tick's
+    /// positions to this one's when drawing.
+    pub fn blend(&self) -> f32 {
+        (self.owed / f64::from(self.world.settings.tick)) as f32
+    }
+
+    /// Time since it was made or reset [s].
+    pub fn time(&self) -> f64 {
+        self.world.time
+    }
+
+    /// Holds a particle at `target` [m], or where it is. The target is reached over the next tick;
+    /// a particle that is pinned already gets a new target.
+    ///
+    /// # Errors
+    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
+    /// [`Error::BadValue`](crate::Error::BadValue) for a target that is not finite.
+    pub fn pin(&mut self, particle: u32, target: Option<Vec3>) -> Result<()> {
+        check_index(particle, self.world.particles.len(), "particle")?;
+        let x = self.world.particles.x.at(particle as usize);
+        let target = target.unwrap_or(x);
+        check_finite(target, "target")?;
+        self.put_pin(particle, target);
+        Ok(())
+    }
+
+    /// Lets a particle go. One that is not pinned stays as it is.
+    ///
+    /// # Errors
+    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
+    pub fn unpin(&mut self, particle: u32) -> Result<()> {
+        check_index(particle, self.world.particles.len(), "particle")?;
+        if self.world.pins.remove(particle) {
+            guarded(|| self.world.refresh_weight(particle));
+            self.pins_changed = true;
+        }
+        Ok(())
+    }
+
+    /// Lets every particle go.
+    pub fn unpin_all(&mut self) {
+        self.world.pins.clear();
+        guarded(|| {
+            (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_weight(i));
+        });
+        self.pins_changed = true;
+    }
+
+    /// Gives many pins their targets [m] at once; particles that are not pinned yet are from now on.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) unless there are as many targets as particles, all
+    /// finite; [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
+    pub fn set_pin_targets(&mut self, particles: &[u32], targets: &[Vec3]) -> Result<()> {
+        check(particles.len() == targets.len(), "targets", "be as many as `particles`")?;
+        for (particle, target) in particles.iter().zip(targets) {
+            check_index(*particle, self.world.particles.len(), "particles")?;
+            check_finite(*target, "targets")?;
+        }
+        for (particle, target) in particles.iter().zip(targets) {
+            self.put_pin(*particle, *target);
+        }
+        Ok(())
+    }
+
+    fn put_pin(&mut self, particle: u32, target: Vec3) {
+        let x = self.world.particles.x.at(particle as usize);
+        if self.world.pins.insert(particle, x, target) {
+            guarded(|| self.world.refresh_weight(particle));
+            self.pins_changed = true;
+        }
+    }
+
+    /// The pinned particles, lowest first.
+    pub fn pinned(&self) -> impl Iterator<Item = u32> + '_ {
+        self.world.pins.iter().map(|pin| pin.particle)
+    }
+
+    /// Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
+    ///
+    /// # Errors
+    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
+    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite.
+    pub fn set_position(&mut self, particle: u32, position: Vec3) -> Result<()> {
+        check_index(particle, self.world.particles.len(), "particle")?;
+        check_finite(position, "position")?;
+        let (at, world) = (particle as usize, &mut self.world);
+        guarded(|| {
+            let v = world.particles.v.at(at);
+            world.particles.place(at, position, v, world.settings.substep());
+            world.particles.x_last.set(at, position);
+            if world.pins.remove(particle) {
+                world.pins.insert(particle, position, position);
+            }
+        });
+        self.changed_state();
+        Ok(())
+    }
+
+    /// Gives a particle a velocity [m/s].
+    ///
+    /// # Errors
+    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
+    /// [`Error::BadValue`](crate::Error::BadValue) for a velocity that is not finite.
+    pub fn set_velocity(&mut self, particle: u32, velocity: Vec3) -> Result<()> {
+        check_index(particle, self.world.particles.len(), "particle")?;
+        check_finite(velocity, "velocity")?;
+        let (at, world) = (particle as usize, &mut self.world);
+        guarded(|| {
+            let x = world.particles.x.at(at);
+            world.particles.place(at, x, velocity, world.settings.substep());
+        });
+        self.changed_state();
+        Ok(())
+    }
+
+    /// Takes hold of a particle where it is. It follows [`Cloth::move_grab`] exactly, but for a limit
+    /// of `max_displacement` a substep, and carries the cloth along.
+    ///
+    /// # Errors
+    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
+    /// [`Error::Full`](crate::Error::Full) if 64 grabs are held already.
+    pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
+        check_index(particle, self.world.particles.len(), "particle")?;
+        let target = self.world.particles.x.at(particle as usize);
+        let handle = self.world.grabs.insert(Held { particle, target }, "another grab")?;
+        guarded(|| self.world.refresh_weight(particle));
+        Ok(Grab(handle))
+    }
+
+    /// Gives a grab a new target [m].
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released,
+    /// [`Error::BadValue`](crate::Error::BadValue) for a target that is not finite.
+    pub fn move_grab(&mut self, grab: Grab, target: Vec3) -> Result<()> {
+        check_finite(target, "target")?;
+        self.world.grabs.get_mut(grab.0, "grab")?.target = target;
+        Ok(())
+    }
+
+    /// Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and
+    /// returns to its pin over the next tick.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released before.
+    pub fn release(&mut self, grab: Grab) -> Result<()> {
+        let held = self.world.grabs.remove(grab.0, "grab")?;
+        let (at, world) = (held.particle, &mut self.world);
+        if let Some(pin) = world.pins.find(at).copied() {
+            let x = world.particles.x.at(at as usize);
+            world.pins.remove(at);
+            world.pins.insert(at, x, pin.target);
+        }
+        guarded(|| world.refresh_weight(at));
+        Ok(())
+    }
+
+    /// Adds a collider.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule,
+    /// [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
+    pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
+        let body = guarded(|| Body::new(desc.clone()))?;
+        Ok(Collider(self.world.colliders.insert(body, "another collider")?))
+    }
+
+    /// Moves a collider; it gets there over the next tick.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed,
+    /// [`Error::BadValue`](crate::Error::BadValue) for a pose that cannot be.
+    pub fn move_collider(
+        &mut self,
+        collider: Collider,
+        position: Vec3,
+        rotation: Quat,
+    ) -> Result<()> {
+        let body = self.world.colliders.get_mut(collider.0, "collider")?;
+        guarded(|| body.move_to(position, rotation))
+    }
+
+    /// Removes a collider.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed before.
+    pub fn remove_collider(&mut self, collider: Collider) -> Result<()> {
+        self.world.colliders.remove(collider.0, "collider").map(|_| ())
+    }
+
+    /// The oldest event that was not read yet. The 1024 newest are kept.
+    pub fn next_event(&mut self) -> Option<Event> {
+        self.world.events.pop()
+    }
+
+    /// The links that hold, each once: two particles and what it resists.
+    pub fn links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
+        self.world.weave.active()
+    }
+
+    /// Times the stages of every tick by a clock that counts seconds, or stops timing.
+    pub fn set_clock(&mut self, clock: Option<Clock>) {
+        self.world.profile.set_clock(clock);
+    }
+
+    fn changed_topology(&mut self) {
+        self.topology_revision = self.topology_revision.wrapping_add(1);
+        self.outputs.follow_topology(&self.world);
+    }
+
+    fn changed_state(&mut self) {
+        self.state_revision = self.state_revision.wrapping_add(1);
+        self.outputs.follow(&self.world);
+    }
+}

@@ -1,0 +1,237 @@
+//! A cloth as bytes, and back: it goes on in the same bits.
+//!
+//! Layout: "MUSLINSV", format version (u32, little-endian), checksum of the rest (u64), then what
+//! `Saved` holds in the postcard format.
+
+use super::Cloth;
+use super::view::Outputs;
+use super::world::Origin;
+use crate::error::{Error, Result};
+use crate::fabric::material::Material;
+use crate::math::columns::Columns;
+use crate::math::float_env::guarded;
+use crate::math::mix::Mixer;
+use crate::mesh::{Fan, NONE};
+use crate::solver::World;
+use crate::state::colliders::{Colliders, MAX_COLLIDERS};
+use crate::state::events::{Events, MAX_EVENTS};
+use crate::state::grabs::{Grabs, MAX_GRABS};
+use crate::state::particles::Particles;
+use crate::state::pins::Pins;
+use crate::state::settings::Settings;
+use crate::state::wind::Wind;
+use serde::{Deserialize, Serialize};
+
+const MAGIC: &[u8; 8] = b"MUSLINSV";
+const FORMAT: u32 = 1;
+const HEADER: usize = 20;
+
+/// All that cannot be derived.
+#[derive(Serialize, Deserialize)]
+struct Saved<'a> {
+    origin: Owned<'a, Origin>,
+    settings: Owned<'a, Settings>,
+    material: Owned<'a, Material>,
+    wind: Owned<'a, Wind>,
+    triangles: Owned<'a, Vec<[u32; 3]>>,
+    sources: Owned<'a, Vec<u32>>,
+    opened: Owned<'a, Vec<(u32, u32)>>,
+    particles: Owned<'a, Particles>,
+    pins: Owned<'a, Pins>,
+    grabs: Owned<'a, Grabs>,
+    colliders: Owned<'a, Colliders>,
+    events: Owned<'a, Events>,
+    time: f64,
+    tick: u32,
+    reserve_told: bool,
+    owed: f64,
+    topology_revision: u32,
+    state_revision: u32,
+}
+
+/// Borrowed to save, owned when restored.
+type Owned<'a, T> = std::borrow::Cow<'a, T>;
+
+impl Cloth {
+    /// The cloth as bytes: everything, so that [`Cloth::restore`] gives one that goes on in the same
+    /// bits. Handles of grabs and colliders hold for it too.
+    pub fn save(&self) -> Vec<u8> {
+        let world = &self.world;
+        let saved = Saved {
+            origin: Owned::Borrowed(&self.origin),
+            settings: Owned::Borrowed(&world.settings),
+            material: Owned::Borrowed(&world.material),
+            wind: Owned::Borrowed(&world.wind),
+            triangles: Owned::Borrowed(&world.mesh.triangles),
+            sources: Owned::Borrowed(&world.mesh.source),
+            opened: Owned::Borrowed(&world.weave.extra_sides),
+            particles: Owned::Borrowed(&world.particles),
+            pins: Owned::Borrowed(&world.pins),
+            grabs: Owned::Borrowed(&world.grabs),
+            colliders: Owned::Borrowed(&world.colliders),
+            events: Owned::Borrowed(&world.events),
+            time: world.time,
+            tick: world.tick,
+            reserve_told: world.reserve_told,
+            owed: self.owed,
+            topology_revision: self.topology_revision,
+            state_revision: self.state_revision,
+        };
+        let mut bytes = Vec::new();
+        bytes.extend_from_slice(MAGIC);
+        bytes.extend_from_slice(&FORMAT.to_le_bytes());
+        bytes.extend_from_slice(&[0; 8]);
+        // Writing to memory fails for no value that a cloth can hold.
+        bytes = postcard::to_extend(&saved, bytes).unwrap_or_default();
+        let sum = checksum(&bytes[HEADER..]).to_le_bytes();
+        bytes[HEADER - 8..HEADER].copy_from_slice(&sum);
+        bytes
+    }
+
+    /// The cloth that [`Cloth::save`] turned into bytes, on this machine or any other.
+    ///
+    /// # Errors
+    /// [`Error::BadSave`] if the bytes are not that, or not whole.
+    pub fn restore(bytes: &[u8]) -> Result<Self> {
+        let bad = |why| Error::BadSave { why };
+        let header = bytes.get(..HEADER).ok_or(bad("it is too short"))?;
+        if header[..8] != MAGIC[..] {
+            return Err(bad("it does not begin with the mark of one"));
+        }
+        if header[8..12] != FORMAT.to_le_bytes() {
+            return Err(bad("it was written by another version"));
+        }
+        let body = &bytes[HEADER..];
+        if header[12..] != checksum(body).to_le_bytes() {
+            return Err(bad("it was damaged"));
+        }
+        let saved: Saved<'_> = postcard::from_bytes(body).map_err(|_| bad("it cannot be read"))?;
+        guarded(|| rebuild(saved))
+    }
+}
+
+fn checksum(bytes: &[u8]) -> u64 {
+    let mut mixer = Mixer::new(bytes.len() as u64);
+    for chunk in bytes.chunks(4) {
+        let mut word = [0; 4];
+        word[..chunk.len()].copy_from_slice(chunk);
+        mixer.word(u32::from_le_bytes(word));
+    }
+    mixer.finish()
+}
+
+/// Makes the cloth anew from its descriptor, then tears it and moves it as it was. The bytes may
+/// come from anywhere, so nothing in them is believed.
+fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
+    let bad = || Error::BadSave { why: "its parts do not fit together" };
+    let must = |fits: bool| if fits { Ok(()) } else { Err(bad()) };
+    saved.origin.check()?;
+    saved.settings.check()?;
+    saved.material.check()?;
+    saved.wind.check()?;
+    let origin = saved.origin.into_owned();
+    let mut world = origin.world()?;
+    let capacity = world.capacity();
+    let sources = saved.sources.into_owned();
+    let triangles = saved.triangles.into_owned();
+    let count = sources.len();
+    must(count >= world.mesh.vertex_count() && count <= capacity)?;
+    must(triangles.len() == world.mesh.triangles.len())?;
+    for (now, then) in triangles.iter().flatten().zip(world.mesh.triangles.iter().flatten()) {
+        must(sources.get(*now as usize) == Some(then))?;
+    }
+    let particles = saved.particles.into_owned();
+    must(particles.is_consistent(count) && is_finite(&particles))?;
+    must(
+        (saved.time.is_finite() && saved.time >= 0.0)
+            && (saved.owed.is_finite() && saved.owed >= 0.0),
+    )?;
+
+    world.mesh.triangles = triangles;
+    world.mesh.source = sources;
+    world.mesh.corner_of.resize(count, NONE);
+    world.mesh.connect();
+    must(has_whole_fans(&world))?;
+    world.particles = particles;
+    (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
+    world.wind = saved.wind.into_owned();
+    world.reserve(capacity);
+    must(saved.opened.len() <= world.weave.extra_capacity())?;
+    for (edge, woven) in saved.opened.iter() {
+        must(world.weave.may_open(*edge, *woven))?;
+        let material = &world.material;
+        world.weave.add_extra(&world.mesh, *edge, *woven, material);
+    }
+    world.weave.stiffen(&world.material);
+    for source in 0..world.mesh.original_count {
+        world.weave.follow(&world.mesh, source);
+    }
+    restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
+    let colliders = saved.colliders.into_owned();
+    must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
+    for body in colliders.iter() {
+        body.check()?;
+    }
+    world.colliders = colliders;
+    let events = saved.events.into_owned();
+    must(events.len() <= MAX_EVENTS)?;
+    world.events = events;
+    world.events.reserve();
+    (world.time, world.tick, world.reserve_told) = (saved.time, saved.tick, saved.reserve_told);
+    world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
+    world.weigh();
+    world.tether();
+    let mut outputs = Outputs::new(&world);
+    outputs.set_uvs(&origin);
+    outputs.follow_topology(&world);
+    outputs.follow(&world);
+    Ok(Cloth {
+        origin,
+        world,
+        outputs,
+        owed: saved.owed,
+        pins_changed: false,
+        topology_revision: saved.topology_revision,
+        state_revision: saved.state_revision,
+    })
+}
+
+fn restore_holds(
+    world: &mut World,
+    pins: Pins,
+    grabs: Grabs,
+    bad: impl Fn() -> Error,
+) -> Result<()> {
+    let count = world.particles.len();
+    let held_well = |particle: u32, at: [glam::Vec3; 2]| {
+        (particle as usize) < count && at.iter().all(|v| v.is_finite())
+    };
+    let pins_fit = pins.iter().all(|pin| held_well(pin.particle, [pin.from, pin.target]));
+    let grabs_fit = grabs.iter().all(|held| held_well(held.particle, [held.target; 2]));
+    if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.capacity() == usize::from(MAX_GRABS)) {
+        return Err(bad());
+    }
+    (world.pins, world.grabs) = (pins, grabs);
+    world.pins.reserve(world.capacity());
+    Ok(())
+}
+
+fn is_finite(particles: &Particles) -> bool {
+    let finite = |columns: &Columns| columns.iter().all(|v| v.is_finite());
+    [&particles.x, &particles.x_prev, &particles.v, &particles.x_last].into_iter().all(finite)
+}
+
+/// Whether the triangles of every vertex form one fan, as tears always leave them.
+fn has_whole_fans(world: &World) -> bool {
+    let mesh = &world.mesh;
+    let mut uses = vec![0usize; mesh.vertex_count()];
+    mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);
+    let mut fan = Fan::default();
+    mesh.corner_of.iter().zip(&uses).all(|(corner, uses)| {
+        if *corner == NONE {
+            return true;
+        }
+        mesh.fan(*corner, &mut fan);
+        fan.corners.len() == *uses
+    })
+}

@@ -1,0 +1,218 @@
+//! What a renderer reads: positions, normals, uvs, triangles, numbers about the cloth.
+
+use super::Cloth;
+use super::world::Origin;
+use crate::math::float_env::guarded;
+use crate::solver::stage::Stage;
+use crate::solver::{World, outputs};
+use glam::{Vec2, Vec3};
+
+/// A cloth as its renderer sees it. All lists have one entry a vertex, but for the indices.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// Positions [m].
+    pub positions: &'a [Vec3],
+    /// Unit normals, area-weighted; zero for a vertex that no triangle uses.
+    pub normals: &'a [Vec3],
+    /// Texture coordinates.
+    pub uvs: &'a [Vec2],
+    /// Three vertices a triangle.
+    pub indices: &'a [u32],
+    /// Which original vertex each vertex came from.
+    pub source_vertices: &'a [u32],
+    /// How many vertices there may ever be.
+    pub vertex_capacity: u32,
+    /// How many indices there may ever be.
+    pub index_capacity: u32,
+    /// Changes when indices do.
+    pub topology_revision: u32,
+    /// Changes when positions do.
+    pub state_revision: u32,
+}
+
+/// Numbers about a cloth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stats {
+    /// How many particles (vertices) there are.
+    pub particles: u32,
+    /// How many triangles there are.
+    pub triangles: u32,
+    /// How many links it was woven with.
+    pub constraints: u32,
+    /// How many links hold now.
+    pub active_constraints: u32,
+    /// How many pieces hang together by edges.
+    pub pieces: u32,
+    /// Ticks since it was made or reset.
+    pub ticks: u32,
+    /// How far to blend from the last tick to this one, see [`Cloth::blend`].
+    pub blend: f32,
+    /// The greatest stretch of a stretch link: 0.01 is 1 % over its rest length.
+    pub max_stretch: f32,
+    /// The mean stretch of the stretch links.
+    pub mean_stretch: f32,
+    /// Energy of motion [J].
+    pub kinetic_energy: f32,
+    /// Memory that it holds [B], about.
+    pub bytes: u64,
+    /// Time that each stage took in the last call that ran ticks [s]; zeros without a clock.
+    pub seconds: [f32; Stage::COUNT],
+}
+
+/// The lists behind a [`View`]; they never move while the cloth lives.
+#[derive(Debug)]
+pub(crate) struct Outputs {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    normals_current: bool,
+    uvs: Vec<Vec2>,
+    original_uvs: Vec<Vec2>,
+    indices: Vec<u32>,
+}
+
+impl Outputs {
+    /// Room for all that the cloth may become.
+    pub fn new(world: &World) -> Self {
+        let capacity = world.capacity();
+        Self {
+            positions: Vec::with_capacity(capacity),
+            normals: Vec::with_capacity(capacity),
+            normals_current: false,
+            uvs: Vec::with_capacity(capacity),
+            original_uvs: Vec::new(),
+            indices: Vec::with_capacity(3 * world.mesh.triangles.len()),
+        }
+    }
+
+    /// Takes on the texture coordinates that the cloth was made with.
+    pub fn set_uvs(&mut self, origin: &Origin) {
+        self.original_uvs = origin.uvs();
+    }
+
+    /// Follows a change of positions.
+    pub fn follow(&mut self, world: &World) {
+        outputs::positions(world, &mut self.positions);
+        self.normals_current = false;
+    }
+
+    /// Follows a change of triangles.
+    pub fn follow_topology(&mut self, world: &World) {
+        self.indices.clear();
+        self.indices.extend_from_slice(world.mesh.triangles.as_flattened());
+        self.uvs.clear();
+        self.uvs.extend(world.mesh.source.iter().map(|v| self.original_uvs[*v as usize]));
+    }
+
+    fn follow_normals(&mut self, world: &World) {
+        if !self.normals_current {
+            outputs::normals(world, &mut self.normals);
+            self.normals_current = true;
+        }
+    }
+}
+
+impl Cloth {
+    /// All that a renderer reads. Normals are computed when first asked for after a change.
+    pub fn view(&mut self) -> View<'_> {
+        self.refresh_normals();
+        View {
+            positions: &self.outputs.positions,
+            normals: &self.outputs.normals,
+            uvs: &self.outputs.uvs,
+            indices: &self.outputs.indices,
+            source_vertices: &self.world.mesh.source,
+            vertex_capacity: self.world.capacity() as u32,
+            index_capacity: self.outputs.indices.len() as u32,
+            topology_revision: self.topology_revision,
+            state_revision: self.state_revision,
+        }
+    }
+
+    /// Positions of the particles [m].
+    pub fn positions(&self) -> &[Vec3] {
+        &self.outputs.positions
+    }
+
+    /// Unit normals of the vertices, computed when first asked for after a change.
+    pub fn normals(&mut self) -> &[Vec3] {
+        self.refresh_normals();
+        &self.outputs.normals
+    }
+
+    /// Texture coordinates of the vertices.
+    pub fn uvs(&self) -> &[Vec2] {
+        &self.outputs.uvs
+    }
+
+    /// Three vertices a triangle.
+    pub fn indices(&self) -> &[u32] {
+        &self.outputs.indices
+    }
+
+    /// Which original vertex each vertex came from.
+    pub fn source_vertices(&self) -> &[u32] {
+        &self.world.mesh.source
+    }
+
+    /// Velocity of a particle [m/s]; `None` if there is no such particle.
+    pub fn velocity(&self, particle: u32) -> Option<Vec3> {
+        let at = particle as usize;
+        (at < self.world.particles.len()).then(|| self.world.particles.v.at(at))
+    }
+
+    /// Mass of a particle [kg]; `None` if there is no such particle.
+    pub fn mass(&self, particle: u32) -> Option<f32> {
+        self.world.particles.mass.get(particle as usize).copied()
+    }
+
+    /// Changes when the triangles do.
+    pub fn topology_revision(&self) -> u32 {
+        self.topology_revision
+    }
+
+    /// Changes when positions do.
+    pub fn state_revision(&self) -> u32 {
+        self.state_revision
+    }
+
+    /// Numbers about the cloth as it is now.
+    pub fn stats(&self) -> Stats {
+        let world = &self.world;
+        let ((max_stretch, mean_stretch), kinetic_energy) =
+            guarded(|| (outputs::stretch(world), outputs::kinetic_energy(world)));
+        Stats {
+            particles: world.particles.len() as u32,
+            triangles: world.mesh.triangles.len() as u32,
+            constraints: world.weave.links.len() as u32,
+            active_constraints: world.weave.active().count() as u32,
+            pieces: world.pieces,
+            ticks: world.tick,
+            blend: self.blend(),
+            max_stretch,
+            mean_stretch,
+            kinetic_energy,
+            bytes: self.bytes(),
+            seconds: world.profile.seconds(),
+        }
+    }
+
+    fn refresh_normals(&mut self) {
+        if self.outputs.normals_current {
+            return;
+        }
+        let start = self.world.profile.start();
+        guarded(|| self.outputs.follow_normals(&self.world));
+        self.world.profile.book(Stage::Outputs, start);
+    }
+
+    fn bytes(&self) -> u64 {
+        let world = &self.world;
+        let particle = world.particles.bytes_each() + size_of::<[Vec3; 2]>() + size_of::<Vec2>();
+        let triangle = size_of::<[u32; 3]>() * 3 + size_of::<[f32; 3]>();
+        let bytes = world.capacity() * particle
+            + world.mesh.triangles.len() * triangle
+            + world.weave.bytes()
+            + world.tethers.bytes();
+        bytes as u64
+    }
+}

@@ -1,0 +1,173 @@
+//! From a descriptor to a world at rest.
+
+use super::desc::{GridDesc, MeshDesc};
+use crate::arena::Arena;
+use crate::error::Result;
+use crate::fabric::material::Material;
+use crate::fabric::tethers::Tethers;
+use crate::fabric::weave::Weave;
+use crate::geom::triangle::corner_areas;
+use crate::mesh::grid::{self, Frame};
+use crate::mesh::{Mesh, NONE, after, intake};
+use crate::solver::profile::Profile;
+use crate::solver::{Scratch, World};
+use crate::state::colliders::MAX_COLLIDERS;
+use crate::state::events::Events;
+use crate::state::grabs::MAX_GRABS;
+use crate::state::particles::Particles;
+use crate::state::pins::Pins;
+use crate::state::settings::Settings;
+use crate::state::wind::Wind;
+use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// What a cloth was made from; it can be made anew.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) enum Origin {
+    Grid(GridDesc),
+    Mesh(MeshDesc),
+}
+
+impl Origin {
+    /// The cloth as it was when it was new. The descriptor has been checked.
+    pub fn world(&self) -> Result<World> {
+        match self {
+            Self::Grid(desc) => Ok(grid_world(desc)),
+            Self::Mesh(desc) => mesh_world(desc),
+        }
+    }
+
+    /// The descriptor checked again; for bytes from outside.
+    pub fn check(&self) -> Result<()> {
+        match self {
+            Self::Grid(desc) => desc.check(),
+            Self::Mesh(desc) => desc.check(),
+        }
+    }
+
+    /// Texture coordinates of the original vertices.
+    pub fn uvs(&self) -> Vec<Vec2> {
+        match self {
+            Self::Grid(desc) => grid::uvs(desc.columns, desc.rows),
+            Self::Mesh(desc) if desc.uvs.is_empty() => vec![Vec2::ZERO; desc.positions.len()],
+            Self::Mesh(desc) => desc.uvs.clone(),
+        }
+    }
+}
+
+fn grid_world(desc: &GridDesc) -> World {
+    let unit = |v: Vec3| v * (1.0 / v.length());
+    let frame = Frame {
+        origin: desc.origin,
+        right: unit(desc.right),
+        down: unit(desc.down),
+        spacing: desc.spacing,
+    };
+    let rest = grid::positions(desc.columns, desc.rows, &frame);
+    let capacity = desc.capacity();
+    let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
+    let openings = opening_capacity(&mesh, capacity);
+    let weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
+    build(mesh, weave, rest, &desc.pinned(), capacity, &desc.material, &desc.settings)
+}
+
+fn mesh_world(desc: &MeshDesc) -> Result<World> {
+    let (triples, _) = desc.indices.as_chunks::<3>();
+    let capacity = desc.capacity();
+    let mesh = intake::mesh(triples.to_vec(), &desc.positions, capacity)?;
+    let weave = Weave::mesh(&mesh, &desc.positions, opening_capacity(&mesh, capacity));
+    let rest = desc.positions.clone();
+    Ok(build(mesh, weave, rest, &desc.pinned, capacity, &desc.material, &desc.settings))
+}
+
+fn build(
+    mesh: Mesh,
+    weave: Weave,
+    rest: Vec<Vec3>,
+    pinned: &[u32],
+    capacity: usize,
+    material: &Material,
+    settings: &Settings,
+) -> World {
+    let corner_area = mesh
+        .triangles
+        .iter()
+        .map(|corners| corner_areas(corners.map(|v| rest[v as usize])))
+        .collect();
+    let max_tears = settings.max_tears_per_tick as usize;
+    let mut world = World {
+        spacing: mean_edge(&mesh, &rest),
+        particles: Particles::at_rest(&rest, capacity),
+        tethers: Tethers::with_capacity(capacity),
+        scratch: Scratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
+        pins: Pins::default(),
+        grabs: Arena::with_capacity(MAX_GRABS),
+        colliders: Arena::with_capacity(MAX_COLLIDERS),
+        settings: settings.clone(),
+        material: material.clone(),
+        wind: Wind::default(),
+        time: 0.0,
+        tick: 0,
+        pieces: 0,
+        reserve_told: false,
+        events: Events::new(),
+        profile: Profile::default(),
+        mesh,
+        weave,
+        rest,
+        corner_area,
+    };
+    world.pins.reserve(capacity);
+    for particle in pinned {
+        let x = world.rest[*particle as usize];
+        world.pins.insert(*particle, x, x);
+    }
+    world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
+    world.weigh();
+    world.weave.stiffen(material);
+    world.tether();
+    world
+}
+
+/// How many edges tears can open: each new vertex opens at most two, and only inner edges can.
+fn opening_capacity(mesh: &Mesh, capacity: usize) -> usize {
+    let inner = mesh.edges().filter(|edge| mesh.across(*edge) != NONE).count();
+    inner.min(2 * (capacity - mesh.vertex_count()))
+}
+
+fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
+    let at = |corner: u32| rest[mesh.vertex(corner) as usize];
+    let (mut sum, mut count) = (0.0, 0.0);
+    // The shorter two edges of each triangle: on a grid that is the spacing, not the diagonal.
+    for triangle in 0..mesh.triangles.len() as u32 {
+        let length = |corner: u32| (at(after(corner)) - at(corner)).length();
+        let [a, b, c] = [0, 1, 2].map(|k| length(3 * triangle + k));
+        let longest = if a > b { a } else { b };
+        let longest = if longest > c { longest } else { c };
+        sum += f64::from(a + b + c - longest) * 0.5;
+        count += 1.0;
+    }
+    (sum / count) as f32
+}
+
+impl World {
+    /// Sees to room for `capacity` particles in every list that tears make longer.
+    pub(crate) fn reserve(&mut self, capacity: usize) {
+        let reserve = |list: &mut Vec<u32>| list.reserve_exact(capacity.saturating_sub(list.len()));
+        reserve(&mut self.mesh.source);
+        reserve(&mut self.mesh.corner_of);
+        self.particles.reserve(capacity);
+        self.pins.reserve(capacity);
+        self.events.reserve();
+        let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
+        self.weave.reserve(openings);
+        self.tethers.reserve(capacity);
+        self.scratch = Scratch::new(
+            self.particles.len(),
+            capacity,
+            self.mesh.triangles.len(),
+            self.settings.max_tears_per_tick as usize,
+        );
+        self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
+    }
+}

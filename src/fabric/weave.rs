@@ -1,0 +1,530 @@
+//! From mesh and material to links: what joins which particles, at what length, how stiffly.
+//!
+//! A link is anchored to corners of triangles, not to particles: when a vertex splits, the link
+//! follows the triangle that it lies on, and one whose triangles have parted is gone.
+
+use crate::fabric::color;
+use crate::fabric::material::Material;
+use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// What a link resists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[repr(u32)]
+pub enum LinkKind {
+    /// Structural: between neighbours along the threads, or along the edges of a free mesh.
+    Stretch = 0,
+    /// Between diagonal neighbours of a grid.
+    Shear = 1,
+    /// Between particles two cells apart, or across the edge of a free mesh.
+    Bend = 2,
+}
+
+/// Which of the material's two stretch stiffnesses holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Thread {
+    Weft,
+    Warp,
+}
+
+/// What a link lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Support {
+    /// An edge of a triangle: for ever.
+    Edge,
+    /// The edge, starting at this corner, across which it reaches: until that opens.
+    Flap(Corner),
+    /// Two edges in a row: until these two corners are no longer the same vertex.
+    Pair([Corner; 2]),
+}
+
+/// What stays of a link when its particles change.
+#[derive(Clone, Copy, Debug)]
+struct Spec {
+    kind: LinkKind,
+    thread: Thread,
+    anchors: [Corner; 2],
+    support: Support,
+    /// Spring constant over material stiffness: 1 for a stretch link inside a grid.
+    shape: f32,
+}
+
+/// Links as columns, one entry a link.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Links {
+    pub a: Vec<u32>,
+    pub b: Vec<u32>,
+    /// Length at rest [m].
+    pub rest: Vec<f32>,
+    /// Inverse spring constant [m/N]; 0 is rigid.
+    pub compliance: Vec<f32>,
+    /// Accumulated multiplier of this substep.
+    pub lambda: Vec<f32>,
+    /// False once torn.
+    pub active: Vec<bool>,
+    spec: Vec<Spec>,
+}
+
+impl Links {
+    pub fn len(&self) -> usize {
+        self.rest.len()
+    }
+
+    pub fn kind(&self, link: usize) -> LinkKind {
+        self.spec[link].kind
+    }
+
+    fn reserve(&mut self, capacity: usize) {
+        self.a.reserve_exact(capacity);
+        self.b.reserve_exact(capacity);
+        self.rest.reserve_exact(capacity);
+        self.compliance.reserve_exact(capacity);
+        self.lambda.reserve_exact(capacity);
+        self.active.reserve_exact(capacity);
+        self.spec.reserve_exact(capacity);
+    }
+
+    fn push(&mut self, mesh: &Mesh, spec: Spec, rest: f32) {
+        self.a.push(mesh.vertex(spec.anchors[0]));
+        self.b.push(mesh.vertex(spec.anchors[1]));
+        self.rest.push(rest);
+        self.compliance.push(0.0);
+        self.lambda.push(0.0);
+        self.active.push(true);
+        self.spec.push(spec);
+    }
+
+    /// Follows the mesh after a split.
+    fn follow(&mut self, mesh: &Mesh, link: usize) {
+        let spec = &self.spec[link];
+        self.a[link] = mesh.vertex(spec.anchors[0]);
+        self.b[link] = mesh.vertex(spec.anchors[1]);
+        self.active[link] = match spec.support {
+            Support::Edge => true,
+            Support::Flap(edge) => mesh.across(edge) != NONE,
+            Support::Pair([left, right]) => mesh.vertex(left) == mesh.vertex(right),
+        };
+    }
+
+    fn stiffen(&mut self, link: usize, material: &Material) {
+        let spec = &self.spec[link];
+        self.compliance[link] = compliance(spec, material);
+    }
+}
+
+/// Links of one kind and colour, next to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Batch {
+    pub kind: LinkKind,
+    pub first: usize,
+    pub count: usize,
+}
+
+/// All links of a cloth.
+#[derive(Clone, Debug)]
+pub(crate) struct Weave {
+    /// The links that it was woven with, batch by batch.
+    pub links: Links,
+    pub batches: Vec<Batch>,
+    /// The second sides of opened edges, in the order they opened.
+    pub extra: Links,
+    /// Where each extra link is anchored: the edge on its side, and the woven link on the other.
+    pub extra_sides: Vec<(Corner, u32)>,
+    /// The woven link along the edge that starts at each corner; `NONE` on the edge's second side.
+    link_of_edge: Vec<u32>,
+    /// Links that involve each original vertex: `involved[first[v]..first[v + 1]]`.
+    first: Vec<u32>,
+    involved: Vec<u32>,
+    /// The extra links of each original vertex as chains.
+    extra_head: Vec<u32>,
+    extra_next: Vec<[u32; 2]>,
+}
+
+/// A link about to be woven.
+struct Draft {
+    spec: Spec,
+    rest: f32,
+    color: u32,
+}
+
+impl Weave {
+    /// Weaves a regular grid: four colours for each kind of link.
+    pub fn grid(
+        columns: u32,
+        rows: u32,
+        spacing: f32,
+        mesh: &Mesh,
+        opening_capacity: usize,
+    ) -> Self {
+        let edges = EdgeIndex::new(mesh);
+        let at = |row: u32, column: u32| row * columns + column;
+        let border = |at_border: bool| if at_border { 0.5 } else { 1.0 };
+        let mut drafts = Vec::new();
+        for (thread, base) in [(Thread::Weft, 0), (Thread::Warp, 2)] {
+            each(columns, rows, thread, 1, |along, at_border, a, b| {
+                let (edge, shape) = (edges.find(a, b), border(at_border));
+                let spec = edge_spec(mesh, edge, [a, b], LinkKind::Stretch, thread, shape);
+                drafts.push(Draft { spec, rest: spacing, color: base + along % 2 });
+            });
+        }
+        let diagonal = spacing * 2.0_f32.sqrt();
+        for (base, falls) in [(4, true), (6, false)] {
+            for row in 0..rows - 1 {
+                for column in 0..columns - 1 {
+                    let (a, b) = if falls {
+                        (at(row, column), at(row + 1, column + 1))
+                    } else {
+                        (at(row, column + 1), at(row + 1, column))
+                    };
+                    let first = 2 * (row * (columns - 1) + column);
+                    let is_edge = (row + column).is_multiple_of(2) == falls;
+                    let spec = if is_edge {
+                        edge_spec(
+                            mesh,
+                            edges.find(a, b),
+                            [a, b],
+                            LinkKind::Shear,
+                            Thread::Warp,
+                            1.0,
+                        )
+                    } else {
+                        let edge = shared_edge(mesh, first, first + 1);
+                        let (ta, tb) = if mesh.corner_in(first, a).is_some() {
+                            (first, first + 1)
+                        } else {
+                            (first + 1, first)
+                        };
+                        let anchors = [corner(mesh, ta, a), corner(mesh, tb, b)];
+                        let support = Support::Flap(edge);
+                        Spec {
+                            kind: LinkKind::Shear,
+                            thread: Thread::Warp,
+                            anchors,
+                            support,
+                            shape: 1.0,
+                        }
+                    };
+                    drafts.push(Draft { spec, rest: diagonal, color: base + row % 2 });
+                }
+            }
+        }
+        for (thread, base) in [(Thread::Weft, 8), (Thread::Warp, 10)] {
+            each(columns, rows, thread, 2, |along, at_border, a, b| {
+                let middle = (a + b) / 2;
+                let (left, right) = (edges.find(a, middle), edges.find(middle, b));
+                let spec = Spec {
+                    kind: LinkKind::Bend,
+                    thread,
+                    anchors: [corner(mesh, left / 3, a), corner(mesh, right / 3, b)],
+                    support: Support::Pair([
+                        corner(mesh, left / 3, middle),
+                        corner(mesh, right / 3, middle),
+                    ]),
+                    shape: border(at_border) * bend_shape(spacing, 2.0 * spacing),
+                };
+                drafts.push(Draft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
+            });
+        }
+        Self::from_drafts(mesh, drafts, opening_capacity)
+    }
+
+    /// Weaves any mesh: a stretch link along every edge, a bend link across every inner one.
+    pub fn mesh(mesh: &Mesh, rest: &[Vec3], opening_capacity: usize) -> Self {
+        let edges: Vec<Corner> = mesh.edges().collect();
+        let distance = |a: u32, b: u32| (rest[a as usize] - rest[b as usize]).length();
+        let area = |triangle: usize| {
+            let [a, b, c] = mesh.triangles[triangle].map(|v| rest[v as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        };
+        let mut drafts = Vec::new();
+        for edge in &edges {
+            let (a, b) = (mesh.vertex(*edge), mesh.vertex(after(*edge)));
+            let length = distance(a, b);
+            let beyond = mesh.across(*edge);
+            let both =
+                area(triangle_of(*edge)) + if beyond == NONE { 0.0 } else { area(beyond as usize) };
+            // Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
+            let shape = both / (length * length);
+            let spec = edge_spec(mesh, *edge, [a, b], LinkKind::Stretch, Thread::Warp, shape);
+            drafts.push(Draft { spec, rest: length, color: 0 });
+        }
+        for edge in edges.iter().filter(|edge| mesh.across(**edge) != NONE) {
+            let beyond = mesh.across(*edge);
+            let (a, b) = (mesh.vertex(*edge), mesh.vertex(after(*edge)));
+            let opposite = before(*edge);
+            let far =
+                (3 * beyond..3 * beyond + 3).find(|c| mesh.vertex(*c) != a && mesh.vertex(*c) != b);
+            let anchors = [opposite, far.unwrap_or(opposite)];
+            let length = distance(mesh.vertex(anchors[0]), mesh.vertex(anchors[1]));
+            let shape = bend_shape(distance(a, b), length.max(1.0e-6));
+            let support = Support::Flap(*edge);
+            let spec = Spec { kind: LinkKind::Bend, thread: Thread::Warp, anchors, support, shape };
+            if mesh.vertex(anchors[0]) != mesh.vertex(anchors[1]) {
+                drafts.push(Draft { spec, rest: length, color: 0 });
+            }
+        }
+        let pairs: Vec<[u32; 2]> =
+            drafts.iter().map(|d| d.spec.anchors.map(|c| mesh.vertex(c))).collect();
+        let of_kind = |draft: &Draft| draft.spec.kind as u32;
+        let bend = drafts.iter().position(|draft| of_kind(draft) == 2).unwrap_or(drafts.len());
+        let count = mesh.vertex_count();
+        let mut colors = color::greedy(&pairs[..bend], count);
+        let stretch_colors = colors.iter().max().map_or(0, |most| most + 1);
+        colors.extend(color::greedy(&pairs[bend..], count).iter().map(|c| c + stretch_colors));
+        for (draft, color) in drafts.iter_mut().zip(colors) {
+            draft.color = color;
+        }
+        Self::from_drafts(mesh, drafts, opening_capacity)
+    }
+
+    fn from_drafts(mesh: &Mesh, mut drafts: Vec<Draft>, opening_capacity: usize) -> Self {
+        drafts.sort_by_key(|draft| draft.color);
+        let mut links = Links::default();
+        links.reserve(drafts.len());
+        let mut batches: Vec<Batch> = Vec::new();
+        let mut last_color = u32::MAX;
+        for (at, draft) in drafts.iter().enumerate() {
+            if draft.color != last_color {
+                batches.push(Batch { kind: draft.spec.kind, first: at, count: 0 });
+                last_color = draft.color;
+            }
+            if let Some(batch) = batches.last_mut() {
+                batch.count += 1;
+            }
+            links.push(mesh, draft.spec, draft.rest);
+        }
+        let mut link_of_edge = vec![NONE; 3 * mesh.triangles.len()];
+        for (at, spec) in links.spec.iter().enumerate() {
+            if spec.support == Support::Edge {
+                link_of_edge[edge_of(spec.anchors) as usize] = at as u32;
+            }
+        }
+        let (first, involved) = involvement(mesh, &links);
+        let mut extra = Links::default();
+        extra.reserve(opening_capacity);
+        Self {
+            links,
+            batches,
+            extra,
+            extra_sides: Vec::with_capacity(opening_capacity),
+            link_of_edge,
+            first,
+            involved,
+            extra_head: vec![NONE; mesh.original_count as usize],
+            extra_next: Vec::with_capacity(opening_capacity),
+        }
+    }
+
+    /// Makes room for `openings` more opened edges.
+    pub fn reserve(&mut self, openings: usize) {
+        self.extra.reserve(openings);
+        self.extra_sides.reserve_exact(openings);
+        self.extra_next.reserve_exact(openings);
+    }
+
+    /// How many edges may open in all.
+    pub fn extra_capacity(&self) -> usize {
+        self.extra_sides.capacity()
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let each = size_of::<Spec>() + 5 * size_of::<f32>() + size_of::<bool>();
+        let links = self.links.len() + self.extra.rest.capacity();
+        links * each
+            + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
+    }
+
+    /// Takes on a material's stiffnesses.
+    pub fn stiffen(&mut self, material: &Material) {
+        for links in [&mut self.links, &mut self.extra] {
+            (0..links.len()).for_each(|link| links.stiffen(link, material));
+        }
+    }
+
+    /// Gives the second side of an opened edge a link of its own; either side keeps half the strength.
+    ///
+    /// The cloth has seen to room for it.
+    pub fn open(&mut self, mesh: &Mesh, sides: [Corner; 2], material: &Material) {
+        let of = |edge: Corner| self.link_of_edge[edge as usize];
+        let (woven, bare) =
+            if of(sides[0]) == NONE { (sides[1], sides[0]) } else { (sides[0], sides[1]) };
+        self.add_extra(mesh, bare, of(woven), material);
+    }
+
+    /// As `open`, for a woven link that is known by its number.
+    pub fn add_extra(&mut self, mesh: &Mesh, edge: Corner, woven: u32, material: &Material) {
+        let at = woven as usize;
+        self.links.spec[at].shape *= 0.5;
+        self.links.stiffen(at, material);
+        let spec = Spec { anchors: [edge, after(edge)], ..self.links.spec[at] };
+        let rest = self.links.rest[at];
+        let new = self.extra.len();
+        self.extra.push(mesh, spec, rest);
+        self.extra.stiffen(new, material);
+        self.extra_sides.push((edge, woven));
+        let ends = spec.anchors.map(|corner| mesh.source[mesh.vertex(corner) as usize] as usize);
+        self.extra_next.push(ends.map(|end| self.extra_head[end]));
+        for end in ends {
+            self.extra_head[end] = new as u32;
+        }
+    }
+
+    /// Whether `woven` may be the other side of an extra link at `edge`; for bytes from outside.
+    pub fn may_open(&self, edge: Corner, woven: u32) -> bool {
+        let is_edge = |spec: &Spec| spec.support == Support::Edge;
+        (edge as usize) < self.link_of_edge.len()
+            && self.links.spec.get(woven as usize).is_some_and(is_edge)
+    }
+
+    /// Brings every link of an original vertex in line with the mesh.
+    pub fn follow(&mut self, mesh: &Mesh, source: u32) {
+        let range = self.first[source as usize] as usize..self.first[source as usize + 1] as usize;
+        for link in &self.involved[range] {
+            self.links.follow(mesh, *link as usize);
+        }
+        let mut at = self.extra_head[source as usize];
+        while at != NONE {
+            self.extra.follow(mesh, at as usize);
+            let spec = &self.extra.spec[at as usize];
+            let starts_here = mesh.source[mesh.vertex(spec.anchors[0]) as usize] == source;
+            at = self.extra_next[at as usize][usize::from(!starts_here)];
+        }
+    }
+
+    /// All links that hold, as particle, particle and kind.
+    pub fn active(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
+        [&self.links, &self.extra].into_iter().flat_map(|links| {
+            let held = (0..links.len()).filter(|link| links.active[*link]);
+            held.map(|link| (links.a[link], links.b[link], links.kind(link)))
+        })
+    }
+
+    /// The links of an original vertex: first woven, then extra ones, as (links, number).
+    pub fn of_vertex(&self, source: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
+        let range = self.first[source as usize] as usize..self.first[source as usize + 1] as usize;
+        self.involved[range].iter().map(|link| (&self.links, *link as usize))
+    }
+}
+
+/// Spring constant of a link of length `span` that reaches across an edge of length `width`, over
+/// the bending rigidity.
+///
+/// A fold by θ shortens the link by span·θ²/8 and costs the sheet ½·D·θ²·(2·width/span); equal
+/// energies at a fold of half a radian give 512·width/span³.
+fn bend_shape(width: f32, span: f32) -> f32 {
+    512.0 * width / (span * span * span)
+}
+
+fn compliance(spec: &Spec, material: &Material) -> f32 {
+    let (weft, warp) = (material.stretch_stiffness_weft, material.stretch_stiffness_warp);
+    let stiffness = match (spec.kind, spec.thread) {
+        (LinkKind::Stretch, Thread::Weft) => weft,
+        (LinkKind::Stretch, Thread::Warp) => warp,
+        (LinkKind::Shear, _) if material.shear_stiffness > 0.0 => material.shear_stiffness,
+        (LinkKind::Shear, _) => 0.5 * (weft + warp),
+        (LinkKind::Bend, _) if material.bend_stiffness >= 1.0 => 0.0,
+        (LinkKind::Bend, _) => material.bend_stiffness,
+    };
+    let spring = stiffness * spec.shape;
+    if spring > 0.0 { 1.0 / spring } else { 0.0 }
+}
+
+/// Calls `visit(along, at_border, a, b)` for links of `reach` cells along a thread: `along` counts
+/// cells from its start, `at_border` is whether the thread is a border of the grid.
+fn each(
+    columns: u32,
+    rows: u32,
+    thread: Thread,
+    reach: u32,
+    mut visit: impl FnMut(u32, bool, u32, u32),
+) {
+    let (last_row, last_column, step) = match thread {
+        Thread::Weft => (rows, columns.saturating_sub(reach), 1),
+        Thread::Warp => (rows.saturating_sub(reach), columns, columns),
+    };
+    for row in 0..last_row {
+        for column in 0..last_column {
+            let a = row * columns + column;
+            let (along, across, lines) = match thread {
+                Thread::Weft => (column, row, rows),
+                Thread::Warp => (row, column, columns),
+            };
+            visit(along, across == 0 || across == lines - 1, a, a + reach * step);
+        }
+    }
+}
+
+fn edge_spec(
+    mesh: &Mesh,
+    edge: Corner,
+    ends: [u32; 2],
+    kind: LinkKind,
+    thread: Thread,
+    shape: f32,
+) -> Spec {
+    let anchors = ends.map(|end| if mesh.vertex(edge) == end { edge } else { after(edge) });
+    Spec { kind, thread, anchors, support: Support::Edge, shape }
+}
+
+/// The edge between two corners of one triangle: the corner where it starts.
+fn edge_of(anchors: [Corner; 2]) -> Corner {
+    if after(anchors[0]) == anchors[1] { anchors[0] } else { anchors[1] }
+}
+
+fn corner(mesh: &Mesh, triangle: u32, vertex: u32) -> Corner {
+    let found = mesh.corner_in(triangle, vertex);
+    debug_assert!(found.is_some(), "vertex {vertex} is in triangle {triangle}");
+    found.unwrap_or(3 * triangle)
+}
+
+fn shared_edge(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
+    let found = (3 * triangle..3 * triangle + 3).find(|edge| mesh.across(*edge) == other);
+    debug_assert!(found.is_some(), "triangles {triangle} and {other} share an edge");
+    found.unwrap_or(3 * triangle)
+}
+
+/// For each original vertex the links that change when it splits: its own, and those it supports.
+fn involvement(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
+    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * links.len());
+    for (at, spec) in links.spec.iter().enumerate() {
+        let corners = match spec.support {
+            Support::Edge => [spec.anchors[0], spec.anchors[1], spec.anchors[0], spec.anchors[0]],
+            Support::Flap(edge) => [spec.anchors[0], spec.anchors[1], edge, after(edge)],
+            Support::Pair([left, right]) => [spec.anchors[0], spec.anchors[1], left, right],
+        };
+        pairs.extend(corners.map(|corner| (mesh.vertex(corner), at as u32)));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut first = vec![0u32; mesh.original_count as usize + 1];
+    for (vertex, _) in &pairs {
+        first[*vertex as usize + 1] += 1;
+    }
+    for vertex in 1..first.len() {
+        first[vertex] += first[vertex - 1];
+    }
+    (first, pairs.into_iter().map(|(_, link)| link).collect())
+}
+
+/// Finds edges by their ends.
+struct EdgeIndex {
+    sorted: Vec<((u32, u32), Corner)>,
+}
+
+impl EdgeIndex {
+    fn new(mesh: &Mesh) -> Self {
+        let mut sorted: Vec<_> = mesh.edges().map(|edge| (mesh.ends(edge), edge)).collect();
+        sorted.sort_unstable();
+        Self { sorted }
+    }
+
+    /// The corner where the edge starts in its first triangle.
+    fn find(&self, a: u32, b: u32) -> Corner {
+        let ends = (a.min(b), a.max(b));
+        let found = self.sorted.binary_search_by_key(&ends, |(ends, _)| *ends);
+        debug_assert!(found.is_ok(), "{ends:?} is an edge");
+        self.sorted[found.unwrap_or(0)].1
+    }
+}

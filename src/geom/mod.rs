@@ -1,0 +1,4 @@
+//! Geometry that knows nothing of cloth.
+
+pub(crate) mod ray;
+pub(crate) mod triangle;

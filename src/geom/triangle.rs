@@ -1,0 +1,40 @@
+//! Areas of triangles, and who owns them.
+
+use glam::Vec3;
+
+/// How a triangle's area [m²] falls to its corners: to each what lies nearest to it.
+///
+/// The mixed Voronoi areas of Meyer, Desbrun, Schröder, Barr, "Discrete differential-geometry
+/// operators for triangulated 2-manifolds", 2003: on a regular grid every inner particle gets one
+/// cell, whichever way the diagonals run.
+pub(crate) fn corner_areas([a, b, c]: [Vec3; 3]) -> [f32; 3] {
+    let doubled = (b - a).cross(c - a).length();
+    let area = 0.5 * doubled;
+    let dots = [(b - a).dot(c - a), (c - b).dot(a - b), (a - c).dot(b - c)];
+    if let Some(obtuse) = dots.iter().position(|dot| *dot < 0.0) {
+        let share = |corner: usize| {
+            if corner == obtuse { 0.5 * area } else { 0.25 * area }
+        };
+        return [share(0), share(1), share(2)];
+    }
+    let cotangents = dots.map(|dot| dot / doubled);
+    let opposite = [(c - b), (a - c), (b - a)].map(Vec3::length_squared);
+    // Of the two edges at a corner, each brings the cotangent of the angle across from it.
+    let half = |edge: usize| opposite[edge] * cotangents[edge] * 0.125;
+    [half(1) + half(2), half(2) + half(0), half(0) + half(1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_add_up_and_follow_the_angles() {
+        let right = corner_areas([Vec3::ZERO, Vec3::X, Vec3::Y]);
+        assert_eq!(right, [0.25, 0.125, 0.125]);
+        let flat = corner_areas([Vec3::ZERO, Vec3::X * 4.0, Vec3::new(2.0, 0.5, 0.0)]);
+        assert_eq!(flat, [0.25, 0.25, 0.5]);
+        let sharp = corner_areas([Vec3::ZERO, Vec3::X, Vec3::new(0.4, 0.9, 0.0)]);
+        assert!((sharp.iter().sum::<f32>() - 0.45).abs() < 1.0e-6);
+    }
+}

@@ -1,0 +1,69 @@
+//! Vectors stored as three columns x, y, z: what straight SIMD loads want.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// A list of vectors, one column a component.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Columns {
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
+    pub z: Vec<f32>,
+}
+
+impl Columns {
+    /// An empty list that holds `capacity` vectors without allocating again.
+    pub fn with_capacity(capacity: usize) -> Self {
+        let column = || Vec::with_capacity(capacity);
+        Self { x: column(), y: column(), z: column() }
+    }
+
+    /// Makes room for `capacity` vectors in all.
+    pub fn reserve(&mut self, capacity: usize) {
+        for column in [&mut self.x, &mut self.y, &mut self.z] {
+            column.reserve_exact(capacity.saturating_sub(column.len()));
+        }
+    }
+
+    pub fn push(&mut self, v: Vec3) {
+        self.x.push(v.x);
+        self.y.push(v.y);
+        self.z.push(v.z);
+    }
+
+    pub fn fill(&mut self, v: Vec3) {
+        self.x.fill(v.x);
+        self.y.fill(v.y);
+        self.z.fill(v.z);
+    }
+
+    #[inline(always)]
+    pub fn at(&self, i: usize) -> Vec3 {
+        Vec3::new(self.x[i], self.y[i], self.z[i])
+    }
+
+    #[inline(always)]
+    pub fn set(&mut self, i: usize, v: Vec3) {
+        self.x[i] = v.x;
+        self.y[i] = v.y;
+        self.z[i] = v.z;
+    }
+
+    #[inline(always)]
+    pub fn add(&mut self, i: usize, v: Vec3) {
+        self.x[i] += v.x;
+        self.y[i] += v.y;
+        self.z[i] += v.z;
+    }
+
+    pub fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.z.copy_from_slice(&other.z);
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = Vec3> + '_ {
+        let xy = self.x.iter().zip(&self.y);
+        xy.zip(&self.z).map(|((x, y), z)| Vec3::new(*x, *y, *z))
+    }
+}

@@ -1,0 +1,43 @@
+//! Mixing integers: hashes of state, and numbers that look random but are always the same.
+
+/// A running 64-bit hash of words; order matters.
+///
+/// Multiply and rotate, finished by the avalanche of splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mixer(u64);
+
+impl Mixer {
+    pub fn new(seed: u64) -> Self {
+        Self(seed ^ 0x9e37_79b9_7f4a_7c15)
+    }
+
+    #[inline(always)]
+    pub fn word(&mut self, word: u32) {
+        self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0xff51_afd7_ed55_8ccd).rotate_left(29);
+    }
+
+    pub fn float(&mut self, value: f32) {
+        self.word(value.to_bits());
+    }
+
+    pub fn floats(&mut self, values: &[f32]) {
+        values.iter().for_each(|v| self.float(*v));
+    }
+
+    pub fn words(&mut self, values: &[u32]) {
+        values.iter().for_each(|v| self.word(*v));
+    }
+
+    pub fn finish(self) -> u64 {
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+}
+
+/// A number in 0..1 that belongs to these words for ever.
+pub(crate) fn unit(seed: u32, words: &[u32]) -> f32 {
+    let mut mixer = Mixer::new(u64::from(seed));
+    mixer.words(words);
+    (mixer.finish() >> 40) as f32 / (1u32 << 24) as f32
+}

@@ -1,0 +1,21 @@
+//! Arithmetic that gives the same bits on every machine: only `+ - * / sqrt` and comparisons.
+
+pub(crate) mod columns;
+pub(crate) mod float_env;
+pub(crate) mod mix;
+pub(crate) mod trig;
+
+/// Below this a length or a sum of inverse masses counts as nothing.
+pub(crate) const TINY: f32 = 1.0e-18;
+
+/// The smaller of two numbers; `b` if either is not a number. One rule on every target.
+#[inline(always)]
+pub(crate) fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers; `b` if either is not a number. One rule on every target.
+#[inline(always)]
+pub(crate) fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}

@@ -1,0 +1,101 @@
+//! Sine, cosine and exponential of our own: libm's differ between platforms, these do not.
+//!
+//! Series in f64 after range reduction (Abramowitz and Stegun, 4.3.65, 4.3.66, 4.2.1), rounded to
+//! f32 at the end: every step is an exact IEEE operation, so every machine gets the same result.
+
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
+
+/// Past this many radians the reduced angle has lost its meaning; the angle counts as zero.
+const FAR: f64 = 1.0e9;
+
+/// Sine of `x` [rad]; zero if `x` is not finite or beyond 1e9.
+pub(crate) fn sin(x: f64) -> f32 {
+    let (quadrant, r) = reduce(x);
+    match quadrant {
+        0 => sin_series(r) as f32,
+        1 => cos_series(r) as f32,
+        2 => -sin_series(r) as f32,
+        _ => -cos_series(r) as f32,
+    }
+}
+
+/// Cosine of `x` [rad]; one if `x` is not finite or beyond 1e9.
+pub(crate) fn cos(x: f64) -> f32 {
+    let (quadrant, r) = reduce(x);
+    match quadrant {
+        0 => cos_series(r) as f32,
+        1 => -sin_series(r) as f32,
+        2 => -cos_series(r) as f32,
+        _ => sin_series(r) as f32,
+    }
+}
+
+/// e to the power of `x`, for `x` in -80..=0; clamped outside.
+pub(crate) fn exp_decay(x: f64) -> f32 {
+    let x = if x < -80.0 {
+        -80.0
+    } else if x < 0.0 {
+        x
+    } else {
+        0.0
+    };
+    let halvings = (-x * LOG2_E) as i32;
+    let r = x + f64::from(halvings) * LN_2;
+    let mut term = 1.0;
+    let mut sum = 1.0;
+    for n in 1..=16 {
+        term *= r / f64::from(n);
+        sum += term;
+    }
+    for _ in 0..halvings {
+        sum *= 0.5;
+    }
+    sum as f32
+}
+
+/// The quadrant of `x`, and what is left of it in -π/4..=π/4.
+fn reduce(x: f64) -> (u8, f64) {
+    if !(x > -FAR && x < FAR) {
+        return (0, 0.0);
+    }
+    let turns = x * FRAC_2_PI;
+    let nearest = (turns + if turns < 0.0 { -0.5 } else { 0.5 }) as i64;
+    (nearest.rem_euclid(4) as u8, x - nearest as f64 * FRAC_PI_2)
+}
+
+fn sin_series(r: f64) -> f64 {
+    let s = r * r;
+    let tail = 1.0 - s / 110.0 * (1.0 - s / 156.0);
+    r * (1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0 * tail))))
+}
+
+fn cos_series(r: f64) -> f64 {
+    let s = r * r;
+    let tail = 1.0 - s / 90.0 * (1.0 - s / 132.0);
+    1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * tail)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sine_and_cosine_stay_within_one_ulp_of_exact() {
+        for i in -40_000..40_000 {
+            let x = f64::from(i) * 0.013;
+            assert!((f64::from(sin(x)) - x.sin()).abs() < 1.2e-7, "sin {x}");
+            assert!((f64::from(cos(x)) - x.cos()).abs() < 1.2e-7, "cos {x}");
+        }
+        assert_eq!((sin(f64::NAN), cos(f64::INFINITY)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn decay_stays_within_one_ulp_of_exact() {
+        for i in 0..8_000 {
+            let x = -f64::from(i) * 0.01;
+            let (ours, exact) = (f64::from(exp_decay(x)), x.exp());
+            assert!((ours - exact).abs() <= exact * 1.2e-7, "exp {x}: {ours} {exact}");
+        }
+        assert_eq!(exp_decay(1.0), 1.0);
+    }
+}

@@ -1,0 +1,52 @@
+//! The regular grid: its vertices, triangles and uvs. Vertex = row · columns + column.
+
+use glam::{Vec2, Vec3};
+
+/// Where a grid lies in space: vertex (0, 0) is its top left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    pub origin: Vec3,
+    pub right: Vec3,
+    pub down: Vec3,
+    pub spacing: f32,
+}
+
+/// Positions, row by row.
+pub(crate) fn positions(columns: u32, rows: u32, frame: &Frame) -> Vec<Vec3> {
+    let at = |row: u32, column: u32| {
+        let (across, along) = (column as f32 * frame.spacing, row as f32 * frame.spacing);
+        frame.origin + frame.right * across + frame.down * along
+    };
+    (0..rows).flat_map(|row| (0..columns).map(move |column| at(row, column))).collect()
+}
+
+/// Texture coordinates: (0, 1) at the top left, (1, 0) at the bottom right.
+pub(crate) fn uvs(columns: u32, rows: u32) -> Vec<Vec2> {
+    let at = |row: u32, column: u32| {
+        let (u, v) = (column as f32 / (columns - 1) as f32, row as f32 / (rows - 1) as f32);
+        Vec2::new(u, 1.0 - v)
+    };
+    (0..rows).flat_map(|row| (0..columns).map(move |column| at(row, column))).collect()
+}
+
+/// Two triangles a cell, row by row; their normals point along `down` × `right`.
+///
+/// Diagonals alternate like the fields of a chessboard, so that no direction is favoured.
+pub(crate) fn triangles(columns: u32, rows: u32) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(2 * (columns as usize - 1) * (rows as usize - 1));
+    for row in 0..rows - 1 {
+        for column in 0..columns - 1 {
+            let top_left = row * columns + column;
+            let (top_right, bottom_left) = (top_left + 1, top_left + columns);
+            let bottom_right = bottom_left + 1;
+            if (row + column) % 2 == 0 {
+                triangles.push([top_left, bottom_left, bottom_right]);
+                triangles.push([top_left, bottom_right, top_right]);
+            } else {
+                triangles.push([top_left, bottom_left, top_right]);
+                triangles.push([bottom_left, bottom_right, top_right]);
+            }
+        }
+    }
+    triangles
+}

@@ -1,0 +1,147 @@
+//! The tick: what it works on, its stages, and the order they run in (see `pipeline`).
+
+pub(crate) mod contacts;
+pub(crate) mod forces;
+pub(crate) mod guard;
+pub(crate) mod hold;
+pub(crate) mod links;
+pub(crate) mod outputs;
+pub(crate) mod pipeline;
+pub(crate) mod predict;
+pub(crate) mod profile;
+pub(crate) mod stage;
+pub(crate) mod tear;
+pub(crate) mod tethers;
+pub(crate) mod velocities;
+
+use crate::fabric::material::Material;
+use crate::fabric::tethers::Tethers;
+use crate::fabric::weave::Weave;
+use crate::math::columns::Columns;
+use crate::mesh::Mesh;
+use crate::mesh::split::Opening;
+use crate::state::colliders::Colliders;
+use crate::state::events::Events;
+use crate::state::grabs::Grabs;
+use crate::state::particles::Particles;
+use crate::state::pins::Pins;
+use crate::state::settings::Settings;
+use crate::state::wind::Wind;
+use glam::Vec3;
+use profile::Profile;
+
+/// Everything that a tick reads and writes.
+#[derive(Clone, Debug)]
+pub(crate) struct World {
+    pub mesh: Mesh,
+    pub weave: Weave,
+    pub tethers: Tethers,
+    /// Rest position of each original vertex [m].
+    pub rest: Vec<Vec3>,
+    /// The share of its triangle's rest area that belongs to each corner [m²].
+    pub corner_area: Vec<[f32; 3]>,
+    /// Mean length of the edges at rest [m].
+    pub spacing: f32,
+    pub particles: Particles,
+    pub pins: Pins,
+    pub grabs: Grabs,
+    pub colliders: Colliders,
+    pub settings: Settings,
+    pub material: Material,
+    pub wind: Wind,
+    /// Time since creation or reset [s].
+    pub time: f64,
+    /// Ticks since creation or reset.
+    pub tick: u32,
+    pub pieces: u32,
+    /// Whether the host knows that the reserve for tears is used up.
+    pub reserve_told: bool,
+    pub events: Events,
+    pub profile: Profile,
+    pub scratch: Scratch,
+}
+
+/// Room to work in, made once so that no tick allocates.
+#[derive(Clone, Debug)]
+pub(crate) struct Scratch {
+    /// Acceleration [m/s²].
+    pub acceleration: Columns,
+    /// Positions at the start of the substep [m].
+    pub start: Columns,
+    /// What each particle touched in this substep, if anything.
+    pub touch: Vec<contacts::Touch>,
+    pub tear: tear::Scratch,
+    pub opened: Vec<Opening>,
+    pub pieces: tear::Pieces,
+    pub stack: Vec<u32>,
+}
+
+impl Scratch {
+    /// Room for `capacity` particles and `triangles` triangles.
+    pub fn new(count: usize, capacity: usize, triangles: usize, max_tears: usize) -> Self {
+        let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
+        let mut scratch = Self {
+            acceleration: Columns::with_capacity(capacity),
+            start: Columns::with_capacity(capacity),
+            touch: Vec::with_capacity(capacity),
+            tear: tear::Scratch::with_capacity(max_tears),
+            opened: Vec::with_capacity(2),
+            pieces: tear::Pieces::new(triangles),
+            stack: Vec::with_capacity(triangles),
+        };
+        zero(&mut scratch.acceleration);
+        zero(&mut scratch.start);
+        scratch.touch.resize(count, contacts::Touch::NONE);
+        scratch
+    }
+
+    /// A particle more.
+    pub fn grow(&mut self) {
+        self.acceleration.push(Vec3::ZERO);
+        self.start.push(Vec3::ZERO);
+        self.touch.push(contacts::Touch::NONE);
+    }
+}
+
+impl World {
+    /// How many particles there may be in all.
+    pub fn capacity(&self) -> usize {
+        self.mesh.source.capacity().min(self.particles.mass.capacity())
+    }
+
+    /// Whether the reserve cannot take the most that one tear may need: the vertex that splits, and
+    /// one at the far end of each of two opened edges.
+    pub fn is_reserve_used_up(&self) -> bool {
+        self.mesh.vertex_count() + 3 > self.capacity()
+    }
+
+    /// The inverse mass that the solver is to see: 0 while something holds the particle.
+    pub fn refresh_weight(&mut self, particle: u32) {
+        let at = particle as usize;
+        let held = self.pins.find(particle).is_some()
+            || self.grabs.iter().any(|held| held.particle == particle);
+        let mass = self.particles.mass[at];
+        self.particles.w[at] = if held || mass <= 0.0 { 0.0 } else { 1.0 / mass };
+    }
+
+    /// All masses from areas and density, and the inverse masses from them.
+    pub fn weigh(&mut self) {
+        self.particles.mass.fill(0.0);
+        for (triangle, areas) in self.mesh.triangles.iter().zip(&self.corner_area) {
+            for (vertex, area) in triangle.iter().zip(areas) {
+                self.particles.mass[*vertex as usize] += area * self.material.density;
+            }
+        }
+        (0..self.particles.len() as u32).for_each(|particle| self.refresh_weight(particle));
+    }
+
+    /// The farthest a particle may move in a substep against the cloth's own motion [m].
+    pub fn reach(&self) -> f32 {
+        self.settings.max_displacement * self.spacing
+    }
+
+    /// Measures the tethers anew, after pins or pieces changed.
+    pub fn tether(&mut self) {
+        self.tethers.measure(&self.mesh, &self.rest, &self.pins);
+    }
+}

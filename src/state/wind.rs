@@ -1,0 +1,177 @@
+//! The air around a cloth: a steady wind that gusts, wanders and swirls, always the same way.
+
+use crate::error::{Result, check, check_finite};
+use crate::math::mix::unit;
+use crate::math::trig::{cos, sin};
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// How the air pushes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u32)]
+pub enum WindModel {
+    /// On each triangle along its normal, by the square of the relative speed; still air brakes.
+    #[default]
+    Surface = 0,
+    /// On each particle as a field of sine waves, whichever way the cloth faces: the receipt's wind.
+    /// The length of `velocity` is its strength as an acceleration [m/s²].
+    SineField = 1,
+}
+
+/// The air around a cloth. The default is still air.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Wind {
+    /// How the air pushes; on surfaces.
+    pub model: WindModel,
+    /// Mean velocity of the air [m/s]; still.
+    pub velocity: Vec3,
+    /// How much the speed swells and falls, as a share of it; 0. From 0 to 1.
+    pub gust: f32,
+    /// How far the direction strays [rad]; 0. From 0 to π.
+    pub wander: f32,
+    /// Swirls in space, as a share of the speed; 0. From 0 to 1.
+    pub turbulence: f32,
+    /// Density of the air [kg/m³]; 1.2. At least 0; 0 is a vacuum.
+    pub air_density: f32,
+    /// Which gusts and swirls; 0.
+    pub seed: u32,
+}
+
+impl Default for Wind {
+    fn default() -> Self {
+        Self {
+            model: WindModel::Surface,
+            velocity: Vec3::ZERO,
+            gust: 0.0,
+            wander: 0.0,
+            turbulence: 0.0,
+            air_density: 1.2,
+            seed: 0,
+        }
+    }
+}
+
+impl Wind {
+    /// Refuses air that cannot be.
+    pub(crate) fn check(&self) -> Result<()> {
+        check_finite(self.velocity, "wind.velocity")?;
+        let share = |v: f32| (0.0..=1.0).contains(&v);
+        check(share(self.gust), "wind.gust", "be from 0 to 1")?;
+        check(
+            (0.0..=core::f32::consts::PI).contains(&self.wander),
+            "wind.wander",
+            "be from 0 to pi",
+        )?;
+        check(share(self.turbulence), "wind.turbulence", "be from 0 to 1")?;
+        check(
+            self.air_density.is_finite() && self.air_density >= 0.0,
+            "wind.air_density",
+            "be at least 0 and finite",
+        )
+    }
+
+    /// The wind at `time` [s]: gusts and wandering done, swirls yet to come.
+    pub(crate) fn at(&self, time: f64) -> Breeze {
+        let speed = self.velocity.length();
+        if speed == 0.0 {
+            return Breeze { mean: Vec3::ZERO, swirl: 0.0, time, phase: 0.0 };
+        }
+        let phase = f64::from(unit(self.seed, &[0])) * 100.0;
+        let t = time + phase;
+        // Periods of 6, 2.6 and 1.1 s: slow swells, faster gusts, a flutter.
+        let swell = 0.55 * sin(1.05 * t) + 0.3 * sin(2.4 * t + 1.3) + 0.15 * sin(5.7 * t + 0.4);
+        let stray = 0.6 * sin(0.41 * t + 2.0) + 0.4 * sin(1.13 * t);
+        let along = self.velocity * (1.0 / speed);
+        // Two directions across the wind, whichever way is up.
+        let helper = if along.y * along.y < 0.5 { Vec3::Y } else { Vec3::X };
+        let across = along.cross(helper);
+        let across = across * (1.0 / across.length());
+        let lift = across.cross(along);
+        let angle = f64::from(self.wander * stray);
+        let side = across * sin(angle) + lift * (0.35 * sin(angle * 0.7 + 0.2 * angle));
+        let heading = along * cos(angle) + side;
+        let mean = heading * (speed * (1.0 + self.gust * swell));
+        Breeze { mean, swirl: self.turbulence * speed, time: t, phase: phase as f32 }
+    }
+
+    /// The receipt's field at `time` [s], for a particle at `x` [m]: an acceleration [m/s²].
+    pub(crate) fn sine_field(&self, time: f64, x: Vec3) -> Vec3 {
+        let (px, py, pz) = (f64::from(x.x), f64::from(x.y), f64::from(x.z));
+        let strength = self.velocity.length();
+        Vec3::new(
+            sin(time * 1.3 + px * 0.5) * 0.5 + sin(time * 2.7 + pz * 0.3) * 0.3,
+            sin(time * 0.7 + py * 0.4) * 0.1,
+            cos(time * 1.1 + px * 0.4) * 0.4 + cos(time * 3.1 + py * 0.2) * 0.2,
+        ) * strength
+    }
+}
+
+/// The wind at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Breeze {
+    pub mean: Vec3,
+    swirl: f32,
+    time: f64,
+    phase: f32,
+}
+
+impl Breeze {
+    pub fn is_still(&self) -> bool {
+        self.mean == Vec3::ZERO && self.swirl == 0.0
+    }
+
+    /// The velocity of the air at `x` [m/s].
+    pub fn velocity(&self, x: Vec3) -> Vec3 {
+        if self.swirl == 0.0 {
+            return self.mean;
+        }
+        let (t, at) = (self.time, x + Vec3::splat(self.phase));
+        let wave = |a: f32, b: f32, rate: f64| sin(f64::from(a * 3.1 + b * 1.7) + t * rate);
+        let swirl = Vec3::new(wave(at.y, at.z, 2.9), wave(at.z, at.x, 3.7), wave(at.x, at.y, 4.3));
+        self.mean + swirl * self.swirl
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_steady_wind_is_its_velocity_at_any_time() {
+        let wind = Wind { velocity: Vec3::new(0.0, 0.0, 2.0), ..Wind::default() };
+        for time in [0.0, 1.7, 33.0] {
+            let breeze = wind.at(time);
+            assert!((breeze.velocity(Vec3::X) - wind.velocity).length() < 1.0e-6);
+        }
+    }
+
+    #[test]
+    fn gusts_keep_within_their_share_and_return() {
+        let velocity = Vec3::new(3.0, 0.0, 0.0);
+        let wind = Wind { velocity, gust: 0.5, ..Wind::default() };
+        let speeds: Vec<f32> =
+            (0..600).map(|i| wind.at(f64::from(i) * 0.1).mean.length()).collect();
+        let (low, high) = (
+            speeds.iter().copied().fold(9.0, f32::min),
+            speeds.iter().copied().fold(0.0, f32::max),
+        );
+        assert!(low >= 1.499 && high <= 4.501 && high - low > 1.5, "{low} to {high}");
+    }
+
+    #[test]
+    fn the_sine_field_is_the_receipts_formula() {
+        let wind = Wind { model: WindModel::SineField, velocity: Vec3::X * 3.0, ..Wind::default() };
+        let (t, x) = (1.25_f64, Vec3::new(0.4, -0.8, 1.1));
+        let [px, py, pz] = [0.4_f64, -0.8, 1.1];
+        let exact = [
+            ((t * 1.3 + px * 0.5).sin() * 0.5 + (t * 2.7 + pz * 0.3).sin() * 0.3) * 3.0,
+            (t * 0.7 + py * 0.4).sin() * 0.1 * 3.0,
+            ((t * 1.1 + px * 0.4).cos() * 0.4 + (t * 3.1 + py * 0.2).cos() * 0.2) * 3.0,
+        ];
+        let ours = wind.sine_field(t, x).to_array();
+        for (ours, exact) in ours.iter().zip(exact) {
+            assert!((f64::from(*ours) - exact).abs() < 1.0e-6, "{ours} {exact}");
+        }
+    }
+}
