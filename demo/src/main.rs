@@ -1,2 +1,34 @@
-//! The demo of Muslin.
+//! The demo of Muslin as a program: a window, or `--shot` for a picture.
+
+#[cfg(not(target_arch = "wasm32"))]
+fn main() -> std::process::ExitCode {
+    use muslin_demo::app::App;
+    use muslin_demo::cli::{self, Task};
+    use muslin_demo::native;
+    use std::process::ExitCode;
+
+    let run = || -> Result<(), Box<dyn std::error::Error>> {
+        match cli::parse(std::env::args().skip(1))? {
+            Task::Help => println!("{}", cli::USAGE),
+            Task::Web => return Err("--web needs the page built: cargo xtask demo --web".into()),
+            Task::Shot(file, shot) => shot.take()?.save(&file)?,
+            Task::Window(values) => {
+                let mut settings = native::store::read();
+                cli::apply(&values, &mut settings);
+                native::run(App::new(settings, native::clock)?)?;
+            }
+        }
+        Ok(())
+    };
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The page loads the library, not this program.
+#[cfg(target_arch = "wasm32")]
 fn main() {}

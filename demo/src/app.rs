@@ -1,0 +1,413 @@
+//! The demo itself, the same behind a window, on a page and in a file: cloth, camera, hands and
+//! controls. It knows no platform; those bring events and time, and take pictures.
+
+use glam::{Vec2, Vec3};
+use muslin::{Cloth, Result};
+use serde::Serialize;
+use three_d::{CoreError, RenderTarget};
+
+use crate::camera::Camera;
+use crate::controls::{self, Action, Kind};
+use crate::meter::Meter;
+use crate::pointer::{Cursor, Pointers, Scene, Screen};
+use crate::render::{Frame, Renderer, Surface};
+use crate::settings::Settings;
+use crate::sheet;
+
+/// The longest frame that the camera eases through [s].
+const LONGEST_FRAME: f32 = 0.1;
+
+/// The running demo.
+pub struct App {
+    settings: Settings,
+    cloth: Cloth,
+    camera: Camera,
+    hands: Pointers,
+    screen: Screen,
+    calm: bool,
+    meter: Meter,
+    clock: fn() -> f64,
+    lines: Vec<u32>,
+    /// Which cloth this is: a new one may count its topology from the start again.
+    generation: u32,
+    lines_of: Option<u64>,
+}
+
+/// The numbers that the panel shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Readout {
+    /// Particles, those that tears have added included.
+    pub particles: u32,
+    /// Constraints that still hold.
+    pub constraints: u32,
+    /// Pieces that the cloth is in.
+    pub pieces: u32,
+    /// Frames a second, smoothed.
+    pub fps: f32,
+    /// Simulation in a frame [ms], smoothed.
+    pub milliseconds: f32,
+}
+
+impl App {
+    /// Hangs the sheet. `clock` counts seconds from anywhere; it only times the simulation.
+    ///
+    /// # Errors
+    /// As [`sheet::build`].
+    pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
+        settings.clamp();
+        Ok(Self {
+            cloth: sheet::build(&settings, false)?,
+            settings,
+            camera: Camera::default(),
+            hands: Pointers::default(),
+            screen: Screen { size: Vec2::new(1280.0, 720.0) },
+            calm: false,
+            meter: Meter::default(),
+            clock,
+            lines: Vec::new(),
+            generation: 0,
+            lines_of: None,
+        })
+    }
+
+    /// The controls' values.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Takes other values, clamped: rebuilds the sheet if it must, tunes it otherwise.
+    ///
+    /// # Errors
+    /// As [`sheet::build`]; the old values stay.
+    pub fn set_settings(&mut self, mut settings: Settings) -> Result<()> {
+        settings.clamp();
+        let rebuild = settings.resolution != self.settings.resolution
+            || settings.pinning != self.settings.pinning;
+        if rebuild {
+            self.hang(&settings)?;
+        } else {
+            sheet::tune(&mut self.cloth, &settings, self.calm)?;
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Gives one control a value; an unknown name changes nothing.
+    ///
+    /// # Errors
+    /// As [`App::set_settings`].
+    pub fn set(&mut self, name: &str, value: f32) -> Result<()> {
+        let Some(control) = controls::find(name) else {
+            return Ok(());
+        };
+        if let Kind::Button(action) = control.kind {
+            return self.act(action);
+        }
+        let mut settings = self.settings.clone();
+        control.set(&mut settings, value);
+        self.set_settings(settings)
+    }
+
+    /// Does what a key of the table does, and says whether it was one.
+    ///
+    /// # Errors
+    /// As [`App::set_settings`].
+    pub fn key(&mut self, key: char, shift: bool) -> Result<bool> {
+        let Some(control) = controls::of_key(key) else {
+            return Ok(false);
+        };
+        let mut settings = self.settings.clone();
+        match control.press(&mut settings, shift) {
+            Some(action) => self.act(action)?,
+            None => self.set_settings(settings)?,
+        }
+        Ok(true)
+    }
+
+    /// Does what a button says.
+    ///
+    /// # Errors
+    /// As [`sheet::build`].
+    pub fn act(&mut self, action: Action) -> Result<()> {
+        match action {
+            Action::Reset => {
+                let settings = self.settings.clone();
+                self.hang(&settings)
+            }
+            Action::DropPins => {
+                self.cloth.unpin_all();
+                Ok(())
+            }
+        }
+    }
+
+    /// Takes most of the restlessness out of wind and camera, for people who ask their system so.
+    ///
+    /// # Errors
+    /// As [`sheet::tune`].
+    pub fn set_calm(&mut self, calm: bool) -> Result<()> {
+        self.calm = calm;
+        self.camera.set_drift(!calm);
+        sheet::tune(&mut self.cloth, &self.settings, calm)
+    }
+
+    /// The screen has this size, in the pixels that pointers count in.
+    pub fn resize(&mut self, size: Vec2) {
+        if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
+            self.screen.size = size;
+            self.camera.frame(self.screen.aspect());
+        }
+    }
+
+    /// A pointer comes down.
+    ///
+    /// # Errors
+    /// As [`Pointers::press`].
+    pub fn press(&mut self, id: u32, at: Vec2) -> Result<()> {
+        let (hands, mut scene) = self.hands();
+        hands.press(id, at, &mut scene)
+    }
+
+    /// A pointer moves.
+    ///
+    /// # Errors
+    /// As [`Pointers::drag`].
+    pub fn drag(&mut self, id: u32, to: Vec2) -> Result<()> {
+        let (hands, mut scene) = self.hands();
+        hands.drag(id, to, &mut scene)
+    }
+
+    /// A pointer goes up, or is lost.
+    ///
+    /// # Errors
+    /// As [`Pointers::lift`].
+    pub fn lift(&mut self, id: u32) -> Result<()> {
+        let (hands, mut scene) = self.hands();
+        hands.lift(id, &mut scene)
+    }
+
+    /// The mouse has left the screen.
+    pub fn leave(&mut self) {
+        self.hands.leave();
+    }
+
+    /// The wheel turns by so many pixels, away from the cloth if positive.
+    pub fn wheel(&mut self, pixels: f32) {
+        self.camera.zoom((0.0012 * pixels.clamp(-400.0, 400.0)).exp());
+    }
+
+    /// A trackpad's pinch: the camera comes nearer by `factor` above one.
+    pub fn pinch(&mut self, factor: f32) {
+        self.camera.zoom(1.0 / factor);
+    }
+
+    /// What the cursor should say.
+    ///
+    /// # Errors
+    /// As [`Pointers::cursor`].
+    pub fn cursor(&mut self) -> Result<Cursor> {
+        let (hands, mut scene) = self.hands();
+        hands.cursor(&mut scene)
+    }
+
+    /// Lets `seconds` pass.
+    ///
+    /// # Errors
+    /// As [`Cloth::advance`].
+    pub fn frame(&mut self, seconds: f32) -> Result<()> {
+        let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
+        self.camera.advance(seconds.min(LONGEST_FRAME), self.hands.any());
+        let (hands, mut scene) = self.hands();
+        hands.follow(&mut scene)?;
+        if !self.settings.paused {
+            let start = (self.clock)();
+            self.cloth.advance(seconds)?;
+            self.meter.simulated((self.clock)() - start);
+        }
+        self.meter.frame(seconds);
+        Ok(())
+    }
+
+    /// Runs exactly so many ticks, whatever the clock says.
+    pub fn play(&mut self, ticks: u32) {
+        self.cloth.step(ticks);
+    }
+
+    /// Draws the scene as it is now.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`].
+    pub fn draw(
+        &mut self,
+        renderer: &mut Renderer,
+        output: &RenderTarget<'_>,
+    ) -> std::result::Result<(), CoreError> {
+        let view = self.cloth.view();
+        let revision = (u64::from(self.generation) << 32) | u64::from(view.topology_revision);
+        if self.lines_of != Some(revision) {
+            self.lines_of = Some(revision);
+            self.lines.clear();
+            let woven = self.cloth.links().filter(|link| link.2 == muslin::LinkKind::Stretch);
+            self.lines.extend(woven.flat_map(|(a, b, _)| [a, b]));
+        }
+        let view = self.cloth.view();
+        let surface = Surface {
+            positions: view.positions,
+            normals: view.normals,
+            uvs: view.uvs,
+            indices: view.indices,
+            lines: &self.lines,
+            revision,
+        };
+        let frame = Frame { sight: self.camera.sight(), wireframe: self.settings.wireframe };
+        renderer.draw(&surface, &frame, output)
+    }
+
+    /// The numbers of the panel.
+    pub fn readout(&self) -> Readout {
+        let stats = self.cloth.stats();
+        Readout {
+            particles: stats.particles,
+            constraints: stats.active_constraints,
+            pieces: stats.pieces,
+            fps: self.meter.fps(),
+            milliseconds: self.meter.milliseconds(),
+        }
+    }
+
+    /// The camera rig.
+    pub fn camera(&mut self) -> &mut Camera {
+        &mut self.camera
+    }
+
+    /// Where a particle is [m].
+    pub fn particle(&mut self, particle: u32) -> Option<Vec3> {
+        self.cloth.view().positions.get(particle as usize).copied()
+    }
+
+    /// Where on the screen a particle appears, in the pixels that pointers count in.
+    pub fn particle_on_screen(&mut self, particle: u32) -> Option<Vec2> {
+        let at = self.particle(particle)?;
+        let sight = self.camera.sight();
+        let normal = sight.project(at, self.screen.aspect())?;
+        Some(self.screen.pixels(normal))
+    }
+
+    /// The hash of the cloth's state.
+    pub fn state_hash(&self) -> u64 {
+        self.cloth.state_hash()
+    }
+
+    fn hang(&mut self, settings: &Settings) -> Result<()> {
+        self.cloth = sheet::build(settings, self.calm)?;
+        self.hands.forget();
+        self.generation = self.generation.wrapping_add(1);
+        Ok(())
+    }
+
+    fn hands(&mut self) -> (&mut Pointers, Scene<'_>) {
+        let scene = Scene {
+            sight: self.camera.sight(),
+            grab_radius: 0.6 * sheet::spacing(&self.settings),
+            screen: self.screen,
+            cloth: &mut self.cloth,
+            camera: &mut self.camera,
+        };
+        (&mut self.hands, scene)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn app() -> App {
+        App::new(Settings::default(), || 0.0).unwrap()
+    }
+
+    #[test]
+    fn a_grabbed_particle_comes_along_with_its_pointer() {
+        let mut app = app();
+        let particle = 20 * 40 + 20;
+        let from = app.particle_on_screen(particle).unwrap();
+        app.press(7, from).unwrap();
+        assert_eq!(app.cursor().unwrap(), Cursor::Grabbing);
+        let to = from + Vec2::new(80.0, -30.0);
+        app.drag(7, to).unwrap();
+        for _ in 0..60 {
+            app.frame(1.0 / 60.0).unwrap();
+        }
+        let held = app.particle_on_screen(particle).unwrap();
+        assert!(held.distance(to) < 6.0, "held at {held}, pointer at {to}");
+        app.lift(7).unwrap();
+        for _ in 0..240 {
+            app.frame(1.0 / 60.0).unwrap();
+        }
+        let released = app.particle_on_screen(particle).unwrap();
+        assert!(released.distance(to) > 20.0, "still at {released}");
+    }
+
+    #[test]
+    fn empty_space_turns_the_camera_and_leaves_the_cloth_alone() {
+        let mut app = app();
+        let (before, hash) = (app.camera.sight(), app.state_hash());
+        app.press(1, Vec2::new(20.0, 20.0)).unwrap();
+        app.drag(1, Vec2::new(220.0, 60.0)).unwrap();
+        for _ in 0..30 {
+            app.camera.advance(1.0 / 60.0, true);
+        }
+        assert!(app.camera.sight().eye.distance(before.eye) > 0.5);
+        assert_eq!(app.state_hash(), hash);
+    }
+
+    #[test]
+    fn a_second_finger_zooms_and_neither_its_coming_nor_its_going_jumps() {
+        let mut app = app();
+        let settle = |app: &mut App| {
+            for _ in 0..300 {
+                app.camera.advance(1.0 / 60.0, true);
+            }
+            app.camera.sight().eye
+        };
+        app.press(1, Vec2::new(100.0, 650.0)).unwrap();
+        let still = settle(&mut app);
+        app.press(2, Vec2::new(1200.0, 650.0)).unwrap();
+        assert!(settle(&mut app).distance(still) < 1.0e-4);
+        app.drag(2, Vec2::new(700.0, 650.0)).unwrap();
+        let pinched = settle(&mut app);
+        let centre = crate::render::light::STAGE_CENTRE;
+        assert!(pinched.distance(centre) > 1.3 * still.distance(centre));
+        app.lift(1).unwrap();
+        assert!(settle(&mut app).distance(pinched) < 1.0e-4);
+        app.drag(2, Vec2::new(690.0, 650.0)).unwrap();
+        let moved = settle(&mut app).distance(pinched);
+        assert!(moved > 1.0e-3 && moved < 0.5, "moved {moved} m");
+    }
+
+    #[test]
+    fn a_new_resolution_hangs_a_new_sheet_and_forgets_the_hands() {
+        let mut app = app();
+        let at = app.particle_on_screen(820).unwrap();
+        app.press(3, at).unwrap();
+        app.set("resolution", 2.0).unwrap();
+        assert_eq!(app.readout().particles, 56 * 56);
+        app.drag(3, at + Vec2::X).unwrap();
+        app.lift(3).unwrap();
+        app.frame(0.02).unwrap();
+    }
+
+    #[test]
+    fn pause_stops_the_cloth_and_dropped_pins_let_it_fall() {
+        let mut app = app();
+        app.set("paused", 1.0).unwrap();
+        let hash = app.state_hash();
+        app.frame(0.1).unwrap();
+        assert_eq!(app.state_hash(), hash);
+        app.set("paused", 0.0).unwrap();
+        let corner = app.particle(0).unwrap();
+        app.act(Action::DropPins).unwrap();
+        app.play(15);
+        let fallen = corner.y - app.particle(0).unwrap().y;
+        assert!(fallen > 0.15, "fell {fallen} m");
+    }
+}

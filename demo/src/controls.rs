@@ -1,0 +1,373 @@
+//! The one table of controls: egui rows and HTML rows are both drawn from it, and keys are looked
+//! up in it.
+
+use serde::Serialize;
+
+use crate::settings::{DAMPING, GRAVITY, Pinning, RESOLUTIONS, STIFFNESS, Settings, WIND};
+
+/// One control.
+pub struct Control {
+    /// Its name for code: the page and the tests call it so.
+    pub name: &'static str,
+    /// Its name for people.
+    pub label: &'static str,
+    /// What it does, in a few words.
+    pub about: &'static str,
+    /// Its key. A slider grows with it and shrinks with Shift; a choice goes on to the next.
+    pub key: char,
+    /// How it looks and what it changes.
+    pub kind: Kind,
+}
+
+/// What kinds of control there are.
+pub enum Kind {
+    /// A number in a range.
+    Slider {
+        /// Least value.
+        min: f32,
+        /// Greatest value.
+        max: f32,
+        /// Distance between neighbouring values.
+        step: f32,
+        /// Digits shown after the point.
+        digits: usize,
+        /// What the number counts; may be empty.
+        unit: &'static str,
+        /// Reads it.
+        get: fn(&Settings) -> f32,
+        /// Writes it; [`set`] has already brought it into range.
+        set: fn(&mut Settings, f32),
+    },
+    /// On or off.
+    Switch {
+        /// Reads it.
+        get: fn(&Settings) -> bool,
+        /// Writes it.
+        set: fn(&mut Settings, bool),
+    },
+    /// One of a few.
+    Choice {
+        /// What people choose from.
+        options: &'static [&'static str],
+        /// Reads which one it is.
+        get: fn(&Settings) -> usize,
+        /// Writes it; [`set`] has already made sure that there is such an option.
+        set: fn(&mut Settings, usize),
+    },
+    /// Something that happens once.
+    Button(Action),
+}
+
+/// What a button does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Hangs a fresh sheet.
+    Reset,
+    /// Lets go of every pin.
+    DropPins,
+}
+
+const PINNINGS: [Pinning; 3] = [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners];
+
+/// Every control, in the order of the panel.
+pub static CONTROLS: &[Control] = &[
+    Control {
+        name: "wind",
+        label: "Wind",
+        about: "How hard it blows",
+        key: 'W',
+        kind: Kind::Slider {
+            min: *WIND.start(),
+            max: *WIND.end(),
+            step: 0.05,
+            digits: 2,
+            unit: "",
+            get: |s| s.wind,
+            set: |s, v| s.wind = v,
+        },
+    },
+    Control {
+        name: "gravity",
+        label: "Gravity",
+        about: "How hard it pulls down",
+        key: 'G',
+        kind: Kind::Slider {
+            min: *GRAVITY.start(),
+            max: *GRAVITY.end(),
+            step: 0.1,
+            digits: 1,
+            unit: "m/s²",
+            get: |s| s.gravity,
+            set: |s, v| s.gravity = v,
+        },
+    },
+    Control {
+        name: "stiffness",
+        label: "Stiffness",
+        about: "Sweeps over the links in each step",
+        key: 'S',
+        kind: Kind::Slider {
+            min: *STIFFNESS.start(),
+            max: *STIFFNESS.end(),
+            step: 1.0,
+            digits: 0,
+            unit: "",
+            get: |s| s.stiffness as f32,
+            set: |s, v| s.stiffness = v as u32,
+        },
+    },
+    Control {
+        name: "damping",
+        label: "Damping",
+        about: "Velocity lost in each step",
+        key: 'D',
+        kind: Kind::Slider {
+            min: *DAMPING.start(),
+            max: *DAMPING.end(),
+            step: 0.001,
+            digits: 3,
+            unit: "",
+            get: |s| s.damping,
+            set: |s, v| s.damping = v,
+        },
+    },
+    Control {
+        name: "wireframe",
+        label: "Wireframe",
+        about: "Shows the links",
+        key: 'F',
+        kind: Kind::Switch { get: |s| s.wireframe, set: |s, on| s.wireframe = on },
+    },
+    Control {
+        name: "tearing",
+        label: "Tearing",
+        about: "Pull hard and it rips",
+        key: 'T',
+        kind: Kind::Switch { get: |s| s.tearing, set: |s, on| s.tearing = on },
+    },
+    Control {
+        name: "paused",
+        label: "Pause",
+        about: "Time stands still",
+        key: ' ',
+        kind: Kind::Switch { get: |s| s.paused, set: |s, on| s.paused = on },
+    },
+    Control {
+        name: "pinning",
+        label: "Pins",
+        about: "What holds the sheet up",
+        key: 'P',
+        kind: Kind::Choice {
+            options: &["Top edge", "Top corners", "Corners"],
+            get: |s| PINNINGS.iter().position(|p| *p == s.pinning).unwrap_or(0),
+            set: |s, i| s.pinning = PINNINGS[i],
+        },
+    },
+    Control {
+        name: "resolution",
+        label: "Resolution",
+        about: "Particles along a side",
+        key: 'N',
+        kind: Kind::Choice {
+            options: &["24", "40", "56"],
+            get: |s| RESOLUTIONS.iter().position(|r| *r == s.resolution).unwrap_or(1),
+            set: |s, i| s.resolution = RESOLUTIONS[i],
+        },
+    },
+    Control {
+        name: "reset",
+        label: "Reset",
+        about: "Hangs a fresh sheet",
+        key: 'R',
+        kind: Kind::Button(Action::Reset),
+    },
+    Control {
+        name: "drop",
+        label: "Drop pins",
+        about: "Lets the sheet fall",
+        key: 'X',
+        kind: Kind::Button(Action::DropPins),
+    },
+];
+
+/// The control of this name.
+pub fn find(name: &str) -> Option<&'static Control> {
+    CONTROLS.iter().find(|c| c.name == name)
+}
+
+/// The control of this key, whatever its case.
+pub fn of_key(key: char) -> Option<&'static Control> {
+    CONTROLS.iter().find(|c| c.key.eq_ignore_ascii_case(&key))
+}
+
+impl Control {
+    /// Its value as a number: a switch is 0 or 1, a choice its place, a button 0.
+    pub fn get(&self, settings: &Settings) -> f32 {
+        match &self.kind {
+            Kind::Slider { get, .. } => get(settings),
+            Kind::Switch { get, .. } => f32::from(u8::from(get(settings))),
+            Kind::Choice { get, .. } => get(settings) as f32,
+            Kind::Button(_) => 0.0,
+        }
+    }
+
+    /// Gives it the nearest value that it can have; no number changes nothing.
+    pub fn set(&self, settings: &mut Settings, value: f32) {
+        if value.is_nan() {
+            return;
+        }
+        match &self.kind {
+            Kind::Slider { min, max, step, set, .. } => {
+                let steps = ((value.clamp(*min, *max) - min) / step).round();
+                set(settings, (min + steps * step).clamp(*min, *max));
+            }
+            Kind::Switch { set, .. } => set(settings, value != 0.0),
+            Kind::Choice { options, set, .. } => {
+                set(settings, value.clamp(0.0, (options.len() - 1) as f32) as usize);
+            }
+            Kind::Button(_) => {}
+        }
+    }
+
+    /// Does what its key does: a slider moves by a tenth of its range, back with `shift`.
+    pub fn press(&self, settings: &mut Settings, shift: bool) -> Option<Action> {
+        let now = self.get(settings);
+        match &self.kind {
+            Kind::Slider { min, max, step, .. } => {
+                let stride = (0.1 * (max - min)).max(*step);
+                self.set(settings, if shift { now - stride } else { now + stride });
+            }
+            Kind::Switch { .. } => self.set(settings, 1.0 - now),
+            Kind::Choice { options, .. } => {
+                let by = if shift { options.len() - 1 } else { 1 };
+                self.set(settings, ((now as usize + by) % options.len()) as f32);
+            }
+            Kind::Button(action) => return Some(*action),
+        }
+        None
+    }
+
+    /// Its key as it is printed.
+    pub fn key_name(&self) -> String {
+        match self.key {
+            ' ' => "Space".into(),
+            key => key.into(),
+        }
+    }
+
+    /// Its value as it is printed beside a slider.
+    pub fn text(&self, settings: &Settings) -> String {
+        match &self.kind {
+            Kind::Slider { digits, unit, .. } => {
+                let number = format!("{:.*}", *digits, self.get(settings));
+                if unit.is_empty() { number } else { format!("{number} {unit}") }
+            }
+            Kind::Choice { options, get, .. } => options[get(settings)].into(),
+            Kind::Switch { .. } | Kind::Button(_) => String::new(),
+        }
+    }
+}
+
+/// A row of the table as the page gets it.
+#[derive(Serialize)]
+struct Row {
+    name: &'static str,
+    label: &'static str,
+    about: &'static str,
+    key: String,
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    range: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    options: &'static [&'static str],
+}
+
+/// The table as JSON: name, label, about, key, kind, and `range` (least, greatest, step) or `options`.
+pub fn to_json() -> String {
+    let rows: Vec<Row> = CONTROLS
+        .iter()
+        .map(|c| {
+            let (kind, range, options): (_, _, &[&str]) = match &c.kind {
+                Kind::Slider { min, max, step, .. } => ("slider", Some([*min, *max, *step]), &[]),
+                Kind::Switch { .. } => ("switch", None, &[]),
+                Kind::Choice { options, .. } => ("choice", None, options),
+                Kind::Button(_) => ("button", None, &[]),
+            };
+            Row {
+                name: c.name,
+                label: c.label,
+                about: c.about,
+                key: c.key_name(),
+                kind,
+                range,
+                options,
+            }
+        })
+        .collect();
+    // Strings and finite numbers: there is nothing in it that JSON could not say.
+    serde_json::to_string(&rows).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_keys_are_each_used_once() {
+        for (i, a) in CONTROLS.iter().enumerate() {
+            for b in &CONTROLS[i + 1..] {
+                assert!(a.name != b.name && a.key != b.key, "{} and {}", a.name, b.name);
+            }
+            assert!(std::ptr::eq(find(a.name).unwrap(), a));
+            assert!(std::ptr::eq(of_key(a.key.to_ascii_lowercase()).unwrap(), a));
+        }
+    }
+
+    #[test]
+    fn every_control_reads_back_what_it_was_given() {
+        for control in CONTROLS {
+            let mut settings = Settings::default();
+            let (given, wanted) = match &control.kind {
+                Kind::Slider { max, step, .. } => (max - 2.0 * step, max - 2.0 * step),
+                Kind::Switch { .. } => (1.0, 1.0),
+                Kind::Choice { options, .. } => {
+                    (options.len() as f32 - 1.0, options.len() as f32 - 1.0)
+                }
+                Kind::Button(_) => continue,
+            };
+            control.set(&mut settings, given);
+            let got = control.get(&settings);
+            assert!((got - wanted).abs() < 1.0e-5, "{} is {got}", control.name);
+            assert_ne!(settings, Settings::default(), "{} changes nothing", control.name);
+        }
+    }
+
+    #[test]
+    fn a_control_cannot_leave_its_range() {
+        for control in CONTROLS {
+            for wild in [f32::INFINITY, f32::NEG_INFINITY, 1.0e9, -1.0e9, f32::NAN] {
+                let mut settings = Settings::default();
+                control.set(&mut settings, wild);
+                let mut clamped = settings.clone();
+                clamped.clamp();
+                assert_eq!(settings, clamped, "{} took {wild}", control.name);
+            }
+        }
+    }
+
+    #[test]
+    fn keys_go_up_down_and_around() {
+        let mut settings = Settings::default();
+        let wind = of_key('w').unwrap();
+        wind.press(&mut settings, false);
+        assert!((settings.wind - 1.1).abs() < 1.0e-5);
+        wind.press(&mut settings, true);
+        assert!((settings.wind - 0.8).abs() < 1.0e-5);
+        let pins = of_key('P').unwrap();
+        for wanted in [Pinning::TopCorners, Pinning::Corners, Pinning::TopEdge] {
+            pins.press(&mut settings, false);
+            assert_eq!(settings.pinning, wanted);
+        }
+        assert_eq!(of_key('r').unwrap().press(&mut settings, false), Some(Action::Reset));
+    }
+}

@@ -1,0 +1,82 @@
+//! A GL context without a window: EGL on whatever device there is, a software rasteriser included.
+
+use std::ffi::CString;
+use std::fmt;
+use std::sync::Arc;
+
+use glutin::api::egl::context::PossiblyCurrentContext;
+use glutin::api::egl::device::Device;
+use glutin::api::egl::display::Display;
+use glutin::config::{ConfigSurfaceTypes, ConfigTemplateBuilder};
+use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
+use glutin::display::GlDisplay;
+use three_d::Context;
+
+/// A drawing context that no screen belongs to.
+pub struct Headless {
+    /// What to draw with.
+    pub context: Context,
+    _current: PossiblyCurrentContext,
+}
+
+/// Why there is no context; says in one line what to install.
+#[derive(Debug)]
+pub struct NoContext(String);
+
+impl fmt::Display for NoContext {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "no OpenGL 3.3 context without a window ({}); on Debian or Ubuntu: apt install libegl1 libgl1-mesa-dri",
+            self.0
+        )
+    }
+}
+
+impl std::error::Error for NoContext {}
+
+impl Headless {
+    /// Makes a context on the first device that gives one.
+    ///
+    /// # Errors
+    /// [`NoContext`] if EGL is missing or no device offers OpenGL 3.3.
+    pub fn new() -> Result<Self, NoContext> {
+        let devices = Device::query_devices().map_err(|e| NoContext(e.to_string()))?;
+        let mut why = String::from("EGL knows no device");
+        for device in devices {
+            match Self::on(&device) {
+                Ok(headless) => return Ok(headless),
+                Err(error) => why = error,
+            }
+        }
+        Err(NoContext(why))
+    }
+
+    fn on(device: &Device) -> Result<Self, String> {
+        let told = |e: glutin::error::Error| e.to_string();
+        // SAFETY: no native display is passed, so there is none that could go away.
+        let display = unsafe { Display::with_device(device, None) }.map_err(told)?;
+        let template =
+            ConfigTemplateBuilder::new().with_surface_type(ConfigSurfaceTypes::empty()).build();
+        // SAFETY: the template names no native window.
+        let config = unsafe { display.find_configs(template) }
+            .map_err(told)?
+            .next()
+            .ok_or("the device has no configuration")?;
+        let attributes = ContextAttributesBuilder::new()
+            .with_profile(GlProfile::Core)
+            .with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3))))
+            .build(None);
+        // SAFETY: display and config are the ones just made.
+        let context = unsafe { display.create_context(&config, &attributes) }.map_err(told)?;
+        let current = context.make_current_surfaceless().map_err(told)?;
+        let load = |name: &str| match CString::new(name) {
+            Ok(name) => display.get_proc_address(&name),
+            Err(_) => std::ptr::null(),
+        };
+        // SAFETY: the context is current on this thread, and stays so while `_current` lives.
+        let gl = unsafe { three_d::context::Context::from_loader_function(load) };
+        let context = Context::from_gl_context(Arc::new(gl)).map_err(|e| e.to_string())?;
+        Ok(Self { context, _current: current })
+    }
+}

@@ -1,0 +1,250 @@
+//! The panel in the window: egui rows for the table of controls, in the page's palette.
+
+use glam::Vec2;
+use three_d::egui::{
+    self, Align, Align2, Area, Button, Color32, Context, CornerRadius, Frame, Id, Layout, Margin,
+    Rect, RichText, Sense, Slider, Stroke, StrokeKind, Ui, vec2,
+};
+
+use crate::app::App;
+use crate::controls::{Action, CONTROLS, Control, Kind};
+
+const SURFACE: Color32 = Color32::from_rgba_premultiplied(9, 12, 20, 184);
+const HAIRLINE: Color32 = Color32::from_rgba_premultiplied(20, 20, 20, 20);
+const TRACK: Color32 = Color32::from_rgba_premultiplied(31, 31, 31, 31);
+const TEXT: Color32 = Color32::from_rgb(0xe7, 0xec, 0xf5);
+const MUTED: Color32 = Color32::from_rgb(0x8a, 0x93, 0xa8);
+const ACCENT: Color32 = Color32::from_rgb(0x7c, 0xc0, 0xff);
+const WARM: Color32 = Color32::from_rgb(0xff, 0xb8, 0x6b);
+const DEEP: Color32 = Color32::from_rgb(0x05, 0x07, 0x0d);
+
+/// Width of the rows.
+const WIDTH: f32 = 236.0;
+
+/// What the user did to a row; carried out after the panel is drawn.
+pub enum Wish {
+    /// A control shall have this value.
+    Set(&'static str, f32),
+    /// A button was pressed.
+    Act(Action),
+}
+
+/// Whether it is open, and where it was drawn.
+pub struct Panel {
+    open: bool,
+    help: bool,
+    rects: Vec<Rect>,
+    styled: bool,
+}
+
+impl Default for Panel {
+    fn default() -> Self {
+        Self { open: true, help: true, rects: Vec::new(), styled: false }
+    }
+}
+
+impl Panel {
+    /// Opens or closes the panel.
+    pub fn toggle(&mut self) {
+        self.open = !self.open;
+    }
+
+    /// Shows or hides the instructions.
+    pub fn toggle_help(&mut self) {
+        self.help = !self.help;
+    }
+
+    /// Whether a point of the window belongs to the panel and not to the scene.
+    pub fn covers(&self, at: Vec2) -> bool {
+        self.rects.iter().any(|r| r.contains(egui::pos2(at.x, at.y)))
+    }
+
+    /// Draws it and notes what the user wants.
+    pub fn draw(&mut self, ctx: &Context, app: &App, wishes: &mut Vec<Wish>) {
+        if !self.styled {
+            ctx.set_visuals(visuals());
+            self.styled = true;
+        }
+        self.rects.clear();
+        let panel = Area::new(Id::new("panel")).anchor(Align2::LEFT_TOP, vec2(16.0, 16.0)).show(
+            ctx,
+            |ui| {
+                glass().show(ui, |ui| {
+                    ui.set_width(WIDTH);
+                    self.title(ui);
+                    if self.open {
+                        rows(ui, app, wishes);
+                    }
+                });
+            },
+        );
+        self.rects.push(panel.response.rect);
+        if self.help {
+            let help = Area::new(Id::new("help"))
+                .anchor(Align2::CENTER_BOTTOM, vec2(0.0, -24.0))
+                .show(ctx, |ui| glass().show(ui, |ui| self.instructions(ui)));
+            self.rects.push(help.response.rect);
+        }
+    }
+
+    fn title(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("Muslin").size(19.0).strong().color(TEXT));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let arrow = if self.open { "–" } else { "+" };
+                if ui.button(arrow).on_hover_text("Panel (C)").clicked() {
+                    self.toggle();
+                }
+                if ui.button("?").on_hover_text("Instructions (H)").clicked() {
+                    self.toggle_help();
+                }
+            });
+        });
+    }
+
+    fn instructions(&mut self, ui: &mut Ui) {
+        let text = "Drag the cloth to pull it  ·  Drag the background to orbit  ·  Scroll to zoom  ·  Toggle wind & tearing in the panel";
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(text).color(TEXT));
+            if ui.button("Got it").clicked() {
+                self.help = false;
+            }
+        });
+    }
+}
+
+fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
+    ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
+    for control in CONTROLS {
+        if matches!(control.kind, Kind::Button(_)) {
+            continue;
+        }
+        ui.add_space(8.0);
+        let hint = format!("{} ({})", control.about, control.key_name());
+        ui.scope(|ui| row(ui, app, control, wishes)).response.on_hover_text(hint);
+    }
+    ui.add_space(12.0);
+    ui.horizontal(|ui| {
+        for control in CONTROLS {
+            if let Kind::Button(action) = control.kind {
+                let size = vec2(0.5 * (WIDTH - 8.0), 30.0);
+                let hint = format!("{} ({})", control.about, control.key_name());
+                let button = Button::new(control.label).min_size(size);
+                if ui.add(button).on_hover_text(hint).clicked() {
+                    wishes.push(Wish::Act(action));
+                }
+            }
+        }
+    });
+    ui.add_space(8.0);
+    let r = app.readout();
+    let figures = format!(
+        "{} particles  ·  {} constraints\n{:.0} fps  ·  {:.2} ms simulation",
+        r.particles, r.constraints, r.fps, r.milliseconds
+    );
+    ui.label(RichText::new(figures).size(12.0).color(MUTED));
+}
+
+fn row(ui: &mut Ui, app: &App, control: &Control, wishes: &mut Vec<Wish>) {
+    let settings = app.settings();
+    let label = RichText::new(control.label.to_uppercase()).size(11.5).color(MUTED);
+    let mut wish = |value: f32| wishes.push(Wish::Set(control.name, value));
+    match &control.kind {
+        Kind::Slider { min, max, step, .. } => {
+            ui.horizontal(|ui| {
+                ui.label(label);
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let value = RichText::new(control.text(settings)).size(12.0);
+                    ui.label(value.color(TEXT));
+                });
+            });
+            let mut value = control.get(settings);
+            ui.spacing_mut().slider_width = WIDTH;
+            let slider = Slider::new(&mut value, *min..=*max)
+                .step_by(f64::from(*step))
+                .show_value(false)
+                .trailing_fill(true);
+            if ui.add(slider).changed() {
+                wish(value);
+            }
+        }
+        Kind::Switch { get, .. } => {
+            ui.horizontal(|ui| {
+                ui.label(label);
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    if switch(ui, get(settings)) {
+                        wish(f32::from(u8::from(!get(settings))));
+                    }
+                });
+            });
+        }
+        Kind::Choice { options, get, .. } => {
+            ui.label(label);
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
+                let gaps = 4.0 * (options.len() - 1) as f32;
+                let size = vec2((WIDTH - gaps) / options.len() as f32, 26.0);
+                for (i, option) in options.iter().enumerate() {
+                    let chosen = get(settings) == i;
+                    let text = RichText::new(*option).size(12.0);
+                    let button = if chosen {
+                        Button::new(text.color(DEEP)).fill(ACCENT)
+                    } else {
+                        Button::new(text.color(TEXT))
+                    };
+                    if ui.add(button.min_size(size)).clicked() {
+                        wish(i as f32);
+                    }
+                }
+            });
+        }
+        Kind::Button(_) => {}
+    }
+}
+
+/// A switch; says whether it was flipped.
+fn switch(ui: &mut Ui, on: bool) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(34.0, 18.0), Sense::click());
+    let share = ui.ctx().animate_bool(response.id, on);
+    let track = if on { ACCENT.gamma_multiply(0.55) } else { TRACK };
+    let painter = ui.painter();
+    painter.rect_filled(rect, CornerRadius::same(9), track);
+    if response.has_focus() {
+        let ring = Stroke::new(1.5, ACCENT);
+        painter.rect_stroke(rect.expand(2.0), CornerRadius::same(11), ring, StrokeKind::Outside);
+    }
+    let x = egui::lerp(rect.left() + 9.0..=rect.right() - 9.0, share);
+    painter.circle_filled(egui::pos2(x, rect.center().y), 6.5, if on { TEXT } else { MUTED });
+    response.clicked()
+}
+
+fn glass() -> Frame {
+    Frame::new()
+        .fill(SURFACE)
+        .stroke(Stroke::new(1.0, HAIRLINE))
+        .corner_radius(CornerRadius::same(12))
+        .inner_margin(Margin::same(16))
+}
+
+fn visuals() -> egui::Visuals {
+    let mut v = egui::Visuals::dark();
+    v.override_text_color = None;
+    v.selection.bg_fill = ACCENT;
+    v.selection.stroke = Stroke::new(1.0, DEEP);
+    v.slider_trailing_fill = true;
+    let round = CornerRadius::same(8);
+    for (widget, fill, text) in [
+        (&mut v.widgets.inactive, TRACK, TEXT),
+        (&mut v.widgets.hovered, Color32::from_white_alpha(44), TEXT),
+        (&mut v.widgets.active, WARM.gamma_multiply(0.6), TEXT),
+    ] {
+        widget.bg_fill = fill;
+        widget.weak_bg_fill = fill;
+        widget.bg_stroke = Stroke::NONE;
+        widget.fg_stroke = Stroke::new(1.0, text);
+        widget.corner_radius = round;
+    }
+    v.window_fill = SURFACE;
+    v.window_stroke = Stroke::new(1.0, HAIRLINE);
+    v
+}

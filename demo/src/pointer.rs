@@ -1,0 +1,259 @@
+//! Hands on the scene: each pointer holds a piece of cloth or the camera, or nothing.
+
+use glam::{Vec2, Vec3};
+use muslin::{Cloth, Grab, Result};
+
+use crate::camera::{Camera, Sight};
+use crate::render::light::{FLOOR, STAGE_CENTRE};
+
+/// How far a held particle may be pulled from the middle of the stage [m].
+const REACH: f32 = 4.0;
+/// How near to the floor it may be pulled [m].
+const CLEARANCE: f32 = 0.02;
+
+/// The screen that pointers move on, in the pixels that they count in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screen {
+    /// Width and height.
+    pub size: Vec2,
+}
+
+impl Screen {
+    /// Width over height.
+    pub fn aspect(&self) -> f32 {
+        self.size.x.max(1.0) / self.size.y.max(1.0)
+    }
+
+    /// From pixels, y down, to -1 to 1, y up.
+    pub fn normal(&self, at: Vec2) -> Vec2 {
+        let share = at / self.size.max(Vec2::ONE);
+        Vec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
+    }
+
+    /// From -1 to 1, y up, to pixels, y down.
+    pub fn pixels(&self, at: Vec2) -> Vec2 {
+        Vec2::new(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y) * self.size
+    }
+}
+
+/// What a pointer holds.
+#[derive(Debug)]
+enum Hold {
+    Cloth { grab: Grab, at: Vec3 },
+    Camera,
+}
+
+#[derive(Debug)]
+struct Pointer {
+    id: u32,
+    at: Vec2,
+    hold: Hold,
+}
+
+/// What the mouse's cursor should say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cursor {
+    /// Nothing in particular.
+    Default,
+    /// Here is cloth to grab.
+    Grab,
+    /// Cloth is held.
+    Grabbing,
+}
+
+impl Cursor {
+    /// Its name in CSS.
+    pub fn css(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::Grab => "grab",
+            Self::Grabbing => "grabbing",
+        }
+    }
+}
+
+/// All pointers that are down.
+#[derive(Debug, Default)]
+pub struct Pointers {
+    down: Vec<Pointer>,
+    hover: Option<Vec2>,
+}
+
+impl Pointers {
+    /// Whether any pointer is down.
+    pub fn any(&self) -> bool {
+        !self.down.is_empty()
+    }
+
+    /// A pointer comes down: on cloth it grabs, elsewhere it takes the camera.
+    ///
+    /// A second finger that lands beside the cloth turns both into a pinch.
+    ///
+    /// # Errors
+    /// As [`Cloth::grab_ray`].
+    pub fn press(&mut self, id: u32, at: Vec2, scene: &mut Scene<'_>) -> Result<()> {
+        if !at.is_finite() {
+            return Ok(());
+        }
+        self.lift(id, scene)?;
+        let direction = scene.ray(at);
+        let hold = match scene.cloth.grab_ray(scene.sight.eye, direction, scene.grab_radius)? {
+            Some((grab, at)) => Hold::Cloth { grab, at },
+            None => {
+                self.open_hands(scene)?;
+                Hold::Camera
+            }
+        };
+        self.down.push(Pointer { id, at, hold });
+        Ok(())
+    }
+
+    /// A pointer moves, up or down.
+    ///
+    /// # Errors
+    /// As [`Cloth::move_grab`].
+    pub fn drag(&mut self, id: u32, to: Vec2, scene: &mut Scene<'_>) -> Result<()> {
+        if !to.is_finite() {
+            return Ok(());
+        }
+        let Some(moved) = self.down.iter().position(|p| p.id == id) else {
+            self.hover = Some(to);
+            return Ok(());
+        };
+        let from = std::mem::replace(&mut self.down[moved].at, to);
+        if matches!(self.down[moved].hold, Hold::Camera) {
+            let others: Vec<Vec2> = self
+                .down
+                .iter()
+                .filter(|p| p.id != id && matches!(p.hold, Hold::Camera))
+                .map(|p| p.at)
+                .collect();
+            let height = scene.screen.size.y.max(1.0);
+            // Both fingers of a pinch turn the camera by half, so that their middle leads it.
+            scene.camera.orbit((to - from) / (height * (others.len() + 1) as f32));
+            if let [other] = others[..] {
+                let (before, after) = (from.distance(other), to.distance(other));
+                if before > 1.0 && after > 1.0 {
+                    scene.camera.zoom(before / after);
+                }
+            }
+        }
+        self.follow(scene)
+    }
+
+    /// A pointer goes up, is cancelled or is lost: it lets go.
+    ///
+    /// # Errors
+    /// As [`Cloth::release`].
+    pub fn lift(&mut self, id: u32, scene: &mut Scene<'_>) -> Result<()> {
+        if let Some(i) = self.down.iter().position(|p| p.id == id)
+            && let Hold::Cloth { grab, .. } = self.down.swap_remove(i).hold
+        {
+            scene.cloth.release(grab)?;
+        }
+        Ok(())
+    }
+
+    /// The pointer has left the screen.
+    pub fn leave(&mut self) {
+        self.hover = None;
+    }
+
+    /// Holds what is held under its pointer, also when only the camera has moved.
+    ///
+    /// # Errors
+    /// As [`Cloth::move_grab`].
+    pub fn follow(&mut self, scene: &mut Scene<'_>) -> Result<()> {
+        let forward = scene.sight.forward();
+        for pointer in &mut self.down {
+            if let Hold::Cloth { grab, at } = &mut pointer.hold {
+                let ray = scene.ray(pointer.at);
+                let depth = (*at - scene.sight.eye).dot(forward) / ray.dot(forward);
+                *at = within_reach(scene.sight.eye + ray * depth);
+                scene.cloth.move_grab(*grab, *at)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every pointer that held cloth now holds the camera: the cloth they held is no more, or a
+    /// pinch begins.
+    fn open_hands(&mut self, scene: &mut Scene<'_>) -> Result<()> {
+        for pointer in &mut self.down {
+            if let Hold::Cloth { grab, .. } = std::mem::replace(&mut pointer.hold, Hold::Camera) {
+                scene.cloth.release(grab)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets every pointer without asking the cloth, which has been replaced.
+    pub fn forget(&mut self) {
+        self.down.clear();
+    }
+
+    /// What the cursor should say.
+    ///
+    /// # Errors
+    /// As [`Cloth::raycast`].
+    pub fn cursor(&self, scene: &mut Scene<'_>) -> Result<Cursor> {
+        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth { .. })) {
+            return Ok(Cursor::Grabbing);
+        }
+        match self.hover {
+            Some(at) if self.down.is_empty() => {
+                let direction = scene.ray(at);
+                let hit = scene.cloth.raycast(scene.sight.eye, direction, 100.0)?;
+                Ok(if hit.is_some() { Cursor::Grab } else { Cursor::Default })
+            }
+            _ => Ok(Cursor::Default),
+        }
+    }
+}
+
+/// What pointers act on.
+pub struct Scene<'a> {
+    /// The cloth.
+    pub cloth: &'a mut Cloth,
+    /// The camera rig.
+    pub camera: &'a mut Camera,
+    /// Where the camera is in this frame.
+    pub sight: Sight,
+    /// The screen.
+    pub screen: Screen,
+    /// How far beside the cloth a grab still takes hold [m].
+    pub grab_radius: f32,
+}
+
+impl Scene<'_> {
+    fn ray(&self, at: Vec2) -> Vec3 {
+        self.sight.ray(self.screen.normal(at), self.screen.aspect())
+    }
+}
+
+fn within_reach(at: Vec3) -> Vec3 {
+    let mut near = STAGE_CENTRE + (at - STAGE_CENTRE).clamp_length_max(REACH);
+    near.y = near.y.max(FLOOR + CLEARANCE);
+    near
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_and_normal_coordinates_are_each_others_inverse() {
+        let screen = Screen { size: Vec2::new(390.0, 844.0) };
+        let at = Vec2::new(17.0, 800.0);
+        assert!(screen.pixels(screen.normal(at)).distance(at) < 1.0e-3);
+        assert_eq!(screen.normal(Vec2::ZERO), Vec2::new(-1.0, 1.0));
+    }
+
+    #[test]
+    fn nothing_is_pulled_off_the_stage_or_under_the_floor() {
+        let far = within_reach(Vec3::new(5.0, -300.0, 2.0));
+        assert!(far.distance(STAGE_CENTRE) <= REACH + 1.0e-3 && far.y >= FLOOR);
+        let near = Vec3::new(0.3, 0.4, 0.5);
+        assert!(within_reach(near).distance(near) < 1.0e-6);
+    }
+}

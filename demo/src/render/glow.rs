@@ -1,0 +1,116 @@
+//! Halos behind the lights: additive sprites from one generated radial texture.
+
+use glam::Vec3;
+use three_d::{
+    Blend, Context, CoreError, CpuTexture, Interpolation, Program, RenderStates, Texture2D,
+    TextureData, Wrapping, WriteMask,
+};
+
+use super::light::{STAGE_CENTRE, linear};
+use super::{Corners, Pass, matrix, vector};
+
+/// Texels along a side of the radial texture.
+const SIZE: u32 = 128;
+
+/// One halo.
+struct Halo {
+    centre: Vec3,
+    radius: f32,
+    tint: Vec3,
+}
+
+/// The halos, their texture and their program.
+pub struct Glow {
+    program: Program,
+    texture: Texture2D,
+    halos: [Halo; 3],
+}
+
+impl Glow {
+    /// Generates the texture.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        let texture = CpuTexture {
+            name: "halo".into(),
+            data: TextureData::RU8(radial()),
+            width: SIZE,
+            height: SIZE,
+            min_filter: Interpolation::Linear,
+            mag_filter: Interpolation::Linear,
+            mipmap: None,
+            wrap_s: Wrapping::ClampToEdge,
+            wrap_t: Wrapping::ClampToEdge,
+        };
+        Ok(Self {
+            program: Program::from_source(
+                context,
+                include_str!("shaders/glow.vert"),
+                include_str!("shaders/glow.frag"),
+            )?,
+            texture: Texture2D::new(context, &texture),
+            halos: [
+                Halo {
+                    centre: STAGE_CENTRE + Vec3::new(-2.3, 1.5, -1.6),
+                    radius: 2.6,
+                    tint: linear(0xfff1dc) * 0.020,
+                },
+                Halo {
+                    centre: STAGE_CENTRE + Vec3::new(0.2, 0.1, -1.8),
+                    radius: 3.4,
+                    tint: linear(0x3a5cff) * 0.020,
+                },
+                Halo {
+                    centre: STAGE_CENTRE + Vec3::new(2.1, 0.7, -2.0),
+                    radius: 2.2,
+                    tint: linear(0xff9d5c) * 0.022,
+                },
+            ],
+        })
+    }
+
+    pub(super) fn draw(&self, pass: &Pass, corners: &Corners) {
+        let p = &self.program;
+        let (right, up) = (pass.sight.right(), pass.sight.up());
+        for halo in &self.halos {
+            p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+            p.use_uniform("centre", vector(halo.centre));
+            p.use_uniform("right", vector(right * halo.radius));
+            p.use_uniform("up", vector(up * halo.radius));
+            p.use_uniform("tint", vector(halo.tint));
+            p.use_texture("halo", &self.texture);
+            let states = RenderStates {
+                blend: Blend::ADD,
+                write_mask: WriteMask::COLOR,
+                ..RenderStates::default()
+            };
+            corners.draw(p, states, pass.viewport);
+        }
+    }
+}
+
+/// A disc that fades smoothly to nothing at its border.
+fn radial() -> Vec<u8> {
+    let middle = 0.5 * (SIZE - 1) as f32;
+    let texel = |i: u32| {
+        let x = ((i % SIZE) as f32 - middle) / middle;
+        let y = ((i / SIZE) as f32 - middle) / middle;
+        let fall = (1.0 - (x * x + y * y).sqrt()).clamp(0.0, 1.0);
+        (255.0 * fall * fall * (3.0 - 2.0 * fall)).round() as u8
+    };
+    (0..SIZE * SIZE).map(texel).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_halo_is_bright_inside_and_gone_at_its_border() {
+        let texture = radial();
+        let (size, half) = (SIZE as usize, SIZE as usize / 2);
+        assert!(texture[half * size + half] > 250);
+        assert!((0..size).all(|i| texture[i] == 0 && texture[i * size] == 0));
+    }
+}

@@ -1,0 +1,116 @@
+//! The lights of the scene, and the colours of the brief made ready for a linear, tone-mapped picture.
+
+use glam::camera::rh::{proj, view};
+use glam::{Mat4, Vec3};
+
+/// Where the middle of the hanging sheet is, and where the camera looks [m].
+pub const STAGE_CENTRE: Vec3 = Vec3::new(0.0, -0.08, 0.0);
+
+/// Height of the floor [m].
+pub const FLOOR: f32 = -1.4;
+
+/// How far from [`STAGE_CENTRE`] the shadow map reaches [m].
+pub const STAGE_RADIUS: f32 = 2.7;
+
+/// A light so far away that all of its rays run the same way.
+#[derive(Clone, Copy, Debug)]
+pub struct Light {
+    /// From the scene towards the light, of unit length.
+    pub towards: Vec3,
+    /// Linear colour times intensity.
+    pub colour: Vec3,
+}
+
+/// The three lights of the stage.
+#[derive(Clone, Copy, Debug)]
+pub struct Lights {
+    /// Warm, from the upper left in front; the one that throws shadows.
+    pub key: Light,
+    /// Cool and dim, from the right.
+    pub fill: Light,
+    /// Warm and dim, from behind: it draws the silhouette.
+    pub rim: Light,
+}
+
+impl Default for Lights {
+    fn default() -> Self {
+        Self {
+            key: Light::new(Vec3::new(-1.05, 1.45, 0.85), 0xfff1dc, 2.1),
+            fill: Light::new(Vec3::new(1.2, 0.25, 0.8), 0x3a5cff, 0.17),
+            rim: Light::new(Vec3::new(0.85, 0.75, -1.25), 0xff9d5c, 1.5),
+        }
+    }
+}
+
+impl Light {
+    fn new(towards: Vec3, colour: u32, intensity: f32) -> Self {
+        Self { towards: towards.normalize(), colour: linear(colour) * intensity }
+    }
+
+    /// Maps the stage into the clip space of an orthographic camera that looks along the light.
+    pub fn clip_from_world(&self) -> Mat4 {
+        let eye = STAGE_CENTRE + self.towards * (2.0 * STAGE_RADIUS);
+        let view = view::look_at_mat4(eye, STAGE_CENTRE, Vec3::Y);
+        let r = STAGE_RADIUS;
+        proj::opengl::orthographic(-r, r, -r, r, 0.5 * r, 4.0 * r) * view
+    }
+}
+
+/// The linear colour of an sRGB one written as `0xrrggbb`.
+pub fn linear(srgb: u32) -> Vec3 {
+    let channel = |shift: u32| {
+        let c = ((srgb >> shift) & 0xff) as f32 / 255.0;
+        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    };
+    Vec3::new(channel(16), channel(8), channel(0))
+}
+
+/// The linear light that comes out of the tone curve as the colour `0xrrggbb`.
+///
+/// The backdrop is specified by what must be seen, so it has to be led through the curve backwards.
+pub fn before_tone_curve(srgb: u32) -> Vec3 {
+    let wanted = linear(srgb).to_array();
+    Vec3::from_array(wanted.map(|wanted| {
+        let (mut low, mut high) = (0.0_f32, 64.0_f32);
+        for _ in 0..48 {
+            let middle = 0.5 * (low + high);
+            if tone_curve(middle) < wanted {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    }))
+}
+
+/// The filmic curve of `post.frag`: Narkowicz's fit of the ACES reference transform (2015).
+fn tone_curve(x: f32) -> f32 {
+    let x = x * 0.62;
+    ((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_colour_led_backwards_comes_out_of_the_curve_again() {
+        for colour in [0x05070d, 0x0b1020, 0x9fb6ff] {
+            let out = before_tone_curve(colour).to_array().map(tone_curve);
+            let wanted = linear(colour).to_array();
+            for (out, wanted) in out.iter().zip(wanted) {
+                assert!((out - wanted).abs() < 1.0e-4, "{out} for {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_stage_fits_into_the_shadow_map() {
+        let clip = Lights::default().key.clip_from_world();
+        for corner in [Vec3::new(-1.0, 1.0, 0.0), Vec3::new(1.0, FLOOR, 0.6)] {
+            let at = clip.project_point3(corner);
+            assert!(at.abs().max_element() < 1.0, "{corner} lands at {at}");
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The cloth's vertices on the graphics card, kept up with the cloth.
+
+use glam::{Vec2, Vec3};
+use three_d::{Context, ElementBuffer, VertexBuffer};
+
+/// A cloth as the renderer sees it: borrowed columns, one entry a vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a> {
+    /// Where the vertices are [m].
+    pub positions: &'a [Vec3],
+    /// Unit normals of the front face.
+    pub normals: &'a [Vec3],
+    /// Where in the weave, 0 to 1 along each side.
+    pub uvs: &'a [Vec2],
+    /// Three a triangle.
+    pub indices: &'a [u32],
+    /// Two a line of the wireframe.
+    pub lines: &'a [u32],
+    /// Another number says that uvs, indices or lines are others.
+    pub revision: u64,
+}
+
+/// The buffers of one [`Surface`].
+pub struct Mesh {
+    pub(super) positions: VertexBuffer<[f32; 3]>,
+    pub(super) normals: VertexBuffer<[f32; 3]>,
+    pub(super) uvs: VertexBuffer<[f32; 2]>,
+    pub(super) triangles: ElementBuffer<u32>,
+    pub(super) lines: ElementBuffer<u32>,
+    revision: Option<u64>,
+    staging: Vec<[f32; 3]>,
+}
+
+impl Mesh {
+    /// Empty buffers.
+    pub fn new(context: &Context) -> Self {
+        Self {
+            positions: VertexBuffer::new(context),
+            normals: VertexBuffer::new(context),
+            uvs: VertexBuffer::new(context),
+            triangles: ElementBuffer::new(context),
+            lines: ElementBuffer::new(context),
+            revision: None,
+            staging: Vec::new(),
+        }
+    }
+
+    /// Uploads what may have changed: positions and normals always, the rest with the revision.
+    pub fn update(&mut self, surface: &Surface<'_>) {
+        let staging = &mut self.staging;
+        let mut upload = |buffer: &mut VertexBuffer<[f32; 3]>, values: &[Vec3]| {
+            staging.clear();
+            staging.extend(values.iter().map(|v| v.to_array()));
+            buffer.fill(staging);
+        };
+        upload(&mut self.positions, surface.positions);
+        upload(&mut self.normals, surface.normals);
+        if self.revision != Some(surface.revision) {
+            let uvs: Vec<_> = surface.uvs.iter().map(|uv| uv.to_array()).collect();
+            self.uvs.fill(&uvs);
+            self.triangles.fill(surface.indices);
+            self.lines.fill(surface.lines);
+            self.revision = Some(surface.revision);
+        }
+    }
+}

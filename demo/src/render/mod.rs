@@ -1,0 +1,234 @@
+//! The picture: a cloth, its shadow and its reflection on a dark stage, from positions to pixels.
+//!
+//! Light is gathered in a linear, multisampled half-float target; [`post`] turns it into the
+//! picture. Every shader is written for both desktop GL 3.3 and WebGL 2.
+
+pub mod cloth_material;
+pub mod glow;
+pub mod ground;
+pub mod light;
+pub mod mesh;
+pub mod post;
+pub mod shadow;
+pub mod sky;
+pub mod wireframe;
+
+use glam::{Mat4, Vec3};
+use three_d::{
+    ClearState, ColorTarget, Context, CoreError, Program, RenderTarget, RenderTargetMultisample,
+    VertexBuffer, Viewport, f16,
+};
+
+use crate::camera::Sight;
+pub use mesh::Surface;
+
+/// What a frame shows besides the cloth itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// From where, and how wide.
+    pub sight: Sight,
+    /// Whether the links are drawn over the dimmed cloth.
+    pub wireframe: bool,
+}
+
+/// Everything on the graphics card; dropped and made anew when a context is lost.
+pub struct Renderer {
+    context: Context,
+    lights: light::Lights,
+    mesh: mesh::Mesh,
+    shadow: shadow::Shadow,
+    floor_shadow: shadow::Shadow,
+    sky: sky::Sky,
+    cloth: cloth_material::ClothMaterial,
+    ground: ground::Ground,
+    glow: glow::Glow,
+    wireframe: wireframe::Wireframe,
+    post: post::Post,
+    corners: Corners,
+    target: Option<Target>,
+}
+
+/// The linear picture while it is made: drawn multisampled, then resolved for [`post`].
+struct Target {
+    samples: RenderTargetMultisample<[f16; 4], f32>,
+    resolved: three_d::Texture2D,
+}
+
+/// Texels along a side of the shadow map that the cloth itself reads.
+const SHARP: u32 = 1024;
+/// And of the one for the floor, whose shadows are far from what casts them and so softer.
+const SOFT: u32 = 320;
+
+/// Samples per pixel.
+const SAMPLES: u32 = 4;
+
+impl Renderer {
+    /// Compiles the shaders and makes the textures.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses a shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        Ok(Self {
+            context: context.clone(),
+            lights: light::Lights::default(),
+            mesh: mesh::Mesh::new(context),
+            shadow: shadow::Shadow::new(context, SHARP)?,
+            floor_shadow: shadow::Shadow::new(context, SOFT)?,
+            sky: sky::Sky::new(context)?,
+            cloth: cloth_material::ClothMaterial::new(context)?,
+            ground: ground::Ground::new(context)?,
+            glow: glow::Glow::new(context)?,
+            wireframe: wireframe::Wireframe::new(context)?,
+            post: post::Post::new(context)?,
+            corners: Corners::new(context),
+            target: None,
+        })
+    }
+
+    /// Draws one picture of `surface` into `output`, filling it.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses.
+    pub fn draw(
+        &mut self,
+        surface: &Surface<'_>,
+        frame: &Frame,
+        output: &RenderTarget<'_>,
+    ) -> Result<(), CoreError> {
+        let (width, height) = (output.width().max(1), output.height().max(1));
+        self.fit(width, height);
+        self.mesh.update(surface);
+        self.shadow.draw(&self.mesh, &self.lights)?;
+        self.floor_shadow.draw(&self.mesh, &self.lights)?;
+
+        let Some(target) = &self.target else {
+            return Ok(());
+        };
+        let pass = Pass {
+            viewport: Viewport::new_at_origo(width, height),
+            clip_from_world: frame.sight.clip_from_world(width as f32 / height as f32),
+            sight: frame.sight,
+            lights: self.lights,
+        };
+        target
+            .samples
+            .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
+            .write::<CoreError>(|| {
+                self.sky.draw(&pass, &self.corners);
+                self.cloth.draw_reflection(&pass, &self.mesh, &self.shadow);
+                self.ground.draw(&pass, &self.corners, &self.floor_shadow);
+                let dim = if frame.wireframe { 0.16 } else { 1.0 };
+                self.cloth.draw(&pass, &self.mesh, &self.shadow, dim);
+                if frame.wireframe {
+                    self.wireframe.draw(&pass, &self.mesh);
+                }
+                self.glow.draw(&pass, &self.corners);
+                Ok(())
+            })?;
+        target.samples.resolve_color_to(&target.resolved.as_color_target(None));
+        output.write::<CoreError>(|| {
+            self.post.draw(pass.viewport, &self.corners, &target.resolved);
+            Ok(())
+        })?;
+        Ok(())
+    }
+
+    /// The context that everything here lives in.
+    pub fn context(&self) -> &Context {
+        &self.context
+    }
+
+    fn fit(&mut self, width: u32, height: u32) {
+        let fits = self
+            .target
+            .as_ref()
+            .is_some_and(|t| t.resolved.width() == width && t.resolved.height() == height);
+        if !fits {
+            // The old one goes first, so that two never share the card's memory.
+            self.target = None;
+            self.target = Some(Target {
+                samples: RenderTargetMultisample::new(&self.context, width, height, SAMPLES),
+                resolved: post::linear_texture(&self.context, width, height),
+            });
+        }
+    }
+}
+
+/// A texture that a picture can be drawn into and read from: what `--shot` uses for a screen.
+pub struct Canvas {
+    colour: three_d::Texture2D,
+    depth: three_d::DepthTexture2D,
+}
+
+impl Canvas {
+    /// A canvas of `width` × `height` pixels.
+    pub fn new(context: &Context, width: u32, height: u32) -> Self {
+        use three_d::{DepthTexture2D, Interpolation::Nearest, Texture2D, Wrapping::ClampToEdge};
+        Self {
+            colour: Texture2D::new_empty::<[u8; 4]>(
+                context,
+                width,
+                height,
+                Nearest,
+                Nearest,
+                None,
+                ClampToEdge,
+                ClampToEdge,
+            ),
+            depth: DepthTexture2D::new::<f32>(context, width, height, ClampToEdge, ClampToEdge),
+        }
+    }
+
+    /// Where to draw.
+    pub fn target(&self) -> RenderTarget<'_> {
+        RenderTarget::new(self.colour.as_color_target(None), self.depth.as_depth_target())
+    }
+
+    /// The pixels, top row first.
+    pub fn pixels(&self) -> Vec<[u8; 4]> {
+        let target: ColorTarget<'_> = self.colour.as_color_target(None);
+        target.read()
+    }
+}
+
+/// What every draw call of one picture shares.
+pub(crate) struct Pass {
+    viewport: Viewport,
+    clip_from_world: Mat4,
+    sight: Sight,
+    lights: light::Lights,
+}
+
+impl Pass {
+    fn aspect(&self) -> f32 {
+        self.viewport.width as f32 / self.viewport.height as f32
+    }
+}
+
+/// Two triangles over the square from -1 to 1.
+pub(crate) struct Corners(VertexBuffer<[f32; 2]>);
+
+impl Corners {
+    fn new(context: &Context) -> Self {
+        let (l, h) = (-1.0, 1.0);
+        Self(VertexBuffer::new_with_data(
+            context,
+            &[[l, l], [h, l], [h, h], [l, l], [h, h], [l, h]],
+        ))
+    }
+
+    fn draw(&self, program: &Program, states: three_d::RenderStates, viewport: Viewport) {
+        program.use_vertex_attribute("corner", &self.0);
+        program.draw_arrays(states, viewport, self.0.vertex_count());
+    }
+}
+
+/// glam's matrix as three-d takes it.
+pub(crate) fn matrix(m: Mat4) -> three_d::Mat4 {
+    m.to_cols_array_2d().into()
+}
+
+/// glam's vector as three-d takes it.
+pub(crate) fn vector(v: Vec3) -> three_d::Vec3 {
+    v.to_array().into()
+}

@@ -1,0 +1,56 @@
+//! From linear light to pixels: vignette, filmic curve, sRGB, dither.
+
+use three_d::{
+    Context, CoreError, DepthTest, Interpolation, Program, RenderStates, Texture2D, Viewport,
+    Wrapping, WriteMask, f16,
+};
+
+use super::Corners;
+
+/// The last pass.
+pub struct Post {
+    program: Program,
+}
+
+impl Post {
+    /// Compiles the pass.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        Ok(Self {
+            program: Program::from_source(
+                context,
+                include_str!("shaders/screen.vert"),
+                include_str!("shaders/post.frag"),
+            )?,
+        })
+    }
+
+    pub(super) fn draw(&self, viewport: Viewport, corners: &Corners, scene: &Texture2D) {
+        let p = &self.program;
+        p.use_texture("scene", scene);
+        p.use_uniform("aspect", viewport.width as f32 / viewport.height as f32);
+        p.use_uniform("exposure", 1.0_f32);
+        let states = RenderStates {
+            depth_test: DepthTest::Always,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
+        corners.draw(p, states, viewport);
+    }
+}
+
+/// A half-float texture for linear light.
+pub(super) fn linear_texture(context: &Context, width: u32, height: u32) -> Texture2D {
+    Texture2D::new_empty::<[f16; 4]>(
+        context,
+        width,
+        height,
+        Interpolation::Linear,
+        Interpolation::Linear,
+        None,
+        Wrapping::ClampToEdge,
+        Wrapping::ClampToEdge,
+    )
+}

@@ -1,0 +1,156 @@
+// Woven silk: two faces, a satin highlight stretched across the threads, sheen at grazing angles,
+// and key light that comes through from behind.
+
+uniform vec3 eye;
+uniform vec3 fillTowards;
+uniform vec3 fillColour;
+uniform vec3 rimTowards;
+uniform vec3 rimColour;
+uniform vec3 frontAlbedo;
+uniform vec3 backAlbedo;
+uniform float dim;      // 1.0, less under the wireframe
+uniform float mirrored; // 1.0: this is the floor's picture of the cloth
+uniform float floorHeight;
+
+in vec3 at;
+in vec3 facing;
+in vec2 uv;
+
+layout (location = 0) out vec4 colour;
+
+const float PI = 3.14159265;
+const float THREADS = 250.0; // pairs of threads along each side
+
+float hash(vec2 p) {
+    uvec2 q = uvec2(ivec2(p)) * uvec2(1597334673u, 3812015801u);
+    uint n = (q.x ^ q.y) * 1597334673u;
+    n ^= n >> 15;
+    n *= 2246822519u;
+    return float(n >> 8) / 16777216.0;
+}
+
+float noise(vec2 p) {
+    vec2 i = floor(p);
+    vec2 f = p - i;
+    f = f * f * (3.0 - 2.0 * f);
+    return mix(
+        mix(hash(i), hash(i + vec2(1.0, 0.0)), f.x),
+        mix(hash(i + vec2(0.0, 1.0)), hash(i + vec2(1.0, 1.0)), f.x),
+        f.y);
+}
+
+// Tilts of the surface along warp and weft: the threads pass over and under each other, and no
+// thread is evenly thick. Both fade before they could flicker.
+vec2 weave(vec2 uv, float footprint) {
+    vec2 t = uv * THREADS;
+    float near = 1.0 - smoothstep(0.10, 0.26, footprint * THREADS);
+    vec2 bump = vec2(0.0);
+    if (near > 0.0) {
+        float over = sin(PI * t.x) * sin(PI * t.y);
+        bump = near * 0.34 * vec2(cos(PI * t.x) * sin(PI * t.y), sin(PI * t.x) * cos(PI * t.y))
+             + near * 0.10 * over * vec2(sin(2.0 * PI * t.x), sin(2.0 * PI * t.y));
+    }
+    float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 130.0);
+    vec2 slub = vec2(
+        noise(vec2(uv.x * 130.0, uv.y * 5.0)) - 0.5,
+        noise(vec2(uv.x * 4.0 + 71.0, uv.y * 130.0)) - 0.5);
+    return bump + fine * 0.05 * slub;
+}
+
+// The studio as the satin mirrors it: a graded dome and two soft boxes.
+vec3 studio(vec3 d) {
+    vec3 dome = mix(vec3(0.010, 0.014, 0.030), vec3(0.055, 0.075, 0.150), smoothstep(-0.35, 0.95, d.y));
+    float key = pow(max(dot(d, keyTowards), 0.0), 7.0);
+    float fill = pow(max(dot(d, fillTowards), 0.0), 5.0);
+    float rim = pow(max(dot(d, rimTowards), 0.0), 9.0);
+    return dome + 0.34 * keyColour * key + 0.5 * fillColour * fill + 0.5 * rimColour * rim;
+}
+
+// GGX with one width along the weft and another along the warp (Burley, "Physically Based Shading
+// at Disney", 2012), visibility by Kelemen's approximation.
+float satin(vec3 n, vec3 t, vec3 b, vec3 l, vec3 v, vec2 width) {
+    vec3 h = normalize(l + v);
+    float nh = dot(n, h);
+    vec3 q = vec3(dot(t, h) / width.x, dot(b, h) / width.y, nh);
+    float d = dot(q, q);
+    float spread = 1.0 / (PI * width.x * width.y * d * d);
+    float vh = max(dot(v, h), 0.1);
+    return spread * 0.25 / (vh * vh);
+}
+
+// The fuzz of loose fibres: an inverted Gaussian lobe (Estevez and Kulla, 2017, simplified).
+float fuzz(float nh, float nl, float nv) {
+    float s2 = max(1.0 - nh * nh, 0.0);
+    float spread = (2.0 + 1.0 / 0.32) * pow(s2, 0.5 / 0.32) / (2.0 * PI);
+    return spread / (4.0 * (nl + nv - nl * nv) + 0.02);
+}
+
+void main() {
+    bool front = gl_FrontFacing != (mirrored > 0.5);
+    vec3 v = normalize(eye - at);
+    vec3 smoothN = normalize(facing);
+    if (!front) smoothN = -smoothN;
+    // An interpolated normal may lean away from the eye at a fold; bring it back to the horizon.
+    float away = dot(smoothN, v);
+    if (away < 0.02) smoothN = normalize(smoothN + v * (0.02 - away));
+
+    // Warp and weft directions from how the position changes with the weave's own coordinates.
+    vec3 px = dFdx(at);
+    vec3 py = dFdy(at);
+    vec2 ux = dFdx(uv);
+    vec2 uy = dFdy(uv);
+    float flip = ux.x * uy.y - ux.y * uy.x < 0.0 ? -1.0 : 1.0;
+    vec3 t = (px * uy.y - py * ux.y) * flip;
+    t = normalize(t - smoothN * dot(smoothN, t) + vec3(1.0e-6, 0.0, 0.0));
+    vec3 b = cross(smoothN, t);
+    float footprint = max(length(ux), length(uy));
+
+    vec2 tilt = weave(uv, footprint);
+    vec3 n = normalize(smoothN + t * tilt.x + b * tilt.y);
+
+    vec3 albedo = front ? frontAlbedo : backAlbedo;
+    // A hem: folded over twice, so a little deeper in colour and lighter-tight, with one seam.
+    vec2 inside = min(uv, 1.0 - uv);
+    float edge = min(inside.x, inside.y);
+    float hem = 1.0 - smoothstep(0.0125, 0.0125 + max(footprint, 0.0004), edge);
+    float seam = 1.0 - smoothstep(0.0, 0.0011 + 0.5 * footprint, abs(edge - 0.0115));
+    albedo *= 1.0 - 0.07 * hem - 0.16 * seam;
+
+    float nv = max(dot(n, v), 0.03);
+    float nl = dot(n, keyTowards);
+    float side = dot(smoothN, keyTowards) >= 0.0 ? 1.0 : -1.0;
+    float slope = sqrt(max(1.0 - nl * nl, 0.0));
+    float lit = keyVisibility(at + smoothN * side * (0.008 + 0.016 * slope), 2, 1.1, 0.0008);
+
+    vec3 light = vec3(0.0);
+    // Key: soft-edged diffuse, satin and fuzz on the lit face; what comes through on the other.
+    float soft = max(nl, 0.0);
+    // How open to the studio a point is: what turns away or lies in shadow is hollow.
+    float open = lit * smoothstep(-0.15, 0.55, nl);
+    vec3 h = normalize(keyTowards + v);
+    float lobe = satin(n, t, b, keyTowards, v, vec2(0.21, 0.46)) * max(nl, 0.0);
+    light += keyColour * lit * (albedo * soft / PI * 1.08 + vec3(0.15) * lobe);
+    light += keyColour * lit * max(nl, 0.0) * 0.20 * vec3(0.80, 0.87, 1.0) * fuzz(dot(n, h), max(nl, 0.0), nv);
+    float through = max(-nl, 0.0);
+    through = 0.30 * through + 0.55 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
+    light += keyColour * lit * through * (1.0 - 0.30 * hem) * albedo * vec3(0.90, 0.92, 1.0) * 0.66;
+
+    // Fill and rim throw no shadow, so they are kept off faces that turn away.
+    float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);
+    light += fillColour * albedo * fl / PI * 1.6;
+    float rl = max(dot(n, rimTowards), 0.0);
+    light += rimColour * (albedo * rl / PI * 0.35 + 0.5 * pow(1.0 - nv, 3.0) * max(dot(smoothN, rimTowards) + 0.35, 0.0) * 0.6);
+    light += rimColour * max(-dot(n, rimTowards), 0.0) * albedo * 0.07;
+
+    // Sky and floor, and what the satin mirrors of the studio.
+    vec3 dome = mix(vec3(0.034, 0.036, 0.050), vec3(0.125, 0.145, 0.205), 0.5 + 0.5 * n.y);
+    float hollow = 0.5 + 0.5 * open;
+    light += albedo * dome * hollow * 1.05;
+    float grazing = pow(1.0 - nv, 4.0);
+    vec3 mirror = reflect(-v, normalize(mix(n, smoothN, 0.3)));
+    light += studio(mirror) * (0.045 + 0.34 * grazing) * mix(0.35, 1.0, max(open, through * lit));
+
+    float alpha = 1.0;
+    if (mirrored > 0.5) alpha = 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0));
+    colour = vec4(light * dim, alpha);
+}

@@ -1,0 +1,18 @@
+uniform mat4 clipFromWorld;
+uniform float mirrored; // 1.0: drawn upside down, as the polished floor shows it
+uniform float floorHeight;
+
+in vec3 position;
+in vec3 normal;
+in vec2 texcoord;
+
+out vec3 at;
+out vec3 facing;
+out vec2 uv;
+
+void main() {
+    at = position;
+    facing = normal;
+    uv = texcoord;
+    gl_Position = clipFromWorld * vec4(position.x, mix(position.y, 2.0 * floorHeight - position.y, mirrored), position.z, 1.0);
+}

@@ -1,0 +1,10 @@
+uniform mat4 clipFromWorld;
+uniform vec3 centre;
+uniform vec3 right;
+uniform vec3 up;
+in vec2 corner;
+out vec2 uv;
+void main() {
+    uv = corner * 0.5 + 0.5;
+    gl_Position = clipFromWorld * vec4(centre + right * corner.x + up * corner.y, 1.0);
+}

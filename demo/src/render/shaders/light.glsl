@@ -1,0 +1,32 @@
+// Shared by everything that is lit: the three lights and the shadow of the key light.
+#ifdef GL_ES
+precision highp sampler2DShadow;
+#endif
+
+uniform vec3 keyTowards;
+uniform vec3 keyColour;
+uniform mat4 shadowFromWorld;
+uniform sampler2DShadow shadowMap;
+
+// The share of the key light that arrives at a point: a tent over (2n+1)² taps, `spread` texels apart.
+// Every tap is already a blend of four texels, so up to two texels apart no gap shows.
+float keyVisibility(vec3 at, int n, float spread, float bias) {
+    vec3 s = (shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5;
+    vec2 border = min(s.xy, 1.0 - s.xy);
+    if (min(border.x, border.y) <= 0.0 || s.z >= 1.0) return 1.0;
+    vec2 texel = spread / vec2(textureSize(shadowMap, 0));
+    float lit = 0.0;
+    float total = 0.0;
+    float reach = float(n) + 1.0;
+    for (int y = -n; y <= n; y++) {
+        for (int x = -n; x <= n; x++) {
+            vec2 o = vec2(float(x), float(y));
+            float w = max(0.0, 1.0 - length(o) / reach);
+            lit += w * texture(shadowMap, vec3(s.xy + o * texel, s.z - bias));
+            total += w;
+        }
+    }
+    lit /= total;
+    // The map ends softly.
+    return mix(1.0, lit, smoothstep(0.0, 0.06, min(border.x, border.y)));
+}

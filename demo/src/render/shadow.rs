@@ -1,0 +1,86 @@
+//! The shadow of the key light: a depth map of the stage, compared and filtered by the card.
+//!
+//! The map never moves, so that still shadows stay still.
+
+use three_d::context::{self, HasContext};
+use three_d::{
+    ClearState, Context, CoreError, DepthTexture2D, Program, RenderStates, Viewport, Wrapping,
+    WriteMask,
+};
+
+use super::light::Lights;
+use super::mesh::Mesh;
+use super::{matrix, vector};
+
+/// The map and the program that fills it.
+pub struct Shadow {
+    context: Context,
+    program: Program,
+    map: DepthTexture2D,
+}
+
+impl Shadow {
+    /// An empty map of `size` texels a side.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context, size: u32) -> Result<Self, CoreError> {
+        Ok(Self {
+            context: context.clone(),
+            program: Program::from_source(
+                context,
+                include_str!("shaders/depth.vert"),
+                include_str!("shaders/depth.frag"),
+            )?,
+            map: DepthTexture2D::new::<f32>(
+                context,
+                size,
+                size,
+                Wrapping::ClampToEdge,
+                Wrapping::ClampToEdge,
+            ),
+        })
+    }
+
+    /// Fills the map with the cloth as the key light sees it.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses.
+    pub fn draw(&self, mesh: &Mesh, lights: &Lights) -> Result<(), CoreError> {
+        self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
+            let clip = lights.key.clip_from_world();
+            self.program.use_uniform("shadowFromWorld", matrix(clip));
+            self.program.use_vertex_attribute("position", &mesh.positions);
+            self.program.draw_elements(
+                RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() },
+                Viewport::new_at_origo(self.map.width(), self.map.height()),
+                &mesh.triangles,
+            );
+            Ok(())
+        })?;
+        Ok(())
+    }
+
+    /// Hands map and key light to a program that includes `light.glsl`.
+    pub(super) fn use_in(&self, program: &Program, lights: &Lights) {
+        let clip = lights.key.clip_from_world();
+        program.use_uniform("shadowFromWorld", matrix(clip));
+        program.use_uniform("keyTowards", vector(lights.key.towards));
+        program.use_uniform("keyColour", vector(lights.key.colour));
+        program.use_depth_texture("shadowMap", &self.map);
+        // three-d binds the map for plain reads; a shadow sampler compares and blends instead.
+        let parameters = [
+            (context::TEXTURE_COMPARE_MODE, context::COMPARE_REF_TO_TEXTURE),
+            (context::TEXTURE_COMPARE_FUNC, context::LEQUAL),
+            (context::TEXTURE_MIN_FILTER, context::LINEAR),
+            (context::TEXTURE_MAG_FILTER, context::LINEAR),
+        ];
+        for (name, value) in parameters {
+            // SAFETY: plain GL state of the texture that `use_depth_texture` has just bound; the
+            // context is current wherever a frame is drawn.
+            unsafe {
+                self.context.tex_parameter_i32(context::TEXTURE_2D, name, value as i32);
+            }
+        }
+    }
+}

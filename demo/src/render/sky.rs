@@ -1,0 +1,40 @@
+//! The backdrop: the brief's gradient, with light gathered behind the cloth.
+
+use three_d::{Context, CoreError, DepthTest, Program, RenderStates, WriteMask};
+
+use super::light::before_tone_curve;
+use super::{Corners, Pass, vector};
+
+/// The program that fills the screen with the backdrop.
+pub struct Sky {
+    program: Program,
+}
+
+impl Sky {
+    /// Compiles the backdrop.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        Ok(Self {
+            program: Program::from_source(
+                context,
+                include_str!("shaders/screen.vert"),
+                include_str!("shaders/sky.frag"),
+            )?,
+        })
+    }
+
+    pub(super) fn draw(&self, pass: &Pass, corners: &Corners) {
+        let p = &self.program;
+        p.use_uniform("lowColour", vector(before_tone_curve(0x05070d)));
+        p.use_uniform("highColour", vector(before_tone_curve(0x0b1020)));
+        p.use_uniform("aspect", pass.aspect());
+        let states = RenderStates {
+            depth_test: DepthTest::Always,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
+        corners.draw(p, states, pass.viewport);
+    }
+}

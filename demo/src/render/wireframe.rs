@@ -1,0 +1,59 @@
+//! The links of the cloth as fine lines over it.
+
+use three_d::context::{self, HasContext};
+use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
+
+use super::light::linear;
+use super::mesh::Mesh;
+use super::{Pass, matrix};
+
+/// The program that draws lines.
+pub struct Wireframe {
+    context: Context,
+    program: Program,
+}
+
+impl Wireframe {
+    /// Compiles the lines.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        Ok(Self {
+            context: context.clone(),
+            program: Program::from_source(
+                context,
+                include_str!("shaders/wire.vert"),
+                include_str!("shaders/wire.frag"),
+            )?,
+        })
+    }
+
+    pub(super) fn draw(&self, pass: &Pass, mesh: &Mesh) {
+        if mesh.lines.count() == 0 {
+            return;
+        }
+        let p = &self.program;
+        let tint = linear(0x7cc0ff);
+        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("tint", three_d::Vec4::new(tint.x, tint.y, tint.z, 0.55));
+        p.use_vertex_attribute("position", &mesh.positions);
+        let states = RenderStates {
+            blend: Blend::TRANSPARENCY,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
+        p.draw_elements_with(states, pass.viewport, &mesh.lines, || {
+            // SAFETY: three-d has bound the program, the vertices and this element buffer, whose
+            // count it knows; only its choice of triangles is replaced by lines.
+            unsafe {
+                self.context.draw_elements(
+                    context::LINES,
+                    mesh.lines.count() as i32,
+                    context::UNSIGNED_INT,
+                    0,
+                );
+            }
+        });
+    }
+}

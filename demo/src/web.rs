@@ -1,0 +1,168 @@
+//! The page's face of the demo: what `demo/web/main.js` calls.
+//!
+//! The page owns canvas, events, storage and HTML controls; everything that decides anything is in
+//! the modules that the window shares.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+use three_d::{Context, RenderTarget};
+use wasm_bindgen::prelude::*;
+
+use crate::app::App;
+use crate::controls;
+use crate::render::Renderer;
+use crate::settings::Settings;
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_namespace = performance, js_name = now)]
+    fn now() -> f64;
+}
+
+/// The running demo, and what it has on the graphics card.
+#[wasm_bindgen]
+pub struct Demo {
+    app: App,
+    renderer: Option<Renderer>,
+}
+
+fn told(error: impl std::fmt::Display) -> JsError {
+    JsError::new(&error.to_string())
+}
+
+#[wasm_bindgen]
+impl Demo {
+    /// Starts with the settings of an earlier visit, or the usual ones if there are none or they
+    /// are corrupt.
+    #[wasm_bindgen(constructor)]
+    pub fn new(kept: Option<String>) -> Result<Demo, JsError> {
+        let settings = kept.and_then(|text| Settings::from_json(&text).ok()).unwrap_or_default();
+        let app = App::new(settings, || now() * 1.0e-3).map_err(told)?;
+        Ok(Self { app, renderer: None })
+    }
+
+    /// Takes a WebGL 2 context; again after one was lost.
+    pub fn attach(&mut self, gl: web_sys::WebGl2RenderingContext) -> Result<(), JsError> {
+        self.renderer = None;
+        let gl = three_d::context::Context::from_webgl2_context(gl);
+        let context = Context::from_gl_context(Arc::new(gl)).map_err(told)?;
+        self.renderer = Some(Renderer::new(&context).map_err(told)?);
+        Ok(())
+    }
+
+    /// The context is lost: lets go of everything in it.
+    pub fn detach(&mut self) {
+        self.renderer = None;
+    }
+
+    /// The table of controls as JSON.
+    pub fn controls() -> String {
+        controls::to_json()
+    }
+
+    /// The settings as JSON, for storage.
+    pub fn settings(&self) -> String {
+        self.app.settings().to_json()
+    }
+
+    /// The value of a control: a switch is 0 or 1, a choice its place.
+    pub fn get(&self, name: &str) -> f32 {
+        controls::find(name).map_or(0.0, |c| c.get(self.app.settings()))
+    }
+
+    /// The value of a control as it is printed.
+    pub fn text(&self, name: &str) -> String {
+        controls::find(name).map_or_else(String::new, |c| c.text(self.app.settings()))
+    }
+
+    /// Gives a control a value, or presses it if it is a button.
+    pub fn set(&mut self, name: &str, value: f32) -> Result<(), JsError> {
+        self.app.set(name, value).map_err(told)
+    }
+
+    /// Does what a key does, and says whether it does anything.
+    pub fn key(&mut self, key: char, shift: bool) -> Result<bool, JsError> {
+        self.app.key(key, shift).map_err(told)
+    }
+
+    /// Whether the visitor asks for reduced motion.
+    #[wasm_bindgen(js_name = setCalm)]
+    pub fn set_calm(&mut self, calm: bool) -> Result<(), JsError> {
+        self.app.set_calm(calm).map_err(told)
+    }
+
+    /// The canvas has this size in CSS pixels.
+    pub fn resize(&mut self, width: f32, height: f32) {
+        self.app.resize(Vec2::new(width, height));
+    }
+
+    /// A pointer comes down, in CSS pixels of the canvas.
+    pub fn press(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
+        self.app.press(id, Vec2::new(x, y)).map_err(told)
+    }
+
+    /// A pointer moves.
+    pub fn drag(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
+        self.app.drag(id, Vec2::new(x, y)).map_err(told)
+    }
+
+    /// A pointer goes up, or is lost.
+    pub fn lift(&mut self, id: u32) -> Result<(), JsError> {
+        self.app.lift(id).map_err(told)
+    }
+
+    /// The mouse has left the canvas.
+    pub fn leave(&mut self) {
+        self.app.leave();
+    }
+
+    /// The wheel turns, in CSS pixels.
+    pub fn wheel(&mut self, pixels: f32) {
+        self.app.wheel(pixels);
+    }
+
+    /// Turns the camera as a drag would, in heights of the screen.
+    pub fn orbit(&mut self, x: f32, y: f32) {
+        self.app.camera().orbit(Vec2::new(x, y));
+    }
+
+    /// Where the camera is [m].
+    pub fn eye(&mut self) -> Box<[f32]> {
+        Box::new(self.app.camera().sight().eye.to_array())
+    }
+
+    /// The CSS cursor that fits.
+    pub fn cursor(&mut self) -> Result<String, JsError> {
+        self.app.cursor().map(|c| c.css().into()).map_err(told)
+    }
+
+    /// Lets `seconds` pass and draws into a canvas of so many device pixels.
+    pub fn frame(&mut self, seconds: f32, width: u32, height: u32) -> Result<(), JsError> {
+        self.app.frame(seconds).map_err(told)?;
+        if let Some(renderer) = &mut self.renderer {
+            let context = renderer.context().clone();
+            let screen = RenderTarget::screen(&context, width, height);
+            self.app.draw(renderer, &screen).map_err(told)?;
+        }
+        Ok(())
+    }
+
+    /// The numbers of the panel as JSON.
+    pub fn readout(&self) -> String {
+        serde_json::to_string(&self.app.readout()).unwrap_or_default()
+    }
+
+    /// The hash of the cloth's state, as the same hexadecimal number everywhere.
+    #[wasm_bindgen(js_name = stateHash)]
+    pub fn state_hash(&self) -> String {
+        format!("{:016x}", self.app.state_hash())
+    }
+
+    /// Where a particle appears, x and y in CSS pixels of the canvas; nothing if it does not.
+    #[wasm_bindgen(js_name = particleScreen)]
+    pub fn particle_screen(&mut self, particle: u32) -> Option<Box<[f32]>> {
+        let at = self.app.particle_on_screen(particle)?;
+        Some(Box::new([at.x, at.y]))
+    }
+}

@@ -1,0 +1,73 @@
+//! Pictures that the demo draws without a window. They need EGL; without it they fail and say which
+//! packages to install.
+
+use muslin_demo::settings::Settings;
+use muslin_demo::shot::{Picture, Shot};
+
+fn take(shot: &Shot) -> Picture {
+    shot.take().unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn small() -> Shot {
+    Shot { size: [320, 180], ticks: 60, ..Shot::default() }
+}
+
+/// Mean brightness, 0 to 255, of a part of the picture given in shares of its sides.
+fn brightness(picture: &Picture, x: [f32; 2], y: [f32; 2]) -> f32 {
+    let [width, height] = picture.size.map(|side| side as f32);
+    let (mut sum, mut count) = (0.0, 0);
+    for row in (y[0] * height) as usize..(y[1] * height) as usize {
+        for column in (x[0] * width) as usize..(x[1] * width) as usize {
+            let at = 3 * (row * picture.size[0] as usize + column);
+            sum += picture.rgb[at..at + 3].iter().map(|c| f32::from(*c)).sum::<f32>() / 3.0;
+            count += 1;
+        }
+    }
+    sum / count as f32
+}
+
+/// The share of bytes that two pictures differ in by more than a breath.
+fn difference(a: &Picture, b: &Picture) -> f32 {
+    let differ = a.rgb.iter().zip(&b.rgb).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    differ as f32 / a.rgb.len() as f32
+}
+
+#[test]
+fn the_sheet_stands_out_bright_against_a_dark_stage() {
+    let picture = take(&small());
+    let cloth = brightness(&picture, [0.42, 0.58], [0.25, 0.65]);
+    let corner = brightness(&picture, [0.0, 0.12], [0.0, 0.15]);
+    assert!(cloth > 70.0 && cloth < 240.0, "the cloth's brightness is {cloth}");
+    assert!(corner < 30.0, "the corner's brightness is {corner}");
+}
+
+#[test]
+fn the_floor_is_darker_where_the_shadow_falls() {
+    let lit = take(&small());
+    let mut dropped = small();
+    dropped.settings.pinning = muslin_demo::settings::Pinning::Corners;
+    // The same stage with the sheet held flat between four corners throws another shadow.
+    let other = take(&dropped);
+    assert!(difference(&lit, &other) > 0.02);
+    let shadow = brightness(&lit, [0.62, 0.72], [0.84, 0.90]);
+    let open = brightness(&lit, [0.20, 0.30], [0.84, 0.90]);
+    assert!(open > 1.3 * shadow, "open floor {open}, shadow {shadow}");
+}
+
+#[test]
+fn the_same_shot_gives_the_same_picture_and_later_ticks_another() {
+    let first = take(&small());
+    assert!(first.rgb == take(&small()).rgb);
+    let later = take(&Shot { ticks: 90, ..small() });
+    assert!(difference(&first, &later) > 0.01);
+}
+
+#[test]
+fn wireframe_and_a_rip_can_be_seen() {
+    let plain = take(&Shot { ticks: 120, ..small() });
+    let settings = Settings { wireframe: true, ..Settings::default() };
+    let lines = take(&Shot { ticks: 120, settings, ..small() });
+    assert!(difference(&plain, &lines) > 0.05);
+    let ripped = take(&Shot { ticks: 120, tear: true, ..small() });
+    assert!(difference(&plain, &ripped) > 0.01);
+}

@@ -1,0 +1,90 @@
+// The panel: real HTML controls, drawn from the demo's own table.
+
+let rows = 0;
+
+function element(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+function named(control, made) {
+  made.title = `${control.about} (${control.key})`;
+  return made;
+}
+
+/**
+ * Fills `form` with a row a control. `get(name)` and `text(name)` read the demo, `set(name, value)`
+ * changes it. Returns a function that shows the values as they are now.
+ */
+export function drawPanel(form, table, { get, text, set }) {
+  const refreshers = [];
+  for (const control of table) {
+    const { row, refresh } = builders[control.kind](control, { get, text, set });
+    form.append(named(control, row));
+    if (refresh) refreshers.push(refresh);
+  }
+  const refresh = () => refreshers.forEach((each) => each());
+  refresh();
+  return refresh;
+}
+
+const builders = {
+  slider(control, { get, text, set }) {
+    const id = `control-${control.name}`;
+    const [min, max, step] = control.range;
+    const chip = element("output", { className: "chip", htmlFor: id });
+    const input = element("input", { type: "range", id, name: control.name, min, max, step });
+    input.setAttribute("aria-keyshortcuts", control.key);
+    input.addEventListener("input", () => set(control.name, input.valueAsNumber));
+    const label = element("label", { className: "name", htmlFor: id }, control.label);
+    const refresh = () => {
+      const value = get(control.name);
+      input.value = String(value);
+      input.style.setProperty("--fill", `${(100 * (value - min)) / (max - min)}%`);
+      chip.value = text(control.name);
+      input.setAttribute("aria-valuetext", chip.value);
+    };
+    return { row: element("div", { className: "row" }, label, chip, input), refresh };
+  },
+
+  switch(control, { get, set }) {
+    const id = `control-${control.name}`;
+    const input = element("input", { type: "checkbox", id, name: control.name });
+    input.setAttribute("role", "switch");
+    input.setAttribute("aria-keyshortcuts", control.key);
+    input.addEventListener("change", () => set(control.name, input.checked ? 1 : 0));
+    const label = element("label", { className: "name", htmlFor: id }, control.label);
+    const refresh = () => {
+      input.checked = get(control.name) === 1;
+    };
+    return { row: element("div", { className: "row" }, label, input), refresh };
+  },
+
+  choice(control, { get, set }) {
+    const group = `choice-${control.name}-${rows++}`;
+    const inputs = control.options.map((_, i) => {
+      const input = element("input", { type: "radio", name: group, value: String(i) });
+      input.addEventListener("change", () => set(control.name, i));
+      return input;
+    });
+    const segments = element("div", { className: "segments" });
+    control.options.forEach((option, i) => {
+      segments.append(element("label", {}, inputs[i], element("span", {}, option)));
+    });
+    const legend = element("legend", { className: "name" }, control.label);
+    const refresh = () => {
+      inputs[get(control.name)].checked = true;
+    };
+    const row = element("fieldset", { className: "row choice", id: `control-${control.name}` });
+    row.append(legend, segments);
+    return { row, refresh };
+  },
+
+  button(control, { set }) {
+    const row = element("button", { type: "button", id: `control-${control.name}` }, control.label);
+    row.setAttribute("aria-keyshortcuts", control.key);
+    row.addEventListener("click", () => set(control.name, 1));
+    return { row };
+  },
+};
