@@ -47,6 +47,13 @@ pub struct Picture {
     pub rgb: Vec<u8>,
 }
 
+/// Ticks that a rip takes, until the cloth hangs again.
+const RIP: u32 = 110;
+/// Ticks of it that the hands pull.
+const PULL: u32 = 80;
+/// Ticks until they are as far as they go.
+const WAY: f32 = 45.0;
+
 type Failure = Box<dyn std::error::Error>;
 
 impl Shot {
@@ -78,7 +85,7 @@ impl Shot {
             app.camera().advance(1.0 / 60.0, true);
         }
         if self.tear {
-            let before = self.ticks.saturating_sub(75);
+            let before = self.ticks.saturating_sub(RIP);
             app.play(before);
             self.rip(&mut app, self.ticks - before)?;
         } else {
@@ -87,23 +94,29 @@ impl Shot {
         Ok(app)
     }
 
-    /// A hand takes the cloth a little right of its middle and yanks it down and aside.
+    /// Two hands take the hem, a little apart, and pull it asunder; then they let go.
     fn rip(&self, app: &mut App, ticks: u32) -> Result<(), Failure> {
         let n = app.settings().resolution;
-        let taken = n * 2 / 5 * n + n * 3 / 5;
-        let Some(from) = app.particle_on_screen(taken) else {
-            return Ok(());
-        };
-        const HAND: u32 = 1;
-        app.press(HAND, from)?;
-        let pull = Vec2::new(0.16, 0.42) * self.size[1] as f32;
+        let height = self.size[1] as f32;
+        let mut hands = Vec::new();
+        for (id, column, pull) in [(1, 0.44, [-0.5, 0.0]), (2, 0.54, [0.5, -0.1])] {
+            let at = |share: f32| (share * (n - 1) as f32) as u32;
+            let Some(from) = app.particle_on_screen(at(0.85) * n + at(column)) else {
+                return Ok(());
+            };
+            app.press(id, from)?;
+            hands.push((id, from, Vec2::from_array(pull) * height));
+        }
         for tick in 0..ticks {
-            let share = (tick as f32 / 40.0).min(1.0);
-            app.drag(HAND, from + pull * share)?;
-            app.play(1);
-            if tick == 48 {
-                app.lift(HAND)?;
+            let share = (tick as f32 / WAY).min(1.0);
+            for (id, from, pull) in &hands {
+                if tick < PULL {
+                    app.drag(*id, *from + *pull * share)?;
+                } else {
+                    app.lift(*id)?;
+                }
             }
+            app.play(1);
         }
         Ok(())
     }

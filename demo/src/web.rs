@@ -46,7 +46,9 @@ impl Demo {
     pub fn attach(&mut self, gl: web_sys::WebGl2RenderingContext) -> Result<(), JsError> {
         self.renderer = None;
         let gl = three_d::context::Context::from_webgl2_context(gl);
-        let context = Context::from_gl_context(Arc::new(gl)).map_err(told)?;
+        #[expect(clippy::arc_with_non_send_sync, reason = "three-d asks for an Arc everywhere")]
+        let gl = Arc::new(gl);
+        let context = Context::from_gl_context(gl).map_err(told)?;
         self.renderer = Some(Renderer::new(&context).map_err(told)?);
         Ok(())
     }

@@ -154,7 +154,10 @@ impl Stage {
             }
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => match state {
                 ElementState::Pressed if self.panel.covers(self.mouse) => Ok(()),
-                ElementState::Pressed => self.app.press(MOUSE, self.mouse),
+                ElementState::Pressed => {
+                    self.panel.hide_help();
+                    self.app.press(MOUSE, self.mouse)
+                }
                 ElementState::Released => self.app.lift(MOUSE),
             },
             WindowEvent::MouseWheel { delta, .. } if !self.panel.covers(self.mouse) => {
@@ -175,7 +178,10 @@ impl Stage {
                 let finger = (touch.id as u32).wrapping_add(1).max(1);
                 match touch.phase {
                     TouchPhase::Started if self.panel.covers(at) => Ok(()),
-                    TouchPhase::Started => self.app.press(finger, at),
+                    TouchPhase::Started => {
+                        self.panel.hide_help();
+                        self.app.press(finger, at)
+                    }
                     TouchPhase::Moved => self.app.drag(finger, at),
                     TouchPhase::Ended | TouchPhase::Cancelled => self.app.lift(finger),
                 }
@@ -207,6 +213,9 @@ impl Stage {
     fn frame(&mut self) -> Result<(), Box<dyn std::error::Error>> {
         let now = clock();
         let seconds = (now - self.last) as f32;
+        if now.floor() > self.last.floor() {
+            self.keep();
+        }
         self.last = now;
         self.app.frame(seconds)?;
 
@@ -240,7 +249,7 @@ impl Stage {
         Ok(())
     }
 
-    /// Writes the settings down if they are others than before.
+    /// Writes the settings down if they are others than before; asked once a second and at the end.
     fn keep(&mut self) {
         let now = self.app.settings().to_json();
         if now != self.kept {

@@ -54,6 +54,11 @@ impl Panel {
         self.help = !self.help;
     }
 
+    /// Hides the instructions: the scene has been touched.
+    pub fn hide_help(&mut self) {
+        self.help = false;
+    }
+
     /// Whether a point of the window belongs to the panel and not to the scene.
     pub fn covers(&self, at: Vec2) -> bool {
         self.rects.iter().any(|r| r.contains(egui::pos2(at.x, at.y)))
@@ -92,10 +97,15 @@ impl Panel {
             ui.label(RichText::new("Muslin").size(19.0).strong().color(TEXT));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let arrow = if self.open { "–" } else { "+" };
-                if ui.button(arrow).on_hover_text("Panel (C)").clicked() {
+                let size = vec2(28.0, 28.0);
+                if ui.add(Button::new(arrow).min_size(size)).on_hover_text("Panel (C)").clicked() {
                     self.toggle();
                 }
-                if ui.button("?").on_hover_text("Instructions (H)").clicked() {
+                if ui
+                    .add(Button::new("?").min_size(size))
+                    .on_hover_text("Instructions (H)")
+                    .clicked()
+                {
                     self.toggle_help();
                 }
             });
@@ -106,7 +116,7 @@ impl Panel {
         let text = "Drag the cloth to pull it  ·  Drag the background to orbit  ·  Scroll to zoom  ·  Toggle wind & tearing in the panel";
         ui.horizontal(|ui| {
             ui.label(RichText::new(text).color(TEXT));
-            if ui.button("Got it").clicked() {
+            if ui.add(Button::new("Got it").min_size(vec2(64.0, 28.0))).clicked() {
                 self.help = false;
             }
         });

@@ -54,12 +54,12 @@ impl Glow {
                 Halo {
                     centre: STAGE_CENTRE + Vec3::new(-2.3, 1.5, -1.6),
                     radius: 2.6,
-                    tint: linear(0xfff1dc) * 0.020,
+                    tint: linear(0xfff1dc) * 0.011,
                 },
                 Halo {
                     centre: STAGE_CENTRE + Vec3::new(0.2, 0.1, -1.8),
                     radius: 3.4,
-                    tint: linear(0x3a5cff) * 0.020,
+                    tint: linear(0x3a5cff) * 0.026,
                 },
                 Halo {
                     centre: STAGE_CENTRE + Vec3::new(2.1, 0.7, -2.0),

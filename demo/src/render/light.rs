@@ -35,7 +35,7 @@ pub struct Lights {
 impl Default for Lights {
     fn default() -> Self {
         Self {
-            key: Light::new(Vec3::new(-1.05, 1.45, 0.85), 0xfff1dc, 2.1),
+            key: Light::new(Vec3::new(-1.0, 1.25, 1.05), 0xfff1dc, 2.1),
             fill: Light::new(Vec3::new(1.2, 0.25, 0.8), 0x3a5cff, 0.17),
             rim: Light::new(Vec3::new(0.85, 0.75, -1.25), 0xff9d5c, 1.5),
         }

@@ -143,7 +143,7 @@ void main() {
     light += rimColour * max(-dot(n, rimTowards), 0.0) * albedo * 0.07;
 
     // Sky and floor, and what the satin mirrors of the studio.
-    vec3 dome = mix(vec3(0.034, 0.036, 0.050), vec3(0.125, 0.145, 0.205), 0.5 + 0.5 * n.y);
+    vec3 dome = mix(vec3(0.050, 0.054, 0.074), vec3(0.165, 0.190, 0.265), 0.5 + 0.5 * n.y);
     float hollow = 0.5 + 0.5 * open;
     light += albedo * dome * hollow * 1.05;
     float grazing = pow(1.0 - nv, 4.0);
