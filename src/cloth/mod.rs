@@ -430,6 +430,12 @@ impl Cloth {
         self.world.weave.active()
     }
 
+    /// The colours that links are solved in, in order: what they resist, and how many of the links that
+    /// it was woven with they hold. No particle appears twice in a colour.
+    pub fn colors(&self) -> impl Iterator<Item = (LinkKind, usize)> + '_ {
+        self.world.weave.batches.iter().map(|batch| (batch.kind, batch.count))
+    }
+
     /// Times the stages of every tick by a clock that counts seconds, or stops timing.
     pub fn set_clock(&mut self, clock: Option<Clock>) {
         self.world.profile.set_clock(clock);

@@ -7,8 +7,9 @@ use crate::solver::tear;
 
 impl Cloth {
     /// Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded
-    /// of the two is split by the plane across the way between them. Says whether it tore: an end
-    /// that is pinned, grabbed or has nothing on its other side does not give way.
+    /// of the two is split by the plane across the way between them. Where neither has anything on
+    /// its other side, the edge itself opens, if it starts at a border. Says whether it tore: an end
+    /// that is pinned or grabbed does not give way, nor does an edge that is a border already.
     ///
     /// # Errors
     /// [`Error::BadIndex`] for a particle that is not; [`Error::BadValue`] unless the two are the ends

@@ -6,7 +6,7 @@
 use super::World;
 use crate::fabric::weave::{LinkKind, Links};
 use crate::math::mix::unit;
-use crate::mesh::split::{Opening, best_arc};
+use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::state::events::{Event, EventKind};
 use glam::Vec3;
@@ -111,7 +111,8 @@ pub(crate) fn tear(world: &mut World) {
 pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
     let mut scratch = core::mem::take(&mut world.scratch.tear);
     scratch.touched.clear();
-    let torn = has_room(world) && tear_between(world, &mut scratch, a, b);
+    let torn = has_room(world)
+        && (tear_between(world, &mut scratch, a, b) || part_along(world, &mut scratch, a, b));
     world.scratch.tear = scratch;
     if torn {
         settle(world);
@@ -170,15 +171,38 @@ fn tear_between(world: &mut World, scratch: &mut Scratch, a: u32, b: u32) -> boo
     let ends = if loads[1] > loads[0] { [(b, a), (a, b)] } else { [(a, b), (b, a)] };
     for (end, other) in ends {
         if try_split(world, scratch, end, other) {
-            let middle =
-                (world.particles.x.at(a as usize) + world.particles.x.at(b as usize)) * 0.5;
-            let mut event = Event::new(EventKind::EdgeTorn, world.tick, middle);
-            (event.particle_a, event.particle_b) = (a, b);
-            world.events.push(event);
+            tell_torn(world, a, b);
             return true;
         }
     }
     false
+}
+
+/// Opens the edge itself where it starts at a border: for a tear by hand between two particles that
+/// have nothing behind them.
+fn part_along(world: &mut World, scratch: &mut Scratch, a: u32, b: u32) -> bool {
+    for (end, other) in [(a, b), (b, a)] {
+        if world.particles.w[end as usize] <= 0.0 {
+            continue;
+        }
+        world.mesh.fan(world.mesh.corner_of[end as usize], &mut scratch.fan);
+        let fan = &scratch.fan;
+        let spoke = fan.spokes.iter().position(|spoke| *spoke == other).unwrap_or(0);
+        if !fan.is_closed && spoke > 0 && spoke < fan.corners.len() {
+            let arc = Arc { first: spoke, count: fan.corners.len() - spoke };
+            split_out(world, scratch, end, arc);
+            tell_torn(world, a, b);
+            return true;
+        }
+    }
+    false
+}
+
+fn tell_torn(world: &mut World, a: u32, b: u32) {
+    let middle = (world.particles.x.at(a as usize) + world.particles.x.at(b as usize)) * 0.5;
+    let mut event = Event::new(EventKind::EdgeTorn, world.tick, middle);
+    (event.particle_a, event.particle_b) = (a, b);
+    world.events.push(event);
 }
 
 /// How hard the links at a particle pull: the sum of their stretches.
@@ -217,9 +241,14 @@ fn try_split(world: &mut World, scratch: &mut Scratch, end: u32, other: u32) -> 
     let both_sides = scratch.moves.contains(&true) && scratch.moves.contains(&false);
     let arc = if both_sides { best_arc(&scratch.fan, &scratch.moves) } else { None };
     let Some(arc) = arc else { return false };
+    split_out(world, scratch, end, arc);
+    true
+}
 
+/// Gives an arc of the fan in `scratch` a vertex of its own, and brings all else in line.
+fn split_out(world: &mut World, scratch: &mut Scratch, end: u32, arc: Arc) {
     // Opened edges may leave their far ends as mere points between fans: see them as they are now.
-    let far_ends = far_ends(world, scratch, arc);
+    let far_ends = far_ends(scratch, arc);
     for (vertex, fan) in far_ends.iter().zip(&mut scratch.far) {
         if let Some(vertex) = vertex {
             world.mesh.fan(world.mesh.corner_of[*vertex as usize], fan);
@@ -240,14 +269,12 @@ fn try_split(world: &mut World, scratch: &mut Scratch, end: u32, other: u32) -> 
     }
     rejoin(world, &opened);
     world.scratch.opened = opened;
-    true
 }
 
 /// The far ends of the edges that cutting out `arc` opens: the spokes where it starts and ends.
-fn far_ends(world: &World, scratch: &Scratch, arc: crate::mesh::split::Arc) -> [Option<u32>; 2] {
+fn far_ends(scratch: &Scratch, arc: Arc) -> [Option<u32>; 2] {
     let fan = &scratch.fan;
     let n = fan.corners.len();
-    debug_assert!(world.mesh.vertex_count() > 0);
     let inner = |spoke: usize| {
         let inside = fan.is_closed || (spoke > 0 && spoke < n);
         inside.then(|| fan.spokes[spoke % fan.spokes.len()])

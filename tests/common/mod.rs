@@ -1,0 +1,120 @@
+//! What several tests need: cloths to test on, and the laws that no tear may break.
+#![allow(dead_code)]
+
+use muslin::glam::Vec3;
+use muslin::{Cloth, GridDesc, Material, MeshDesc, PinMode, Settings};
+use std::collections::HashMap;
+
+/// Only gravity and links: no damping, no air.
+pub fn bare() -> (Settings, Material) {
+    let settings = Settings { damping: 0.0, ..Settings::default() };
+    let material = Material { drag: 0.0, lift: 0.0, ..Material::default() };
+    (settings, material)
+}
+
+/// A grid in the x–y plane, with only gravity and links.
+pub fn bare_grid(columns: u32, rows: u32, spacing: f32, pin_mode: PinMode) -> GridDesc {
+    let (settings, material) = bare();
+    GridDesc { columns, rows, spacing, pin_mode, settings, material, ..GridDesc::default() }
+}
+
+/// Three quarters of a ring of triangles, some wound the other way, with a flap at its end.
+pub fn irregular_mesh() -> MeshDesc {
+    let mut positions = Vec::new();
+    for i in 0..10 {
+        let angle = i as f32 * 0.5;
+        let wobble = 1.0 + 0.1 * (i as f32 * 2.3).sin();
+        for radius in [0.5, 0.9 * wobble, 1.3] {
+            positions.push(Vec3::new(
+                radius * angle.cos(),
+                radius * angle.sin(),
+                0.05 * angle.sin(),
+            ));
+        }
+    }
+    let mut indices = Vec::new();
+    for i in 0..9 {
+        for ring in 0..2 {
+            let (a, b) = (3 * i + ring, 3 * (i + 1) + ring);
+            let quad = [[a, a + 1, b], [b, a + 1, b + 1]];
+            for (at, [p, q, r]) in quad.into_iter().enumerate() {
+                indices.extend(if (i + at as u32) % 3 == 0 { [q, p, r] } else { [p, q, r] });
+            }
+        }
+    }
+    positions.push(Vec3::new(1.8, -0.2, 0.0));
+    indices.extend([1, 2, positions.len() as u32 - 1]);
+    MeshDesc { positions, indices, pinned: vec![0, 2], ..MeshDesc::default() }
+}
+
+/// Triangles of a cloth.
+pub fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
+    cloth.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
+}
+
+/// Total mass [kg].
+pub fn total_mass(cloth: &Cloth) -> f64 {
+    let mass = |i: usize| f64::from(cloth.mass(i as u32).unwrap());
+    (0..cloth.positions().len()).map(mass).sum()
+}
+
+/// The laws that hold for every cloth, however torn. `before` is the untorn one.
+pub fn assert_sound(cloth: &Cloth, before: &Cloth) {
+    let count = cloth.positions().len();
+    let sources = cloth.source_vertices();
+    assert_eq!(sources.len(), count);
+    assert_eq!(cloth.uvs().len(), count);
+    assert_eq!(cloth.indices().len(), before.indices().len(), "no triangle is lost or doubled");
+    for (now, then) in cloth.indices().iter().zip(before.indices()) {
+        assert!((*now as usize) < count, "index {now} is out of range");
+        let source = sources[*now as usize];
+        assert_eq!(source, *then, "a corner keeps its original vertex");
+    }
+    let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
+    for [a, b, c] in triangles(cloth) {
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            *edges.entry([p.min(q), p.max(q)]).or_default() += 1;
+        }
+    }
+    for (edge, uses) in &edges {
+        assert!(*uses <= 2, "edge {edge:?} has {uses} triangles");
+    }
+    assert_one_fan_a_vertex(cloth);
+    for (a, b, kind) in cloth.links() {
+        assert!((a as usize) < count && (b as usize) < count && a != b);
+        let joined = edges.contains_key(&[a.min(b), a.max(b)]);
+        assert!(
+            joined || kind != muslin::LinkKind::Stretch,
+            "a stretch link {a}–{b} without an edge"
+        );
+    }
+    let (mass, exact) = (total_mass(cloth), total_mass(before));
+    assert!((mass - exact).abs() <= 1.0e-6 * exact, "mass {mass} kg, was {exact} kg");
+    assert!(cloth.positions().iter().all(|x| x.is_finite()));
+}
+
+/// No vertex joins two fans of triangles by a mere point.
+fn assert_one_fan_a_vertex(cloth: &Cloth) {
+    let mut around: HashMap<u32, Vec<[u32; 3]>> = HashMap::new();
+    for triangle in triangles(cloth) {
+        for v in triangle {
+            around.entry(v).or_default().push(triangle);
+        }
+    }
+    for (v, fan) in around {
+        let mut reached = vec![false; fan.len()];
+        let mut stack = vec![0];
+        while let Some(at) = stack.pop() {
+            if std::mem::replace(&mut reached[at], true) {
+                continue;
+            }
+            for other in 0..fan.len() {
+                let shared = fan[at].iter().filter(|p| **p != v && fan[other].contains(p)).count();
+                if shared > 0 && !reached[other] {
+                    stack.push(other);
+                }
+            }
+        }
+        assert!(reached.iter().all(|r| *r), "vertex {v} joins two fans by a point: {fan:?}");
+    }
+}

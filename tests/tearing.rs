@@ -1,0 +1,165 @@
+//! Tears keep the mesh clean, whatever tears and in whatever order.
+
+mod common;
+
+use common::{assert_sound, bare_grid, irregular_mesh, total_mass, triangles};
+use muslin::glam::Vec3;
+use muslin::{AS_MANY_AGAIN, Cloth, Error, Event, EventKind, PinMode};
+use proptest::prelude::*;
+
+fn events(cloth: &mut Cloth) -> Vec<Event> {
+    core::iter::from_fn(|| cloth.next_event()).collect()
+}
+
+/// Tears at edge number `pick` of the cloth as it is now, counted over triangles.
+fn tear_somewhere(cloth: &mut Cloth, pick: usize) -> muslin::Result<bool> {
+    let corner = pick % cloth.indices().len();
+    let triangle = triangles(cloth)[corner / 3];
+    cloth.tear_edge(triangle[corner % 3], triangle[(corner + 1) % 3])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_tears_of_a_grid_leave_a_clean_mesh(
+        columns in 2u32..7,
+        rows in 2u32..7,
+        picks in prop::collection::vec(0usize..10_000, 1..60),
+    ) {
+        let mut desc = bare_grid(columns, rows, 0.1, PinMode::TopEdge);
+        desc.extra_particles = 300;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let before = cloth.clone();
+        for pick in picks {
+            tear_somewhere(&mut cloth, pick).unwrap();
+            cloth.step(1);
+        }
+        assert_sound(&cloth, &before);
+        let restored = Cloth::restore(&cloth.save()).unwrap();
+        prop_assert_eq!(restored.state_hash(), cloth.state_hash());
+        let links = |cloth: &Cloth| cloth.links().collect::<Vec<_>>();
+        prop_assert_eq!(links(&restored), links(&cloth));
+    }
+
+    #[test]
+    fn random_tears_of_any_mesh_leave_a_clean_mesh(
+        picks in prop::collection::vec(0usize..10_000, 1..60),
+    ) {
+        let mut desc = irregular_mesh();
+        desc.extra_particles = 300;
+        let mut cloth = Cloth::mesh(&desc).unwrap();
+        let before = cloth.clone();
+        for pick in picks {
+            tear_somewhere(&mut cloth, pick).unwrap();
+        }
+        cloth.step(5);
+        assert_sound(&cloth, &before);
+    }
+}
+
+#[test]
+fn a_pull_beyond_the_limit_tears_and_one_below_it_does_not() {
+    for (pull, tears) in [(0.98, false), (1.03, true)] {
+        let mut desc = bare_grid(3, 12, 0.1, PinMode::TopEdge);
+        desc.settings.tearing = true;
+        desc.settings.tethers = false;
+        desc.settings.gravity = Vec3::ZERO;
+        desc.material.tear_stretch = 1.5;
+        desc.material.tear_variation = 0.0;
+        desc.settings.iterations = 10;
+        // Elastic, and too soft in shear for the grips to matter.
+        desc.material.stretch_stiffness_warp = 100.0;
+        desc.material.stretch_stiffness_weft = 100.0;
+        desc.material.shear_stiffness = 0.01;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let bottom = [33, 34, 35];
+        let length = 11.0 * 0.1;
+        let ends: Vec<Vec3> = bottom.iter().map(|i| cloth.positions()[*i as usize]).collect();
+        // Slowly, so that the strain is the same all along the strip.
+        for tick in 1..=600 {
+            let longer = 0.5 * pull * length * (tick as f32 / 600.0);
+            let targets: Vec<Vec3> = ends.iter().map(|x| *x - Vec3::Y * longer).collect();
+            cloth.set_pin_targets(&bottom, &targets).unwrap();
+            cloth.step(1);
+        }
+        cloth.step(300);
+        let torn = events(&mut cloth).iter().any(|event| event.kind == EventKind::EdgeTorn);
+        assert_eq!(torn, tears, "pulled to {pull} of the limit");
+    }
+}
+
+#[test]
+fn a_yank_rips_the_sheet_and_keeps_every_law() {
+    let mut desc = bare_grid(20, 20, 0.1, PinMode::TopEdge);
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.5;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    let grab = cloth.grab_particle(10 * 20 + 10).unwrap();
+    for tick in 0..120 {
+        cloth.move_grab(grab, Vec3::new(0.5, -1.0, 0.05 * tick as f32)).unwrap();
+        cloth.step(1);
+    }
+    cloth.release(grab).unwrap();
+    cloth.step(60);
+    assert!(cloth.positions().len() > before.positions().len() + 10);
+    assert_sound(&cloth, &before);
+    assert!((0..20).all(|i| (cloth.positions()[i].y).abs() < 1.0e-4), "pins do not tear off");
+}
+
+#[test]
+fn tearing_stops_when_the_reserve_is_used_up_and_says_so_once() {
+    let mut desc = bare_grid(12, 12, 0.1, PinMode::TopEdge);
+    desc.extra_particles = 10;
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    let grab = cloth.grab_particle(6 * 12 + 6).unwrap();
+    for tick in 0..300 {
+        cloth.move_grab(grab, Vec3::new(0.6, -0.6, 0.05 * tick as f32)).unwrap();
+        cloth.step(1);
+    }
+    let told = events(&mut cloth);
+    let used_up = told.iter().filter(|event| event.kind == EventKind::ReserveUsedUp).count();
+    assert_eq!(used_up, 1);
+    let count = cloth.positions().len();
+    assert!(count <= 154 && count > 150, "{count} particles");
+    assert!(matches!(tear_somewhere(&mut cloth, 0), Err(Error::Full { .. })));
+    assert_sound(&cloth, &before);
+}
+
+#[test]
+fn a_cloth_can_be_torn_until_every_triangle_is_alone() {
+    let mut desc = bare_grid(5, 5, 0.1, PinMode::None);
+    desc.extra_particles = 200;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    for round in 0..40 {
+        for corner in 0..cloth.indices().len() {
+            tear_somewhere(&mut cloth, corner + round).unwrap();
+        }
+    }
+    assert_sound(&cloth, &before);
+    assert_eq!(cloth.stats().pieces, 32, "two triangles in each of sixteen cells");
+    assert_eq!(cloth.positions().len(), 3 * 32);
+    let detached = events(&mut cloth);
+    let detached = detached.iter().filter(|event| event.kind == EventKind::PieceDetached).count();
+    assert_eq!(detached, 31);
+    cloth.step(30);
+    assert!((total_mass(&cloth) - total_mass(&before)).abs() < 1.0e-9);
+}
+
+#[test]
+fn nothing_tears_while_tearing_is_off() {
+    let mut desc = bare_grid(8, 8, 0.1, PinMode::TopEdge);
+    desc.extra_particles = AS_MANY_AGAIN;
+    desc.material.tear_stretch = 1.1;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let grab = cloth.grab_particle(36).unwrap();
+    cloth.move_grab(grab, Vec3::new(3.0, 0.0, 5.0)).unwrap();
+    cloth.step(200);
+    assert!(cloth.stats().max_stretch > 0.5);
+    assert_eq!(cloth.positions().len(), 64);
+}
