@@ -8,7 +8,7 @@ use three_d::{CoreError, RenderTarget};
 
 use crate::camera::Camera;
 use crate::controls::{self, Action, Kind};
-use crate::meter::Meter;
+use crate::meter::{Governor, Meter};
 use crate::pointer::{Cursor, Pointers, Scene, Screen};
 use crate::render::{Frame, Renderer, Surface};
 use crate::settings::Settings;
@@ -26,6 +26,7 @@ pub struct App {
     screen: Screen,
     calm: bool,
     meter: Meter,
+    governor: Governor,
     clock: fn() -> f64,
     lines: Vec<u32>,
     /// Which cloth this is: a new one may count its topology from the start again.
@@ -63,6 +64,7 @@ impl App {
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
             calm: false,
             meter: Meter::default(),
+            governor: Governor::default(),
             clock,
             lines: Vec::new(),
             generation: 0,
@@ -225,6 +227,7 @@ impl App {
             self.meter.simulated((self.clock)() - start);
         }
         self.meter.frame(seconds);
+        self.governor.frame(seconds);
         Ok(())
     }
 
@@ -259,7 +262,12 @@ impl App {
             lines: &self.lines,
             revision,
         };
-        let frame = Frame { sight: self.camera.sight(), wireframe: self.settings.wireframe };
+        let density = output.width() as f32 / self.screen.size.x.max(1.0);
+        let frame = Frame {
+            sight: self.camera.sight(),
+            wireframe: self.settings.wireframe,
+            share: self.governor.share(density),
+        };
         renderer.draw(&surface, &frame, output)
     }
 
@@ -273,6 +281,11 @@ impl App {
             fps: self.meter.fps(),
             milliseconds: self.meter.milliseconds(),
         }
+    }
+
+    /// The screen, in the pixels that pointers count in.
+    pub fn screen(&self) -> Screen {
+        self.screen
     }
 
     /// The camera rig.

@@ -42,7 +42,11 @@ pub enum Task {
 /// # Errors
 /// A sentence that names the argument and the rule.
 pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
-    let mut args = args.into_iter();
+    // `--size=1x1` is `--size 1x1`.
+    let mut args = args.into_iter().flat_map(|arg| match arg.split_once('=') {
+        Some((name, value)) if name.starts_with("--") => vec![name.into(), value.into()],
+        _ => vec![arg],
+    });
     let mut shot = Shot::default();
     let mut file = None;
     let mut values = Vec::new();
@@ -126,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_shot_takes_its_options_and_any_control() {
-        let task = parsed("--shot a.png --size 390x844 --frames 60 --tear --wind 2 --wireframe");
+        let task = parsed("--shot a.png --size=390x844 --frames 60 --tear --wind 2 --wireframe");
         let Ok(Task::Shot(file, shot)) = task else {
             panic!("{task:?}");
         };

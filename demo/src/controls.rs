@@ -219,7 +219,9 @@ impl Control {
         match &self.kind {
             Kind::Slider { min, max, step, set, .. } => {
                 let steps = ((value.clamp(*min, *max) - min) / step).round();
-                set(settings, (min + steps * step).clamp(*min, *max));
+                // Four digits are enough for any step, and leave no 9.900001 behind.
+                let tidy = ((min + steps * step) * 1.0e4).round() / 1.0e4;
+                set(settings, tidy.clamp(*min, *max));
             }
             Kind::Switch { set, .. } => set(settings, value != 0.0),
             Kind::Choice { options, set, .. } => {

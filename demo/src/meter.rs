@@ -1,4 +1,4 @@
-//! Smoothed figures of how fast it runs.
+//! Smoothed figures of how fast it runs, and how finely it can be drawn at that speed.
 
 /// How quickly a figure follows: the share that one frame has in it.
 const FOLLOW: f64 = 0.06;
@@ -34,6 +34,46 @@ impl Meter {
     }
 }
 
+/// Draws dense screens less finely where full density is too slow.
+#[derive(Clone, Copy, Debug)]
+pub struct Governor {
+    scale: f32,
+    slow: f32,
+}
+
+/// Below this rate it is too slow [1/s].
+const SLOW: f32 = 40.0;
+/// For so long [s] before anything changes.
+const PATIENCE: f32 = 2.0;
+/// Frames longer than this are not drawing but waiting [s].
+const PAUSE: f32 = 0.5;
+
+impl Default for Governor {
+    fn default() -> Self {
+        Self { scale: 1.0, slow: 0.0 }
+    }
+}
+
+impl Governor {
+    /// A frame took so long [s].
+    pub fn frame(&mut self, seconds: f32) {
+        if seconds > PAUSE {
+            return;
+        }
+        self.slow = if seconds * SLOW > 1.0 { self.slow + seconds } else { 0.0 };
+        if self.slow > PATIENCE {
+            self.slow = 0.0;
+            self.scale = (self.scale * 0.8).max(0.5);
+        }
+    }
+
+    /// What share of a screen's pixels to draw along each side, if it has `density` device pixels
+    /// to one that the eye counts: never fewer than one.
+    pub fn share(&self, density: f32) -> f32 {
+        self.scale.max(1.0 / density.max(1.0))
+    }
+}
+
 fn blend(figure: &mut f64, value: f64) {
     *figure = if *figure == 0.0 { value } else { *figure + (value - *figure) * FOLLOW };
 }
@@ -41,6 +81,19 @@ fn blend(figure: &mut f64, value: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_dense_screen_is_drawn_less_finely_when_slow_and_a_plain_one_never() {
+        let mut governor = Governor::default();
+        for _ in 0..600 {
+            governor.frame(1.0 / 60.0);
+        }
+        assert_eq!(governor.share(2.0), 1.0);
+        for _ in 0..600 {
+            governor.frame(1.0 / 15.0);
+        }
+        assert_eq!((governor.share(1.0), governor.share(2.0)), (1.0, 0.5));
+    }
 
     #[test]
     fn steady_frames_read_as_their_rate() {

@@ -29,7 +29,10 @@ pub fn build(settings: &Settings, calm: bool) -> Result<Cloth> {
         Pinning::TopCorners => PinMode::TopCorners,
         Pinning::Corners => PinMode::Corners,
     };
-    let mut cloth = Cloth::grid(&HangingSheet::desc(settings.resolution, pin_mode))?;
+    let mut desc = HangingSheet::desc(settings.resolution, pin_mode);
+    // The stiffness slider multiplies them by up to twelve sweeps: four are smooth, and cheap.
+    desc.settings.substeps = 4;
+    let mut cloth = Cloth::grid(&desc)?;
     cloth.add_collider(&ColliderDesc {
         position: Vec3::Y * (FLOOR + CLEARANCE),
         ..ColliderDesc::default()

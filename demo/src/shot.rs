@@ -76,14 +76,8 @@ impl Shot {
         let mut settings = self.settings.clone();
         settings.tearing |= self.tear;
         let mut app = App::new(settings, || 0.0)?;
-        let [width, height] = self.size;
-        app.resize(Vec2::new(width as f32, height as f32));
         app.camera().set_drift(false);
-        app.camera().orbit(self.orbit);
-        app.camera().zoom(self.zoom);
-        for _ in 0..600 {
-            app.camera().advance(1.0 / 60.0, true);
-        }
+        // The hands work before the usual camera, whatever the picture: the same rip in each.
         if self.tear {
             let before = self.ticks.saturating_sub(RIP);
             app.play(before);
@@ -91,13 +85,20 @@ impl Shot {
         } else {
             app.play(self.ticks);
         }
+        let [width, height] = self.size.map(|side| side as f32);
+        app.resize(Vec2::new(width, height));
+        app.camera().orbit(self.orbit);
+        app.camera().zoom(self.zoom);
+        for _ in 0..600 {
+            app.camera().advance(1.0 / 60.0, true);
+        }
         Ok(app)
     }
 
     /// Two hands take the hem, a little apart, and pull it asunder; then they let go.
     fn rip(&self, app: &mut App, ticks: u32) -> Result<(), Failure> {
         let n = app.settings().resolution;
-        let height = self.size[1] as f32;
+        let height = app.screen().size.y;
         let mut hands = Vec::new();
         for (id, column, pull) in [(1, 0.44, [-0.5, 0.0]), (2, 0.54, [0.5, -0.1])] {
             let at = |share: f32| (share * (n - 1) as f32) as u32;
@@ -128,7 +129,8 @@ impl Picture {
     /// # Errors
     /// What the file system says.
     pub fn save(&self, path: &Path) -> Result<(), Failure> {
-        let file = std::io::BufWriter::new(std::fs::File::create(path)?);
+        let file = std::fs::File::create(path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let file = std::io::BufWriter::new(file);
         let mut encoder = png::Encoder::new(file, self.size[0], self.size[1]);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);

@@ -1,7 +1,5 @@
 // The panel: real HTML controls, drawn from the demo's own table.
 
-let rows = 0;
-
 function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);
@@ -62,9 +60,10 @@ const builders = {
   },
 
   choice(control, { get, set }) {
-    const group = `choice-${control.name}-${rows++}`;
+    const group = `choice-${control.name}`;
     const inputs = control.options.map((_, i) => {
-      const input = element("input", { type: "radio", name: group, value: String(i) });
+      const id = `control-${control.name}-${i}`;
+      const input = element("input", { type: "radio", id, name: group, value: String(i) });
       input.addEventListener("change", () => set(control.name, i));
       return input;
     });

@@ -29,6 +29,8 @@ pub struct Frame {
     pub sight: Sight,
     /// Whether the links are drawn over the dimmed cloth.
     pub wireframe: bool,
+    /// The share of the output's pixels that are drawn along each side; the rest are blended.
+    pub share: f32,
 }
 
 /// Everything on the graphics card; dropped and made anew when a context is lost.
@@ -95,7 +97,8 @@ impl Renderer {
         frame: &Frame,
         output: &RenderTarget<'_>,
     ) -> Result<(), CoreError> {
-        let (width, height) = (output.width().max(1), output.height().max(1));
+        let side = |pixels: u32| (pixels as f32 * frame.share).round().max(1.0) as u32;
+        let (width, height) = (side(output.width()), side(output.height()));
         self.fit(width, height);
         self.mesh.update(surface);
         self.shadow.draw(&self.mesh, &self.lights)?;
@@ -127,7 +130,7 @@ impl Renderer {
             })?;
         target.samples.resolve_color_to(&target.resolved.as_color_target(None));
         output.write::<CoreError>(|| {
-            self.post.draw(pass.viewport, &self.corners, &target.resolved);
+            self.post.draw(output.viewport(), &self.corners, &target.resolved);
             Ok(())
         })?;
         Ok(())
