@@ -3,7 +3,7 @@
 use glam::Vec2;
 use three_d::egui::{
     self, Align, Align2, Area, Button, Color32, Context, CornerRadius, Frame, Id, Layout, Margin,
-    Rect, RichText, Sense, Slider, Stroke, StrokeKind, Ui, vec2,
+    Rect, RichText, ScrollArea, Sense, Slider, Stroke, StrokeKind, Ui, vec2,
 };
 
 use crate::app::App;
@@ -78,7 +78,12 @@ impl Panel {
                     ui.set_width(WIDTH);
                     self.title(ui);
                     if self.open {
-                        rows(ui, app, wishes);
+                        // A low window scrolls the rows; the panel never leaves it.
+                        let room = ctx.content_rect().height() - 112.0;
+                        ScrollArea::vertical()
+                            .min_scrolled_height(room.max(80.0))
+                            .max_height(room.max(80.0))
+                            .show(ui, |ui| rows(ui, app, wishes));
                     }
                 });
             },
@@ -114,6 +119,7 @@ impl Panel {
 
     fn instructions(&mut self, ui: &mut Ui) {
         let text = "Drag the cloth to pull it  ·  Drag the background to orbit  ·  Scroll to zoom  ·  Toggle wind & tearing in the panel";
+        ui.spacing_mut().interact_size.y = 28.0;
         ui.horizontal(|ui| {
             ui.label(RichText::new(text).color(TEXT));
             if ui.add(Button::new("Got it").min_size(vec2(64.0, 28.0))).clicked() {

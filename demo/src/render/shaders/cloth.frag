@@ -19,7 +19,7 @@ in vec2 uv;
 layout (location = 0) out vec4 colour;
 
 const float PI = 3.14159265;
-const float THREADS = 250.0; // pairs of threads along each side
+const float THREADS = 440.0; // along each side
 
 float hash(vec2 p) {
     uvec2 q = uvec2(ivec2(p)) * uvec2(1597334673u, 3812015801u);
@@ -43,12 +43,12 @@ float noise(vec2 p) {
 // thread is evenly thick. Both fade before they could flicker.
 vec2 weave(vec2 uv, float footprint) {
     vec2 t = uv * THREADS;
-    float near = 1.0 - smoothstep(0.10, 0.26, footprint * THREADS);
+    float near = 1.0 - smoothstep(0.24, 0.56, footprint * THREADS);
     vec2 bump = vec2(0.0);
     if (near > 0.0) {
         float over = sin(PI * t.x) * sin(PI * t.y);
-        bump = near * 0.34 * vec2(cos(PI * t.x) * sin(PI * t.y), sin(PI * t.x) * cos(PI * t.y))
-             + near * 0.10 * over * vec2(sin(2.0 * PI * t.x), sin(2.0 * PI * t.y));
+        bump = near * 0.15 * vec2(cos(PI * t.x) * sin(PI * t.y), sin(PI * t.x) * cos(PI * t.y))
+             + near * 0.04 * over * vec2(sin(2.0 * PI * t.x), sin(2.0 * PI * t.y));
     }
     float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 130.0);
     vec2 slub = vec2(
@@ -85,10 +85,16 @@ float fuzz(float nh, float nl, float nv) {
     return spread / (4.0 * (nl + nv - nl * nv) + 0.02);
 }
 
+// A unit vector, also where a triangle is seen so edge-on that nothing is left to normalise.
+vec3 direction(vec3 a, vec3 otherwise) {
+    float length2 = dot(a, a);
+    return length2 > 1.0e-20 ? a * inversesqrt(length2) : otherwise;
+}
+
 void main() {
     bool front = gl_FrontFacing != (mirrored > 0.5);
     vec3 v = normalize(eye - at);
-    vec3 smoothN = normalize(facing);
+    vec3 smoothN = direction(facing, v);
     if (!front) smoothN = -smoothN;
     // An interpolated normal may lean away from the eye at a fold; bring it back to the horizon.
     float away = dot(smoothN, v);
@@ -101,7 +107,7 @@ void main() {
     vec2 uy = dFdy(uv);
     float flip = ux.x * uy.y - ux.y * uy.x < 0.0 ? -1.0 : 1.0;
     vec3 t = (px * uy.y - py * ux.y) * flip;
-    t = normalize(t - smoothN * dot(smoothN, t) + vec3(1.0e-6, 0.0, 0.0));
+    t = direction(t - smoothN * dot(smoothN, t), cross(smoothN, v.yzx));
     vec3 b = cross(smoothN, t);
     float footprint = max(length(ux), length(uy));
 
@@ -116,11 +122,11 @@ void main() {
     float seam = 1.0 - smoothstep(0.0, 0.0011 + 0.5 * footprint, abs(edge - 0.0115));
     albedo *= 1.0 - 0.07 * hem - 0.16 * seam;
 
-    float nv = max(dot(n, v), 0.03);
+    float nv = clamp(dot(n, v), 0.03, 1.0); // above one, `pow` of the rest would be no number
     float nl = dot(n, keyTowards);
     float side = dot(smoothN, keyTowards) >= 0.0 ? 1.0 : -1.0;
     float slope = sqrt(max(1.0 - nl * nl, 0.0));
-    float lit = keyVisibility(at + smoothN * side * (0.008 + 0.016 * slope), 2, 1.1, 0.0008);
+    float lit = keyVisibility(at + smoothN * side * (0.010 + 0.030 * slope), 2, 1.5, 0.0008);
 
     vec3 light = vec3(0.0);
     // Key: soft-edged diffuse, satin and fuzz on the lit face; what comes through on the other.
@@ -152,5 +158,5 @@ void main() {
 
     float alpha = 1.0;
     if (mirrored > 0.5) alpha = 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0));
-    colour = vec4(light * dim, alpha);
+    colour = vec4(clamp(light, 0.0, 16.0) * dim, alpha);
 }

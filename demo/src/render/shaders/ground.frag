@@ -20,7 +20,7 @@ void main() {
     // The polish catches the rim light as a long warm streak.
     float streak = pow(max(dot(reflect(-v, vec3(0.0, 1.0, 0.0)), rimTowards), 0.0), 14.0);
     light += rimColour * streak * 0.05 * pool;
-    float fresnel = pow(1.0 - max(v.y, 0.0), 5.0);
+    float fresnel = pow(1.0 - clamp(v.y, 0.0, 1.0), 5.0);
     float fade = 1.0 - smoothstep(1.6, 6.2, r);
     float cover = fade * mix(0.82, 0.55, fresnel);
     colour = vec4(light, cover);
