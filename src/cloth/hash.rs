@@ -9,7 +9,7 @@ impl Cloth {
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
-        for columns in [&p.x, &p.x_prev, &p.v] {
+        for columns in [&p.x, &p.moved, &p.v, &p.v_ahead] {
             for column in [&columns.x, &columns.y, &columns.z] {
                 mixer.floats(column);
             }

@@ -122,6 +122,7 @@ impl Cloth {
             self.world.weigh();
             self.world.weave.stiffen(&self.world.material);
             self.world.tether();
+            self.world.restart_history();
         });
         self.owed = 0.0;
         self.pins_changed = false;
@@ -141,11 +142,11 @@ impl Cloth {
     pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
         settings.check()?;
         let world = &mut self.world;
-        let changes_step = settings.substep() != world.settings.substep();
+        let restarts = settings.scheme() != world.settings.scheme();
         world.scratch.tear.reserve(settings.max_tears_per_tick as usize);
         world.settings = settings;
-        if changes_step {
-            guarded(|| world.particles.restart_history(world.settings.substep()));
+        if restarts {
+            guarded(|| world.restart_history());
         }
         Ok(())
     }
@@ -318,7 +319,7 @@ impl Cloth {
         let (at, world) = (particle as usize, &mut self.world);
         guarded(|| {
             let v = world.particles.v.at(at);
-            world.particles.place(at, position, v, world.settings.substep());
+            world.place(at, position, v);
             world.particles.x_last.set(at, position);
             if world.pins.remove(particle) {
                 world.pins.insert(particle, position, position);
@@ -339,7 +340,7 @@ impl Cloth {
         let (at, world) = (particle as usize, &mut self.world);
         guarded(|| {
             let x = world.particles.x.at(at);
-            world.particles.place(at, x, velocity, world.settings.substep());
+            world.place(at, x, velocity);
         });
         self.changed_state();
         Ok(())

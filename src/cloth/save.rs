@@ -218,7 +218,9 @@ fn restore_holds(
 
 fn is_finite(particles: &Particles) -> bool {
     let finite = |columns: &Columns| columns.iter().all(|v| v.is_finite());
-    [&particles.x, &particles.x_prev, &particles.v, &particles.x_last].into_iter().all(finite)
+    [&particles.x, &particles.moved, &particles.v, &particles.v_ahead, &particles.x_last]
+        .into_iter()
+        .all(finite)
 }
 
 /// Whether the triangles of every vertex form one fan, as tears always leave them.

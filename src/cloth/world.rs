@@ -126,6 +126,7 @@ fn build(
     world.weigh();
     world.weave.stiffen(material);
     world.tether();
+    world.restart_history();
     world
 }
 

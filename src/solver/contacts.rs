@@ -30,14 +30,15 @@ impl Touch {
     }
 }
 
-/// Pushes every free particle out of every collider, as it is a `share` of the way through the tick.
-pub(crate) fn solve(world: &mut World, share: f32) {
+/// Pushes every free particle out of every collider, as it is at the end of substep `number`.
+pub(crate) fn solve(world: &mut World, number: u32) {
     if world.colliders.iter().next().is_none() {
         return;
     }
     world.scratch.touch.fill(Touch::NONE);
     let thickness = world.material.thickness;
     let tick = world.settings.tick;
+    let share = (number + 1) as f32 / world.settings.substeps as f32;
     for body in world.colliders.iter() {
         let pose = body.last.toward(&body.next, share);
         let normal = pose.turn(Vec3::Y);
@@ -55,8 +56,8 @@ pub(crate) fn solve(world: &mut World, share: f32) {
             let carried = |pose: &crate::state::colliders::Pose| pose.position + pose.turn(local);
             let surface_velocity = (carried(&body.next) - carried(&body.last)) * (1.0 / tick);
             let out = x + normal * depth;
-            let from = world.scratch.start.at(i);
-            let surface_step = surface_velocity * world.settings.substep();
+            let from = world.scratch.predicted.at(i) - world.scratch.way.at(i);
+            let surface_step = surface_velocity * world.settings.scheme().h;
             let slide = out - from - surface_step;
             let along = slide - normal * slide.dot(normal);
             world.particles.x.set(i, out - along * feel.held_back(along.length(), depth));

@@ -9,11 +9,13 @@ const REALM: f32 = 1.0e6;
 
 /// Mends the state and reports how many particles it mended.
 pub(crate) fn mend(world: &mut World) {
-    let substep = world.settings.substep();
+    let (h, gravity) = (world.settings.scheme().h, world.settings.gravity);
     let p = &mut world.particles;
     let (mut mended, mut first) = (0, Vec3::ZERO);
     for i in 0..p.len() {
-        if is_sound(p.x.at(i)) && is_sound(p.v.at(i)) && is_sound(p.x_prev.at(i)) {
+        let sound =
+            [&p.x, &p.moved, &p.v, &p.v_ahead].iter().all(|columns| is_sound(columns.at(i)));
+        if sound {
             continue;
         }
         let last = p.x_last.at(i);
@@ -21,7 +23,7 @@ pub(crate) fn mend(world: &mut World) {
             first = last;
         }
         mended += 1;
-        p.place(i, last, Vec3::ZERO, substep);
+        p.place(i, last, Vec3::ZERO, gravity, h);
     }
     if mended > 0 {
         let mut event = Event::new(EventKind::Recovered, world.tick, first);

@@ -19,23 +19,53 @@ pub(crate) fn restart(world: &mut World) {
     }
 }
 
+/// Which way a sweep goes through the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    Forward,
+    Backward,
+}
+
 /// One sweep over all links of a kind.
-pub(crate) fn solve(world: &mut World, kind: LinkKind) {
+pub(crate) fn solve(world: &mut World, kind: LinkKind, order: Order) {
     if kind == LinkKind::Bend && world.material.bend_stiffness == 0.0 {
         return;
     }
-    // The velocity update weighs a correction by 3/2h, so that is the step compliance sees.
-    let h = world.settings.substep() * (2.0 / 3.0);
-    let inv_h2 = 1.0 / (h * h);
-    let weave = &mut world.weave;
-    for batch in weave.batches.iter().filter(|batch| batch.kind == kind) {
-        let range = batch.first..batch.first + batch.count;
-        range.for_each(|link| project(&mut weave.links, link, &mut world.particles, inv_h2));
-    }
-    for link in 0..weave.extra.len() {
-        if weave.extra.kind(link) == kind {
-            project(&mut weave.extra, link, &mut world.particles, inv_h2);
+    // A correction acts on the velocity through `step`, so that is what compliance sees.
+    let step = world.settings.scheme().step;
+    let inv_h2 = 1.0 / (step * step);
+    match order {
+        Order::Forward => {
+            for at in 0..world.weave.batches.len() {
+                solve_batch(world, at, kind, inv_h2);
+            }
+            for link in 0..world.weave.extra.len() {
+                solve_extra(world, link, kind, inv_h2);
+            }
         }
+        Order::Backward => {
+            for link in (0..world.weave.extra.len()).rev() {
+                solve_extra(world, link, kind, inv_h2);
+            }
+            for at in (0..world.weave.batches.len()).rev() {
+                solve_batch(world, at, kind, inv_h2);
+            }
+        }
+    }
+}
+
+fn solve_batch(world: &mut World, at: usize, kind: LinkKind, inv_h2: f32) {
+    let batch = world.weave.batches[at];
+    if batch.kind == kind {
+        for link in batch.first..batch.first + batch.count {
+            project(&mut world.weave.links, link, &mut world.particles, inv_h2);
+        }
+    }
+}
+
+fn solve_extra(world: &mut World, link: usize, kind: LinkKind, inv_h2: f32) {
+    if world.weave.extra.kind(link) == kind {
+        project(&mut world.weave.extra, link, &mut world.particles, inv_h2);
     }
 }
 

@@ -66,8 +66,10 @@ pub(crate) struct World {
 pub(crate) struct Scratch {
     /// Acceleration [m/s²].
     pub acceleration: Columns,
-    /// Positions at the start of the substep [m].
-    pub start: Columns,
+    /// The way that prediction gave each particle in this substep [m].
+    pub way: Columns,
+    /// Where prediction took it [m].
+    pub predicted: Columns,
     /// What each particle touched in this substep, if anything.
     pub touch: Vec<contacts::Touch>,
     pub tear: tear::Scratch,
@@ -82,7 +84,8 @@ impl Scratch {
         let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
         let mut scratch = Self {
             acceleration: Columns::with_capacity(capacity),
-            start: Columns::with_capacity(capacity),
+            way: Columns::with_capacity(capacity),
+            predicted: Columns::with_capacity(capacity),
             touch: Vec::with_capacity(capacity),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),
@@ -90,7 +93,8 @@ impl Scratch {
             stack: Vec::with_capacity(triangles),
         };
         zero(&mut scratch.acceleration);
-        zero(&mut scratch.start);
+        zero(&mut scratch.way);
+        zero(&mut scratch.predicted);
         scratch.touch.resize(count, contacts::Touch::NONE);
         scratch
     }
@@ -98,7 +102,8 @@ impl Scratch {
     /// A particle more.
     pub fn grow(&mut self) {
         self.acceleration.push(Vec3::ZERO);
-        self.start.push(Vec3::ZERO);
+        self.way.push(Vec3::ZERO);
+        self.predicted.push(Vec3::ZERO);
         self.touch.push(contacts::Touch::NONE);
     }
 }
@@ -133,6 +138,18 @@ impl World {
             }
         }
         (0..self.particles.len() as u32).for_each(|particle| self.refresh_weight(particle));
+    }
+
+    /// Puts a particle somewhere with a velocity.
+    pub fn place(&mut self, particle: usize, x: Vec3, v: Vec3) {
+        let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
+        self.particles.place(particle, x, v, gravity, h);
+    }
+
+    /// Begins every history anew, after the kind of substep changed.
+    pub fn restart_history(&mut self) {
+        let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
+        self.particles.restart_history(gravity, h);
     }
 
     /// The farthest a particle may move in a substep against the cloth's own motion [m].

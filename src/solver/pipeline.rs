@@ -3,6 +3,7 @@
 use super::stage::Stage;
 use super::{World, contacts, forces, guard, hold, links, predict, tear, tethers, velocities};
 use crate::fabric::weave::LinkKind;
+use links::Order;
 
 /// Times one stage.
 macro_rules! timed {
@@ -18,8 +19,7 @@ pub(crate) fn tick(world: &mut World) {
     world.particles.x_last.copy_from(&world.particles.x);
     timed!(world, Forces, forces::gather(world));
     for substep in 0..world.settings.substeps {
-        let share = (substep + 1) as f32 / world.settings.substeps as f32;
-        run_substep(world, share);
+        run_substep(world, substep);
     }
     world.pins.arrive();
     timed!(world, Colliders, contacts::arrive(world));
@@ -31,19 +31,25 @@ pub(crate) fn tick(world: &mut World) {
     }
 }
 
-/// One substep, which ends a `share` of the way through the tick.
-fn run_substep(world: &mut World, share: f32) {
+/// Substep `number` of the tick.
+fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::advance(world));
-    timed!(world, Hold, hold::hold(world, share));
+    timed!(world, Hold, hold::hold(world, number));
     links::restart(world);
-    for _ in 0..world.settings.iterations {
+    for iteration in 0..world.settings.iterations {
         if world.settings.tethers {
             timed!(world, Tethers, tethers::solve(world));
         }
-        timed!(world, Stretch, links::solve(world, LinkKind::Stretch));
-        timed!(world, Shear, links::solve(world, LinkKind::Shear));
-        timed!(world, Bend, links::solve(world, LinkKind::Bend));
+        if iteration.is_multiple_of(2) {
+            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Forward));
+            timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Forward));
+            timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Forward));
+        } else {
+            timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Backward));
+            timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
+            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
+        }
     }
-    timed!(world, Contacts, contacts::solve(world, share));
+    timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));
 }

@@ -1,67 +1,78 @@
 //! Stage `Predict`: where each particle would go by itself.
 //!
-//! Second-order backward differences (BDF2), which lose next to no energy where the first-order
-//! velocities of plain position-based dynamics lose most of it:
-//!
-//! ```text
-//! x* = x + (x - x_prev) / 3 + 2/3 h v + 4/9 h² a
-//! ```
-//! English and Bridson, "Animating developable surfaces using nonconforming elements", 2008, sec. 3.
+//! By the formula of `Scheme`, with a limit on what a violent yank may do.
 
 use super::World;
 use crate::math::columns::Columns;
 use crate::math::max;
+use crate::state::settings::Scheme;
 use glam::{Mat3, Vec3};
 
-/// Moves every free particle; `scratch.start` keeps where it was.
+/// Moves every free particle; `scratch` keeps the way it went and where it came to.
 pub(crate) fn advance(world: &mut World) {
-    let h = world.settings.substep();
-    let p = &mut world.particles;
+    let scheme = world.settings.scheme();
+    let p = &world.particles;
     let a = &world.scratch.acceleration;
-    world.scratch.start.copy_from(&p.x);
+    let way = &mut world.scratch.way;
     let mut farthest = 0.0;
-    for (x, x_prev, v, a) in [
-        (&mut p.x.x, &p.x_prev.x, &p.v.x, &a.x),
-        (&mut p.x.y, &p.x_prev.y, &p.v.y, &a.y),
-        (&mut p.x.z, &p.x_prev.z, &p.v.z, &a.z),
+    for (way, moved, v_ahead, a) in [
+        (&mut way.x, &p.moved.x, &p.v_ahead.x, &a.x),
+        (&mut way.y, &p.moved.y, &p.v_ahead.y, &a.y),
+        (&mut way.z, &p.moved.z, &p.v_ahead.z, &a.z),
     ] {
-        farthest = max(advance_column(x, x_prev, v, a, &p.w, h), farthest);
+        farthest = max(plan_column(way, moved, v_ahead, a, &p.w, scheme), farthest);
     }
-    // Per component, so that this is no less than a third of the square of the longest move.
+    // Per component, so that this is no less than a third of the square of the longest way.
     let reach = world.reach();
     if 3.0 * farthest * farthest > reach * reach {
         clamp_displacement(world, reach);
     }
+    let (p, scratch) = (&mut world.particles, &mut world.scratch);
+    for (x, way, predicted) in [
+        (&mut p.x.x, &scratch.way.x, &mut scratch.predicted.x),
+        (&mut p.x.y, &scratch.way.y, &mut scratch.predicted.y),
+        (&mut p.x.z, &scratch.way.z, &mut scratch.predicted.z),
+    ] {
+        for ((x, way), predicted) in x.iter_mut().zip(way).zip(predicted) {
+            *x += way;
+            *predicted = *x;
+        }
+    }
 }
 
-fn advance_column(x: &mut [f32], x_prev: &[f32], v: &[f32], a: &[f32], w: &[f32], h: f32) -> f32 {
-    let (h23, h49) = (h * (2.0 / 3.0), h * h * (4.0 / 9.0));
+fn plan_column(
+    way: &mut [f32],
+    moved: &[f32],
+    v_ahead: &[f32],
+    a: &[f32],
+    w: &[f32],
+    scheme: Scheme,
+) -> f32 {
+    let Scheme { step, carry, .. } = scheme;
     let mut farthest = 0.0;
-    for ((((x, x_prev), v), a), w) in x.iter_mut().zip(x_prev).zip(v).zip(a).zip(w) {
-        let step = (*x - x_prev) * (1.0 / 3.0) + v * h23 + a * h49;
-        let step = if *w > 0.0 { step } else { 0.0 };
-        *x += step;
-        farthest = max(step.abs(), farthest);
+    for ((((way, moved), v_ahead), a), w) in way.iter_mut().zip(moved).zip(v_ahead).zip(a).zip(w) {
+        let free = moved * carry + (v_ahead + a * step) * step;
+        *way = if *w > 0.0 { free } else { 0.0 };
+        farthest = max(way.abs(), farthest);
     }
     farthest
 }
 
-/// Keeps each move within `reach` of the cloth's own rigid motion, so that a violent yank is
+/// Keeps each way within `reach` of the cloth's own rigid motion, so that a violent yank is
 /// absorbed and yet a cloth may fall, fly and spin as fast as it likes.
 fn clamp_displacement(world: &mut World, reach: f32) {
-    let p = &mut world.particles;
-    let start = &world.scratch.start;
-    let rigid = RigidMotion::fit(start, &p.x, &p.mass, &p.w);
+    let p = &world.particles;
+    let way = &mut world.scratch.way;
+    let rigid = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
     for i in 0..p.len() {
         if p.w[i] <= 0.0 {
             continue;
         }
-        let from = start.at(i);
-        let common = rigid.at(from);
-        let own = p.x.at(i) - from - common;
+        let common = rigid.at(p.x.at(i));
+        let own = way.at(i) - common;
         let length2 = own.length_squared();
         if length2 > reach * reach {
-            p.x.set(i, from + common + own * (reach / length2.sqrt()));
+            way.set(i, common + own * (reach / length2.sqrt()));
         }
     }
 }
@@ -74,14 +85,14 @@ struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// The rigid motion with the momentum and angular momentum of all moves.
-    fn fit(start: &Columns, end: &Columns, mass: &[f32], w: &[f32]) -> Self {
+    /// The rigid motion with the momentum and angular momentum of all ways.
+    fn fit(x: &Columns, way: &Columns, mass: &[f32], w: &[f32]) -> Self {
         let free = || (0..mass.len()).filter(|i| w[*i] > 0.0);
         let (mut total, mut center, mut shift) = (0.0, Vec3::ZERO, Vec3::ZERO);
         for i in free() {
             total += mass[i];
-            center += start.at(i) * mass[i];
-            shift += (end.at(i) - start.at(i)) * mass[i];
+            center += x.at(i) * mass[i];
+            shift += way.at(i) * mass[i];
         }
         if total <= 0.0 {
             return Self { center, shift: Vec3::ZERO, turn: Vec3::ZERO };
@@ -89,8 +100,8 @@ impl RigidMotion {
         (center, shift) = (center * (1.0 / total), shift * (1.0 / total));
         let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
         for i in free() {
-            let r = start.at(i) - center;
-            spin += r.cross(end.at(i) - start.at(i) - shift) * mass[i];
+            let r = x.at(i) - center;
+            spin += r.cross(way.at(i) - shift) * mass[i];
             let r2 = r.length_squared();
             let columns = [r * r.x, r * r.y, r * r.z];
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];

@@ -1,23 +1,21 @@
 //! Stage `Velocities`: what the substep made of each particle's motion.
 //!
-//! ```text
-//! v = (3 x - 4 x_start + x_prev) / 2h
-//! ```
-//! the other half of the second-order scheme of `predict`. Damping scales the velocity and the
-//! history alike, which makes a free particle slow down by exactly exp(-damping h).
+//! The other half of `Scheme`. Damping scales the velocity and its whole history alike, which makes a
+//! free particle slow down by exactly exp(-damping h).
 
 use super::World;
 use super::contacts::Touch;
 use crate::math::min;
 use crate::math::trig::exp_decay;
+use crate::state::settings::Scheme;
 use glam::Vec3;
 
 /// Derives velocities and moves the history on.
 pub(crate) fn derive(world: &mut World) {
-    let h = world.settings.substep();
-    let keep = exp_decay(f64::from(-world.settings.damping) * f64::from(h));
+    let scheme = world.settings.scheme();
+    let keep = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
     let p = &mut world.particles;
-    let start = &world.scratch.start;
+    let (way, predicted) = (&world.scratch.way, &world.scratch.predicted);
     // Bounces need the velocity from before; they replace what the update makes of it.
     if world.colliders.iter().next().is_some() {
         for i in 0..p.mass.len() {
@@ -27,24 +25,35 @@ pub(crate) fn derive(world: &mut World) {
             }
         }
     }
-    for (x, x_prev, v, start) in [
-        (&p.x.x, &mut p.x_prev.x, &mut p.v.x, &start.x),
-        (&p.x.y, &mut p.x_prev.y, &mut p.v.y, &start.y),
-        (&p.x.z, &mut p.x_prev.z, &mut p.v.z, &start.z),
-    ] {
-        derive_column(x, x_prev, v, start, h, keep);
+    let columns = [
+        (&p.x.x, &predicted.x, &way.x, &mut p.moved.x, &mut p.v.x, &mut p.v_ahead.x),
+        (&p.x.y, &predicted.y, &way.y, &mut p.moved.y, &mut p.v.y, &mut p.v_ahead.y),
+        (&p.x.z, &predicted.z, &way.z, &mut p.moved.z, &mut p.v.z, &mut p.v_ahead.z),
+    ];
+    for (x, predicted, way, moved, v, v_ahead) in columns {
+        derive_column([x, predicted, way], [moved, v, v_ahead], scheme, keep);
     }
     if world.colliders.iter().next().is_some() {
-        bounce(world, h, keep);
+        bounce(world, scheme.h, keep);
     }
 }
 
-fn derive_column(x: &[f32], x_prev: &mut [f32], v: &mut [f32], start: &[f32], h: f32, keep: f32) {
-    let half_rate = 0.5 / h;
-    for (((x, x_prev), v), start) in x.iter().zip(x_prev).zip(v).zip(start) {
-        let (step, last_step) = (x - start, start - *x_prev);
-        *v = (3.0 * step - last_step) * half_rate * keep;
-        *x_prev = x - step * keep;
+fn derive_column(
+    [x, predicted, way]: [&[f32]; 3],
+    [moved, v, v_ahead]: [&mut [f32]; 3],
+    scheme: Scheme,
+    keep: f32,
+) {
+    let (lead, trail) = (scheme.lead / scheme.h, scheme.trail / scheme.h);
+    let read = x.iter().zip(predicted).zip(way);
+    let write = moved.iter_mut().zip(v).zip(v_ahead);
+    for (((x, predicted), way), ((moved, v), v_ahead)) in read.zip(write) {
+        // What the solver corrected is small, so that this difference is exact.
+        let step = way + (x - predicted);
+        let v_new = step * lead - *moved * trail;
+        *v_ahead = (v_new + (v_new - *v) * scheme.carry) * keep;
+        *v = v_new * keep;
+        *moved = step * keep;
     }
 }
 
@@ -54,8 +63,9 @@ fn derive_column(x: &[f32], x_prev: &mut [f32], v: &mut [f32], start: &[f32], h:
 /// A hit begins a new history, for the second-order scheme must not look back across it; resting
 /// and sliding keep theirs along the surface.
 fn bounce(world: &mut World, h: f32, keep: f32) {
+    let gravity = world.settings.gravity;
     let p = &mut world.particles;
-    let rest_speed = 2.0 * h * world.settings.gravity.length();
+    let rest_speed = 2.0 * h * gravity.length();
     for i in 0..p.mass.len() {
         let touch: Touch = world.scratch.touch[i];
         if !touch.is_some() || p.w[i] <= 0.0 {
@@ -64,14 +74,16 @@ fn bounce(world: &mut World, h: f32, keep: f32) {
         let (n, surface) = (touch.normal, touch.surface_velocity);
         let along = |v: Vec3| (v - n * v.dot(n)) * touch.tangential_restitution;
         let x = p.x.at(i);
-        let step = x - world.scratch.start.at(i) - surface * h;
+        let (way, predicted) = (world.scratch.way.at(i), world.scratch.predicted.at(i));
+        let step = way + (x - predicted) - surface * h;
         let approach = min((touch.approach - surface).dot(n), 0.0);
         if -approach > rest_speed {
             let v = along(step * (1.0 / h)) - n * (approach * touch.restitution);
-            p.place(i, x, surface + v, h);
+            p.place(i, x, surface + v, gravity, h);
         } else {
             p.v.set(i, surface + along(p.v.at(i) - surface));
-            p.x_prev.set(i, x - surface * h - along(step * keep));
+            p.v_ahead.set(i, surface + along(p.v_ahead.at(i) - surface));
+            p.moved.set(i, surface * h + along(step * keep));
         }
     }
 }

@@ -9,10 +9,13 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Particles {
     /// Where they are [m].
     pub x: Columns,
-    /// Where they were one substep ago [m], as far as the velocity update is concerned.
-    pub x_prev: Columns,
+    /// How far they moved in the last substep [m], kept apart because a difference of positions
+    /// would lose most of its digits.
+    pub moved: Columns,
     /// Velocity [m/s].
     pub v: Columns,
+    /// Velocity as its history lets expect it for the next substep, (4 v - v_prev) / 3 [m/s].
+    pub v_ahead: Columns,
     /// Where they were one tick ago [m]: to blend between ticks when drawing, and to mend from.
     pub x_last: Columns,
     /// Mass [kg].
@@ -29,9 +32,10 @@ impl Particles {
         let mut v = Columns::with_capacity(capacity);
         positions.iter().for_each(|_| v.push(Vec3::ZERO));
         let mut particles = Self {
-            x_prev: x.clone(),
+            moved: v.clone(),
             x_last: x.clone(),
             x,
+            v_ahead: v.clone(),
             v,
             mass: vec![0.0; positions.len()],
             w: vec![0.0; positions.len()],
@@ -40,9 +44,13 @@ impl Particles {
         particles
     }
 
+    fn all_columns(&mut self) -> [&mut Columns; 5] {
+        [&mut self.x, &mut self.moved, &mut self.v, &mut self.v_ahead, &mut self.x_last]
+    }
+
     /// Makes room for `capacity` particles in all.
     pub fn reserve(&mut self, capacity: usize) {
-        for columns in [&mut self.x, &mut self.x_prev, &mut self.v, &mut self.x_last] {
+        for columns in self.all_columns() {
             columns.reserve(capacity);
         }
         for list in [&mut self.mass, &mut self.w] {
@@ -52,7 +60,7 @@ impl Particles {
 
     /// Bytes that one particle takes.
     pub fn bytes_each(&self) -> usize {
-        size_of::<f32>() * (4 * 3 + 2)
+        size_of::<f32>() * (5 * 3 + 2)
     }
 
     pub fn len(&self) -> usize {
@@ -61,14 +69,14 @@ impl Particles {
 
     /// Whether every list has `count` entries.
     pub fn is_consistent(&self, count: usize) -> bool {
-        let columns = [&self.x, &self.x_prev, &self.v, &self.x_last];
+        let columns = [&self.x, &self.moved, &self.v, &self.v_ahead, &self.x_last];
         let three = |c: &Columns| c.x.len() == count && c.y.len() == count && c.z.len() == count;
         columns.into_iter().all(three) && self.mass.len() == count && self.w.len() == count
     }
 
     /// Adds a particle in the state of `source`, and gives its index.
     pub fn push_copy_of(&mut self, source: usize) -> usize {
-        for columns in [&mut self.x, &mut self.x_prev, &mut self.v, &mut self.x_last] {
+        for columns in self.all_columns() {
             columns.push(columns.at(source));
         }
         self.mass.push(self.mass[source]);
@@ -76,17 +84,18 @@ impl Particles {
         self.len() - 1
     }
 
-    /// Puts a particle somewhere with a velocity, its history in line with both.
-    pub fn place(&mut self, i: usize, x: Vec3, v: Vec3, substep: f32) {
+    /// Puts a particle somewhere with a velocity, as if it had been falling freely for ever.
+    pub fn place(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);
         self.v.set(i, v);
-        self.x_prev.set(i, x - v * substep);
+        self.moved.set(i, v * h - gravity * (0.5 * h * h));
+        self.v_ahead.set(i, v + gravity * (h * (1.0 / 3.0)));
     }
 
-    /// Brings every history in line with position and velocity, for a substep of another length.
-    pub fn restart_history(&mut self, substep: f32) {
+    /// Begins every history anew, for another kind of substep. Velocities stay.
+    pub fn restart_history(&mut self, gravity: Vec3, h: f32) {
         for i in 0..self.len() {
-            self.x_prev.set(i, self.x.at(i) - self.v.at(i) * substep);
+            self.place(i, self.x.at(i), self.v.at(i), gravity, h);
         }
     }
 }

@@ -1,0 +1,202 @@
+//! Bad input is refused by name, and changes nothing.
+
+use muslin::glam::{Quat, Vec2, Vec3};
+use muslin::{Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, Settings, Wind};
+
+/// What the error says, for a call that must fail.
+fn refusal<T>(result: Result<T, Error>) -> String {
+    match result {
+        Ok(_) => panic!("was taken"),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn assert_names(result: Result<Cloth, Error>, field: &str) {
+    let said = refusal(result);
+    assert!(said.contains(&format!("`{field}`")), "`{said}` does not name {field}");
+}
+
+#[test]
+fn a_grid_names_the_field_that_cannot_be() {
+    let cases: [(&str, fn(&mut GridDesc)); 12] = [
+        ("columns", |d| d.columns = 1),
+        ("rows", |d| d.rows = 0),
+        ("columns", |d| (d.columns, d.rows) = (100_000, 100_000)),
+        ("spacing", |d| d.spacing = 0.0),
+        ("spacing", |d| d.spacing = f32::NAN),
+        ("origin", |d| d.origin.x = f32::INFINITY),
+        ("right", |d| d.right = Vec3::ZERO),
+        ("down", |d| d.down = Vec3::X),
+        ("extra_particles", |d| d.extra_particles = u32::MAX - 1),
+        ("material.density", |d| d.material.density = -1.0),
+        ("settings.substeps", |d| d.settings.substeps = 0),
+        ("settings.tick", |d| d.settings.tick = f32::NAN),
+    ];
+    for (field, spoil) in cases {
+        let mut desc = GridDesc::default();
+        spoil(&mut desc);
+        assert_names(Cloth::grid(&desc), field);
+    }
+}
+
+#[test]
+fn a_mesh_names_what_cannot_be_cloth() {
+    let square = || MeshDesc {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0), Vec3::NEG_X],
+        indices: vec![0, 1, 2, 1, 3, 2],
+        ..MeshDesc::default()
+    };
+    assert!(Cloth::mesh(&square()).is_ok());
+    let cases: [(&str, fn(&mut MeshDesc)); 11] = [
+        ("positions", |d| d.positions.clear()),
+        ("positions", |d| d.positions[2].z = f32::NAN),
+        ("indices", |d| d.indices.clear()),
+        ("indices", |d| d.indices.truncate(4)),
+        ("indices", |d| d.indices[4] = 5),
+        ("indices", |d| d.indices[1] = 0),
+        ("indices", |d| d.positions[3] = Vec3::new(0.5, 0.5, 0.0)),
+        ("indices", |d| d.indices.extend([1, 2, 4])),
+        ("indices", |d| {
+            d.positions.push(Vec3::NEG_Y);
+            d.indices.extend([0, 4, 5]);
+        }),
+        ("pinned", |d| d.pinned = vec![0, 5]),
+        ("uvs", |d| d.uvs = vec![Vec2::ZERO; 4]),
+    ];
+    for (field, spoil) in cases {
+        let mut desc = square();
+        spoil(&mut desc);
+        assert_names(Cloth::mesh(&desc), field);
+    }
+    let welded = MeshDesc { weld_distance: 0.1, ..square() };
+    assert!(refusal(Cloth::mesh(&welded)).contains("weld_distance"));
+}
+
+#[test]
+fn settings_material_and_wind_name_each_field_that_cannot_be() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    let hash = cloth.state_hash();
+    let settings: [(&str, fn(&mut Settings)); 9] = [
+        ("settings.tick", |s| s.tick = 0.0),
+        ("settings.substeps", |s| s.substeps = 1001),
+        ("settings.iterations", |s| s.iterations = 0),
+        ("settings.max_ticks_per_advance", |s| s.max_ticks_per_advance = 0),
+        ("settings.gravity", |s| s.gravity.y = f32::NAN),
+        ("settings.damping", |s| s.damping = -0.1),
+        ("settings.max_displacement", |s| s.max_displacement = 0.0),
+        ("settings.max_stretch", |s| s.max_stretch = f32::INFINITY),
+        ("settings.self_collision", |s| s.self_collision = true),
+    ];
+    for (field, spoil) in settings {
+        let mut changed = cloth.settings().clone();
+        spoil(&mut changed);
+        assert!(refusal(cloth.set_settings(changed)).contains(field), "{field}");
+    }
+    let material: [(&str, fn(&mut Material)); 9] = [
+        ("material.density", |m| m.density = 0.0),
+        ("material.thickness", |m| m.thickness = -1.0),
+        ("material.shear_stiffness", |m| m.shear_stiffness = f32::NAN),
+        ("material.bend_stiffness", |m| m.bend_stiffness = -1.0),
+        ("material.friction", |m| m.friction = -0.5),
+        ("material.restitution", |m| m.restitution = 1.5),
+        ("material.tear_stretch", |m| m.tear_stretch = 0.9),
+        ("material.tear_variation", |m| m.tear_variation = 2.0),
+        ("material.yield_angle", |m| m.yield_angle = 1.0),
+    ];
+    for (field, spoil) in material {
+        let mut changed = cloth.material().clone();
+        spoil(&mut changed);
+        assert!(refusal(cloth.set_material(changed)).contains(field), "{field}");
+    }
+    let wind: [(&str, fn(&mut Wind)); 5] = [
+        ("wind.velocity", |w| w.velocity.x = f32::NAN),
+        ("wind.gust", |w| w.gust = 1.1),
+        ("wind.wander", |w| w.wander = -0.1),
+        ("wind.turbulence", |w| w.turbulence = f32::NAN),
+        ("wind.air_density", |w| w.air_density = -1.0),
+    ];
+    for (field, spoil) in wind {
+        let mut changed = Wind::default();
+        spoil(&mut changed);
+        assert!(refusal(cloth.set_wind(changed)).contains(field), "{field}");
+    }
+    assert_eq!(cloth.state_hash(), hash);
+    assert_eq!(*cloth.settings(), Settings::default());
+    assert_eq!(*cloth.material(), Material::default());
+    assert_eq!(*cloth.wind(), Wind::default());
+}
+
+#[test]
+fn calls_name_the_argument_that_cannot_be_and_change_nothing() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    let (hash, nan) = (cloth.state_hash(), Vec3::splat(f32::NAN));
+    let mut said = vec![
+        ("seconds", refusal(cloth.advance(-1.0))),
+        ("seconds", refusal(cloth.advance(f32::INFINITY))),
+        ("particle", refusal(cloth.pin(1600, None))),
+        ("target", refusal(cloth.pin(5, Some(nan)))),
+        ("particle", refusal(cloth.unpin(1600))),
+        ("targets", refusal(cloth.set_pin_targets(&[1, 2], &[Vec3::ZERO]))),
+        ("particles", refusal(cloth.set_pin_targets(&[50, 9999], &[Vec3::ZERO; 2]))),
+        ("targets", refusal(cloth.set_pin_targets(&[50, 51], &[Vec3::ZERO, nan]))),
+        ("position", refusal(cloth.set_position(70, nan))),
+        ("velocity", refusal(cloth.set_velocity(70, nan))),
+        ("direction", refusal(cloth.raycast(Vec3::ZERO, Vec3::ZERO, 1.0))),
+        ("origin", refusal(cloth.raycast(nan, Vec3::X, 1.0))),
+        ("max_distance", refusal(cloth.raycast(Vec3::ZERO, Vec3::X, -1.0))),
+        ("radius", refusal(cloth.grab_ray(Vec3::ZERO, Vec3::X, f32::NAN))),
+        ("particle", refusal(cloth.grab_particle(1600))),
+        ("particle_a", refusal(cloth.tear_edge(1600, 0))),
+        ("particle_b", refusal(cloth.tear_edge(0, 700))),
+        ("particle_b", refusal(cloth.tear_edge(7, 7))),
+        ("grab", refusal(cloth.move_grab(Grab::from_bits(1 << 16 | 1), Vec3::ZERO))),
+    ];
+    let spoilt = ColliderDesc { restitution: 3.0, ..ColliderDesc::default() };
+    said.push(("collider.restitution", refusal(cloth.add_collider(&spoilt))));
+    let spoilt =
+        ColliderDesc { rotation: Quat::from_xyzw(0.0, 0.0, 0.0, 0.0), ..ColliderDesc::default() };
+    said.push(("collider.rotation", refusal(cloth.add_collider(&spoilt))));
+    for (argument, said) in said {
+        assert!(said.contains(&format!("`{argument}`")), "`{said}` does not name {argument}");
+    }
+    assert_eq!(cloth.state_hash(), hash);
+}
+
+#[test]
+fn handles_go_stale() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    let grab = cloth.grab_particle(100).unwrap();
+    cloth.release(grab).unwrap();
+    assert_eq!(cloth.release(grab), Err(Error::BadHandle { what: "grab" }));
+    let newer = cloth.grab_particle(100).unwrap();
+    assert_eq!(cloth.move_grab(grab, Vec3::ZERO), Err(Error::BadHandle { what: "grab" }));
+    cloth.reset();
+    assert_eq!(cloth.move_grab(newer, Vec3::ZERO), Err(Error::BadHandle { what: "grab" }));
+    let floor = cloth.add_collider(&ColliderDesc::default()).unwrap();
+    cloth.remove_collider(floor).unwrap();
+    let stale = cloth.move_collider(floor, Vec3::ZERO, Quat::IDENTITY);
+    assert_eq!(stale, Err(Error::BadHandle { what: "collider" }));
+    for _ in 0..64 {
+        cloth.grab_particle(100).unwrap();
+    }
+    assert!(matches!(cloth.grab_particle(100), Err(Error::Full { .. })));
+}
+
+#[test]
+fn damaged_saves_are_refused_wherever_the_damage_is() {
+    let mut desc = GridDesc { columns: 6, rows: 6, ..GridDesc::default() };
+    desc.settings.tearing = true;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.step(5);
+    cloth.tear_edge(14, 20).unwrap();
+    let saved = cloth.save();
+    assert!(Cloth::restore(&saved).is_ok());
+    for at in 0..saved.len() {
+        let mut damaged = saved.clone();
+        damaged[at] ^= 0x41;
+        assert!(matches!(Cloth::restore(&damaged), Err(Error::BadSave { .. })), "byte {at}");
+    }
+    for length in [0, 5, 19, 20, saved.len() - 1] {
+        assert!(Cloth::restore(&saved[..length]).is_err(), "{length} bytes");
+    }
+}

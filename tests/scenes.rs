@@ -1,0 +1,17 @@
+//! Every scene of the demo shows what it promises, from its first second on.
+
+use muslin_scenes::{HangingSheet, Scene, play};
+
+fn keeps_its_promise<S: Scene>() {
+    for seconds in [1, 5, 20] {
+        let cloth = play::<S>(60 * seconds);
+        if let Err(what) = S::check(&cloth) {
+            panic!("{}, after {seconds} s: {what}", S::NAME);
+        }
+    }
+}
+
+#[test]
+fn the_hanging_sheet_hangs() {
+    keeps_its_promise::<HangingSheet>();
+}
