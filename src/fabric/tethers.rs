@@ -5,7 +5,6 @@
 //! Kim, Chentanez, Müller, "Long range attachments", SCA 2012, for what they are good for.
 
 use crate::mesh::{Mesh, NONE};
-use crate::state::pins::Pins;
 use glam::Vec3;
 
 /// With this many pins or fewer each particle is tethered to every one, else to the nearest.
@@ -54,19 +53,25 @@ impl Tethers {
         &self.sets[..self.used]
     }
 
-    /// Measures all ways anew. `rest` is the rest position of each original vertex.
-    pub fn measure(&mut self, mesh: &Mesh, rest: &[Vec3], pins: &Pins) {
-        let few = pins.len() <= FEW_PINS;
-        self.used = if few { pins.len() } else { 1 };
+    /// Measures all ways to the `pinned` particles anew. `rest` is the rest position of each original
+    /// vertex.
+    pub fn measure(
+        &mut self,
+        mesh: &Mesh,
+        rest: &[Vec3],
+        pinned: impl ExactSizeIterator<Item = u32> + Clone,
+    ) {
+        let few = pinned.len() <= FEW_PINS;
+        self.used = if few { pinned.len() } else { 1 };
         for (at, set) in self.sets[..self.used].iter_mut().enumerate() {
             set.anchor.clear();
             set.anchor.resize(mesh.vertex_count(), NONE);
             set.length.clear();
             set.length.resize(mesh.vertex_count(), f32::INFINITY);
-            for (number, pin) in pins.iter().enumerate() {
+            for (number, pin) in pinned.clone().enumerate() {
                 if !few || number == at {
-                    set.anchor[pin.particle as usize] = pin.particle;
-                    set.length[pin.particle as usize] = 0.0;
+                    set.anchor[pin as usize] = pin;
+                    set.length[pin as usize] = 0.0;
                 }
             }
             set.spread(mesh, rest);
@@ -152,12 +157,8 @@ mod tests {
         let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
         let mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len());
-        let mut pins = Pins::default();
-        for corner in [0, 20] {
-            pins.insert(corner, rest[corner as usize], rest[corner as usize]);
-        }
         let mut tethers = Tethers::with_capacity(rest.len());
-        tethers.measure(&mesh, &rest, &pins);
+        tethers.measure(&mesh, &rest, [0, 20].into_iter());
         assert_eq!(tethers.sets().len(), 2);
         for (set, corner) in tethers.sets().iter().zip([0usize, 20]) {
             for (particle, length) in set.length.iter().enumerate() {

@@ -159,6 +159,7 @@ impl World {
 
     /// Measures the tethers anew, after pins or pieces changed.
     pub fn tether(&mut self) {
-        self.tethers.measure(&self.mesh, &self.rest, &self.pins);
+        let pinned = self.pins.iter().map(|pin| pin.particle);
+        self.tethers.measure(&self.mesh, &self.rest, pinned);
     }
 }

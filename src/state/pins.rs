@@ -25,12 +25,8 @@ impl Pins {
         self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Pin> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Pin> + Clone {
         self.list.iter()
-    }
-
-    pub fn len(&self) -> usize {
-        self.list.len()
     }
 
     pub fn find(&self, particle: u32) -> Option<&Pin> {
