@@ -3,6 +3,9 @@
 use muslin::glam::{Quat, Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, Settings, Wind};
 
+/// A field, and what makes it one that cannot be.
+type Spoiler<D> = (&'static str, fn(&mut D));
+
 /// What the error says, for a call that must fail.
 fn refusal<T>(result: Result<T, Error>) -> String {
     match result {
@@ -18,7 +21,7 @@ fn assert_names(result: Result<Cloth, Error>, field: &str) {
 
 #[test]
 fn a_grid_names_the_field_that_cannot_be() {
-    let cases: [(&str, fn(&mut GridDesc)); 12] = [
+    let cases: &[Spoiler<GridDesc>] = &[
         ("columns", |d| d.columns = 1),
         ("rows", |d| d.rows = 0),
         ("columns", |d| (d.columns, d.rows) = (100_000, 100_000)),
@@ -47,7 +50,7 @@ fn a_mesh_names_what_cannot_be_cloth() {
         ..MeshDesc::default()
     };
     assert!(Cloth::mesh(&square()).is_ok());
-    let cases: [(&str, fn(&mut MeshDesc)); 11] = [
+    let cases: &[Spoiler<MeshDesc>] = &[
         ("positions", |d| d.positions.clear()),
         ("positions", |d| d.positions[2].z = f32::NAN),
         ("indices", |d| d.indices.clear()),
@@ -76,7 +79,7 @@ fn a_mesh_names_what_cannot_be_cloth() {
 fn settings_material_and_wind_name_each_field_that_cannot_be() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let hash = cloth.state_hash();
-    let settings: [(&str, fn(&mut Settings)); 9] = [
+    let settings: &[Spoiler<Settings>] = &[
         ("settings.tick", |s| s.tick = 0.0),
         ("settings.substeps", |s| s.substeps = 1001),
         ("settings.iterations", |s| s.iterations = 0),
@@ -92,7 +95,7 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         spoil(&mut changed);
         assert!(refusal(cloth.set_settings(changed)).contains(field), "{field}");
     }
-    let material: [(&str, fn(&mut Material)); 9] = [
+    let material: &[Spoiler<Material>] = &[
         ("material.density", |m| m.density = 0.0),
         ("material.thickness", |m| m.thickness = -1.0),
         ("material.shear_stiffness", |m| m.shear_stiffness = f32::NAN),
@@ -108,7 +111,7 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         spoil(&mut changed);
         assert!(refusal(cloth.set_material(changed)).contains(field), "{field}");
     }
-    let wind: [(&str, fn(&mut Wind)); 5] = [
+    let wind: &[Spoiler<Wind>] = &[
         ("wind.velocity", |w| w.velocity.x = f32::NAN),
         ("wind.gust", |w| w.gust = 1.1),
         ("wind.wander", |w| w.wander = -0.1),

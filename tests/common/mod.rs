@@ -38,7 +38,11 @@ pub fn irregular_mesh() -> MeshDesc {
             let (a, b) = (3 * i + ring, 3 * (i + 1) + ring);
             let quad = [[a, a + 1, b], [b, a + 1, b + 1]];
             for (at, [p, q, r]) in quad.into_iter().enumerate() {
-                indices.extend(if (i + at as u32) % 3 == 0 { [q, p, r] } else { [p, q, r] });
+                indices.extend(if (i + at as u32).is_multiple_of(3) {
+                    [q, p, r]
+                } else {
+                    [p, q, r]
+                });
             }
         }
     }
