@@ -3,7 +3,7 @@
 mod common;
 
 use common::{bare, bare_grid, total_mass};
-use muslin::glam::Vec3;
+use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, Wind};
 
 const G: f32 = 9.81;
@@ -332,7 +332,7 @@ fn a_sheet_slides_down_an_incline_if_it_is_steeper_than_friction() {
             desc.down = Vec3::Z;
             desc.material.friction = friction;
             let mut cloth = Cloth::grid(&desc).unwrap();
-            let rotation = muslin::glam::Quat::from_rotation_z(-angle);
+            let rotation = Quat::from_rotation_z(-angle);
             cloth.add_collider(&ColliderDesc { rotation, ..ColliderDesc::default() }).unwrap();
             cloth.step(30);
             let start = cloth.positions()[14];

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{bare_grid, irregular_mesh, triangles};
+use muslin::glam::Vec3;
 use muslin::{Cloth, EventKind, LinkKind, PinMode};
 use std::fmt::Write;
 
@@ -150,7 +151,7 @@ fn a_scripted_yank_tears_so() {
     let before = cloth.clone();
     let grab = cloth.grab_particle(21).unwrap();
     for tick in 1..=12 {
-        let pull = muslin::glam::Vec3::new(0.3, -0.3 - 0.03125 * tick as f32, 0.0);
+        let pull = Vec3::new(0.3, -0.3 - 0.03125 * tick as f32, 0.0);
         cloth.move_grab(grab, pull).unwrap();
         cloth.step(1);
     }
