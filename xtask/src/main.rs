@@ -1,2 +1,74 @@
-//! Every chore of Muslin as one command.
-fn main() {}
+//! Every chore of Muslin as one command: `cargo xtask demo`, `cargo xtask test`, and what they are made of.
+
+mod bench;
+mod browser;
+mod c;
+mod demo;
+mod failure;
+mod files;
+mod js;
+mod npm;
+mod picture;
+mod readme;
+mod serve;
+mod setup;
+mod shell;
+mod test;
+mod wasm;
+mod web;
+
+use std::process::ExitCode;
+
+use failure::{Failure, Result};
+
+const USAGE: &str = "\
+cargo xtask demo [OPTION…]          build and run the demo; --help lists its options
+cargo xtask demo --shot FILE.png    draw a picture of it without a screen
+cargo xtask demo --web              build the demo as a page and serve it
+  --port N                          on this port (8080, or a free one)
+  --no-open                         without opening a browser
+cargo xtask test [STEP…]            every test, or the steps that are named
+cargo xtask web                     build the demo's page into dist/web
+cargo xtask js                      build the npm package into dist/js
+cargo xtask c                       build the C library, compile and run what is written against it
+cargo xtask bench [OPTION…]         run the benchmarks
+cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    match run(&args) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &[String]) -> Result {
+    let Some((chore, rest)) = args.split_first() else {
+        return Err(Failure::new(USAGE));
+    };
+    match chore.as_str() {
+        "demo" => demo::run(rest),
+        "test" => test::run(rest),
+        "bench" => bench::run(rest),
+        "setup" => test::prepare(rest),
+        "web" => alone(chore, rest, web::build),
+        "js" => alone(chore, rest, js::build),
+        "c" => alone(chore, rest, c::check),
+        "help" | "--help" | "-h" => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        other => Err(Failure::new(format!("there is no chore {other:?}\n{USAGE}"))),
+    }
+}
+
+/// Runs a chore that takes no options.
+fn alone(chore: &str, rest: &[String], run: fn() -> Result) -> Result {
+    match rest.first() {
+        None => run(),
+        Some(option) => Err(Failure::new(format!("`cargo xtask {chore}` takes no {option:?}"))),
+    }
+}

@@ -1,0 +1,28 @@
+// The npm package in a browser: tests/js/page runs the script and leaves what it found.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { test } from "node:test";
+
+import { launch, open, url } from "./browser.mjs";
+
+test("the package loads under a strict policy and ends the script in the golden bits", async () => {
+  const browser = await launch();
+  try {
+    const { page, complaints } = await open(browser);
+    const response = await page.goto(url);
+    assert.equal(response.status(), 200);
+    assert.match(response.headers()["content-security-policy"], /script-src 'self' 'wasm-unsafe-eval'/);
+    const loaded = page.waitForFunction(() => window.result, null, { timeout: 60_000 });
+    await loaded.catch(() => assert.fail(`window.result never came: ${complaints.join("; ")}`));
+    const result = await page.evaluate(() => window.result);
+    assert.deepEqual(result.errors ?? [], []);
+    assert.equal(result.ok, true);
+    const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
+    const plain = (hash) => String(hash).replace(/^0x/, "").padStart(16, "0");
+    assert.equal(plain(result.hash), plain(golden));
+    assert.deepEqual(complaints, []);
+  } finally {
+    await browser.close();
+  }
+});

@@ -1,0 +1,113 @@
+//! The C library: built, its header compiled alone, and everything written against it run.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::failure::Result;
+use crate::{files, setup, shell};
+
+const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+/// What Rust's standard library asks of the system.
+const SYSTEM: [&str; 3] = ["-lm", "-lpthread", "-ldl"];
+
+/// A language and who compiles it.
+#[derive(Clone, Copy)]
+struct Language {
+    end: &'static str,
+    standard: &'static str,
+    compiler: &'static str,
+    /// A second opinion, where it is installed.
+    other: &'static str,
+}
+
+const C: Language = Language { end: "c", standard: "-std=c99", compiler: "cc", other: "clang" };
+const CPP: Language =
+    Language { end: "cpp", standard: "-std=c++17", compiler: "c++", other: "clang++" };
+
+/// How a program finds the library.
+#[derive(Clone, Copy, PartialEq)]
+enum Linking {
+    Static,
+    Shared,
+}
+
+/// Builds the library.
+pub fn build() -> Result {
+    shell::run(&mut shell::cargo(&["build", "--release", "--package", "muslin-c"]))
+}
+
+/// Builds the library, compiles header, tests and examples, and runs them, with valgrind too.
+pub fn check() -> Result {
+    setup::ensure(&[&setup::CXX, &setup::VALGRIND])?;
+    build()?;
+    files::make(&built())?;
+    check_header()?;
+    let root = files::root();
+    let mut sources = files::ending(&root.join("tests/c"), ".c")?;
+    sources.extend(files::ending(&root.join("bindings/c/examples"), ".c")?);
+    sources.extend(
+        files::list(&root.join("tests/c"))?
+            .into_iter()
+            .filter(|f| f.extension().is_some_and(|end| end == "cpp")),
+    );
+    sources.iter().try_for_each(|source| check_program(source))
+}
+
+/// Compiles a program, links it both ways and runs it, with valgrind too.
+pub fn check_program(source: &Path) -> Result {
+    let program = compile(source, Linking::Static)?;
+    shell::run(&mut shell::command(&program))?;
+    let mut valgrind = shell::command("valgrind");
+    valgrind.args(["--quiet", "--error-exitcode=1", "--leak-check=full"]);
+    shell::run(valgrind.arg(&program))?;
+    let program = compile(source, Linking::Shared)?;
+    shell::run(shell::command(&program).env("LD_LIBRARY_PATH", release()))
+}
+
+fn release() -> PathBuf {
+    files::target().join("release")
+}
+
+/// Where programs are built.
+fn built() -> PathBuf {
+    files::target().join("c")
+}
+
+fn compiler(language: Language, program: &str) -> Command {
+    let mut command = shell::command(program);
+    command.arg(language.standard).args(STRICT).arg("-I").arg(files::root().join("include"));
+    command
+}
+
+/// The header asks for nothing that the program must include first.
+fn check_header() -> Result {
+    for language in [C, CPP] {
+        let source = built().join("header").with_extension(language.end);
+        files::write(
+            &source,
+            "#include \"muslin.h\"\n#include \"muslin.h\"\nint main(void) { return 0; }\n",
+        )?;
+        for program in [language.compiler, language.other] {
+            if program == language.compiler || shell::which(program).is_some() {
+                shell::run(compiler(language, program).arg("-fsyntax-only").arg(&source))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn compile(source: &Path, linking: Linking) -> Result<PathBuf> {
+    let language = if source.extension().is_some_and(|end| end == "cpp") { CPP } else { C };
+    let stem = source.file_stem().unwrap_or_default().to_string_lossy();
+    let end = if linking == Linking::Static { "static" } else { "shared" };
+    let program = built().join(format!("{stem}-{}-{end}", language.end));
+    files::make(&built())?;
+    let mut cc = compiler(language, language.compiler);
+    cc.args(["-g", "-O1", "-o"]).arg(&program).arg(source);
+    match linking {
+        Linking::Static => cc.arg(release().join("libmuslin.a")),
+        Linking::Shared => cc.arg("-L").arg(release()).arg("-lmuslin"),
+    };
+    shell::run(cc.args(SYSTEM))?;
+    Ok(program)
+}

@@ -1,0 +1,109 @@
+//! The demo: in a window, as a picture, as a page.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use crate::failure::{During, Failure, Result};
+use crate::serve::{Mount, Server};
+use crate::{files, picture, setup, shell, web};
+
+/// Runs the demo with its options.
+pub fn run(options: &[String]) -> Result {
+    let given = |name: &str| options.iter().any(|option| option.split('=').next() == Some(name));
+    if given("--web") {
+        return serve(options);
+    }
+    if !given("--help") && !given("-h") {
+        if !given("--shot") && !setup::has_display() {
+            return Err(Failure::new(
+                "there is no display for a window; `cargo xtask demo --web` serves the demo as a page, \
+                 `cargo xtask demo --shot FILE.png` draws it without a screen",
+            ));
+        }
+        setup::ensure(if given("--shot") { &[&setup::EGL] } else { &[&setup::EGL, &setup::X11] })?;
+    }
+    build()?;
+    let mut demo = Command::new(files::target().join("release").join("muslin-demo"));
+    let status = demo.args(options).status().during(|| "starting the demo".into())?;
+    // The demo has said why.
+    std::process::exit(status.code().unwrap_or(1))
+}
+
+fn build() -> Result {
+    let args = ["build", "--release", "--package", "muslin-demo", "--bin", "muslin-demo"];
+    shell::run(&mut shell::cargo(&args))
+}
+
+fn serve(options: &[String]) -> Result {
+    let mut port = None;
+    let mut open = true;
+    let mut options = options.iter().flat_map(|option| option.splitn(2, '='));
+    while let Some(option) = options.next() {
+        match option {
+            "--web" => {}
+            "--no-open" => open = false,
+            "--port" => {
+                let number = options.next().and_then(|text| text.parse().ok());
+                port = Some(number.ok_or_else(|| Failure::new("--port must be 0 to 65535"))?);
+            }
+            other => {
+                return Err(Failure::new(format!(
+                    "--web goes with --port and --no-open, not {other}"
+                )));
+            }
+        }
+    }
+    web::build()?;
+    let server = match port {
+        Some(port) => Server::open(vec![Mount { at: "/", dir: web::dir() }], port)?,
+        None => Server::open_anywhere(&web::dir())?,
+    };
+    println!("serving {} (Ctrl-C stops)", server.url());
+    if open && setup::has_display() {
+        show(&server.url());
+    }
+    server.run();
+    Ok(())
+}
+
+/// Opens the browser; without one the address that was printed must do.
+fn show(url: &str) {
+    let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
+    if shell::which(opener).is_some() {
+        shell::command(opener).arg(url).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok();
+    }
+}
+
+/// Draws a picture as a person would and looks at it; asks for a window where there is none.
+pub fn test_shot() -> Result {
+    let shots = files::target().join("shots");
+    files::make(&shots)?;
+    shoot(&shots.join("shot.png"), &[])?;
+    refuse_without_a_display()
+}
+
+/// Runs `demo --shot` and looks at the picture.
+pub fn shoot(file: &Path, options: &[&str]) -> Result {
+    if file.exists() {
+        std::fs::remove_file(file).during(|| format!("removing {}", file.display()))?;
+    }
+    shell::run(shell::xtask(&["demo", "--shot"])?.arg(file).args(options))?;
+    picture::check(file)
+}
+
+fn refuse_without_a_display() -> Result {
+    let mut demo = shell::xtask(&["demo"])?;
+    let demo = demo.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    let told = demo.output().during(|| "starting `cargo xtask demo`".into())?;
+    let line = String::from_utf8_lossy(&told.stderr);
+    let offers =
+        line.contains("--web") && line.contains("--shot") && line.trim().lines().count() == 1;
+    if !told.status.success() && offers {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "`cargo xtask demo` without a display must fail with one line that offers --web and --shot, \
+         not {} and {line:?}",
+        told.status
+    )))
+}

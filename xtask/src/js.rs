@@ -1,0 +1,63 @@
+//! The npm package `muslin`: built into `dist/js`, tested in node and in a browser.
+
+use std::path::PathBuf;
+
+use crate::failure::{Failure, Result};
+use crate::serve::{Mount, Server};
+use crate::{browser, files, npm, shell, wasm};
+
+/// Where the package is built.
+pub fn dir() -> PathBuf {
+    files::root().join("dist/js")
+}
+
+/// Builds the package.
+pub fn build() -> Result {
+    let hand_written = files::root().join("bindings/js/package");
+    if !hand_written.is_dir() {
+        return Err(Failure::new(
+            "bindings/js/package is missing: it holds the package's own files",
+        ));
+    }
+    files::make_empty(&dir())?;
+    wasm::build("muslin-js", &dir(), "raw", true)?;
+    files::copy_all(&hand_written, &dir())?;
+    for license in ["LICENSE-MIT", "LICENSE-APACHE"] {
+        let text = files::read(&files::root().join(license))?;
+        files::write(&dir().join(license), &text)?;
+    }
+    println!("the package is in dist/js");
+    Ok(())
+}
+
+/// Runs the tests in node, and has the compiler read the types.
+pub fn test() -> Result {
+    build()?;
+    npm::install()?;
+    let tests = files::root().join("tests/js");
+    let mut node = shell::command("node");
+    node.args(["--test", "--test-reporter=spec"]);
+    shell::run(node.args(files::ending(&tests, ".test.mjs")?))?;
+    for types in files::ending(&tests, ".ts")? {
+        let mut tsc = shell::command("node");
+        tsc.arg(npm::modules().join("typescript/bin/tsc"));
+        let how = ["--noEmit", "--strict", "--target", "es2022", "--module", "nodenext"];
+        shell::run(tsc.args(how).arg(types))?;
+    }
+    Ok(())
+}
+
+/// Loads the package in a browser, from a page that is as strict as ours.
+pub fn test_page() -> Result {
+    build()?;
+    npm::install()?;
+    let root = files::root();
+    let mounts = vec![
+        Mount { at: "/js/", dir: dir() },
+        Mount { at: "/three/", dir: npm::modules().join("three/build") },
+        Mount { at: "/tests/", dir: root.join("tests") },
+        Mount { at: "/", dir: root.join("tests/js/page") },
+    ];
+    let url = Server::open(mounts, 0)?.run_aside();
+    browser::node_test("tests/web/page.test.mjs", &url, &[])
+}

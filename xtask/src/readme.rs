@@ -1,0 +1,213 @@
+//! README.md shows nothing that is not run: every block of code and every command in it.
+
+use std::path::PathBuf;
+
+use crate::failure::{During, Failure, Result};
+use crate::{bench, c, demo, files, js, npm, setup, shell, test};
+
+/// A fenced block.
+#[derive(Debug, PartialEq)]
+struct Block {
+    language: String,
+    /// The line in README.md at which its text starts, from 1.
+    line: usize,
+    text: String,
+}
+
+/// Runs every block. Blocks of Rust are examples of the crate `muslin`, which step `rust` runs.
+pub fn test() -> Result {
+    let blocks = blocks(&files::read(&files::root().join("README.md"))?)?;
+    if blocks.is_empty() {
+        return Err(Failure::new("README.md shows no code"));
+    }
+    let has = |language: &str| blocks.iter().any(|block| block.language == language);
+    files::make_empty(&scratch())?;
+    if has("rust") {
+        check_crate_includes_readme()?;
+    }
+    if has("c") {
+        setup::ensure(&[&setup::CXX, &setup::VALGRIND])?;
+        c::build()?;
+    }
+    if has("js") {
+        js::build()?;
+        npm::install()?;
+    }
+    for block in &blocks {
+        println!("README.md line {}: {}", block.line, block.language);
+        block.run().during(|| format!("README.md line {}", block.line))?;
+    }
+    Ok(())
+}
+
+fn scratch() -> PathBuf {
+    files::target().join("readme")
+}
+
+fn check_crate_includes_readme() -> Result {
+    let crate_page = files::read(&files::root().join("src/lib.rs"))?;
+    if crate_page.contains("include_str!(\"../README.md\")") {
+        return Ok(());
+    }
+    Err(Failure::new("src/lib.rs does not include README.md, so nothing runs its Rust"))
+}
+
+/// The fenced blocks of a page.
+fn blocks(page: &str) -> Result<Vec<Block>> {
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut open = false;
+    for (at, line) in page.lines().enumerate() {
+        match line.trim_start().strip_prefix("```") {
+            Some(_) if open => open = false,
+            Some(language) => {
+                open = true;
+                let language = language.trim().to_string();
+                blocks.push(Block { language, line: at + 2, text: String::new() });
+            }
+            None if open => {
+                if let Some(block) = blocks.last_mut() {
+                    block.text += line;
+                    block.text.push('\n');
+                }
+            }
+            None => {}
+        }
+    }
+    if open {
+        return Err(Failure::new("the last block of README.md is not closed"));
+    }
+    Ok(blocks)
+}
+
+impl Block {
+    fn run(&self) -> Result {
+        let name = format!("line-{}", self.line);
+        match self.language.as_str() {
+            // Step `rust` runs it; that the crate includes it has been seen.
+            "rust" | "text" => Ok(()),
+            "c" => {
+                let source = scratch().join(name + ".c");
+                files::write(&source, &self.text)?;
+                c::check_program(&source)
+            }
+            "js" => {
+                let beside = npm::modules().join(".readme");
+                files::make(&beside)?;
+                let source = beside.join(name + ".mjs");
+                files::write(&source, &self.text)?;
+                shell::run(shell::command("node").arg(source))
+            }
+            "sh" => self.commands().try_for_each(|(line, command)| {
+                run_command(command).during(|| format!("README.md line {line}: `{command}`"))
+            }),
+            other => Err(Failure::new(format!(
+                "nothing runs blocks of {other:?}; rust, c, js and sh are run, text is not code"
+            ))),
+        }
+    }
+
+    /// The commands of a shell block, without prompts and comments, and their lines.
+    fn commands(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.text.lines().enumerate().filter_map(|(at, line)| {
+            let command = line.split(" #").next().unwrap_or(line).trim();
+            let command = command.strip_prefix("$ ").unwrap_or(command);
+            (!command.is_empty() && !command.starts_with('#')).then_some((self.line + at, command))
+        })
+    }
+}
+
+/// What is done about a line of a shell block.
+#[derive(Debug, PartialEq)]
+enum Action<'a> {
+    /// This step of the tests runs it.
+    Step(&'static str),
+    /// It is what is running.
+    Itself,
+    /// A picture with these options.
+    Shot(Vec<&'a str>),
+    /// A chore of xtask that can be run here.
+    Chore(Vec<&'a str>),
+    Bench,
+    /// Any other command.
+    Shell,
+    /// Nothing can run it.
+    Unknown,
+}
+
+fn action(command: &str) -> Action<'_> {
+    let words: Vec<_> = command.split_whitespace().collect();
+    let ["cargo", "xtask", rest @ ..] = words.as_slice() else {
+        return Action::Shell;
+    };
+    match rest {
+        ["test"] => Action::Itself,
+        ["test", steps @ ..] if steps.iter().all(|step| test::is_step(step)) => Action::Itself,
+        // Without a display it makes its offer; the step looks at that.
+        ["demo"] => Action::Step("shot"),
+        ["demo", "--web"] => Action::Step("web"),
+        ["demo", "--shot", _file, options @ ..] => Action::Shot(options.to_vec()),
+        ["js"] => Action::Step("js"),
+        ["c"] => Action::Step("c"),
+        ["web" | "setup"] => Action::Chore(rest.to_vec()),
+        ["bench"] => Action::Bench,
+        _ => Action::Unknown,
+    }
+}
+
+fn run_command(command: &str) -> Result {
+    match action(command) {
+        Action::Step(step) => {
+            println!("{command}: step {step} runs it");
+            Ok(())
+        }
+        Action::Itself => {
+            println!("{command}: is running");
+            Ok(())
+        }
+        Action::Shot(options) => demo::shoot(&scratch().join("shot.png"), &options),
+        Action::Chore(words) => shell::run(&mut shell::xtask(&words)?),
+        // Each benchmark once, untimed.
+        Action::Bench => bench::run(&["--test".into()]),
+        Action::Shell => shell::run(shell::command("sh").args(["-ec", command])),
+        Action::Unknown => Err(Failure::new("no test runs this command")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAGE: &str = "# A page\n\n```sh\n# Look:\n$ cargo xtask test   # all\ncc a.c\n```\ntext\n\n```c\nint x;\n```\n";
+
+    #[test]
+    fn blocks_know_their_language_and_line() {
+        let blocks = blocks(PAGE).unwrap();
+        assert_eq!(blocks.len(), 2);
+        assert_eq!((blocks[0].language.as_str(), blocks[0].line), ("sh", 4));
+        assert_eq!(blocks[1], Block { language: "c".into(), line: 11, text: "int x;\n".into() });
+        let commands: Vec<_> = blocks[0].commands().collect();
+        assert_eq!(commands, [(5, "cargo xtask test"), (6, "cc a.c")]);
+    }
+
+    #[test]
+    fn a_block_left_open_is_refused() {
+        assert!(blocks("```sh\nls\n").is_err());
+    }
+
+    #[test]
+    fn a_block_that_nothing_runs_is_refused() {
+        let block = Block { language: "cobol".into(), line: 1, text: String::new() };
+        assert!(block.run().unwrap_err().to_string().contains("cobol"));
+    }
+
+    #[test]
+    fn every_chore_is_run_by_something_or_refused() {
+        assert_eq!(action("cargo xtask test"), Action::Itself);
+        assert_eq!(action("cargo xtask test js web"), Action::Itself);
+        assert_eq!(action("cargo xtask test rusty"), Action::Unknown);
+        assert_eq!(action("cargo xtask demo --web"), Action::Step("web"));
+        assert_eq!(action("cargo xtask demo --shot a.png --tear"), Action::Shot(vec!["--tear"]));
+        assert_eq!(action("cargo xtask fly"), Action::Unknown);
+        assert_eq!(action("cc -Iinclude a.c"), Action::Shell);
+    }
+}

@@ -1,0 +1,40 @@
+//! From a crate to a wasm module with the JavaScript that loads it.
+
+use std::path::Path;
+
+use wasm_bindgen_cli_support::Bindgen;
+
+use crate::failure::{During, Result};
+use crate::{files, setup, shell};
+
+/// Four lanes at a time; every current browser and node has them.
+const FLAGS: &str = "-C target-feature=+simd128";
+
+/// Builds the library of `package` for the web and puts `name.js` and `name_bg.wasm` into `dir`;
+/// `name.d.ts` too if there are to be `types`.
+pub fn build(package: &str, dir: &Path, name: &str, types: bool) -> Result {
+    setup::ensure_wasm()?;
+    const TARGET: &str = "wasm32-unknown-unknown";
+    let args = ["build", "--release", "--lib", "--target", TARGET, "--package", package];
+    let mut cargo = shell::cargo(&args);
+    // A caller's flags would replace these.
+    cargo.env("RUSTFLAGS", FLAGS).env_remove("CARGO_ENCODED_RUSTFLAGS");
+    shell::run(&mut cargo)?;
+    let built = package.replace('-', "_") + ".wasm";
+    let module = files::target().join(TARGET).join("release").join(built);
+    bind(&module, dir, name, types).during(|| format!("binding {}", module.display()))
+}
+
+fn bind(module: &Path, dir: &Path, name: &str, types: bool) -> Result {
+    let during = || String::from("wasm-bindgen");
+    Bindgen::new()
+        .web(true)
+        .during(during)?
+        .typescript(types)
+        .remove_name_section(true)
+        .remove_producers_section(true)
+        .out_name(name)
+        .input_path(module)
+        .generate(dir)
+        .during(during)
+}
