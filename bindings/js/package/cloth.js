@@ -1,0 +1,348 @@
+// A cloth, its grabs and its colliders.
+
+import * as raw from "./raw.js";
+import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from "./check.js";
+import { ready } from "./memory.js";
+import * as fields from "./fields.js";
+import { readEvents, readHit, readStats } from "./reports.js";
+
+const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
+const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
+const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "settings"];
+
+/** Only this module makes cloths, grabs and colliders: from what the core gave. */
+const OURS = Symbol("made by muslin");
+
+function onlyOurs(key, advice) {
+  if (key !== OURS) throw new Error(advice);
+}
+
+/** The material and the settings of a descriptor, as lists. */
+function clothing({ material = {}, settings = {} }) {
+  return [
+    fields.mergeMaterial(raw.default_material(), material, raw.preset_material),
+    fields.merge(fields.SETTINGS, raw.default_settings(), settings, "settings"),
+  ];
+}
+
+/** Makes a cloth, or says that there is no room for it. */
+function make(build) {
+  try {
+    return new Cloth(OURS, build());
+  } catch (error) {
+    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+    throw new Error("no memory is left for such a cloth", { cause: error });
+  }
+}
+
+export class Cloth {
+  #raw;
+  #views = {};
+
+  constructor(key, raw) {
+    onlyOurs(key, "a cloth is made by Cloth.grid(), Cloth.mesh() or Cloth.restore()");
+    this.#raw = raw;
+  }
+
+  static grid(desc = {}) {
+    ready();
+    keys(desc, "desc", GRID_KEYS);
+    const grid = fields.pack(fields.GRID, raw.default_grid(), desc);
+    const [material, settings] = clothing(desc);
+    return make(() => raw.RawCloth.grid(grid, material, settings));
+  }
+
+  static mesh(desc) {
+    ready();
+    keys(desc, "desc", MESH_KEYS);
+    const positions = floats(desc.positions, "positions", 3);
+    const indices = wholes(desc.indices, "indices");
+    const uvs = floats(desc.uvs ?? [], "uvs", 2);
+    const pinned = wholes(desc.pinned ?? [], "pinned");
+    const mesh = fields.pack(fields.MESH, raw.default_mesh(), desc);
+    const [material, settings] = clothing(desc);
+    return make(() => raw.RawCloth.mesh(positions, indices, uvs, pinned, mesh, material, settings));
+  }
+
+  static restore(buffer) {
+    ready();
+    const saved = bytes(buffer, "buffer");
+    return make(() => raw.RawCloth.restore(saved));
+  }
+
+  get #live() {
+    check(this.#raw, "cloth", "be live, but was freed");
+    return this.#raw;
+  }
+
+  free() {
+    this.#raw?.free();
+    this.#raw = undefined;
+    this.#views = {};
+  }
+
+  get isFreed() {
+    return this.#raw === undefined;
+  }
+
+  // Time
+
+  advance(seconds) {
+    return this.#live.advance(number(seconds, "seconds"));
+  }
+
+  step(ticks = 1) {
+    this.#live.step(whole(ticks, "ticks"));
+  }
+
+  reset() {
+    this.#live.reset();
+  }
+
+  get time() {
+    return this.#live.time();
+  }
+
+  get blend() {
+    return this.#live.blend();
+  }
+
+  get timing() {
+    return this.#live.is_timed();
+  }
+
+  set timing(timing) {
+    this.#live.set_timed(flag(timing, "timing"));
+  }
+
+  // How it behaves
+
+  get settings() {
+    return fields.unpack(fields.SETTINGS, this.#live.settings());
+  }
+
+  set settings(settings) {
+    const live = this.#live;
+    live.set_settings(fields.merge(fields.SETTINGS, live.settings(), settings, "settings"));
+  }
+
+  get material() {
+    return fields.unpack(fields.MATERIAL, this.#live.material());
+  }
+
+  set material(material) {
+    const live = this.#live;
+    live.set_material(fields.mergeMaterial(live.material(), material, raw.preset_material));
+  }
+
+  get wind() {
+    return fields.unpack(fields.WIND, this.#live.wind());
+  }
+
+  set wind(wind) {
+    const live = this.#live;
+    live.set_wind(fields.merge(fields.WIND, live.wind(), wind, "wind"));
+  }
+
+  // Views
+
+  get positions() {
+    const live = this.#live;
+    return this.#view("positions", Float32Array, live.positions_ptr(), 3 * live.vertex_count());
+  }
+
+  get normals() {
+    const live = this.#live;
+    return this.#view("normals", Float32Array, live.normals_ptr(), 3 * live.vertex_count());
+  }
+
+  get uvs() {
+    const live = this.#live;
+    return this.#view("uvs", Float32Array, live.uvs_ptr(), 2 * live.vertex_count());
+  }
+
+  get indices() {
+    const live = this.#live;
+    return this.#view("indices", Uint32Array, live.indices_ptr(), live.index_count());
+  }
+
+  get sourceVertices() {
+    const live = this.#live;
+    return this.#view("sources", Uint32Array, live.source_vertices_ptr(), live.vertex_count());
+  }
+
+  /** The view of last time if it still fits: the same memory, place and length. */
+  #view(name, Kind, at, length) {
+    const { buffer } = ready(); // asked last: whoever gave `at` may have made the memory grow
+    const last = this.#views[name];
+    const fits = last?.buffer === buffer && last.byteOffset === at && last.length === length;
+    return fits ? last : (this.#views[name] = new Kind(buffer, at, length));
+  }
+
+  get vertexCapacity() {
+    return this.#live.vertex_capacity();
+  }
+
+  get indexCapacity() {
+    return this.#live.index_capacity();
+  }
+
+  get topologyRevision() {
+    return this.#live.topology_revision();
+  }
+
+  get stateRevision() {
+    return this.#live.state_revision();
+  }
+
+  // Particles
+
+  velocity(particle) {
+    return Array.from(this.#live.velocity(whole(particle, "particle")));
+  }
+
+  mass(particle) {
+    return this.#live.mass(whole(particle, "particle"));
+  }
+
+  setPosition(particle, position) {
+    this.#live.set_position(whole(particle, "particle"), ...vector(position, "position"));
+  }
+
+  setVelocity(particle, velocity) {
+    this.#live.set_velocity(whole(particle, "particle"), ...vector(velocity, "velocity"));
+  }
+
+  // Pins
+
+  get pinned() {
+    return this.#live.pinned();
+  }
+
+  pin(particle, target) {
+    const live = this.#live;
+    whole(particle, "particle");
+    if (target === undefined) live.pin_here(particle);
+    else live.pin_at(particle, ...vector(target, "target"));
+  }
+
+  unpin(particle) {
+    this.#live.unpin(whole(particle, "particle"));
+  }
+
+  unpinAll() {
+    this.#live.unpin_all();
+  }
+
+  setPinTargets(particles, targets) {
+    const live = this.#live;
+    live.set_pin_targets(wholes(particles, "particles"), floats(targets, "targets", 3));
+  }
+
+  // Pointing, grabbing and tearing
+
+  raycast(origin, direction, maxDistance = Infinity) {
+    const live = this.#live;
+    return readHit(live.raycast(ray(origin, direction), number(maxDistance, "maxDistance")));
+  }
+
+  grabRay(origin, direction, options = {}) {
+    const live = this.#live;
+    const { radius = 0 } = keys(options, "options", ["radius"]);
+    const held = live.grab_ray(ray(origin, direction), number(radius, "radius"));
+    return held.length === 0 ? undefined : new Grab(OURS, () => this.#live, held[0], held.subarray(1));
+  }
+
+  grabParticle(particle) {
+    const grab = this.#live.grab_particle(whole(particle, "particle"));
+    const at = this.positions.subarray(3 * particle, 3 * particle + 3);
+    return new Grab(OURS, () => this.#live, grab, at);
+  }
+
+  tearEdge(particleA, particleB) {
+    const live = this.#live;
+    return live.tear_edge(whole(particleA, "particleA"), whole(particleB, "particleB"));
+  }
+
+  // Colliders
+
+  addCollider(collider = {}) {
+    const live = this.#live;
+    const desc = fields.merge(fields.COLLIDER, raw.default_collider(), collider, "collider");
+    const { rotation } = fields.unpack(fields.COLLIDER, desc);
+    return new Collider(OURS, () => this.#live, live.add_collider(desc), rotation);
+  }
+
+  // What happened, and how it stands
+
+  events() {
+    return readEvents(this.#live.events());
+  }
+
+  get stats() {
+    return readStats(this.#live.stats(), raw.stage_names());
+  }
+
+  stateHash() {
+    return this.#live.state_hash();
+  }
+
+  save() {
+    return this.#live.save();
+  }
+}
+
+function ray(origin, direction) {
+  return Float64Array.of(...vector(origin, "origin"), ...vector(direction, "direction"));
+}
+
+export class Grab {
+  #live;
+  #handle;
+
+  constructor(key, live, handle, position) {
+    onlyOurs(key, "a grab is made by cloth.grabRay() or cloth.grabParticle()");
+    this.#live = live;
+    this.#handle = handle;
+    this.position = Object.freeze(Array.from(position));
+    Object.freeze(this);
+  }
+
+  moveTo(target) {
+    this.#live().move_grab(this.#handle, ...vector(target, "target"));
+  }
+
+  release() {
+    this.#live().release(this.#handle);
+  }
+}
+
+export class Collider {
+  #live;
+  #handle;
+  #rotation;
+
+  constructor(key, live, handle, rotation) {
+    onlyOurs(key, "a collider is made by cloth.addCollider()");
+    this.#live = live;
+    this.#handle = handle;
+    this.#rotation = rotation;
+  }
+
+  moveTo(position, rotation = this.#rotation) {
+    const live = this.#live();
+    const turned = vector(rotation, "rotation", "x, y, z, w");
+    live.move_collider(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
+    this.#rotation = turned;
+  }
+
+  remove() {
+    this.#live().remove_collider(this.#handle);
+  }
+}
+
+// Where the engine knows `using`.
+if (Symbol.dispose) {
+  const hidden = (value) => ({ value, writable: true, configurable: true });
+  Object.defineProperty(Cloth.prototype, Symbol.dispose, hidden(Cloth.prototype.free));
+}

@@ -1,0 +1,63 @@
+// Loading the wasm module: once, whoever asks and however often.
+
+import instantiate, { initSync as instantiateSync } from "./raw.js";
+import { check, isBytes } from "./check.js";
+import { hold, isLoaded } from "./memory.js";
+
+const SOURCES = "be a URL, Request, Response, bytes or WebAssembly.Module";
+
+let loading;
+
+/** Loads the module; see index.d.ts. */
+export default async function init(source) {
+  if (isLoaded()) return;
+  loading ??= load(source).finally(() => (loading = undefined));
+  await loading;
+}
+
+/** Loads the module from what is already here; see index.d.ts. */
+export function initSync(source) {
+  if (isLoaded()) return;
+  if (loading) throw new Error("init() is under way: await it instead of calling initSync()");
+  const isModule = source instanceof WebAssembly.Module;
+  check(isModule || isBytes(source), "source", "be bytes or a WebAssembly.Module");
+  const module = ours(isModule ? source : new WebAssembly.Module(source));
+  hold(instantiateSync({ module }).memory);
+}
+
+async function load(source) {
+  const module = ours(await compile(await (source ?? new URL("raw_bg.wasm", import.meta.url))));
+  hold((await instantiate({ module_or_path: module })).memory);
+}
+
+async function compile(source) {
+  if (source instanceof WebAssembly.Module) return source;
+  if (isBytes(source)) return WebAssembly.compile(source);
+  const isHere = source instanceof URL || typeof source === "string";
+  if (isHere && String(source).startsWith("file:")) return WebAssembly.compile(await file(source));
+  if (source instanceof Response) return receive(source);
+  check(isHere || source instanceof Request, "source", SOURCES);
+  return receive(await fetch(source));
+}
+
+async function receive(response) {
+  check(response.ok, "source", `be found, but ${response.url} answered ${response.status}`);
+  const isTyped = response.headers.get("content-type")?.startsWith("application/wasm");
+  if (isTyped) return WebAssembly.compileStreaming(response);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** Node cannot fetch a file. The name is kept from bundlers, which would look for it for a browser. */
+async function file(url) {
+  const name = "node:fs/promises";
+  const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ name);
+  return readFile(new URL(url));
+}
+
+/** Refuses a foreign module before it is bound, so that another load may follow. */
+function ours(module) {
+  const exported = WebAssembly.Module.exports(module).map(({ name }) => name);
+  const holds = exported.includes("memory") && exported.includes("rawcloth_grid");
+  check(holds, "source", "be the raw_bg.wasm of this package");
+  return module;
+}

@@ -1,0 +1,35 @@
+// The script of tests/bits.rs, told in JavaScript, for node and for a page.
+
+/**
+ * Six hundred ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go,
+ * fall on the floor, be picked up by a corner.
+ */
+export function playScript(Cloth) {
+  const cloth = Cloth.grid({ settings: { tearing: true }, material: { tearStretch: 1.5 } });
+  cloth.wind = { velocity: [0.25, 0, 1], gust: 0.5, wander: 0.25, turbulence: 0.25, seed: 7 };
+  cloth.addCollider({ shape: "plane", position: [0, -2.5, 0] });
+  cloth.step(120);
+
+  const grab = cloth.grabRay([1, -1, 5], [0, 0, -1], { radius: 0.1 });
+  const [x, y, z] = grab.position;
+  for (let i = 1; i <= 120; i++) {
+    grab.moveTo([Math.fround(x + 0.015625 * i), y, Math.fround(z + 0.03125 * i)]);
+    cloth.step(1);
+  }
+  cloth.tearEdge(820, 860);
+  grab.release();
+  cloth.step(180);
+
+  cloth.unpinAll();
+  cloth.step(120);
+  cloth.pin(0, [0, 0, 0.5]);
+  cloth.step(59);
+  const ticks = cloth.advance(1 / 60);
+  if (ticks !== 1) throw new Error(`the last frame is to owe 1 tick, but owed ${ticks}`);
+  return cloth;
+}
+
+/** A hash as tests/script.hash writes it. */
+export function hexOf(hash) {
+  return `0x${hash.toString(16).padStart(16, "0")}`;
+}
