@@ -1,0 +1,176 @@
+// Loading once, freeing once, and the errors around both.
+
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { readFile } from "node:fs/promises";
+import { test } from "node:test";
+import { promisify } from "node:util";
+import { setFlagsFromString } from "node:v8";
+import { runInNewContext } from "node:vm";
+
+import init, { Cloth, initSync, version } from "muslin";
+
+const wasm = new URL(import.meta.resolve("muslin/raw_bg.wasm"));
+const manifest = new URL(import.meta.resolve("muslin/package.json"));
+
+/** Runs a module in a node of its own, where nothing is loaded yet. */
+async function inFreshNode(body) {
+  const head = `
+    import assert from "node:assert/strict";
+    import { readFile } from "node:fs/promises";
+    import init, { Cloth, initSync, version } from "muslin";
+    const bytes = await readFile(new URL(${JSON.stringify(wasm)}));
+    const works = () => { const c = Cloth.grid(); c.step(1); assert.ok(c.stateHash()); c.free(); };
+  `;
+  const args = ["--input-type=module", "--eval", head + body];
+  const { stdout, stderr } = await promisify(execFile)(process.execPath, args, {
+    cwd: new URL(".", import.meta.url),
+  });
+  assert.equal(stdout + stderr, "");
+}
+
+test("before init every way to a cloth says what to call", () =>
+  inFreshNode(`
+    for (const use of [() => Cloth.grid(), () => Cloth.mesh({}), () => Cloth.restore(bytes), version]) {
+      assert.throws(use, /call await init\\(\\) first/);
+    }
+  `));
+
+for (const [what, source] of Object.entries({
+  "the file beside the module": "undefined",
+  "a file URL": `new URL(${JSON.stringify(wasm)})`,
+  "a file URL as a string": JSON.stringify(wasm),
+  "bytes": "bytes",
+  "an ArrayBuffer": "new Uint8Array(bytes).buffer",
+  "a promise of bytes": "Promise.resolve(bytes)",
+  "a compiled module": "new WebAssembly.Module(bytes)",
+  "a response": `new Response(bytes, { headers: { "content-type": "application/wasm" } })`,
+  "a response of no type": "Promise.resolve(new Response(bytes))",
+  "a data URL": "`data:application/wasm;base64,${bytes.toString('base64')}`",
+})) {
+  test(`init takes ${what}`, () => inFreshNode(`await init(${source}); works();`));
+}
+
+test("initSync takes bytes and modules", async () => {
+  await inFreshNode("initSync(bytes); works(); initSync(bytes); await init(); works();");
+  await inFreshNode("initSync(new WebAssembly.Module(bytes)); works();");
+});
+
+test("init called twice, one after the other or at once, loads once", () =>
+  inFreshNode(`
+    await Promise.all([init(), init(bytes), init()]);
+    const cloth = Cloth.grid();
+    const { buffer } = cloth.positions;
+    await init(bytes);
+    await init();
+    assert.equal(cloth.positions.buffer, buffer);
+    works();
+  `));
+
+test("initSync refuses to overtake init", () =>
+  inFreshNode(`
+    const loading = init();
+    assert.throws(() => initSync(bytes), /init\\(\\) is under way/);
+    await loading;
+    works();
+  `));
+
+test("a load that failed says why and may be tried again", () =>
+  inFreshNode(`
+    const empty = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0);
+    await assert.rejects(init(empty), /\`source\` must be the raw_bg.wasm of this package/);
+    await assert.rejects(init(bytes.subarray(0, 100)), WebAssembly.CompileError);
+    await assert.rejects(init(7), /\`source\` must be a URL/);
+    await assert.rejects(init({}), /\`source\` must be a URL/);
+    await assert.rejects(init(new URL("nowhere.wasm", ${JSON.stringify(wasm)})), /ENOENT/);
+    await assert.rejects(init(new Response("", { status: 404 })), /\`source\` must be found/);
+    assert.throws(() => initSync(empty), /\`source\` must be the raw_bg.wasm/);
+    assert.throws(() => initSync("file"), /\`source\` must be bytes/);
+    assert.throws(() => Cloth.grid(), /call await init/);
+    await init();
+    works();
+  `));
+
+test("the version is the package's", async () => {
+  await init();
+  assert.equal(version(), JSON.parse(await readFile(manifest, "utf8")).version);
+});
+
+test("free may be called twice, and any use after it says so", async () => {
+  await init();
+  const cloth = Cloth.grid();
+  const [grab, collider] = [cloth.grabParticle(800), cloth.addCollider()];
+  assert.equal(cloth.isFreed, false);
+  cloth.free();
+  cloth.free();
+  assert.equal(cloth.isFreed, true);
+  const freed = /`cloth` must be live, but was freed/;
+  const calls = {
+    advance: [0],
+    velocity: [0],
+    mass: [0],
+    setPosition: [0, [0, 0, 0]],
+    setVelocity: [0, [0, 0, 0]],
+    pin: [0],
+    unpin: [0],
+    setPinTargets: [[0], [0, 0, 0]],
+    raycast: [[0, 0, 1], [0, 0, -1]],
+    grabRay: [[0, 0, 1], [0, 0, -1]],
+    grabParticle: [0],
+    tearEdge: [0, 1],
+  };
+  for (const [name, { get, set, value }] of Object.entries(
+    Object.getOwnPropertyDescriptors(Cloth.prototype),
+  )) {
+    if (["constructor", "free", "isFreed"].includes(name)) continue;
+    if (value) assert.throws(() => cloth[name](...(calls[name] ?? [])), freed, name);
+    if (get) assert.throws(() => cloth[name], freed, name);
+    if (set) assert.throws(() => (cloth[name] = {}), freed, name);
+  }
+  for (const use of [() => grab.moveTo([0, 0, 0]), () => grab.release()]) assert.throws(use, freed);
+  for (const use of [() => collider.moveTo([0, 0, 0]), () => collider.remove()]) assert.throws(use, freed);
+});
+
+test("a cloth is disposed of as `using` does it", async () => {
+  await init();
+  const cloth = Cloth.grid();
+  assert.ok(Symbol.dispose, "this node knows Symbol.dispose");
+  cloth[Symbol.dispose]();
+  assert.equal(cloth.isFreed, true);
+});
+
+test("a released grab is stale, and so is one whose cloth was reset", async () => {
+  await init();
+  const cloth = Cloth.grid();
+  const stale = /`grab` must be a live grab of this cloth/;
+  for (const end of [(grab) => grab.release(), () => cloth.reset()]) {
+    const grab = cloth.grabParticle(800);
+    end(grab);
+    const other = cloth.grabParticle(800);
+    assert.throws(() => grab.release(), stale);
+    assert.throws(() => grab.moveTo([0, 0, 0]), stale);
+    other.release();
+  }
+});
+
+test("cloths, grabs and colliders are made by their makers only", async () => {
+  await init();
+  const cloth = Cloth.grid();
+  assert.throws(() => new Cloth(), /Cloth.grid\(\)/);
+  assert.throws(() => new (cloth.grabParticle(800).constructor)(), /cloth.grabRay\(\)/);
+  assert.throws(() => new (cloth.addCollider().constructor)(), /cloth.addCollider\(\)/);
+});
+
+test("cloths that nobody freed are collected", async () => {
+  await init();
+  setFlagsFromString("--expose-gc");
+  const collect = runInNewContext("gc");
+  const bytes = () => Cloth.grid({ columns: 2, rows: 2 }).positions.buffer.byteLength;
+  for (let i = 0; i < 60; i++) {
+    Cloth.grid({ columns: 200, rows: 200 }).step(1);
+    collect();
+    await new Promise(setImmediate);
+  }
+  const each = Cloth.grid({ columns: 200, rows: 200 }).stats.bytes;
+  assert.ok(bytes() < 20 * each, `60 cloths of ${each} bytes take ${bytes()} bytes`);
+});

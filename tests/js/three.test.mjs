@@ -1,0 +1,116 @@
+// ClothGeometry with the real three.js, without a screen.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import init, { Cloth } from "muslin";
+import { ClothGeometry } from "muslin/three";
+import { BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 } from "three";
+
+await init();
+
+/** What would be uploaded at the next draw, by attribute; and as if it were drawn. */
+function draw(geometry, versions) {
+  const lists = { ...geometry.attributes, index: geometry.index };
+  const uploaded = Object.keys(lists).filter((name) => lists[name].version !== versions[name]);
+  for (const name of Object.keys(lists)) versions[name] = lists[name].version;
+  return uploaded.sort();
+}
+
+test("it has room for every tear and draws what is in use", () => {
+  const cloth = Cloth.grid({ columns: 10, rows: 5, extraParticles: 7 });
+  const geometry = new ClothGeometry(cloth);
+  assert.ok(geometry.isBufferGeometry);
+  assert.equal(geometry.cloth, cloth);
+  const { position, normal, uv } = geometry.attributes;
+  assert.deepEqual([position.count, normal.count, uv.count], [57, 57, 57]);
+  assert.deepEqual(geometry.drawRange, { start: 0, count: cloth.indices.length });
+  assert.deepEqual([...geometry.index.array], [...cloth.indices]);
+  assert.deepEqual([...position.array.subarray(0, 150)], [...cloth.positions]);
+  assert.deepEqual([...normal.array.subarray(0, 150)], [...cloth.normals]);
+  assert.deepEqual([...uv.array.subarray(0, 100)], [...cloth.uvs]);
+});
+
+test("an update uploads what changed and nothing else", () => {
+  const cloth = Cloth.grid();
+  const [geometry, versions] = [new ClothGeometry(cloth), {}];
+  assert.deepEqual(draw(geometry, versions), ["index", "normal", "position", "uv"]);
+  assert.equal(geometry.update(), false);
+  assert.deepEqual(draw(geometry, versions), []);
+  cloth.step(1);
+  assert.equal(geometry.update(), true);
+  assert.deepEqual(draw(geometry, versions), ["normal", "position"]);
+  assert.deepEqual(geometry.attributes.position.updateRanges, [{ start: 0, count: 4800 }]);
+  cloth.tearEdge(820, 860);
+  const arrays = Object.values(geometry.attributes).map(({ array }) => array);
+  assert.equal(geometry.update(), true);
+  assert.deepEqual(draw(geometry, versions), ["index", "normal", "position", "uv"]);
+  assert.deepEqual(Object.values(geometry.attributes).map(({ array }) => array), arrays);
+  assert.deepEqual([...geometry.attributes.position.array.subarray(0, 4803)], [...cloth.positions]);
+  assert.deepEqual([...geometry.index.array], [...cloth.indices]);
+});
+
+test("it goes on when the memory has grown", () => {
+  const cloth = Cloth.grid();
+  const geometry = new ClothGeometry(cloth);
+  const held = cloth.positions;
+  while (held.length > 0) Cloth.grid({ columns: 100, rows: 100 });
+  cloth.step(1);
+  geometry.update();
+  assert.deepEqual([...geometry.attributes.position.array.subarray(0, 4800)], [...cloth.positions]);
+});
+
+test("the bounds hold every vertex in use and not the room behind them", () => {
+  const cloth = Cloth.grid({ origin: [100, 100, 100], pinMode: "none" });
+  const geometry = new ClothGeometry(cloth);
+  geometry.computeBoundingBox();
+  for (let i = 0; i < 5; i++) {
+    cloth.step(12);
+    geometry.update();
+    const { boundingSphere, boundingBox } = geometry;
+    assert.ok(boundingSphere.radius > 1.3 && boundingSphere.radius < 1.6, `${boundingSphere.radius}`);
+    const vertex = new Vector3();
+    for (let at = 0; at < cloth.positions.length; at += 3) {
+      vertex.fromArray(cloth.positions, at);
+      assert.ok(vertex.distanceTo(boundingSphere.center) <= boundingSphere.radius + 1e-4);
+      assert.ok(boundingBox.distanceToPoint(vertex) <= 1e-4);
+    }
+  }
+});
+
+test("three's own raycast agrees with the cloth's", () => {
+  const cloth = Cloth.grid({ pinMode: "top-corners" });
+  cloth.wind = { velocity: [0, 0, 3] };
+  cloth.step(60);
+  const mesh = new Mesh(new ClothGeometry(cloth), new MeshBasicMaterial({ side: 2 }));
+  const [origin, direction] = [new Vector3(0.9, -0.8, 5), new Vector3(0, 0, -1)];
+  const [theirs] = new Raycaster(origin, direction).intersectObject(mesh);
+  const ours = cloth.raycast([0.9, -0.8, 5], [0, 0, -1]);
+  assert.equal(theirs.faceIndex, ours.triangle);
+  assert.ok(Math.abs(theirs.distance - ours.distance) < 1e-5);
+});
+
+test("dispose leaves the cloth alone, and a freed cloth is told of", () => {
+  const cloth = Cloth.grid();
+  const geometry = new ClothGeometry(cloth);
+  let disposed = 0;
+  geometry.addEventListener("dispose", () => disposed++);
+  geometry.dispose();
+  assert.equal(disposed, 1);
+  cloth.step(1);
+  assert.equal(geometry.update(), true);
+  cloth.free();
+  assert.throws(() => geometry.update(), /`cloth` must be live, but was freed/);
+});
+
+test("a clone is a still copy", () => {
+  const cloth = Cloth.grid();
+  const geometry = new ClothGeometry(cloth);
+  const copy = geometry.clone();
+  const before = copy.attributes.position.array.slice();
+  assert.equal(copy.constructor, BufferGeometry);
+  cloth.step(5);
+  geometry.update();
+  assert.deepEqual(copy.attributes.position.array, before);
+  assert.deepEqual(copy.drawRange, geometry.drawRange);
+});

@@ -1,0 +1,168 @@
+// A strict program that uses the whole interface; it is compiled, and never run.
+
+import init, {
+  Cloth,
+  initSync,
+  version,
+  type ClothEvent,
+  type Collider,
+  type ColliderDesc,
+  type Grab,
+  type GridDesc,
+  type Hit,
+  type Material,
+  type MeshDesc,
+  type Preset,
+  type Settings,
+  type Stage,
+  type Stats,
+  type Vec3,
+  type Wind,
+} from "muslin";
+import { ClothGeometry } from "muslin/three";
+import { BufferGeometry, Mesh } from "three";
+
+const loaded: Promise<void> = init();
+await init("https://example.org/raw_bg.wasm");
+await init(new URL("raw_bg.wasm", "https://example.org"));
+await init(fetch("raw_bg.wasm"));
+await init(new Uint8Array(8));
+initSync(new WebAssembly.Module(new Uint8Array(8)));
+// @ts-expect-error: a number is nowhere to load from
+await init(7);
+// @ts-expect-error: nothing can be fetched at once
+initSync("raw_bg.wasm");
+const told: string = version();
+
+const desc: GridDesc = {
+  columns: 40,
+  rows: 40,
+  spacing: 0.05,
+  origin: [0, 1, 0],
+  right: new Float32Array([1, 0, 0]),
+  down: [0, -1, 0],
+  pinMode: "top-corners",
+  extraParticles: 100,
+  material: { preset: "denim", bendStiffness: 1e-4 },
+  settings: { iterations: 6, gravity: [0, -9.81, 0], tearing: true },
+};
+const cloth: Cloth = Cloth.grid(desc);
+Cloth.grid();
+// @ts-expect-error: no such field
+Cloth.grid({ colums: 4 });
+// @ts-expect-error: no such way to pin
+Cloth.grid({ pinMode: "left-edge" });
+// @ts-expect-error: no such fabric
+Cloth.grid({ material: "wool" });
+// @ts-expect-error: cloths are made by their makers
+new Cloth();
+
+const sheet: MeshDesc = {
+  positions: new Float32Array(9),
+  indices: new Uint16Array([0, 2, 1]),
+  uvs: [0, 0, 1, 0, 0, 1],
+  pinned: new Uint32Array([0]),
+  weldDistance: -1,
+  material: "flag-nylon",
+};
+using other = Cloth.mesh(sheet);
+// @ts-expect-error: a mesh has triangles
+Cloth.mesh({ positions: [0, 0, 0] });
+
+cloth.settings = { iterations: 6 };
+cloth.settings = cloth.settings;
+const settings: Readonly<Settings> = cloth.settings;
+// @ts-expect-error: what was read does not change the cloth
+cloth.settings.iterations = 6;
+// @ts-expect-error: no such setting
+cloth.settings = { iteration: 6 };
+// @ts-expect-error: a switch, not a number
+cloth.settings = { tearing: 1 };
+const preset: Preset = "silk";
+cloth.material = preset;
+cloth.material = { tearStretch: 1.5 };
+const material: Readonly<Material> = cloth.material;
+cloth.wind = { model: "sine-field", velocity: [0, 0, 2], gust: 0.5, seed: 7 };
+const wind: Readonly<Wind> = cloth.wind;
+// @ts-expect-error: no such model
+cloth.wind = { model: "storm" };
+cloth.timing = true;
+
+const ticks: number = cloth.advance(1 / 60);
+cloth.step();
+cloth.step(10);
+cloth.reset();
+// @ts-expect-error: seconds are a number
+cloth.advance("1");
+const clocks: number = cloth.time + cloth.blend + ticks;
+
+const floats: Float32Array[] = [cloth.positions, cloth.normals, cloth.uvs];
+const wholes: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.pinned];
+// @ts-expect-error: a view is asked for, not given
+cloth.positions = new Float32Array(3);
+const sizes: number = cloth.vertexCapacity + cloth.indexCapacity;
+const revisions: number = cloth.topologyRevision + cloth.stateRevision;
+
+cloth.pin(0);
+cloth.pin(0, [0, 1, 0]);
+cloth.unpin(0);
+cloth.unpinAll();
+cloth.setPinTargets([0, 1], new Float32Array(6));
+cloth.setPosition(5, [0, 0, 0]);
+cloth.setVelocity(5, new Float64Array(3));
+const velocity: Vec3 = cloth.velocity(5);
+const mass: number = cloth.mass(5);
+// @ts-expect-error: a place has three numbers
+cloth.pin(0, "here");
+
+const hit: Hit | undefined = cloth.raycast([1, -1, 5], [0, 0, -1], 10);
+const where: Vec3 | undefined = hit?.position;
+const grab: Grab | undefined = cloth.grabRay([1, -1, 5], [0, 0, -1], { radius: 0.1 });
+grab?.moveTo([0, 0, 0]);
+grab?.release();
+// @ts-expect-error: a ray may miss
+grab.release();
+const held: Vec3 = cloth.grabParticle(3).position;
+const tore: boolean = cloth.tearEdge(820, 860);
+
+const floor: ColliderDesc = { shape: "plane", position: [0, -2, 0], friction: 0.5 };
+const collider: Collider = cloth.addCollider(floor);
+collider.moveTo([0, -1, 0]);
+collider.moveTo([0, -1, 0], [0, 0, 0, 1]);
+collider.remove();
+// @ts-expect-error: no such shape yet
+cloth.addCollider({ shape: "torus" });
+
+function tell(event: ClothEvent): number {
+  switch (event.kind) {
+    case "edge-torn":
+      return event.particleA + event.particleB;
+    case "vertex-split":
+      return event.vertex + event.source;
+    case "piece-detached":
+      return event.vertex + event.count;
+    case "recovered":
+      // @ts-expect-error: no vertex is told
+      return event.vertex;
+    case "reserve-used-up":
+      return event.tick + event.position[0];
+  }
+}
+const sum: number = cloth.events().reduce((total, event) => total + tell(event), 0);
+const stats: Stats = cloth.stats;
+const stages: Stage[] = ["stretch", "outputs"];
+const seconds: number[] = stages.map((stage) => stats.seconds[stage]);
+
+const hash: bigint = cloth.stateHash();
+const saved: Uint8Array = cloth.save();
+const restored: Cloth = Cloth.restore(saved);
+const geometry: BufferGeometry = new ClothGeometry(restored);
+const followed = new ClothGeometry(cloth);
+const moved: boolean = followed.update();
+const drawn = new Mesh(followed);
+const kept: Cloth = drawn.geometry.cloth;
+cloth.free();
+const isFreed: boolean = cloth.isFreed;
+
+export { clocks, floats, geometry, hash, held, isFreed, kept, loaded, mass, material, moved, other };
+export { revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };

@@ -1,0 +1,249 @@
+// Views of the module's memory: live, cheap, never detached when they are given.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import init, { Cloth } from "muslin";
+
+await init();
+
+const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices"];
+
+/** Makes cloths until the memory has grown under a view that is held. */
+function growMemory(view) {
+  const cloths = [];
+  while (view.length > 0) {
+    assert.ok(cloths.length < 2000, "the memory does not grow");
+    cloths.push(Cloth.grid({ columns: 100, rows: 100 }));
+  }
+  cloths.forEach((cloth) => cloth.free());
+}
+
+test("lists have the sizes and the values of a fresh grid", () => {
+  const cloth = Cloth.grid({ columns: 3, rows: 2, spacing: 0.5, origin: [1, 2, 3] });
+  assert.deepEqual([...cloth.positions], [1, 2, 3, 1.5, 2, 3, 2, 2, 3, 1, 1.5, 3, 1.5, 1.5, 3, 2, 1.5, 3]);
+  const [x, y, z] = cloth.normals;
+  assert.deepEqual([Math.abs(x), Math.abs(y), Math.abs(z)], [0, 0, 1]);
+  assert.equal(cloth.normals.length, 18);
+  assert.equal(cloth.uvs.length, 12);
+  assert.equal(cloth.indices.length, 12);
+  assert.ok(cloth.indices.every((vertex) => vertex < 6));
+  assert.deepEqual([...cloth.sourceVertices], [0, 1, 2, 3, 4, 5]);
+  assert.equal(cloth.vertexCapacity, 12);
+  assert.equal(cloth.indexCapacity, 12);
+  assert.deepEqual([...cloth.pinned], [0, 1, 2]);
+});
+
+test("a getter gives a working view again after the memory grew", () => {
+  const cloth = Cloth.grid();
+  cloth.step(10);
+  const copies = Object.fromEntries(LISTS.map((name) => [name, Array.from(cloth[name])]));
+  const held = cloth.positions;
+  growMemory(held);
+  assert.equal(held.length, 0, "the old view is gone");
+  for (const name of LISTS) assert.deepEqual(Array.from(cloth[name]), copies[name], name);
+  assert.notEqual(cloth.positions.buffer, held.buffer);
+});
+
+test("a view is never detached when it is given, whatever was called before", () => {
+  const cloth = Cloth.grid();
+  const calls = {
+    step: () => cloth.step(1),
+    save: () => cloth.save(),
+    events: () => cloth.events(),
+    stats: () => cloth.stats,
+    reset: () => cloth.reset(),
+    restore: () => Cloth.restore(cloth.save()),
+    grow: () => growMemory(cloth.positions),
+  };
+  for (const [call, run] of Object.entries(calls)) {
+    for (const name of LISTS) {
+      run();
+      const view = cloth[name];
+      assert.ok(view.length > 0 && view.buffer.byteLength > 0, `${name} after ${call}`);
+    }
+  }
+});
+
+test("the same view is given while nothing moves it", () => {
+  const cloth = Cloth.grid();
+  for (const name of LISTS) {
+    const view = cloth[name];
+    cloth.step(1);
+    assert.equal(cloth[name], view, name);
+  }
+});
+
+test("a view follows the cloth in place", () => {
+  const cloth = Cloth.grid({ pinMode: "none" });
+  const { positions } = cloth;
+  const before = positions[1];
+  cloth.step(10);
+  assert.ok(positions[1] < before, "it falls in the view that was given before");
+});
+
+test("revisions change when what they stand for does", () => {
+  const cloth = Cloth.grid();
+  const revisions = () => [cloth.topologyRevision, cloth.stateRevision];
+  const [topology, state] = revisions();
+  cloth.advance(0);
+  cloth.settings = { damping: 1 };
+  assert.deepEqual(revisions(), [topology, state]);
+  cloth.step(1);
+  assert.equal(cloth.topologyRevision, topology);
+  assert.notEqual(cloth.stateRevision, state);
+  cloth.tearEdge(820, 860);
+  assert.notEqual(cloth.topologyRevision, topology);
+});
+
+test("a tear lengthens the lists and turns triangles to the new vertex", () => {
+  const cloth = Cloth.grid();
+  const before = Array.from(cloth.indices);
+  assert.equal(cloth.tearEdge(820, 860), true);
+  assert.equal(cloth.positions.length, 3 * 1601);
+  assert.equal(cloth.normals.length, 3 * 1601);
+  assert.equal(cloth.uvs.length, 2 * 1601);
+  const { indices, sourceVertices } = cloth;
+  assert.equal(indices.length, before.length);
+  const turned = before.filter((vertex, at) => indices[at] !== vertex);
+  assert.ok(turned.length > 0);
+  const source = sourceVertices[1600];
+  assert.ok(turned.every((vertex) => vertex === source), "only triangles of the split vertex turn");
+  assert.deepEqual([...cloth.uvs.subarray(3200)], [...cloth.uvs.subarray(2 * source, 2 * source + 2)]);
+  const events = cloth.events();
+  const [torn, split] = ["edge-torn", "vertex-split"].map((kind) => events.find((e) => e.kind === kind));
+  assert.deepEqual([torn.particleA, torn.particleB].sort(), [820, 860]);
+  assert.deepEqual(Object.keys(torn), ["kind", "tick", "position", "particleA", "particleB"]);
+  assert.deepEqual([split.vertex, split.source], [1600, source]);
+  assert.deepEqual(Object.keys(split), ["kind", "tick", "position", "vertex", "source"]);
+});
+
+test("a mesh may be made from another cloth's views, though they move meanwhile", () => {
+  const grid = Cloth.grid({ columns: 150, rows: 150 });
+  for (let i = 0; i < 20; i++) {
+    const { positions, indices, uvs, pinned } = grid;
+    const mesh = Cloth.mesh({ positions, indices, uvs, pinned });
+    assert.deepEqual(mesh.positions, grid.positions);
+    assert.deepEqual(mesh.indices, grid.indices);
+  }
+});
+
+test("what is read is a copy of its own and cannot be changed by mistake", () => {
+  const cloth = Cloth.grid({ material: "denim" });
+  const { settings, material, wind, stats } = cloth;
+  for (const read of [settings, settings.gravity, material, wind, wind.velocity]) {
+    assert.ok(Object.isFrozen(read));
+  }
+  assert.equal(settings.substeps, 4);
+  assert.deepEqual(settings.gravity, [0, Math.fround(-9.81), 0]);
+  assert.equal(settings.tethers, true);
+  assert.equal(material.density, Math.fround(0.38));
+  assert.equal(material.bendStiffness, Math.fround(1e-4));
+  assert.deepEqual(wind, {
+    model: "surface",
+    velocity: [0, 0, 0],
+    gust: 0,
+    wander: 0,
+    turbulence: 0,
+    airDensity: Math.fround(1.2),
+    seed: 0,
+  });
+  assert.deepEqual([stats.particles, stats.triangles, stats.pieces, stats.ticks], [1600, 3042, 1, 0]);
+  assert.equal(stats.constraints, stats.activeConstraints);
+  assert.ok(stats.bytes > 100_000);
+});
+
+test("a partial is merged, and a preset is where a material starts from", () => {
+  const cloth = Cloth.grid();
+  cloth.settings = { iterations: 6, gravity: new Float32Array([0, 0, -1]) };
+  cloth.settings = { tearing: true, iterations: undefined };
+  const { iterations, tearing, gravity, substeps } = cloth.settings;
+  assert.deepEqual([iterations, tearing, gravity, substeps], [6, true, [0, 0, -1], 4]);
+  cloth.material = { preset: "silk", drag: 2 };
+  cloth.material = { lift: 0.5 };
+  const { density, drag, lift } = cloth.material;
+  assert.deepEqual([density, drag, lift], [Math.fround(0.1), 2, 0.5]);
+  cloth.wind = { model: "sine-field", seed: 4294967295 };
+  cloth.wind = { gust: 0.25 };
+  assert.deepEqual([cloth.wind.model, cloth.wind.seed, cloth.wind.gust], ["sine-field", 4294967295, 0.25]);
+});
+
+test("stages are timed when asked for", () => {
+  const cloth = Cloth.grid();
+  const total = () => Object.values(cloth.stats.seconds).reduce((sum, each) => sum + each, 0);
+  cloth.step(20);
+  assert.equal(total(), 0);
+  cloth.timing = true;
+  const start = performance.now();
+  cloth.step(20);
+  const wall = (performance.now() - start) / 1000;
+  assert.equal(cloth.timing, true);
+  assert.ok(total() > 0 && total() <= wall * 1.01, `${total()} s of ${wall} s`);
+  assert.ok(cloth.stats.seconds.stretch > 0);
+});
+
+test("rays hit what they point at and grabs hold it", () => {
+  const cloth = Cloth.grid({ pinMode: "corners", settings: { gravity: [0, 0, 0] } });
+  const hit = cloth.raycast([1.01, -0.99, 5], [0, 0, -2]);
+  assert.deepEqual([hit.distance, hit.position[2], hit.normal[2]], [5, 0, 1]);
+  assert.equal(hit.particle, 20 * 40 + 20);
+  assert.equal(cloth.raycast([1, -1, 5], [0, 0, -1], 4), undefined);
+  assert.equal(cloth.raycast([1, -1, 5], [0, 0, 1]), undefined);
+  assert.equal(cloth.grabRay([-0.05, -1, 5], [0, 0, -1]), undefined);
+  const grab = cloth.grabRay([-0.05, -1, 5], [0, 0, -1], { radius: 0.06 });
+  assert.deepEqual(grab.position, [...cloth.positions.subarray(3 * 800, 3 * 800 + 3)]);
+  grab.moveTo([0, -1, 0.1]);
+  cloth.step(20);
+  const [x, y, z] = cloth.positions.subarray(3 * 800);
+  assert.deepEqual([x, y, z], [0, -1, Math.fround(0.1)]);
+  grab.release();
+});
+
+test("pins, places and velocities are what was asked for", () => {
+  const cloth = Cloth.grid({ columns: 4, rows: 4, pinMode: "none" });
+  cloth.setPinTargets([0, 3], [0, 1, 0, 0.5, 1, 0]);
+  cloth.pin(5);
+  const { positions } = cloth;
+  const held = [...positions.subarray(15, 18)];
+  cloth.step(3);
+  assert.deepEqual([...cloth.pinned], [0, 3, 5]);
+  assert.deepEqual([...positions.subarray(0, 3)], [0, 1, 0]);
+  assert.deepEqual([...positions.subarray(9, 12)], [0.5, 1, 0]);
+  assert.deepEqual([...positions.subarray(15, 18)], held);
+  cloth.unpin(5);
+  assert.deepEqual([...cloth.pinned], [0, 3]);
+  cloth.unpinAll();
+  assert.equal(cloth.pinned.length, 0);
+  cloth.setPosition(7, [1, 2, 3]);
+  assert.deepEqual([...cloth.positions.subarray(21, 24)], [1, 2, 3]);
+  cloth.setVelocity(7, [0, 0, 2]);
+  assert.deepEqual(cloth.velocity(7).map(Math.round), [0, 0, 2]);
+  assert.ok(cloth.mass(7) > 0);
+});
+
+test("a frame owes whole ticks and the rest is the blend", () => {
+  const cloth = Cloth.grid({ settings: { tick: 0.0625 } });
+  assert.equal(cloth.advance(0.15625), 2);
+  assert.equal(cloth.blend, 0.5);
+  assert.equal(cloth.time, 0.125);
+  assert.equal(cloth.advance(10), 5);
+  assert.equal(cloth.stats.ticks, 7);
+});
+
+test("a collider catches the cloth, carries it when it moves, and lets it fall when removed", () => {
+  const cloth = Cloth.grid({ columns: 6, rows: 6, right: [1, 0, 0], down: [0, 0, 1], pinMode: "none" });
+  const lowest = () => Math.min(...cloth.positions.filter((_, at) => at % 3 === 1));
+  const floor = cloth.addCollider({ shape: "plane", position: [0, -0.5, 0], friction: 0.5 });
+  cloth.step(120);
+  assert.ok(Math.abs(lowest() + 0.5) < 0.01, `it lies at ${lowest()} m`);
+  for (let i = 1; i <= 60; i++) {
+    floor.moveTo([0, -0.5 + i / 120, 0]);
+    cloth.step(1);
+  }
+  assert.ok(lowest() > -0.02, `it was carried to ${lowest()} m`);
+  floor.remove();
+  cloth.step(60);
+  assert.ok(lowest() < -1, `it fell to ${lowest()} m`);
+  assert.throws(() => floor.remove(), /`collider` must be a live collider of this cloth/);
+  assert.throws(() => floor.moveTo([0, 0, 0]), /`collider` must be a live collider of this cloth/);
+});
