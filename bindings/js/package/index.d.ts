@@ -22,6 +22,9 @@ export type Vec3Like = Vec3 | readonly number[] | Float32Array | Float64Array;
 /** Four numbers as you have them. */
 export type QuatLike = Quat | readonly number[] | Float32Array | Float64Array;
 
+/** A compiled module. TypeScript's own type for it has no members, so that even numbers would pass. */
+export type CompiledModule = WebAssembly.Module & object;
+
 /** Where the module may come from. */
 export type Source =
   | string
@@ -30,7 +33,7 @@ export type Source =
   | Response
   | ArrayBuffer
   | ArrayBufferView
-  | WebAssembly.Module;
+  | CompiledModule;
 
 /**
  * Loads the module: `raw_bg.wasm` beside this file, or what you give. In a page under a content
@@ -49,7 +52,7 @@ export default function init(source?: Source | Promise<Source>): Promise<void>;
  *
  * @throws if it is not the module of this package, or `init()` is under way
  */
-export function initSync(source: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+export function initSync(source: ArrayBuffer | ArrayBufferView | CompiledModule): void;
 
 /** The version of the library, "major.minor.patch". */
 export function version(): string;
