@@ -146,8 +146,9 @@ fn pins_follow_their_targets_without_lag() {
     }
     cloth.unpin_all();
     let y = cloth.positions()[0].y;
-    cloth.step(30);
-    assert!(cloth.positions()[0].y < y - 0.5, "unpinned, it falls");
+    cloth.step(60);
+    let fallen = y - cloth.positions()[0].y;
+    assert!(fallen > 0.5, "unpinned, it falls, but by {fallen} m");
 }
 
 #[test]

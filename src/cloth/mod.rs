@@ -1,6 +1,8 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
 pub(crate) mod desc;
+#[cfg(test)]
+mod equal_bits;
 mod hash;
 pub(crate) mod query;
 mod save;

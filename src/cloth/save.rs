@@ -164,7 +164,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     }
     world.weave.stiffen(&world.material);
     for source in 0..world.mesh.original_count {
-        world.weave.follow(&world.mesh, source);
+        world.follow(source);
     }
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let colliders = saved.colliders.into_owned();

@@ -2,6 +2,7 @@
 
 use super::Cloth;
 use super::world::Origin;
+use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
 use crate::solver::stage::Stage;
 use crate::solver::{World, outputs};
@@ -65,6 +66,8 @@ pub(crate) struct Outputs {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     normals_current: bool,
+    /// Room for summing up normals.
+    sums: Columns,
     uvs: Vec<Vec2>,
     original_uvs: Vec<Vec2>,
     indices: Vec<u32>,
@@ -78,6 +81,7 @@ impl Outputs {
             positions: Vec::with_capacity(capacity),
             normals: Vec::with_capacity(capacity),
             normals_current: false,
+            sums: Columns::with_capacity(capacity),
             uvs: Vec::with_capacity(capacity),
             original_uvs: Vec::new(),
             indices: Vec::with_capacity(3 * world.mesh.triangles.len()),
@@ -105,7 +109,7 @@ impl Outputs {
 
     fn follow_normals(&mut self, world: &World) {
         if !self.normals_current {
-            outputs::normals(world, &mut self.normals);
+            outputs::normals(world, &mut self.sums, &mut self.normals);
             self.normals_current = true;
         }
     }

@@ -3,10 +3,12 @@
 use super::desc::{GridDesc, MeshDesc};
 use crate::arena::Arena;
 use crate::error::Result;
+use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::geom::triangle::corner_areas;
+use crate::math::simd::Level;
 use crate::mesh::grid::{self, Frame};
 use crate::mesh::{Mesh, NONE, after, intake};
 use crate::solver::profile::Profile;
@@ -68,7 +70,10 @@ fn grid_world(desc: &GridDesc) -> World {
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
     let openings = opening_capacity(&mesh, capacity);
     let weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
-    build(mesh, weave, rest, &desc.pinned(), capacity, &desc.material, &desc.settings)
+    let areas = grid::corner_areas(desc.columns, desc.rows, desc.spacing);
+    let cells = Some(Cells::new(desc.columns, desc.rows));
+    let fabric = Fabric { mesh, weave, rest, areas, cells };
+    build(fabric, &desc.pinned(), capacity, &desc.material, &desc.settings)
 }
 
 fn mesh_world(desc: &MeshDesc) -> Result<World> {
@@ -77,23 +82,29 @@ fn mesh_world(desc: &MeshDesc) -> Result<World> {
     let mesh = intake::mesh(triples.to_vec(), &desc.positions, capacity)?;
     let weave = Weave::mesh(&mesh, &desc.positions, opening_capacity(&mesh, capacity));
     let rest = desc.positions.clone();
-    Ok(build(mesh, weave, rest, &desc.pinned, capacity, &desc.material, &desc.settings))
+    let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
+    let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
+    let fabric = Fabric { mesh, weave, rest, areas, cells: None };
+    Ok(build(fabric, &desc.pinned, capacity, &desc.material, &desc.settings))
 }
 
-fn build(
+/// What a world is made of that does not move.
+struct Fabric {
     mesh: Mesh,
     weave: Weave,
     rest: Vec<Vec3>,
+    areas: Vec<[f32; 3]>,
+    cells: Option<Cells>,
+}
+
+fn build(
+    fabric: Fabric,
     pinned: &[u32],
     capacity: usize,
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let corner_area = mesh
-        .triangles
-        .iter()
-        .map(|corners| corner_areas(corners.map(|v| rest[v as usize])))
-        .collect();
+    let Fabric { mesh, weave, rest, areas, cells } = fabric;
     let max_tears = settings.max_tears_per_tick as usize;
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
@@ -111,11 +122,13 @@ fn build(
         pieces: 0,
         reserve_told: false,
         events: Events::new(),
+        level: Level::best(),
         profile: Profile::default(),
         mesh,
         weave,
         rest,
-        corner_area,
+        corner_area: areas,
+        cells,
     };
     world.pins.reserve(capacity);
     for particle in pinned {

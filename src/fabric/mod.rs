@@ -1,6 +1,8 @@
 //! The recipe of a cloth: its material, its links, and how far each particle is from the pins.
 
+pub(crate) mod cells;
 pub(crate) mod color;
 pub(crate) mod material;
+pub(crate) mod rows;
 pub(crate) mod tethers;
 pub(crate) mod weave;

@@ -13,10 +13,12 @@ const FEW_PINS: usize = 4;
 /// Each particle's attachment to one pin.
 #[derive(Clone, Debug)]
 pub(crate) struct TetherSet {
-    /// The pinned particle, or `NONE` where no way leads to a pin.
+    /// The pinned particle; itself where no way leads to a pin.
     pub anchor: Vec<u32>,
-    /// Length of the way [m].
+    /// Length of the way [m]; infinite where there is none.
     pub length: Vec<f32>,
+    /// The only pin of the set, if there is but one.
+    pub only: Option<u32>,
 }
 
 /// The tethers of a cloth.
@@ -32,6 +34,7 @@ impl Tethers {
         let list = || TetherSet {
             anchor: Vec::with_capacity(capacity),
             length: Vec::with_capacity(capacity),
+            only: None,
         };
         Self { sets: (0..FEW_PINS).map(|_| list()).collect(), used: 0 }
     }
@@ -75,6 +78,12 @@ impl Tethers {
                 }
             }
             set.spread(mesh, rest);
+            set.only = if few { pinned.clone().nth(at) } else { None };
+            for (particle, anchor) in set.anchor.iter_mut().enumerate() {
+                if *anchor == NONE {
+                    *anchor = particle as u32;
+                }
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use crate::fabric::color;
 use crate::fabric::material::Material;
+use crate::fabric::rows::Rows;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -127,6 +128,8 @@ pub(crate) struct Weave {
     /// The links that it was woven with, batch by batch.
     pub links: Links,
     pub batches: Vec<Batch>,
+    /// Where the links of a grid lie in rows.
+    pub rows: Option<Rows>,
     /// The second sides of opened edges, in the order they opened.
     pub extra: Links,
     /// Where each extra link is anchored: the edge on its side, and the woven link on the other.
@@ -226,7 +229,10 @@ impl Weave {
                 drafts.push(Draft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
             });
         }
-        Self::from_drafts(mesh, drafts, opening_capacity)
+        let mut weave = Self::from_drafts(mesh, drafts, opening_capacity);
+        let starts: Vec<usize> = weave.batches.iter().map(|batch| batch.first).collect();
+        weave.rows = Some(Rows::find(&weave.links.a, &weave.links.b, &starts));
+        weave
     }
 
     /// Weaves any mesh: a stretch link along every edge, a bend link across every inner one.
@@ -306,6 +312,7 @@ impl Weave {
         Self {
             links,
             batches,
+            rows: None,
             extra,
             extra_sides: Vec::with_capacity(opening_capacity),
             link_of_edge,
@@ -321,6 +328,9 @@ impl Weave {
         self.extra.reserve(openings);
         self.extra_sides.reserve_exact(openings);
         self.extra_next.reserve_exact(openings);
+        if let Some(rows) = &mut self.rows {
+            rows.reserve();
+        }
     }
 
     /// How many edges may open in all.
@@ -333,6 +343,7 @@ impl Weave {
         let each = size_of::<Spec>() + 5 * size_of::<f32>() + size_of::<bool>();
         let links = self.links.len() + self.extra.rest.capacity();
         links * each
+            + self.rows.as_ref().map_or(0, Rows::bytes)
             + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
     }
 
@@ -382,7 +393,15 @@ impl Weave {
     pub fn follow(&mut self, mesh: &Mesh, source: u32) {
         let range = self.first[source as usize] as usize..self.first[source as usize + 1] as usize;
         for link in &self.involved[range] {
-            self.links.follow(mesh, *link as usize);
+            let link = *link as usize;
+            self.links.follow(mesh, link);
+            if let Some(rows) = &mut self.rows {
+                rows.follow(
+                    link,
+                    (self.links.a[link], self.links.b[link]),
+                    self.links.active[link],
+                );
+            }
         }
         let mut at = self.extra_head[source as usize];
         while at != NONE {

@@ -57,9 +57,9 @@ impl Columns {
     }
 
     pub fn copy_from(&mut self, other: &Self) {
-        self.x.copy_from_slice(&other.x);
-        self.y.copy_from_slice(&other.y);
-        self.z.copy_from_slice(&other.z);
+        self.x.clone_from(&other.x);
+        self.y.clone_from(&other.y);
+        self.z.clone_from(&other.z);
     }
 
     pub fn iter(&self) -> impl Iterator<Item = Vec3> + '_ {

@@ -3,6 +3,7 @@
 //! Series in f64 after range reduction (Abramowitz and Stegun, 4.3.65, 4.3.66, 4.2.1), rounded to
 //! f32 at the end: every step is an exact IEEE operation, so every machine gets the same result.
 
+use super::{max, min};
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
 /// Past this many radians the reduced angle has lost its meaning; the angle counts as zero.
@@ -28,6 +29,24 @@ pub(crate) fn cos(x: f64) -> f32 {
         2 => -cos_series(r) as f32,
         _ => sin_series(r) as f32,
     }
+}
+
+/// Sine of `x` [rad] to about 1e-6 for |x| up to a few thousand, without a branch: for loops over
+/// lanes. Between -1.1 and 1.1 whatever `x` is.
+#[inline(always)]
+pub(crate) fn wave(x: f32) -> f32 {
+    // Adding and taking away 1.5 · 2²³ rounds to the nearest integer.
+    const ROUND: f32 = 12_582_912.0;
+    let half_turns = (x * core::f32::consts::FRAC_1_PI + ROUND) - ROUND;
+    // π as a sum of parts, the first of which times a small integer is exact.
+    let r = ((x - half_turns * 3.140_625) - half_turns * 9.675_026e-4) - half_turns * 1.509_958e-7;
+    let r = max(min(r, 1.6), -1.6);
+    let s = r * r;
+    let sine = r
+        * (1.0
+            - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0 * (1.0 - s / 110.0)))));
+    let odd = half_turns - 2.0 * ((half_turns * 0.5 + ROUND) - ROUND);
+    sine * (1.0 - 2.0 * min(odd * odd, 1.0))
 }
 
 /// e to the power of `x`, for `x` in -80..=0; clamped outside.
@@ -87,6 +106,21 @@ mod tests {
             assert!((f64::from(cos(x)) - x.cos()).abs() < 1.2e-7, "cos {x}");
         }
         assert_eq!((sin(f64::NAN), cos(f64::INFINITY)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn waves_are_sines_and_never_leave_their_range() {
+        for i in -40_000..40_000 {
+            let x = i as f32 * 0.05;
+            assert!(
+                (f64::from(wave(x)) - f64::from(x).sin()).abs() < 2.0e-6,
+                "sin {x}: {}",
+                wave(x)
+            );
+        }
+        for x in [f32::NAN, f32::INFINITY, -1.0e30, 1.0e9] {
+            assert!(wave(x).abs() <= 1.1 || wave(x).is_nan(), "{x}: {}", wave(x));
+        }
     }
 
     #[test]

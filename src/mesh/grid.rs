@@ -33,20 +33,38 @@ pub(crate) fn uvs(columns: u32, rows: u32) -> Vec<Vec2> {
 ///
 /// Diagonals alternate like the fields of a chessboard, so that no direction is favoured.
 pub(crate) fn triangles(columns: u32, rows: u32) -> Vec<[u32; 3]> {
-    let mut triangles = Vec::with_capacity(2 * (columns as usize - 1) * (rows as usize - 1));
-    for row in 0..rows - 1 {
-        for column in 0..columns - 1 {
-            let top_left = row * columns + column;
-            let (top_right, bottom_left) = (top_left + 1, top_left + columns);
-            let bottom_right = bottom_left + 1;
-            if (row + column) % 2 == 0 {
-                triangles.push([top_left, bottom_left, bottom_right]);
-                triangles.push([top_left, bottom_right, top_right]);
-            } else {
-                triangles.push([top_left, bottom_left, top_right]);
-                triangles.push([bottom_left, bottom_right, top_right]);
-            }
-        }
+    let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (row, column)));
+    cells.flat_map(|(row, column)| cell_triangles(columns, row, column)).collect()
+}
+
+/// The triangles of one cell. The first begins top left, bottom left; the second ends top right.
+pub(crate) fn cell_triangles(columns: u32, row: u32, column: u32) -> [[u32; 3]; 2] {
+    let top_left = row * columns + column;
+    let (top_right, bottom_left) = (top_left + 1, top_left + columns);
+    let bottom_right = bottom_left + 1;
+    if falls(row, column) {
+        [[top_left, bottom_left, bottom_right], [top_left, bottom_right, top_right]]
+    } else {
+        [[top_left, bottom_left, top_right], [bottom_left, bottom_right, top_right]]
     }
-    triangles
+}
+
+/// Whether the diagonal of a cell falls from top left to bottom right.
+pub(crate) fn falls(row: u32, column: u32) -> bool {
+    (row + column).is_multiple_of(2)
+}
+
+/// What of a triangle's area falls to its corners, as `geom::triangle::corner_areas` has it but for
+/// rounding: half to the right angle, which is at the edge that its cell's diagonal does not touch.
+pub(crate) fn corner_areas(columns: u32, rows: u32, spacing: f32) -> Vec<[f32; 3]> {
+    let (half, quarter) = (0.25 * spacing * spacing, 0.125 * spacing * spacing);
+    let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (row, column)));
+    let areas = |(row, column)| {
+        if falls(row, column) {
+            [[quarter, half, quarter], [quarter, quarter, half]]
+        } else {
+            [[half, quarter, quarter], [quarter, half, quarter]]
+        }
+    };
+    cells.flat_map(areas).collect()
 }

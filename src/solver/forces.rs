@@ -4,7 +4,10 @@
 //! p = ½ ρ C |u·n| (u·n), and across the wind by ½ ρ C_L sin α cos α |u|². Gathered once a tick.
 
 use super::World;
-use crate::math::{max, min};
+use super::surface::{Give, Surface, sum};
+use crate::math::columns::Columns;
+use crate::math::simd::leveled;
+use crate::math::{TINY, max, min};
 use crate::state::wind::{Breeze, WindModel};
 use glam::Vec3;
 
@@ -15,66 +18,174 @@ const MAX_BRAKE: f32 = 0.5;
 /// Fills `scratch.acceleration`.
 pub(crate) fn gather(world: &mut World) {
     let gravity = world.settings.gravity;
-    world.scratch.acceleration.fill(gravity);
     match world.wind.model {
-        WindModel::Surface => push_surfaces(world),
-        WindModel::SineField => push_particles(world),
+        WindModel::Surface if feels_air(world) => push_surfaces(world, gravity),
+        WindModel::SineField if world.wind.velocity != Vec3::ZERO => push_particles(world, gravity),
+        _ => world.scratch.acceleration.fill(gravity),
     }
 }
 
-fn push_particles(world: &mut World) {
-    if world.wind.velocity == Vec3::ZERO {
-        return;
-    }
+fn feels_air(world: &World) -> bool {
+    let material = &world.material;
+    world.wind.air_density > 0.0 && (material.drag > 0.0 || material.lift > 0.0)
+}
+
+fn push_particles(world: &mut World, gravity: Vec3) {
     for i in 0..world.particles.len() {
         let push = world.wind.sine_field(world.time, world.particles.x.at(i));
-        world.scratch.acceleration.add(i, push);
+        world.scratch.acceleration.set(i, gravity + push);
     }
 }
 
-fn push_surfaces(world: &mut World) {
-    let (drag, lift) = (world.material.drag, world.material.lift);
-    if world.wind.air_density == 0.0 || (drag == 0.0 && lift == 0.0) {
-        return;
-    }
+fn push_surfaces(world: &mut World, gravity: Vec3) {
+    let (level, p) = (world.level, &world.particles);
     let breeze = world.wind.at(world.time);
+    face_air(level, &breeze, &p.x, &p.v, &mut world.scratch.air);
     let half_density = 0.5 * world.wind.air_density;
-    let p = &world.particles;
-    let most = MAX_BRAKE * world.material.density / world.settings.tick;
-    for (triangle, areas) in world.mesh.triangles.iter().zip(&world.corner_area) {
-        let [a, b, c] = triangle.map(|v| v as usize);
-        let (xa, xb, xc) = (p.x.at(a), p.x.at(b), p.x.at(c));
-        let moving = (p.v.at(a) + p.v.at(b) + p.v.at(c)) * (1.0 / 3.0);
-        let u = air(&breeze, (xa + xb + xc) * (1.0 / 3.0)) - moving;
-        let normal = (xb - xa).cross(xc - xa);
-        let double_area = normal.length();
-        let rest_area = areas[0] + areas[1] + areas[2];
-        if double_area <= 0.0 || rest_area <= 0.0 {
-            continue;
+    let pressure = Pressure {
+        drag: half_density * world.material.drag,
+        lift: half_density * world.material.lift,
+        most: MAX_BRAKE * world.material.density / world.settings.tick,
+    };
+    let surface = Surface {
+        triangles: &world.mesh.triangles,
+        areas: &world.corner_area,
+        cells: world.cells.as_ref(),
+        x: &p.x,
+        air: &world.scratch.air,
+    };
+    let force = &mut world.scratch.acceleration;
+    force.fill(Vec3::ZERO);
+    if pressure.lift > 0.0 {
+        push_and_lift(level, surface, WithLift(pressure), force);
+    } else {
+        push(level, surface, pressure, force);
+    }
+    for (force, gravity) in
+        [(&mut force.x, gravity.x), (&mut force.y, gravity.y), (&mut force.z, gravity.z)]
+    {
+        accelerate(level, force, &p.mass, gravity);
+    }
+}
+
+leveled! {
+    /// The air's velocity against each particle.
+    fn face_air(breeze: &Breeze, x: &Columns, v: &Columns, air: &mut Columns) = face_air_lanes
+}
+
+#[inline(always)]
+fn face_air_lanes(breeze: &Breeze, x: &Columns, v: &Columns, air: &mut Columns) {
+    let mean = breeze.mean;
+    for (air, mean, v) in
+        [(&mut air.x, mean.x, &v.x), (&mut air.y, mean.y, &v.y), (&mut air.z, mean.z, &v.z)]
+    {
+        for (air, v) in air.iter_mut().zip(v) {
+            *air = mean - v;
         }
-        let n = normal * (1.0 / double_area);
-        let facing = u.dot(n);
-        let speed2 = u.length_squared();
-        let rate = min(half_density * drag * facing.abs(), most);
-        let mut pressure = n * (rate * facing);
-        if lift > 0.0 && speed2 > 0.0 {
-            let rate = min(half_density * lift * facing.abs(), most);
-            let across = n * speed2 - u * facing;
-            pressure += across * (rate * sign(facing) / speed2.sqrt());
-        }
-        // The pressure acts on the triangle as it is now, shared out as its mass is.
-        let stretch = min(0.5 * double_area / rest_area, 4.0);
-        for (vertex, area) in [a, b, c].into_iter().zip(areas) {
-            let share = area * stretch / max(p.mass[vertex], 1.0e-12);
-            world.scratch.acceleration.add(vertex, pressure * share);
+    }
+    if breeze.swirls() {
+        let particles = x.x.iter().zip(&x.y).zip(&x.z);
+        let air = air.x.iter_mut().zip(&mut air.y).zip(&mut air.z);
+        for (((x, y), z), ((ax, ay), az)) in particles.zip(air) {
+            let [sx, sy, sz] = breeze.swirl_at(*x, *y, *z);
+            *ax += sx;
+            *ay += sy;
+            *az += sz;
         }
     }
 }
 
-fn air(breeze: &Breeze, at: Vec3) -> Vec3 {
-    if breeze.is_still() { Vec3::ZERO } else { breeze.velocity(at) }
+leveled! {
+    fn push(surface: Surface<'_>, pressure: Pressure, force: &mut Columns) = sum::<Pressure>
 }
 
-fn sign(value: f32) -> f32 {
-    if value < 0.0 { -1.0 } else { 1.0 }
+leveled! {
+    fn push_and_lift(surface: Surface<'_>, pressure: WithLift, force: &mut Columns)
+        = sum::<WithLift>
+}
+
+leveled! {
+    /// From force to acceleration.
+    fn accelerate(force: &mut [f32], mass: &[f32], gravity: f32) = accelerate_column
+}
+
+#[inline(always)]
+fn accelerate_column(force: &mut [f32], mass: &[f32], gravity: f32) {
+    for (force, mass) in force.iter_mut().zip(mass) {
+        *force = *force / max(*mass, 1.0e-12) + gravity;
+    }
+}
+
+/// The air's force on a triangle over its area at rest [N/m²].
+#[derive(Clone, Copy)]
+struct Pressure {
+    /// ½ ρ C [kg/m³].
+    drag: f32,
+    /// ½ ρ C_L [kg/m³].
+    lift: f32,
+    /// The most mass of air that may meet an area in a second [kg/m²/s].
+    most: f32,
+}
+
+impl Pressure {
+    #[inline(always)]
+    fn on<const LIFT: bool>(
+        self,
+        [a, b, c]: [[f32; 3]; 3],
+        air: [[f32; 3]; 3],
+        rest_area: f32,
+    ) -> [f32; 3] {
+        let third = |k: usize| (air[0][k] + air[1][k] + air[2][k]) * (1.0 / 3.0);
+        let (ux, uy, uz) = (third(0), third(1), third(2));
+        let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        let (qx, qy, qz) = (c[0] - a[0], c[1] - a[1], c[2] - a[2]);
+        let (nx, ny, nz) = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx);
+        let double_area = (nx * nx + ny * ny + nz * nz).sqrt();
+        let inverse = 1.0 / max(double_area, TINY);
+        let (nx, ny, nz) = (nx * inverse, ny * inverse, nz * inverse);
+        let facing = ux * nx + uy * ny + uz * nz;
+        let head_on = facing.abs();
+        // The pressure acts on the triangle as it is now, shared out as its mass is.
+        let stretch = min(0.5 * double_area / max(rest_area, TINY), 4.0);
+        let push = min(self.drag * head_on, self.most) * facing * stretch;
+        let mut force = [nx * push, ny * push, nz * push];
+        if LIFT {
+            let speed2 = ux * ux + uy * uy + uz * uz;
+            let sign = if facing < 0.0 { -1.0 } else { 1.0 };
+            let rate = min(self.lift * head_on, self.most) * sign * stretch;
+            let share = rate / max(speed2.sqrt(), TINY);
+            force[0] += (nx * speed2 - ux * facing) * share;
+            force[1] += (ny * speed2 - uy * facing) * share;
+            force[2] += (nz * speed2 - uz * facing) * share;
+        }
+        force
+    }
+}
+
+impl Give for Pressure {
+    #[inline(always)]
+    fn give(self, x: [[f32; 3]; 3], air: [[f32; 3]; 3], rest_area: f32) -> [f32; 3] {
+        self.on::<false>(x, air, rest_area)
+    }
+
+    #[inline(always)]
+    fn part(self, area: f32) -> f32 {
+        area
+    }
+}
+
+/// Pressure that lifts too.
+#[derive(Clone, Copy)]
+struct WithLift(Pressure);
+
+impl Give for WithLift {
+    #[inline(always)]
+    fn give(self, x: [[f32; 3]; 3], air: [[f32; 3]; 3], rest_area: f32) -> [f32; 3] {
+        self.0.on::<true>(x, air, rest_area)
+    }
+
+    #[inline(always)]
+    fn part(self, area: f32) -> f32 {
+        area
+    }
 }

@@ -9,15 +9,19 @@ pub(crate) mod outputs;
 pub(crate) mod pipeline;
 pub(crate) mod predict;
 pub(crate) mod profile;
+pub(crate) mod rows;
 pub(crate) mod stage;
+pub(crate) mod surface;
 pub(crate) mod tear;
 pub(crate) mod tethers;
 pub(crate) mod velocities;
 
+use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::math::columns::Columns;
+use crate::math::simd::Level;
 use crate::mesh::Mesh;
 use crate::mesh::split::Opening;
 use crate::state::colliders::Colliders;
@@ -40,6 +44,8 @@ pub(crate) struct World {
     pub rest: Vec<Vec3>,
     /// The share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
+    /// Where the triangles of a grid lie in cells.
+    pub cells: Option<Cells>,
     /// Mean length of the edges at rest [m].
     pub spacing: f32,
     pub particles: Particles,
@@ -57,6 +63,8 @@ pub(crate) struct World {
     /// Whether the host knows that the reserve for tears is used up.
     pub reserve_told: bool,
     pub events: Events,
+    /// The instructions that kernels may use.
+    pub level: Level,
     pub profile: Profile,
     pub scratch: Scratch,
 }
@@ -66,10 +74,14 @@ pub(crate) struct World {
 pub(crate) struct Scratch {
     /// Acceleration [m/s²].
     pub acceleration: Columns,
+    /// Velocity of the air against each particle [m/s].
+    pub air: Columns,
     /// The way that prediction gave each particle in this substep [m].
     pub way: Columns,
     /// Where prediction took it [m].
     pub predicted: Columns,
+    /// Where the pin is that each particle is tethered to [m], if it is one of many.
+    pub anchor: Columns,
     /// What each particle touched in this substep, if anything.
     pub touch: Vec<contacts::Touch>,
     pub tear: tear::Scratch,
@@ -84,8 +96,10 @@ impl Scratch {
         let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
         let mut scratch = Self {
             acceleration: Columns::with_capacity(capacity),
+            air: Columns::with_capacity(capacity),
             way: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
+            anchor: Columns::with_capacity(capacity),
             touch: Vec::with_capacity(capacity),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),
@@ -93,6 +107,7 @@ impl Scratch {
             stack: Vec::with_capacity(triangles),
         };
         zero(&mut scratch.acceleration);
+        zero(&mut scratch.air);
         zero(&mut scratch.way);
         zero(&mut scratch.predicted);
         scratch.touch.resize(count, contacts::Touch::NONE);
@@ -102,6 +117,7 @@ impl Scratch {
     /// A particle more.
     pub fn grow(&mut self) {
         self.acceleration.push(Vec3::ZERO);
+        self.air.push(Vec3::ZERO);
         self.way.push(Vec3::ZERO);
         self.predicted.push(Vec3::ZERO);
         self.touch.push(contacts::Touch::NONE);
@@ -118,6 +134,14 @@ impl World {
     /// one at the far end of each of two opened edges.
     pub fn is_reserve_used_up(&self) -> bool {
         self.mesh.vertex_count() + 3 > self.capacity()
+    }
+
+    /// Brings links and cells around an original vertex in line with the mesh.
+    pub fn follow(&mut self, source: u32) {
+        self.weave.follow(&self.mesh, source);
+        if let Some(cells) = &mut self.cells {
+            cells.follow(&self.mesh, source);
+        }
     }
 
     /// The inverse mass that the solver is to see: 0 while something holds the particle.

@@ -1,7 +1,10 @@
 //! Stage `Outputs`: what a renderer reads, from what the solver keeps.
 
 use super::World;
+use super::surface::{Give, Surface, sum};
 use crate::fabric::weave::LinkKind;
+use crate::math::columns::Columns;
+use crate::math::simd::leveled;
 use glam::Vec3;
 
 /// Positions, three numbers a vertex.
@@ -11,21 +14,58 @@ pub(crate) fn positions(world: &World, out: &mut Vec<Vec3>) {
 }
 
 /// Vertex normals: the mean of the triangles around, weighted by area. Zero where there is none.
-pub(crate) fn normals(world: &World, out: &mut Vec<Vec3>) {
-    out.clear();
-    out.resize(world.particles.len(), Vec3::ZERO);
+///
+/// `sums` is room to work in.
+pub(crate) fn normals(world: &World, sums: &mut Columns, out: &mut Vec<Vec3>) {
     let x = &world.particles.x;
-    for triangle in &world.mesh.triangles {
-        let [a, b, c] = triangle.map(|v| v as usize);
-        let (xa, xb, xc) = (x.at(a), x.at(b), x.at(c));
-        let doubled = (xb - xa).cross(xc - xa);
-        out[a] += doubled;
-        out[b] += doubled;
-        out[c] += doubled;
+    sums.copy_from(x);
+    sums.fill(Vec3::ZERO);
+    let surface = Surface {
+        triangles: &world.mesh.triangles,
+        areas: &world.corner_area,
+        cells: world.cells.as_ref(),
+        x,
+        air: x,
+    };
+    sum_normals(world.level, surface, Doubled, sums);
+    normalize(world.level, sums);
+    out.clear();
+    out.extend(sums.iter());
+}
+
+leveled! {
+    fn sum_normals(surface: Surface<'_>, give: Doubled, sums: &mut Columns) = sum::<Doubled>
+}
+
+leveled! {
+    fn normalize(sums: &mut Columns) = normalize_lanes
+}
+
+#[inline(always)]
+fn normalize_lanes(sums: &mut Columns) {
+    let Columns { x, y, z } = sums;
+    for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
+        let length = (*x * *x + *y * *y + *z * *z).sqrt();
+        let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+        (*x, *y, *z) = (*x * inverse, *y * inverse, *z * inverse);
     }
-    for normal in out {
-        let length = normal.length();
-        *normal = if length > 0.0 { *normal * (1.0 / length) } else { Vec3::ZERO };
+}
+
+/// A triangle's normal, as long as twice its area.
+#[derive(Clone, Copy)]
+struct Doubled;
+
+impl Give for Doubled {
+    #[inline(always)]
+    fn give(self, [a, b, c]: [[f32; 3]; 3], _: [[f32; 3]; 3], _: f32) -> [f32; 3] {
+        let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        let (qx, qy, qz) = (c[0] - a[0], c[1] - a[1], c[2] - a[2]);
+        [py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx]
+    }
+
+    #[inline(always)]
+    fn part(self, _: f32) -> f32 {
+        1.0
     }
 }
 

@@ -35,6 +35,9 @@ pub(crate) fn tick(world: &mut World) {
 fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::advance(world));
     timed!(world, Hold, hold::hold(world, number));
+    if world.settings.tethers {
+        timed!(world, Tethers, tethers::look(world));
+    }
     links::restart(world);
     for iteration in 0..world.settings.iterations {
         if world.settings.tethers {

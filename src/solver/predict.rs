@@ -4,27 +4,28 @@
 
 use super::World;
 use crate::math::columns::Columns;
-use crate::math::max;
+use crate::math::simd::leveled;
 use crate::state::settings::Scheme;
 use glam::{Mat3, Vec3};
 
 /// Moves every free particle; `scratch` keeps the way it went and where it came to.
 pub(crate) fn advance(world: &mut World) {
     let scheme = world.settings.scheme();
+    let reach = world.reach();
+    // A way longer than `reach` has a component longer than this.
+    let limit = reach * 0.577;
     let p = &world.particles;
     let a = &world.scratch.acceleration;
     let way = &mut world.scratch.way;
-    let mut farthest = 0.0;
+    let mut is_long = false;
     for (way, moved, v_ahead, a) in [
         (&mut way.x, &p.moved.x, &p.v_ahead.x, &a.x),
         (&mut way.y, &p.moved.y, &p.v_ahead.y, &a.y),
         (&mut way.z, &p.moved.z, &p.v_ahead.z, &a.z),
     ] {
-        farthest = max(plan_column(way, moved, v_ahead, a, &p.w, scheme), farthest);
+        plan(world.level, way, [moved, v_ahead, a, &p.w], scheme, limit, &mut is_long);
     }
-    // Per component, so that this is no less than a third of the square of the longest way.
-    let reach = world.reach();
-    if 3.0 * farthest * farthest > reach * reach {
+    if is_long {
         clamp_displacement(world, reach);
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
@@ -33,29 +34,51 @@ pub(crate) fn advance(world: &mut World) {
         (&mut p.x.y, &scratch.way.y, &mut scratch.predicted.y),
         (&mut p.x.z, &scratch.way.z, &mut scratch.predicted.z),
     ] {
-        for ((x, way), predicted) in x.iter_mut().zip(way).zip(predicted) {
-            *x += way;
-            *predicted = *x;
-        }
+        go(world.level, x, way, predicted);
     }
 }
 
+leveled! {
+    /// The way of each particle in one direction; `is_long` if one is longer than `limit`.
+    fn plan(
+        way: &mut [f32],
+        from: [&[f32]; 4],
+        scheme: Scheme,
+        limit: f32,
+        is_long: &mut bool,
+    ) = plan_column
+}
+
+#[inline(always)]
 fn plan_column(
     way: &mut [f32],
-    moved: &[f32],
-    v_ahead: &[f32],
-    a: &[f32],
-    w: &[f32],
+    [moved, v_ahead, a, w]: [&[f32]; 4],
     scheme: Scheme,
-) -> f32 {
+    limit: f32,
+    is_long: &mut bool,
+) {
     let Scheme { step, carry, .. } = scheme;
-    let mut farthest = 0.0;
+    // Counted rather than asked for, which a loop over lanes can do.
+    let mut long = 0_u32;
     for ((((way, moved), v_ahead), a), w) in way.iter_mut().zip(moved).zip(v_ahead).zip(a).zip(w) {
         let free = moved * carry + (v_ahead + a * step) * step;
         *way = if *w > 0.0 { free } else { 0.0 };
-        farthest = max(way.abs(), farthest);
+        long |= u32::from(way.abs() > limit);
     }
-    farthest
+    *is_long |= long != 0;
+}
+
+leveled! {
+    /// Takes each particle along its way.
+    fn go(x: &mut [f32], way: &[f32], predicted: &mut [f32]) = go_column
+}
+
+#[inline(always)]
+fn go_column(x: &mut [f32], way: &[f32], predicted: &mut [f32]) {
+    for ((x, way), predicted) in x.iter_mut().zip(way).zip(predicted) {
+        *x += way;
+        *predicted = *x;
+    }
 }
 
 /// Keeps each way within `reach` of the cloth's own rigid motion, so that a violent yank is

@@ -320,7 +320,7 @@ fn rejoin(world: &mut World, opened: &[Opening]) {
     for [edge, other] in opened {
         for corner in [*edge, crate::mesh::after(*edge), *other, crate::mesh::after(*other)] {
             let source = world.mesh.source[world.mesh.vertex(corner) as usize];
-            world.weave.follow(&world.mesh, source);
+            world.follow(source);
         }
     }
 }

@@ -6,6 +6,7 @@
 use super::World;
 use super::contacts::Touch;
 use crate::math::min;
+use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
 use crate::state::settings::Scheme;
 use glam::Vec3;
@@ -31,14 +32,20 @@ pub(crate) fn derive(world: &mut World) {
         (&p.x.z, &predicted.z, &way.z, &mut p.moved.z, &mut p.v.z, &mut p.v_ahead.z),
     ];
     for (x, predicted, way, moved, v, v_ahead) in columns {
-        derive_column([x, predicted, way], [moved, v, v_ahead], scheme, keep);
+        renew(world.level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
     }
     if world.colliders.iter().next().is_some() {
         bounce(world, scheme.h, keep);
     }
 }
 
-fn derive_column(
+leveled! {
+    /// Velocity and history in one direction.
+    fn renew(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: Scheme, keep: f32) = renew_column
+}
+
+#[inline(always)]
+fn renew_column(
     [x, predicted, way]: [&[f32]; 3],
     [moved, v, v_ahead]: [&mut [f32]; 3],
     scheme: Scheme,

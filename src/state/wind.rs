@@ -2,7 +2,7 @@
 
 use crate::error::{Result, check, check_finite};
 use crate::math::mix::unit;
-use crate::math::trig::{cos, sin};
+use crate::math::trig::{cos, sin, wave};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -75,7 +75,7 @@ impl Wind {
     pub(crate) fn at(&self, time: f64) -> Breeze {
         let speed = self.velocity.length();
         if speed == 0.0 {
-            return Breeze { mean: Vec3::ZERO, swirl: 0.0, time, phase: 0.0 };
+            return Breeze { mean: Vec3::ZERO, swirl: 0.0, phase: [0.0; 3] };
         }
         let phase = f64::from(unit(self.seed, &[0])) * 100.0;
         let t = time + phase;
@@ -92,7 +92,10 @@ impl Wind {
         let side = across * sin(angle) + lift * (0.35 * sin(angle * 0.7 + 0.2 * angle));
         let heading = along * cos(angle) + side;
         let mean = heading * (speed * (1.0 + self.gust * swell));
-        Breeze { mean, swirl: self.turbulence * speed, time: t, phase: phase as f32 }
+        let turn = core::f64::consts::TAU;
+        // Reduced while it is exact, for the lanes have f32 only.
+        let phase = [2.9, 3.7, 4.3].map(|rate| ((t * rate + phase * 4.8) % turn) as f32);
+        Breeze { mean, swirl: self.turbulence * speed, phase }
     }
 
     /// The receipt's field at `time` [s], for a particle at `x` [m]: an acceleration [m/s²].
@@ -110,26 +113,25 @@ impl Wind {
 /// The wind at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Breeze {
+    /// The velocity that it has everywhere [m/s].
     pub mean: Vec3,
     swirl: f32,
-    time: f64,
-    phase: f32,
+    phase: [f32; 3],
 }
 
 impl Breeze {
-    pub fn is_still(&self) -> bool {
-        self.mean == Vec3::ZERO && self.swirl == 0.0
+    pub fn swirls(&self) -> bool {
+        self.swirl > 0.0
     }
 
-    /// The velocity of the air at `x` [m/s].
-    pub fn velocity(&self, x: Vec3) -> Vec3 {
-        if self.swirl == 0.0 {
-            return self.mean;
-        }
-        let (t, at) = (self.time, x + Vec3::splat(self.phase));
-        let wave = |a: f32, b: f32, rate: f64| sin(f64::from(a * 3.1 + b * 1.7) + t * rate);
-        let swirl = Vec3::new(wave(at.y, at.z, 2.9), wave(at.z, at.x, 3.7), wave(at.x, at.y, 4.3));
-        self.mean + swirl * self.swirl
+    /// What swirls add to the velocity at a place [m/s].
+    #[inline(always)]
+    pub fn swirl_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
+        [
+            wave(y * 3.1 + z * 1.7 + self.phase[0]) * self.swirl,
+            wave(z * 3.1 + x * 1.7 + self.phase[1]) * self.swirl,
+            wave(x * 3.1 + y * 1.7 + self.phase[2]) * self.swirl,
+        ]
     }
 }
 
@@ -142,7 +144,7 @@ mod tests {
         let wind = Wind { velocity: Vec3::new(0.0, 0.0, 2.0), ..Wind::default() };
         for time in [0.0, 1.7, 33.0] {
             let breeze = wind.at(time);
-            assert!((breeze.velocity(Vec3::X) - wind.velocity).length() < 1.0e-6);
+            assert!((breeze.mean - wind.velocity).length() < 1.0e-6 && !breeze.swirls());
         }
     }
 

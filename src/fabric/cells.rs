@@ -1,0 +1,35 @@
+//! The cells of a grid, row by row: where two triangles each lie as they were made, eight cells can
+//! be summed up at once.
+
+use crate::mesh::Mesh;
+use crate::mesh::grid::cell_triangles;
+
+/// The cells of a grid; cell = row · (columns − 1) + column, its triangles are twice that and one on.
+#[derive(Clone, Debug)]
+pub(crate) struct Cells {
+    /// Particles across.
+    pub columns: usize,
+    /// Particles down.
+    pub rows: usize,
+    /// Whether a corner of the cell has been split off.
+    pub torn: Vec<bool>,
+}
+
+impl Cells {
+    pub fn new(columns: u32, rows: u32) -> Self {
+        let (columns, rows) = (columns as usize, rows as usize);
+        Self { columns, rows, torn: vec![false; (columns - 1) * (rows - 1)] }
+    }
+
+    /// Takes note of what a split did around an original vertex.
+    pub fn follow(&mut self, mesh: &Mesh, source: u32) {
+        let (row, column) = (source as usize / self.columns, source as usize % self.columns);
+        for row in row.saturating_sub(1)..(row + 1).min(self.rows - 1) {
+            for column in column.saturating_sub(1)..(column + 1).min(self.columns - 1) {
+                let cell = row * (self.columns - 1) + column;
+                let woven = cell_triangles(self.columns as u32, row as u32, column as u32);
+                self.torn[cell] = mesh.triangles[2 * cell..2 * cell + 2] != woven;
+            }
+        }
+    }
+}

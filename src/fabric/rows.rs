@@ -1,0 +1,130 @@
+//! Where a weave is a regular grid: its links as rows that straight loads can run along.
+//!
+//! This is an optimisation of the general list of links and no more: the same links in the same
+//! colours. A link that tears or gets another particle leaves its row (its mask turns 0); if it still
+//! holds, it goes on as a stray.
+
+use core::ops::Range;
+
+/// How the particles of a row's links lie in memory. Link `k` of a row joins …
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pattern {
+    /// … `a + k` and `b + k`: between two rows of the grid.
+    Straight,
+    /// … `a + 2k` and `a + 2k + 1`: neighbours in one row.
+    Pairs,
+    /// … `a + k` and `a + k + 2`, for k = 0, 1, then 4, 5 and so on: every second in one row.
+    Quads,
+}
+
+/// Links that lie in a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row {
+    pub pattern: Pattern,
+    pub a: u32,
+    pub b: u32,
+    pub first: u32,
+    pub count: u32,
+    /// Whether a link has left it.
+    pub is_torn: bool,
+}
+
+/// All rows of a grid's weave.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rows {
+    pub rows: Vec<Row>,
+    /// 1 for a link in its row, 0 for one that left it.
+    pub mask: Vec<f32>,
+    /// Links that left their row and still hold, lowest first.
+    strays: Vec<u32>,
+    /// The row of each link.
+    row_of: Vec<u32>,
+}
+
+impl Rows {
+    /// Finds the rows in links that are sorted as a grid weaves them; the ends are those it wove.
+    pub fn find(a: &[u32], b: &[u32], batch_starts: &[usize]) -> Self {
+        let mut rows: Vec<Row> = Vec::new();
+        let mut row_of = Vec::with_capacity(a.len());
+        for link in 0..a.len() {
+            let goes_on = rows.last_mut().is_some_and(|row| {
+                let fits = !batch_starts.contains(&link) && row.take(a[link], b[link]);
+                row.count += u32::from(fits);
+                fits
+            });
+            if !goes_on {
+                rows.push(Row::starting(link as u32, a[link], b[link]));
+            }
+            row_of.push(rows.len() as u32 - 1);
+        }
+        Self { rows, mask: vec![1.0; a.len()], strays: Vec::with_capacity(a.len()), row_of }
+    }
+
+    /// The rows that hold the links `range`, which are a batch.
+    pub fn between(&self, range: Range<usize>) -> Range<usize> {
+        let row = |link: usize| self.row_of.get(link).map_or(self.rows.len(), |row| *row as usize);
+        row(range.start)..row(range.end)
+    }
+
+    /// The strays among the links `range`.
+    pub fn strays(&self, range: Range<usize>) -> &[u32] {
+        let at = |link: usize| self.strays.partition_point(|stray| (*stray as usize) < link);
+        &self.strays[at(range.start)..at(range.end)]
+    }
+
+    /// Takes note of what became of a link.
+    pub fn follow(&mut self, link: usize, ends: (u32, u32), holds: bool) {
+        let row = &self.rows[self.row_of[link] as usize];
+        let is_in_place = Self::ends(row, link as u32 - row.first) == ends;
+        self.mask[link] = if is_in_place && holds { 1.0 } else { 0.0 };
+        if self.mask[link] == 0.0 {
+            self.rows[self.row_of[link] as usize].is_torn = true;
+        }
+        let found = self.strays.binary_search(&(link as u32));
+        match (found, holds && !is_in_place) {
+            (Err(at), true) => self.strays.insert(at, link as u32),
+            (Ok(at), false) => {
+                self.strays.remove(at);
+            }
+            _ => {}
+        }
+    }
+
+    /// Makes room for every link to stray.
+    pub fn reserve(&mut self) {
+        self.strays.reserve_exact(self.mask.len() - self.strays.len());
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        12 * self.mask.len() + size_of::<Row>() * self.rows.len()
+    }
+
+    /// The particles of a link in its row.
+    fn ends(row: &Row, k: u32) -> (u32, u32) {
+        match row.pattern {
+            Pattern::Straight => (row.a + k, row.b + k),
+            Pattern::Pairs => (row.a + 2 * k, row.a + 2 * k + 1),
+            Pattern::Quads => {
+                let a = row.a + k / 2 * 4 + k % 2;
+                (a, a + 2)
+            }
+        }
+    }
+}
+
+impl Row {
+    fn starting(first: u32, a: u32, b: u32) -> Self {
+        let pattern = match b - a {
+            1 => Pattern::Pairs,
+            2 => Pattern::Quads,
+            _ => Pattern::Straight,
+        };
+        Self { pattern, a, b, first, count: 1, is_torn: false }
+    }
+
+    /// Whether a link from `a` to `b` goes on with this row.
+    fn take(&self, a: u32, b: u32) -> bool {
+        Rows::ends(self, self.count) == (a, b)
+    }
+}

@@ -1,0 +1,185 @@
+//! Sums over triangles: what each gives to its corners, for wind and for normals alike.
+//!
+//! Every corner is added to in the order of the triangles. On a grid eight cells go at once where
+//! they are as they were made; the additions come in that order still, so the bits are the same.
+
+use crate::fabric::cells::Cells;
+use crate::math::columns::Columns;
+use crate::mesh::grid::falls;
+
+/// Cells in a chunk.
+const LANES: usize = 8;
+
+type Lanes = [f32; LANES];
+type V = [f32; 3];
+
+/// What a triangle gives.
+pub(crate) trait Give: Copy {
+    /// From its corners' positions and the air's velocities against them, and its area at rest:
+    /// without a branch.
+    fn give(self, x: [V; 3], air: [V; 3], rest_area: f32) -> V;
+
+    /// A corner's part of it, where so much of the area at rest is the corner's.
+    fn part(self, area: f32) -> f32;
+}
+
+/// What is summed over.
+#[derive(Clone, Copy)]
+pub(crate) struct Surface<'a> {
+    pub triangles: &'a [[u32; 3]],
+    /// Of each triangle's area at rest what falls to each corner [m²].
+    pub areas: &'a [[f32; 3]],
+    pub cells: Option<&'a Cells>,
+    pub x: &'a Columns,
+    pub air: &'a Columns,
+}
+
+/// Adds what every triangle gives.
+#[inline(always)]
+pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, out: &mut Columns) {
+    let Some(cells) = surface.cells.filter(|cells| cells.columns > LANES) else {
+        return (0..surface.triangles.len()).for_each(|at| add_triangle(surface, at, give, out));
+    };
+    let across = cells.columns - 1;
+    for row in 0..cells.rows - 1 {
+        for start in (0..across).step_by(LANES) {
+            // The last chunk reaches back over cells that are done, so as to be whole.
+            let first = start.min(across - LANES);
+            let cell = row * across + first;
+            if cells.torn[cell..cell + LANES].contains(&true) {
+                let from = 2 * (row * across + start);
+                let end = 2 * (row * across + (start + LANES).min(across));
+                (from..end).for_each(|at| add_triangle(surface, at, give, out));
+            } else {
+                let place = Place { row, first, done: start - first, columns: cells.columns };
+                add_cells(surface, place, give, out);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add_triangle<G: Give>(surface: Surface<'_>, at: usize, give: G, out: &mut Columns) {
+    let corners = surface.triangles[at].map(|v| v as usize);
+    let areas = surface.areas[at];
+    let of = |columns: &Columns| corners.map(|v| columns.at(v).to_array());
+    let [gx, gy, gz] = give.give(of(surface.x), of(surface.air), areas[0] + areas[1] + areas[2]);
+    for (v, area) in corners.into_iter().zip(areas) {
+        let part = give.part(area);
+        out.x[v] += gx * part;
+        out.y[v] += gy * part;
+        out.z[v] += gz * part;
+    }
+}
+
+/// Eight cells next to each other, of which the first ones are done.
+#[derive(Clone, Copy)]
+struct Place {
+    row: usize,
+    first: usize,
+    done: usize,
+    columns: usize,
+}
+
+/// A vector in each lane.
+#[derive(Clone, Copy)]
+struct Vectors {
+    x: Lanes,
+    y: Lanes,
+    z: Lanes,
+}
+
+impl Vectors {
+    #[inline(always)]
+    fn load(columns: &Columns, first: usize) -> Self {
+        let lanes = |column: &[f32]| {
+            let mut lanes = [0.0; LANES];
+            lanes.copy_from_slice(&column[first..first + LANES]);
+            lanes
+        };
+        Self { x: lanes(&columns.x), y: lanes(&columns.y), z: lanes(&columns.z) }
+    }
+
+    #[inline(always)]
+    fn at(&self, lane: usize) -> V {
+        [self.x[lane], self.y[lane], self.z[lane]]
+    }
+}
+
+/// `a` where `first` holds, else `b`.
+#[inline(always)]
+fn pick(first: bool, a: V, b: V) -> V {
+    let one = |a: f32, b: f32| if first { a } else { b };
+    [one(a[0], b[0]), one(a[1], b[1]), one(a[2], b[2])]
+}
+
+/// Eight numbers by the cells' diagonals: one where they fall, another where they rise.
+#[inline(always)]
+fn alternate(first_falls: bool, falling: f32, rising: f32) -> Lanes {
+    let (even, odd) = if first_falls { (falling, rising) } else { (rising, falling) };
+    [even, odd, even, odd, even, odd, even, odd]
+}
+
+#[inline(always)]
+fn add_cells<G: Give>(surface: Surface<'_>, place: Place, give: G, out: &mut Columns) {
+    let top = place.row * place.columns + place.first;
+    let bottom = top + place.columns;
+    let load = Vectors::load;
+    let (tl, tr) = (load(surface.x, top), load(surface.x, top + 1));
+    let (bl, br) = (load(surface.x, bottom), load(surface.x, bottom + 1));
+    let (utl, utr) = (load(surface.air, top), load(surface.air, top + 1));
+    let (ubl, ubr) = (load(surface.air, bottom), load(surface.air, bottom + 1));
+    // One area for all: half a triangle's for its right angle, a quarter for the others.
+    let areas = surface.areas[0];
+    let rest_area = areas[0] + areas[1] + areas[2];
+    let first_falls = falls(place.row as u32, place.first as u32);
+    let falling = alternate(first_falls, 1.0, 0.0);
+    let zero = Vectors { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
+    let (mut one, mut two) = (zero, zero);
+    for lane in 0..LANES {
+        let falls = falling[lane] > 0.0;
+        let x = [tl.at(lane), tr.at(lane), bl.at(lane), br.at(lane)];
+        let u = [utl.at(lane), utr.at(lane), ubl.at(lane), ubr.at(lane)];
+        let given = give.give(
+            [x[0], x[2], pick(falls, x[3], x[1])],
+            [u[0], u[2], pick(falls, u[3], u[1])],
+            rest_area,
+        );
+        (one.x[lane], one.y[lane], one.z[lane]) = (given[0], given[1], given[2]);
+        let given = give.give(
+            [pick(falls, x[0], x[2]), x[3], x[1]],
+            [pick(falls, u[0], u[2]), u[3], u[1]],
+            rest_area,
+        );
+        (two.x[lane], two.y[lane], two.z[lane]) = (given[0], given[1], given[2]);
+    }
+    let (quarter, half) = (give.part(areas[0]), give.part(2.0 * areas[0]));
+    // Which part of the first and of the second triangle a corner gets. The right corners go first:
+    // to them the cell on their left gives before the one on their right.
+    for (first, falling, rising) in [
+        (top + 1, [0.0, half], [quarter, quarter]),
+        (top, [quarter, quarter], [half, 0.0]),
+        (bottom + 1, [quarter, quarter], [0.0, half]),
+        (bottom, [half, 0.0], [quarter, quarter]),
+    ] {
+        let mut of_one = alternate(first_falls, falling[0], rising[0]);
+        let mut of_two = alternate(first_falls, falling[1], rising[1]);
+        for lane in 0..LANES {
+            let counts = lane >= place.done;
+            of_one[lane] = if counts { of_one[lane] } else { 0.0 };
+            of_two[lane] = if counts { of_two[lane] } else { 0.0 };
+        }
+        add(&mut out.x, first, (&one.x, &of_one), (&two.x, &of_two));
+        add(&mut out.y, first, (&one.y, &of_one), (&two.y, &of_two));
+        add(&mut out.z, first, (&one.z, &of_one), (&two.z, &of_two));
+    }
+}
+
+#[inline(always)]
+fn add(column: &mut [f32], first: usize, one: (&Lanes, &Lanes), two: (&Lanes, &Lanes)) {
+    let column = &mut column[first..first + LANES];
+    for lane in 0..LANES {
+        let with_one = column[lane] + one.0[lane] * one.1[lane];
+        column[lane] = with_one + two.0[lane] * two.1[lane];
+    }
+}
