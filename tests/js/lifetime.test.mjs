@@ -3,26 +3,32 @@
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
 import { test } from "node:test";
+import { pathToFileURL } from "node:url";
 import { promisify } from "node:util";
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 
 import init, { Cloth, initSync, version } from "muslin";
 
-const wasm = new URL(import.meta.resolve("muslin/raw_bg.wasm"));
-const manifest = new URL(import.meta.resolve("muslin/package.json"));
+const { resolve } = createRequire(import.meta.url);
+const [wasm, manifest] = ["raw_bg.wasm", "package.json"].map((file) => pathToFileURL(resolve(`muslin/${file}`)));
 
-/** Runs a module in a node of its own, where nothing is loaded yet. */
+/** Runs `body` in a node of its own, where nothing is loaded yet. */
 async function inFreshNode(body) {
-  const head = `
+  await inNode(`
     import assert from "node:assert/strict";
     import { readFile } from "node:fs/promises";
     import init, { Cloth, initSync, version } from "muslin";
     const bytes = await readFile(new URL(${JSON.stringify(wasm)}));
     const works = () => { const c = Cloth.grid(); c.step(1); assert.ok(c.stateHash()); c.free(); };
-  `;
-  const args = ["--input-type=module", "--eval", head + body];
+    ${body}`);
+}
+
+/** Runs a module that may import what is installed here, and says nothing. */
+async function inNode(module) {
+  const args = ["--input-type=module", "--eval", module];
   const { stdout, stderr } = await promisify(execFile)(process.execPath, args, {
     cwd: new URL(".", import.meta.url),
   });
@@ -91,6 +97,13 @@ test("a load that failed says why and may be tried again", () =>
     works();
   `));
 
+test("what the package's README shows runs", async () => {
+  const readme = await readFile(new URL("README.md", manifest), "utf8");
+  const blocks = [...readme.matchAll(/```js\n(.*?)```/gs)].map(([, code]) => code);
+  assert.equal(blocks.length, 2);
+  await inNode(`${blocks.join("")} if (!mesh.geometry.cloth.positions.every(Number.isFinite)) throw 0;`);
+});
+
 test("the version is the package's", async () => {
   await init();
   assert.equal(version(), JSON.parse(await readFile(manifest, "utf8")).version);
@@ -134,9 +147,10 @@ test("free may be called twice, and any use after it says so", async () => {
 test("a cloth is disposed of as `using` does it", async () => {
   await init();
   const cloth = Cloth.grid();
-  assert.ok(Symbol.dispose, "this node knows Symbol.dispose");
-  cloth[Symbol.dispose]();
-  assert.equal(cloth.isFreed, true);
+  const symbols = Object.getOwnPropertySymbols(Cloth.prototype);
+  assert.deepEqual(symbols, Symbol.dispose ? [Symbol.dispose] : [], "as far as this node knows it");
+  for (const dispose of symbols) cloth[dispose]();
+  assert.equal(cloth.isFreed, symbols.length > 0);
 });
 
 test("a released grab is stale, and so is one whose cloth was reset", async () => {

@@ -141,7 +141,9 @@ refuses("wind", [...NOT_OBJECTS, undefined], (value, { cloth }) => (cloth.wind =
 refuses("timing", [0, 1, null, "on"], (value, { cloth }) => (cloth.timing = value));
 
 // Time
-refuses("seconds", [...NOT_NUMBERS, undefined, -1, Infinity, 1e300], (value, { cloth }) => cloth.advance(value));
+refuses("seconds", [...NOT_NUMBERS, undefined, -1, Infinity, 1e300], (value, { cloth }) =>
+  cloth.advance(value),
+);
 refuses("ticks", NOT_WHOLE, (value, { cloth }) => cloth.step(value));
 
 // Particles and pins
@@ -165,10 +167,14 @@ refuses("targets", [...NOT_LISTS, undefined, [0], [0, 0, 0], targets.map(() => N
 const ahead = [0, 0, -1];
 for (const name of ["raycast", "grabRay"]) {
   refuses("origin", [...NOT_FINITE, undefined], (value, { cloth }) => cloth[name](value, ahead));
-  refuses("direction", [...NOT_FINITE, undefined, [0, 0, 0]], (value, { cloth }) => cloth[name]([0, 0, 0], value));
+  refuses("direction", [...NOT_FINITE, undefined, [0, 0, 0]], (value, { cloth }) =>
+    cloth[name]([0, 0, 0], value),
+  );
 }
 refuses("maxDistance", [...NOT_NUMBERS, -1], (value, { cloth }) => cloth.raycast([0, 0, 1], ahead, value));
-refuses("radius", [...NOT_NUMBERS, -1, Infinity], (radius, { cloth }) => cloth.grabRay([0, 0, 1], ahead, { radius }));
+refuses("radius", [...NOT_NUMBERS, -1, Infinity], (radius, { cloth }) =>
+  cloth.grabRay([0, 0, 1], ahead, { radius }),
+);
 refuses("options", NOT_OBJECTS, (value, { cloth }) => cloth.grabRay([0, 0, 1], ahead, value));
 refuses("target", [...NOT_FINITE, undefined], (value, { grab }) => grab.moveTo(value));
 refuses("particleA", NOT_PARTICLES, (value, { cloth }) => cloth.tearEdge(value, 1));
@@ -190,12 +196,20 @@ for (const [key, values] of Object.entries(collider)) {
 refuses("collider", NOT_OBJECTS, (value, { cloth }) => cloth.addCollider(value));
 refuses("position", [...NOT_VECTORS, undefined], (value, { collider }) => collider.moveTo(value));
 refuses("collider.position", [[0, Infinity, 0]], (value, { collider }) => collider.moveTo(value));
-refuses("rotation", [1, [0, 0, 0], [0, 0, 0, NaN]], (value, { collider }) => collider.moveTo([0, 0, 0], value));
-refuses("collider.rotation", [[0, 0, 0, 2]], (value, { collider }) => collider.moveTo([0, 0, 0], value));
+refuses("rotation", [1, [0, 0, 0], [0, 0, 0, NaN]], (value, { collider }) =>
+  collider.moveTo([0, 0, 0], value),
+);
+refuses("collider.rotation", [[0, 0, 0, 2]], (value, { collider }) =>
+  collider.moveTo([0, 0, 0], value),
+);
 
 // Saved bytes
-refuses("buffer", [...NOT_OBJECTS.slice(0, 4), undefined, "MUSLINSV"], (value) => Cloth.restore(value));
-refuses("buffer", [new Uint8Array(0), new Uint8Array(64), new ArrayBuffer(64)], (value) => Cloth.restore(value));
+refuses("buffer", [...NOT_OBJECTS.slice(0, 4), undefined, "MUSLINSV"], (value) =>
+  Cloth.restore(value),
+);
+refuses("buffer", [new Uint8Array(0), new Uint8Array(64), new ArrayBuffer(64)], (value) =>
+  Cloth.restore(value),
+);
 
 test("saved bytes that were cut short or changed are refused", () => {
   const { cloth } = livelyCloth();
@@ -212,7 +226,8 @@ test("saved bytes that were cut short or changed are refused", () => {
 test("a refusal says the rule, what was given and what may have been meant", () => {
   const { cloth } = livelyCloth();
   const says = (call, message) => assert.throws(call, { name: "Error", message });
-  says(() => (cloth.settings = { iteration: 3 }), "`settings.iteration` is not known; did you mean `iterations`?");
+  const hint = "`settings.iteration` is not known; did you mean `iterations`?";
+  says(() => (cloth.settings = { iteration: 3 }), hint);
   says(() => (cloth.settings = { zoom: 3 }), "`settings.zoom` is not known");
   says(() => (cloth.settings = { maxStretch: -1 }), "`settings.maxStretch` must be at least 0 and finite");
   says(() => Cloth.grid({ columns: 2.5 }), /^`columns` must be a whole number .*, but is 2.5$/);

@@ -1,21 +1,15 @@
-// A cloth, its grabs and its colliders.
+// A cloth: what it is asked, checked; what it answers, named.
 
 import * as raw from "./raw.js";
 import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from "./check.js";
 import { ready } from "./memory.js";
 import * as fields from "./fields.js";
+import { Collider, Grab, OURS, onlyOurs } from "./handles.js";
 import { readEvents, readHit, readStats } from "./reports.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
 const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
 const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "settings"];
-
-/** Only this module makes cloths, grabs and colliders: from what the core gave. */
-const OURS = Symbol("made by muslin");
-
-function onlyOurs(key, advice) {
-  if (key !== OURS) throw new Error(advice);
-}
 
 /** The material and the settings of a descriptor, as lists. */
 function clothing({ material = {}, settings = {} }) {
@@ -294,51 +288,6 @@ export class Cloth {
 
 function ray(origin, direction) {
   return Float64Array.of(...vector(origin, "origin"), ...vector(direction, "direction"));
-}
-
-export class Grab {
-  #live;
-  #handle;
-
-  constructor(key, live, handle, position) {
-    onlyOurs(key, "a grab is made by cloth.grabRay() or cloth.grabParticle()");
-    this.#live = live;
-    this.#handle = handle;
-    this.position = Object.freeze(Array.from(position));
-    Object.freeze(this);
-  }
-
-  moveTo(target) {
-    this.#live().move_grab(this.#handle, ...vector(target, "target"));
-  }
-
-  release() {
-    this.#live().release(this.#handle);
-  }
-}
-
-export class Collider {
-  #live;
-  #handle;
-  #rotation;
-
-  constructor(key, live, handle, rotation) {
-    onlyOurs(key, "a collider is made by cloth.addCollider()");
-    this.#live = live;
-    this.#handle = handle;
-    this.#rotation = rotation;
-  }
-
-  moveTo(position, rotation = this.#rotation) {
-    const live = this.#live();
-    const turned = vector(rotation, "rotation", "x, y, z, w");
-    live.move_collider(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
-    this.#rotation = turned;
-  }
-
-  remove() {
-    this.#live().remove_collider(this.#handle);
-  }
 }
 
 // Where the engine knows `using`.

@@ -41,7 +41,7 @@ async function compile(source) {
 }
 
 async function receive(response) {
-  check(response.ok, "source", `be found, but ${response.url} answered ${response.status}`);
+  check(response.ok, "source", `be found, but ${response.url || "it"} answered ${response.status}`);
   const isTyped = response.headers.get("content-type")?.startsWith("application/wasm");
   if (isTyped) return WebAssembly.compileStreaming(response);
   return WebAssembly.compile(await response.arrayBuffer());
