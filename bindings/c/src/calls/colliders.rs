@@ -1,0 +1,56 @@
+//! Colliders come, move and go.
+
+use crate::boundary::{self, Out};
+use crate::registry::with_cloth;
+use crate::status::MuslinStatus;
+use crate::types::collider::MuslinColliderDesc;
+use crate::types::value::{MuslinCloth, MuslinCollider, MuslinQuat, MuslinVec3};
+use muslin_core::Collider;
+
+/// Adds a collider to a cloth.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED for another
+/// shape than a plane; MUSLIN_STATUS_FULL if there are 1024 colliders already
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_add_collider(
+    cloth: MuslinCloth,
+    desc: *const MuslinColliderDesc,
+    out_collider: *mut MuslinCollider,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    let (desc, out_collider) =
+        unsafe { (boundary::read("desc", desc), Out::new("out_collider", out_collider)) };
+    with_cloth(cloth, |cloth| {
+        let (desc, out_collider) = (desc?.try_into()?, out_collider?);
+        out_collider.write(MuslinCollider { id: cloth.add_collider(&desc)?.to_bits() });
+        Ok(())
+    })
+}
+
+/// Moves a collider; it gets there over the next tick, so that it sweeps.
+///
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
+/// finite or a rotation that is no unit quaternion
+#[unsafe(no_mangle)]
+pub extern "C" fn muslin_cloth_move_collider(
+    cloth: MuslinCloth,
+    collider: MuslinCollider,
+    position: MuslinVec3,
+    rotation: MuslinQuat,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        let collider = Collider::from_bits(collider.id);
+        Ok(cloth.move_collider(collider, position.into(), rotation.into())?)
+    })
+}
+
+/// Removes a collider.
+///
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed before
+#[unsafe(no_mangle)]
+pub extern "C" fn muslin_cloth_remove_collider(
+    cloth: MuslinCloth,
+    collider: MuslinCollider,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| Ok(cloth.remove_collider(Collider::from_bits(collider.id))?))
+}

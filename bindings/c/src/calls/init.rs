@@ -1,0 +1,81 @@
+//! The other half of the header's inline `..._init` functions: they pass the sizes that the caller's
+//! compiler knew.
+
+use crate::boundary::{self, guard};
+use crate::status::MuslinStatus;
+use crate::types::collider::MuslinColliderDesc;
+use crate::types::grid::MuslinGridDesc;
+use crate::types::material::MuslinMaterial;
+use crate::types::mesh::MuslinMeshDesc;
+use crate::types::settings::MuslinSettings;
+use crate::types::wind::MuslinWind;
+
+/// What muslin_settings_init calls: pass the sizeof of MuslinSettings.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_settings_init_sized(
+    settings: *mut MuslinSettings,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe { boundary::init("settings", settings, struct_size) })
+}
+
+/// What muslin_material_init calls: pass the sizeof of MuslinMaterial.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_material_init_sized(
+    material: *mut MuslinMaterial,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe { boundary::init("material", material, struct_size) })
+}
+
+/// What muslin_wind_init calls: pass the sizeof of MuslinWind.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_wind_init_sized(
+    wind: *mut MuslinWind,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe { boundary::init("wind", wind, struct_size) })
+}
+
+/// What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_collider_desc_init_sized(
+    desc: *mut MuslinColliderDesc,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe { boundary::init("desc", desc, struct_size) })
+}
+
+/// What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
+/// MuslinSettings, all of the same header.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_grid_desc_init_sized(
+    desc: *mut MuslinGridDesc,
+    struct_size: u32,
+    material_size: u32,
+    settings_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe {
+        boundary::init_nested("desc", desc, struct_size, material_size, settings_size)
+    })
+}
+
+/// What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
+/// MuslinSettings, all of the same header.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_mesh_desc_init_sized(
+    desc: *mut MuslinMeshDesc,
+    struct_size: u32,
+    material_size: u32,
+    settings_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe {
+        boundary::init_nested("desc", desc, struct_size, material_size, settings_size)
+    })
+}

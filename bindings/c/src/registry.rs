@@ -1,0 +1,160 @@
+//! All cloths behind their handles: generational slots, each cloth behind its own lock.
+
+use crate::boundary::guard;
+use crate::log::{self, MUSLIN_LOG_INFO};
+use crate::status::{MuslinStatus, Refusal, Result};
+use crate::types::value::MuslinCloth;
+use muslin_core::Cloth;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+
+/// A cloth that may be destroyed while another thread is about to use it: then there is none left.
+type Cell = Arc<Mutex<Option<Cloth>>>;
+
+struct Slot {
+    generation: u32,
+    cell: Option<Cell>,
+}
+
+/// Handles are `generation << 32 | slot + 1`, so zero is none.
+struct Registry {
+    slots: Vec<Slot>,
+    free: Vec<u32>,
+}
+
+impl Registry {
+    fn insert(&mut self, cloth: Cloth) -> Result<MuslinCloth> {
+        let at = match self.free.pop() {
+            Some(at) => at,
+            None => {
+                let full = || Refusal::new(MuslinStatus::Full, "no room is left for another cloth");
+                let at = u32::try_from(self.slots.len()).map_err(|_| full())?;
+                self.slots.push(Slot { generation: 1, cell: None });
+                at
+            }
+        };
+        let slot = &mut self.slots[at as usize];
+        slot.cell = Some(Arc::new(Mutex::new(Some(cloth))));
+        Ok(MuslinCloth { id: u64::from(slot.generation) << 32 | (u64::from(at) + 1) })
+    }
+
+    fn find(&self, cloth: MuslinCloth) -> Option<&Cell> {
+        let at = (cloth.id & u64::from(u32::MAX)).checked_sub(1)?;
+        let slot = self.slots.get(usize::try_from(at).ok()?)?;
+        (u64::from(slot.generation) == cloth.id >> 32).then_some(slot.cell.as_ref()).flatten()
+    }
+
+    /// Makes the handle stale. A slot whose generations are all used is left empty for good.
+    fn remove(&mut self, cloth: MuslinCloth) {
+        let at = (cloth.id & u64::from(u32::MAX)) as u32 - 1;
+        let slot = &mut self.slots[at as usize];
+        slot.cell = None;
+        if let Some(next) = slot.generation.checked_add(1) {
+            slot.generation = next;
+            self.free.push(at);
+        }
+    }
+}
+
+static REGISTRY: Mutex<Registry> = Mutex::new(Registry { slots: Vec::new(), free: Vec::new() });
+
+/// The registry, for a moment: whoever holds it waits for nothing.
+fn registry() -> MutexGuard<'static, Registry> {
+    REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn cell(cloth: MuslinCloth) -> Result<Cell> {
+    registry().find(cloth).cloned().ok_or_else(Refusal::bad_cloth)
+}
+
+fn busy() -> Refusal {
+    Refusal::new(MuslinStatus::Busy, "`cloth` must not be in use on another thread")
+}
+
+/// Keeps a new cloth and names it.
+pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
+    registry().insert(cloth)
+}
+
+/// Runs `call` on a cloth that nobody else uses meanwhile. A panic spoils the cloth for good.
+pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -> MuslinStatus {
+    guard(|| {
+        let cell = cell(cloth)?;
+        let mut held = match cell.try_lock() {
+            Ok(held) => held,
+            Err(TryLockError::WouldBlock) => return Err(busy()),
+            Err(TryLockError::Poisoned(_)) => return Err(Refusal::spoilt()),
+        };
+        call(held.as_mut().ok_or_else(Refusal::bad_cloth)?)
+    })
+}
+
+/// Destroys a cloth, a spoilt one too.
+pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
+    let status = guard(|| {
+        let cell = cell(cloth)?;
+        let mut held = match cell.try_lock() {
+            Ok(held) => held,
+            Err(TryLockError::WouldBlock) => return Err(busy()),
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+        };
+        let gone = held.take().ok_or_else(Refusal::bad_cloth)?;
+        registry().remove(cloth);
+        drop(held);
+        drop(gone);
+        Ok(())
+    });
+    if status == MuslinStatus::Ok {
+        log::tell(MUSLIN_LOG_INFO, || format!("cloth {:#x} is destroyed", cloth.id));
+    }
+    status
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use muslin_core::GridDesc;
+
+    fn small_cloth() -> MuslinCloth {
+        let desc = GridDesc { columns: 3, rows: 3, ..GridDesc::default() };
+        insert(Cloth::grid(&desc).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_panic_spoils_its_cloth_and_no_other() {
+        let (spoilt, sound) = (small_cloth(), small_cloth());
+        assert_eq!(with_cloth(spoilt, |_| panic!("on purpose")), MuslinStatus::Panicked);
+        assert_eq!(with_cloth(spoilt, |_| Ok(())), MuslinStatus::Panicked);
+        assert_eq!(with_cloth(sound, |_| Ok(())), MuslinStatus::Ok);
+        assert_eq!(destroy(spoilt), MuslinStatus::Ok);
+        assert_eq!(with_cloth(spoilt, |_| Ok(())), MuslinStatus::BadHandle);
+        assert_eq!(destroy(sound), MuslinStatus::Ok);
+    }
+
+    #[test]
+    fn a_cloth_in_use_is_busy_for_calls_and_for_destroy() {
+        let cloth = small_cloth();
+        let status = with_cloth(cloth, |_| {
+            assert_eq!(with_cloth(cloth, |_| Ok(())), MuslinStatus::Busy);
+            assert_eq!(destroy(cloth), MuslinStatus::Busy);
+            Ok(())
+        });
+        assert_eq!(status, MuslinStatus::Ok);
+        assert_eq!(destroy(cloth), MuslinStatus::Ok);
+        assert_eq!(destroy(cloth), MuslinStatus::BadHandle);
+    }
+
+    #[test]
+    fn a_slot_that_is_used_up_names_no_other_cloth() {
+        let mut registry = Registry { slots: Vec::new(), free: Vec::new() };
+        let cloth = || Cloth::grid(&GridDesc { columns: 2, rows: 2, ..GridDesc::default() });
+        let first = registry.insert(cloth().unwrap()).unwrap();
+        registry.remove(first);
+        registry.slots[0].generation = u32::MAX;
+        let last = registry.insert(cloth().unwrap()).unwrap();
+        assert_eq!(last.id, u64::from(u32::MAX) << 32 | 1);
+        registry.remove(last);
+        let next = registry.insert(cloth().unwrap()).unwrap();
+        assert_eq!(next.id, 1 << 32 | 2);
+        assert!(registry.find(last).is_none() && registry.find(first).is_none());
+    }
+}

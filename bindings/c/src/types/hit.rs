@@ -1,0 +1,41 @@
+//! Where a ray hits.
+
+use super::value::MuslinVec3;
+use muslin_core::Hit;
+
+/// Where a ray hits a cloth. Begin with muslin_hit_init.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MuslinHit {
+    /// Set by muslin_hit_init.
+    pub struct_size: u32,
+    /// The triangle that was hit: index 3 * triangle and the two after it.
+    pub triangle: u32,
+    /// Its particle nearest to the hit.
+    pub particle: u32,
+    /// Weight of the triangle's second corner.
+    pub u: f32,
+    /// Weight of the triangle's third corner.
+    pub v: f32,
+    /// Distance from the ray's origin [m].
+    pub distance: f32,
+    /// Where [m].
+    pub position: MuslinVec3,
+    /// Unit normal of the triangle, on the side that was hit.
+    pub normal: MuslinVec3,
+}
+
+impl From<Hit> for MuslinHit {
+    fn from(hit: Hit) -> Self {
+        Self {
+            struct_size: size_of::<Self>() as u32,
+            triangle: hit.triangle,
+            particle: hit.particle,
+            u: hit.u,
+            v: hit.v,
+            distance: hit.distance,
+            position: hit.position.into(),
+            normal: hit.normal.into(),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The structs and numbers of the header, one noun a file, and their way from and to the core.
+
+pub mod collider;
+pub mod event;
+pub mod grid;
+pub mod hit;
+pub mod material;
+pub mod mesh;
+pub mod settings;
+pub mod stats;
+pub mod value;
+pub mod view;
+pub mod wind;

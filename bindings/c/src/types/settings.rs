@@ -1,0 +1,105 @@
+//! How time runs.
+
+use super::value::MuslinVec3;
+use crate::status::{Refusal, Result};
+use muslin_core::Settings;
+
+/// How time runs: ticks, sweeps, gravity, damping and the switches of the solver. All of it may
+/// change between ticks.
+///
+/// One tick is `substeps` times (predict, then `iterations` sweeps over all links). More of either
+/// makes the cloth stiffer; at the same cost substeps stiffen more than iterations do.
+/// Begin with muslin_settings_init.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MuslinSettings {
+    /// Set by muslin_settings_init.
+    pub struct_size: u32,
+    /// Length of a tick [s]; 1/60. Above 0, at most 1.
+    pub tick: f32,
+    /// Substeps in a tick; 4. From 1 to 1000.
+    pub substeps: u32,
+    /// Sweeps over the links in a substep, to and fro in turn; 2. From 1 to 1000. With a single sweep
+    /// velocities are of first order, which brakes all motion; from two on they are of second order,
+    /// and nothing brakes but `damping` and the air.
+    pub iterations: u32,
+    /// Ticks that one advance may run; 5. What a late frame owes beyond it is dropped. At least 1.
+    pub max_ticks_per_advance: u32,
+    /// Acceleration of everything [m/s^2]; 0, -9.81, 0.
+    pub gravity: MuslinVec3,
+    /// Rate at which velocity decays [1/s]: as exp(-damping t), whatever the step; 0.5. At least 0.
+    pub damping: f32,
+    /// The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
+    /// rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
+    pub max_displacement: f32,
+    /// The most that a link may be stretched after a tick: 0.02 is 2 %; 0, no bound. At least 0.
+    pub max_stretch: f32,
+    /// 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
+    /// They hold where links are rigid (stretch stiffness 0), or at `max_stretch` where they are not.
+    pub tethers: u32,
+    /// Whether layers of the cloth keep apart; 0. 1 is not supported yet.
+    pub self_collision: u32,
+    /// Distance between layers [m]; 0 takes the material's thickness.
+    pub self_distance: f32,
+    /// 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0.
+    pub tearing: u32,
+    /// Vertices that tearing may split in one tick, the worst first; 8. At least 1.
+    pub max_tears_per_tick: u32,
+}
+
+impl Default for MuslinSettings {
+    fn default() -> Self {
+        Self::from(&Settings::default())
+    }
+}
+
+impl From<&Settings> for MuslinSettings {
+    fn from(settings: &Settings) -> Self {
+        Self {
+            struct_size: size_of::<Self>() as u32,
+            tick: settings.tick,
+            substeps: settings.substeps,
+            iterations: settings.iterations,
+            max_ticks_per_advance: settings.max_ticks_per_advance,
+            gravity: settings.gravity.into(),
+            damping: settings.damping,
+            max_displacement: settings.max_displacement,
+            max_stretch: settings.max_stretch,
+            tethers: settings.tethers.into(),
+            self_collision: settings.self_collision.into(),
+            self_distance: settings.self_distance,
+            tearing: settings.tearing.into(),
+            max_tears_per_tick: settings.max_tears_per_tick,
+        }
+    }
+}
+
+impl TryFrom<MuslinSettings> for Settings {
+    type Error = Refusal;
+
+    fn try_from(settings: MuslinSettings) -> Result<Self> {
+        Ok(Self {
+            tick: settings.tick,
+            substeps: settings.substeps,
+            iterations: settings.iterations,
+            max_ticks_per_advance: settings.max_ticks_per_advance,
+            gravity: settings.gravity.into(),
+            damping: settings.damping,
+            max_displacement: settings.max_displacement,
+            max_stretch: settings.max_stretch,
+            tethers: switch(settings.tethers, "settings.tethers")?,
+            self_collision: switch(settings.self_collision, "settings.self_collision")?,
+            self_distance: settings.self_distance,
+            tearing: switch(settings.tearing, "settings.tearing")?,
+            max_tears_per_tick: settings.max_tears_per_tick,
+        })
+    }
+}
+
+fn switch(number: u32, field: &str) -> Result<bool> {
+    match number {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(Refusal::bad_value(field, "be 0 or 1")),
+    }
+}
