@@ -25,110 +25,47 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/**
- * A defect of Muslin stopped a call.
- */
+/** A defect of Muslin stopped a call. */
 #define MUSLIN_LOG_ERROR 1
 
-/**
- * A call was refused; the message is what muslin_last_error says.
- */
+/** A call was refused; the message is what muslin_last_error says. */
 #define MUSLIN_LOG_WARN 2
 
-/**
- * A cloth was made or destroyed.
- */
+/** A cloth was made or destroyed. */
 #define MUSLIN_LOG_INFO 3
 
-/**
- * All that is below `position` along the turned y axis.
- */
-#define MUSLIN_SHAPE_PLANE 0
-
-/**
- * The edge between `particle_a` and `particle_b` tore.
- */
-#define MUSLIN_EVENT_EDGE_TORN 0
-
-/**
- * `vertex` was split off from `source`.
- */
-#define MUSLIN_EVENT_VERTEX_SPLIT 1
-
-/**
- * A piece of `count` triangles, one of them at `vertex`, came off.
- */
-#define MUSLIN_EVENT_PIECE_DETACHED 2
-
-/**
- * `count` particles had left the realm of numbers and were put back where they last were.
- */
-#define MUSLIN_EVENT_RECOVERED 3
-
-/**
- * Tearing stopped: the room that `extra_particles` reserved for it is used up. Told once.
- */
-#define MUSLIN_EVENT_RESERVE_USED_UP 4
-
-/**
- * Nothing is pinned: it falls.
- */
-#define MUSLIN_PIN_NONE 0
-
-/**
- * The whole first row is pinned.
- */
-#define MUSLIN_PIN_TOP_EDGE 1
-
-/**
- * The two ends of the first row are pinned.
- */
-#define MUSLIN_PIN_TOP_CORNERS 2
-
-/**
- * All four corners are pinned.
- */
-#define MUSLIN_PIN_CORNERS 3
-
-/**
- * For `extra_particles`: room for as many particles again as the cloth starts with.
- */
-#define MUSLIN_AS_MANY_AGAIN UINT32_MAX
-
-/**
- * Light and fluid, 100 g/m^2.
- */
+/** Light and fluid, 100 g/m^2. */
 #define MUSLIN_PRESET_SILK 0
 
-/**
- * Shirting, 180 g/m^2.
- */
+/** Shirting, 180 g/m^2. */
 #define MUSLIN_PRESET_COTTON 1
 
-/**
- * Heavy twill, 380 g/m^2.
- */
+/** Heavy twill, 380 g/m^2. */
 #define MUSLIN_PRESET_DENIM 2
 
-/**
- * Garment leather, 700 g/m^2.
- */
+/** Garment leather, 700 g/m^2. */
 #define MUSLIN_PRESET_LEATHER 3
 
-/**
- * Office paper, 80 g/m^2.
- */
+/** Office paper, 80 g/m^2. */
 #define MUSLIN_PRESET_PAPER 4
 
-/**
- * Flag nylon 200 denier, 105 g/m^2.
- */
+/** Flag nylon 200 denier, 105 g/m^2. */
 #define MUSLIN_PRESET_FLAG_NYLON 5
 
-/**
- * Room for the times of stages in MuslinStats; how many there are is in `stage_count`.
- */
-#define MUSLIN_STAGE_SLOTS 32
+/** Nothing is pinned: it falls. */
+#define MUSLIN_PIN_NONE 0
+
+/** The whole first row is pinned. */
+#define MUSLIN_PIN_TOP_EDGE 1
+
+/** The two ends of the first row are pinned. */
+#define MUSLIN_PIN_TOP_CORNERS 2
+
+/** All four corners are pinned. */
+#define MUSLIN_PIN_CORNERS 3
+
+/** For `extra_particles`: room for as many particles again as the cloth starts with. */
+#define MUSLIN_AS_MANY_AGAIN UINT32_MAX
 
 /**
  * The air pushes each triangle along its normal, by the square of the relative speed; still air
@@ -142,54 +79,55 @@
  */
 #define MUSLIN_WIND_SINE_FIELD 1
 
+/** All that is below `position` along the turned y axis. */
+#define MUSLIN_SHAPE_PLANE 0
+
+/** The edge between `particle_a` and `particle_b` tore. */
+#define MUSLIN_EVENT_EDGE_TORN 0
+
+/** `vertex` was split off from `source`. */
+#define MUSLIN_EVENT_VERTEX_SPLIT 1
+
+/** A piece of `count` triangles, one of them at `vertex`, came off. */
+#define MUSLIN_EVENT_PIECE_DETACHED 2
+
+/** `count` particles had left the realm of numbers and were put back where they last were. */
+#define MUSLIN_EVENT_RECOVERED 3
+
+/** Tearing stopped: the room that `extra_particles` reserved for it is used up. Told once. */
+#define MUSLIN_EVENT_RESERVE_USED_UP 4
+
+/** Room for the times of stages in MuslinStats; how many there are is in `stage_count`. */
+#define MUSLIN_STAGE_SLOTS 32
+
 /**
  * What became of a call. Whatever is not MUSLIN_STATUS_OK left the cloth and all `out_...` parameters
  * as they were, and muslin_last_error() says why in a sentence.
  */
 typedef enum MuslinStatus {
-  /**
-   * Done.
-   */
+  /** Done. */
   MUSLIN_STATUS_OK = 0,
   /**
    * An argument or a field is NULL, out of its range or not finite, or does not fit another one.
    */
   MUSLIN_STATUS_BAD_VALUE = 1,
-  /**
-   * An index points past the last particle or vertex.
-   */
+  /** An index points past the last particle or vertex. */
   MUSLIN_STATUS_BAD_INDEX = 2,
-  /**
-   * A handle of a cloth, grab or collider that is not there (any more).
-   */
+  /** A handle of a cloth, grab or collider that is not there (any more). */
   MUSLIN_STATUS_BAD_HANDLE = 3,
-  /**
-   * The triangles cannot be cloth.
-   */
+  /** The triangles cannot be cloth. */
   MUSLIN_STATUS_BAD_MESH = 4,
-  /**
-   * The bytes are not a saved cloth of this version, or were damaged.
-   */
+  /** The bytes are not a saved cloth of this version, or were damaged. */
   MUSLIN_STATUS_BAD_SAVE = 5,
-  /**
-   * The room that was reserved is used up.
-   */
+  /** The room that was reserved is used up. */
   MUSLIN_STATUS_FULL = 6,
-  /**
-   * A wish that this version does not know or does not fulfil yet.
-   */
+  /** A wish that this version does not know or does not fulfil yet. */
   MUSLIN_STATUS_UNSUPPORTED = 7,
-  /**
-   * The cloth is in use on another thread at this moment.
-   */
+  /** The cloth is in use on another thread at this moment. */
   MUSLIN_STATUS_BUSY = 8,
-  /**
-   * The caller's buffer is too small.
-   */
+  /** The caller's buffer is too small. */
   MUSLIN_STATUS_BUFFER_TOO_SMALL = 9,
-  /**
-   * The ray meets nothing. Not a mistake, so it is not logged.
-   */
+  /** The ray meets nothing. Not a mistake, so it is not logged. */
   MUSLIN_STATUS_NOTHING_HIT = 10,
   /**
    * The edge did not give way: its ends are held, or it is a border. Not a mistake, so it is not
@@ -204,52 +142,290 @@ typedef enum MuslinStatus {
 } MuslinStatus;
 
 /**
- * A cloth; { 0 } is none. A destroyed or made-up one is refused as MUSLIN_STATUS_BAD_HANDLE.
+ * Gets a message of the library: its level (MUSLIN_LOG_...), a sentence that is valid for the time of
+ * the call, and the `user` pointer of muslin_set_log.
  */
-typedef struct MuslinCloth {
-  /**
-   * Says which; it means nothing to you.
-   */
-  uint64_t id;
-} MuslinCloth;
+typedef void (*MuslinLogFn)(uint32_t level, const char *message, void *user);
 
-/**
- * A point, a direction or a velocity.
- */
+/** A point, a direction or a velocity. */
 typedef struct MuslinVec3 {
-  /**
-   * Along x.
-   */
+  /** Along x. */
   float x;
-  /**
-   * Along y.
-   */
+  /** Along y. */
   float y;
-  /**
-   * Along z.
-   */
+  /** Along z. */
   float z;
 } MuslinVec3;
 
 /**
- * A rotation: a unit quaternion; { 0, 0, 0, 1 } turns nothing.
+ * What a cloth is made of, in SI units. All of it may change between ticks.
+ *
+ * Begin with muslin_material_init, or go on from there with muslin_material_preset, and change what
+ * you need.
  */
+typedef struct MuslinMaterial {
+  /** Set by muslin_material_init. */
+  uint32_t struct_size;
+  /** Mass per area [kg/m^2]; 0.18, a cotton. Above 0. */
+  float density;
+  /** Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge. */
+  float thickness;
+  /** Membrane stiffness along the warp (down a grid) [N/m]; 0 is as stiff as the sweeps allow. */
+  float stretch_stiffness_warp;
+  /**
+   * Membrane stiffness along the weft (across a grid) [N/m]; 0 is as stiff as the sweeps allow.
+   */
+  float stretch_stiffness_weft;
+  /** Stiffness against shear [N/m]; 0 is as the stretch stiffness. */
+  float shear_stiffness;
+  /**
+   * Bending rigidity per width [N m]; 2.5e-5. 0 is limp, and 1 or more is as rigid as the sweeps
+   * allow.
+   */
+  float bend_stiffness;
+  /** Damping of bending [s]; 0. No other value is supported yet. */
+  float bend_damping;
+  /** Damping of stretching [s]; 0. No other value is supported yet. */
+  float stretch_damping;
+  /** Coulomb coefficient against colliders; 0.4. At least 0. */
+  float friction;
+  /** Share of the normal speed that a bounce gives back; 0. From 0 to 1. */
+  float restitution;
+  /** Pressure coefficient of a triangle square to the wind; 1.2. At least 0. */
+  float drag;
+  /** Lift coefficient of a triangle askew to the wind; 0. At least 0. */
+  float lift;
+  /** Length over rest length at which an edge tears; 4. Above 1, or 0: never. */
+  float tear_stretch;
+  /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
+  float tear_variation;
+  /** Angle at which a fold stays [rad]; 0: never. No other value is supported yet. */
+  float yield_angle;
+  /** Share of a fold beyond `yield_angle` that stays; 0. No other value is supported yet. */
+  float yield_creep;
+} MuslinMaterial;
+
+/**
+ * How time runs: ticks, sweeps, gravity, damping and the switches of the solver. All of it may
+ * change between ticks.
+ *
+ * One tick is `substeps` times (predict, then `iterations` sweeps over all links). More of either
+ * makes the cloth stiffer; at the same cost substeps stiffen more than iterations do.
+ * Begin with muslin_settings_init.
+ */
+typedef struct MuslinSettings {
+  /** Set by muslin_settings_init. */
+  uint32_t struct_size;
+  /** Length of a tick [s]; 1/60. Above 0, at most 1. */
+  float tick;
+  /** Substeps in a tick; 4. From 1 to 1000. */
+  uint32_t substeps;
+  /**
+   * Sweeps over the links in a substep, to and fro in turn; 2. From 1 to 1000. With a single sweep
+   * velocities are of first order, which brakes all motion; from two on they are of second order,
+   * and nothing brakes but `damping` and the air.
+   */
+  uint32_t iterations;
+  /**
+   * Ticks that one advance may run; 5. What a late frame owes beyond it is dropped. At least 1.
+   */
+  uint32_t max_ticks_per_advance;
+  /** Acceleration of everything [m/s^2]; 0, -9.81, 0. */
+  MuslinVec3 gravity;
+  /**
+   * Rate at which velocity decays [1/s]: as exp(-damping t), whatever the step; 0.5. At least 0.
+   */
+  float damping;
+  /**
+   * The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
+   * rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
+   */
+  float max_displacement;
+  /** The most that a link may be stretched after a tick: 0.02 is 2 %; 0, no bound. At least 0. */
+  float max_stretch;
+  /**
+   * 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
+   * They hold where links are rigid (stretch stiffness 0), or at `max_stretch` where they are not.
+   */
+  uint32_t tethers;
+  /** Whether layers of the cloth keep apart; 0. 1 is not supported yet. */
+  uint32_t self_collision;
+  /** Distance between layers [m]; 0 takes the material's thickness. */
+  float self_distance;
+  /** 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0. */
+  uint32_t tearing;
+  /** Vertices that tearing may split in one tick, the worst first; 8. At least 1. */
+  uint32_t max_tears_per_tick;
+} MuslinSettings;
+
+/**
+ * A regular grid of particles; particle = row * columns + column. Begin with muslin_grid_desc_init.
+ *
+ * `material` and `settings` carry sizes of their own: replace them by structs that began with
+ * muslin_material_init and muslin_settings_init in the same program.
+ */
+typedef struct MuslinGridDesc {
+  /** Set by muslin_grid_desc_init. */
+  uint32_t struct_size;
+  /** Particles across; 40. At least 2. */
+  uint32_t columns;
+  /** Particles down; 40. At least 2. */
+  uint32_t rows;
+  /** Distance between neighbours [m]; 0.05. Above 0. */
+  float spacing;
+  /** Where particle (0, 0), the top left, is [m]; 0, 0, 0. */
+  MuslinVec3 origin;
+  /** Unit direction of a row; 1, 0, 0. */
+  MuslinVec3 right;
+  /** Unit direction of a column, square to `right`; 0, -1, 0. */
+  MuslinVec3 down;
+  /**
+   * What is pinned from the start: MUSLIN_PIN_NONE, MUSLIN_PIN_TOP_EDGE (this at first),
+   * MUSLIN_PIN_TOP_CORNERS or MUSLIN_PIN_CORNERS.
+   */
+  uint32_t pin_mode;
+  /** Particles that tears may add; MUSLIN_AS_MANY_AGAIN. */
+  uint32_t extra_particles;
+  /** What it is made of. */
+  MuslinMaterial material;
+  /** How its time runs. */
+  MuslinSettings settings;
+} MuslinGridDesc;
+
+/**
+ * A cloth; { 0 } is none. A destroyed or made-up one is refused as MUSLIN_STATUS_BAD_HANDLE.
+ */
+typedef struct MuslinCloth {
+  /** Says which; it means nothing to you. */
+  uint64_t id;
+} MuslinCloth;
+
+/**
+ * Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point.
+ * Begin with muslin_mesh_desc_init, then give it positions and indices.
+ *
+ * All lists are copied while the cloth is made. `material` and `settings` carry sizes of their own:
+ * replace them by structs that began with muslin_material_init and muslin_settings_init in the same
+ * program.
+ */
+typedef struct MuslinMeshDesc {
+  /** Set by muslin_mesh_desc_init. */
+  uint32_t struct_size;
+  /** Where the vertices are at rest [m], 3 numbers a vertex; particle = vertex. */
+  const float *positions;
+  /** Bytes from one position to the next; 0, which is 12. A multiple of 4. */
+  uint32_t position_stride;
+  /** How many vertices there are; 0. From 3 to 4194304. */
+  uint32_t vertex_count;
+  /** Vertices of the triangles, 3 a triangle, counter-clockwise seen from its front. */
+  const uint32_t *indices;
+  /** How many indices there are; 0. A multiple of 3, at most 50331648. */
+  uint32_t index_count;
+  /** Texture coordinates, 2 numbers a vertex; or NULL: none. */
+  const float *uvs;
+  /** Vertices that are pinned from the start; or NULL: none. */
+  const uint32_t *pinned;
+  /** How many `pinned` there are; 0. At most `vertex_count`. */
+  uint32_t pinned_count;
+  /**
+   * Vertices nearer to each other than this are one [m]; -1 leaves all apart. Nothing from 0 on is
+   * supported yet.
+   */
+  float weld_distance;
+  /** Particles that tears may add; MUSLIN_AS_MANY_AGAIN. */
+  uint32_t extra_particles;
+  /** What it is made of. */
+  MuslinMaterial material;
+  /** How its time runs. */
+  MuslinSettings settings;
+} MuslinMeshDesc;
+
+/**
+ * The air around a cloth. It gusts, wanders and swirls, always the same way for the same seed.
+ * Begin with muslin_wind_init: still air.
+ */
+typedef struct MuslinWind {
+  /** Set by muslin_wind_init. */
+  uint32_t struct_size;
+  /** How the air pushes: MUSLIN_WIND_SURFACE (this at first) or MUSLIN_WIND_SINE_FIELD. */
+  uint32_t model;
+  /** Mean velocity of the air [m/s]; 0, 0, 0. */
+  MuslinVec3 velocity;
+  /** How much the speed swells and falls, as a share of it; 0. From 0 to 1. */
+  float gust;
+  /** How far the direction strays [rad]; 0. From 0 to pi. */
+  float wander;
+  /** Swirls in space, as a share of the speed; 0. From 0 to 1. */
+  float turbulence;
+  /** Density of the air [kg/m^3]; 1.2. At least 0; 0 is a vacuum. */
+  float air_density;
+  /** Which gusts and swirls; 0. */
+  uint32_t seed;
+} MuslinWind;
+
+/** Where a ray hits a cloth. Begin with muslin_hit_init. */
+typedef struct MuslinHit {
+  /** Set by muslin_hit_init. */
+  uint32_t struct_size;
+  /** The triangle that was hit: index 3 * triangle and the two after it. */
+  uint32_t triangle;
+  /** Its particle nearest to the hit. */
+  uint32_t particle;
+  /** Weight of the triangle's second corner. */
+  float u;
+  /** Weight of the triangle's third corner. */
+  float v;
+  /** Distance from the ray's origin [m]. */
+  float distance;
+  /** Where [m]. */
+  MuslinVec3 position;
+  /** Unit normal of the triangle, on the side that was hit. */
+  MuslinVec3 normal;
+} MuslinHit;
+
+/**
+ * A hold on one particle of one cloth; { 0 } is none. It is of use with the cloth that gave it, and
+ * with those restored from it.
+ */
+typedef struct MuslinGrab {
+  /** Says which; it means nothing to you. */
+  uint32_t id;
+} MuslinGrab;
+
+/**
+ * Something that happened in a tick. Fields that its kind does not mention are 0. Begin with
+ * muslin_event_init.
+ */
+typedef struct MuslinEvent {
+  /** Set by muslin_event_init. */
+  uint32_t struct_size;
+  /** What happened: one of MUSLIN_EVENT_... */
+  uint32_t kind;
+  /** In which tick, counted from creation or reset. */
+  uint32_t tick;
+  /** Where [m]. */
+  MuslinVec3 position;
+  /** An end of the edge. */
+  uint32_t particle_a;
+  /** The other end. */
+  uint32_t particle_b;
+  /** The vertex that came to be. */
+  uint32_t vertex;
+  /** The vertex that it was split off from. */
+  uint32_t source;
+  /** How many. */
+  uint32_t count;
+} MuslinEvent;
+
+/** A rotation: a unit quaternion; { 0, 0, 0, 1 } turns nothing. */
 typedef struct MuslinQuat {
-  /**
-   * Axis along x times the sine of half the angle.
-   */
+  /** Axis along x times the sine of half the angle. */
   float x;
-  /**
-   * Axis along y times the sine of half the angle.
-   */
+  /** Axis along y times the sine of half the angle. */
   float y;
-  /**
-   * Axis along z times the sine of half the angle.
-   */
+  /** Axis along z times the sine of half the angle. */
   float z;
-  /**
-   * Cosine of half the angle.
-   */
+  /** Cosine of half the angle. */
   float w;
 } MuslinQuat;
 
@@ -258,25 +434,15 @@ typedef struct MuslinQuat {
  * at height 0.
  */
 typedef struct MuslinColliderDesc {
-  /**
-   * Set by muslin_collider_desc_init.
-   */
+  /** Set by muslin_collider_desc_init. */
   uint32_t struct_size;
-  /**
-   * What it is: MUSLIN_SHAPE_PLANE. Nothing else is supported yet.
-   */
+  /** What it is: MUSLIN_SHAPE_PLANE. Nothing else is supported yet. */
   uint32_t shape;
-  /**
-   * Where it is [m]; 0, 0, 0. A point of the surface of a plane.
-   */
-  struct MuslinVec3 position;
-  /**
-   * How it is turned; not at all. A plane's normal is the turned y axis.
-   */
-  struct MuslinQuat rotation;
-  /**
-   * Coulomb coefficient; -1, which takes the material's. Else at least 0.
-   */
+  /** Where it is [m]; 0, 0, 0. A point of the surface of a plane. */
+  MuslinVec3 position;
+  /** How it is turned; not at all. A plane's normal is the turned y axis. */
+  MuslinQuat rotation;
+  /** Coulomb coefficient; -1, which takes the material's. Else at least 0. */
   float friction;
   /**
    * Share of the normal speed that a bounce gives back; -1, which takes the material's. Else from
@@ -295,372 +461,9 @@ typedef struct MuslinColliderDesc {
  * restored from it.
  */
 typedef struct MuslinCollider {
-  /**
-   * Says which; it means nothing to you.
-   */
+  /** Says which; it means nothing to you. */
   uint32_t id;
 } MuslinCollider;
-
-/**
- * What a cloth is made of, in SI units. All of it may change between ticks.
- *
- * Begin with muslin_material_init, or go on from there with muslin_material_preset, and change what
- * you need.
- */
-typedef struct MuslinMaterial {
-  /**
-   * Set by muslin_material_init.
-   */
-  uint32_t struct_size;
-  /**
-   * Mass per area [kg/m^2]; 0.18, a cotton. Above 0.
-   */
-  float density;
-  /**
-   * Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge.
-   */
-  float thickness;
-  /**
-   * Membrane stiffness along the warp (down a grid) [N/m]; 0 is as stiff as the sweeps allow.
-   */
-  float stretch_stiffness_warp;
-  /**
-   * Membrane stiffness along the weft (across a grid) [N/m]; 0 is as stiff as the sweeps allow.
-   */
-  float stretch_stiffness_weft;
-  /**
-   * Stiffness against shear [N/m]; 0 is as the stretch stiffness.
-   */
-  float shear_stiffness;
-  /**
-   * Bending rigidity per width [N m]; 2.5e-5. 0 is limp, and 1 or more is as rigid as the sweeps
-   * allow.
-   */
-  float bend_stiffness;
-  /**
-   * Damping of bending [s]; 0. No other value is supported yet.
-   */
-  float bend_damping;
-  /**
-   * Damping of stretching [s]; 0. No other value is supported yet.
-   */
-  float stretch_damping;
-  /**
-   * Coulomb coefficient against colliders; 0.4. At least 0.
-   */
-  float friction;
-  /**
-   * Share of the normal speed that a bounce gives back; 0. From 0 to 1.
-   */
-  float restitution;
-  /**
-   * Pressure coefficient of a triangle square to the wind; 1.2. At least 0.
-   */
-  float drag;
-  /**
-   * Lift coefficient of a triangle askew to the wind; 0. At least 0.
-   */
-  float lift;
-  /**
-   * Length over rest length at which an edge tears; 4. Above 1, or 0: never.
-   */
-  float tear_stretch;
-  /**
-   * How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2.
-   */
-  float tear_variation;
-  /**
-   * Angle at which a fold stays [rad]; 0: never. No other value is supported yet.
-   */
-  float yield_angle;
-  /**
-   * Share of a fold beyond `yield_angle` that stays; 0. No other value is supported yet.
-   */
-  float yield_creep;
-} MuslinMaterial;
-
-/**
- * How time runs: ticks, sweeps, gravity, damping and the switches of the solver. All of it may
- * change between ticks.
- *
- * One tick is `substeps` times (predict, then `iterations` sweeps over all links). More of either
- * makes the cloth stiffer; at the same cost substeps stiffen more than iterations do.
- * Begin with muslin_settings_init.
- */
-typedef struct MuslinSettings {
-  /**
-   * Set by muslin_settings_init.
-   */
-  uint32_t struct_size;
-  /**
-   * Length of a tick [s]; 1/60. Above 0, at most 1.
-   */
-  float tick;
-  /**
-   * Substeps in a tick; 4. From 1 to 1000.
-   */
-  uint32_t substeps;
-  /**
-   * Sweeps over the links in a substep, to and fro in turn; 2. From 1 to 1000. With a single sweep
-   * velocities are of first order, which brakes all motion; from two on they are of second order,
-   * and nothing brakes but `damping` and the air.
-   */
-  uint32_t iterations;
-  /**
-   * Ticks that one advance may run; 5. What a late frame owes beyond it is dropped. At least 1.
-   */
-  uint32_t max_ticks_per_advance;
-  /**
-   * Acceleration of everything [m/s^2]; 0, -9.81, 0.
-   */
-  struct MuslinVec3 gravity;
-  /**
-   * Rate at which velocity decays [1/s]: as exp(-damping t), whatever the step; 0.5. At least 0.
-   */
-  float damping;
-  /**
-   * The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
-   * rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
-   */
-  float max_displacement;
-  /**
-   * The most that a link may be stretched after a tick: 0.02 is 2 %; 0, no bound. At least 0.
-   */
-  float max_stretch;
-  /**
-   * 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
-   * They hold where links are rigid (stretch stiffness 0), or at `max_stretch` where they are not.
-   */
-  uint32_t tethers;
-  /**
-   * Whether layers of the cloth keep apart; 0. 1 is not supported yet.
-   */
-  uint32_t self_collision;
-  /**
-   * Distance between layers [m]; 0 takes the material's thickness.
-   */
-  float self_distance;
-  /**
-   * 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0.
-   */
-  uint32_t tearing;
-  /**
-   * Vertices that tearing may split in one tick, the worst first; 8. At least 1.
-   */
-  uint32_t max_tears_per_tick;
-} MuslinSettings;
-
-/**
- * A regular grid of particles; particle = row * columns + column. Begin with muslin_grid_desc_init.
- *
- * `material` and `settings` carry sizes of their own: replace them by structs that began with
- * muslin_material_init and muslin_settings_init in the same program.
- */
-typedef struct MuslinGridDesc {
-  /**
-   * Set by muslin_grid_desc_init.
-   */
-  uint32_t struct_size;
-  /**
-   * Particles across; 40. At least 2.
-   */
-  uint32_t columns;
-  /**
-   * Particles down; 40. At least 2.
-   */
-  uint32_t rows;
-  /**
-   * Distance between neighbours [m]; 0.05. Above 0.
-   */
-  float spacing;
-  /**
-   * Where particle (0, 0), the top left, is [m]; 0, 0, 0.
-   */
-  struct MuslinVec3 origin;
-  /**
-   * Unit direction of a row; 1, 0, 0.
-   */
-  struct MuslinVec3 right;
-  /**
-   * Unit direction of a column, square to `right`; 0, -1, 0.
-   */
-  struct MuslinVec3 down;
-  /**
-   * What is pinned from the start: MUSLIN_PIN_NONE, MUSLIN_PIN_TOP_EDGE (this at first),
-   * MUSLIN_PIN_TOP_CORNERS or MUSLIN_PIN_CORNERS.
-   */
-  uint32_t pin_mode;
-  /**
-   * Particles that tears may add; MUSLIN_AS_MANY_AGAIN.
-   */
-  uint32_t extra_particles;
-  /**
-   * What it is made of.
-   */
-  struct MuslinMaterial material;
-  /**
-   * How its time runs.
-   */
-  struct MuslinSettings settings;
-} MuslinGridDesc;
-
-/**
- * Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point.
- * Begin with muslin_mesh_desc_init, then give it positions and indices.
- *
- * All lists are copied while the cloth is made. `material` and `settings` carry sizes of their own:
- * replace them by structs that began with muslin_material_init and muslin_settings_init in the same
- * program.
- */
-typedef struct MuslinMeshDesc {
-  /**
-   * Set by muslin_mesh_desc_init.
-   */
-  uint32_t struct_size;
-  /**
-   * Where the vertices are at rest [m], 3 numbers a vertex; particle = vertex.
-   */
-  const float *positions;
-  /**
-   * Bytes from one position to the next; 0, which is 12. A multiple of 4.
-   */
-  uint32_t position_stride;
-  /**
-   * How many vertices there are; 0. From 3 to 4194304.
-   */
-  uint32_t vertex_count;
-  /**
-   * Vertices of the triangles, 3 a triangle, counter-clockwise seen from its front.
-   */
-  const uint32_t *indices;
-  /**
-   * How many indices there are; 0. A multiple of 3, at most 50331648.
-   */
-  uint32_t index_count;
-  /**
-   * Texture coordinates, 2 numbers a vertex; or NULL: none.
-   */
-  const float *uvs;
-  /**
-   * Vertices that are pinned from the start; or NULL: none.
-   */
-  const uint32_t *pinned;
-  /**
-   * How many `pinned` there are; 0. At most `vertex_count`.
-   */
-  uint32_t pinned_count;
-  /**
-   * Vertices nearer to each other than this are one [m]; -1 leaves all apart. Nothing from 0 on is
-   * supported yet.
-   */
-  float weld_distance;
-  /**
-   * Particles that tears may add; MUSLIN_AS_MANY_AGAIN.
-   */
-  uint32_t extra_particles;
-  /**
-   * What it is made of.
-   */
-  struct MuslinMaterial material;
-  /**
-   * How its time runs.
-   */
-  struct MuslinSettings settings;
-} MuslinMeshDesc;
-
-/**
- * The air around a cloth. It gusts, wanders and swirls, always the same way for the same seed.
- * Begin with muslin_wind_init: still air.
- */
-typedef struct MuslinWind {
-  /**
-   * Set by muslin_wind_init.
-   */
-  uint32_t struct_size;
-  /**
-   * How the air pushes: MUSLIN_WIND_SURFACE (this at first) or MUSLIN_WIND_SINE_FIELD.
-   */
-  uint32_t model;
-  /**
-   * Mean velocity of the air [m/s]; 0, 0, 0.
-   */
-  struct MuslinVec3 velocity;
-  /**
-   * How much the speed swells and falls, as a share of it; 0. From 0 to 1.
-   */
-  float gust;
-  /**
-   * How far the direction strays [rad]; 0. From 0 to pi.
-   */
-  float wander;
-  /**
-   * Swirls in space, as a share of the speed; 0. From 0 to 1.
-   */
-  float turbulence;
-  /**
-   * Density of the air [kg/m^3]; 1.2. At least 0; 0 is a vacuum.
-   */
-  float air_density;
-  /**
-   * Which gusts and swirls; 0.
-   */
-  uint32_t seed;
-} MuslinWind;
-
-/**
- * Gets a message of the library: its level (MUSLIN_LOG_...), a sentence that is valid for the time of
- * the call, and the `user` pointer of muslin_set_log.
- */
-typedef void (*MuslinLogFn)(uint32_t level, const char *message, void *user);
-
-/**
- * Where a ray hits a cloth. Begin with muslin_hit_init.
- */
-typedef struct MuslinHit {
-  /**
-   * Set by muslin_hit_init.
-   */
-  uint32_t struct_size;
-  /**
-   * The triangle that was hit: index 3 * triangle and the two after it.
-   */
-  uint32_t triangle;
-  /**
-   * Its particle nearest to the hit.
-   */
-  uint32_t particle;
-  /**
-   * Weight of the triangle's second corner.
-   */
-  float u;
-  /**
-   * Weight of the triangle's third corner.
-   */
-  float v;
-  /**
-   * Distance from the ray's origin [m].
-   */
-  float distance;
-  /**
-   * Where [m].
-   */
-  struct MuslinVec3 position;
-  /**
-   * Unit normal of the triangle, on the side that was hit.
-   */
-  struct MuslinVec3 normal;
-} MuslinHit;
-
-/**
- * A hold on one particle of one cloth; { 0 } is none. It is of use with the cloth that gave it, and
- * with those restored from it.
- */
-typedef struct MuslinGrab {
-  /**
-   * Says which; it means nothing to you.
-   */
-  uint32_t id;
-} MuslinGrab;
 
 /**
  * A cloth as its renderer sees it: the library's own memory, borrowed. Begin with muslin_view_init.
@@ -669,112 +472,64 @@ typedef struct MuslinGrab {
  * the cloth (advance, step, reset, pin, set_position, tear_edge, destroy, ...). Read, do not write.
  */
 typedef struct MuslinView {
-  /**
-   * Set by muslin_view_init.
-   */
+  /** Set by muslin_view_init. */
   uint32_t struct_size;
-  /**
-   * Positions [m], 3 numbers a vertex.
-   */
+  /** Positions [m], 3 numbers a vertex. */
   const float *positions;
   /**
    * Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses.
    */
   const float *normals;
-  /**
-   * Texture coordinates, 2 numbers a vertex.
-   */
+  /** Texture coordinates, 2 numbers a vertex. */
   const float *uvs;
-  /**
-   * Vertices of the triangles, 3 a triangle.
-   */
+  /** Vertices of the triangles, 3 a triangle. */
   const uint32_t *indices;
-  /**
-   * Which original vertex each vertex came from, 1 a vertex.
-   */
+  /** Which original vertex each vertex came from, 1 a vertex. */
   const uint32_t *source_vertices;
-  /**
-   * How many vertices there are.
-   */
+  /** How many vertices there are. */
   uint32_t vertex_count;
-  /**
-   * How many indices there are: 3 a triangle.
-   */
+  /** How many indices there are: 3 a triangle. */
   uint32_t index_count;
-  /**
-   * How many vertices there may ever be.
-   */
+  /** How many vertices there may ever be. */
   uint32_t vertex_capacity;
-  /**
-   * How many indices there may ever be.
-   */
+  /** How many indices there may ever be. */
   uint32_t index_capacity;
-  /**
-   * Changes when indices do.
-   */
+  /** Changes when indices do. */
   uint32_t topology_revision;
-  /**
-   * Changes when positions do.
-   */
+  /** Changes when positions do. */
   uint32_t state_revision;
 } MuslinView;
 
-/**
- * Numbers about a cloth. Begin with muslin_stats_init.
- */
+/** Numbers about a cloth. Begin with muslin_stats_init. */
 typedef struct MuslinStats {
-  /**
-   * Set by muslin_stats_init.
-   */
+  /** Set by muslin_stats_init. */
   uint32_t struct_size;
-  /**
-   * How many particles (vertices) there are.
-   */
+  /** How many particles (vertices) there are. */
   uint32_t particles;
-  /**
-   * How many triangles there are.
-   */
+  /** How many triangles there are. */
   uint32_t triangles;
-  /**
-   * How many links it was woven with.
-   */
+  /** How many links it was woven with. */
   uint32_t constraints;
-  /**
-   * How many links hold now.
-   */
+  /** How many links hold now. */
   uint32_t active_constraints;
-  /**
-   * How many pieces hang together by edges.
-   */
+  /** How many pieces hang together by edges. */
   uint32_t pieces;
-  /**
-   * Ticks since it was made or reset.
-   */
+  /** Ticks since it was made or reset. */
   uint32_t ticks;
   /**
    * The share of a tick that advance still owes, 0 to 1: how far to blend from the last tick's
    * positions to this one's when drawing.
    */
   float blend;
-  /**
-   * The greatest stretch of a stretch link: 0.01 is 1 % over its rest length.
-   */
+  /** The greatest stretch of a stretch link: 0.01 is 1 % over its rest length. */
   float max_stretch;
-  /**
-   * The mean stretch of the stretch links.
-   */
+  /** The mean stretch of the stretch links. */
   float mean_stretch;
-  /**
-   * Energy of motion [J].
-   */
+  /** Energy of motion [J]. */
   float kinetic_energy;
-  /**
-   * How many of `seconds` tell of a stage.
-   */
+  /** How many of `seconds` tell of a stage. */
   uint32_t stage_count;
-  /**
-   * Memory that it holds [B], about.
-   */
+  /** Memory that it holds [B], about. */
   uint64_t bytes;
   /**
    * Time that each stage took in the last call that ran ticks [s]; muslin_stage_name names them.
@@ -783,206 +538,17 @@ typedef struct MuslinStats {
   float seconds[MUSLIN_STAGE_SLOTS];
 } MuslinStats;
 
-/**
- * Something that happened in a tick. Fields that its kind does not mention are 0. Begin with
- * muslin_event_init.
- */
-typedef struct MuslinEvent {
-  /**
-   * Set by muslin_event_init.
-   */
-  uint32_t struct_size;
-  /**
-   * What happened: one of MUSLIN_EVENT_...
-   */
-  uint32_t kind;
-  /**
-   * In which tick, counted from creation or reset.
-   */
-  uint32_t tick;
-  /**
-   * Where [m].
-   */
-  struct MuslinVec3 position;
-  /**
-   * An end of the edge.
-   */
-  uint32_t particle_a;
-  /**
-   * The other end.
-   */
-  uint32_t particle_b;
-  /**
-   * The vertex that came to be.
-   */
-  uint32_t vertex;
-  /**
-   * The vertex that it was split off from.
-   */
-  uint32_t source;
-  /**
-   * How many.
-   */
-  uint32_t count;
-} MuslinEvent;
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
 
-/**
- * Adds a collider to a cloth.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED for another
- * shape than a plane; MUSLIN_STATUS_FULL if there are 1024 colliders already
- */
-enum MuslinStatus muslin_cloth_add_collider(struct MuslinCloth cloth,
-                                            const struct MuslinColliderDesc *desc,
-                                            struct MuslinCollider *out_collider);
-
-/**
- * Moves a collider; it gets there over the next tick, so that it sweeps.
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
- * finite or a rotation that is no unit quaternion
- */
-enum MuslinStatus muslin_cloth_move_collider(struct MuslinCloth cloth,
-                                             struct MuslinCollider collider,
-                                             struct MuslinVec3 position,
-                                             struct MuslinQuat rotation);
-
-/**
- * Removes a collider.
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was removed before
- */
-enum MuslinStatus muslin_cloth_remove_collider(struct MuslinCloth cloth,
-                                               struct MuslinCollider collider);
-
-/**
- * Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule
- */
-enum MuslinStatus muslin_cloth_create_grid(const struct MuslinGridDesc *desc,
-                                           struct MuslinCloth *out_cloth);
-
-/**
- * Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
- *
- * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
- * and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth
- */
-enum MuslinStatus muslin_cloth_create_mesh(const struct MuslinMeshDesc *desc,
-                                           struct MuslinCloth *out_cloth);
-
-/**
- * Destroys a cloth: its handle is stale from then on, and what was borrowed from it is gone.
- */
-enum MuslinStatus muslin_cloth_destroy(struct MuslinCloth cloth);
-
-/**
- * Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs and no
- * events. Settings, material, wind and colliders stay as they are.
- */
-enum MuslinStatus muslin_cloth_reset(struct MuslinCloth cloth);
-
-/**
- * Fills in the figures of a fabric: MUSLIN_PRESET_SILK, MUSLIN_PRESET_COTTON, MUSLIN_PRESET_DENIM,
- * MUSLIN_PRESET_LEATHER, MUSLIN_PRESET_PAPER or MUSLIN_PRESET_FLAG_NYLON. `material` has begun with
- * muslin_material_init, or is part of a descriptor that has begun.
- *
- * @return MUSLIN_STATUS_BAD_VALUE for any other `preset`
- */
-enum MuslinStatus muslin_material_preset(struct MuslinMaterial *material, uint32_t preset);
-
-/**
- * How time runs. `out_settings` has begun with muslin_settings_init.
- */
-enum MuslinStatus muslin_cloth_get_settings(struct MuslinCloth cloth,
-                                            struct MuslinSettings *out_settings);
-
-/**
- * Changes how time runs, from the next tick on. Velocities stay as they are.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
- */
-enum MuslinStatus muslin_cloth_set_settings(struct MuslinCloth cloth,
-                                            const struct MuslinSettings *settings);
-
-/**
- * What it is made of. `out_material` has begun with muslin_material_init.
- */
-enum MuslinStatus muslin_cloth_get_material(struct MuslinCloth cloth,
-                                            struct MuslinMaterial *out_material);
-
-/**
- * Changes what it is made of, from the next tick on. Velocities stay as they are.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
- */
-enum MuslinStatus muslin_cloth_set_material(struct MuslinCloth cloth,
-                                            const struct MuslinMaterial *material);
-
-/**
- * Changes the air around it, from the next tick on.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
- */
-enum MuslinStatus muslin_cloth_set_wind(struct MuslinCloth cloth, const struct MuslinWind *wind);
-
-/**
- * What muslin_settings_init calls: pass the sizeof of MuslinSettings.
- */
-enum MuslinStatus muslin_settings_init_sized(struct MuslinSettings *settings, uint32_t struct_size);
-
-/**
- * What muslin_material_init calls: pass the sizeof of MuslinMaterial.
- */
-enum MuslinStatus muslin_material_init_sized(struct MuslinMaterial *material, uint32_t struct_size);
-
-/**
- * What muslin_wind_init calls: pass the sizeof of MuslinWind.
- */
-enum MuslinStatus muslin_wind_init_sized(struct MuslinWind *wind, uint32_t struct_size);
-
-/**
- * What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc.
- */
-enum MuslinStatus muslin_collider_desc_init_sized(struct MuslinColliderDesc *desc,
-                                                  uint32_t struct_size);
-
-/**
- * What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
- * MuslinSettings, all of the same header.
- */
-enum MuslinStatus muslin_grid_desc_init_sized(struct MuslinGridDesc *desc,
-                                              uint32_t struct_size,
-                                              uint32_t material_size,
-                                              uint32_t settings_size);
-
-/**
- * What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
- * MuslinSettings, all of the same header.
- */
-enum MuslinStatus muslin_mesh_desc_init_sized(struct MuslinMeshDesc *desc,
-                                              uint32_t struct_size,
-                                              uint32_t material_size,
-                                              uint32_t settings_size);
-
-/**
- * The version of the library that runs: 0x00MMmmpp, major, minor, patch.
- */
+/** The version of the library that runs: 0x00MMmmpp, major, minor, patch. */
 uint32_t muslin_version(void);
 
-/**
- * The version of the library that runs: "major.minor.patch". Always valid.
- */
+/** The version of the library that runs: "major.minor.patch". Always valid. */
 const char *muslin_version_string(void);
 
-/**
- * What a MuslinStatus says in general, any number: never NULL, always valid.
- */
+/** What a MuslinStatus says in general, any number: never NULL, always valid. */
 const char *muslin_status_string(uint32_t status);
 
 /**
@@ -1007,240 +573,17 @@ const char *muslin_stage_name(uint32_t stage);
  * the library. `user` is handed to it and nothing else. Both must be good until they are replaced and
  * until calls that are under way on other threads have returned.
  */
-enum MuslinStatus muslin_set_log(MuslinLogFn log,
-                                 uint32_t max_level,
-                                 void *user);
-
-/**
- * Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
- * next tick; a particle that is pinned already gets a new target.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite
- */
-enum MuslinStatus muslin_cloth_pin(struct MuslinCloth cloth,
-                                   uint32_t particle,
-                                   const struct MuslinVec3 *target);
-
-/**
- * Lets a particle go. One that is not pinned stays as it is.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not
- */
-enum MuslinStatus muslin_cloth_unpin(struct MuslinCloth cloth, uint32_t particle);
-
-/**
- * Lets every particle go.
- */
-enum MuslinStatus muslin_cloth_unpin_all(struct MuslinCloth cloth);
-
-/**
- * Gives `count` pins their targets at once; particles that are not pinned yet are from now on. The
- * targets [m] are 3 floats each at `positions`, and begin `stride` bytes apart: 0 is 12, else a multiple
- * of 4. No more than there are particles; with 0 both pointers may be NULL.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite, or a rule above
- */
-enum MuslinStatus muslin_cloth_set_pin_targets(struct MuslinCloth cloth,
-                                               const uint32_t *particles,
-                                               const void *positions,
-                                               uint32_t stride,
-                                               uint32_t count);
-
-/**
- * Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position
- * that is not finite
- */
-enum MuslinStatus muslin_cloth_set_position(struct MuslinCloth cloth,
-                                            uint32_t particle,
-                                            struct MuslinVec3 position);
-
-/**
- * Gives a particle a velocity [m/s].
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a velocity
- * that is not finite
- */
-enum MuslinStatus muslin_cloth_set_velocity(struct MuslinCloth cloth,
-                                            uint32_t particle,
-                                            struct MuslinVec3 velocity);
-
-/**
- * The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
- * side. `direction` need not have length one. `out_hit` has begun with muslin_hit_init.
- *
- * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
- * `direction` are finite, `direction` is not zero, and `max_distance` is at least 0
- */
-enum MuslinStatus muslin_cloth_raycast(struct MuslinCloth cloth,
-                                       struct MuslinVec3 origin,
-                                       struct MuslinVec3 direction,
-                                       float max_distance,
-                                       struct MuslinHit *out_hit);
-
-/**
- * Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
- * else the nearest one within `radius` [m] of it. `out_at` (may be NULL) gets where that particle is
- * [m].
- *
- * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
- * `direction` are finite, `direction` is not zero, and `radius` is at least 0 and finite;
- * MUSLIN_STATUS_FULL if 64 grabs are held already
- */
-enum MuslinStatus muslin_cloth_grab_ray(struct MuslinCloth cloth,
-                                        struct MuslinVec3 origin,
-                                        struct MuslinVec3 direction,
-                                        float radius,
-                                        struct MuslinGrab *out_grab,
-                                        struct MuslinVec3 *out_at);
-
-/**
- * Takes hold of a particle where it is. It follows muslin_cloth_move_grab exactly, but for a limit of
- * `max_displacement` a substep, and carries the cloth along.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_FULL if 64 grabs are held
- * already
- */
-enum MuslinStatus muslin_cloth_grab_particle(struct MuslinCloth cloth,
-                                             uint32_t particle,
-                                             struct MuslinGrab *out_grab);
-
-/**
- * Gives a grab a new target [m].
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite
- */
-enum MuslinStatus muslin_cloth_move_grab(struct MuslinCloth cloth,
-                                         struct MuslinGrab grab,
-                                         struct MuslinVec3 target);
-
-/**
- * Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and returns to
- * its pin over the next tick.
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
- */
-enum MuslinStatus muslin_cloth_release(struct MuslinCloth cloth,
-                                       struct MuslinGrab grab);
-
-/**
- * All that a renderer reads, without a copy; see MuslinView for how long it is valid. Normals are
- * computed when first asked for after a change. `out_view` has begun with muslin_view_init.
- */
-enum MuslinStatus muslin_cloth_view(struct MuslinCloth cloth, struct MuslinView *out_view);
-
-/**
- * Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init.
- */
-enum MuslinStatus muslin_cloth_get_stats(struct MuslinCloth cloth, struct MuslinStats *out_stats);
-
-/**
- * A hash over all that the next tick depends on: equal on every machine that was told the same.
- */
-enum MuslinStatus muslin_cloth_state_hash(struct MuslinCloth cloth, uint64_t *out_hash);
-
-/**
- * Writes all of a cloth into `size` bytes at `buffer`; `out_needed` gets the number of bytes that it
- * takes. With `buffer` NULL it gets only that number. With a buffer `out_needed` may be NULL.
- *
- * The bytes are the same on every machine, and hold until the cloth changes.
- *
- * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if it does not fit: nothing is written, muslin_last_error names
- * the size that it takes
- */
-enum MuslinStatus muslin_cloth_save(struct MuslinCloth cloth,
-                                    void *buffer,
-                                    size_t size,
-                                    size_t *out_needed);
-
-/**
- * Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
- * any other: it goes on in the same bits. Handles of grabs and colliders hold for it too.
- *
- * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
- */
-enum MuslinStatus muslin_cloth_restore(const void *buffer,
-                                       size_t size,
-                                       struct MuslinCloth *out_cloth);
-
-/**
- * Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded of the
- * two is split by the plane across the way between them. Where neither has anything on its other
- * side, the edge itself opens, if it starts at a border.
- *
- * @return MUSLIN_STATUS_NOT_TORN if it did not give way: both ends are pinned or grabbed, or the edge is
- * a border already; MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE unless
- * the two are the ends of an edge; MUSLIN_STATUS_FULL if the reserve for tears is used up
- */
-enum MuslinStatus muslin_cloth_tear_edge(struct MuslinCloth cloth,
-                                         uint32_t particle_a,
-                                         uint32_t particle_b);
-
-/**
- * Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if
- * there is none, which leaves `out_event` as it is. `out_event` has begun with muslin_event_init.
- */
-enum MuslinStatus muslin_cloth_next_event(struct MuslinCloth cloth,
-                                          struct MuslinEvent *out_event,
-                                          uint32_t *out_some);
-
-/**
- * Runs the ticks that a frame of `seconds` [s] owes; `out_ticks` (may be NULL) gets their number.
- *
- * What is left over waits for the next frame, see `blend` of MuslinStats. A late frame owes at most
- * `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
- *
- * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
- */
-enum MuslinStatus muslin_cloth_advance(struct MuslinCloth cloth,
-                                       float seconds,
-                                       uint32_t *out_ticks);
-
-/**
- * Runs exactly `ticks` ticks.
- */
-enum MuslinStatus muslin_cloth_step(struct MuslinCloth cloth, uint32_t ticks);
-
-/**
- * Adds a collider to a cloth.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED for another
- * shape than a plane; MUSLIN_STATUS_FULL if there are 1024 colliders already
- */
-enum MuslinStatus muslin_cloth_add_collider(struct MuslinCloth cloth,
-                                            const struct MuslinColliderDesc *desc,
-                                            struct MuslinCollider *out_collider);
-
-/**
- * Moves a collider; it gets there over the next tick, so that it sweeps.
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
- * finite or a rotation that is no unit quaternion
- */
-enum MuslinStatus muslin_cloth_move_collider(struct MuslinCloth cloth,
-                                             struct MuslinCollider collider,
-                                             struct MuslinVec3 position,
-                                             struct MuslinQuat rotation);
-
-/**
- * Removes a collider.
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was removed before
- */
-enum MuslinStatus muslin_cloth_remove_collider(struct MuslinCloth cloth,
-                                               struct MuslinCollider collider);
+MuslinStatus muslin_set_log(MuslinLogFn log,
+                            uint32_t max_level,
+                            void *user);
 
 /**
  * Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
  *
  * @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule
  */
-enum MuslinStatus muslin_cloth_create_grid(const struct MuslinGridDesc *desc,
-                                           struct MuslinCloth *out_cloth);
+MuslinStatus muslin_cloth_create_grid(const MuslinGridDesc *desc,
+                                      MuslinCloth *out_cloth);
 
 /**
  * Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
@@ -1248,19 +591,19 @@ enum MuslinStatus muslin_cloth_create_grid(const struct MuslinGridDesc *desc,
  * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
  * and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth
  */
-enum MuslinStatus muslin_cloth_create_mesh(const struct MuslinMeshDesc *desc,
-                                           struct MuslinCloth *out_cloth);
+MuslinStatus muslin_cloth_create_mesh(const MuslinMeshDesc *desc,
+                                      MuslinCloth *out_cloth);
 
 /**
  * Destroys a cloth: its handle is stale from then on, and what was borrowed from it is gone.
  */
-enum MuslinStatus muslin_cloth_destroy(struct MuslinCloth cloth);
+MuslinStatus muslin_cloth_destroy(MuslinCloth cloth);
 
 /**
  * Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs and no
  * events. Settings, material, wind and colliders stay as they are.
  */
-enum MuslinStatus muslin_cloth_reset(struct MuslinCloth cloth);
+MuslinStatus muslin_cloth_reset(MuslinCloth cloth);
 
 /**
  * Fills in the figures of a fabric: MUSLIN_PRESET_SILK, MUSLIN_PRESET_COTTON, MUSLIN_PRESET_DENIM,
@@ -1269,122 +612,53 @@ enum MuslinStatus muslin_cloth_reset(struct MuslinCloth cloth);
  *
  * @return MUSLIN_STATUS_BAD_VALUE for any other `preset`
  */
-enum MuslinStatus muslin_material_preset(struct MuslinMaterial *material, uint32_t preset);
+MuslinStatus muslin_material_preset(MuslinMaterial *material, uint32_t preset);
 
-/**
- * How time runs. `out_settings` has begun with muslin_settings_init.
- */
-enum MuslinStatus muslin_cloth_get_settings(struct MuslinCloth cloth,
-                                            struct MuslinSettings *out_settings);
+/** How time runs. `out_settings` has begun with muslin_settings_init. */
+MuslinStatus muslin_cloth_get_settings(MuslinCloth cloth,
+                                       MuslinSettings *out_settings);
 
 /**
  * Changes how time runs, from the next tick on. Velocities stay as they are.
  *
  * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
  */
-enum MuslinStatus muslin_cloth_set_settings(struct MuslinCloth cloth,
-                                            const struct MuslinSettings *settings);
+MuslinStatus muslin_cloth_set_settings(MuslinCloth cloth,
+                                       const MuslinSettings *settings);
 
-/**
- * What it is made of. `out_material` has begun with muslin_material_init.
- */
-enum MuslinStatus muslin_cloth_get_material(struct MuslinCloth cloth,
-                                            struct MuslinMaterial *out_material);
+/** What it is made of. `out_material` has begun with muslin_material_init. */
+MuslinStatus muslin_cloth_get_material(MuslinCloth cloth,
+                                       MuslinMaterial *out_material);
 
 /**
  * Changes what it is made of, from the next tick on. Velocities stay as they are.
  *
  * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
  */
-enum MuslinStatus muslin_cloth_set_material(struct MuslinCloth cloth,
-                                            const struct MuslinMaterial *material);
+MuslinStatus muslin_cloth_set_material(MuslinCloth cloth,
+                                       const MuslinMaterial *material);
 
 /**
  * Changes the air around it, from the next tick on.
  *
  * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
  */
-enum MuslinStatus muslin_cloth_set_wind(struct MuslinCloth cloth, const struct MuslinWind *wind);
+MuslinStatus muslin_cloth_set_wind(MuslinCloth cloth, const MuslinWind *wind);
 
 /**
- * What muslin_settings_init calls: pass the sizeof of MuslinSettings.
- */
-enum MuslinStatus muslin_settings_init_sized(struct MuslinSettings *settings, uint32_t struct_size);
-
-/**
- * What muslin_material_init calls: pass the sizeof of MuslinMaterial.
- */
-enum MuslinStatus muslin_material_init_sized(struct MuslinMaterial *material, uint32_t struct_size);
-
-/**
- * What muslin_wind_init calls: pass the sizeof of MuslinWind.
- */
-enum MuslinStatus muslin_wind_init_sized(struct MuslinWind *wind, uint32_t struct_size);
-
-/**
- * What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc.
- */
-enum MuslinStatus muslin_collider_desc_init_sized(struct MuslinColliderDesc *desc,
-                                                  uint32_t struct_size);
-
-/**
- * What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
- * MuslinSettings, all of the same header.
- */
-enum MuslinStatus muslin_grid_desc_init_sized(struct MuslinGridDesc *desc,
-                                              uint32_t struct_size,
-                                              uint32_t material_size,
-                                              uint32_t settings_size);
-
-/**
- * What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
- * MuslinSettings, all of the same header.
- */
-enum MuslinStatus muslin_mesh_desc_init_sized(struct MuslinMeshDesc *desc,
-                                              uint32_t struct_size,
-                                              uint32_t material_size,
-                                              uint32_t settings_size);
-
-/**
- * The version of the library that runs: 0x00MMmmpp, major, minor, patch.
- */
-uint32_t muslin_version(void);
-
-/**
- * The version of the library that runs: "major.minor.patch". Always valid.
- */
-const char *muslin_version_string(void);
-
-/**
- * What a MuslinStatus says in general, any number: never NULL, always valid.
- */
-const char *muslin_status_string(uint32_t status);
-
-/**
- * Why the last call of this thread that was refused was refused: a sentence that names the field and
- * the rule. "" if none was yet. Calls that are not refused leave it as it is.
+ * Runs the ticks that a frame of `seconds` [s] owes; `out_ticks` (may be NULL) gets their number.
  *
- * Never NULL; valid until the next call of this thread that is refused.
- */
-const char *muslin_last_error(void);
-
-/**
- * The name of a stage of a tick, 0 and up, for `seconds` of MuslinStats: always valid; NULL for a stage
- * that is not.
- */
-const char *muslin_stage_name(uint32_t stage);
-
-/**
- * Sends what the library has to say, up to `max_level` (MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN,
- * MUSLIN_LOG_INFO), to `log`. At first, and with NULL, it is silent.
+ * What is left over waits for the next frame, see `blend` of MuslinStats. A late frame owes at most
+ * `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
  *
- * `log` is called on whichever thread made the library speak, maybe on several at once, and may call
- * the library. `user` is handed to it and nothing else. Both must be good until they are replaced and
- * until calls that are under way on other threads have returned.
+ * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
  */
-enum MuslinStatus muslin_set_log(MuslinLogFn log,
-                                 uint32_t max_level,
-                                 void *user);
+MuslinStatus muslin_cloth_advance(MuslinCloth cloth,
+                                  float seconds,
+                                  uint32_t *out_ticks);
+
+/** Runs exactly `ticks` ticks. */
+MuslinStatus muslin_cloth_step(MuslinCloth cloth, uint32_t ticks);
 
 /**
  * Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
@@ -1393,21 +667,19 @@ enum MuslinStatus muslin_set_log(MuslinLogFn log,
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
  * is not finite
  */
-enum MuslinStatus muslin_cloth_pin(struct MuslinCloth cloth,
-                                   uint32_t particle,
-                                   const struct MuslinVec3 *target);
+MuslinStatus muslin_cloth_pin(MuslinCloth cloth,
+                              uint32_t particle,
+                              const MuslinVec3 *target);
 
 /**
  * Lets a particle go. One that is not pinned stays as it is.
  *
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not
  */
-enum MuslinStatus muslin_cloth_unpin(struct MuslinCloth cloth, uint32_t particle);
+MuslinStatus muslin_cloth_unpin(MuslinCloth cloth, uint32_t particle);
 
-/**
- * Lets every particle go.
- */
-enum MuslinStatus muslin_cloth_unpin_all(struct MuslinCloth cloth);
+/** Lets every particle go. */
+MuslinStatus muslin_cloth_unpin_all(MuslinCloth cloth);
 
 /**
  * Gives `count` pins their targets at once; particles that are not pinned yet are from now on. The
@@ -1417,11 +689,11 @@ enum MuslinStatus muslin_cloth_unpin_all(struct MuslinCloth cloth);
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
  * is not finite, or a rule above
  */
-enum MuslinStatus muslin_cloth_set_pin_targets(struct MuslinCloth cloth,
-                                               const uint32_t *particles,
-                                               const void *positions,
-                                               uint32_t stride,
-                                               uint32_t count);
+MuslinStatus muslin_cloth_set_pin_targets(MuslinCloth cloth,
+                                          const uint32_t *particles,
+                                          const void *positions,
+                                          uint32_t stride,
+                                          uint32_t count);
 
 /**
  * Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
@@ -1429,9 +701,9 @@ enum MuslinStatus muslin_cloth_set_pin_targets(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position
  * that is not finite
  */
-enum MuslinStatus muslin_cloth_set_position(struct MuslinCloth cloth,
-                                            uint32_t particle,
-                                            struct MuslinVec3 position);
+MuslinStatus muslin_cloth_set_position(MuslinCloth cloth,
+                                       uint32_t particle,
+                                       MuslinVec3 position);
 
 /**
  * Gives a particle a velocity [m/s].
@@ -1439,9 +711,9 @@ enum MuslinStatus muslin_cloth_set_position(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a velocity
  * that is not finite
  */
-enum MuslinStatus muslin_cloth_set_velocity(struct MuslinCloth cloth,
-                                            uint32_t particle,
-                                            struct MuslinVec3 velocity);
+MuslinStatus muslin_cloth_set_velocity(MuslinCloth cloth,
+                                       uint32_t particle,
+                                       MuslinVec3 velocity);
 
 /**
  * The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
@@ -1450,11 +722,11 @@ enum MuslinStatus muslin_cloth_set_velocity(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
  * `direction` are finite, `direction` is not zero, and `max_distance` is at least 0
  */
-enum MuslinStatus muslin_cloth_raycast(struct MuslinCloth cloth,
-                                       struct MuslinVec3 origin,
-                                       struct MuslinVec3 direction,
-                                       float max_distance,
-                                       struct MuslinHit *out_hit);
+MuslinStatus muslin_cloth_raycast(MuslinCloth cloth,
+                                  MuslinVec3 origin,
+                                  MuslinVec3 direction,
+                                  float max_distance,
+                                  MuslinHit *out_hit);
 
 /**
  * Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
@@ -1465,12 +737,12 @@ enum MuslinStatus muslin_cloth_raycast(struct MuslinCloth cloth,
  * `direction` are finite, `direction` is not zero, and `radius` is at least 0 and finite;
  * MUSLIN_STATUS_FULL if 64 grabs are held already
  */
-enum MuslinStatus muslin_cloth_grab_ray(struct MuslinCloth cloth,
-                                        struct MuslinVec3 origin,
-                                        struct MuslinVec3 direction,
-                                        float radius,
-                                        struct MuslinGrab *out_grab,
-                                        struct MuslinVec3 *out_at);
+MuslinStatus muslin_cloth_grab_ray(MuslinCloth cloth,
+                                   MuslinVec3 origin,
+                                   MuslinVec3 direction,
+                                   float radius,
+                                   MuslinGrab *out_grab,
+                                   MuslinVec3 *out_at);
 
 /**
  * Takes hold of a particle where it is. It follows muslin_cloth_move_grab exactly, but for a limit of
@@ -1479,9 +751,9 @@ enum MuslinStatus muslin_cloth_grab_ray(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_FULL if 64 grabs are held
  * already
  */
-enum MuslinStatus muslin_cloth_grab_particle(struct MuslinCloth cloth,
-                                             uint32_t particle,
-                                             struct MuslinGrab *out_grab);
+MuslinStatus muslin_cloth_grab_particle(MuslinCloth cloth,
+                                        uint32_t particle,
+                                        MuslinGrab *out_grab);
 
 /**
  * Gives a grab a new target [m].
@@ -1489,9 +761,9 @@ enum MuslinStatus muslin_cloth_grab_particle(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE for a target that
  * is not finite
  */
-enum MuslinStatus muslin_cloth_move_grab(struct MuslinCloth cloth,
-                                         struct MuslinGrab grab,
-                                         struct MuslinVec3 target);
+MuslinStatus muslin_cloth_move_grab(MuslinCloth cloth,
+                                    MuslinGrab grab,
+                                    MuslinVec3 target);
 
 /**
  * Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and returns to
@@ -1499,48 +771,8 @@ enum MuslinStatus muslin_cloth_move_grab(struct MuslinCloth cloth,
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
  */
-enum MuslinStatus muslin_cloth_release(struct MuslinCloth cloth,
-                                       struct MuslinGrab grab);
-
-/**
- * All that a renderer reads, without a copy; see MuslinView for how long it is valid. Normals are
- * computed when first asked for after a change. `out_view` has begun with muslin_view_init.
- */
-enum MuslinStatus muslin_cloth_view(struct MuslinCloth cloth, struct MuslinView *out_view);
-
-/**
- * Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init.
- */
-enum MuslinStatus muslin_cloth_get_stats(struct MuslinCloth cloth, struct MuslinStats *out_stats);
-
-/**
- * A hash over all that the next tick depends on: equal on every machine that was told the same.
- */
-enum MuslinStatus muslin_cloth_state_hash(struct MuslinCloth cloth, uint64_t *out_hash);
-
-/**
- * Writes all of a cloth into `size` bytes at `buffer`; `out_needed` gets the number of bytes that it
- * takes. With `buffer` NULL it gets only that number. With a buffer `out_needed` may be NULL.
- *
- * The bytes are the same on every machine, and hold until the cloth changes.
- *
- * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if it does not fit: nothing is written, muslin_last_error names
- * the size that it takes
- */
-enum MuslinStatus muslin_cloth_save(struct MuslinCloth cloth,
-                                    void *buffer,
-                                    size_t size,
-                                    size_t *out_needed);
-
-/**
- * Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
- * any other: it goes on in the same bits. Handles of grabs and colliders hold for it too.
- *
- * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
- */
-enum MuslinStatus muslin_cloth_restore(const void *buffer,
-                                       size_t size,
-                                       struct MuslinCloth *out_cloth);
+MuslinStatus muslin_cloth_release(MuslinCloth cloth,
+                                  MuslinGrab grab);
 
 /**
  * Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded of the
@@ -1551,340 +783,17 @@ enum MuslinStatus muslin_cloth_restore(const void *buffer,
  * a border already; MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE unless
  * the two are the ends of an edge; MUSLIN_STATUS_FULL if the reserve for tears is used up
  */
-enum MuslinStatus muslin_cloth_tear_edge(struct MuslinCloth cloth,
-                                         uint32_t particle_a,
-                                         uint32_t particle_b);
+MuslinStatus muslin_cloth_tear_edge(MuslinCloth cloth,
+                                    uint32_t particle_a,
+                                    uint32_t particle_b);
 
 /**
  * Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if
  * there is none, which leaves `out_event` as it is. `out_event` has begun with muslin_event_init.
  */
-enum MuslinStatus muslin_cloth_next_event(struct MuslinCloth cloth,
-                                          struct MuslinEvent *out_event,
-                                          uint32_t *out_some);
-
-/**
- * Runs the ticks that a frame of `seconds` [s] owes; `out_ticks` (may be NULL) gets their number.
- *
- * What is left over waits for the next frame, see `blend` of MuslinStats. A late frame owes at most
- * `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
- *
- * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
- */
-enum MuslinStatus muslin_cloth_advance(struct MuslinCloth cloth,
-                                       float seconds,
-                                       uint32_t *out_ticks);
-
-/**
- * Runs exactly `ticks` ticks.
- */
-enum MuslinStatus muslin_cloth_step(struct MuslinCloth cloth, uint32_t ticks);
-
-/**
- * The version of the library that runs: 0x00MMmmpp, major, minor, patch.
- */
-uint32_t muslin_version(void);
-
-/**
- * The version of the library that runs: "major.minor.patch". Always valid.
- */
-const char *muslin_version_string(void);
-
-/**
- * What a MuslinStatus says in general, any number: never NULL, always valid.
- */
-const char *muslin_status_string(uint32_t status);
-
-/**
- * Why the last call of this thread that was refused was refused: a sentence that names the field and
- * the rule. "" if none was yet. Calls that are not refused leave it as it is.
- *
- * Never NULL; valid until the next call of this thread that is refused.
- */
-const char *muslin_last_error(void);
-
-/**
- * The name of a stage of a tick, 0 and up, for `seconds` of MuslinStats: always valid; NULL for a stage
- * that is not.
- */
-const char *muslin_stage_name(uint32_t stage);
-
-/**
- * Sends what the library has to say, up to `max_level` (MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN,
- * MUSLIN_LOG_INFO), to `log`. At first, and with NULL, it is silent.
- *
- * `log` is called on whichever thread made the library speak, maybe on several at once, and may call
- * the library. `user` is handed to it and nothing else. Both must be good until they are replaced and
- * until calls that are under way on other threads have returned.
- */
-enum MuslinStatus muslin_set_log(MuslinLogFn log,
-                                 uint32_t max_level,
-                                 void *user);
-
-/**
- * What muslin_settings_init calls: pass the sizeof of MuslinSettings.
- */
-enum MuslinStatus muslin_settings_init_sized(struct MuslinSettings *settings, uint32_t struct_size);
-
-/**
- * What muslin_material_init calls: pass the sizeof of MuslinMaterial.
- */
-enum MuslinStatus muslin_material_init_sized(struct MuslinMaterial *material, uint32_t struct_size);
-
-/**
- * What muslin_wind_init calls: pass the sizeof of MuslinWind.
- */
-enum MuslinStatus muslin_wind_init_sized(struct MuslinWind *wind, uint32_t struct_size);
-
-/**
- * What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc.
- */
-enum MuslinStatus muslin_collider_desc_init_sized(struct MuslinColliderDesc *desc,
-                                                  uint32_t struct_size);
-
-/**
- * What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
- * MuslinSettings, all of the same header.
- */
-enum MuslinStatus muslin_grid_desc_init_sized(struct MuslinGridDesc *desc,
-                                              uint32_t struct_size,
-                                              uint32_t material_size,
-                                              uint32_t settings_size);
-
-/**
- * What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
- * MuslinSettings, all of the same header.
- */
-enum MuslinStatus muslin_mesh_desc_init_sized(struct MuslinMeshDesc *desc,
-                                              uint32_t struct_size,
-                                              uint32_t material_size,
-                                              uint32_t settings_size);
-
-/**
- * Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule
- */
-enum MuslinStatus muslin_cloth_create_grid(const struct MuslinGridDesc *desc,
-                                           struct MuslinCloth *out_cloth);
-
-/**
- * Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
- *
- * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
- * and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth
- */
-enum MuslinStatus muslin_cloth_create_mesh(const struct MuslinMeshDesc *desc,
-                                           struct MuslinCloth *out_cloth);
-
-/**
- * Destroys a cloth: its handle is stale from then on, and what was borrowed from it is gone.
- */
-enum MuslinStatus muslin_cloth_destroy(struct MuslinCloth cloth);
-
-/**
- * Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs and no
- * events. Settings, material, wind and colliders stay as they are.
- */
-enum MuslinStatus muslin_cloth_reset(struct MuslinCloth cloth);
-
-/**
- * Fills in the figures of a fabric: MUSLIN_PRESET_SILK, MUSLIN_PRESET_COTTON, MUSLIN_PRESET_DENIM,
- * MUSLIN_PRESET_LEATHER, MUSLIN_PRESET_PAPER or MUSLIN_PRESET_FLAG_NYLON. `material` has begun with
- * muslin_material_init, or is part of a descriptor that has begun.
- *
- * @return MUSLIN_STATUS_BAD_VALUE for any other `preset`
- */
-enum MuslinStatus muslin_material_preset(struct MuslinMaterial *material, uint32_t preset);
-
-/**
- * How time runs. `out_settings` has begun with muslin_settings_init.
- */
-enum MuslinStatus muslin_cloth_get_settings(struct MuslinCloth cloth,
-                                            struct MuslinSettings *out_settings);
-
-/**
- * Changes how time runs, from the next tick on. Velocities stay as they are.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
- */
-enum MuslinStatus muslin_cloth_set_settings(struct MuslinCloth cloth,
-                                            const struct MuslinSettings *settings);
-
-/**
- * What it is made of. `out_material` has begun with muslin_material_init.
- */
-enum MuslinStatus muslin_cloth_get_material(struct MuslinCloth cloth,
-                                            struct MuslinMaterial *out_material);
-
-/**
- * Changes what it is made of, from the next tick on. Velocities stay as they are.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
- */
-enum MuslinStatus muslin_cloth_set_material(struct MuslinCloth cloth,
-                                            const struct MuslinMaterial *material);
-
-/**
- * Changes the air around it, from the next tick on.
- *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
- */
-enum MuslinStatus muslin_cloth_set_wind(struct MuslinCloth cloth, const struct MuslinWind *wind);
-
-/**
- * Runs the ticks that a frame of `seconds` [s] owes; `out_ticks` (may be NULL) gets their number.
- *
- * What is left over waits for the next frame, see `blend` of MuslinStats. A late frame owes at most
- * `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
- *
- * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
- */
-enum MuslinStatus muslin_cloth_advance(struct MuslinCloth cloth,
-                                       float seconds,
-                                       uint32_t *out_ticks);
-
-/**
- * Runs exactly `ticks` ticks.
- */
-enum MuslinStatus muslin_cloth_step(struct MuslinCloth cloth, uint32_t ticks);
-
-/**
- * Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
- * next tick; a particle that is pinned already gets a new target.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite
- */
-enum MuslinStatus muslin_cloth_pin(struct MuslinCloth cloth,
-                                   uint32_t particle,
-                                   const struct MuslinVec3 *target);
-
-/**
- * Lets a particle go. One that is not pinned stays as it is.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not
- */
-enum MuslinStatus muslin_cloth_unpin(struct MuslinCloth cloth, uint32_t particle);
-
-/**
- * Lets every particle go.
- */
-enum MuslinStatus muslin_cloth_unpin_all(struct MuslinCloth cloth);
-
-/**
- * Gives `count` pins their targets at once; particles that are not pinned yet are from now on. The
- * targets [m] are 3 floats each at `positions`, and begin `stride` bytes apart: 0 is 12, else a multiple
- * of 4. No more than there are particles; with 0 both pointers may be NULL.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite, or a rule above
- */
-enum MuslinStatus muslin_cloth_set_pin_targets(struct MuslinCloth cloth,
-                                               const uint32_t *particles,
-                                               const void *positions,
-                                               uint32_t stride,
-                                               uint32_t count);
-
-/**
- * Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position
- * that is not finite
- */
-enum MuslinStatus muslin_cloth_set_position(struct MuslinCloth cloth,
-                                            uint32_t particle,
-                                            struct MuslinVec3 position);
-
-/**
- * Gives a particle a velocity [m/s].
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a velocity
- * that is not finite
- */
-enum MuslinStatus muslin_cloth_set_velocity(struct MuslinCloth cloth,
-                                            uint32_t particle,
-                                            struct MuslinVec3 velocity);
-
-/**
- * The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
- * side. `direction` need not have length one. `out_hit` has begun with muslin_hit_init.
- *
- * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
- * `direction` are finite, `direction` is not zero, and `max_distance` is at least 0
- */
-enum MuslinStatus muslin_cloth_raycast(struct MuslinCloth cloth,
-                                       struct MuslinVec3 origin,
-                                       struct MuslinVec3 direction,
-                                       float max_distance,
-                                       struct MuslinHit *out_hit);
-
-/**
- * Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
- * else the nearest one within `radius` [m] of it. `out_at` (may be NULL) gets where that particle is
- * [m].
- *
- * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
- * `direction` are finite, `direction` is not zero, and `radius` is at least 0 and finite;
- * MUSLIN_STATUS_FULL if 64 grabs are held already
- */
-enum MuslinStatus muslin_cloth_grab_ray(struct MuslinCloth cloth,
-                                        struct MuslinVec3 origin,
-                                        struct MuslinVec3 direction,
-                                        float radius,
-                                        struct MuslinGrab *out_grab,
-                                        struct MuslinVec3 *out_at);
-
-/**
- * Takes hold of a particle where it is. It follows muslin_cloth_move_grab exactly, but for a limit of
- * `max_displacement` a substep, and carries the cloth along.
- *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_FULL if 64 grabs are held
- * already
- */
-enum MuslinStatus muslin_cloth_grab_particle(struct MuslinCloth cloth,
-                                             uint32_t particle,
-                                             struct MuslinGrab *out_grab);
-
-/**
- * Gives a grab a new target [m].
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite
- */
-enum MuslinStatus muslin_cloth_move_grab(struct MuslinCloth cloth,
-                                         struct MuslinGrab grab,
-                                         struct MuslinVec3 target);
-
-/**
- * Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and returns to
- * its pin over the next tick.
- *
- * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
- */
-enum MuslinStatus muslin_cloth_release(struct MuslinCloth cloth,
-                                       struct MuslinGrab grab);
-
-/**
- * Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded of the
- * two is split by the plane across the way between them. Where neither has anything on its other
- * side, the edge itself opens, if it starts at a border.
- *
- * @return MUSLIN_STATUS_NOT_TORN if it did not give way: both ends are pinned or grabbed, or the edge is
- * a border already; MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE unless
- * the two are the ends of an edge; MUSLIN_STATUS_FULL if the reserve for tears is used up
- */
-enum MuslinStatus muslin_cloth_tear_edge(struct MuslinCloth cloth,
-                                         uint32_t particle_a,
-                                         uint32_t particle_b);
-
-/**
- * Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if
- * there is none, which leaves `out_event` as it is. `out_event` has begun with muslin_event_init.
- */
-enum MuslinStatus muslin_cloth_next_event(struct MuslinCloth cloth,
-                                          struct MuslinEvent *out_event,
-                                          uint32_t *out_some);
+MuslinStatus muslin_cloth_next_event(MuslinCloth cloth,
+                                     MuslinEvent *out_event,
+                                     uint32_t *out_some);
 
 /**
  * Adds a collider to a cloth.
@@ -1892,9 +801,9 @@ enum MuslinStatus muslin_cloth_next_event(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED for another
  * shape than a plane; MUSLIN_STATUS_FULL if there are 1024 colliders already
  */
-enum MuslinStatus muslin_cloth_add_collider(struct MuslinCloth cloth,
-                                            const struct MuslinColliderDesc *desc,
-                                            struct MuslinCollider *out_collider);
+MuslinStatus muslin_cloth_add_collider(MuslinCloth cloth,
+                                       const MuslinColliderDesc *desc,
+                                       MuslinCollider *out_collider);
 
 /**
  * Moves a collider; it gets there over the next tick, so that it sweeps.
@@ -1902,34 +811,32 @@ enum MuslinStatus muslin_cloth_add_collider(struct MuslinCloth cloth,
  * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
  * finite or a rotation that is no unit quaternion
  */
-enum MuslinStatus muslin_cloth_move_collider(struct MuslinCloth cloth,
-                                             struct MuslinCollider collider,
-                                             struct MuslinVec3 position,
-                                             struct MuslinQuat rotation);
+MuslinStatus muslin_cloth_move_collider(MuslinCloth cloth,
+                                        MuslinCollider collider,
+                                        MuslinVec3 position,
+                                        MuslinQuat rotation);
 
 /**
  * Removes a collider.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was removed before
  */
-enum MuslinStatus muslin_cloth_remove_collider(struct MuslinCloth cloth,
-                                               struct MuslinCollider collider);
+MuslinStatus muslin_cloth_remove_collider(MuslinCloth cloth,
+                                          MuslinCollider collider);
 
 /**
  * All that a renderer reads, without a copy; see MuslinView for how long it is valid. Normals are
  * computed when first asked for after a change. `out_view` has begun with muslin_view_init.
  */
-enum MuslinStatus muslin_cloth_view(struct MuslinCloth cloth, struct MuslinView *out_view);
+MuslinStatus muslin_cloth_view(MuslinCloth cloth, MuslinView *out_view);
 
-/**
- * Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init.
- */
-enum MuslinStatus muslin_cloth_get_stats(struct MuslinCloth cloth, struct MuslinStats *out_stats);
+/** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
+MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
 
 /**
  * A hash over all that the next tick depends on: equal on every machine that was told the same.
  */
-enum MuslinStatus muslin_cloth_state_hash(struct MuslinCloth cloth, uint64_t *out_hash);
+MuslinStatus muslin_cloth_state_hash(MuslinCloth cloth, uint64_t *out_hash);
 
 /**
  * Writes all of a cloth into `size` bytes at `buffer`; `out_needed` gets the number of bytes that it
@@ -1940,10 +847,10 @@ enum MuslinStatus muslin_cloth_state_hash(struct MuslinCloth cloth, uint64_t *ou
  * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if it does not fit: nothing is written, muslin_last_error names
  * the size that it takes
  */
-enum MuslinStatus muslin_cloth_save(struct MuslinCloth cloth,
-                                    void *buffer,
-                                    size_t size,
-                                    size_t *out_needed);
+MuslinStatus muslin_cloth_save(MuslinCloth cloth,
+                               void *buffer,
+                               size_t size,
+                               size_t *out_needed);
 
 /**
  * Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
@@ -1951,9 +858,40 @@ enum MuslinStatus muslin_cloth_save(struct MuslinCloth cloth,
  *
  * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
  */
-enum MuslinStatus muslin_cloth_restore(const void *buffer,
-                                       size_t size,
-                                       struct MuslinCloth *out_cloth);
+MuslinStatus muslin_cloth_restore(const void *buffer,
+                                  size_t size,
+                                  MuslinCloth *out_cloth);
+
+/** What muslin_settings_init calls: pass the sizeof of MuslinSettings. */
+MuslinStatus muslin_settings_init_sized(MuslinSettings *settings, uint32_t struct_size);
+
+/** What muslin_material_init calls: pass the sizeof of MuslinMaterial. */
+MuslinStatus muslin_material_init_sized(MuslinMaterial *material, uint32_t struct_size);
+
+/** What muslin_wind_init calls: pass the sizeof of MuslinWind. */
+MuslinStatus muslin_wind_init_sized(MuslinWind *wind, uint32_t struct_size);
+
+/** What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc. */
+MuslinStatus muslin_collider_desc_init_sized(MuslinColliderDesc *desc,
+                                             uint32_t struct_size);
+
+/**
+ * What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
+ * MuslinSettings, all of the same header.
+ */
+MuslinStatus muslin_grid_desc_init_sized(MuslinGridDesc *desc,
+                                         uint32_t struct_size,
+                                         uint32_t material_size,
+                                         uint32_t settings_size);
+
+/**
+ * What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
+ * MuslinSettings, all of the same header.
+ */
+MuslinStatus muslin_mesh_desc_init_sized(MuslinMeshDesc *desc,
+                                         uint32_t struct_size,
+                                         uint32_t material_size,
+                                         uint32_t settings_size);
 
 #ifdef __cplusplus
 }  // extern "C"
