@@ -1,0 +1,200 @@
+/* Programs that were compiled with an older or a newer header than the library's. */
+#include "check.h"
+#include <stddef.h>
+
+/* Settings as the first header had them: without their last field. */
+enum { OLD_SETTINGS = offsetof(MuslinSettings, max_tears_per_tick) };
+
+static uint64_t hash_after(MuslinCloth cloth, uint32_t ticks) {
+  uint64_t hash = 0;
+  DONE(muslin_cloth_step(cloth, ticks));
+  DONE(muslin_cloth_state_hash(cloth, &hash));
+  DONE(muslin_cloth_destroy(cloth));
+  return hash;
+}
+
+/* What a cloth of today's header comes to. */
+static uint64_t expected(void) {
+  MuslinGridDesc desc;
+  MuslinCloth cloth = {0};
+  muslin_grid_desc_init(&desc);
+  desc.columns = 9;
+  desc.material.density = 0.5f;
+  desc.settings.damping = 2.0f;
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+  return hash_after(cloth, 30);
+}
+
+static void an_older_program_makes_the_same_cloth(void) {
+  struct {
+    unsigned char head[offsetof(MuslinGridDesc, settings)];
+    unsigned char settings[OLD_SETTINGS];
+    unsigned char beyond[16];
+  } old;
+  memset(&old, 0xee, sizeof old);
+  uint32_t size = (uint32_t)(sizeof old.head + sizeof old.settings);
+  MuslinGridDesc *desc = (MuslinGridDesc *)(void *)&old;
+  DONE(muslin_grid_desc_init_sized(desc, size, sizeof(MuslinMaterial), OLD_SETTINGS));
+  for (size_t i = 0; i < sizeof old.beyond; i++) CHECK(old.beyond[i] == 0xee);
+  desc->columns = 9;
+  desc->material.density = 0.5f;
+  desc->settings.damping = 2.0f;
+  MuslinCloth cloth = {0};
+  DONE(muslin_cloth_create_grid(desc, &cloth));
+  CHECK(hash_after(cloth, 30) == expected());
+}
+
+/* A header to come: the material has a new field, which moves the settings; they and the whole have
+ * one too. */
+typedef struct NewMaterial {
+  MuslinMaterial known;
+  float fuzz;
+} NewMaterial;
+typedef struct NewSettings {
+  MuslinSettings known;
+  uint32_t warp_speed;
+} NewSettings;
+typedef struct NewGridDesc {
+  unsigned char head[offsetof(MuslinGridDesc, material)];
+  NewMaterial material;
+  NewSettings settings;
+  uint32_t holes;
+} NewGridDesc;
+
+static MuslinGridDesc *new_desc(NewGridDesc *desc) {
+  MuslinGridDesc *seen = (MuslinGridDesc *)(void *)desc;
+  memset(desc, 0xee, sizeof *desc);
+  DONE(muslin_grid_desc_init_sized(seen, sizeof *desc, sizeof desc->material, sizeof desc->settings));
+  seen->columns = 9;
+  desc->material.known.density = 0.5f;
+  desc->settings.known.damping = 2.0f;
+  return seen;
+}
+
+static void a_newer_program_makes_the_same_cloth(void) {
+  NewGridDesc desc;
+  MuslinCloth cloth = {0};
+  DONE(muslin_cloth_create_grid(new_desc(&desc), &cloth));
+  CHECK(desc.holes == 0 && desc.settings.warp_speed == 0);
+  CHECK(hash_after(cloth, 30) == expected());
+}
+
+static void a_newer_program_is_refused_what_this_version_lacks(void) {
+  NewGridDesc desc;
+  MuslinCloth cloth = {0};
+  MuslinGridDesc *seen = new_desc(&desc);
+  desc.material.fuzz = 1.0f;
+  REFUSED(muslin_cloth_create_grid(seen, &cloth), MUSLIN_STATUS_UNSUPPORTED, "material.struct_size");
+  seen = new_desc(&desc);
+  desc.settings.warp_speed = 9;
+  REFUSED(muslin_cloth_create_grid(seen, &cloth), MUSLIN_STATUS_UNSUPPORTED, "settings.struct_size");
+  seen = new_desc(&desc);
+  desc.holes = 1;
+  REFUSED(muslin_cloth_create_grid(seen, &cloth), MUSLIN_STATUS_UNSUPPORTED, "`struct_size`");
+  CHECK(cloth.id == 0);
+}
+
+/* The same for a mesh, which holds pointers and so may end in a gap. */
+typedef struct NewMeshDesc {
+  union {
+    unsigned char bytes[offsetof(MuslinMeshDesc, material)];
+    const void *aligned;
+  } head;
+  NewMaterial material;
+  MuslinSettings settings;
+} NewMeshDesc;
+
+static void a_gap_at_the_end_may_hold_anything(void) {
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const uint32_t indices[] = {0, 1, 2};
+  NewMeshDesc desc;
+  memset(&desc, 0xee, sizeof desc);
+  MuslinMeshDesc *seen = (MuslinMeshDesc *)(void *)&desc;
+  MuslinCloth cloth = {0};
+  DONE(muslin_mesh_desc_init_sized(seen, sizeof desc, sizeof desc.material, sizeof desc.settings));
+  seen->positions = positions;
+  seen->vertex_count = 3;
+  seen->indices = indices;
+  seen->index_count = 3;
+  size_t end = offsetof(NewMeshDesc, settings) + sizeof desc.settings;
+  memset((unsigned char *)&desc + end, 0xee, sizeof desc - end);
+  DONE(muslin_cloth_create_mesh(seen, &cloth));
+  (void)hash_after(cloth, 1);
+}
+
+static void settings_of_an_older_program_keep_what_it_does_not_know(void) {
+  MuslinGridDesc desc;
+  MuslinCloth cloth = {0};
+  muslin_grid_desc_init(&desc);
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+
+  MuslinSettings settings;
+  memset(&settings, 0xee, sizeof settings);
+  DONE(muslin_settings_init_sized(&settings, OLD_SETTINGS));
+  CHECK(settings.struct_size == OLD_SETTINGS && settings.max_tears_per_tick == 0xeeeeeeeeu);
+  DONE(muslin_cloth_get_settings(cloth, &settings));
+  CHECK(settings.struct_size == OLD_SETTINGS && settings.max_tears_per_tick == 0xeeeeeeeeu);
+  settings.substeps = 6;
+  DONE(muslin_cloth_set_settings(cloth, &settings));
+  muslin_settings_init(&settings);
+  settings.max_tears_per_tick = 99;
+  DONE(muslin_cloth_get_settings(cloth, &settings));
+  CHECK(settings.substeps == 6 && settings.max_tears_per_tick == 8);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
+static void a_newer_program_gets_zeros_for_what_this_version_lacks(void) {
+  struct {
+    MuslinStats known;
+    uint64_t dreams;
+  } stats;
+  MuslinGridDesc desc;
+  MuslinCloth cloth = {0};
+  muslin_grid_desc_init(&desc);
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+  memset(&stats, 0xee, sizeof stats);
+  stats.known.struct_size = (uint32_t)sizeof stats;
+  DONE(muslin_cloth_get_stats(cloth, &stats.known));
+  CHECK(stats.known.particles == 1600 && stats.dreams == 0);
+  CHECK(stats.known.struct_size == sizeof stats);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
+static void sizes_that_no_version_has_are_refused(void) {
+  MuslinGridDesc desc;
+  MuslinSettings settings;
+  MuslinView view;
+  MuslinCloth cloth = {0}, made = {0};
+  muslin_grid_desc_init(&desc);
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+  muslin_settings_init(&settings);
+  muslin_view_init(&view);
+  uint32_t sizes[] = {0, 1, 4, 8, 47, 5000, 0xcdcdcdcdu, UINT32_MAX};
+  for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+    uint32_t size = sizes[i];
+    desc.struct_size = settings.struct_size = view.struct_size = size;
+    REFUSED(muslin_cloth_create_grid(&desc, &made), MUSLIN_STATUS_BAD_VALUE, "`struct_size` must");
+    REFUSED(muslin_cloth_set_settings(cloth, &settings), MUSLIN_STATUS_BAD_VALUE, "settings_init");
+    REFUSED(muslin_cloth_view(cloth, &view), MUSLIN_STATUS_BAD_VALUE, "out_view->struct_size");
+    REFUSED(muslin_settings_init_sized(&settings, size), MUSLIN_STATUS_BAD_VALUE, "struct_size");
+  }
+  muslin_grid_desc_init(&desc);
+  desc.material.struct_size = 0;
+  REFUSED(muslin_cloth_create_grid(&desc, &made), MUSLIN_STATUS_BAD_VALUE, "`material.struct_size`");
+  muslin_grid_desc_init(&desc);
+  desc.settings.struct_size += 4;
+  REFUSED(muslin_cloth_create_grid(&desc, &made), MUSLIN_STATUS_BAD_VALUE, "`struct_size`");
+  CHECK(made.id == 0);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
+int main(void) {
+  TEST(an_older_program_makes_the_same_cloth);
+  TEST(a_newer_program_makes_the_same_cloth);
+  TEST(a_newer_program_is_refused_what_this_version_lacks);
+  TEST(a_gap_at_the_end_may_hold_anything);
+  TEST(settings_of_an_older_program_keep_what_it_does_not_know);
+  TEST(a_newer_program_gets_zeros_for_what_this_version_lacks);
+  TEST(sizes_that_no_version_has_are_refused);
+  return failures != 0;
+}

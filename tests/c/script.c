@@ -1,0 +1,122 @@
+/* One script in every language: tests/bits.rs tells it in Rust, and all end in tests/script.hash. */
+#include "check.h"
+#include <stdlib.h>
+
+static const uint64_t golden =
+#include "../script.hash"
+    ;
+
+static uint64_t hash_of(MuslinCloth cloth) {
+  uint64_t hash = 0;
+  DONE(muslin_cloth_state_hash(cloth, &hash));
+  return hash;
+}
+
+static MuslinCloth hang_in_the_wind(void) {
+  MuslinGridDesc desc;
+  muslin_grid_desc_init(&desc);
+  desc.settings.tearing = 1;
+  desc.material.tear_stretch = 1.5f;
+  MuslinCloth cloth = {0};
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+
+  MuslinWind wind;
+  muslin_wind_init(&wind);
+  MuslinVec3 velocity = {0.25f, 0.0f, 1.0f};
+  wind.velocity = velocity;
+  wind.gust = 0.5f;
+  wind.wander = 0.25f;
+  wind.turbulence = 0.25f;
+  wind.seed = 7;
+  DONE(muslin_cloth_set_wind(cloth, &wind));
+
+  MuslinColliderDesc floor;
+  MuslinCollider collider = {0};
+  muslin_collider_desc_init(&floor);
+  floor.position.y = -2.5f;
+  DONE(muslin_cloth_add_collider(cloth, &floor, &collider));
+  CHECK(collider.id != 0);
+  DONE(muslin_cloth_step(cloth, 120));
+  return cloth;
+}
+
+/* Hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, fall on the floor,
+ * be picked up by a corner: 600 ticks. */
+static MuslinCloth play_script(void) {
+  MuslinCloth cloth = hang_in_the_wind();
+  MuslinVec3 eye = {1.0f, -1.0f, 5.0f}, ahead = {0.0f, 0.0f, -1.0f}, at = {0};
+  MuslinGrab grab = {0};
+  DONE(muslin_cloth_grab_ray(cloth, eye, ahead, 0.1f, &grab, &at));
+  for (int i = 1; i <= 120; i++) {
+    MuslinVec3 target = at;
+    target.x += 0.015625f * (float)i;
+    target.z += 0.03125f * (float)i;
+    DONE(muslin_cloth_move_grab(cloth, grab, target));
+    DONE(muslin_cloth_step(cloth, 1));
+  }
+  DONE(muslin_cloth_tear_edge(cloth, 820, 860));
+  DONE(muslin_cloth_release(cloth, grab));
+  DONE(muslin_cloth_step(cloth, 180));
+
+  DONE(muslin_cloth_unpin_all(cloth));
+  DONE(muslin_cloth_step(cloth, 120));
+  MuslinVec3 corner = {0.0f, 0.0f, 0.5f};
+  uint32_t ticks = 0;
+  DONE(muslin_cloth_pin(cloth, 0, &corner));
+  DONE(muslin_cloth_step(cloth, 59));
+  DONE(muslin_cloth_advance(cloth, 1.0f / 60.0f, &ticks));
+  CHECK(ticks == 1);
+  return cloth;
+}
+
+static void the_script_ends_in_the_golden_bits(void) {
+  MuslinCloth cloth = play_script();
+  MuslinEvent event;
+  muslin_event_init(&event);
+  int torn = 0;
+  for (uint32_t some = 1; some != 0;) {
+    DONE(muslin_cloth_next_event(cloth, &event, &some));
+    torn += some != 0 && event.kind == MUSLIN_EVENT_EDGE_TORN;
+  }
+  CHECK(torn >= 10);
+  uint64_t hash = hash_of(cloth);
+  if (hash != golden) {
+    fprintf(stderr, "hash is 0x%08lx%08lx\n", (unsigned long)(hash >> 32),
+            (unsigned long)(hash & 0xffffffffu));
+  }
+  CHECK(hash == golden);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
+static void a_restored_cloth_goes_on_in_the_same_bits(void) {
+  MuslinCloth straight = play_script(), restored = {0};
+  size_t needed = 0, written = 0;
+  DONE(muslin_cloth_save(straight, NULL, 0, &needed));
+  void *bytes = malloc(needed);
+  if (bytes == NULL) {
+    CHECK(bytes != NULL);
+    return;
+  }
+  DONE(muslin_cloth_save(straight, bytes, needed, &written));
+  CHECK(written == needed);
+  DONE(muslin_cloth_restore(bytes, needed, &restored));
+  free(bytes);
+  CHECK(restored.id != straight.id);
+  CHECK(hash_of(restored) == hash_of(straight));
+  for (int i = 0; i < 2; i++) {
+    MuslinCloth cloth = i == 0 ? straight : restored;
+    DONE(muslin_cloth_step(cloth, 60));
+    DONE(muslin_cloth_tear_edge(cloth, 400, 401));
+    DONE(muslin_cloth_step(cloth, 60));
+  }
+  CHECK(hash_of(restored) == hash_of(straight));
+  CHECK(hash_of(restored) != golden);
+  DONE(muslin_cloth_destroy(straight));
+  DONE(muslin_cloth_destroy(restored));
+}
+
+int main(void) {
+  TEST(the_script_ends_in_the_golden_bits);
+  TEST(a_restored_cloth_goes_on_in_the_same_bits);
+  return failures != 0;
+}
