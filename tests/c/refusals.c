@@ -1,0 +1,439 @@
+/* Bad input is refused in words that name the field, and changes nothing. */
+#include "check.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define BAD_VALUE MUSLIN_STATUS_BAD_VALUE
+#define BAD_INDEX MUSLIN_STATUS_BAD_INDEX
+
+static MuslinCloth cloth;  /* the cloth that everything is tried on */
+static const MuslinVec3 zero = {0, 0, 0}, ahead = {0, 0, -1}, eye = {0.5f, -0.5f, 5};
+
+static MuslinVec3 with_nan(void) {
+  MuslinVec3 v = {0, NAN, 0};
+  return v;
+}
+
+static uint64_t hash(void) {
+  uint64_t hash = 0;
+  DONE(muslin_cloth_state_hash(cloth, &hash));
+  return hash;
+}
+
+static void make_cloth(void) {
+  MuslinGridDesc desc;
+  muslin_grid_desc_init(&desc);
+  desc.columns = desc.rows = 20;
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+  DONE(muslin_cloth_step(cloth, 30));
+}
+
+static void null_is_refused_by_name(void) {
+  MuslinCloth made = {0};
+  MuslinGridDesc grid;
+  MuslinMeshDesc mesh;
+  MuslinColliderDesc floor;
+  MuslinEvent event;
+  muslin_grid_desc_init(&grid);
+  muslin_mesh_desc_init(&mesh);
+  muslin_collider_desc_init(&floor);
+  muslin_event_init(&event);
+  MuslinGrab grab = {0};
+  MuslinCollider collider = {0};
+  MuslinVec3 at = zero;
+  uint32_t some = 7;
+
+  REFUSED(muslin_settings_init_sized(NULL, sizeof(MuslinSettings)), BAD_VALUE, "`settings`");
+  REFUSED(muslin_material_init_sized(NULL, sizeof(MuslinMaterial)), BAD_VALUE, "`material`");
+  REFUSED(muslin_wind_init_sized(NULL, sizeof(MuslinWind)), BAD_VALUE, "`wind`");
+  REFUSED(muslin_collider_desc_init_sized(NULL, sizeof floor), BAD_VALUE, "`desc`");
+  REFUSED(muslin_grid_desc_init_sized(NULL, sizeof grid, sizeof(MuslinMaterial),
+                                      sizeof(MuslinSettings)),
+          BAD_VALUE, "`desc`");
+  REFUSED(muslin_mesh_desc_init_sized(NULL, sizeof mesh, sizeof(MuslinMaterial),
+                                      sizeof(MuslinSettings)),
+          BAD_VALUE, "`desc`");
+  REFUSED(muslin_cloth_create_grid(NULL, &made), BAD_VALUE, "`desc`");
+  REFUSED(muslin_cloth_create_grid(&grid, NULL), BAD_VALUE, "`out_cloth`");
+  REFUSED(muslin_cloth_create_mesh(NULL, &made), BAD_VALUE, "`desc`");
+  REFUSED(muslin_cloth_create_mesh(&mesh, NULL), BAD_VALUE, "`out_cloth`");
+  REFUSED(muslin_cloth_restore(NULL, 8, &made), BAD_VALUE, "`buffer`");
+  REFUSED(muslin_cloth_restore("muslin", 6, NULL), BAD_VALUE, "`out_cloth`");
+  CHECK(made.id == 0);
+
+  REFUSED(muslin_material_preset(NULL, MUSLIN_PRESET_SILK), BAD_VALUE, "`material`");
+  REFUSED(muslin_cloth_get_settings(cloth, NULL), BAD_VALUE, "`out_settings`");
+  REFUSED(muslin_cloth_set_settings(cloth, NULL), BAD_VALUE, "`settings`");
+  REFUSED(muslin_cloth_get_material(cloth, NULL), BAD_VALUE, "`out_material`");
+  REFUSED(muslin_cloth_set_material(cloth, NULL), BAD_VALUE, "`material`");
+  REFUSED(muslin_cloth_set_wind(cloth, NULL), BAD_VALUE, "`wind`");
+  REFUSED(muslin_cloth_set_pin_targets(cloth, NULL, &zero, 0, 1), BAD_VALUE, "`particles`");
+  REFUSED(muslin_cloth_set_pin_targets(cloth, &some, NULL, 0, 1), BAD_VALUE, "`positions`");
+  REFUSED(muslin_cloth_raycast(cloth, eye, ahead, 10, NULL), BAD_VALUE, "`out_hit`");
+  REFUSED(muslin_cloth_grab_ray(cloth, eye, ahead, 0, NULL, &at), BAD_VALUE, "`out_grab`");
+  REFUSED(muslin_cloth_grab_particle(cloth, 0, NULL), BAD_VALUE, "`out_grab`");
+  REFUSED(muslin_cloth_next_event(cloth, NULL, &some), BAD_VALUE, "`out_event`");
+  REFUSED(muslin_cloth_next_event(cloth, &event, NULL), BAD_VALUE, "`out_some`");
+  REFUSED(muslin_cloth_add_collider(cloth, NULL, &collider), BAD_VALUE, "`desc`");
+  REFUSED(muslin_cloth_add_collider(cloth, &floor, NULL), BAD_VALUE, "`out_collider`");
+  REFUSED(muslin_cloth_view(cloth, NULL), BAD_VALUE, "`out_view`");
+  REFUSED(muslin_cloth_get_stats(cloth, NULL), BAD_VALUE, "`out_stats`");
+  REFUSED(muslin_cloth_state_hash(cloth, NULL), BAD_VALUE, "`out_hash`");
+  REFUSED(muslin_cloth_save(cloth, NULL, 0, NULL), BAD_VALUE, "`out_needed`");
+  CHECK(some == 7 && grab.id == 0 && collider.id == 0 && at.x == 0);
+  DONE(muslin_cloth_set_pin_targets(cloth, NULL, NULL, 0, 0));
+}
+
+static void no_function_takes_a_cloth_that_is_not(void) {
+  const MuslinStatus bad = MUSLIN_STATUS_BAD_HANDLE;
+  MuslinCloth none = {0};
+  MuslinSettings settings;
+  MuslinMaterial material;
+  MuslinWind wind;
+  MuslinColliderDesc floor;
+  MuslinHit hit;
+  MuslinEvent event;
+  MuslinView view;
+  MuslinStats stats;
+  muslin_settings_init(&settings);
+  muslin_material_init(&material);
+  muslin_wind_init(&wind);
+  muslin_collider_desc_init(&floor);
+  muslin_hit_init(&hit);
+  muslin_event_init(&event);
+  muslin_view_init(&view);
+  muslin_stats_init(&stats);
+  MuslinGrab grab = {9};
+  MuslinCollider collider = {9};
+  MuslinQuat straight = {0, 0, 0, 1};
+  uint32_t number = 9;
+  uint64_t long_number = 9;
+  size_t size = 9;
+  REFUSED(muslin_cloth_destroy(none), bad, "`cloth`");
+  REFUSED(muslin_cloth_reset(none), bad, "`cloth`");
+  REFUSED(muslin_cloth_get_settings(none, &settings), bad, "`cloth`");
+  REFUSED(muslin_cloth_set_settings(none, &settings), bad, "`cloth`");
+  REFUSED(muslin_cloth_get_material(none, &material), bad, "`cloth`");
+  REFUSED(muslin_cloth_set_material(none, &material), bad, "`cloth`");
+  REFUSED(muslin_cloth_set_wind(none, &wind), bad, "`cloth`");
+  REFUSED(muslin_cloth_advance(none, 1, &number), bad, "`cloth`");
+  REFUSED(muslin_cloth_step(none, 1), bad, "`cloth`");
+  REFUSED(muslin_cloth_pin(none, 0, NULL), bad, "`cloth`");
+  REFUSED(muslin_cloth_unpin(none, 0), bad, "`cloth`");
+  REFUSED(muslin_cloth_unpin_all(none), bad, "`cloth`");
+  REFUSED(muslin_cloth_set_pin_targets(none, &number, &zero, 0, 1), bad, "`cloth`");
+  REFUSED(muslin_cloth_set_position(none, 0, zero), bad, "`cloth`");
+  REFUSED(muslin_cloth_set_velocity(none, 0, zero), bad, "`cloth`");
+  REFUSED(muslin_cloth_raycast(none, eye, ahead, 9, &hit), bad, "`cloth`");
+  REFUSED(muslin_cloth_grab_ray(none, eye, ahead, 9, &grab, NULL), bad, "`cloth`");
+  REFUSED(muslin_cloth_grab_particle(none, 0, &grab), bad, "`cloth`");
+  REFUSED(muslin_cloth_move_grab(none, grab, zero), bad, "`cloth`");
+  REFUSED(muslin_cloth_release(none, grab), bad, "`cloth`");
+  REFUSED(muslin_cloth_tear_edge(none, 0, 1), bad, "`cloth`");
+  REFUSED(muslin_cloth_next_event(none, &event, &number), bad, "`cloth`");
+  REFUSED(muslin_cloth_add_collider(none, &floor, &collider), bad, "`cloth`");
+  REFUSED(muslin_cloth_move_collider(none, collider, zero, straight), bad, "`cloth`");
+  REFUSED(muslin_cloth_remove_collider(none, collider), bad, "`cloth`");
+  REFUSED(muslin_cloth_view(none, &view), bad, "`cloth`");
+  REFUSED(muslin_cloth_get_stats(none, &stats), bad, "`cloth`");
+  REFUSED(muslin_cloth_state_hash(none, &long_number), bad, "`cloth`");
+  REFUSED(muslin_cloth_save(none, NULL, 0, &size), bad, "`cloth`");
+  CHECK(grab.id == 9 && collider.id == 9 && number == 9 && long_number == 9 && size == 9);
+}
+
+/* A grid that is right but for one field. */
+#define BAD_GRID(field, value, words)                                            \
+  do {                                                                           \
+    MuslinGridDesc desc;                                                         \
+    MuslinCloth made = {0};                                                      \
+    muslin_grid_desc_init(&desc);                                                \
+    desc.field = (value);                                                        \
+    REFUSED(muslin_cloth_create_grid(&desc, &made), BAD_VALUE, "`" words "`");   \
+    CHECK(made.id == 0);                                                         \
+  } while (0)
+
+static void grids_are_refused_by_field(void) {
+  BAD_GRID(columns, 1, "columns");
+  BAD_GRID(rows, 0, "rows");
+  BAD_GRID(columns, UINT32_MAX, "columns");
+  BAD_GRID(spacing, 0, "spacing");
+  BAD_GRID(spacing, NAN, "spacing");
+  BAD_GRID(origin.y, INFINITY, "origin");
+  BAD_GRID(right.x, 2, "right");
+  BAD_GRID(down.y, NAN, "down");
+  BAD_GRID(pin_mode, 4, "pin_mode");
+  BAD_GRID(extra_particles, UINT32_MAX - 1, "extra_particles");
+  BAD_GRID(material.density, -1, "material.density");
+  BAD_GRID(material.tear_stretch, 0.5f, "material.tear_stretch");
+  BAD_GRID(settings.tick, 0, "settings.tick");
+  BAD_GRID(settings.tethers, 2, "settings.tethers");
+}
+
+static void meshes_are_refused_by_field(void) {
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const float bad_positions[] = {0, 0, 0, 1, 0, 0, 0, NAN, 0, 1, 1, 0};
+  const uint32_t indices[] = {0, 1, 2, 2, 1, 3}, bad_indices[] = {0, 1, 2, 2, 1, 4};
+  const uint32_t flat[] = {0, 1, 1, 2, 1, 3}, pinned[] = {3, 4};
+  MuslinCloth made = {0};
+  MuslinMeshDesc good;
+  muslin_mesh_desc_init(&good);
+  REFUSED(muslin_cloth_create_mesh(&good, &made), BAD_VALUE, "`vertex_count`");
+  good.vertex_count = 4;
+  good.index_count = 6;
+  REFUSED(muslin_cloth_create_mesh(&good, &made), BAD_VALUE, "`positions`");
+  good.positions = positions;
+  REFUSED(muslin_cloth_create_mesh(&good, &made), BAD_VALUE, "`indices`");
+  good.indices = indices;
+
+  MuslinMeshDesc desc = good;
+  desc.vertex_count = UINT32_MAX; /* refused unread */
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`vertex_count`");
+  desc = good;
+  desc.index_count = UINT32_MAX; /* refused unread */
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`index_count`");
+  desc.index_count = 5;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`index_count`");
+  desc = good;
+  desc.position_stride = 13;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "stride`");
+  desc = good;
+  desc.positions = bad_positions;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`positions`");
+  desc = good;
+  desc.indices = bad_indices;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_INDEX, "`indices`");
+  desc.indices = flat;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), MUSLIN_STATUS_BAD_MESH, "`indices`");
+  desc = good;
+  desc.uvs = bad_positions;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`uvs`");
+  desc = good;
+  desc.pinned_count = 2;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`pinned`");
+  desc.pinned = pinned;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_INDEX, "`pinned`");
+  desc.pinned_count = 5; /* refused unread */
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`pinned_count`");
+  desc = good;
+  desc.weld_distance = 0.01f;
+  REFUSED(muslin_cloth_create_mesh(&desc, &made), MUSLIN_STATUS_UNSUPPORTED, "weld_distance");
+  CHECK(made.id == 0);
+
+  /* Interleaved with something else, and one byte off. */
+  unsigned char odd[4 * 20 + 1];
+  memset(odd, 0xee, sizeof odd);
+  for (int i = 0; i < 4; i++) memcpy(odd + 1 + 20 * i, positions + 3 * i, 12);
+  uintptr_t odd_address = (uintptr_t)(odd + 1);
+  desc = good;
+  memcpy(&desc.positions, &odd_address, sizeof odd_address);
+  desc.position_stride = 20;
+  desc.pinned = pinned;
+  desc.pinned_count = 1;
+  DONE(muslin_cloth_create_mesh(&desc, &made));
+  MuslinView view;
+  muslin_view_init(&view);
+  DONE(muslin_cloth_view(made, &view));
+  CHECK(view.vertex_count == 4 && view.index_count == 6);
+  CHECK(memcmp(view.positions, positions, sizeof positions) == 0);
+  CHECK(view.uvs[0] == 0 && view.source_vertices[3] == 3 && view.normals[2] == 1);
+  DONE(muslin_cloth_destroy(made));
+}
+
+static void settings_material_and_wind_are_refused_by_field(void) {
+  MuslinSettings settings, kept;
+  MuslinMaterial material;
+  MuslinWind wind;
+  muslin_settings_init(&settings);
+  muslin_material_init(&material);
+  muslin_wind_init(&wind);
+  settings.substeps = 0;
+  REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.substeps`");
+  muslin_settings_init(&settings);
+  settings.gravity = with_nan();
+  REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.gravity`");
+  muslin_settings_init(&settings);
+  settings.tearing = 5;
+  REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.tearing`");
+  muslin_settings_init(&settings);
+  settings.self_collision = 1;
+  REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.self_collision`");
+  material.friction = -1;
+  REFUSED(muslin_cloth_set_material(cloth, &material), BAD_VALUE, "`material.friction`");
+  REFUSED(muslin_material_preset(&material, 6), BAD_VALUE, "`preset`");
+  CHECK(material.friction == -1);
+  wind.model = 2;
+  REFUSED(muslin_cloth_set_wind(cloth, &wind), BAD_VALUE, "`wind.model`");
+  wind.model = MUSLIN_WIND_SINE_FIELD;
+  wind.velocity = with_nan();
+  REFUSED(muslin_cloth_set_wind(cloth, &wind), BAD_VALUE, "`wind.velocity`");
+  muslin_settings_init(&kept);
+  DONE(muslin_cloth_get_settings(cloth, &kept));
+  CHECK(kept.substeps == 4 && kept.tearing == 0 && kept.gravity.x == 0);
+}
+
+static void edits_are_refused_by_argument(void) {
+  uint32_t ticks = 9, some[401] = {0};
+  uint32_t last = 399, beyond = 400;
+  const MuslinVec3 nan = with_nan();
+  REFUSED(muslin_cloth_advance(cloth, -1, &ticks), BAD_VALUE, "`seconds`");
+  REFUSED(muslin_cloth_advance(cloth, NAN, &ticks), BAD_VALUE, "`seconds`");
+  CHECK(ticks == 9);
+  REFUSED(muslin_cloth_pin(cloth, 400, NULL), BAD_INDEX, "`particle` must be below 400, but is 400");
+  REFUSED(muslin_cloth_pin(cloth, 0, &nan), BAD_VALUE, "`target`");
+  REFUSED(muslin_cloth_unpin(cloth, 400), BAD_INDEX, "`particle`");
+  REFUSED(muslin_cloth_set_pin_targets(cloth, &last, &nan, 0, 1), BAD_VALUE, "`positions`");
+  REFUSED(muslin_cloth_set_pin_targets(cloth, &beyond, &zero, 0, 1), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_set_pin_targets(cloth, &last, &zero, 10, 1), BAD_VALUE, "`stride`");
+  REFUSED(muslin_cloth_set_pin_targets(cloth, some, &zero, 0, 401), BAD_VALUE, "`count`");
+  REFUSED(muslin_cloth_set_position(cloth, 400, zero), BAD_INDEX, "`particle`");
+  REFUSED(muslin_cloth_set_position(cloth, 0, nan), BAD_VALUE, "`position`");
+  REFUSED(muslin_cloth_set_velocity(cloth, 400, zero), BAD_INDEX, "`particle`");
+  REFUSED(muslin_cloth_set_velocity(cloth, 0, nan), BAD_VALUE, "`velocity`");
+  REFUSED(muslin_cloth_tear_edge(cloth, 400, 0), BAD_INDEX, "`particle_a`");
+  REFUSED(muslin_cloth_tear_edge(cloth, 0, 400), BAD_INDEX, "`particle_b`");
+  REFUSED(muslin_cloth_tear_edge(cloth, 0, 399), BAD_VALUE, "`particle_b`");
+  REFUSED(muslin_cloth_tear_edge(cloth, 0, 1), MUSLIN_STATUS_NOT_TORN, "did not give way");
+}
+
+static void pointing_is_refused_by_argument_and_may_meet_nothing(void) {
+  const MuslinVec3 nan = with_nan(), away = {0, 0, 1};
+  MuslinHit hit;
+  MuslinGrab grab = {7}, grabs[64];
+  MuslinVec3 at = {7, 7, 7};
+  memset(&hit, 0xee, sizeof hit);
+  muslin_hit_init(&hit);
+  REFUSED(muslin_cloth_raycast(cloth, nan, ahead, 9, &hit), BAD_VALUE, "`origin`");
+  REFUSED(muslin_cloth_raycast(cloth, eye, nan, 9, &hit), BAD_VALUE, "`direction`");
+  REFUSED(muslin_cloth_raycast(cloth, eye, zero, 9, &hit), BAD_VALUE, "`direction`");
+  REFUSED(muslin_cloth_raycast(cloth, eye, ahead, NAN, &hit), BAD_VALUE, "`max_distance`");
+  REFUSED(muslin_cloth_raycast(cloth, eye, away, 9, &hit), MUSLIN_STATUS_NOTHING_HIT, "nothing");
+  REFUSED(muslin_cloth_raycast(cloth, eye, ahead, 1, &hit), MUSLIN_STATUS_NOTHING_HIT, "nothing");
+  CHECK(hit.triangle == 0xeeeeeeeeu && hit.struct_size == sizeof hit);
+  REFUSED(muslin_cloth_grab_ray(cloth, nan, ahead, 0, &grab, &at), BAD_VALUE, "`origin`");
+  REFUSED(muslin_cloth_grab_ray(cloth, eye, ahead, -1, &grab, &at), BAD_VALUE, "`radius`");
+  REFUSED(muslin_cloth_grab_ray(cloth, eye, away, 0, &grab, &at), MUSLIN_STATUS_NOTHING_HIT, "nothing");
+  REFUSED(muslin_cloth_grab_particle(cloth, 400, &grab), BAD_INDEX, "`particle`");
+  CHECK(grab.id == 7 && at.x == 7);
+
+  const uint64_t before = hash();
+  for (uint32_t i = 0; i < 64; i++) DONE(muslin_cloth_grab_particle(cloth, i, &grabs[i]));
+  REFUSED(muslin_cloth_grab_particle(cloth, 64, &grab), MUSLIN_STATUS_FULL, "another grab");
+  REFUSED(muslin_cloth_move_grab(cloth, grabs[3], nan), BAD_VALUE, "`target`");
+  CHECK(hash() != before);
+  for (uint32_t i = 64; i-- > 0;) DONE(muslin_cloth_release(cloth, grabs[i]));
+
+  DONE(muslin_cloth_raycast(cloth, eye, ahead, INFINITY, &hit));
+  CHECK(hit.struct_size == sizeof hit && hit.distance > 4 && hit.position.x == 0.5f);
+  CHECK(hit.normal.z > 0 && hit.particle < 400 && hit.triangle < 2 * 19 * 19);
+}
+
+static void colliders_are_refused_by_field(void) {
+  MuslinColliderDesc desc;
+  MuslinCollider collider = {7};
+  MuslinQuat none = {0, 0, 0, 0}, straight = {0, 0, 0, 1};
+  muslin_collider_desc_init(&desc);
+  desc.shape = 77;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), MUSLIN_STATUS_UNSUPPORTED, "shape");
+  muslin_collider_desc_init(&desc);
+  desc.rotation = none;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "rotation`");
+  muslin_collider_desc_init(&desc);
+  desc.friction = -2;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "friction`");
+  desc.friction = -1;
+  desc.position.y = -50;
+  CHECK(collider.id == 7);
+  DONE(muslin_cloth_add_collider(cloth, &desc, &collider));
+  REFUSED(muslin_cloth_move_collider(cloth, collider, with_nan(), straight), BAD_VALUE, "position`");
+  REFUSED(muslin_cloth_move_collider(cloth, collider, zero, none), BAD_VALUE, "rotation`");
+  DONE(muslin_cloth_remove_collider(cloth, collider));
+}
+
+static void saves_are_refused(void) {
+  size_t needed = 0, written = 7;
+  MuslinCloth made = {7};
+  DONE(muslin_cloth_save(cloth, NULL, 0, &needed));
+  unsigned char *bytes = calloc(needed, 1);
+  if (bytes == NULL) {
+    CHECK(bytes != NULL);
+    return;
+  }
+  char words[64];
+  snprintf(words, sizeof words, "`size` must be at least %lu,", (unsigned long)needed);
+  REFUSED(muslin_cloth_save(cloth, bytes, needed - 1, &written), MUSLIN_STATUS_BUFFER_TOO_SMALL, words);
+  CHECK(written == 7 && bytes[0] == 0);
+  DONE(muslin_cloth_save(cloth, bytes, needed, NULL));
+  REFUSED(muslin_cloth_restore(bytes, needed - 1, &made), MUSLIN_STATUS_BAD_SAVE, "`buffer`");
+  REFUSED(muslin_cloth_restore(bytes, 0, &made), MUSLIN_STATUS_BAD_SAVE, "`buffer`");
+  REFUSED(muslin_cloth_restore(bytes, SIZE_MAX, &made), BAD_VALUE, "`size`");
+  bytes[needed / 2] ^= 1;
+  REFUSED(muslin_cloth_restore(bytes, needed, &made), MUSLIN_STATUS_BAD_SAVE, "damaged");
+  CHECK(made.id == 7);
+  free(bytes);
+}
+
+static int heard[4];
+
+static void count_messages(uint32_t level, const char *message, void *user) {
+  if (level < 4 && message[0] != '\0' && user == heard) heard[level]++;
+}
+
+static void the_log_tells_what_was_refused(void) {
+  MuslinGridDesc desc;
+  MuslinCloth made = {0};
+  MuslinHit hit;
+  muslin_grid_desc_init(&desc);
+  muslin_hit_init(&hit);
+  DONE(muslin_set_log(count_messages, MUSLIN_LOG_INFO, heard));
+  DONE(muslin_cloth_create_grid(&desc, &made));
+  CHECK(muslin_cloth_unpin(made, 9999) == BAD_INDEX);
+  CHECK(muslin_cloth_raycast(made, eye, ahead, 0, &hit) == MUSLIN_STATUS_NOTHING_HIT);
+  DONE(muslin_cloth_destroy(made));
+  CHECK(heard[MUSLIN_LOG_INFO] == 2 && heard[MUSLIN_LOG_WARN] == 1 && heard[MUSLIN_LOG_ERROR] == 0);
+  DONE(muslin_set_log(count_messages, MUSLIN_LOG_ERROR, heard));
+  CHECK(muslin_cloth_destroy(made) == MUSLIN_STATUS_BAD_HANDLE);
+  CHECK(heard[MUSLIN_LOG_WARN] == 1);
+  DONE(muslin_set_log(NULL, MUSLIN_LOG_INFO, NULL));
+}
+
+static void words_are_there_for_every_number(void) {
+  char version[32];
+  const unsigned number = (unsigned)muslin_version();
+  snprintf(version, sizeof version, "%u.%u.%u", number >> 16, number >> 8 & 255, number & 255);
+  CHECK(strcmp(muslin_version_string(), version) == 0 && number > 0);
+  CHECK(strcmp(muslin_status_string(MUSLIN_STATUS_OK), "done") == 0);
+  CHECK(muslin_status_string(0xffffffffu)[0] != '\0');
+  MuslinStats stats;
+  muslin_stats_init(&stats);
+  DONE(muslin_cloth_get_stats(cloth, &stats));
+  DONE(muslin_cloth_step(cloth, 1));
+  DONE(muslin_cloth_get_stats(cloth, &stats));
+  double sum = 0;
+  for (uint32_t i = 0; i < MUSLIN_STAGE_SLOTS; i++) {
+    CHECK((muslin_stage_name(i) != NULL) == (i < stats.stage_count));
+    CHECK(i < stats.stage_count || stats.seconds[i] == 0);
+    sum += (double)stats.seconds[i];
+  }
+  CHECK(sum > 0 && sum < 10);
+  CHECK(stats.particles == 400 && stats.pieces == 1 && stats.bytes > 400 * 12);
+}
+
+int main(void) {
+  CHECK(muslin_last_error()[0] == '\0');
+  make_cloth();
+  const uint64_t before = hash();
+  TEST(null_is_refused_by_name);
+  TEST(no_function_takes_a_cloth_that_is_not);
+  TEST(grids_are_refused_by_field);
+  TEST(meshes_are_refused_by_field);
+  TEST(settings_material_and_wind_are_refused_by_field);
+  TEST(edits_are_refused_by_argument);
+  TEST(colliders_are_refused_by_field);
+  TEST(saves_are_refused);
+  TEST(the_log_tells_what_was_refused);
+  CHECK(hash() == before); /* nothing of all that changed the cloth */
+  TEST(pointing_is_refused_by_argument_and_may_meet_nothing);
+  TEST(words_are_there_for_every_number);
+  DONE(muslin_cloth_destroy(cloth));
+  return failures != 0;
+}
