@@ -13,7 +13,8 @@ import { runInNewContext } from "node:vm";
 import init, { Cloth, initSync, version } from "muslin";
 
 const { resolve } = createRequire(import.meta.url);
-const [wasm, manifest] = ["raw_bg.wasm", "package.json"].map((file) => pathToFileURL(resolve(`muslin/${file}`)));
+const shipped = (file) => pathToFileURL(resolve(`muslin/${file}`));
+const [wasm, manifest] = [shipped("raw_bg.wasm"), shipped("package.json")];
 
 /** Runs `body` in a node of its own, where nothing is loaded yet. */
 async function inFreshNode(body) {
