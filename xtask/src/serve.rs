@@ -1,15 +1,21 @@
 //! A server for pages on this machine.
 
-use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::{Component, Path, PathBuf};
+use std::time::Duration;
 
-use tiny_http::{Header, Method, Request, Response};
-
-use crate::failure::{During, Failure, Result};
+use crate::failure::{Failure, Result};
 
 /// What the page may do: run its own scripts and wasm, style itself, draw inline pictures.
 const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
     style-src 'self' 'unsafe-inline'; img-src 'self' data:; connect-src 'self'";
+
+/// How long a connection may take to ask.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Bytes that the head of a request may have.
+const MOST_HEAD: u64 = 1 << 16;
 
 /// The port that people know.
 const USUAL: u16 = 8080;
@@ -24,7 +30,7 @@ pub struct Mount {
 
 /// A server that listens, on 127.0.0.1 only.
 pub struct Server {
-    http: tiny_http::Server,
+    listener: TcpListener,
     mounts: Vec<Mount>,
 }
 
@@ -32,10 +38,10 @@ impl Server {
     /// Listens on `port`, or on one that is free if it is 0. The first mount that fits an address
     /// answers for it.
     pub fn open(mounts: Vec<Mount>, port: u16) -> Result<Self> {
-        let http = tiny_http::Server::http(("127.0.0.1", port)).map_err(|error| {
+        let listener = TcpListener::bind(("127.0.0.1", port)).map_err(|error| {
             Failure::new(format!("cannot listen on port {port} ({error}); --port N takes another"))
         })?;
-        Ok(Self { http, mounts })
+        Ok(Self { listener, mounts })
     }
 
     /// Listens on the usual port, or if it is taken on a free one.
@@ -46,47 +52,67 @@ impl Server {
 
     /// Where it listens.
     pub fn url(&self) -> String {
-        format!("http://{}/", self.http.server_addr())
+        let port = self.listener.local_addr().map_or(0, |address| address.port());
+        format!("http://127.0.0.1:{port}/")
     }
 
-    /// Answers until the program ends.
-    pub fn run(self) {
-        for request in self.http.incoming_requests() {
-            // A browser that has gone away needs no answer.
-            answer(&self.mounts, request).ok();
-        }
+    /// Answers until the program ends, each connection on a thread of its own.
+    pub fn run(&self) {
+        std::thread::scope(|scope| {
+            for connection in self.listener.incoming().flatten() {
+                // A browser that has gone away needs no answer.
+                scope.spawn(|| answer(&self.mounts, connection).ok());
+            }
+        });
     }
 
     /// The same on a thread of its own; returns the address.
     pub fn run_aside(self) -> String {
         let url = self.url();
-        std::thread::spawn(|| self.run());
+        std::thread::spawn(move || self.run());
         url
     }
 }
 
-fn answer(mounts: &[Mount], request: Request) -> Result {
-    let told = || String::from("answering");
-    if !matches!(request.method(), Method::Get | Method::Head) {
-        return request.respond(Response::empty(405)).during(told);
+/// Reads one request and answers it; that ends the connection, so none waits for another.
+fn answer(mounts: &[Mount], connection: TcpStream) -> std::io::Result<()> {
+    connection.set_read_timeout(Some(PATIENCE))?;
+    let mut lines = BufReader::new(&connection).take(MOST_HEAD).lines();
+    let request = lines.next().transpose()?.unwrap_or_default();
+    // The rest of the head says nothing that matters here, but must be read before answering.
+    for line in lines {
+        if line?.is_empty() {
+            break;
+        }
     }
-    let Some(path) = file(mounts, request.url()) else {
-        return request
-            .respond(Response::from_string("not here\n").with_status_code(404))
-            .during(told);
+    let mut words = request.split_whitespace();
+    let (method, url) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+    let mut out = &connection;
+    if !matches!(method, "GET" | "HEAD") {
+        return out.write_all(&head("405 Method Not Allowed", "text/plain", 0));
+    }
+    let Some(path) = file(mounts, url) else {
+        return out.write_all(&head("404 Not Found", "text/plain", 0));
     };
-    let mut response = Response::from_file(File::open(&path).during(told)?);
-    for (name, value) in [
-        ("Content-Type", content_type(&path)),
-        ("Content-Security-Policy", POLICY),
-        ("X-Content-Type-Options", "nosniff"),
-        ("Cache-Control", "no-store"),
-    ] {
-        let header = Header::from_bytes(name, value)
-            .map_err(|()| Failure::new(format!("{name} cannot be {value:?}")))?;
-        response.add_header(header);
+    let body = std::fs::read(&path)?;
+    out.write_all(&head("200 OK", content_type(&path), body.len()))?;
+    if method == "GET" {
+        out.write_all(&body)?;
     }
-    request.respond(response).during(told)
+    Ok(())
+}
+
+fn head(status: &str, content_type: &str, length: usize) -> Vec<u8> {
+    format!(
+        "HTTP/1.1 {status}\r\n\
+         Content-Type: {content_type}\r\n\
+         Content-Length: {length}\r\n\
+         Content-Security-Policy: {POLICY}\r\n\
+         X-Content-Type-Options: nosniff\r\n\
+         Cache-Control: no-store\r\n\
+         Connection: close\r\n\r\n"
+    )
+    .into_bytes()
 }
 
 /// The file that an address means, if there is one.
@@ -131,6 +157,26 @@ mod tests {
         assert_eq!(file(&mounts(), "/code/main.rs?x=1"), Some(mounts()[0].dir.join("main.rs")));
         assert_eq!(file(&mounts(), "/Cargo.toml"), Some(mounts()[1].dir.join("Cargo.toml")));
         assert_eq!(file(&mounts(), "/code/absent.rs"), None);
+    }
+
+    #[test]
+    fn connections_that_stay_silent_keep_nobody_waiting() {
+        let url = Server::open(mounts(), 0).unwrap().run_aside();
+        let address = url.trim_start_matches("http://").trim_end_matches('/');
+        let silent: Vec<_> = (0..20).map(|_| TcpStream::connect(address).unwrap()).collect();
+        for (request, status) in [
+            ("GET /Cargo.toml HTTP/1.1\r\nHost: here\r\n\r\n", "HTTP/1.1 200 OK"),
+            ("GET /absent HTTP/1.1\r\n\r\n", "HTTP/1.1 404 Not Found"),
+            ("POST / HTTP/1.1\r\n\r\n", "HTTP/1.1 405 Method Not Allowed"),
+        ] {
+            let mut connection = TcpStream::connect(address).unwrap();
+            connection.write_all(request.as_bytes()).unwrap();
+            let mut answer = String::new();
+            connection.read_to_string(&mut answer).unwrap();
+            assert!(answer.starts_with(status), "{answer}");
+            assert_eq!(answer.contains("name = \"xtask\""), status.ends_with("OK"));
+        }
+        drop(silent);
     }
 
     #[test]
