@@ -1,0 +1,101 @@
+//! Once a cloth is made, moving, tearing within its reserve and reading allocate nothing.
+
+use muslin::glam::Vec3;
+use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, Wind};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+mod common;
+
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<u32> = const { Cell::new(0) };
+}
+
+// SAFETY: every call is passed on to the system's allocator as it came.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: the caller's promises hold for the system's allocator too.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(at, layout) }
+    }
+
+    unsafe fn realloc(&self, at: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: as above.
+        unsafe { System.realloc(at, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// How often `work` allocates.
+fn allocations(work: impl FnOnce()) -> u32 {
+    let before = COUNT.get();
+    work();
+    COUNT.get() - before
+}
+
+/// Blows, drags, tears, drops and reads a cloth.
+fn use_up(cloth: &mut Cloth, particle: u32) {
+    let grab = cloth.grab_particle(particle).unwrap();
+    let from = cloth.positions()[particle as usize];
+    for tick in 1..=90 {
+        cloth.move_grab(grab, from + Vec3::new(0.03, 0.0, 0.05) * tick as f32).unwrap();
+        cloth.advance(1.0 / 60.0).unwrap();
+        let view = cloth.view();
+        assert_eq!(view.positions.len(), view.normals.len());
+        while cloth.next_event().is_some() {}
+    }
+    cloth.release(grab).unwrap();
+    cloth.set_position(particle, from).unwrap();
+    cloth.pin(particle, None).unwrap();
+    cloth.step(5);
+    cloth.unpin_all();
+    cloth.step(30);
+    cloth.raycast(Vec3::new(0.5, -0.5, 3.0), Vec3::NEG_Z, 9.0).unwrap();
+    assert!(cloth.stats().kinetic_energy >= 0.0 && cloth.state_hash() != 0);
+}
+
+fn assert_allocates_nothing(mut cloth: Cloth, particle: u32) {
+    let before = cloth.positions().len();
+    cloth.set_wind(Wind { velocity: Vec3::Z, turbulence: 0.5, ..Wind::default() }).unwrap();
+    let floor = ColliderDesc { position: Vec3::new(0.0, -3.0, 0.0), ..ColliderDesc::default() };
+    cloth.add_collider(&floor).unwrap();
+    let mut copy = cloth.clone();
+    for cloth in [&mut cloth, &mut copy] {
+        assert_eq!(allocations(|| use_up(cloth, particle)), 0);
+        assert!(cloth.positions().len() > before, "nothing tore");
+    }
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    assert_eq!(allocations(|| use_up(&mut restored, particle)), 0);
+}
+
+#[test]
+fn a_grid_allocates_nothing_once_it_is_made() {
+    let mut desc = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    assert_allocates_nothing(Cloth::grid(&desc).unwrap(), 230);
+}
+
+#[test]
+fn a_mesh_allocates_nothing_once_it_is_made() {
+    let mut desc: MeshDesc = common::irregular_mesh();
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    assert_allocates_nothing(Cloth::mesh(&desc).unwrap(), 20);
+}
+
+#[test]
+fn the_counter_counts() {
+    let made = allocations(|| drop(Vec::<u32>::with_capacity(9)));
+    assert_eq!(made, 1);
+}
