@@ -146,7 +146,11 @@ impl Cloth {
         let world = &mut self.world;
         let restarts = settings.scheme() != world.settings.scheme();
         world.scratch.tear.reserve(settings.max_tears_per_tick as usize);
+        let is_unsorted = world.settings.max_stretch == 0.0;
         world.settings = settings;
+        if is_unsorted {
+            world.sort_outward();
+        }
         if restarts {
             guarded(|| world.restart_history());
         }

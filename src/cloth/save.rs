@@ -44,6 +44,8 @@ struct Saved<'a> {
     time: f64,
     tick: u32,
     reserve_told: bool,
+    over_stretched: u32,
+    over_stretch_told: bool,
     owed: f64,
     topology_revision: u32,
     state_revision: u32,
@@ -73,6 +75,8 @@ impl Cloth {
             time: world.time,
             tick: world.tick,
             reserve_told: world.reserve_told,
+            over_stretched: world.over_stretched,
+            over_stretch_told: world.over_stretch_told,
             owed: self.owed,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
@@ -178,6 +182,8 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.events = events;
     world.events.reserve();
     (world.time, world.tick, world.reserve_told) = (saved.time, saved.tick, saved.reserve_told);
+    world.over_stretched = saved.over_stretched;
+    world.over_stretch_told = saved.over_stretch_told;
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
     world.weigh();
     world.tether();

@@ -52,6 +52,8 @@ pub struct Stats {
     pub max_stretch: f32,
     /// The mean stretch of the stretch links.
     pub mean_stretch: f32,
+    /// How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
+    pub over_stretched: u32,
     /// Energy of motion [J].
     pub kinetic_energy: f32,
     /// Memory that it holds [B], about.
@@ -194,6 +196,7 @@ impl Cloth {
             blend: self.blend(),
             max_stretch,
             mean_stretch,
+            over_stretched: world.over_stretched,
             kinetic_energy,
             bytes: self.bytes(),
             seconds: world.profile.seconds(),

@@ -5,6 +5,7 @@ use crate::arena::Arena;
 use crate::error::Result;
 use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;
+use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::geom::triangle::corner_areas;
@@ -121,6 +122,10 @@ fn build(
         tick: 0,
         pieces: 0,
         reserve_told: false,
+        over_stretched: 0,
+        over_stretch_told: false,
+        outward: Outward::default(),
+        tether_slack: 1.0,
         events: Events::new(),
         level: Level::best(),
         profile: Profile::default(),
@@ -131,6 +136,7 @@ fn build(
         cells,
     };
     world.pins.reserve(capacity);
+    world.outward.reserve(capacity, world.weave.links.len());
     for particle in pinned {
         let x = world.rest[*particle as usize];
         world.pins.insert(*particle, x, x);
@@ -176,6 +182,7 @@ impl World {
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.weave.reserve(openings);
         self.tethers.reserve(capacity);
+        self.outward.reserve(capacity, self.weave.links.len());
         self.scratch = Scratch::new(
             self.particles.len(),
             capacity,

@@ -3,6 +3,7 @@
 pub(crate) mod cells;
 pub(crate) mod color;
 pub(crate) mod material;
+pub(crate) mod outward;
 pub(crate) mod rows;
 pub(crate) mod tethers;
 pub(crate) mod weave;

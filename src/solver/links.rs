@@ -12,6 +12,14 @@ use crate::fabric::weave::{LinkKind, Links};
 use crate::math::{TINY, max};
 use crate::state::particles::Particles;
 
+/// How a link resists, as a number that kernels can be compiled for: …
+/// by its compliance;
+pub(crate) const SOFT: u8 = 0;
+/// … not giving way at all;
+pub(crate) const RIGID: u8 = 1;
+/// … only to being longer than a bound.
+pub(crate) const BOUND: u8 = 2;
+
 /// Forgets the multipliers of the last substep.
 pub(crate) fn restart(world: &mut World) {
     if !is_rigid(world) {
@@ -33,37 +41,41 @@ pub(crate) fn solve(world: &mut World, kind: LinkKind, order: Order) {
         return;
     }
     if is_rigid(world) {
-        sweep::<true>(world, kind, order);
+        sweep::<RIGID>(world, kind, order, 0.0);
     } else {
-        sweep::<false>(world, kind, order);
+        // A correction acts on the velocity through `step`, so that is what compliance sees.
+        let step = world.settings.scheme().step;
+        sweep::<SOFT>(world, kind, order, 1.0 / (step * step));
     }
 }
 
-fn sweep<const RIGID: bool>(world: &mut World, kind: LinkKind, order: Order) {
-    // A correction acts on the velocity through `step`, so that is what compliance sees.
-    let step = world.settings.scheme().step;
-    let inv_h2 = 1.0 / (step * step);
+/// One sweep over all links of a kind that draws in those longer than `most` rest lengths.
+pub(crate) fn shorten(world: &mut World, kind: LinkKind, order: Order, most: f32) {
+    sweep::<BOUND>(world, kind, order, most);
+}
+
+fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: f32) {
     match order {
         Order::Forward => {
             for at in 0..world.weave.batches.len() {
-                solve_batch::<RIGID>(world, at, kind, inv_h2);
+                solve_batch::<LAW>(world, at, kind, scale);
             }
             for link in 0..world.weave.extra.len() {
-                solve_extra::<RIGID>(world, link, kind, inv_h2);
+                solve_extra::<LAW>(world, link, kind, scale);
             }
         }
         Order::Backward => {
             for link in (0..world.weave.extra.len()).rev() {
-                solve_extra::<RIGID>(world, link, kind, inv_h2);
+                solve_extra::<LAW>(world, link, kind, scale);
             }
             for at in (0..world.weave.batches.len()).rev() {
-                solve_batch::<RIGID>(world, at, kind, inv_h2);
+                solve_batch::<LAW>(world, at, kind, scale);
             }
         }
     }
 }
 
-fn solve_batch<const RIGID: bool>(world: &mut World, at: usize, kind: LinkKind, inv_h2: f32) {
+fn solve_batch<const LAW: u8>(world: &mut World, at: usize, kind: LinkKind, scale: f32) {
     let batch = world.weave.batches[at];
     if batch.kind != kind {
         return;
@@ -72,29 +84,29 @@ fn solve_batch<const RIGID: bool>(world: &mut World, at: usize, kind: LinkKind, 
     let (weave, p) = (&mut world.weave, &mut world.particles);
     let Some(grid) = &weave.rows else {
         for link in range {
-            project::<RIGID>(&mut weave.links, link, p, inv_h2);
+            project::<LAW>(&mut weave.links, link, p, scale);
         }
         return;
     };
-    rows::solve::<RIGID>(world.level, grid, range.clone(), &mut weave.links, p, inv_h2);
+    rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
     for link in grid.strays(range) {
-        project::<RIGID>(&mut weave.links, *link as usize, p, inv_h2);
+        project::<LAW>(&mut weave.links, *link as usize, p, scale);
     }
 }
 
-fn solve_extra<const RIGID: bool>(world: &mut World, link: usize, kind: LinkKind, inv_h2: f32) {
+fn solve_extra<const LAW: u8>(world: &mut World, link: usize, kind: LinkKind, scale: f32) {
     if world.weave.extra.kind(link) == kind {
-        project::<RIGID>(&mut world.weave.extra, link, &mut world.particles, inv_h2);
+        project::<LAW>(&mut world.weave.extra, link, &mut world.particles, scale);
     }
 }
 
 /// One link by itself.
 #[inline(always)]
-pub(crate) fn project<const RIGID: bool>(
+pub(crate) fn project<const LAW: u8>(
     links: &mut Links,
     link: usize,
     p: &mut Particles,
-    inv_h2: f32,
+    scale: f32,
 ) {
     if !links.active[link] {
         return;
@@ -102,11 +114,10 @@ pub(crate) fn project<const RIGID: bool>(
     let (a, b) = (links.a[link] as usize, links.b[link] as usize);
     let (wa, wb) = (p.w[a], p.w[b]);
     let span = p.x.at(b) - p.x.at(a);
-    let softness = if RIGID { 0.0 } else { links.compliance[link] * inv_h2 };
-    let lambda = if RIGID { 0.0 } else { links.lambda[link] };
+    let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
     let (share, lambda) =
-        correct::<RIGID>(span.to_array(), wa + wb, links.rest[link], softness, lambda);
-    if !RIGID {
+        correct::<LAW>(span.to_array(), wa + wb, links.rest[link], compliance, lambda, scale);
+    if LAW == SOFT {
         links.lambda[link] = lambda;
     }
     p.x.add(a, span * (share * wa));
@@ -115,22 +126,26 @@ pub(crate) fn project<const RIGID: bool>(
 
 /// The share of its span that a link gives back for each unit of inverse mass, and its multiplier
 /// then. One division and one root: what kernels spend their time on.
+///
+/// `scale` is 1/h² for soft links and the greatest length over rest for bounded ones.
 #[inline(always)]
-pub(crate) fn correct<const RIGID: bool>(
+pub(crate) fn correct<const LAW: u8>(
     [dx, dy, dz]: [f32; 3],
     weight: f32,
     rest: f32,
-    softness: f32,
+    compliance: f32,
     lambda: f32,
+    scale: f32,
 ) -> (f32, f32) {
     let length = max((dx * dx + dy * dy + dz * dz).sqrt(), TINY);
-    let stretch = length - rest;
-    if RIGID {
-        return (stretch / (length * max(weight, TINY)), 0.0);
+    if LAW == SOFT {
+        let softness = compliance * scale;
+        let pull = length - rest + softness * lambda;
+        let share = pull / (length * max(weight + softness, TINY));
+        return (share, lambda - share * length);
     }
-    let pull = stretch + softness * lambda;
-    let share = pull / (length * max(weight + softness, TINY));
-    (share, lambda - share * length)
+    let stretch = if LAW == BOUND { max(length - rest * scale, 0.0) } else { length - rest };
+    (stretch / (length * max(weight, TINY)), lambda)
 }
 
 /// Whether no link gives way at all, so that there is nothing to remember from sweep to sweep.

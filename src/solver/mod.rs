@@ -4,6 +4,7 @@ pub(crate) mod contacts;
 pub(crate) mod forces;
 pub(crate) mod guard;
 pub(crate) mod hold;
+pub(crate) mod limit;
 pub(crate) mod links;
 pub(crate) mod outputs;
 pub(crate) mod pipeline;
@@ -18,6 +19,7 @@ pub(crate) mod velocities;
 
 use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;
+use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::math::columns::Columns;
@@ -40,6 +42,10 @@ pub(crate) struct World {
     pub mesh: Mesh,
     pub weave: Weave,
     pub tethers: Tethers,
+    /// The order of the stretch bound; current only while there is one.
+    pub outward: Outward,
+    /// See `tethers::measure_slack`.
+    pub tether_slack: f32,
     /// Rest position of each original vertex [m].
     pub rest: Vec<Vec3>,
     /// The share of its triangle's rest area that belongs to each corner [m²].
@@ -62,6 +68,10 @@ pub(crate) struct World {
     pub pieces: u32,
     /// Whether the host knows that the reserve for tears is used up.
     pub reserve_told: bool,
+    /// Links past the stretch bound after the last tick.
+    pub over_stretched: u32,
+    /// Whether the host knows of them.
+    pub over_stretch_told: bool,
     pub events: Events,
     /// The instructions that kernels may use.
     pub level: Level,
@@ -185,5 +195,13 @@ impl World {
     pub fn tether(&mut self) {
         let pinned = self.pins.iter().map(|pin| pin.particle);
         self.tethers.measure(&self.mesh, &self.rest, pinned);
+        self.sort_outward();
+    }
+
+    /// Sorts links outward anew, after ways to pins or links changed.
+    pub fn sort_outward(&mut self) {
+        if self.settings.max_stretch > 0.0 {
+            self.outward.sort(&self.tethers, self.particles.len(), &self.weave.links);
+        }
     }
 }

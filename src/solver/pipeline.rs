@@ -1,7 +1,9 @@
 //! The tick, read from top to bottom.
 
 use super::stage::Stage;
-use super::{World, contacts, forces, guard, hold, links, predict, tear, tethers, velocities};
+use super::{
+    World, contacts, forces, guard, hold, limit, links, predict, tear, tethers, velocities,
+};
 use crate::fabric::weave::LinkKind;
 use links::Order;
 
@@ -18,6 +20,9 @@ macro_rules! timed {
 pub(crate) fn tick(world: &mut World) {
     world.particles.x_last.copy_from(&world.particles.x);
     timed!(world, Forces, forces::gather(world));
+    if world.settings.tethers {
+        timed!(world, Tethers, tethers::measure_slack(world));
+    }
     for substep in 0..world.settings.substeps {
         run_substep(world, substep);
     }
@@ -25,9 +30,13 @@ pub(crate) fn tick(world: &mut World) {
     timed!(world, Colliders, contacts::arrive(world));
     world.time += f64::from(world.settings.tick);
     world.tick = world.tick.wrapping_add(1);
+    // What is no longer a number must not steer a tear.
     timed!(world, Guard, guard::mend(world));
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
         timed!(world, Tear, tear::tear(world));
+    }
+    if world.settings.max_stretch > 0.0 {
+        timed!(world, Limit, limit::enforce(world));
     }
 }
 
@@ -52,6 +61,9 @@ fn run_substep(world: &mut World, number: u32) {
             timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
             timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
         }
+    }
+    if world.settings.max_stretch > 0.0 {
+        timed!(world, Limit, limit::draw_in(world));
     }
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));

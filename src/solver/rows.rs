@@ -4,7 +4,7 @@
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
 //! left of a row after whole chunks is one more chunk from its end, of which only the new links count.
 
-use super::links::{correct, project};
+use super::links::{BOUND, RIGID, SOFT, correct, project};
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::fabric::weave::Links;
 use crate::math::columns::Columns;
@@ -23,90 +23,95 @@ const PAIRS: u8 = Pattern::Pairs as u8;
 const QUADS: u8 = Pattern::Quads as u8;
 
 /// Solves the links `range`, which are a batch, but for those that left their rows.
-pub(crate) fn solve<const RIGID: bool>(
+pub(crate) fn solve<const LAW: u8>(
     level: Level,
     grid: &Rows,
     range: Range<usize>,
     links: &mut Links,
     p: &mut Particles,
-    inv_h2: f32,
+    scale: f32,
 ) {
     let rows = &grid.rows[grid.between(range)];
-    if RIGID {
-        solve_rigid(level, rows, &grid.mask, links, p, inv_h2);
-    } else {
-        solve_soft(level, rows, &grid.mask, links, p, inv_h2);
+    match LAW {
+        SOFT => solve_soft(level, rows, &grid.mask, links, p, scale),
+        RIGID => solve_rigid(level, rows, &grid.mask, links, p, scale),
+        _ => solve_bound(level, rows, &grid.mask, links, p, scale),
     }
 }
 
 leveled! {
-    fn solve_rigid(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, inv_h2: f32)
-        = solve_rows::<true>
+    fn solve_rigid(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
+        = solve_rows::<RIGID>
 }
 
 leveled! {
-    fn solve_soft(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, inv_h2: f32)
-        = solve_rows::<false>
+    fn solve_bound(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
+        = solve_rows::<BOUND>
+}
+
+leveled! {
+    fn solve_soft(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
+        = solve_rows::<SOFT>
 }
 
 #[inline(always)]
-fn solve_rows<const RIGID: bool>(
+fn solve_rows<const LAW: u8>(
     rows: &[Row],
     mask: &[f32],
     links: &mut Links,
     p: &mut Particles,
-    inv_h2: f32,
+    scale: f32,
 ) {
     for row in rows {
         match row.pattern {
-            Pattern::Straight => solve_row::<RIGID, STRAIGHT>(row, mask, links, p, inv_h2),
-            Pattern::Pairs => solve_row::<RIGID, PAIRS>(row, mask, links, p, inv_h2),
-            Pattern::Quads => solve_row::<RIGID, QUADS>(row, mask, links, p, inv_h2),
+            Pattern::Straight => solve_row::<LAW, STRAIGHT>(row, mask, links, p, scale),
+            Pattern::Pairs => solve_row::<LAW, PAIRS>(row, mask, links, p, scale),
+            Pattern::Quads => solve_row::<LAW, QUADS>(row, mask, links, p, scale),
         }
     }
 }
 
 #[inline(always)]
-fn solve_row<const RIGID: bool, const PATTERN: u8>(
+fn solve_row<const LAW: u8, const PATTERN: u8>(
     row: &Row,
     mask: &[f32],
     links: &mut Links,
     p: &mut Particles,
-    inv_h2: f32,
+    scale: f32,
 ) {
     let count = row.count as usize;
     let whole = count / LANES * LANES;
     for k in (0..whole).step_by(LANES) {
         if row.is_torn {
-            solve_chunk::<RIGID, PATTERN, true>(row, k, 0, mask, links, p, inv_h2);
+            solve_chunk::<LAW, PATTERN, true>(row, k, 0, mask, links, p, scale);
         } else {
-            solve_chunk::<RIGID, PATTERN, false>(row, k, 0, mask, links, p, inv_h2);
+            solve_chunk::<LAW, PATTERN, false>(row, k, 0, mask, links, p, scale);
         }
     }
     // An even number, since every two links of a row of quads belong together.
     let tail = count.saturating_sub(LANES) & !1;
     if count < LANES {
-        solve_apart::<RIGID>(row, 0..count, mask, links, p, inv_h2);
+        solve_apart::<LAW>(row, 0..count, mask, links, p, scale);
     } else if whole < count {
-        solve_chunk::<RIGID, PATTERN, true>(row, tail, whole - tail, mask, links, p, inv_h2);
-        solve_apart::<RIGID>(row, tail + LANES..count, mask, links, p, inv_h2);
+        solve_chunk::<LAW, PATTERN, true>(row, tail, whole - tail, mask, links, p, scale);
+        solve_apart::<LAW>(row, tail + LANES..count, mask, links, p, scale);
     }
 }
 
 /// Links of a row one by one.
 #[inline(always)]
-fn solve_apart<const RIGID: bool>(
+fn solve_apart<const LAW: u8>(
     row: &Row,
     range: Range<usize>,
     mask: &[f32],
     links: &mut Links,
     p: &mut Particles,
-    inv_h2: f32,
+    scale: f32,
 ) {
     for k in range {
         let link = row.first as usize + k;
         if mask[link] != 0.0 {
-            project::<RIGID>(links, link, p, inv_h2);
+            project::<LAW>(links, link, p, scale);
         }
     }
 }
@@ -114,14 +119,14 @@ fn solve_apart<const RIGID: bool>(
 /// Links `k` to `k + 8` of a row, but for the first `done` of them; with `CHOOSY` set, only those
 /// that are still in the row.
 #[inline(always)]
-fn solve_chunk<const RIGID: bool, const PATTERN: u8, const CHOOSY: bool>(
+fn solve_chunk<const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
     row: &Row,
     k: usize,
     done: usize,
     mask: &[f32],
     links: &mut Links,
     p: &mut Particles,
-    inv_h2: f32,
+    scale: f32,
 ) {
     let first = row.first as usize + k;
     let mut keep = [1.0; LANES];
@@ -132,9 +137,9 @@ fn solve_chunk<const RIGID: bool, const PATTERN: u8, const CHOOSY: bool>(
         }
     }
     let rest = lanes(&links.rest, first);
-    let (mut softness, mut lambda) = ([0.0; LANES], [0.0; LANES]);
-    if !RIGID {
-        softness = lanes(&links.compliance, first);
+    let (mut compliance, mut lambda) = ([0.0; LANES], [0.0; LANES]);
+    if LAW == SOFT {
+        compliance = lanes(&links.compliance, first);
         lambda = lanes(&links.lambda, first);
     }
     let Columns { x, y, z } = &mut p.x;
@@ -143,9 +148,9 @@ fn solve_chunk<const RIGID: bool, const PATTERN: u8, const CHOOSY: bool>(
     let (wa, wb) = load(&p.w);
     for i in 0..LANES {
         let (dx, dy, dz) = (xb[i] - xa[i], yb[i] - ya[i], zb[i] - za[i]);
-        let softness = softness[i] * inv_h2;
+        let (weight, compliance) = (wa[i] + wb[i], compliance[i]);
         let (share, multiplier) =
-            correct::<RIGID>([dx, dy, dz], wa[i] + wb[i], rest[i], softness, lambda[i]);
+            correct::<LAW>([dx, dy, dz], weight, rest[i], compliance, lambda[i], scale);
         let (to_a, to_b) = (share * wa[i], -(share * wb[i]));
         let take = |new: f32, old: f32| if CHOOSY && keep[i] == 0.0 { old } else { new };
         xa[i] = take(xa[i] + dx * to_a, xa[i]);
@@ -156,7 +161,7 @@ fn solve_chunk<const RIGID: bool, const PATTERN: u8, const CHOOSY: bool>(
         zb[i] = take(zb[i] + dz * to_b, zb[i]);
         lambda[i] = take(multiplier, lambda[i]);
     }
-    if !RIGID {
+    if LAW == SOFT {
         links.lambda[first..first + LANES].copy_from_slice(&lambda);
     }
     store::<PATTERN>(row, k, x, &xa, &xb);

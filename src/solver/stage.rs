@@ -16,13 +16,14 @@ pub enum Stage {
     Contacts,
     Velocities,
     Tear,
+    Limit,
     Guard,
     Outputs,
 }
 
 impl Stage {
     /// How many there are.
-    pub const COUNT: usize = 13;
+    pub const COUNT: usize = 14;
 
     /// All of them, in order.
     pub const ALL: [Self; Self::COUNT] = [
@@ -37,6 +38,7 @@ impl Stage {
         Self::Contacts,
         Self::Velocities,
         Self::Tear,
+        Self::Limit,
         Self::Guard,
         Self::Outputs,
     ];
@@ -55,6 +57,7 @@ impl Stage {
             Self::Contacts => "contacts",
             Self::Velocities => "velocities",
             Self::Tear => "tear",
+            Self::Limit => "limit",
             Self::Guard => "guard",
             Self::Outputs => "outputs",
         }

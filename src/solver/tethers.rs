@@ -3,7 +3,14 @@
 use super::World;
 use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
+use crate::math::max;
 use crate::math::simd::{Level, leveled};
+
+/// What tethers of soft links give at least.
+const LEAST_SLACK: f32 = 0.005;
+
+/// By how much the load may exceed the cloth's own weight on a strip.
+const SAFETY: f32 = 4.0;
 
 /// Looks up where the pins are, after they moved.
 pub(crate) fn look(world: &mut World) {
@@ -19,15 +26,71 @@ pub(crate) fn look(world: &mut World) {
 
 /// Pulls every particle within reach of the pins it is tethered to.
 pub(crate) fn solve(world: &mut World) {
+    draw_in(world, world.tether_slack);
+}
+
+/// How much farther than along the cloth at rest a particle may get, as a factor: so much that
+/// tethers bear what the sweeps have not got to, and nothing of what the cloth really stretches by.
+pub(crate) fn measure_slack(world: &mut World) {
+    let apart = held_apart(world);
+    let own = 1.0 + stretch_of_own_weight(world);
+    world.tether_slack = if apart > own { apart } else { own };
+}
+
+/// More than the load of gravity stretches the cloth by; nothing where links are rigid.
+///
+/// A strip of length L hangs with a strain of σ g L / K at its top; folds and wind may add to that.
+fn stretch_of_own_weight(world: &World) -> f32 {
     let material = &world.material;
-    let rigid = material.stretch_stiffness_warp == 0.0 && material.stretch_stiffness_weft == 0.0;
-    let slack = if rigid {
-        1.0
-    } else if world.settings.max_stretch > 0.0 {
-        1.0 + world.settings.max_stretch
-    } else {
-        return;
-    };
+    let (weft, warp) = (material.stretch_stiffness_weft, material.stretch_stiffness_warp);
+    let softest = if weft > 0.0 && (warp == 0.0 || weft < warp) { weft } else { warp };
+    if softest == 0.0 {
+        return 0.0;
+    }
+    let sets = world.tethers.sets().iter().flat_map(|set| &set.length);
+    let longest = sets.fold(0.0, |most: f32, l| if l.is_finite() { max(*l, most) } else { most });
+    let strain = material.density * world.settings.gravity.length() * longest / softest;
+    let own = LEAST_SLACK + SAFETY * strain;
+    let bound = world.settings.max_stretch;
+    if bound > 0.0 && bound * 0.5 < own { bound * 0.5 } else { own }
+}
+
+/// How far pins and grabs hold the cloth apart: the distance between two of them over the way along
+/// the cloth between them, at most.
+fn held_apart(world: &World) -> f32 {
+    let x = &world.particles.x;
+    let mut most = 1.0;
+    for set in world.tethers.sets() {
+        let held = world.grabs.iter().map(|held| held.particle);
+        for particle in held.chain(world.pins.iter().map(|pin| pin.particle)) {
+            let (length, anchor) = (set.length[particle as usize], set.anchor[particle as usize]);
+            if length > 0.0 && length.is_finite() {
+                let span = x.at(particle as usize) - x.at(anchor as usize);
+                most = max(span.length() / length, most);
+            }
+        }
+        if set.only.is_some() {
+            continue;
+        }
+        // Where the parts of two pins meet, a way leads from one to the other.
+        for triangle in &world.mesh.triangles {
+            let [a, b, c] = triangle.map(|v| v as usize);
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                let (from, to) = (set.anchor[p], set.anchor[q]);
+                if from < to && set.length[p].is_finite() && set.length[q].is_finite() {
+                    let rest = |v: usize| world.rest[world.mesh.source[v] as usize];
+                    let way = set.length[p] + (rest(q) - rest(p)).length() + set.length[q];
+                    let span = x.at(to as usize) - x.at(from as usize);
+                    most = max(span.length() / way, most);
+                }
+            }
+        }
+    }
+    most
+}
+
+/// Pulls every particle within `slack` times its way to the pins.
+pub(crate) fn draw_in(world: &mut World, slack: f32) {
     let level = world.level;
     let p = &mut world.particles;
     for set in world.tethers.sets() {

@@ -18,6 +18,9 @@ pub enum EventKind {
     Recovered = 3,
     /// Tearing stopped: the room that was reserved for it is used up. Told once.
     ReserveUsedUp = 4,
+    /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
+    /// `particle_a` and `particle_b`. Told once, until the bound holds again.
+    HeldApart = 5,
 }
 
 /// Something that happened in a tick. Fields that its kind does not mention are 0.

@@ -28,10 +28,11 @@ pub struct Settings {
     /// The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
     /// rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
     pub max_displacement: f32,
-    /// The most that a link may be stretched after a tick: 0.02 is 2 %; 0 is no bound.
+    /// The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
+    /// apart: 0.02 is 2 %; 0 is no bound. Then [`Stats::over_stretched`](crate::Stats) and an event say so.
     pub max_stretch: f32,
-    /// Long-range attachments that keep every particle within reach of the pins; on. They hold
-    /// where links are rigid (`stretch_stiffness` 0), or at `max_stretch` where they are not.
+    /// Long-range attachments that keep every particle within reach of the pins; on. They bear what the
+    /// sweeps do not get to, and nothing of what a load stretches soft links by.
     pub tethers: bool,
     /// Layers of the cloth keep apart; off.
     pub self_collision: bool,

@@ -1,0 +1,108 @@
+//! The stretch bound: after every tick, whatever the resolution, tick, material or treatment.
+
+use muslin::glam::Vec3;
+use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Preset, Wind};
+
+mod common;
+
+/// Of all links, the most stretched one, as length over rest length.
+fn longest(cloth: &Cloth, rest: &[Vec3]) -> f32 {
+    let (x, source) = (cloth.positions(), cloth.source_vertices());
+    let at = |v: u32| rest[source[v as usize] as usize];
+    let ratio = |(a, b, _)| {
+        let span: Vec3 = x[b as usize] - x[a as usize];
+        span.length() / (at(b) - at(a)).length()
+    };
+    cloth.links().map(ratio).fold(0.0, f32::max)
+}
+
+fn storm() -> Wind {
+    Wind { velocity: Vec3::new(4.0, 1.0, 12.0), gust: 1.0, turbulence: 0.5, ..Wind::default() }
+}
+
+fn bounded(columns: u32, pin_mode: PinMode, material: Material, max_stretch: f32) -> GridDesc {
+    let spacing = 1.0 / (columns - 1) as f32;
+    let mut desc = GridDesc { columns, rows: columns, spacing, pin_mode, ..GridDesc::default() };
+    desc.material = material;
+    desc.settings.max_stretch = max_stretch;
+    desc
+}
+
+/// Plays 3 s of storm and checks the bound after every tick; the sum of sweeps shows in the time.
+fn assert_bounded(desc: &GridDesc) {
+    let mut cloth = Cloth::grid(desc).unwrap();
+    let rest = cloth.positions().to_vec();
+    cloth.set_wind(storm()).unwrap();
+    for tick in 0..(3.0 / desc.settings.tick) as u32 {
+        cloth.step(1);
+        let (longest, most) = (longest(&cloth, &rest), 1.0 + desc.settings.max_stretch);
+        assert!(longest <= most * 1.00001, "{longest} over {most} in tick {tick} of {desc:?}");
+        assert_eq!(
+            cloth.stats().over_stretched,
+            0,
+            "{longest} over {most} in tick {tick} {desc:?}"
+        );
+    }
+    assert!(cloth.next_event().is_none());
+}
+
+#[test]
+fn a_storm_stretches_no_link_past_the_bound() {
+    for material in [Material::default(), Material::preset(Preset::Silk)] {
+        for (columns, pin_mode) in
+            [(24, PinMode::TopEdge), (40, PinMode::TopCorners), (56, PinMode::TopCorners)]
+        {
+            assert_bounded(&bounded(columns, pin_mode, material.clone(), 0.02));
+        }
+    }
+}
+
+#[test]
+fn the_bound_holds_at_any_tick_and_mass() {
+    for tick in [1.0 / 30.0, 1.0 / 240.0] {
+        for density in [0.02, 3.0] {
+            let material = Material { density, ..Material::preset(Preset::Cotton) };
+            let mut desc = bounded(24, PinMode::TopCorners, material, 0.01);
+            desc.settings.tick = tick;
+            assert_bounded(&desc);
+        }
+    }
+}
+
+#[test]
+fn a_cloth_held_apart_says_so_once_and_recovers() {
+    let desc = bounded(24, PinMode::TopCorners, Material::preset(Preset::Cotton), 0.02);
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let rest = cloth.positions().to_vec();
+    let grab = cloth.grab_particle(23 * 24 + 12).unwrap();
+    cloth.move_grab(grab, Vec3::new(0.5, -2.0, 0.0)).unwrap();
+    cloth.step(120);
+    assert!(cloth.stats().over_stretched > 0);
+    let told: Vec<_> = std::iter::from_fn(|| cloth.next_event()).collect();
+    assert_eq!(told.len(), 1);
+    assert_eq!(told[0].kind, EventKind::HeldApart);
+    cloth.release(grab).unwrap();
+    for _ in 0..120 {
+        cloth.step(1);
+        assert!(longest(&cloth, &rest) <= 1.0201);
+    }
+    assert_eq!(cloth.stats().over_stretched, 0);
+    assert!(cloth.next_event().is_none());
+}
+
+#[test]
+fn pins_that_jerk_the_cloth_about_do_not_stretch_it() {
+    let desc = bounded(40, PinMode::TopEdge, Material::default(), 0.02);
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let rest = cloth.positions().to_vec();
+    let top: Vec<u32> = (0..40).collect();
+    for tick in 0..180 {
+        let t = tick as f32 * 0.15;
+        let shift = Vec3::new(t.sin(), 0.5 * (1.7 * t).sin(), (0.8 * t).cos() - 1.0) * 0.6;
+        let targets: Vec<Vec3> = rest[..40].iter().map(|x| *x + shift).collect();
+        cloth.set_pin_targets(&top, &targets).unwrap();
+        cloth.step(1);
+        let longest = longest(&cloth, &rest);
+        assert!(longest <= 1.0201, "{longest} in tick {tick}");
+    }
+}
