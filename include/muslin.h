@@ -97,8 +97,14 @@
 /** Tearing stopped: the room that `extra_particles` reserved for it is used up. Told once. */
 #define MUSLIN_EVENT_RESERVE_USED_UP 4
 
+/**
+ * Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
+ * `particle_a` and `particle_b`. Told once, until the bound holds again.
+ */
+#define MUSLIN_EVENT_HELD_APART 5
+
 /** Room for the times of stages in MuslinStats; how many there are is in `stage_count`. */
-#define MUSLIN_STAGE_SLOTS 32
+#define MUSLIN_STAGE_SLOTS 31
 
 /**
  * What became of a call. Whatever is not MUSLIN_STATUS_OK left the cloth and all `out_...` parameters
@@ -241,11 +247,14 @@ typedef struct MuslinSettings {
    * rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
    */
   float max_displacement;
-  /** The most that a link may be stretched after a tick: 0.02 is 2 %; 0, no bound. At least 0. */
+  /**
+   * The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
+   * apart: 0.02 is 2 %; 0, no bound. At least 0.
+   */
   float max_stretch;
   /**
    * 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
-   * They hold where links are rigid (stretch stiffness 0), or at `max_stretch` where they are not.
+   * They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
    */
   uint32_t tethers;
   /** Whether layers of the cloth keep apart; 0. 1 is not supported yet. */
@@ -536,6 +545,10 @@ typedef struct MuslinStats {
    * Timing begins with the first muslin_cloth_get_stats of a cloth: until then zeros.
    */
   float seconds[MUSLIN_STAGE_SLOTS];
+  /**
+   * How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
+   */
+  uint32_t over_stretched;
 } MuslinStats;
 
 #ifdef __cplusplus

@@ -146,6 +146,8 @@ function tell(event: ClothEvent): number {
       return event.vertex;
     case "reserve-used-up":
       return event.tick + event.position[0];
+    case "held-apart":
+      return event.particleA + event.particleB + event.count;
   }
 }
 const sum: number = cloth.events().reduce((total, event) => total + tell(event), 0);

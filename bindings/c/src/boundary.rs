@@ -222,8 +222,7 @@ growing! {
     MuslinEvent from source[4] to count[4], "muslin_event_init";
     MuslinHit from normal[12] to normal[12], "muslin_hit_init";
     MuslinView from state_revision[4] to state_revision[4], "muslin_view_init";
-    MuslinStats from seconds[4 * MUSLIN_STAGE_SLOTS] to seconds[4 * MUSLIN_STAGE_SLOTS],
-        "muslin_stats_init";
+    MuslinStats from seconds[4 * MUSLIN_STAGE_SLOTS] to over_stretched[4], "muslin_stats_init";
 }
 
 /// No struct ever grows beyond this [B]: whatever says so was never begun.

@@ -73,7 +73,10 @@ export interface Settings {
   damping: number;
   /** The farthest that a particle moves in a substep, in mean rest lengths; 0.5. Above 0. */
   maxDisplacement: number;
-  /** The most that a link may be stretched after a tick: 0.02 is 2 %; 0 is no bound. */
+  /**
+   * The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
+   * apart: 0.02 is 2 %; 0 is no bound.
+   */
   maxStretch: number;
   /** Long-range attachments that keep every particle within reach of the pins; true. */
   tethers: boolean;
@@ -255,6 +258,16 @@ export type ClothEvent = { tick: number; position: Vec3 } & (
       /** Tearing stopped: the room that was reserved for it is used up. Told once. */
       kind: "reserve-used-up";
     }
+  | {
+      /**
+       * Pins or grabs hold the cloth apart: `count` links are past `maxStretch`, one of them between
+       * the two. Told once, until the bound holds again.
+       */
+      kind: "held-apart";
+      particleA: number;
+      particleB: number;
+      count: number;
+    }
 );
 
 /** The stages of a tick. */
@@ -270,6 +283,7 @@ export type Stage =
   | "contacts"
   | "velocities"
   | "tear"
+  | "limit"
   | "guard"
   | "outputs";
 
@@ -295,6 +309,8 @@ export interface Stats {
   meanStretch: number;
   /** Energy of motion [J]. */
   kineticEnergy: number;
+  /** How many links are past `maxStretch`, if there is such a bound: pins or grabs hold them apart. */
+  overStretched: number;
   /** Memory that it holds [B], about. */
   bytes: number;
   /** Time that each stage took in the last call that ran ticks [s]; zeros unless `timing` is on. */

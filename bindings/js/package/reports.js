@@ -1,9 +1,23 @@
 // What the core reports as lists of numbers, given names.
 
-const KINDS = ["edge-torn", "vertex-split", "piece-detached", "recovered", "reserve-used-up"];
+const KINDS = [
+  "edge-torn",
+  "vertex-split",
+  "piece-detached",
+  "recovered",
+  "reserve-used-up",
+  "held-apart",
+];
 
 /** The fields that each kind of event has, besides kind, tick and position. */
-const TOLD = [["particleA", "particleB"], ["vertex", "source"], ["vertex", "count"], ["count"], []];
+const TOLD = [
+  ["particleA", "particleB"],
+  ["vertex", "source"],
+  ["vertex", "count"],
+  ["count"],
+  [],
+  ["particleA", "particleB", "count"],
+];
 
 const FIELDS = ["particleA", "particleB", "vertex", "source", "count"];
 const EVENT_SIZE = 5 + FIELDS.length;
@@ -19,6 +33,7 @@ const STATS = [
   "maxStretch",
   "meanStretch",
   "kineticEnergy",
+  "overStretched",
   "bytes",
 ];
 

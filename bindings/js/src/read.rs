@@ -121,6 +121,7 @@ impl RawCloth {
         list.counts(&[stats.particles, stats.triangles, stats.constraints]);
         list.counts(&[stats.active_constraints, stats.pieces, stats.ticks]);
         list.numbers(&[stats.blend, stats.max_stretch, stats.mean_stretch, stats.kinetic_energy]);
+        list.counts(&[stats.over_stretched]);
         list.0.push(stats.bytes as f64);
         list.numbers(&stats.seconds);
         list.0

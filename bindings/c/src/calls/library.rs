@@ -57,6 +57,7 @@ pub extern "C" fn muslin_stage_name(stage: u32) -> *const c_char {
         c"contacts",
         c"velocities",
         c"tear",
+        c"limit",
         c"guard",
         c"outputs",
     ];

@@ -13,6 +13,9 @@ pub const MUSLIN_EVENT_PIECE_DETACHED: u32 = 2;
 pub const MUSLIN_EVENT_RECOVERED: u32 = 3;
 /// Tearing stopped: the room that `extra_particles` reserved for it is used up. Told once.
 pub const MUSLIN_EVENT_RESERVE_USED_UP: u32 = 4;
+/// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
+/// `particle_a` and `particle_b`. Told once, until the bound holds again.
+pub const MUSLIN_EVENT_HELD_APART: u32 = 5;
 
 /// Something that happened in a tick. Fields that its kind does not mention are 0. Begin with
 /// muslin_event_init.
@@ -61,4 +64,5 @@ const _: () = {
     assert!(MUSLIN_EVENT_PIECE_DETACHED == EventKind::PieceDetached as u32);
     assert!(MUSLIN_EVENT_RECOVERED == EventKind::Recovered as u32);
     assert!(MUSLIN_EVENT_RESERVE_USED_UP == EventKind::ReserveUsedUp as u32);
+    assert!(MUSLIN_EVENT_HELD_APART == EventKind::HeldApart as u32);
 };

@@ -32,10 +32,11 @@ pub struct MuslinSettings {
     /// The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
     /// rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
     pub max_displacement: f32,
-    /// The most that a link may be stretched after a tick: 0.02 is 2 %; 0, no bound. At least 0.
+    /// The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
+    /// apart: 0.02 is 2 %; 0, no bound. At least 0.
     pub max_stretch: f32,
     /// 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
-    /// They hold where links are rigid (stretch stiffness 0), or at `max_stretch` where they are not.
+    /// They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
     pub tethers: u32,
     /// Whether layers of the cloth keep apart; 0. 1 is not supported yet.
     pub self_collision: u32,

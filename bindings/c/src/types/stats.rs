@@ -3,7 +3,7 @@
 use muslin_core::{Stage, Stats};
 
 /// Room for the times of stages in MuslinStats; how many there are is in `stage_count`.
-pub const MUSLIN_STAGE_SLOTS: usize = 32;
+pub const MUSLIN_STAGE_SLOTS: usize = 31;
 
 /// Numbers about a cloth. Begin with muslin_stats_init.
 #[repr(C)]
@@ -39,6 +39,8 @@ pub struct MuslinStats {
     /// Time that each stage took in the last call that ran ticks [s]; muslin_stage_name names them.
     /// Timing begins with the first muslin_cloth_get_stats of a cloth: until then zeros.
     pub seconds: [f32; MUSLIN_STAGE_SLOTS],
+    /// How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
+    pub over_stretched: u32,
 }
 
 const _: () = assert!(Stage::COUNT <= MUSLIN_STAGE_SLOTS);
@@ -62,6 +64,7 @@ impl From<Stats> for MuslinStats {
             stage_count: Stage::COUNT as u32,
             bytes: stats.bytes,
             seconds,
+            over_stretched: stats.over_stretched,
         }
     }
 }
