@@ -46,6 +46,11 @@ fn assert_equal_bits(material: &Material) {
         for level in Level::all() {
             let grid = play(material, columns, rows, |cloth| cloth.world.level = level);
             assert_eq!(grid, general, "{columns} x {rows} at {level:?}");
+            let packed = play(material, columns, rows, |cloth| {
+                (cloth.world.weave.rows, cloth.world.cells) = (None, None);
+                cloth.world.level = level;
+            });
+            assert_eq!(packed, general, "{columns} x {rows} as a mesh at {level:?}");
         }
     }
 }

@@ -136,6 +136,7 @@ fn build(
         cells,
     };
     world.pins.reserve(capacity);
+    world.reserve_packed(capacity);
     world.outward.reserve(capacity, world.weave.links.len());
     for particle in pinned {
         let x = world.rest[*particle as usize];
@@ -189,6 +190,13 @@ impl World {
             self.mesh.triangles.len(),
             self.settings.max_tears_per_tick as usize,
         );
+        self.reserve_packed(capacity);
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
+    }
+
+    fn reserve_packed(&mut self, capacity: usize) {
+        if self.weave.rows.is_none() {
+            self.scratch.packed.points.reserve_exact(capacity);
+        }
     }
 }

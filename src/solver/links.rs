@@ -4,13 +4,14 @@
 //! a ●───── n ─────▶ ● b        c = |b - a| - rest
 //! ```
 //! Macklin, Müller, Chentanez, "XPBD", MIG 2016, eq. 18. Links of one colour share no particle, so
-//! inside a batch any order gives the same bits: a grid's batches go row by row (see `rows`), the
-//! others link by link. The extra links of torn edges go in their order.
+//! inside a batch any order gives the same bits: a grid's batches go row by row (see `rows`), those of
+//! other meshes eight by eight (see `packed`). The extra links of torn edges go in their order.
 
-use super::{World, rows};
+use super::{World, packed, rows};
 use crate::fabric::weave::{LinkKind, Links};
 use crate::math::{TINY, max};
 use crate::state::particles::Particles;
+use glam::Vec3;
 
 /// How a link resists, as a number that kernels can be compiled for: …
 /// by its compliance;
@@ -82,46 +83,74 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, kind: LinkKind, scal
     }
     let range = batch.first..batch.first + batch.count;
     let (weave, p) = (&mut world.weave, &mut world.particles);
-    let Some(grid) = &weave.rows else {
-        for link in range {
-            project::<LAW>(&mut weave.links, link, p, scale);
+    let packed = &mut world.scratch.packed;
+    if let Some(grid) = &weave.rows {
+        rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
+        for link in grid.strays(range) {
+            project::<LAW, _>(&mut weave.links, *link as usize, p, scale);
         }
-        return;
-    };
-    rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
-    for link in grid.strays(range) {
-        project::<LAW>(&mut weave.links, *link as usize, p, scale);
+    } else if packed.is_current {
+        packed::solve::<LAW>(world.level, range, &mut weave.links, &mut packed.points, scale);
+    } else {
+        range.for_each(|link| project::<LAW, _>(&mut weave.links, link, p, scale));
     }
 }
 
 fn solve_extra<const LAW: u8>(world: &mut World, link: usize, kind: LinkKind, scale: f32) {
-    if world.weave.extra.kind(link) == kind {
-        project::<LAW>(&mut world.weave.extra, link, &mut world.particles, scale);
+    let (links, packed) = (&mut world.weave.extra, &mut world.scratch.packed);
+    if links.kind(link) != kind {
+        return;
+    }
+    if packed.is_current {
+        project::<LAW, _>(links, link, &mut packed.points, scale);
+    } else {
+        project::<LAW, _>(links, link, &mut world.particles, scale);
+    }
+}
+
+/// Where particles are while links are solved.
+pub(crate) trait Spots {
+    /// A particle's position and inverse mass.
+    fn spot(&self, i: usize) -> (Vec3, f32);
+
+    /// Moves a particle.
+    fn put(&mut self, i: usize, x: Vec3);
+}
+
+impl Spots for Particles {
+    #[inline(always)]
+    fn spot(&self, i: usize) -> (Vec3, f32) {
+        (self.x.at(i), self.w[i])
+    }
+
+    #[inline(always)]
+    fn put(&mut self, i: usize, x: Vec3) {
+        self.x.set(i, x);
     }
 }
 
 /// One link by itself.
 #[inline(always)]
-pub(crate) fn project<const LAW: u8>(
+pub(crate) fn project<const LAW: u8, S: Spots>(
     links: &mut Links,
     link: usize,
-    p: &mut Particles,
+    spots: &mut S,
     scale: f32,
 ) {
     if !links.active[link] {
         return;
     }
     let (a, b) = (links.a[link] as usize, links.b[link] as usize);
-    let (wa, wb) = (p.w[a], p.w[b]);
-    let span = p.x.at(b) - p.x.at(a);
+    let ((xa, wa), (xb, wb)) = (spots.spot(a), spots.spot(b));
+    let span = xb - xa;
     let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
     let (share, lambda) =
         correct::<LAW>(span.to_array(), wa + wb, links.rest[link], compliance, lambda, scale);
     if LAW == SOFT {
         links.lambda[link] = lambda;
     }
-    p.x.add(a, span * (share * wa));
-    p.x.add(b, span * -(share * wb));
+    spots.put(a, xa + span * (share * wa));
+    spots.put(b, xb + span * -(share * wb));
 }
 
 /// The share of its span that a link gives back for each unit of inverse mass, and its multiplier

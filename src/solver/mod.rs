@@ -7,6 +7,7 @@ pub(crate) mod hold;
 pub(crate) mod limit;
 pub(crate) mod links;
 pub(crate) mod outputs;
+pub(crate) mod packed;
 pub(crate) mod pipeline;
 pub(crate) mod predict;
 pub(crate) mod profile;
@@ -92,6 +93,7 @@ pub(crate) struct Scratch {
     pub predicted: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub anchor: Columns,
+    pub packed: packed::Packed,
     /// What each particle touched in this substep, if anything.
     pub touch: Vec<contacts::Touch>,
     pub tear: tear::Scratch,
@@ -110,6 +112,7 @@ impl Scratch {
             way: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
+            packed: packed::Packed::default(),
             touch: Vec::with_capacity(capacity),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),

@@ -2,7 +2,7 @@
 
 use super::stage::Stage;
 use super::{
-    World, contacts, forces, guard, hold, limit, links, predict, tear, tethers, velocities,
+    World, contacts, forces, guard, hold, limit, links, packed, predict, tear, tethers, velocities,
 };
 use crate::fabric::weave::LinkKind;
 use links::Order;
@@ -48,6 +48,7 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Tethers, tethers::look(world));
     }
     links::restart(world);
+    timed!(world, Stretch, packed::pack(world));
     for iteration in 0..world.settings.iterations {
         if world.settings.tethers {
             timed!(world, Tethers, tethers::solve(world));
@@ -65,6 +66,7 @@ fn run_substep(world: &mut World, number: u32) {
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::draw_in(world));
     }
+    timed!(world, Bend, packed::unpack(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));
 }

@@ -8,14 +8,9 @@ use super::links::{BOUND, RIGID, SOFT, correct, project};
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::fabric::weave::Links;
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, leveled};
+use crate::math::simd::{LANES, Lanes, Level, lanes, leveled};
 use crate::state::particles::Particles;
 use core::ops::Range;
-
-/// Links in a chunk.
-const LANES: usize = 8;
-
-type Lanes = [f32; LANES];
 
 /// The patterns as numbers that a kernel can be compiled for.
 const STRAIGHT: u8 = Pattern::Straight as u8;
@@ -111,7 +106,7 @@ fn solve_apart<const LAW: u8>(
     for k in range {
         let link = row.first as usize + k;
         if mask[link] != 0.0 {
-            project::<LAW>(links, link, p, scale);
+            project::<LAW, _>(links, link, p, scale);
         }
     }
 }
@@ -167,13 +162,6 @@ fn solve_chunk<const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
     store::<PATTERN>(row, k, x, &xa, &xb);
     store::<PATTERN>(row, k, y, &ya, &yb);
     store::<PATTERN>(row, k, z, &za, &zb);
-}
-
-#[inline(always)]
-fn lanes(list: &[f32], first: usize) -> Lanes {
-    let mut lanes = [0.0; LANES];
-    lanes.copy_from_slice(&list[first..first + LANES]);
-    lanes
 }
 
 /// One column at both ends of links `k` to `k + 8` of a row.

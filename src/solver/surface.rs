@@ -5,12 +5,9 @@
 
 use crate::fabric::cells::Cells;
 use crate::math::columns::Columns;
+use crate::math::simd::{LANES, Lanes};
 use crate::mesh::grid::falls;
 
-/// Cells in a chunk.
-const LANES: usize = 8;
-
-type Lanes = [f32; LANES];
 type V = [f32; 3];
 
 /// What a triangle gives.

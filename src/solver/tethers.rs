@@ -91,10 +91,24 @@ fn held_apart(world: &World) -> f32 {
 
 /// Pulls every particle within `slack` times its way to the pins.
 pub(crate) fn draw_in(world: &mut World, slack: f32) {
-    let level = world.level;
-    let p = &mut world.particles;
+    let (level, p) = (world.level, &mut world.particles);
+    let (found, packed) = (&world.scratch.anchor, &mut world.scratch.packed);
     for set in world.tethers.sets() {
-        pull_set(level, set, slack, &world.scratch.anchor, &mut p.x, &p.w);
+        if packed.is_current {
+            pull_packed(set, slack, found, &mut packed.points);
+        } else {
+            pull_set(level, set, slack, found, &mut p.x, &p.w);
+        }
+    }
+}
+
+fn pull_packed(set: &TetherSet, slack: f32, found: &Columns, points: &mut [[f32; 4]]) {
+    let only = set.only.map(|pin| points[pin as usize]);
+    for (i, (point, length)) in points.iter_mut().zip(&set.length).enumerate() {
+        let [x, y, z, w] = *point;
+        let pin = only.map_or_else(|| found.at(i).to_array(), |[x, y, z, _]| [x, y, z]);
+        let [x, y, z] = within([x, y, z], pin, length * slack, w);
+        *point = [x, y, z, w];
     }
 }
 
