@@ -126,6 +126,8 @@ fn build(
         over_stretch_told: false,
         outward: Outward::default(),
         tether_slack: 1.0,
+        apart: 1.0,
+        is_apart_current: false,
         events: Events::new(),
         level: Level::best(),
         profile: Profile::default(),

@@ -47,6 +47,9 @@ pub(crate) struct World {
     pub outward: Outward,
     /// See `tethers::measure_slack`.
     pub tether_slack: f32,
+    /// How far pins hold the cloth apart, see `tethers::held_apart`, and whether that is still so.
+    pub apart: f32,
+    pub is_apart_current: bool,
     /// Rest position of each original vertex [m].
     pub rest: Vec<Vec3>,
     /// The share of its triangle's rest area that belongs to each corner [m²].
@@ -181,6 +184,7 @@ impl World {
     pub fn place(&mut self, particle: usize, x: Vec3, v: Vec3) {
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
         self.particles.place(particle, x, v, gravity, h);
+        self.is_apart_current = false;
     }
 
     /// Begins every history anew, after the kind of substep changed.
@@ -198,6 +202,7 @@ impl World {
     pub fn tether(&mut self) {
         let pinned = self.pins.iter().map(|pin| pin.particle);
         self.tethers.measure(&self.mesh, &self.rest, pinned);
+        self.is_apart_current = false;
         self.sort_outward();
     }
 

@@ -35,7 +35,10 @@ pub(crate) struct Surface<'a> {
 #[inline(always)]
 pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, out: &mut Columns) {
     let Some(cells) = surface.cells.filter(|cells| cells.columns > LANES) else {
-        return (0..surface.triangles.len()).for_each(|at| add_triangle(surface, at, give, out));
+        let count = surface.triangles.len();
+        let whole = count / LANES * LANES;
+        (0..whole).step_by(LANES).for_each(|first| add_triangles(surface, first, give, out));
+        return (whole..count).for_each(|at| add_triangle(surface, at, give, out));
     };
     let across = cells.columns - 1;
     for row in 0..cells.rows - 1 {
@@ -69,6 +72,41 @@ fn add_triangle<G: Give>(surface: Surface<'_>, at: usize, give: G, out: &mut Col
     }
 }
 
+/// Eight triangles from anywhere: what they give is found in lanes, and added one by one.
+#[inline(always)]
+fn add_triangles<G: Give>(surface: Surface<'_>, first: usize, give: G, out: &mut Columns) {
+    let zero = Vectors { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
+    let (mut xa, mut xb, mut xc) = (zero, zero, zero);
+    let (mut ua, mut ub, mut uc) = (zero, zero, zero);
+    let mut area = [0.0; LANES];
+    for lane in 0..LANES {
+        let [a, b, c] = surface.triangles[first + lane].map(|v| v as usize);
+        xa.set(lane, surface.x.at(a).to_array());
+        xb.set(lane, surface.x.at(b).to_array());
+        xc.set(lane, surface.x.at(c).to_array());
+        ua.set(lane, surface.air.at(a).to_array());
+        ub.set(lane, surface.air.at(b).to_array());
+        uc.set(lane, surface.air.at(c).to_array());
+        let areas = surface.areas[first + lane];
+        area[lane] = areas[0] + areas[1] + areas[2];
+    }
+    let mut given = zero;
+    for lane in 0..LANES {
+        let x = [xa.at(lane), xb.at(lane), xc.at(lane)];
+        given.set(lane, give.give(x, [ua.at(lane), ub.at(lane), uc.at(lane)], area[lane]));
+    }
+    for lane in 0..LANES {
+        let [gx, gy, gz] = given.at(lane);
+        let at = first + lane;
+        for (v, area) in surface.triangles[at].into_iter().zip(surface.areas[at]) {
+            let part = give.part(area);
+            out.x[v as usize] += gx * part;
+            out.y[v as usize] += gy * part;
+            out.z[v as usize] += gz * part;
+        }
+    }
+}
+
 /// Eight cells next to each other, of which the first ones are done.
 #[derive(Clone, Copy)]
 struct Place {
@@ -95,6 +133,11 @@ impl Vectors {
             lanes
         };
         Self { x: lanes(&columns.x), y: lanes(&columns.y), z: lanes(&columns.z) }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, v: V) {
+        (self.x[lane], self.y[lane], self.z[lane]) = (v[0], v[1], v[2]);
     }
 
     #[inline(always)]
@@ -142,13 +185,13 @@ fn add_cells<G: Give>(surface: Surface<'_>, place: Place, give: G, out: &mut Col
             [u[0], u[2], pick(falls, u[3], u[1])],
             rest_area,
         );
-        (one.x[lane], one.y[lane], one.z[lane]) = (given[0], given[1], given[2]);
+        one.set(lane, given);
         let given = give.give(
             [pick(falls, x[0], x[2]), x[3], x[1]],
             [pick(falls, u[0], u[2]), u[3], u[1]],
             rest_area,
         );
-        (two.x[lane], two.y[lane], two.z[lane]) = (given[0], given[1], given[2]);
+        two.set(lane, given);
     }
     let (quarter, half) = (give.part(areas[0]), give.part(2.0 * areas[0]));
     // Which part of the first and of the second triangle a corner gets. The right corners go first:

@@ -57,19 +57,37 @@ fn stretch_of_own_weight(world: &World) -> f32 {
 
 /// How far pins and grabs hold the cloth apart: the distance between two of them over the way along
 /// the cloth between them, at most.
-fn held_apart(world: &World) -> f32 {
+fn held_apart(world: &mut World) -> f32 {
+    if !world.is_apart_current {
+        world.apart = pins_apart(world);
+    }
+    world.is_apart_current = world.pins.iter().all(|pin| pin.from == pin.target);
     let x = &world.particles.x;
-    let mut most = 1.0;
+    let mut most = world.apart;
     for set in world.tethers.sets() {
-        let held = world.grabs.iter().map(|held| held.particle);
-        for particle in held.chain(world.pins.iter().map(|pin| pin.particle)) {
-            let (length, anchor) = (set.length[particle as usize], set.anchor[particle as usize]);
+        for held in world.grabs.iter().map(|held| held.particle as usize) {
+            let (length, anchor) = (set.length[held], set.anchor[held]);
             if length > 0.0 && length.is_finite() {
-                let span = x.at(particle as usize) - x.at(anchor as usize);
-                most = max(span.length() / length, most);
+                most = max((x.at(held) - x.at(anchor as usize)).length() / length, most);
             }
         }
-        if set.only.is_some() {
+    }
+    most
+}
+
+/// As `held_apart`, for pins only; at least 1.
+fn pins_apart(world: &World) -> f32 {
+    let x = &world.particles.x;
+    let mut most = 1.0;
+    let mut compare = |a: u32, b: u32, way: f32| {
+        let span = x.at(b as usize) - x.at(a as usize);
+        most = max(span.length() / way, most);
+    };
+    for set in world.tethers.sets() {
+        if let Some(pin) = set.only {
+            let others = world.pins.iter().map(|other| other.particle).filter(|p| *p != pin);
+            let joined = others.filter(|other| set.length[*other as usize].is_finite());
+            joined.for_each(|other| compare(pin, other, set.length[other as usize]));
             continue;
         }
         // Where the parts of two pins meet, a way leads from one to the other.
@@ -77,11 +95,9 @@ fn held_apart(world: &World) -> f32 {
             let [a, b, c] = triangle.map(|v| v as usize);
             for (p, q) in [(a, b), (b, c), (c, a)] {
                 let (from, to) = (set.anchor[p], set.anchor[q]);
-                if from < to && set.length[p].is_finite() && set.length[q].is_finite() {
+                if from != to && set.length[p].is_finite() && set.length[q].is_finite() {
                     let rest = |v: usize| world.rest[world.mesh.source[v] as usize];
-                    let way = set.length[p] + (rest(q) - rest(p)).length() + set.length[q];
-                    let span = x.at(to as usize) - x.at(from as usize);
-                    most = max(span.length() / way, most);
+                    compare(from, to, set.length[p] + (rest(q) - rest(p)).length() + set.length[q]);
                 }
             }
         }
