@@ -106,3 +106,32 @@ fn pins_that_jerk_the_cloth_about_do_not_stretch_it() {
         assert!(longest <= 1.0201, "{longest} in tick {tick}");
     }
 }
+
+#[test]
+fn a_cloth_that_was_held_apart_is_not_flung_when_it_is_let_go() {
+    for (pin_mode, max_stretch) in
+        [(PinMode::TopEdge, 0.0), (PinMode::TopCorners, 0.0), (PinMode::TopCorners, 0.02)]
+    {
+        let mut cloth =
+            Cloth::grid(&bounded(40, pin_mode, Material::default(), max_stretch)).unwrap();
+        let top = cloth.positions()[0].y;
+        let hands = [(1380, -1.5), (1420, 1.5)].map(|(particle, way)| {
+            let grab = cloth.grab_particle(particle).unwrap();
+            let to = cloth.positions()[particle as usize] + Vec3::new(way, -0.3, 0.1);
+            cloth.move_grab(grab, to).unwrap();
+            grab
+        });
+        cloth.step(180);
+        assert!(cloth.stats().max_stretch > 0.3, "{}", cloth.stats().max_stretch);
+        hands.into_iter().for_each(|hand| cloth.release(hand).unwrap());
+        for tick in 0..60 {
+            cloth.step(1);
+            let highest = cloth.positions().iter().map(|x| x.y).fold(top, f32::max);
+            assert!(
+                highest < top + 0.25,
+                "{pin_mode:?} {max_stretch}: {} m over the pins in tick {tick}",
+                highest - top
+            );
+        }
+    }
+}

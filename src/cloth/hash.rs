@@ -5,7 +5,7 @@ use crate::math::mix::Mixer;
 
 impl Cloth {
     /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, pins, grabs and time.
+    /// triangles, pins, grabs, tethers and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
@@ -33,6 +33,7 @@ impl Cloth {
                 mixer.floats(&pose.rotation.to_array());
             }
         }
+        mixer.floats(&[world.tether_slack]);
         mixer.word(world.tick);
         mixer.finish()
     }

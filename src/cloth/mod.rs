@@ -270,7 +270,7 @@ impl Cloth {
         check_index(particle, self.world.particles.len(), "particle")?;
         if self.world.pins.remove(particle) {
             guarded(|| self.world.refresh_weight(particle));
-            self.pins_changed = true;
+            self.changed_pins();
         }
         Ok(())
     }
@@ -281,7 +281,7 @@ impl Cloth {
         guarded(|| {
             (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_weight(i));
         });
-        self.pins_changed = true;
+        self.changed_pins();
     }
 
     /// Gives many pins their targets [m] at once; particles that are not pinned yet are from now on.
@@ -305,7 +305,7 @@ impl Cloth {
         let x = self.world.particles.x.at(particle as usize);
         if self.world.pins.insert(particle, x, target) {
             guarded(|| self.world.refresh_weight(particle));
-            self.pins_changed = true;
+            self.changed_pins();
         }
     }
 
@@ -451,6 +451,11 @@ impl Cloth {
     fn changed_topology(&mut self) {
         self.topology_revision = self.topology_revision.wrapping_add(1);
         self.outputs.follow_topology(&self.world);
+    }
+
+    fn changed_pins(&mut self) {
+        self.pins_changed = true;
+        self.world.tether_slack = f32::INFINITY;
     }
 
     fn changed_state(&mut self) {

@@ -44,6 +44,7 @@ struct Saved<'a> {
     time: f64,
     tick: u32,
     reserve_told: bool,
+    tether_slack: f32,
     over_stretched: u32,
     over_stretch_told: bool,
     owed: f64,
@@ -75,6 +76,7 @@ impl Cloth {
             time: world.time,
             tick: world.tick,
             reserve_told: world.reserve_told,
+            tether_slack: world.tether_slack,
             over_stretched: world.over_stretched,
             over_stretch_told: world.over_stretch_told,
             owed: self.owed,
@@ -184,9 +186,11 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     (world.time, world.tick, world.reserve_told) = (saved.time, saved.tick, saved.reserve_told);
     world.over_stretched = saved.over_stretched;
     world.over_stretch_told = saved.over_stretch_told;
+    must(saved.tether_slack >= 0.0)?;
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
     world.weigh();
     world.tether();
+    world.tether_slack = saved.tether_slack;
     let mut outputs = Outputs::new(&world);
     outputs.set_uvs(&origin);
     outputs.follow_topology(&world);

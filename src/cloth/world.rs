@@ -125,7 +125,7 @@ fn build(
         over_stretched: 0,
         over_stretch_told: false,
         outward: Outward::default(),
-        tether_slack: 1.0,
+        tether_slack: f32::INFINITY,
         apart: 1.0,
         is_apart_current: false,
         events: Events::new(),

@@ -30,7 +30,7 @@ pub struct Material {
     pub restitution: f32,
     /// Pressure coefficient of a triangle square to the wind; 1.2. At least 0.
     pub drag: f32,
-    /// x. At least 0.
+    /// Lift coefficient of a triangle askew to the wind; 0. At least 0.
     pub lift: f32,
     /// Length over rest length at which an edge tears; 4. Above 1, or 0: never.
     pub tear_stretch: f32,

@@ -78,7 +78,10 @@ fn draw_together(world: &mut World, most: f32) {
         }
     }
     go_back(world, most);
-    follow(world);
+    // What was held apart until now comes together at once, but is not flung.
+    if !is_free_again {
+        follow(world);
+    }
 }
 
 /// Draws in what is too long from the pins outward. Of the two ends of a link the one that is farther

@@ -45,7 +45,7 @@ pub(crate) struct World {
     pub tethers: Tethers,
     /// The order of the stretch bound; current only while there is one.
     pub outward: Outward,
-    /// See `tethers::measure_slack`.
+    /// See `tethers::measure_slack`; infinite before the first tick and after pins or places changed.
     pub tether_slack: f32,
     /// How far pins hold the cloth apart, see `tethers::held_apart`, and whether that is still so.
     pub apart: f32,
@@ -185,6 +185,7 @@ impl World {
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
         self.particles.place(particle, x, v, gravity, h);
         self.is_apart_current = false;
+        self.tether_slack = f32::INFINITY;
     }
 
     /// Begins every history anew, after the kind of substep changed.
@@ -203,6 +204,7 @@ impl World {
         let pinned = self.pins.iter().map(|pin| pin.particle);
         self.tethers.measure(&self.mesh, &self.rest, pinned);
         self.is_apart_current = false;
+        self.tether_slack = f32::INFINITY;
         self.sort_outward();
     }
 

@@ -22,6 +22,8 @@ pub(crate) fn tick(world: &mut World) {
     timed!(world, Forces, forces::gather(world));
     if world.settings.tethers {
         timed!(world, Tethers, tethers::measure_slack(world));
+    } else {
+        world.tether_slack = f32::INFINITY;
     }
     for substep in 0..world.settings.substeps {
         run_substep(world, substep);

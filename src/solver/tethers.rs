@@ -3,11 +3,14 @@
 use super::World;
 use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
-use crate::math::max;
-use crate::math::simd::{Level, leveled};
+use crate::math::simd::{LANES, Level, leveled};
+use crate::math::{max, min};
 
 /// What tethers of soft links give at least.
 const LEAST_SLACK: f32 = 0.005;
+
+/// How fast what was held apart is drawn in once nothing holds it, in lengths of the way a second.
+const DRAW_IN: f32 = 2.0;
 
 /// By how much the load may exceed the cloth's own weight on a strip.
 const SAFETY: f32 = 4.0;
@@ -31,10 +34,31 @@ pub(crate) fn solve(world: &mut World) {
 
 /// How much farther than along the cloth at rest a particle may get, as a factor: so much that
 /// tethers bear what the sweeps have not got to, and nothing of what the cloth really stretches by.
+///
+/// Cloth that was held apart is drawn in little by little: at once would fling it.
 pub(crate) fn measure_slack(world: &mut World) {
+    look(world);
     let apart = held_apart(world);
     let own = 1.0 + stretch_of_own_weight(world);
-    world.tether_slack = if apart > own { apart } else { own };
+    let now = min(world.tether_slack, farthest(world));
+    let eased = now - DRAW_IN * world.settings.tick;
+    world.tether_slack = max(eased, max(apart, own));
+}
+
+/// How far the cloth is from its pins now: the distance over the way, at most.
+fn farthest(world: &World) -> f32 {
+    let (level, x) = (world.level, &world.particles.x);
+    let mut most = 0.0;
+    for set in world.tethers.sets() {
+        match set.only {
+            Some(pin) => {
+                let pin = x.at(pin as usize).to_array();
+                farthest_from_one(level, x, pin, &set.length, &mut most);
+            }
+            None => farthest_from_many(level, x, &world.scratch.anchor, &set.length, &mut most),
+        }
+    }
+    most.sqrt()
 }
 
 /// More than the load of gravity stretches the cloth by; nothing where links are rigid.
@@ -155,6 +179,14 @@ leveled! {
         = to_many
 }
 
+leveled! {
+    fn farthest_from_one(x: &Columns, pin: [f32; 3], length: &[f32], most: &mut f32) = from_one
+}
+
+leveled! {
+    fn farthest_from_many(x: &Columns, pins: &Columns, length: &[f32], most: &mut f32) = from_many
+}
+
 #[inline(always)]
 fn to_one(columns: &mut Columns, [px, py, pz]: [f32; 3], length: &[f32], slack: f32, w: &[f32]) {
     let Columns { x, y, z } = columns;
@@ -187,4 +219,40 @@ fn within(x: [f32; 3], pin: [f32; 3], reach: f32, w: f32) -> [f32; 3] {
         take(pin[1] + dy * share, x[1]),
         take(pin[2] + dz * share, x[2]),
     ]
+}
+
+#[inline(always)]
+fn from_one(columns: &Columns, pin: [f32; 3], length: &[f32], most: &mut f32) {
+    farthest_of(columns, |_| pin, length, most);
+}
+
+#[inline(always)]
+fn from_many(columns: &Columns, pins: &Columns, length: &[f32], most: &mut f32) {
+    farthest_of(columns, |i| [pins.x[i], pins.y[i], pins.z[i]], length, most);
+}
+
+/// The square of how far a particle is from its pin over the way, if that is more than `most`.
+#[inline(always)]
+fn farthest_of(
+    Columns { x, y, z }: &Columns,
+    pin: impl Fn(usize) -> [f32; 3],
+    length: &[f32],
+    most: &mut f32,
+) {
+    let count = length.len();
+    let ratio2 = |i: usize| {
+        let pin = pin(i);
+        let [dx, dy, dz] = [x[i] - pin[0], y[i] - pin[1], z[i] - pin[2]];
+        (dx * dx + dy * dy + dz * dz) / (length[i] * length[i])
+    };
+    let mut lanes = [*most; LANES];
+    let whole = count / LANES * LANES;
+    for first in (0..whole).step_by(LANES) {
+        for lane in 0..LANES {
+            // A pin is no way from itself, which is no number here, and does not count.
+            lanes[lane] = max(ratio2(first + lane), lanes[lane]);
+        }
+    }
+    let rest = (whole..count).map(ratio2);
+    *most = lanes.into_iter().chain(rest).fold(*most, |most, ratio2| max(ratio2, most));
 }
