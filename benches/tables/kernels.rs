@@ -1,0 +1,110 @@
+//! What one projection of one constraint costs.
+
+use crate::Effort;
+use crate::measure::{in_turn, now, seconds};
+use crate::table::{Table, times};
+use muslin::{Cloth, GridDesc, MeshDesc, PinMode, Settings, Stage};
+use muslin_plain::{Order, PlainSheet, Size};
+use muslin_scenes::HangingSheet;
+
+/// A sheet, and how much of it makes a figure.
+struct Case {
+    side: u32,
+    ticks: u32,
+    rounds: u32,
+}
+
+const CASES: [Case; 2] =
+    [Case { side: 40, ticks: 2, rounds: 31 }, Case { side: 128, ticks: 1, rounds: 11 }];
+
+/// Sweeps of a tick: many, so that the links are nearly all that is done.
+const SWEEPS: u32 = 16;
+
+/// Whether links give way; those that do keep a multiplier from sweep to sweep.
+const LAWS: [(&str, f32); 2] = [("cotton's bending", 2.5e-5), ("all rigid", 1.0)];
+
+pub fn print(effort: Effort) {
+    let mut table = Table::new(
+        &["sheet", "links"],
+        &["by particle", "by kind", "mesh", "grid", "mesh is faster", "grid is faster"],
+    );
+    for case in CASES {
+        for (law, bend_stiffness) in LAWS {
+            let rounds = if effort == Effort::Once { 1 } else { case.rounds };
+            table.push(measure(&case, law, bend_stiffness, rounds));
+        }
+    }
+    println!(
+        "\nKernels: ns of one thread for a projection of one constraint; the least, and in brackets the \
+         median, of {} to {} rounds in turn.\nby particle, by kind: the plain loop over Vec3, its list \
+         row by row in two orders; mesh: the sheet given to Muslin as any triangle mesh; grid: as a grid.\n\
+         faster: than the plain loop by particle, and by kind; the median of the rounds' ratios.\n",
+        CASES[1].rounds, CASES[0].rounds
+    );
+    println!("{table}");
+}
+
+fn measure(case: &Case, law: &str, bend_stiffness: f32, rounds: u32) -> Vec<String> {
+    let (desc, [mut grid, mut mesh]) = cloths(case.side, bend_stiffness);
+    let side = desc.columns as usize;
+    let size = Size { columns: side, rows: side, spacing: desc.spacing, by_corners: false };
+    let mut sheets = [Order::ByParticle, Order::ByKind].map(|order| PlainSheet::hang(size, order));
+    let [by_particle, by_kind] = &mut sheets;
+    let figures = in_turn(
+        rounds,
+        [
+            &mut || plain_ns(by_particle, desc.settings.tick),
+            &mut || plain_ns(by_kind, desc.settings.tick),
+            &mut || sweep_ns(&mut mesh, case.ticks),
+            &mut || sweep_ns(&mut grid, case.ticks),
+        ],
+    );
+    let mut row = vec![format!("{0} x {0}", case.side), law.into()];
+    row.extend(figures.iter().map(|one| format!("{:.2} ({:.2})", one.min(), one.median())));
+    let [by_particle, by_kind, ours @ ..] = &figures;
+    row.extend(ours.iter().map(|one| {
+        format!("{} {}", times(one.times_below(by_particle)), times(one.times_below(by_kind)))
+    }));
+    row
+}
+
+/// Runs sweeps of the plain loop over a sheet that moves, and tells what a projection took [ns].
+fn plain_ns(sheet: &mut PlainSheet, h: f32) -> f64 {
+    sheet.predict(h);
+    let spent = seconds(|| (0..SWEEPS).for_each(|_| sheet.sweep()));
+    1.0e9 * spent / (f64::from(SWEEPS) * sheet.link_count() as f64)
+}
+
+/// The descriptor of a sheet, and the sheet as a grid and as a mesh of the same triangles.
+fn cloths(side: u32, bend_stiffness: f32) -> (GridDesc, [Cloth; 2]) {
+    let mut desc = HangingSheet::desc(side, PinMode::TopEdge);
+    desc.settings = Settings { substeps: 1, iterations: SWEEPS, ..Settings::default() };
+    desc.material.bend_stiffness = bend_stiffness;
+    let grid = Cloth::grid(&desc).expect("a grid of the benchmark's own");
+    let mesh = Cloth::mesh(&MeshDesc {
+        positions: grid.positions().to_vec(),
+        indices: grid.indices().to_vec(),
+        pinned: grid.pinned().collect(),
+        material: desc.material.clone(),
+        settings: desc.settings.clone(),
+        ..MeshDesc::default()
+    });
+    let mut cloths = [grid, mesh.expect("a mesh of the benchmark's own")];
+    for cloth in &mut cloths {
+        cloth.set_wind(HangingSheet::wind(2.0)).expect("the scene's own wind");
+        cloth.set_clock(Some(now));
+    }
+    (desc, cloths)
+}
+
+/// Runs some ticks, and tells what a projection took [ns]: of the ticks' processor time, the share
+/// that the stages of the links had by the cloth's own clock.
+fn sweep_ns(cloth: &mut Cloth, ticks: u32) -> f64 {
+    let start = now();
+    let spent = seconds(|| cloth.step(ticks));
+    let whole = now() - start;
+    let stats = cloth.stats();
+    let stages = [Stage::Stretch, Stage::Shear, Stage::Bend];
+    let links: f64 = stages.iter().map(|stage| f64::from(stats.seconds[*stage as usize])).sum();
+    1.0e9 * spent * (links / whole) / f64::from(ticks * SWEEPS * stats.constraints)
+}
