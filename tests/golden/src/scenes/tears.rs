@@ -1,0 +1,72 @@
+//! Cloths that come apart.
+
+use super::along;
+use crate::Trace;
+use muslin::glam::Vec3;
+use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Result, Settings, Wind};
+
+/// A sheet that tears easily, pinned by its corners.
+fn thin_sheet(columns: u32, rows: u32) -> GridDesc {
+    GridDesc {
+        columns,
+        rows,
+        spacing: 0.0625,
+        pin_mode: PinMode::Corners,
+        material: Material { tear_stretch: 1.25, tear_variation: 0.75, ..Material::default() },
+        settings: Settings { tearing: true, max_tears_per_tick: 16, ..Settings::default() },
+        ..GridDesc::default()
+    }
+}
+
+/// Three grabs pull a sheet apart, a hand tears on, and what is left falls.
+pub fn sheet_torn_to_pieces(trace: &mut Trace) -> Result<()> {
+    let mut cloth = Cloth::grid(&thin_sheet(23, 18))?;
+    cloth.set_wind(Wind {
+        velocity: Vec3::new(0.5, 0.25, 2.0),
+        turbulence: 0.5,
+        ..Wind::default()
+    })?;
+    trace.run(&mut cloth, 20);
+    let starts = [(6, 5, 0.0625), (17, 9, -0.0625), (11, 14, 0.125)];
+    let mut grabs = Vec::new();
+    for (column, row, pull) in starts {
+        let at = Vec3::new(column as f32 * 0.0625, row as f32 * -0.0625, 0.0);
+        grabs.push((cloth.grab_particle(row * 23 + column)?, at, pull));
+    }
+    for i in 1..=60 {
+        for (grab, at, pull) in &grabs {
+            cloth.move_grab(*grab, along(*at, Vec3::new(0.0, -0.0078125, *pull), i))?;
+        }
+        trace.run(&mut cloth, 1);
+    }
+    for (grab, ..) in grabs {
+        cloth.release(grab)?;
+    }
+    for (a, b) in [(30, 53), (53, 76), (76, 99), (99, 122)] {
+        trace.word(cloth.tear_edge(a, b).map_or(2, u64::from));
+    }
+    trace.run(&mut cloth, 40);
+    cloth.unpin_all();
+    trace.run(&mut cloth, 40);
+    trace.look(&mut cloth);
+    let pieces = cloth.stats().pieces;
+    assert!(pieces >= 3, "the sheet is in {pieces} pieces");
+    assert!(trace.count_of(EventKind::PieceDetached) >= 2, "no piece was told of");
+    Ok(())
+}
+
+/// With room for only so many new particles tearing stops, and says so.
+pub fn tears_use_up_their_room(trace: &mut Trace) -> Result<()> {
+    let desc = GridDesc { extra_particles: 12, ..thin_sheet(9, 10) };
+    let mut cloth = Cloth::grid(&desc)?;
+    let grab = cloth.grab_particle(4 * 9 + 4)?;
+    for i in 1..=80 {
+        cloth.move_grab(grab, along(Vec3::new(0.25, -0.25, 0.0), Vec3::Z * 0.0625, i))?;
+        trace.run(&mut cloth, 1);
+    }
+    cloth.release(grab)?;
+    trace.run(&mut cloth, 30);
+    trace.look(&mut cloth);
+    assert_eq!(trace.count_of(EventKind::ReserveUsedUp), 1, "the room was to be used up");
+    Ok(())
+}

@@ -1,0 +1,193 @@
+//! Hosts that set other floating-point modes: flushing to zero, rounding up.
+
+use crate::{scenes, written};
+use muslin::glam::{Quat, Vec3};
+use muslin::{Cloth, ColliderDesc, GridDesc, Material, Settings, Wind};
+use std::hint::black_box;
+
+#[cfg(target_arch = "x86_64")]
+mod register {
+    use core::arch::asm;
+
+    /// A host's modes: flush-to-zero with denormals-are-zero, rounding up, both at once.
+    pub const MODES: [(&str, u64); 3] =
+        [("flush to zero", 0x9fc0), ("round up", 0x5f80), ("flush and round up", 0xdfc0)];
+    /// The bits that are modes; the others tell what happened.
+    pub const MASK: u64 = 0xffc0;
+
+    pub fn read() -> u64 {
+        let mut modes = 0u32;
+        // SAFETY: `stmxcsr` writes four bytes to the address it is given, which is `modes`.
+        unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut modes, options(nostack, preserves_flags)) };
+        u64::from(modes)
+    }
+
+    pub fn write(modes: u64) {
+        let modes = modes as u32;
+        // SAFETY: `ldmxcsr` reads four bytes from `modes`, which came from the register itself or
+        // from `MODES`: no reserved bit is set and no exception is unmasked. What runs under them
+        // computes with numbers that are exact in any mode.
+        unsafe {
+            asm!("ldmxcsr [{}]", in(reg) &raw const modes, options(nostack, preserves_flags));
+        }
+    }
+}
+
+#[cfg(target_arch = "aarch64")]
+mod register {
+    use core::arch::asm;
+
+    /// A host's modes: flush-to-zero, rounding up, both at once.
+    pub const MODES: [(&str, u64); 3] = [
+        ("flush to zero", 1 << 24),
+        ("round up", 1 << 22),
+        ("flush and round up", 1 << 24 | 1 << 22),
+    ];
+    /// The bits that are modes.
+    pub const MASK: u64 = 0x07c0_0000;
+
+    pub fn read() -> u64 {
+        let modes: u64;
+        // SAFETY: reading FPCR has no effect but on `modes`.
+        unsafe { asm!("mrs {}, fpcr", out(reg) modes, options(nomem, nostack, preserves_flags)) };
+        modes
+    }
+
+    pub fn write(modes: u64) {
+        // SAFETY: the value came from the register itself or from `MODES`: nothing traps. What runs
+        // under them computes with numbers that are exact in any mode.
+        unsafe { asm!("msr fpcr, {}", in(reg) modes, options(nostack, preserves_flags)) };
+    }
+}
+
+/// A host's modes, while it lives.
+struct Host {
+    own: u64,
+    set: u64,
+}
+
+impl Host {
+    fn enter(set: u64) -> Self {
+        let own = register::read();
+        register::write(set);
+        Self { own, set }
+    }
+
+    /// Whether the modes are as they were set.
+    fn is_as_set(&self) -> bool {
+        register::read() & register::MASK == self.set & register::MASK
+    }
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        register::write(self.own);
+    }
+}
+
+#[test]
+fn the_modes_of_this_test_are_real() {
+    for (name, modes) in register::MODES {
+        let host = Host::enter(modes);
+        let (tiny, one) = black_box((f32::MIN_POSITIVE, 1.0_f32));
+        let (half, sum) = black_box((tiny * 0.5, one + tiny));
+        drop(host);
+        assert_eq!(half == 0.0, name.contains("flush"), "{name}");
+        assert_eq!(sum > 1.0, name.contains("up"), "{name}");
+    }
+}
+
+#[test]
+fn flushing_to_zero_changes_no_bit_of_any_scene_and_stays() {
+    let (name, modes) = register::MODES[0];
+    for (scene, hash) in scenes() {
+        let host = Host::enter(modes);
+        let trace = scene.play();
+        let as_set = host.is_as_set();
+        drop(host);
+        assert_eq!(written(&trace), hash, "{} under {name}", scene.name);
+        assert!(as_set, "{} took the host's modes away: {name}", scene.name);
+    }
+}
+
+type Call = fn(&mut Cloth);
+
+/// Every call that computes, by its name.
+const CALLS: &[(&str, Call)] = &[
+    ("grid", |cloth| *cloth = Cloth::grid(&GridDesc::default()).unwrap()),
+    ("set_settings", |cloth| {
+        cloth
+            .set_settings(Settings { iterations: 1, max_stretch: 0.1, ..Settings::default() })
+            .unwrap();
+    }),
+    ("set_material", |cloth| {
+        cloth.set_material(Material { density: 0.25, ..Material::default() }).unwrap();
+    }),
+    ("set_wind", |cloth| {
+        cloth.set_wind(Wind { velocity: Vec3::Z, turbulence: 0.5, ..Wind::default() }).unwrap();
+    }),
+    ("step", |cloth| cloth.step(2)),
+    ("advance", |cloth| assert!(cloth.advance(0.0625).unwrap() > 0)),
+    ("blend", |cloth| assert!(cloth.blend() < 1.0)),
+    ("pin", |cloth| cloth.pin(900, Some(Vec3::ONE)).unwrap()),
+    ("unpin", |cloth| cloth.unpin(900).unwrap()),
+    ("set_pin_targets", |cloth| cloth.set_pin_targets(&[3, 4], &[Vec3::X; 2]).unwrap()),
+    ("set_position", |cloth| cloth.set_position(800, Vec3::NEG_Y).unwrap()),
+    ("set_velocity", |cloth| cloth.set_velocity(801, Vec3::Y).unwrap()),
+    ("grab_ray, move_grab, release", |cloth| {
+        let (eye, ahead) = (Vec3::new(1.0, -1.0, 5.0), Vec3::NEG_Z);
+        let (grab, _) = cloth.grab_ray(eye, ahead, 0.5).unwrap().unwrap();
+        cloth.move_grab(grab, Vec3::new(1.0, -1.0, 0.5)).unwrap();
+        cloth.step(1);
+        cloth.release(grab).unwrap();
+    }),
+    ("raycast", |cloth| {
+        let hit = cloth.raycast(Vec3::new(1.0, -1.0, 5.0), Vec3::NEG_Z, f32::INFINITY);
+        assert!(hit.unwrap().is_some());
+    }),
+    ("add_collider, move_collider", |cloth| {
+        let floor = cloth.add_collider(&ColliderDesc::default()).unwrap();
+        cloth.move_collider(floor, Vec3::NEG_Y, Quat::IDENTITY).unwrap();
+        cloth.step(1);
+        cloth.remove_collider(floor).unwrap();
+    }),
+    ("tear_edge", |cloth| assert!(cloth.tear_edge(820, 860).unwrap())),
+    ("normals", |cloth| assert!(!cloth.normals().is_empty())),
+    ("stats", |cloth| assert!(cloth.stats().particles > 0)),
+    ("save, restore", |cloth| *cloth = Cloth::restore(&cloth.save()).unwrap()),
+    ("clone", |cloth| *cloth = cloth.clone()),
+    ("unpin_all", Cloth::unpin_all),
+    ("a refused call", |cloth| assert!(cloth.advance(-1.0).is_err())),
+    ("reset", Cloth::reset),
+];
+
+#[test]
+fn every_call_gives_the_hosts_modes_back_and_does_the_same_under_them() {
+    let start = Cloth::grid(&GridDesc::default()).unwrap();
+    let plain: Vec<_> = play_calls(&mut start.clone(), |_| ());
+    for (name, modes) in register::MODES {
+        let host = Host::enter(modes);
+        let mut taken = None;
+        let hashes = play_calls(&mut start.clone(), |call| {
+            if taken.is_none() && !host.is_as_set() {
+                taken = Some(call);
+            }
+        });
+        drop(host);
+        assert_eq!(taken, None, "the call that took the host's modes away: {name}");
+        for ((call, _), (hash, plain)) in CALLS.iter().zip(hashes.iter().zip(&plain)) {
+            assert_eq!(hash, plain, "after {call} under {name}");
+        }
+    }
+}
+
+/// Makes all calls in turn: the hash after each.
+fn play_calls(cloth: &mut Cloth, mut after: impl FnMut(&'static str)) -> Vec<u64> {
+    let mut hashes = Vec::new();
+    for (name, call) in CALLS {
+        call(cloth);
+        after(name);
+        hashes.push(cloth.state_hash());
+    }
+    hashes
+}
