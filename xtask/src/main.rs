@@ -1,6 +1,7 @@
 //! Every chore of Muslin as one command: `cargo xtask demo`, `cargo xtask test`, and what they are made of.
 
 mod bench;
+mod bits;
 mod browser;
 mod c;
 mod demo;
@@ -28,6 +29,8 @@ cargo xtask demo --web              build the demo as a page and serve it
   --port N                          on this port (8080, or a free one)
   --no-open                         without opening a browser
 cargo xtask test [STEP…]            every test, or the steps that are named
+cargo xtask bits                    play the scenes of tests/golden everywhere, compare the hashes
+  --bless                           write golden.txt anew instead, from this machine
 cargo xtask web                     build the demo's page into dist/web
 cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
@@ -52,6 +55,7 @@ fn run(args: &[String]) -> Result {
     match chore.as_str() {
         "demo" => demo::run(rest),
         "test" => test::run(rest),
+        "bits" => bits::run(rest),
         "bench" => bench::run(rest),
         "setup" => test::prepare(rest),
         "web" => alone(chore, rest, web::build),

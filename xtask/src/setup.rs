@@ -33,6 +33,16 @@ pub const NODE: Need = Need {
     is_there: || which("npm").is_some() && node_version() >= Some((18, 15)),
 };
 
+/// What imitates other processors, with AVX2 among what it imitates; there is none but for Linux.
+pub const QEMU: Need = Need {
+    name: "qemu-user 7.2 or newer",
+    packages: &["qemu-user"],
+    is_there: || {
+        cfg!(not(target_os = "linux"))
+            || ["qemu-aarch64", "qemu-x86_64"].iter().all(|qemu| qemu_version(qemu) >= Some((7, 2)))
+    },
+};
+
 /// A browser that can be driven.
 pub const CHROMIUM: Need =
     Need { name: "chromium", packages: &["chromium"], is_there: || chromium().is_some() };
@@ -100,20 +110,19 @@ pub fn tell(needs: &[&Need]) {
     }
 }
 
-/// Makes sure that Rust can build for the web.
-pub fn ensure_wasm() -> Result {
-    const TARGET: &str = "wasm32-unknown-unknown";
+/// Makes sure that Rust can build for a target.
+pub fn ensure_target(target: &str) -> Result {
     let mut rustc = shell::command("rustc");
-    let libraries = shell::output(rustc.args(["--print", "target-libdir", "--target", TARGET]))?;
+    let libraries = shell::output(rustc.args(["--print", "target-libdir", "--target", target]))?;
     if Path::new(libraries.trim()).is_dir() {
         return Ok(());
     }
     if which("rustup").is_none() {
         return Err(Failure::new(format!(
-            "rustc cannot build for {TARGET}; with rustup: rustup target add {TARGET}"
+            "rustc cannot build for {target}; with rustup: rustup target add {target}"
         )));
     }
-    shell::run(shell::command("rustup").args(["target", "add", TARGET]))
+    shell::run(shell::command("rustup").args(["target", "add", target]))
 }
 
 /// Makes sure that a part of cargo such as `fmt` is there, which `component` brings.
@@ -181,6 +190,12 @@ fn apt(prefix: &[&str], args: &[&str]) -> std::process::Command {
 fn node_version() -> Option<(u32, u32)> {
     which("node")?;
     version(&shell::output(shell::command("node").arg("--version")).ok()?)
+}
+
+fn qemu_version(qemu: &str) -> Option<(u32, u32)> {
+    which(qemu)?;
+    let told = shell::output(shell::command(qemu).arg("--version")).ok()?;
+    version(told.lines().next()?.split("version ").nth(1)?.split(' ').next()?)
 }
 
 /// The first two numbers of `v20.1.2`.

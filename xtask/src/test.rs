@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
-use crate::{c, demo, js, npm, readme, shell, web};
+use crate::{bits, c, demo, js, npm, readme, shell, wasm, web};
 
 /// A part of the tests.
 struct Step {
@@ -23,7 +23,12 @@ const STEPS: &[Step] = &[
         needs: &[&setup::EGL],
         run: rust,
     },
-    Step { name: "bits", about: "the same bits in release", needs: &[], run: bits },
+    Step {
+        name: "bits",
+        about: "the same bits in release, in wasm, on other processors",
+        needs: bits::NEEDS,
+        run: bits::test,
+    },
     Step {
         name: "c",
         about: "header, tests and examples in C and C++",
@@ -82,7 +87,7 @@ pub fn prepare(options: &[String]) -> Result {
             setup::ensure(&needs)?;
             setup::ensure_component("fmt", "rustfmt")?;
             setup::ensure_component("clippy", "clippy")?;
-            setup::ensure_wasm()?;
+            bits::ensure_targets()?;
             npm::install()
         }
         [list] if list == "--list" => {
@@ -128,21 +133,17 @@ fn fmt() -> Result {
 
 fn clippy() -> Result {
     setup::ensure_component("clippy", "clippy")?;
-    setup::ensure_wasm()?;
+    setup::ensure_target(wasm::TARGET)?;
     let deny = ["--", "-D", "warnings"];
     shell::run(shell::cargo(&["clippy", "--workspace", "--all-targets"]).args(deny))?;
     let web = ["clippy", "--lib", "--package", "muslin-js", "--package", "muslin-demo"];
-    let target = ["--target", "wasm32-unknown-unknown"];
+    let target = ["--target", wasm::TARGET];
     shell::run(shell::cargo(&web).args(target).args(deny))
 }
 
 /// A snapshot that differs is a failure, never a new snapshot.
 fn rust() -> Result {
     shell::run(shell::cargo(&["test", "--workspace"]).env("INSTA_UPDATE", "no"))
-}
-
-fn bits() -> Result {
-    shell::run(&mut shell::cargo(&["test", "--release", "--package", "muslin", "--test", "bits"]))
 }
 
 /// What README.md may name as `cargo xtask test …`.

@@ -7,14 +7,16 @@ use wasm_bindgen_cli_support::Bindgen;
 use crate::failure::{During, Result};
 use crate::{files, setup, shell};
 
+/// What Rust calls the web.
+pub const TARGET: &str = "wasm32-unknown-unknown";
+
 /// Four lanes at a time; every current browser and node has them.
-const FLAGS: &str = "-C target-feature=+simd128";
+pub const FLAGS: &str = "-C target-feature=+simd128";
 
 /// Builds the library of `package` for the web and puts `name.js` and `name_bg.wasm` into `dir`;
 /// `name.d.ts` too if there are to be `types`.
 pub fn build(package: &str, dir: &Path, name: &str, types: bool) -> Result {
-    setup::ensure_wasm()?;
-    const TARGET: &str = "wasm32-unknown-unknown";
+    setup::ensure_target(TARGET)?;
     let args = ["build", "--release", "--lib", "--target", TARGET, "--package", package];
     let mut cargo = shell::cargo(&args);
     // A caller's flags would replace these.
