@@ -1,21 +1,12 @@
 //! What one projection of one constraint costs.
 
 use crate::Effort;
+use crate::cases::{Cases, KernelCase, rounds};
 use crate::measure::{in_turn, now, seconds};
 use crate::table::{Table, times};
 use muslin::{Cloth, GridDesc, MeshDesc, PinMode, Settings, Stage};
 use muslin_plain::{Order, PlainSheet, Size};
 use muslin_scenes::HangingSheet;
-
-/// A sheet, and how much of it makes a figure.
-struct Case {
-    side: u32,
-    ticks: u32,
-    rounds: u32,
-}
-
-const CASES: [Case; 2] =
-    [Case { side: 40, ticks: 2, rounds: 31 }, Case { side: 128, ticks: 1, rounds: 11 }];
 
 /// Sweeps of a tick: many, so that the links are nearly all that is done.
 const SWEEPS: u32 = 16;
@@ -24,27 +15,28 @@ const SWEEPS: u32 = 16;
 const LAWS: [(&str, f32); 2] = [("cotton's bending", 2.5e-5), ("all rigid", 1.0)];
 
 pub fn print(effort: Effort) {
+    let cases = Cases::read().kernels;
     let mut table = Table::new(
         &["sheet", "links"],
         &["by particle", "by kind", "mesh", "grid", "mesh is faster", "grid is faster"],
     );
-    for case in CASES {
+    for case in &cases {
         for (law, bend_stiffness) in LAWS {
             let rounds = if effort == Effort::Once { 1 } else { case.rounds };
-            table.push(measure(&case, law, bend_stiffness, rounds));
+            table.push(measure(case, law, bend_stiffness, rounds));
         }
     }
     println!(
         "\nKernels: ns of one thread for a projection of one constraint; the least, and in brackets the \
-         median, of {} to {} rounds in turn.\nby particle, by kind: the plain loop over Vec3, its list \
-         row by row in two orders; mesh: the sheet given to Muslin as any triangle mesh; grid: as a grid.\n\
+         median, of {}.\nby particle, by kind: the plain loop over Vec3, its list row by row in two \
+         orders; mesh: the sheet given to Muslin as any triangle mesh; grid: as a grid.\n\
          faster: than the plain loop by particle, and by kind; the median of the rounds' ratios.\n",
-        CASES[1].rounds, CASES[0].rounds
+        rounds(cases.iter().map(|case| case.rounds))
     );
     println!("{table}");
 }
 
-fn measure(case: &Case, law: &str, bend_stiffness: f32, rounds: u32) -> Vec<String> {
+fn measure(case: &KernelCase, law: &str, bend_stiffness: f32, rounds: u32) -> Vec<String> {
     let (desc, [mut grid, mut mesh]) = cloths(case.side, bend_stiffness);
     let side = desc.columns as usize;
     let size = Size { columns: side, rows: side, spacing: desc.spacing, by_corners: false };

@@ -4,6 +4,7 @@
 //! how calm and how long the cloth is in the end. Names choose among them. `--test` runs everything
 //! once and tiny, and times nothing that is worth reading. `benches/node` prints the same in wasm.
 
+mod cases;
 mod kernels;
 mod measure;
 mod table;

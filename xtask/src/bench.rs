@@ -1,10 +1,54 @@
-//! The benchmarks: tables of kernels and whole ticks.
+//! The benchmarks: tables of kernels and whole ticks, natively and in node.
 
-use crate::failure::Result;
-use crate::shell;
+use crate::failure::{Failure, Result};
+use crate::{files, js, setup, shell, wasm};
 
-/// Prints the tables that are named, or all; `--test` runs everything once and tiny.
+/// The tables that are run natively; in node they go by one name.
+const NATIVE: [&str; 2] = ["kernels", "ticks"];
+const NODE: &str = "node";
+/// Runs everything once and tiny.
+const TEST: &str = "--test";
+
+/// Prints the tables that are named, or all.
 pub fn run(options: &[String]) -> Result {
-    let mut cargo = shell::cargo(&["bench", "--package", "muslin", "--bench", "tables", "--"]);
-    shell::run(cargo.args(options.iter().filter(|option| *option != "--")))
+    let words: Vec<_> = options.iter().map(String::as_str).filter(|word| *word != "--").collect();
+    let is_known = |word: &str| word == NODE || word == TEST || NATIVE.contains(&word);
+    if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
+        return Err(Failure::new(format!(
+            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, node and --test"
+        )));
+    }
+    let test: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };
+    let all = words.iter().all(|word| *word == TEST);
+    let wanted = NATIVE.iter().copied().filter(|name| all || words.contains(name));
+    let wanted: Vec<_> = wanted.collect();
+    if !wanted.is_empty() {
+        let mut cargo = shell::cargo(&["bench", "--package", "muslin", "--bench", "tables", "--"]);
+        shell::run(cargo.args(wanted).args(test))?;
+    }
+    if all || words.contains(&NODE) {
+        in_node(test)?;
+    }
+    Ok(())
+}
+
+/// The npm package beside the plain loop as a wasm module of its own.
+fn in_node(test: &[&str]) -> Result {
+    setup::ensure(&[&setup::NODE])?;
+    js::build()?;
+    let plain = wasm::compile_plain("muslin-plain")?;
+    let mut node = shell::command("node");
+    node.arg(files::root().join("benches/node/tables.mjs"));
+    shell::run(node.arg(plain).args(test))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_table_is_named() {
+        let failure = run(&["kernel".into()]).err().unwrap().to_string();
+        assert!(failure.contains("\"kernel\"") && failure.contains("ticks"), "{failure}");
+    }
 }

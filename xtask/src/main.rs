@@ -34,7 +34,9 @@ cargo xtask bits                    play the scenes of tests/golden everywhere, 
 cargo xtask web                     build the demo's page into dist/web
 cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
-cargo xtask bench [OPTION…]         run the benchmarks
+cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
+                                    kernels, ticks, node
+  --test                            once and tiny, to see that it runs
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
 fn main() -> ExitCode {

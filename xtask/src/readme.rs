@@ -127,7 +127,8 @@ enum Action<'a> {
     Shot(Vec<&'a str>),
     /// A chore of xtask that can be run here.
     Chore(Vec<&'a str>),
-    Bench,
+    /// These tables, or all.
+    Bench(Vec<&'a str>),
     /// Any other command.
     Shell,
     /// Nothing can run it.
@@ -149,7 +150,7 @@ fn action(command: &str) -> Action<'_> {
         ["js"] => Action::Step("js"),
         ["c"] => Action::Step("c"),
         ["web" | "setup"] => Action::Chore(rest.to_vec()),
-        ["bench"] => Action::Bench,
+        ["bench", tables @ ..] => Action::Bench(tables.to_vec()),
         _ => Action::Unknown,
     }
 }
@@ -166,8 +167,10 @@ fn run_command(command: &str) -> Result {
         }
         Action::Shot(options) => demo::shoot(&scratch().join("shot.png"), &options),
         Action::Chore(words) => shell::run(&mut shell::xtask(&words)?),
-        // Each benchmark once, untimed.
-        Action::Bench => bench::run(&["--test".into()]),
+        // Once and tiny.
+        Action::Bench(tables) => {
+            bench::run(&tables.into_iter().chain(["--test"]).map(String::from).collect::<Vec<_>>())
+        }
         Action::Shell => shell::run(shell::command("sh").args(["-ec", command])),
         Action::Unknown => Err(Failure::new("no test runs this command")),
     }
@@ -207,6 +210,7 @@ mod tests {
         assert_eq!(action("cargo xtask test rusty"), Action::Unknown);
         assert_eq!(action("cargo xtask demo --web"), Action::Step("web"));
         assert_eq!(action("cargo xtask demo --shot a.png --tear"), Action::Shot(vec!["--tear"]));
+        assert_eq!(action("cargo xtask bench node"), Action::Bench(vec!["node"]));
         assert_eq!(action("cargo xtask fly"), Action::Unknown);
         assert_eq!(action("cc -Iinclude a.c"), Action::Shell);
     }

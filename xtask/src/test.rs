@@ -136,9 +136,9 @@ fn clippy() -> Result {
     setup::ensure_target(wasm::TARGET)?;
     let deny = ["--", "-D", "warnings"];
     shell::run(shell::cargo(&["clippy", "--workspace", "--all-targets"]).args(deny))?;
-    let web = ["clippy", "--lib", "--package", "muslin-js", "--package", "muslin-demo"];
-    let target = ["--target", wasm::TARGET];
-    shell::run(shell::cargo(&web).args(target).args(deny))
+    let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
+    web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
+    shell::run(web.args(deny))
 }
 
 /// A snapshot that differs is a failure, never a new snapshot.

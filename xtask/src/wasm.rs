@@ -1,6 +1,6 @@
 //! From a crate to a wasm module with the JavaScript that loads it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use wasm_bindgen_cli_support::Bindgen;
 
@@ -16,15 +16,25 @@ pub const FLAGS: &str = "-C target-feature=+simd128";
 /// Builds the library of `package` for the web and puts `name.js` and `name_bg.wasm` into `dir`;
 /// `name.d.ts` too if there are to be `types`.
 pub fn build(package: &str, dir: &Path, name: &str, types: bool) -> Result {
+    let module = compile(package, FLAGS)?;
+    bind(&module, dir, name, types).during(|| format!("binding {}", module.display()))
+}
+
+/// Compiles the library of `package` to a module as Rust makes it where nothing is asked of the
+/// engine, vectors neither.
+pub fn compile_plain(package: &str) -> Result<PathBuf> {
+    compile(package, "")
+}
+
+fn compile(package: &str, flags: &str) -> Result<PathBuf> {
     setup::ensure_target(TARGET)?;
-    let args = ["build", "--release", "--lib", "--target", TARGET, "--package", package];
-    let mut cargo = shell::cargo(&args);
+    let mut cargo = shell::cargo(&["rustc", "--release", "--lib", "--crate-type", "cdylib"]);
+    cargo.args(["--target", TARGET, "--package", package]);
     // A caller's flags would replace these.
-    cargo.env("RUSTFLAGS", FLAGS).env_remove("CARGO_ENCODED_RUSTFLAGS");
+    cargo.env("RUSTFLAGS", flags).env_remove("CARGO_ENCODED_RUSTFLAGS");
     shell::run(&mut cargo)?;
     let built = package.replace('-', "_") + ".wasm";
-    let module = files::target().join(TARGET).join("release").join(built);
-    bind(&module, dir, name, types).during(|| format!("binding {}", module.display()))
+    Ok(files::target().join(TARGET).join("release").join(built))
 }
 
 fn bind(module: &Path, dir: &Path, name: &str, types: bool) -> Result {

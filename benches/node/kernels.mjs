@@ -1,0 +1,81 @@
+// What one projection of one constraint costs.
+
+import { inTurn, seconds } from "./measure.mjs";
+import { grid, hangingSheet, mesh, wind } from "./sheets.mjs";
+import { Table, times } from "./table.mjs";
+
+/** Sweeps of a tick: many, so that the links are nearly all that is done. */
+const SWEEPS = 16;
+
+/** Whether links give way; those that do keep a multiplier from sweep to sweep. */
+const LAWS = [
+  ["cotton's bending", 2.5e-5],
+  ["all rigid", 1],
+];
+
+export async function kernels(cases, makePlain, isTest) {
+  const numbers = ["by particle", "by kind", "mesh", "grid", "mesh is faster", "grid is faster"];
+  const table = new Table(["sheet", "links"], numbers);
+  for (const test of cases) {
+    for (const [law, bendStiffness] of LAWS) {
+      table.push(await measure(test, law, bendStiffness, makePlain, isTest ? 1 : test.rounds));
+    }
+  }
+  console.log(`
+Kernels in wasm: ns of one thread for a projection of one constraint; the least, and in brackets the median, of rounds in turn.
+by particle, by kind: the plain loop over Vec3, the same Rust in a module without vectors; mesh, grid: the npm package.
+faster: than the plain loop by particle, and by kind; the median of the rounds' ratios.
+`);
+  console.log(`${table}`);
+}
+
+async function measure({ side, ticks }, law, bendStiffness, makePlain, rounds) {
+  const desc = {
+    ...hangingSheet(side, side, "top-edge"),
+    settings: { substeps: 1, iterations: SWEEPS },
+    material: { bendStiffness },
+  };
+  const asGrid = grid(desc);
+  const cloths = [mesh(desc, asGrid), asGrid];
+  for (const cloth of cloths) {
+    cloth.wind = wind();
+    cloth.timing = true;
+  }
+  const sheets = [false, true].map((isByKind) => makePlain(desc, isByKind));
+  const { tick } = asGrid.settings;
+  const figures = await inTurn(rounds, [
+    ...sheets.map((sheet) => () => plainNs(sheet, tick)),
+    ...cloths.map((cloth) => () => sweepNs(cloth, ticks)),
+  ]);
+  for (const cloth of cloths) cloth.free();
+  const [byParticle, byKind, ...ours] = figures;
+  const faster = (slow) => (one) => times(one.timesBelow(slow));
+  return [
+    `${side} x ${side}`,
+    law,
+    ...figures.map((one) => `${one.min.toFixed(2)} (${one.median.toFixed(2)})`),
+    ...ours.map((one) => `${faster(byParticle)(one)} ${faster(byKind)(one)}`),
+  ];
+}
+
+/** Runs sweeps of the plain loop over a sheet that moves, and tells what a projection took [ns]. */
+function plainNs(sheet, h) {
+  sheet.predict(h);
+  const spent = seconds(() => {
+    for (let sweep = 0; sweep < SWEEPS; sweep++) sheet.sweep();
+  });
+  return (1e9 * spent) / (SWEEPS * sheet.link_count());
+}
+
+/**
+ * Runs some ticks, and tells what a projection took [ns]: of the ticks' processor time, the share that
+ * the stages of the links had by the cloth's own clock.
+ */
+function sweepNs(cloth, ticks) {
+  const start = performance.now();
+  const spent = seconds(() => cloth.step(ticks));
+  const whole = 1e-3 * (performance.now() - start);
+  const { constraints, seconds: stages } = cloth.stats;
+  const links = stages.stretch + stages.shear + stages.bend;
+  return (1e9 * spent * (links / whole)) / (ticks * SWEEPS * constraints);
+}
