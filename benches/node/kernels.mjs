@@ -1,7 +1,7 @@
 // What one projection of one constraint costs.
 
 import { inTurn, seconds } from "./measure.mjs";
-import { grid, hangingSheet, mesh, wind } from "./sheets.mjs";
+import { grid, hangingSheet, mesh } from "./sheets.mjs";
 import { Table, times } from "./table.mjs";
 
 /** Sweeps of a tick: many, so that the links are nearly all that is done. */
@@ -39,12 +39,9 @@ async function measure({ side, ticks }, law, bendStiffness, makePlain, rounds) {
     settings: { substeps: 1, iterations: SWEEPS },
     material: { bendStiffness },
   };
-  const asGrid = grid(desc);
+  const asGrid = grid(desc, true);
   const cloths = [mesh(desc, asGrid), asGrid];
-  for (const cloth of cloths) {
-    cloth.wind = wind();
-    cloth.timing = true;
-  }
+  for (const cloth of cloths) cloth.timing = true;
   const sheets = [false, true].map((isByKind) => makePlain(desc, isByKind));
   const { tick } = asGrid.settings;
   const figures = await inTurn(rounds, [

@@ -11,22 +11,22 @@ export function hangingSheet(columns, rows, pinMode) {
   return { columns, rows, spacing: SIZE / (columns - 1), origin: [-half, half, 0], pinMode };
 }
 
-/** The scene's wind at 2 m/s. */
-export function wind() {
-  const speed = 2 / Math.hypot(0.15, 1);
-  const velocity = [0.15 * speed, 0, speed];
-  return { velocity, gust: 0.6, wander: 0.5, turbulence: 0.25, seed: 1 };
-}
+/** The scene's wind at 2 m/s, to the bit: so the cloth ends up as it does natively. */
+const WIND = { velocity: [0.29668093, 0, 1.9778727], gust: 0.6, wander: 0.5, turbulence: 0.25, seed: 1 };
 
 /** The sheet as a grid. */
-export function grid(desc) {
-  return Cloth.grid(desc);
+export function grid(desc, isWindy) {
+  const cloth = Cloth.grid(desc);
+  if (isWindy) cloth.wind = WIND;
+  return cloth;
 }
 
-/** The same sheet as a mesh of the same triangles. */
+/** The same sheet as a mesh of the same triangles, in the same air. */
 export function mesh({ material, settings }, like) {
-  const { positions, indices, pinned } = like;
-  return Cloth.mesh({ positions, indices, pinned, material, settings });
+  const { positions, indices, pinned, wind } = like;
+  const cloth = Cloth.mesh({ positions, indices, pinned, material, settings });
+  cloth.wind = wind;
+  return cloth;
 }
 
 /** Reads the module of the plain loop; gives what makes sheets, each in an instance of its own. */
