@@ -35,7 +35,7 @@ export async function ticks(cases, makePlain, isTest) {
   }
   console.log(`
 Ticks in wasm: ms of one thread for a whole tick with normals through the npm package, after the sheet hung for a while; least and median of rounds in turn.
-plain: Verlet, the natural-order loop by kind (the faster order, and by particle it does not come to rest) with as many sweeps, normals;
+plain: Verlet, the natural-order loop by kind (the faster and calmer order) with as many sweeps, normals;
 the same Rust in a module without vectors; no wind, no floor.
 x real time and faster: by medians. Stretch is that of the threads.
 `);
