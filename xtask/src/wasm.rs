@@ -20,10 +20,9 @@ pub fn build(package: &str, dir: &Path, name: &str, types: bool) -> Result {
     bind(&module, dir, name, types).during(|| format!("binding {}", module.display()))
 }
 
-/// Compiles the library of `package` to a module as Rust makes it where nothing is asked of the
-/// engine, vectors neither.
+/// Compiles the library of `package` to a module that asks nothing of the engine, not even vectors.
 pub fn compile_plain(package: &str) -> Result<PathBuf> {
-    compile(package, "")
+    compile(package, "-C target-feature=-simd128")
 }
 
 fn compile(package: &str, flags: &str) -> Result<PathBuf> {
