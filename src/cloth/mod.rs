@@ -11,8 +11,8 @@ pub(crate) mod view;
 mod world;
 
 use crate::error::{Result, check, check_finite, check_index};
+use crate::fabric::links::LinkKind;
 use crate::fabric::material::Material;
-use crate::fabric::weave::LinkKind;
 use crate::math::float_env::guarded;
 use crate::solver::profile::Clock;
 use crate::solver::{World, pipeline};

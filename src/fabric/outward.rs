@@ -1,7 +1,7 @@
 //! The links from the pins outward: the order in which a chain that hangs is made right in one go.
 
+use crate::fabric::links::Links;
 use crate::fabric::tethers::Tethers;
-use crate::fabric::weave::Links;
 
 /// Links sorted by how far their farther end is from a pin.
 #[derive(Clone, Debug, Default)]

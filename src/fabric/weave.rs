@@ -1,126 +1,11 @@
-//! From mesh and material to links: what joins which particles, at what length, how stiffly.
-//!
-//! A link is anchored to corners of triangles, not to particles: when a vertex splits, the link
-//! follows the triangle that it lies on, and one whose triangles have parted is gone.
+//! The weave: from a mesh to all its links, and how they follow when it splits.
 
 use crate::fabric::color;
+use crate::fabric::links::{Batch, LinkKind, Links, Spec, Support, Thread};
 use crate::fabric::material::Material;
 use crate::fabric::rows::Rows;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
-
-/// What a link resists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[repr(u32)]
-pub enum LinkKind {
-    /// Structural: between neighbours along the threads, or along the edges of a free mesh.
-    Stretch = 0,
-    /// Between diagonal neighbours of a grid.
-    Shear = 1,
-    /// Between particles two cells apart, or across the edge of a free mesh.
-    Bend = 2,
-}
-
-/// Which of the material's two stretch stiffnesses holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Thread {
-    Weft,
-    Warp,
-}
-
-/// What a link lies on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Support {
-    /// An edge of a triangle: for ever.
-    Edge,
-    /// The edge, starting at this corner, across which it reaches: until that opens.
-    Flap(Corner),
-    /// Two edges in a row: until these two corners are no longer the same vertex.
-    Pair([Corner; 2]),
-}
-
-/// What stays of a link when its particles change.
-#[derive(Clone, Copy, Debug)]
-struct Spec {
-    kind: LinkKind,
-    thread: Thread,
-    anchors: [Corner; 2],
-    support: Support,
-    /// Spring constant over material stiffness: 1 for a stretch link inside a grid.
-    shape: f32,
-}
-
-/// Links as columns, one entry a link.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Links {
-    pub a: Vec<u32>,
-    pub b: Vec<u32>,
-    /// Length at rest [m].
-    pub rest: Vec<f32>,
-    /// Inverse spring constant [m/N]; 0 is rigid.
-    pub compliance: Vec<f32>,
-    /// Accumulated multiplier of this substep.
-    pub lambda: Vec<f32>,
-    /// False once torn.
-    pub active: Vec<bool>,
-    spec: Vec<Spec>,
-}
-
-impl Links {
-    pub fn len(&self) -> usize {
-        self.rest.len()
-    }
-
-    pub fn kind(&self, link: usize) -> LinkKind {
-        self.spec[link].kind
-    }
-
-    fn reserve(&mut self, capacity: usize) {
-        self.a.reserve_exact(capacity);
-        self.b.reserve_exact(capacity);
-        self.rest.reserve_exact(capacity);
-        self.compliance.reserve_exact(capacity);
-        self.lambda.reserve_exact(capacity);
-        self.active.reserve_exact(capacity);
-        self.spec.reserve_exact(capacity);
-    }
-
-    fn push(&mut self, mesh: &Mesh, spec: Spec, rest: f32) {
-        self.a.push(mesh.vertex(spec.anchors[0]));
-        self.b.push(mesh.vertex(spec.anchors[1]));
-        self.rest.push(rest);
-        self.compliance.push(0.0);
-        self.lambda.push(0.0);
-        self.active.push(true);
-        self.spec.push(spec);
-    }
-
-    /// Follows the mesh after a split.
-    fn follow(&mut self, mesh: &Mesh, link: usize) {
-        let spec = &self.spec[link];
-        self.a[link] = mesh.vertex(spec.anchors[0]);
-        self.b[link] = mesh.vertex(spec.anchors[1]);
-        self.active[link] = match spec.support {
-            Support::Edge => true,
-            Support::Flap(edge) => mesh.across(edge) != NONE,
-            Support::Pair([left, right]) => mesh.vertex(left) == mesh.vertex(right),
-        };
-    }
-
-    fn stiffen(&mut self, link: usize, material: &Material) {
-        let spec = &self.spec[link];
-        self.compliance[link] = compliance(spec, material);
-    }
-}
-
-/// Links of one kind and colour, next to each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Batch {
-    pub kind: LinkKind,
-    pub first: usize,
-    pub count: usize,
-}
 
 /// All links of a cloth.
 #[derive(Clone, Debug)]
@@ -434,20 +319,6 @@ impl Weave {
 /// energies at a fold of half a radian give 512·width/span³.
 fn bend_shape(width: f32, span: f32) -> f32 {
     512.0 * width / (span * span * span)
-}
-
-fn compliance(spec: &Spec, material: &Material) -> f32 {
-    let (weft, warp) = (material.stretch_stiffness_weft, material.stretch_stiffness_warp);
-    let stiffness = match (spec.kind, spec.thread) {
-        (LinkKind::Stretch, Thread::Weft) => weft,
-        (LinkKind::Stretch, Thread::Warp) => warp,
-        (LinkKind::Shear, _) if material.shear_stiffness > 0.0 => material.shear_stiffness,
-        (LinkKind::Shear, _) => 0.5 * (weft + warp),
-        (LinkKind::Bend, _) if material.bend_stiffness >= 1.0 => 0.0,
-        (LinkKind::Bend, _) => material.bend_stiffness,
-    };
-    let spring = stiffness * spec.shape;
-    if spring > 0.0 { 1.0 / spring } else { 0.0 }
 }
 
 /// Calls `visit(along, at_border, a, b)` for links of `reach` cells along a thread: `along` counts

@@ -9,7 +9,7 @@
 use super::World;
 use super::links::{Order, shorten};
 use super::tethers;
-use crate::fabric::weave::{LinkKind, Links};
+use crate::fabric::links::{LinkKind, Links};
 use crate::math::columns::Columns;
 use crate::state::events::{Event, EventKind};
 use glam::Vec3;

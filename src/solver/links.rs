@@ -8,7 +8,7 @@
 //! other meshes eight by eight (see `packed`). The extra links of torn edges go in their order.
 
 use super::{World, packed, rows};
-use crate::fabric::weave::{LinkKind, Links};
+use crate::fabric::links::{LinkKind, Links};
 use crate::math::{TINY, max};
 use crate::state::particles::Particles;
 use glam::Vec3;

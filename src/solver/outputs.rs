@@ -2,7 +2,7 @@
 
 use super::World;
 use super::surface::{Give, Surface, sum};
-use crate::fabric::weave::LinkKind;
+use crate::fabric::links::LinkKind;
 use crate::math::columns::Columns;
 use crate::math::simd::leveled;
 use glam::Vec3;

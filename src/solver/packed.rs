@@ -6,7 +6,7 @@
 
 use super::World;
 use super::links::{BOUND, RIGID, SOFT, Spots, correct, project};
-use crate::fabric::weave::Links;
+use crate::fabric::links::Links;
 use crate::math::simd::{LANES, Level, gather, lanes, leveled, scatter};
 use core::ops::Range;
 use glam::Vec3;

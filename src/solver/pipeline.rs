@@ -4,7 +4,7 @@ use super::stage::Stage;
 use super::{
     World, contacts, forces, guard, hold, limit, links, packed, predict, tear, tethers, velocities,
 };
-use crate::fabric::weave::LinkKind;
+use crate::fabric::links::LinkKind;
 use links::Order;
 
 /// Times one stage.

@@ -5,8 +5,8 @@
 //! left of a row after whole chunks is one more chunk from its end, of which only the new links count.
 
 use super::links::{BOUND, RIGID, SOFT, correct, project};
+use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
-use crate::fabric::weave::Links;
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Lanes, Level, lanes, leveled};
 use crate::state::particles::Particles;

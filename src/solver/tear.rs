@@ -4,7 +4,7 @@
 //! in two fans by the plane across the link, and the fan on the link's side gets a new vertex.
 
 use super::World;
-use crate::fabric::weave::{LinkKind, Links};
+use crate::fabric::links::{LinkKind, Links};
 use crate::math::mix::unit;
 use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
