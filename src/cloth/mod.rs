@@ -239,7 +239,7 @@ impl Cloth {
     /// The share of a tick that `advance` still owes, 0 to 1: how far to blend from the last tick's
     /// positions to this one's when drawing.
     pub fn blend(&self) -> f32 {
-        (self.owed / f64::from(self.world.settings.tick)) as f32
+        guarded(|| (self.owed / f64::from(self.world.settings.tick)) as f32)
     }
 
     /// Time since it was made or reset [s].

@@ -92,7 +92,7 @@ impl Outputs {
 
     /// Takes on the texture coordinates that the cloth was made with.
     pub fn set_uvs(&mut self, origin: &Origin) {
-        self.original_uvs = origin.uvs();
+        self.original_uvs = guarded(|| origin.uvs());
     }
 
     /// Follows a change of positions.

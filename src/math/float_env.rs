@@ -2,6 +2,8 @@
 //!
 //! A host may flush denormals to zero or round another way; both would change bits.
 
+use core::hint::black_box;
+
 /// Holds the default modes while it lives, then gives the host's back.
 pub(crate) struct FloatEnv {
     #[cfg(all(target_arch = "x86_64", not(miri)))]
@@ -49,7 +51,7 @@ mod register {
 
     pub fn write(modes: u64) {
         // SAFETY: the value came from the register itself or is `DEFAULT`.
-        unsafe { asm!("msr fpcr, {}", in(reg) modes, options(nomem, nostack, preserves_flags)) };
+        unsafe { asm!("msr fpcr, {}", in(reg) modes, options(nostack, preserves_flags)) };
     }
 }
 
@@ -83,7 +85,9 @@ impl FloatEnv {
 /// Runs `work` under the default floating-point modes.
 pub(crate) fn guarded<T>(work: impl FnOnce() -> T) -> T {
     let _env = FloatEnv::enter();
-    work()
+    // Compilers take arithmetic as free of modes and would move it past their change, unless they
+    // cannot see what goes in and what comes out.
+    black_box(black_box(work)())
 }
 
 #[cfg(all(test, target_arch = "x86_64", not(miri)))]
