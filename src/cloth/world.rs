@@ -4,6 +4,7 @@ use super::desc::{GridDesc, MeshDesc};
 use crate::arena::Arena;
 use crate::error::Result;
 use crate::fabric::cells::Cells;
+use crate::fabric::lines::Lines;
 use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
@@ -12,6 +13,7 @@ use crate::geom::triangle::corner_areas;
 use crate::math::simd::Level;
 use crate::mesh::grid::{self, Frame};
 use crate::mesh::{Mesh, NONE, after, intake};
+use crate::solver::lines;
 use crate::solver::profile::Profile;
 use crate::solver::{Scratch, World};
 use crate::state::colliders::MAX_COLLIDERS;
@@ -105,7 +107,8 @@ fn build(
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, weave, rest, areas, cells } = fabric;
+    let Fabric { mesh, mut weave, rest, areas, cells } = fabric;
+    weave.lines = Lines::find(&weave.links, &rest, capacity as u32);
     let max_tears = settings.max_tears_per_tick as usize;
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
@@ -197,8 +200,9 @@ impl World {
     }
 
     fn reserve_packed(&mut self, capacity: usize) {
-        if self.weave.rows.is_none() {
-            self.scratch.packed.points.reserve_exact(capacity);
-        }
+        self.weave.lines.set_nobody(capacity as u32);
+        self.scratch.packed.points.clear();
+        self.scratch.packed.points.resize(capacity + 1, [0.0; 4]);
+        self.scratch.lines = lines::Scratch::new(self.weave.lines.longest);
     }
 }

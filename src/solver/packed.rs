@@ -32,15 +32,13 @@ impl Spots for Vec<[f32; 4]> {
     }
 }
 
-/// Packs the particles, unless links lie in rows.
+/// Packs the particles. The last point is none, for lanes that have nothing to do.
 pub(crate) fn pack(world: &mut World) {
-    if world.weave.rows.is_some() {
-        return;
-    }
     let (p, packed) = (&world.particles, &mut world.scratch.packed);
-    packed.points.clear();
     let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z).zip(&p.w);
-    packed.points.extend(particles.map(|(((x, y), z), w)| [*x, *y, *z, *w]));
+    for (point, (((x, y), z), w)) in packed.points.iter_mut().zip(particles) {
+        *point = [*x, *y, *z, *w];
+    }
     packed.is_current = true;
 }
 
