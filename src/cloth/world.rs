@@ -4,7 +4,6 @@ use super::desc::{GridDesc, MeshDesc};
 use crate::arena::Arena;
 use crate::error::Result;
 use crate::fabric::cells::Cells;
-use crate::fabric::lines::Lines;
 use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
@@ -13,7 +12,6 @@ use crate::geom::triangle::corner_areas;
 use crate::math::simd::Level;
 use crate::mesh::grid::{self, Frame};
 use crate::mesh::{Mesh, NONE, after, intake};
-use crate::solver::lines;
 use crate::solver::profile::Profile;
 use crate::solver::{Scratch, World};
 use crate::state::colliders::MAX_COLLIDERS;
@@ -107,8 +105,7 @@ fn build(
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, mut weave, rest, areas, cells } = fabric;
-    weave.lines = Lines::find(&weave.links, &rest, capacity as u32);
+    let Fabric { mesh, weave, rest, areas, cells } = fabric;
     let max_tears = settings.max_tears_per_tick as usize;
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
@@ -200,9 +197,8 @@ impl World {
     }
 
     fn reserve_packed(&mut self, capacity: usize) {
-        self.weave.lines.set_nobody(capacity as u32);
-        self.scratch.packed.points.clear();
-        self.scratch.packed.points.resize(capacity + 1, [0.0; 4]);
-        self.scratch.lines = lines::Scratch::new(self.weave.lines.longest);
+        if self.weave.rows.is_none() {
+            self.scratch.packed.points.reserve_exact(capacity);
+        }
     }
 }

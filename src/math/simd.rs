@@ -151,7 +151,7 @@ pub(crate) fn scatter<const FAST: bool>(
 fn assert_all_within(points: &[[f32; 4]], at: &[u32; LANES]) {
     let mut most = 0;
     for index in at {
-        most = (*index).max(most);
+        most = if *index > most { *index } else { most };
     }
     assert!((most as usize) < points.len(), "a link ends at a particle");
 }

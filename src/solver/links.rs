@@ -7,7 +7,7 @@
 //! inside a batch any order gives the same bits: a grid's batches go row by row (see `rows`), those of
 //! other meshes eight by eight (see `packed`). The extra links of torn edges go in their order.
 
-use super::{World, lines, packed, rows};
+use super::{World, packed, rows};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::{TINY, max};
 use crate::state::particles::Particles;
@@ -23,8 +23,7 @@ pub(crate) const BOUND: u8 = 2;
 
 /// Forgets the multipliers of the last substep.
 pub(crate) fn restart(world: &mut World) {
-    let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
-    if !kinds.into_iter().all(|kind| is_rigid(world, kind)) {
+    if !is_rigid(world) {
         world.weave.links.lambda.fill(0.0);
         world.weave.extra.lambda.fill(0.0);
     }
@@ -37,18 +36,12 @@ pub(crate) enum Order {
     Backward,
 }
 
-/// The lines of stretch links, each as a whole.
-pub(crate) fn solve_lines(world: &mut World) {
-    let is_rigid = is_rigid(world, LinkKind::Stretch);
-    lines::solve(world, is_rigid);
-}
-
 /// One sweep over all links of a kind.
 pub(crate) fn solve(world: &mut World, kind: LinkKind, order: Order) {
     if kind == LinkKind::Bend && world.material.bend_stiffness == 0.0 {
         return;
     }
-    if is_rigid(world, kind) {
+    if is_rigid(world) {
         sweep::<RIGID>(world, kind, order, 0.0);
     } else {
         // A correction acts on the velocity through `step`, so that is what compliance sees.
@@ -184,14 +177,9 @@ pub(crate) fn correct<const LAW: u8>(
     (stretch / (length * max(weight, TINY)), lambda)
 }
 
-/// Whether no link of a kind gives way at all, so that there is nothing to remember from sweep to
-/// sweep; else each does as its compliance says.
-fn is_rigid(world: &World, kind: LinkKind) -> bool {
+/// Whether no link gives way at all, so that there is nothing to remember from sweep to sweep.
+fn is_rigid(world: &World) -> bool {
     let m = &world.material;
-    let stretch_is_rigid = m.stretch_stiffness_warp == 0.0 && m.stretch_stiffness_weft == 0.0;
-    match kind {
-        LinkKind::Stretch => stretch_is_rigid,
-        LinkKind::Shear => stretch_is_rigid && m.shear_stiffness == 0.0,
-        LinkKind::Bend => m.bend_stiffness >= 1.0,
-    }
+    let stiff = m.stretch_stiffness_warp == 0.0 && m.stretch_stiffness_weft == 0.0;
+    stiff && m.shear_stiffness == 0.0 && (m.bend_stiffness == 0.0 || m.bend_stiffness >= 1.0)
 }

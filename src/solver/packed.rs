@@ -32,13 +32,15 @@ impl Spots for Vec<[f32; 4]> {
     }
 }
 
-/// Packs the particles. The last point is none, for lanes that have nothing to do.
+/// Packs the particles, unless links lie in rows.
 pub(crate) fn pack(world: &mut World) {
-    let (p, packed) = (&world.particles, &mut world.scratch.packed);
-    let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z).zip(&p.w);
-    for (point, (((x, y), z), w)) in packed.points.iter_mut().zip(particles) {
-        *point = [*x, *y, *z, *w];
+    if world.weave.rows.is_some() {
+        return;
     }
+    let (p, packed) = (&world.particles, &mut world.scratch.packed);
+    packed.points.clear();
+    let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z).zip(&p.w);
+    packed.points.extend(particles.map(|(((x, y), z), w)| [*x, *y, *z, *w]));
     packed.is_current = true;
 }
 

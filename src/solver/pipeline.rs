@@ -46,16 +46,24 @@ pub(crate) fn tick(world: &mut World) {
 fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::advance(world));
     timed!(world, Hold, hold::hold(world, number));
-    if world.settings.tethers && !world.is_apart_current {
+    if world.settings.tethers {
         timed!(world, Tethers, tethers::look(world));
     }
     links::restart(world);
-    // Links that lie in rows are solved where they are.
-    if world.weave.rows.is_none() {
-        timed!(world, Stretch, packed::pack(world));
-    }
+    timed!(world, Stretch, packed::pack(world));
     for iteration in 0..world.settings.iterations {
-        run_iteration(world, iteration);
+        if world.settings.tethers {
+            timed!(world, Tethers, tethers::solve(world));
+        }
+        if iteration.is_multiple_of(2) {
+            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Forward));
+            timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Forward));
+            timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Forward));
+        } else {
+            timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Backward));
+            timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
+            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
+        }
     }
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::draw_in(world));
@@ -63,28 +71,4 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Bend, packed::unpack(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));
-}
-
-/// Sweep `iteration` of a substep: to and fro in turn.
-fn run_iteration(world: &mut World, iteration: u32) {
-    let helped = world.settings.tethers;
-    if iteration.is_multiple_of(2) {
-        // Lines bear a load as wholes, so that the sweeps have little left to do.
-        if helped && iteration == 0 && world.settings.iterations > 1 {
-            timed!(world, Stretch, links::solve_lines(world));
-        } else {
-            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Forward));
-        }
-    } else {
-        timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Backward));
-        timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
-        timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
-    }
-    if helped {
-        timed!(world, Tethers, tethers::solve(world));
-    }
-    if iteration.is_multiple_of(2) {
-        timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Forward));
-        timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Forward));
-    }
 }
