@@ -133,5 +133,27 @@ fn a_cloth_that_was_held_apart_is_not_flung_when_it_is_let_go() {
                 highest - top
             );
         }
+        assert_eq!(cloth.stats().over_stretched, 0, "{pin_mode:?} {max_stretch}: it stays apart");
     }
+}
+
+#[test]
+fn a_particle_that_was_pulled_far_out_comes_back_to_the_cloth() {
+    let desc = bounded(40, PinMode::TopCorners, Material::default(), 0.02);
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.step(60);
+    let particle = 20 * 40 + 20;
+    let grab = cloth.grab_particle(particle).unwrap();
+    let start = cloth.positions()[particle as usize];
+    for tick in 0..120 {
+        let way = Vec3::new(0.02, -0.02, 0.01) * tick as f32;
+        cloth.move_grab(grab, start + way).unwrap();
+        cloth.step(1);
+    }
+    assert!(cloth.stats().over_stretched > 0);
+    cloth.release(grab).unwrap();
+    cloth.step(5);
+    assert_eq!(cloth.stats().over_stretched, 0);
+    cloth.step(120);
+    assert!(cloth.stats().max_stretch <= 0.0201, "{}", cloth.stats().max_stretch);
 }

@@ -4,7 +4,8 @@
 //! model", Graphics Interface 1995. That converges fast but promises nothing, so the ends of what is
 //! left go back to where they were a tick ago, and with them whatever that stretches: the bound held
 //! there, so this ends. What a particle is moved by, it moved over the whole tick, so its velocity
-//! changes by that.
+//! changes by that. A cloth that was held apart has nowhere to go back to: it gets more sweeps, a few
+//! ticks of them where it was pulled far out, and no velocity from them.
 
 use super::World;
 use super::links::{Order, shorten};
@@ -77,10 +78,22 @@ fn draw_together(world: &mut World, most: f32) {
             break;
         }
     }
-    go_back(world, most);
-    // What was held apart until now comes together at once, but is not flung.
-    if !is_free_again {
+    if is_free_again {
+        // There is nothing to go back to; and what was held apart comes together, but is not flung.
+        stop(world);
+    } else {
+        go_back(world, most);
         follow(world);
+    }
+}
+
+/// Velocities end where something was moved since `scratch.predicted`.
+fn stop(world: &mut World) {
+    let (p, before) = (&mut world.particles, &world.scratch.predicted);
+    for i in (0..p.len()).filter(|i| p.x.at(*i) != before.at(*i)) {
+        p.v.set(i, Vec3::ZERO);
+        p.v_ahead.set(i, Vec3::ZERO);
+        p.moved.set(i, Vec3::ZERO);
     }
 }
 
