@@ -23,7 +23,8 @@ pub(crate) const BOUND: u8 = 2;
 
 /// Forgets the multipliers of the last substep.
 pub(crate) fn restart(world: &mut World) {
-    if !is_rigid(world) {
+    let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
+    if !kinds.into_iter().all(|kind| is_rigid(world, kind)) {
         world.weave.links.lambda.fill(0.0);
         world.weave.extra.lambda.fill(0.0);
     }
@@ -41,7 +42,7 @@ pub(crate) fn solve(world: &mut World, kind: LinkKind, order: Order) {
     if kind == LinkKind::Bend && world.material.bend_stiffness == 0.0 {
         return;
     }
-    if is_rigid(world) {
+    if is_rigid(world, kind) {
         sweep::<RIGID>(world, kind, order, 0.0);
     } else {
         // A correction acts on the velocity through `step`, so that is what compliance sees.
@@ -177,9 +178,14 @@ pub(crate) fn correct<const LAW: u8>(
     (stretch / (length * max(weight, TINY)), lambda)
 }
 
-/// Whether no link gives way at all, so that there is nothing to remember from sweep to sweep.
-fn is_rigid(world: &World) -> bool {
+/// Whether no link of a kind gives way at all, so that there is nothing to remember from sweep to
+/// sweep; else each does as its compliance says.
+fn is_rigid(world: &World, kind: LinkKind) -> bool {
     let m = &world.material;
-    let stiff = m.stretch_stiffness_warp == 0.0 && m.stretch_stiffness_weft == 0.0;
-    stiff && m.shear_stiffness == 0.0 && (m.bend_stiffness == 0.0 || m.bend_stiffness >= 1.0)
+    let stretch_is_rigid = m.stretch_stiffness_warp == 0.0 && m.stretch_stiffness_weft == 0.0;
+    match kind {
+        LinkKind::Stretch => stretch_is_rigid,
+        LinkKind::Shear => stretch_is_rigid && m.shear_stiffness == 0.0,
+        LinkKind::Bend => m.bend_stiffness >= 1.0,
+    }
 }

@@ -46,7 +46,7 @@ pub(crate) fn tick(world: &mut World) {
 fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::advance(world));
     timed!(world, Hold, hold::hold(world, number));
-    if world.settings.tethers {
+    if world.settings.tethers && !world.is_apart_current {
         timed!(world, Tethers, tethers::look(world));
     }
     links::restart(world);

@@ -85,7 +85,9 @@ fn held_apart(world: &mut World) -> f32 {
     if !world.is_apart_current {
         world.apart = pins_apart(world);
     }
-    world.is_apart_current = world.pins.iter().all(|pin| pin.from == pin.target);
+    // A grab may hold a pinned particle too.
+    let is_held = world.grabs.iter().next().is_some();
+    world.is_apart_current = !is_held && world.pins.iter().all(|pin| pin.from == pin.target);
     let x = &world.particles.x;
     let mut most = world.apart;
     for set in world.tethers.sets() {
