@@ -123,8 +123,10 @@ impl Row {
         Self { pattern, a, b, first, count: 1, is_torn: false }
     }
 
-    /// Whether a link from `a` to `b` goes on with this row.
+    /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper
+    /// ones where it is straight.
     fn take(&self, a: u32, b: u32) -> bool {
-        Rows::ends(self, self.count) == (a, b)
+        let has_room = self.pattern != Pattern::Straight || a < self.b;
+        has_room && Rows::ends(self, self.count) == (a, b)
     }
 }

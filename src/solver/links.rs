@@ -5,11 +5,12 @@
 //! ```
 //! Macklin, Müller, Chentanez, "XPBD", MIG 2016, eq. 18. Links of one colour share no particle, so
 //! inside a batch any order gives the same bits: a grid's batches go row by row (see `rows`), those of
-//! other meshes eight by eight (see `packed`). The extra links of torn edges go in their order.
+//! other meshes some at a time (see `packed`). The extra links of torn edges go in their order.
 
 use super::{World, packed, rows};
 use crate::fabric::links::{LinkKind, Links};
-use crate::math::{TINY, max};
+use crate::math::TINY;
+use crate::math::simd::{Arithmetic, Number, Scalar};
 use crate::state::particles::Particles;
 use glam::Vec3;
 
@@ -145,8 +146,15 @@ pub(crate) fn project<const LAW: u8, S: Spots>(
     let ((xa, wa), (xb, wb)) = (spots.spot(a), spots.spot(b));
     let span = xb - xa;
     let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
-    let (share, lambda) =
-        correct::<LAW>(span.to_array(), wa + wb, links.rest[link], compliance, lambda, scale);
+    let (share, lambda) = correct::<LAW, _>(
+        Scalar,
+        span.to_array(),
+        wa + wb,
+        links.rest[link],
+        compliance,
+        lambda,
+        scale,
+    );
     if LAW == SOFT {
         links.lambda[link] = lambda;
     }
@@ -155,27 +163,37 @@ pub(crate) fn project<const LAW: u8, S: Spots>(
 }
 
 /// The share of its span that a link gives back for each unit of inverse mass, and its multiplier
-/// then. One division and one root: what kernels spend their time on.
+/// then.
 ///
-/// `scale` is 1/h² for soft links and the greatest length over rest for bounded ones.
+/// `scale` is 1/h² for soft links and the greatest length over rest for bounded ones. Rigid ones take
+/// Halley's step towards the root of |span|² = rest², which needs no root of its own: a length l
+/// becomes l (l² + 3 rest²) / (3 l² + rest²), so an error of 10 % is one of 0.03 % then.
 #[inline(always)]
-pub(crate) fn correct<const LAW: u8>(
-    [dx, dy, dz]: [f32; 3],
-    weight: f32,
-    rest: f32,
-    compliance: f32,
-    lambda: f32,
+pub(crate) fn correct<const LAW: u8, S: Arithmetic>(
+    s: S,
+    [dx, dy, dz]: [S::F; 3],
+    weight: S::F,
+    rest: S::F,
+    compliance: S::F,
+    lambda: S::F,
     scale: f32,
-) -> (f32, f32) {
-    let length = max((dx * dx + dy * dy + dz * dz).sqrt(), TINY);
+) -> (S::F, S::F) {
+    let tiny = s.splat(TINY);
+    let length2 = dx * dx + dy * dy + dz * dz;
+    if LAW == RIGID {
+        let rest2 = rest * rest;
+        let slope = length2 * s.splat(1.5) + rest2 * s.splat(0.5);
+        return ((length2 - rest2) / (slope * weight).max(tiny), lambda);
+    }
+    let length = length2.sqrt().max(tiny);
     if LAW == SOFT {
-        let softness = compliance * scale;
+        let softness = compliance * s.splat(scale);
         let pull = length - rest + softness * lambda;
-        let share = pull / (length * max(weight + softness, TINY));
+        let share = pull / (length * (weight + softness).max(tiny));
         return (share, lambda - share * length);
     }
-    let stretch = if LAW == BOUND { max(length - rest * scale, 0.0) } else { length - rest };
-    (stretch / (length * max(weight, TINY)), lambda)
+    let stretch = (length - rest * s.splat(scale)).max(s.splat(0.0));
+    (stretch / (length * weight.max(tiny)), lambda)
 }
 
 /// Whether no link of a kind gives way at all, so that there is nothing to remember from sweep to

@@ -1,13 +1,13 @@
-//! The links of any mesh, eight at a time.
+//! The links of any mesh, as many at a time as there are lanes.
 //!
 //! While links are solved, position and inverse mass of a particle lie next to each other, so that an
-//! end of a link is one load wherever it is; eight ends are turned into lanes. The arithmetic is
+//! end of a link is one load wherever it is; the ends are turned into lanes. The arithmetic is
 //! `links::correct`, the very one that goes link by link, so the bits are the same too.
 
 use super::World;
 use super::links::{BOUND, RIGID, SOFT, Spots, correct, project};
 use crate::fabric::links::Links;
-use crate::math::simd::{LANES, Level, gather, lanes, leveled, scatter};
+use crate::math::simd::{Level, Simd, vectored};
 use core::ops::Range;
 use glam::Vec3;
 
@@ -71,76 +71,100 @@ pub(crate) fn solve<const LAW: u8>(
     }
 }
 
-leveled! {
+vectored! {
     fn solve_soft(range: Range<usize>, links: &mut Links, points: &mut Vec<[f32; 4]>, scale: f32)
-        = solve_color::<SOFT, false>, solve_color::<SOFT, true>
+        = solve_color::<_, SOFT>, Avx2, solve_apart::<SOFT>
 }
 
-leveled! {
+vectored! {
     fn solve_rigid(range: Range<usize>, links: &mut Links, points: &mut Vec<[f32; 4]>, scale: f32)
-        = solve_color::<RIGID, false>, solve_color::<RIGID, true>
+        = solve_color::<_, RIGID>, Avx2, solve_apart::<RIGID>
 }
 
-leveled! {
+vectored! {
     fn solve_bound(range: Range<usize>, links: &mut Links, points: &mut Vec<[f32; 4]>, scale: f32)
-        = solve_color::<BOUND, false>, solve_color::<BOUND, true>
+        = solve_color::<_, BOUND>, Avx2, solve_apart::<BOUND>
 }
 
+/// Links one by one.
 #[inline(always)]
-fn solve_color<const LAW: u8, const FAST: bool>(
+fn solve_apart<const LAW: u8>(
     range: Range<usize>,
     links: &mut Links,
     points: &mut Vec<[f32; 4]>,
     scale: f32,
 ) {
-    let whole = range.len() / LANES * LANES;
-    for first in (range.start..range.start + whole).step_by(LANES) {
-        solve_chunk::<LAW, FAST>(first, links, points, scale);
-    }
-    for link in range.start + whole..range.end {
-        project::<LAW, _>(links, link, points, scale);
-    }
+    range.for_each(|link| project::<LAW, _>(links, link, points, scale));
 }
 
 #[inline(always)]
-fn solve_chunk<const LAW: u8, const FAST: bool>(
+fn solve_color<S: Simd, const LAW: u8>(
+    s: S,
+    range: Range<usize>,
+    links: &mut Links,
+    points: &mut Vec<[f32; 4]>,
+    scale: f32,
+) {
+    let most =
+        |ends: &[u32]| ends.iter().fold(0, |most, end| if *end > most { *end } else { most });
+    let (most_a, most_b) = (most(&links.a[range.clone()]), most(&links.b[range.clone()]));
+    assert!((most_a.max(most_b) as usize) < points.len(), "links end at particles");
+    let mut link = range.start;
+    while link + S::LANES <= range.end {
+        // SAFETY: all ends of the range were just found to be particles.
+        unsafe { solve_chunk::<S, LAW>(s, link, links, points, scale) };
+        link += S::LANES;
+    }
+    solve_apart::<LAW>(link..range.end, links, points, scale);
+}
+
+/// As many links as there are lanes.
+///
+/// # Safety
+/// Both ends of each are below the number of points.
+#[inline(always)]
+unsafe fn solve_chunk<S: Simd, const LAW: u8>(
+    s: S,
     first: usize,
     links: &mut Links,
     points: &mut [[f32; 4]],
     scale: f32,
 ) {
-    let end = first + LANES;
-    let mut keep = [true; LANES];
-    keep.copy_from_slice(&links.active[first..end]);
-    let (mut at_a, mut at_b) = ([0; LANES], [0; LANES]);
-    at_a.copy_from_slice(&links.a[first..end]);
-    at_b.copy_from_slice(&links.b[first..end]);
-    let rest = lanes(&links.rest, first);
-    let (mut compliance, mut lambda) = ([0.0; LANES], [0.0; LANES]);
+    let all = first..first + S::LANES;
+    let (at_a, at_b) = (&links.a[all.clone()], &links.b[all.clone()]);
+    let active = &links.active[all];
+    let rest = s.load(&links.rest, first);
+    let zero = s.splat(0.0);
+    let (mut compliance, mut lambda) = (zero, zero);
     if LAW == SOFT {
-        compliance = lanes(&links.compliance, first);
-        lambda = lanes(&links.lambda, first);
+        compliance = s.load(&links.compliance, first);
+        lambda = s.load(&links.lambda, first);
     }
-    let [mut xa, mut ya, mut za, wa] = gather::<FAST>(points, &at_a);
-    let [mut xb, mut yb, mut zb, wb] = gather::<FAST>(points, &at_b);
-    for i in 0..LANES {
-        let (dx, dy, dz) = (xb[i] - xa[i], yb[i] - ya[i], zb[i] - za[i]);
-        let (weight, compliance) = (wa[i] + wb[i], compliance[i]);
-        let (share, multiplier) =
-            correct::<LAW>([dx, dy, dz], weight, rest[i], compliance, lambda[i], scale);
-        let (to_a, to_b) = (share * wa[i], -(share * wb[i]));
-        let take = |new: f32, old: f32| if keep[i] { new } else { old };
-        xa[i] = take(xa[i] + dx * to_a, xa[i]);
-        ya[i] = take(ya[i] + dy * to_a, ya[i]);
-        za[i] = take(za[i] + dz * to_a, za[i]);
-        xb[i] = take(xb[i] + dx * to_b, xb[i]);
-        yb[i] = take(yb[i] + dy * to_b, yb[i]);
-        zb[i] = take(zb[i] + dz * to_b, zb[i]);
-        lambda[i] = take(multiplier, lambda[i]);
+    // SAFETY: the caller's promise.
+    let ([xa, ya, za, wa], [xb, yb, zb, wb]) =
+        unsafe { (s.fetch(points, at_a), s.fetch(points, at_b)) };
+    let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
+    let (share, mut multiplier) =
+        correct::<LAW, S>(s, [dx, dy, dz], wa + wb, rest, compliance, lambda, scale);
+    let (to_a, to_b) = (share * wa, share * wb);
+    let mut a = [xa + dx * to_a, ya + dy * to_a, za + dz * to_a, wa];
+    let mut b = [xb - dx * to_b, yb - dy * to_b, zb - dz * to_b, wb];
+    if !active.iter().fold(true, |all, active| all & active) {
+        let mut keep = [0.0; 16];
+        for (keep, is_active) in keep.iter_mut().zip(active) {
+            *keep = f32::from(u8::from(*is_active));
+        }
+        let keep = s.load(&keep, 0);
+        a = [s.pick(keep, a[0], xa), s.pick(keep, a[1], ya), s.pick(keep, a[2], za), wa];
+        b = [s.pick(keep, b[0], xb), s.pick(keep, b[1], yb), s.pick(keep, b[2], zb), wb];
+        multiplier = s.pick(keep, multiplier, lambda);
+    }
+    // SAFETY: the caller's promise.
+    unsafe {
+        s.put(points, at_a, a);
+        s.put(points, at_b, b);
     }
     if LAW == SOFT {
-        links.lambda[first..end].copy_from_slice(&lambda);
+        s.store(&mut links.lambda, first, multiplier);
     }
-    scatter::<FAST>(points, &at_a, &[xa, ya, za, wa]);
-    scatter::<FAST>(points, &at_b, &[xb, yb, zb, wb]);
 }

@@ -1,4 +1,4 @@
-//! The links of a grid, eight at a time.
+//! The links of a grid, as many at a time as there are lanes.
 //!
 //! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
@@ -8,7 +8,7 @@ use super::links::{BOUND, RIGID, SOFT, correct, project};
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Lanes, Level, lanes, leveled};
+use crate::math::simd::{Level, Simd, vectored};
 use crate::state::particles::Particles;
 use core::ops::Range;
 
@@ -16,6 +16,10 @@ use core::ops::Range;
 const STRAIGHT: u8 = Pattern::Straight as u8;
 const PAIRS: u8 = Pattern::Pairs as u8;
 const QUADS: u8 = Pattern::Quads as u8;
+
+/// The most lanes that there are, and the fewest.
+const MOST: usize = 16;
+const FEWEST: usize = 4;
 
 /// Solves the links `range`, which are a batch, but for those that left their rows.
 pub(crate) fn solve<const LAW: u8>(
@@ -34,23 +38,67 @@ pub(crate) fn solve<const LAW: u8>(
     }
 }
 
-leveled! {
-    fn solve_rigid(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
-        = solve_rows::<RIGID>
-}
-
-leveled! {
-    fn solve_bound(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
-        = solve_rows::<BOUND>
-}
-
-leveled! {
+vectored! {
     fn solve_soft(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
-        = solve_rows::<SOFT>
+        = solve_rows::<_, SOFT>, Avx512, solve_all_apart::<SOFT>
+}
+
+vectored! {
+    fn solve_rigid(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
+        = solve_rows::<_, RIGID>, Avx512, solve_all_apart::<RIGID>
+}
+
+vectored! {
+    fn solve_bound(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
+        = solve_rows::<_, BOUND>, Avx512, solve_all_apart::<BOUND>
 }
 
 #[inline(always)]
-fn solve_rows<const LAW: u8>(
+fn solve_rows<S: Simd, const LAW: u8>(
+    s: S,
+    rows: &[Row],
+    mask: &[f32],
+    links: &mut Links,
+    p: &mut Particles,
+    scale: f32,
+) {
+    // One length for all columns, so that one check does for all.
+    let (particles, all) = (p.w.len(), links.rest.len());
+    let Columns { x, y, z } = &mut p.x;
+    let mut sheet = Sheet {
+        x: &mut x[..particles],
+        y: &mut y[..particles],
+        z: &mut z[..particles],
+        w: &p.w,
+        mask: &mask[..all],
+        rest: &links.rest,
+        compliance: &links.compliance[..all],
+        lambda: &mut links.lambda[..all],
+    };
+    for row in rows {
+        match row.pattern {
+            Pattern::Straight => solve_row::<S, LAW, STRAIGHT>(s, row, &mut sheet, scale),
+            Pattern::Pairs => solve_row::<S, LAW, PAIRS>(s, row, &mut sheet, scale),
+            Pattern::Quads => solve_row::<S, LAW, QUADS>(s, row, &mut sheet, scale),
+        }
+    }
+    for row in rows {
+        let count = row.count as usize;
+        solve_apart::<LAW>(row, in_chunks(row)..count, mask, links, p, scale);
+    }
+}
+
+/// How many links of a row go in chunks: all, but for those of a row shorter than any chunk, and an
+/// odd one where every two links belong together.
+#[inline(always)]
+fn in_chunks(row: &Row) -> usize {
+    let count = row.count as usize;
+    let even = if row.pattern == Pattern::Quads { count & !1 } else { count };
+    if even < FEWEST { 0 } else { even }
+}
+
+#[inline(always)]
+fn solve_all_apart<const LAW: u8>(
     rows: &[Row],
     mask: &[f32],
     links: &mut Links,
@@ -58,38 +106,7 @@ fn solve_rows<const LAW: u8>(
     scale: f32,
 ) {
     for row in rows {
-        match row.pattern {
-            Pattern::Straight => solve_row::<LAW, STRAIGHT>(row, mask, links, p, scale),
-            Pattern::Pairs => solve_row::<LAW, PAIRS>(row, mask, links, p, scale),
-            Pattern::Quads => solve_row::<LAW, QUADS>(row, mask, links, p, scale),
-        }
-    }
-}
-
-#[inline(always)]
-fn solve_row<const LAW: u8, const PATTERN: u8>(
-    row: &Row,
-    mask: &[f32],
-    links: &mut Links,
-    p: &mut Particles,
-    scale: f32,
-) {
-    let count = row.count as usize;
-    let whole = count / LANES * LANES;
-    for k in (0..whole).step_by(LANES) {
-        if row.is_torn {
-            solve_chunk::<LAW, PATTERN, true>(row, k, 0, mask, links, p, scale);
-        } else {
-            solve_chunk::<LAW, PATTERN, false>(row, k, 0, mask, links, p, scale);
-        }
-    }
-    // An even number, since every two links of a row of quads belong together.
-    let tail = count.saturating_sub(LANES) & !1;
-    if count < LANES {
-        solve_apart::<LAW>(row, 0..count, mask, links, p, scale);
-    } else if whole < count {
-        solve_chunk::<LAW, PATTERN, true>(row, tail, whole - tail, mask, links, p, scale);
-        solve_apart::<LAW>(row, tail + LANES..count, mask, links, p, scale);
+        solve_apart::<LAW>(row, 0..row.count as usize, mask, links, p, scale);
     }
 }
 
@@ -111,96 +128,199 @@ fn solve_apart<const LAW: u8>(
     }
 }
 
-/// Links `k` to `k + 8` of a row, but for the first `done` of them; with `CHOOSY` set, only those
-/// that are still in the row.
-#[inline(always)]
-fn solve_chunk<const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
-    row: &Row,
-    k: usize,
-    done: usize,
-    mask: &[f32],
-    links: &mut Links,
-    p: &mut Particles,
-    scale: f32,
-) {
-    let first = row.first as usize + k;
-    let mut keep = [1.0; LANES];
-    if CHOOSY {
-        keep = lanes(mask, first);
-        for i in 0..LANES {
-            keep[i] = if i >= done { keep[i] } else { 0.0 };
-        }
-    }
-    let rest = lanes(&links.rest, first);
-    let (mut compliance, mut lambda) = ([0.0; LANES], [0.0; LANES]);
-    if LAW == SOFT {
-        compliance = lanes(&links.compliance, first);
-        lambda = lanes(&links.lambda, first);
-    }
-    let Columns { x, y, z } = &mut p.x;
-    let load = |column: &[f32]| load::<PATTERN>(row, k, column);
-    let ((mut xa, mut xb), (mut ya, mut yb), (mut za, mut zb)) = (load(x), load(y), load(z));
-    let (wa, wb) = load(&p.w);
-    for i in 0..LANES {
-        let (dx, dy, dz) = (xb[i] - xa[i], yb[i] - ya[i], zb[i] - za[i]);
-        let (weight, compliance) = (wa[i] + wb[i], compliance[i]);
-        let (share, multiplier) =
-            correct::<LAW>([dx, dy, dz], weight, rest[i], compliance, lambda[i], scale);
-        let (to_a, to_b) = (share * wa[i], -(share * wb[i]));
-        let take = |new: f32, old: f32| if CHOOSY && keep[i] == 0.0 { old } else { new };
-        xa[i] = take(xa[i] + dx * to_a, xa[i]);
-        ya[i] = take(ya[i] + dy * to_a, ya[i]);
-        za[i] = take(za[i] + dz * to_a, za[i]);
-        xb[i] = take(xb[i] + dx * to_b, xb[i]);
-        yb[i] = take(yb[i] + dy * to_b, yb[i]);
-        zb[i] = take(zb[i] + dz * to_b, zb[i]);
-        lambda[i] = take(multiplier, lambda[i]);
-    }
-    if LAW == SOFT {
-        links.lambda[first..first + LANES].copy_from_slice(&lambda);
-    }
-    store::<PATTERN>(row, k, x, &xa, &xb);
-    store::<PATTERN>(row, k, y, &ya, &yb);
-    store::<PATTERN>(row, k, z, &za, &zb);
+/// Particles and links as the kernels see them: the lists of each have one length.
+struct Sheet<'a> {
+    x: &'a mut [f32],
+    y: &'a mut [f32],
+    z: &'a mut [f32],
+    w: &'a [f32],
+    mask: &'a [f32],
+    rest: &'a [f32],
+    compliance: &'a [f32],
+    lambda: &'a mut [f32],
 }
 
-/// One column at both ends of links `k` to `k + 8` of a row.
+/// Those of a row: its links, and the particles at their ends.
+struct Ends<'a> {
+    x: [&'a mut [f32]; 2],
+    y: [&'a mut [f32]; 2],
+    z: [&'a mut [f32]; 2],
+    w: [&'a [f32]; 2],
+    mask: &'a [f32],
+    rest: &'a [f32],
+    compliance: &'a [f32],
+    lambda: &'a mut [f32],
+}
+
+/// Solves those links of a row that go in chunks.
 #[inline(always)]
-fn load<const PATTERN: u8>(row: &Row, k: usize, column: &[f32]) -> (Lanes, Lanes) {
+fn solve_row<S: Simd, const LAW: u8, const PATTERN: u8>(
+    s: S,
+    row: &Row,
+    sheet: &mut Sheet<'_>,
+    scale: f32,
+) {
+    let (first, count) = (row.first as usize, in_chunks(row));
+    let all = first..first + count;
+    let mut ends = Ends {
+        x: ends_mut::<PATTERN>(row, count, sheet.x),
+        y: ends_mut::<PATTERN>(row, count, sheet.y),
+        z: ends_mut::<PATTERN>(row, count, sheet.z),
+        w: ends_of::<PATTERN>(row, count, sheet.w),
+        mask: &sheet.mask[all.clone()],
+        rest: &sheet.rest[all.clone()],
+        compliance: &sheet.compliance[all.clone()],
+        lambda: &mut sheet.lambda[all],
+    };
+    let mut k = 0;
+    if row.is_torn {
+        while k + S::LANES <= count {
+            solve_chunk::<S, LAW, PATTERN, true>(s, k, 0, &mut ends, scale);
+            k += S::LANES;
+        }
+    } else {
+        while k + S::LANES <= count {
+            solve_chunk::<S, LAW, PATTERN, false>(s, k, 0, &mut ends, scale);
+            k += S::LANES;
+        }
+    }
+    solve_rest::<S, LAW, PATTERN>(s, k, count, row.is_torn, &mut ends, scale);
+}
+
+/// Solves links `k` to `count` of a row, fewer than a chunk: with no more lanes than it takes, where
+/// need be as one chunk that reaches back over links which are done.
+#[inline(always)]
+fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
+    s: S,
+    k: usize,
+    count: usize,
+    is_torn: bool,
+    ends: &mut Ends<'_>,
+    scale: f32,
+) {
+    let (left, few) = (count - k, <S::Half as Simd>::LANES);
+    if left == 0 {
+        return;
+    }
+    if few < S::LANES && (left <= few || count < S::LANES) {
+        let half = s.half();
+        let mut k = k;
+        if left >= few {
+            if is_torn {
+                solve_chunk::<S::Half, LAW, PATTERN, true>(half, k, 0, ends, scale);
+            } else {
+                solve_chunk::<S::Half, LAW, PATTERN, false>(half, k, 0, ends, scale);
+            }
+            k += few;
+        }
+        return solve_rest::<S::Half, LAW, PATTERN>(half, k, count, is_torn, ends, scale);
+    }
+    let from = count - S::LANES;
+    solve_chunk::<S, LAW, PATTERN, true>(s, from, k - from, ends, scale);
+}
+
+/// As many links of a row as there are lanes, from `k` on, but for the first `done` of them; with
+/// `CHOOSY` set, only those that are still in the row.
+#[inline(always)]
+fn solve_chunk<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+    s: S,
+    k: usize,
+    done: usize,
+    ends: &mut Ends<'_>,
+    scale: f32,
+) {
+    let in_order = |v: S::F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
+    let rest = in_order(s.load(ends.rest, k));
+    let zero = s.splat(0.0);
+    let (mut compliance, mut lambda) = (zero, zero);
+    if LAW == SOFT {
+        compliance = in_order(s.load(ends.compliance, k));
+        lambda = in_order(s.load(ends.lambda, k));
+    }
+    let (xa, xb) = load::<S, PATTERN>(s, [&*ends.x[0], &*ends.x[1]], k);
+    let (ya, yb) = load::<S, PATTERN>(s, [&*ends.y[0], &*ends.y[1]], k);
+    let (za, zb) = load::<S, PATTERN>(s, [&*ends.z[0], &*ends.z[1]], k);
+    let (wa, wb) = load::<S, PATTERN>(s, ends.w, k);
+    let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
+    let (share, multiplier) =
+        correct::<LAW, S>(s, [dx, dy, dz], wa + wb, rest, compliance, lambda, scale);
+    let (to_a, to_b) = (share * wa, share * wb);
+    let keep = if CHOOSY {
+        let counts = s.load(&COUNTS, MOST - done);
+        let mask = s.load(ends.mask, k);
+        in_order(s.pick(counts, mask, zero))
+    } else {
+        zero
+    };
+    let take = |new: S::F, old: S::F| if CHOOSY { s.pick(keep, new, old) } else { new };
+    if LAW == SOFT {
+        let multiplier = take(multiplier, lambda);
+        let multiplier = if PATTERN == STRAIGHT { multiplier } else { s.undealt(multiplier) };
+        s.store(ends.lambda, k, multiplier);
+    }
+    store::<S, PATTERN>(s, &mut ends.x, k, take(xa + dx * to_a, xa), take(xb - dx * to_b, xb));
+    store::<S, PATTERN>(s, &mut ends.y, k, take(ya + dy * to_a, ya), take(yb - dy * to_b, yb));
+    store::<S, PATTERN>(s, &mut ends.z, k, take(za + dz * to_a, za), take(zb - dz * to_b, zb));
+}
+
+/// 0 as often as there may be lanes, then 1 as often.
+const COUNTS: [f32; 2 * MOST] = {
+    let mut counts = [0.0; 2 * MOST];
+    let mut at = MOST;
+    while at < 2 * MOST {
+        counts[at] = 1.0;
+        at += 1;
+    }
+    counts
+};
+
+/// One column at the ends of a row's first `count` links: the lower and the upper ends, or all in the
+/// first list where they alternate.
+#[inline(always)]
+fn ends_of<'a, const PATTERN: u8>(row: &Row, count: usize, column: &'a [f32]) -> [&'a [f32]; 2] {
     let (a, b) = (row.a as usize, row.b as usize);
     if PATTERN == STRAIGHT {
-        return (lanes(column, a + k), lanes(column, b + k));
-    }
-    let mut c = [0.0; 2 * LANES];
-    c.copy_from_slice(&column[a + 2 * k..a + 2 * (k + LANES)]);
-    if PATTERN == PAIRS {
-        let even = [c[0], c[2], c[4], c[6], c[8], c[10], c[12], c[14]];
-        (even, [c[1], c[3], c[5], c[7], c[9], c[11], c[13], c[15]])
+        [&column[a..a + count], &column[b..b + count]]
     } else {
-        let lower = [c[0], c[1], c[4], c[5], c[8], c[9], c[12], c[13]];
-        (lower, [c[2], c[3], c[6], c[7], c[10], c[11], c[14], c[15]])
+        [&column[a..a + 2 * count], &[]]
     }
+}
+
+/// As `ends_of`; a row's upper ends lie behind its lower ones.
+#[inline(always)]
+fn ends_mut<'a, const PATTERN: u8>(
+    row: &Row,
+    count: usize,
+    column: &'a mut [f32],
+) -> [&'a mut [f32]; 2] {
+    let (a, b) = (row.a as usize, row.b as usize);
+    if PATTERN == STRAIGHT {
+        let (lower, upper) = column.split_at_mut(b);
+        [&mut lower[a..a + count], &mut upper[..count]]
+    } else {
+        [&mut column[a..a + 2 * count], &mut []]
+    }
+}
+
+/// One column at both ends of a chunk's links.
+#[inline(always)]
+fn load<S: Simd, const PATTERN: u8>(s: S, ends: [&[f32]; 2], k: usize) -> (S::F, S::F) {
+    if PATTERN == STRAIGHT {
+        return (s.load(ends[0], k), s.load(ends[1], k));
+    }
+    let (low, high) = (s.load(ends[0], 2 * k), s.load(ends[0], 2 * k + S::LANES));
+    if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
 }
 
 /// Puts back what `load` read.
 #[inline(always)]
-fn store<const PATTERN: u8>(row: &Row, k: usize, column: &mut [f32], a: &Lanes, b: &Lanes) {
-    let (at_a, at_b) = (row.a as usize, row.b as usize);
+fn store<S: Simd, const PATTERN: u8>(s: S, ends: &mut [&mut [f32]; 2], k: usize, a: S::F, b: S::F) {
     if PATTERN == STRAIGHT {
-        column[at_a + k..at_a + k + LANES].copy_from_slice(a);
-        column[at_b + k..at_b + k + LANES].copy_from_slice(b);
+        s.store(ends[0], k, a);
+        s.store(ends[1], k, b);
         return;
     }
-    let both = if PATTERN == PAIRS {
-        [
-            a[0], b[0], a[1], b[1], a[2], b[2], a[3], b[3], a[4], b[4], a[5], b[5], a[6], b[6],
-            a[7], b[7],
-        ]
-    } else {
-        [
-            a[0], a[1], b[0], b[1], a[2], a[3], b[2], b[3], a[4], a[5], b[4], b[5], a[6], a[7],
-            b[6], b[7],
-        ]
-    };
-    column[at_a + 2 * k..at_a + 2 * (k + LANES)].copy_from_slice(&both);
+    let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
+    s.store(ends[0], 2 * k, low);
+    s.store(ends[0], 2 * k + S::LANES, high);
 }

@@ -1,0 +1,272 @@
+//! One source for every instruction set: a kernel is compiled once for each level, and the level is
+//! chosen when the program runs. No level has a fused or approximate operation, so all give the same
+//! bits.
+//!
+//! Most kernels are plain loops, which compilers turn into vectors by themselves (`leveled`). Those of
+//! the links are written over [`Simd`] (`vectored`), since compilers do not find how to deal out the
+//! particles of a row, or to turn four by four numbers.
+
+#[cfg(target_arch = "aarch64")]
+mod neon;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod wasm;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+#[cfg(target_arch = "aarch64")]
+pub(crate) use neon::Neon;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+pub(crate) use wasm::Simd128;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use x86::{Avx2, Avx512, Sse2};
+
+use core::ops::{Add, Div, Mul, Sub};
+
+/// A number, or one in each lane.
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// Correctly rounded.
+    fn sqrt(self) -> Self;
+
+    /// The larger; `other` if either is not a number.
+    fn max(self, other: Self) -> Self;
+}
+
+impl Number for f32 {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        super::max(self, other)
+    }
+}
+
+/// Something to compute with, whose being there says that the machine can.
+pub(crate) trait Arithmetic: Copy {
+    type F: Number;
+
+    /// The same in every lane.
+    fn splat(self, value: f32) -> Self::F;
+}
+
+/// Number by number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scalar;
+
+impl Arithmetic for Scalar {
+    type F = f32;
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> f32 {
+        value
+    }
+}
+
+/// Vectors of a number of lanes that is known when a kernel is compiled.
+pub(crate) trait Simd: Arithmetic {
+    /// A power of two, at least four.
+    const LANES: usize;
+
+    /// What has half the lanes, or itself if there is no such thing.
+    type Half: Simd;
+
+    fn half(self) -> Self::Half;
+
+    /// Numbers `at` and on of a list.
+    ///
+    /// # Panics
+    /// If they are not there; so does `store`.
+    fn load(self, list: &[f32], at: usize) -> Self::F;
+
+    /// Puts numbers `at` and on into a list.
+    fn store(self, list: &mut [f32], at: usize, v: Self::F);
+
+    /// `new` where `keep` is above 0, else `old`.
+    fn pick(self, keep: Self::F, new: Self::F, old: Self::F) -> Self::F;
+
+    /// Deals two vectors out by turns: the even and the odd numbers. In what order, `dealt` says.
+    fn deal(self, low: Self::F, high: Self::F) -> (Self::F, Self::F);
+
+    /// Takes back what `deal` did.
+    fn gather_up(self, even: Self::F, odd: Self::F) -> (Self::F, Self::F);
+
+    /// Deals two vectors out two by two, in the order of `dealt`. Done twice it changes nothing.
+    fn deal_twos(self, low: Self::F, high: Self::F) -> (Self::F, Self::F);
+
+    /// The order in which numbers are dealt.
+    fn dealt(self, v: Self::F) -> Self::F;
+
+    /// Takes back what `dealt` did.
+    fn undealt(self, v: Self::F) -> Self::F;
+
+    /// Four numbers of each of some points, turned so that each number has its lanes.
+    ///
+    /// # Safety
+    /// `at` has at least as many entries as there are lanes, and each is below the number of points.
+    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Self::F; 4];
+
+    /// Puts points back. Of equal indices the last one stays.
+    ///
+    /// # Safety
+    /// As for `fetch`.
+    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Self::F; 4]);
+}
+
+/// The instruction sets that kernels are compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Level {
+    /// Number by number, as far as the code says: what machines without vectors do.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), allow(dead_code))]
+    Scalar,
+    /// What the target always has: SSE2, NEON or simd128, four lanes.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))]
+    Base,
+    /// Eight lanes.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// Sixteen lanes.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Level {
+    /// The best that this machine has.
+    pub fn best() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512vl")
+            {
+                return Self::Avx512;
+            }
+            if std::is_x86_feature_detected!("avx2") {
+                return Self::Avx2;
+            }
+        }
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))]
+        return Self::Base;
+        #[cfg(not(any(
+            target_arch = "x86_64",
+            target_arch = "aarch64",
+            target_feature = "simd128"
+        )))]
+        Self::Scalar
+    }
+
+    /// All that this machine has, the least first.
+    #[cfg(test)]
+    pub fn all() -> Vec<Self> {
+        let all = [
+            Self::Scalar,
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            Self::Base,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512,
+        ];
+        let best = all.iter().position(|level| *level == Self::best());
+        all[..=best.expect("the best is one of all")].to_vec()
+    }
+}
+
+/// Defines `$name(level, arguments…)`, which runs `$body(arguments…)` as compiled for that level; after
+/// a second body, that one where there is AVX2 or better.
+///
+/// The bodies must be `#[inline(always)]`.
+macro_rules! leveled {
+    ($(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) = $body:path) => {
+        $crate::math::simd::leveled! {
+            $(#[$doc])* $vis fn $name($($arg: $type),*) = $body, $body
+        }
+    };
+    (
+        $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
+            = $body:path, $fast:path
+    ) => {
+        $(#[$doc])*
+        $vis fn $name(level: $crate::math::simd::Level, $($arg: $type),*) {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx2")]
+                fn avx2($($arg: $type),*) {
+                    $fast($($arg),*);
+                }
+                #[target_feature(enable = "avx512f,avx512vl")]
+                fn avx512($($arg: $type),*) {
+                    $fast($($arg),*);
+                }
+                match level {
+                    // SAFETY: `Level::best` gave this level, so the machine has these instructions.
+                    $crate::math::simd::Level::Avx2 => return unsafe { avx2($($arg),*) },
+                    // SAFETY: as above.
+                    $crate::math::simd::Level::Avx512 => return unsafe { avx512($($arg),*) },
+                    _ => {}
+                }
+            }
+            let _ = level;
+            $body($($arg),*);
+        }
+    };
+}
+pub(crate) use leveled;
+
+/// Lanes of a chunk.
+pub(crate) const LANES: usize = 8;
+
+pub(crate) type Lanes = [f32; LANES];
+
+/// Defines `$name(level, arguments…)`, which runs `$body(simd, arguments…)` with the widest vectors of
+/// that level, though none wider than `$widest`; without vectors, `$scalar(arguments…)`.
+///
+/// The bodies must be `#[inline(always)]`.
+macro_rules! vectored {
+    (
+        $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
+            = $body:path, $widest:ident, $scalar:path
+    ) => {
+        $(#[$doc])*
+        $vis fn $name(level: $crate::math::simd::Level, $($arg: $type),*) {
+            #[cfg(target_arch = "x86_64")]
+            #[target_feature(enable = "avx2")]
+            fn avx2($($arg: $type),*) {
+                $body($crate::math::simd::Avx2::new(), $($arg),*);
+            }
+            #[cfg(target_arch = "x86_64")]
+            let widest = $crate::math::simd::vectored!(@$widest avx2, $body, $($arg: $type),*);
+            match level {
+                $crate::math::simd::Level::Scalar => $scalar($($arg),*),
+                #[cfg(target_arch = "x86_64")]
+                $crate::math::simd::Level::Base => {
+                    $body($crate::math::simd::Sse2::new(), $($arg),*);
+                }
+                // SAFETY: `Level::best` gave this level, so the machine has these instructions.
+                #[cfg(target_arch = "x86_64")]
+                $crate::math::simd::Level::Avx2 => unsafe { avx2($($arg),*) },
+                // SAFETY: as above.
+                #[cfg(target_arch = "x86_64")]
+                $crate::math::simd::Level::Avx512 => unsafe { widest($($arg),*) },
+                #[cfg(target_arch = "aarch64")]
+                $crate::math::simd::Level::Base => {
+                    $body($crate::math::simd::Neon::new(), $($arg),*);
+                }
+                #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+                $crate::math::simd::Level::Base => {
+                    $body($crate::math::simd::Simd128::new(), $($arg),*);
+                }
+            }
+        }
+    };
+    (@Avx2 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => { $avx2 };
+    (@Avx512 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => {{
+        #[target_feature(enable = "avx2,avx512f,avx512vl")]
+        fn avx512($($arg: $type),*) {
+            $body($crate::math::simd::Avx512::new(), $($arg),*);
+        }
+        avx512
+    }};
+}
+pub(crate) use vectored;

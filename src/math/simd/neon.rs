@@ -1,0 +1,199 @@
+//! Vectors of aarch64: four lanes, which every such machine has.
+
+use super::{Arithmetic, Number, Simd};
+use core::arch::aarch64::*;
+use core::ops::{Add, Div, Mul, Sub};
+
+/// Four lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Neon;
+
+impl Neon {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self
+    }
+}
+
+/// Numbers in lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Four(float32x4_t);
+
+// SAFETY of all that follows: every aarch64 target of Rust has NEON, and loads and stores stay within
+// the slices, as is said where they are.
+
+impl Add for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vaddq_f32(self.0, other.0) })
+    }
+}
+
+impl Sub for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vsubq_f32(self.0, other.0) })
+    }
+}
+
+impl Mul for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vmulq_f32(self.0, other.0) })
+    }
+}
+
+impl Div for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vdivq_f32(self.0, other.0) })
+    }
+}
+
+impl Number for Four {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vsqrtq_f32(self.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vbslq_f32(vcgtq_f32(self.0, other.0), self.0, other.0) })
+    }
+}
+
+impl Arithmetic for Neon {
+    type F = Four;
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> Four {
+        // SAFETY: see above.
+        Four(unsafe { vdupq_n_f32(value) })
+    }
+}
+
+impl Simd for Neon {
+    const LANES: usize = 4;
+
+    type Half = Self;
+
+    #[inline(always)]
+    fn half(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn load(self, list: &[f32], at: usize) -> Four {
+        let list = &list[at..at + 4];
+        // SAFETY: the slice has a number for every lane.
+        Four(unsafe { vld1q_f32(list.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, list: &mut [f32], at: usize, v: Four) {
+        let list = &mut list[at..at + 4];
+        // SAFETY: as in `load`.
+        unsafe { vst1q_f32(list.as_mut_ptr(), v.0) };
+    }
+
+    #[inline(always)]
+    fn pick(self, keep: Four, new: Four, old: Four) -> Four {
+        // SAFETY: see above.
+        unsafe { Four(vbslq_f32(vcgtq_f32(keep.0, vdupq_n_f32(0.0)), new.0, old.0)) }
+    }
+
+    #[inline(always)]
+    fn deal(self, low: Four, high: Four) -> (Four, Four) {
+        // SAFETY: see above.
+        unsafe { (Four(vuzp1q_f32(low.0, high.0)), Four(vuzp2q_f32(low.0, high.0))) }
+    }
+
+    #[inline(always)]
+    fn gather_up(self, even: Four, odd: Four) -> (Four, Four) {
+        // SAFETY: see above.
+        unsafe { (Four(vzip1q_f32(even.0, odd.0)), Four(vzip2q_f32(even.0, odd.0))) }
+    }
+
+    #[inline(always)]
+    fn deal_twos(self, low: Four, high: Four) -> (Four, Four) {
+        // SAFETY: see above.
+        let [even, odd] = unsafe { twos(low.0, high.0) };
+        (Four(even), Four(odd))
+    }
+
+    #[inline(always)]
+    fn dealt(self, v: Four) -> Four {
+        v
+    }
+
+    #[inline(always)]
+    fn undealt(self, v: Four) -> Four {
+        v
+    }
+
+    #[inline(always)]
+    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Four; 4] {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let one = |lane: usize| {
+                let at = *at.get_unchecked(lane) as usize;
+                vld1q_f32(points.get_unchecked(at).as_ptr())
+            };
+            turn([one(0), one(1), one(2), one(3)]).map(Four)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Four; 4]) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            for (lane, one) in turn(lanes.map(|v| v.0)).into_iter().enumerate() {
+                let at = *at.get_unchecked(lane) as usize;
+                vst1q_f32(points.get_unchecked_mut(at).as_mut_ptr(), one);
+            }
+        }
+    }
+}
+
+/// The lower and the upper twos of two vectors.
+///
+/// # Safety
+/// None is needed where there is NEON, which is everywhere.
+#[inline(always)]
+unsafe fn twos(low: float32x4_t, high: float32x4_t) -> [float32x4_t; 2] {
+    // SAFETY: see above.
+    unsafe {
+        let (low, high) = (vreinterpretq_f64_f32(low), vreinterpretq_f64_f32(high));
+        let (even, odd) = (vuzp1q_f64(low, high), vuzp2q_f64(low, high));
+        [vreinterpretq_f32_f64(even), vreinterpretq_f32_f64(odd)]
+    }
+}
+
+/// Turns four by four numbers.
+///
+/// # Safety
+/// As for `twos`.
+#[inline(always)]
+unsafe fn turn([a, b, c, d]: [float32x4_t; 4]) -> [float32x4_t; 4] {
+    // SAFETY: see above.
+    unsafe {
+        let (ab_low, ab_high) = (vzip1q_f32(a, b), vzip2q_f32(a, b));
+        let (cd_low, cd_high) = (vzip1q_f32(c, d), vzip2q_f32(c, d));
+        let ([x, y], [z, w]) = (twos(ab_low, cd_low), twos(ab_high, cd_high));
+        [x, y, z, w]
+    }
+}

@@ -1,0 +1,482 @@
+//! Vectors of x86-64: four, eight and sixteen lanes.
+
+use super::{Arithmetic, Number, Simd};
+use core::arch::x86_64::*;
+use core::ops::{Add, Div, Mul, Sub};
+
+/// Four lanes; every x86-64 has them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sse2(());
+
+/// Eight lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(());
+
+/// Sixteen lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512(());
+
+impl Sse2 {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self(())
+    }
+}
+
+impl Avx2 {
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    pub fn new() -> Self {
+        Self(())
+    }
+}
+
+impl Avx512 {
+    #[inline]
+    #[target_feature(enable = "avx2,avx512f,avx512vl")]
+    pub fn new() -> Self {
+        Self(())
+    }
+}
+
+/// A vector type with its operations, one instruction each.
+///
+/// A vector is only made by what its token lets one make, and the token says that the machine has the
+/// instructions.
+macro_rules! vector {
+    (
+        $token:ident, $vector:ident($raw:ty), $lanes:literal,
+        $set:ident, $load:ident, $store:ident, $add:ident, $sub:ident, $mul:ident, $div:ident,
+        $sqrt:ident, $max:ident
+    ) => {
+        /// Numbers in lanes.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct $vector($raw);
+
+        impl Add for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                // SAFETY: there is a vector, so the machine has its instructions; so for all others.
+                Self(unsafe { $add(self.0, other.0) })
+            }
+        }
+
+        impl Sub for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                // SAFETY: as for `add`.
+                Self(unsafe { $sub(self.0, other.0) })
+            }
+        }
+
+        impl Mul for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                // SAFETY: as for `add`.
+                Self(unsafe { $mul(self.0, other.0) })
+            }
+        }
+
+        impl Div for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                // SAFETY: as for `add`.
+                Self(unsafe { $div(self.0, other.0) })
+            }
+        }
+
+        impl Number for $vector {
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                // SAFETY: as for `add`.
+                Self(unsafe { $sqrt(self.0) })
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                // SAFETY: as for `add`.
+                Self(unsafe { $max(self.0, other.0) })
+            }
+        }
+
+        impl Arithmetic for $token {
+            type F = $vector;
+
+            #[inline(always)]
+            fn splat(self, value: f32) -> $vector {
+                // SAFETY: there is a token, so the machine has the instructions.
+                $vector(unsafe { $set(value) })
+            }
+        }
+
+        impl $token {
+            #[inline(always)]
+            fn load_from(self, list: &[f32], at: usize) -> $vector {
+                let list = &list[at..at + $lanes];
+                // SAFETY: the slice has a number for every lane; the token as in `splat`.
+                $vector(unsafe { $load(list.as_ptr()) })
+            }
+
+            #[inline(always)]
+            fn store_to(self, list: &mut [f32], at: usize, v: $vector) {
+                let list = &mut list[at..at + $lanes];
+                // SAFETY: as in `load_from`.
+                unsafe { $store(list.as_mut_ptr(), v.0) };
+            }
+        }
+    };
+}
+
+vector! {
+    Sse2, Four(__m128), 4, _mm_set1_ps, _mm_loadu_ps, _mm_storeu_ps, _mm_add_ps, _mm_sub_ps,
+    _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps, _mm_max_ps
+}
+
+vector! {
+    Avx2, Eight(__m256), 8, _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_add_ps,
+    _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps
+}
+
+vector! {
+    Avx512, Sixteen(__m512), 16, _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps,
+    _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps
+}
+
+// SAFETY of all that follows: a token says that the machine has the instructions, and loads and stores
+// stay within the slices, as is said where they are.
+
+impl Simd for Sse2 {
+    const LANES: usize = 4;
+
+    type Half = Self;
+
+    #[inline(always)]
+    fn half(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn load(self, list: &[f32], at: usize) -> Four {
+        self.load_from(list, at)
+    }
+
+    #[inline(always)]
+    fn store(self, list: &mut [f32], at: usize, v: Four) {
+        self.store_to(list, at, v);
+    }
+
+    #[inline(always)]
+    fn pick(self, keep: Four, new: Four, old: Four) -> Four {
+        // SAFETY: see above.
+        unsafe {
+            let keep = _mm_cmpgt_ps(keep.0, _mm_setzero_ps());
+            Four(_mm_or_ps(_mm_and_ps(keep, new.0), _mm_andnot_ps(keep, old.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn deal(self, low: Four, high: Four) -> (Four, Four) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm_shuffle_ps::<0x88>(low.0, high.0);
+            (Four(even), Four(_mm_shuffle_ps::<0xdd>(low.0, high.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn gather_up(self, even: Four, odd: Four) -> (Four, Four) {
+        // SAFETY: see above.
+        unsafe { (Four(_mm_unpacklo_ps(even.0, odd.0)), Four(_mm_unpackhi_ps(even.0, odd.0))) }
+    }
+
+    #[inline(always)]
+    fn deal_twos(self, low: Four, high: Four) -> (Four, Four) {
+        // SAFETY: see above.
+        unsafe { (Four(_mm_movelh_ps(low.0, high.0)), Four(_mm_shuffle_ps::<0xee>(low.0, high.0))) }
+    }
+
+    #[inline(always)]
+    fn dealt(self, v: Four) -> Four {
+        v
+    }
+
+    #[inline(always)]
+    fn undealt(self, v: Four) -> Four {
+        v
+    }
+
+    #[inline(always)]
+    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Four; 4] {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let one = |lane: usize| {
+                let at = *at.get_unchecked(lane) as usize;
+                _mm_loadu_ps(points.get_unchecked(at).as_ptr())
+            };
+            turn_four([one(0), one(1), one(2), one(3)]).map(Four)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Four; 4]) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            for (lane, one) in turn_four(lanes.map(|v| v.0)).into_iter().enumerate() {
+                let at = *at.get_unchecked(lane) as usize;
+                _mm_storeu_ps(points.get_unchecked_mut(at).as_mut_ptr(), one);
+            }
+        }
+    }
+}
+
+impl Simd for Avx2 {
+    const LANES: usize = 8;
+
+    type Half = Sse2;
+
+    #[inline(always)]
+    fn half(self) -> Sse2 {
+        Sse2(())
+    }
+
+    #[inline(always)]
+    fn load(self, list: &[f32], at: usize) -> Eight {
+        self.load_from(list, at)
+    }
+
+    #[inline(always)]
+    fn store(self, list: &mut [f32], at: usize, v: Eight) {
+        self.store_to(list, at, v);
+    }
+
+    #[inline(always)]
+    fn pick(self, keep: Eight, new: Eight, old: Eight) -> Eight {
+        // SAFETY: see above.
+        unsafe {
+            let keep = _mm256_cmp_ps::<_CMP_GT_OQ>(keep.0, _mm256_setzero_ps());
+            Eight(_mm256_blendv_ps(old.0, new.0, keep))
+        }
+    }
+
+    #[inline(always)]
+    fn deal(self, low: Eight, high: Eight) -> (Eight, Eight) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm256_shuffle_ps::<0x88>(low.0, high.0);
+            (Eight(even), Eight(_mm256_shuffle_ps::<0xdd>(low.0, high.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn gather_up(self, even: Eight, odd: Eight) -> (Eight, Eight) {
+        // SAFETY: see above.
+        unsafe {
+            (Eight(_mm256_unpacklo_ps(even.0, odd.0)), Eight(_mm256_unpackhi_ps(even.0, odd.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn deal_twos(self, low: Eight, high: Eight) -> (Eight, Eight) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm256_shuffle_ps::<0x44>(low.0, high.0);
+            (Eight(even), Eight(_mm256_shuffle_ps::<0xee>(low.0, high.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn dealt(self, v: Eight) -> Eight {
+        // SAFETY: see above. Instructions deal within halves, so twos go by turns; and back by the same.
+        unsafe {
+            let twos = _mm256_castps_pd(v.0);
+            Eight(_mm256_castpd_ps(_mm256_permute4x64_pd::<0b11_01_10_00>(twos)))
+        }
+    }
+
+    #[inline(always)]
+    fn undealt(self, v: Eight) -> Eight {
+        self.dealt(v)
+    }
+
+    #[inline(always)]
+    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Eight; 4] {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let one = |lane: usize| {
+                let at = *at.get_unchecked(lane) as usize;
+                _mm_loadu_ps(points.get_unchecked(at).as_ptr())
+            };
+            let two = |lane: usize| {
+                _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(one(lane)), one(lane + 4))
+            };
+            turn_eight([two(0), two(1), two(2), two(3)]).map(Eight)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Eight; 4]) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            for (lane, two) in turn_eight(lanes.map(|v| v.0)).into_iter().enumerate() {
+                let low = *at.get_unchecked(lane) as usize;
+                let high = *at.get_unchecked(lane + 4) as usize;
+                let (first, second) =
+                    (_mm256_castps256_ps128(two), _mm256_extractf128_ps::<1>(two));
+                _mm_storeu_ps(points.get_unchecked_mut(low).as_mut_ptr(), first);
+                _mm_storeu_ps(points.get_unchecked_mut(high).as_mut_ptr(), second);
+            }
+        }
+    }
+}
+
+impl Simd for Avx512 {
+    const LANES: usize = 16;
+
+    type Half = Avx2;
+
+    #[inline(always)]
+    fn half(self) -> Avx2 {
+        Avx2(())
+    }
+
+    #[inline(always)]
+    fn load(self, list: &[f32], at: usize) -> Sixteen {
+        self.load_from(list, at)
+    }
+
+    #[inline(always)]
+    fn store(self, list: &mut [f32], at: usize, v: Sixteen) {
+        self.store_to(list, at, v);
+    }
+
+    #[inline(always)]
+    fn pick(self, keep: Sixteen, new: Sixteen, old: Sixteen) -> Sixteen {
+        // SAFETY: see above.
+        unsafe {
+            let keep = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(keep.0, _mm512_setzero_ps());
+            Sixteen(_mm512_mask_blend_ps(keep, old.0, new.0))
+        }
+    }
+
+    #[inline(always)]
+    fn deal(self, low: Sixteen, high: Sixteen) -> (Sixteen, Sixteen) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm512_shuffle_ps::<0x88>(low.0, high.0);
+            (Sixteen(even), Sixteen(_mm512_shuffle_ps::<0xdd>(low.0, high.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn gather_up(self, even: Sixteen, odd: Sixteen) -> (Sixteen, Sixteen) {
+        // SAFETY: see above.
+        unsafe {
+            let low = _mm512_unpacklo_ps(even.0, odd.0);
+            (Sixteen(low), Sixteen(_mm512_unpackhi_ps(even.0, odd.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn deal_twos(self, low: Sixteen, high: Sixteen) -> (Sixteen, Sixteen) {
+        // SAFETY: see above.
+        unsafe {
+            let even = _mm512_shuffle_ps::<0x44>(low.0, high.0);
+            (Sixteen(even), Sixteen(_mm512_shuffle_ps::<0xee>(low.0, high.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn dealt(self, v: Sixteen) -> Sixteen {
+        // SAFETY: see above. Instructions deal within quarters, so twos come from either half by turns.
+        unsafe {
+            let order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
+            let twos = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
+            Sixteen(_mm512_castpd_ps(twos))
+        }
+    }
+
+    #[inline(always)]
+    fn undealt(self, v: Sixteen) -> Sixteen {
+        // SAFETY: see above.
+        unsafe {
+            let order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
+            let twos = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
+            Sixteen(_mm512_castpd_ps(twos))
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Sixteen; 4] {
+        // SAFETY: the caller's promise, which holds for each half.
+        let (low, high) =
+            unsafe { (Avx2(()).fetch(points, at), Avx2(()).fetch(points, at.get_unchecked(8..))) };
+        // SAFETY: see above.
+        [0, 1, 2, 3].map(|number: usize| unsafe {
+            let low = _mm512_castpd256_pd512(_mm256_castps_pd(low[number].0));
+            let both = _mm512_insertf64x4::<1>(low, _mm256_castps_pd(high[number].0));
+            Sixteen(_mm512_castpd_ps(both))
+        })
+    }
+
+    #[inline(always)]
+    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Sixteen; 4]) {
+        // SAFETY: see above.
+        let half = |v: Sixteen, high: bool| unsafe {
+            let twos = _mm512_castps_pd(v.0);
+            let half =
+                if high { _mm512_extractf64x4_pd::<1>(twos) } else { _mm512_castpd512_pd256(twos) };
+            Eight(_mm256_castpd_ps(half))
+        };
+        // SAFETY: the caller's promise, which holds for each half.
+        unsafe {
+            Avx2(()).put(points, at, lanes.map(|v| half(v, false)));
+            Avx2(()).put(points, at.get_unchecked(8..), lanes.map(|v| half(v, true)));
+        }
+    }
+}
+
+/// Turns four by four numbers.
+///
+/// # Safety
+/// None is needed where there is SSE2, which is everywhere.
+#[inline(always)]
+unsafe fn turn_four([a, b, c, d]: [__m128; 4]) -> [__m128; 4] {
+    // SAFETY: every x86-64 has SSE2.
+    unsafe {
+        let (ab_low, ab_high) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
+        let (cd_low, cd_high) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
+        [
+            _mm_movelh_ps(ab_low, cd_low),
+            _mm_movehl_ps(cd_low, ab_low),
+            _mm_movelh_ps(ab_high, cd_high),
+            _mm_movehl_ps(cd_high, ab_high),
+        ]
+    }
+}
+
+/// Turns four by four numbers, in both halves.
+///
+/// # Safety
+/// The machine has AVX2.
+#[inline(always)]
+unsafe fn turn_eight([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(ab_low, cd_low),
+            _mm256_shuffle_ps::<0xee>(ab_low, cd_low),
+            _mm256_shuffle_ps::<0x44>(ab_high, cd_high),
+            _mm256_shuffle_ps::<0xee>(ab_high, cd_high),
+        ]
+    }
+}
