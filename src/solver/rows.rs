@@ -152,6 +152,27 @@ struct Ends<'a> {
     lambda: &'a mut [f32],
 }
 
+impl Ends<'_> {
+    /// Those of some of the links.
+    #[inline(always)]
+    fn part<const PATTERN: u8>(&mut self, links: Range<usize>) -> Ends<'_> {
+        let upper = if PATTERN == STRAIGHT { links.clone() } else { 0..0 };
+        let lower =
+            if PATTERN == STRAIGHT { links.clone() } else { 2 * links.start..2 * links.end };
+        let [[xa, xb], [ya, yb], [za, zb]] = [&mut self.x, &mut self.y, &mut self.z];
+        Ends {
+            x: [&mut xa[lower.clone()], &mut xb[upper.clone()]],
+            y: [&mut ya[lower.clone()], &mut yb[upper.clone()]],
+            z: [&mut za[lower.clone()], &mut zb[upper.clone()]],
+            w: [&self.w[0][lower.clone()], &self.w[1][upper.clone()]],
+            mask: &self.mask[links.clone()],
+            rest: &self.rest[links.clone()],
+            compliance: &self.compliance[links.clone()],
+            lambda: &mut self.lambda[links],
+        }
+    }
+}
+
 /// Solves those links of a row that go in chunks.
 #[inline(always)]
 fn solve_row<S: Simd, const LAW: u8, const PATTERN: u8>(
@@ -179,7 +200,14 @@ fn solve_row<S: Simd, const LAW: u8, const PATTERN: u8>(
             k += S::LANES;
         }
     } else {
-        while k + S::LANES <= count {
+        // Two at a time, so that they share what finds their places.
+        while k + 2 * S::LANES <= count {
+            let mut two = ends.part::<PATTERN>(k..k + 2 * S::LANES);
+            solve_chunk::<S, LAW, PATTERN, false>(s, 0, 0, &mut two, scale);
+            solve_chunk::<S, LAW, PATTERN, false>(s, S::LANES, 0, &mut two, scale);
+            k += 2 * S::LANES;
+        }
+        if k + S::LANES <= count {
             solve_chunk::<S, LAW, PATTERN, false>(s, k, 0, &mut ends, scale);
             k += S::LANES;
         }
