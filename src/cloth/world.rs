@@ -198,7 +198,7 @@ impl World {
 
     fn reserve_packed(&mut self, capacity: usize) {
         if self.weave.rows.is_none() {
-            self.scratch.packed.points.reserve_exact(capacity);
+            self.scratch.packed.reserve(capacity, self.weave.links.len());
         }
     }
 }

@@ -92,7 +92,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, kind: LinkKind, scal
             project::<LAW, _>(&mut weave.links, *link as usize, p, scale);
         }
     } else if packed.is_current {
-        packed::solve::<LAW>(world.level, range, &mut weave.links, &mut packed.points, scale);
+        packed::solve::<LAW>(world.level, range, &mut weave.links, packed, scale);
     } else {
         range.for_each(|link| project::<LAW, _>(&mut weave.links, link, p, scale));
     }
@@ -104,7 +104,7 @@ fn solve_extra<const LAW: u8>(world: &mut World, link: usize, kind: LinkKind, sc
         return;
     }
     if packed.is_current {
-        project::<LAW, _>(links, link, &mut packed.points, scale);
+        project::<LAW, _>(links, link, packed, scale);
     } else {
         project::<LAW, _>(links, link, &mut world.particles, scale);
     }

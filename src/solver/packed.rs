@@ -1,34 +1,63 @@
 //! The links of any mesh, as many at a time as there are lanes.
 //!
-//! While links are solved, position and inverse mass of a particle lie next to each other, so that an
-//! end of a link is one load wherever it is; the ends are turned into lanes. The arithmetic is
-//! `links::correct`, the very one that goes link by link, so the bits are the same too.
+//! While links are solved, the position of a particle is one load, wherever it is, and a link has the
+//! inverse masses of its ends beside it. The arithmetic is `links::correct`, the very one that goes
+//! link by link, so the bits are the same too.
 
 use super::World;
 use super::links::{BOUND, RIGID, SOFT, Spots, correct, project};
 use crate::fabric::links::Links;
-use crate::math::simd::{Level, Simd, vectored};
+use crate::math::simd::{Between, Level, vectored};
 use core::ops::Range;
 use glam::Vec3;
 
-/// Particles as the kernels want them: x, y, z and inverse mass.
+/// Particles and links as the kernels want them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Packed {
+    /// x, y, z and 0.
     pub points: Vec<[f32; 4]>,
     /// Whether positions are here and not in their columns.
     pub is_current: bool,
+    /// Inverse masses of the particles, …
+    pub w: Vec<f32>,
+    /// … and from them those of each woven link's ends.
+    ends: [Vec<f32>; 2],
 }
 
-impl Spots for Vec<[f32; 4]> {
+impl Spots for Packed {
     #[inline(always)]
     fn spot(&self, i: usize) -> (Vec3, f32) {
-        let [x, y, z, w] = self[i];
-        (Vec3::new(x, y, z), w)
+        let [x, y, z, _] = self.points[i];
+        (Vec3::new(x, y, z), self.w[i])
     }
 
     #[inline(always)]
     fn put(&mut self, i: usize, x: Vec3) {
-        self[i][..3].copy_from_slice(&x.to_array());
+        self.points[i][..3].copy_from_slice(&x.to_array());
+    }
+}
+
+impl Packed {
+    /// Makes room for `particles` and `links` in all.
+    pub fn reserve(&mut self, particles: usize, links: usize) {
+        self.points.reserve_exact(particles.saturating_sub(self.points.len()));
+        self.w.reserve_exact(particles.saturating_sub(self.w.len()));
+        for list in &mut self.ends {
+            list.reserve_exact(links.saturating_sub(list.len()));
+        }
+    }
+
+    /// Looks up the inverse masses of links' ends, if any changed or a vertex split.
+    fn weigh(&mut self, w: &[f32], links: &Links) {
+        if self.w == w {
+            return;
+        }
+        self.w.clear();
+        self.w.extend_from_slice(w);
+        for (list, ends) in self.ends.iter_mut().zip([&links.a, &links.b]) {
+            list.clear();
+            list.extend(ends.iter().map(|end| w[*end as usize]));
+        }
     }
 }
 
@@ -39,8 +68,9 @@ pub(crate) fn pack(world: &mut World) {
     }
     let (p, packed) = (&world.particles, &mut world.scratch.packed);
     packed.points.clear();
-    let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z).zip(&p.w);
-    packed.points.extend(particles.map(|(((x, y), z), w)| [*x, *y, *z, *w]));
+    let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z);
+    packed.points.extend(particles.map(|((x, y), z)| [*x, *y, *z, 0.0]));
+    packed.weigh(&p.w, &world.weave.links);
     packed.is_current = true;
 }
 
@@ -61,28 +91,28 @@ pub(crate) fn solve<const LAW: u8>(
     level: Level,
     range: Range<usize>,
     links: &mut Links,
-    points: &mut Vec<[f32; 4]>,
+    packed: &mut Packed,
     scale: f32,
 ) {
     match LAW {
-        SOFT => solve_soft(level, range, links, points, scale),
-        RIGID => solve_rigid(level, range, links, points, scale),
-        _ => solve_bound(level, range, links, points, scale),
+        SOFT => solve_soft(level, range, links, packed, scale),
+        RIGID => solve_rigid(level, range, links, packed, scale),
+        _ => solve_bound(level, range, links, packed, scale),
     }
 }
 
 vectored! {
-    fn solve_soft(range: Range<usize>, links: &mut Links, points: &mut Vec<[f32; 4]>, scale: f32)
+    fn solve_soft(range: Range<usize>, links: &mut Links, packed: &mut Packed, scale: f32)
         = solve_color::<_, SOFT>, Avx2, solve_apart::<SOFT>
 }
 
 vectored! {
-    fn solve_rigid(range: Range<usize>, links: &mut Links, points: &mut Vec<[f32; 4]>, scale: f32)
+    fn solve_rigid(range: Range<usize>, links: &mut Links, packed: &mut Packed, scale: f32)
         = solve_color::<_, RIGID>, Avx2, solve_apart::<RIGID>
 }
 
 vectored! {
-    fn solve_bound(range: Range<usize>, links: &mut Links, points: &mut Vec<[f32; 4]>, scale: f32)
+    fn solve_bound(range: Range<usize>, links: &mut Links, packed: &mut Packed, scale: f32)
         = solve_color::<_, BOUND>, Avx2, solve_apart::<BOUND>
 }
 
@@ -91,31 +121,34 @@ vectored! {
 fn solve_apart<const LAW: u8>(
     range: Range<usize>,
     links: &mut Links,
-    points: &mut Vec<[f32; 4]>,
+    packed: &mut Packed,
     scale: f32,
 ) {
-    range.for_each(|link| project::<LAW, _>(links, link, points, scale));
+    range.for_each(|link| project::<LAW, _>(links, link, packed, scale));
 }
 
 #[inline(always)]
-fn solve_color<S: Simd, const LAW: u8>(
+fn solve_color<S: Between, const LAW: u8>(
     s: S,
     range: Range<usize>,
     links: &mut Links,
-    points: &mut Vec<[f32; 4]>,
+    packed: &mut Packed,
     scale: f32,
 ) {
-    let most =
-        |ends: &[u32]| ends.iter().fold(0, |most, end| if *end > most { *end } else { most });
-    let (most_a, most_b) = (most(&links.a[range.clone()]), most(&links.b[range.clone()]));
-    assert!((most_a.max(most_b) as usize) < points.len(), "links end at particles");
+    let mut most = 0;
+    for ends in [&links.a[range.clone()], &links.b[range.clone()]] {
+        for end in ends {
+            most = if *end > most { *end } else { most };
+        }
+    }
+    assert!((most as usize) < packed.points.len(), "links end at particles");
     let mut link = range.start;
     while link + S::LANES <= range.end {
         // SAFETY: all ends of the range were just found to be particles.
-        unsafe { solve_chunk::<S, LAW>(s, link, links, points, scale) };
+        unsafe { solve_chunk::<S, LAW>(s, link, links, packed, scale) };
         link += S::LANES;
     }
-    solve_apart::<LAW>(link..range.end, links, points, scale);
+    solve_apart::<LAW>(link..range.end, links, packed, scale);
 }
 
 /// As many links as there are lanes.
@@ -123,15 +156,15 @@ fn solve_color<S: Simd, const LAW: u8>(
 /// # Safety
 /// Both ends of each are below the number of points.
 #[inline(always)]
-unsafe fn solve_chunk<S: Simd, const LAW: u8>(
+unsafe fn solve_chunk<S: Between, const LAW: u8>(
     s: S,
     first: usize,
     links: &mut Links,
-    points: &mut [[f32; 4]],
+    packed: &mut Packed,
     scale: f32,
 ) {
     let all = first..first + S::LANES;
-    let (at_a, at_b) = (&links.a[all.clone()], &links.b[all.clone()]);
+    let at = [&links.a[all.clone()], &links.b[all.clone()]];
     let active = &links.active[all];
     let rest = s.load(&links.rest, first);
     let zero = s.splat(0.0);
@@ -140,29 +173,29 @@ unsafe fn solve_chunk<S: Simd, const LAW: u8>(
         compliance = s.load(&links.compliance, first);
         lambda = s.load(&links.lambda, first);
     }
+    let [wa, wb] = [s.load(&packed.ends[0], first), s.load(&packed.ends[1], first)];
     // SAFETY: the caller's promise.
-    let ([xa, ya, za, wa], [xb, yb, zb, wb]) =
-        unsafe { (s.fetch(points, at_a), s.fetch(points, at_b)) };
-    let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
+    let (pairs, span) = unsafe { s.fetch(&packed.points, at) };
     let (share, mut multiplier) =
-        correct::<LAW, S>(s, [dx, dy, dz], wa + wb, rest, compliance, lambda, scale);
-    let (to_a, to_b) = (share * wa, share * wb);
-    let mut a = [xa + dx * to_a, ya + dy * to_a, za + dz * to_a, wa];
-    let mut b = [xb - dx * to_b, yb - dy * to_b, zb - dz * to_b, wb];
-    if !active.iter().fold(true, |all, active| all & active) {
-        let mut keep = [0.0; 16];
-        for (keep, is_active) in keep.iter_mut().zip(active) {
-            *keep = f32::from(u8::from(*is_active));
-        }
-        let keep = s.load(&keep, 0);
-        a = [s.pick(keep, a[0], xa), s.pick(keep, a[1], ya), s.pick(keep, a[2], za), wa];
-        b = [s.pick(keep, b[0], xb), s.pick(keep, b[1], yb), s.pick(keep, b[2], zb), wb];
-        multiplier = s.pick(keep, multiplier, lambda);
+        correct::<LAW, S>(s, span, wa + wb, rest, compliance, lambda, scale);
+    let shares = [share * wa, share * wb];
+    let mut all_move = true;
+    for moves in active {
+        all_move &= moves;
     }
-    // SAFETY: the caller's promise.
-    unsafe {
-        s.put(points, at_a, a);
-        s.put(points, at_b, b);
+    if all_move {
+        // SAFETY: the caller's promise.
+        unsafe { s.put::<false>(&mut packed.points, at, pairs, shares, active) };
+    } else {
+        // SAFETY: as above, and `active` has an entry for each lane.
+        unsafe { s.put::<true>(&mut packed.points, at, pairs, shares, active) };
+        if LAW == SOFT {
+            let mut keep = [0.0; 16];
+            for (keep, is_active) in keep.iter_mut().zip(active) {
+                *keep = f32::from(u8::from(*is_active));
+            }
+            multiplier = s.pick(s.load(&keep, 0), multiplier, lambda);
+        }
     }
     if LAW == SOFT {
         s.store(&mut links.lambda, first, multiplier);

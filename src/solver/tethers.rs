@@ -1,6 +1,7 @@
 //! Stage `Tethers`: no particle gets farther from a pin than its way along the cloth.
 
 use super::World;
+use super::packed::Packed;
 use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Level, leveled};
@@ -137,20 +138,21 @@ pub(crate) fn draw_in(world: &mut World, slack: f32) {
     let (found, packed) = (&world.scratch.anchor, &mut world.scratch.packed);
     for set in world.tethers.sets() {
         if packed.is_current {
-            pull_packed(set, slack, found, &mut packed.points);
+            pull_packed(set, slack, found, packed);
         } else {
             pull_set(level, set, slack, found, &mut p.x, &p.w);
         }
     }
 }
 
-fn pull_packed(set: &TetherSet, slack: f32, found: &Columns, points: &mut [[f32; 4]]) {
-    let only = set.only.map(|pin| points[pin as usize]);
-    for (i, (point, length)) in points.iter_mut().zip(&set.length).enumerate() {
-        let [x, y, z, w] = *point;
+fn pull_packed(set: &TetherSet, slack: f32, found: &Columns, packed: &mut Packed) {
+    let only = set.only.map(|pin| packed.points[pin as usize]);
+    let particles = packed.points.iter_mut().zip(&packed.w).zip(&set.length);
+    for (i, ((point, w), length)) in particles.enumerate() {
+        let [x, y, z, _] = *point;
         let pin = only.map_or_else(|| found.at(i).to_array(), |[x, y, z, _]| [x, y, z]);
-        let [x, y, z] = within([x, y, z], pin, length * slack, w);
-        *point = [x, y, z, w];
+        let [x, y, z] = within([x, y, z], pin, length * slack, *w);
+        *point = [x, y, z, 0.0];
     }
 }
 

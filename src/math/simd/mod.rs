@@ -102,18 +102,33 @@ pub(crate) trait Simd: Arithmetic {
 
     /// Takes back what `dealt` did.
     fn undealt(self, v: Self::F) -> Self::F;
+}
 
-    /// Four numbers of each of some points, turned so that each number has its lanes.
+/// Vectors for links between points that lie anywhere.
+pub(crate) trait Between: Simd {
+    /// As many pairs of points as there are lanes.
+    type Pairs: Copy;
+
+    /// Pairs of points, and what leads from the first of each to the second, turned so that each
+    /// number has its lanes.
     ///
     /// # Safety
-    /// `at` has at least as many entries as there are lanes, and each is below the number of points.
-    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Self::F; 4];
+    /// Both lists of places have an entry for each lane, each below the number of points; so for `put`.
+    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Self::F; 3]);
 
-    /// Puts points back. Of equal indices the last one stays.
+    /// Puts pairs back, moved along what led from one to the other: the first by so much of it, the
+    /// second by so much against it; with `CHOOSY` set, only those that are to move.
     ///
     /// # Safety
-    /// As for `fetch`.
-    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Self::F; 4]);
+    /// As for `fetch`; there is an entry of `moves` for each lane.
+    unsafe fn put<const CHOOSY: bool>(
+        self,
+        points: &mut [[f32; 4]],
+        at: [&[u32]; 2],
+        pairs: Self::Pairs,
+        shares: [Self::F; 2],
+        moves: &[bool],
+    );
 }
 
 /// The instruction sets that kernels are compiled for.

@@ -1,6 +1,6 @@
 //! Vectors of aarch64: four lanes, which every such machine has.
 
-use super::{Arithmetic, Number, Simd};
+use super::{Arithmetic, Between, Number, Simd};
 use core::arch::aarch64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -144,29 +144,6 @@ impl Simd for Neon {
     fn undealt(self, v: Four) -> Four {
         v
     }
-
-    #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Four; 4] {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
-        unsafe {
-            let one = |lane: usize| {
-                let at = *at.get_unchecked(lane) as usize;
-                vld1q_f32(points.get_unchecked(at).as_ptr())
-            };
-            turn([one(0), one(1), one(2), one(3)]).map(Four)
-        }
-    }
-
-    #[inline(always)]
-    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Four; 4]) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
-        unsafe {
-            for (lane, one) in turn(lanes.map(|v| v.0)).into_iter().enumerate() {
-                let at = *at.get_unchecked(lane) as usize;
-                vst1q_f32(points.get_unchecked_mut(at).as_mut_ptr(), one);
-            }
-        }
-    }
 }
 
 /// The lower and the upper twos of two vectors.
@@ -183,17 +160,90 @@ unsafe fn twos(low: float32x4_t, high: float32x4_t) -> [float32x4_t; 2] {
     }
 }
 
-/// Turns four by four numbers.
+impl Between for Neon {
+    type Pairs = [[float32x4_t; 4]; 2];
+
+    #[inline(always)]
+    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
+            let span = [
+                vsubq_f32(b[0], a[0]),
+                vsubq_f32(b[1], a[1]),
+                vsubq_f32(b[2], a[2]),
+                vsubq_f32(b[3], a[3]),
+            ];
+            let [x, y] = twos(vzip1q_f32(span[0], span[1]), vzip1q_f32(span[2], span[3]));
+            let [z, _] = twos(vzip2q_f32(span[0], span[1]), vzip2q_f32(span[2], span[3]));
+            ([a, b], [Four(x), Four(y), Four(z)])
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn put<const CHOOSY: bool>(
+        self,
+        points: &mut [[f32; 4]],
+        at: [&[u32]; 2],
+        [a, b]: Self::Pairs,
+        shares: [Four; 2],
+        moves: &[bool],
+    ) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let (to_a, to_b) = (each(shares[0].0), each(shares[1].0));
+            for lane in 0..4 {
+                if CHOOSY && !*moves.get_unchecked(lane) {
+                    continue;
+                }
+                let span = vsubq_f32(b[lane], a[lane]);
+                let at_a = *at[0].get_unchecked(lane) as usize;
+                let at_b = *at[1].get_unchecked(lane) as usize;
+                let a = vaddq_f32(a[lane], vmulq_f32(span, to_a[lane]));
+                vst1q_f32(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
+                let b = vsubq_f32(b[lane], vmulq_f32(span, to_b[lane]));
+                vst1q_f32(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+            }
+        }
+    }
+}
+
+/// Four of the points.
 ///
 /// # Safety
-/// As for `twos`.
+/// `at` has four entries, each below the number of points.
 #[inline(always)]
-unsafe fn turn([a, b, c, d]: [float32x4_t; 4]) -> [float32x4_t; 4] {
+unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [float32x4_t; 4] {
+    // SAFETY: the caller's promise.
+    unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
+}
+
+/// One of the points.
+///
+/// # Safety
+/// `at` has entry `lane`, and that is below the number of points.
+#[inline(always)]
+unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> float32x4_t {
+    // SAFETY: the caller's promise; a point is sixteen bytes.
+    unsafe {
+        let at = *at.get_unchecked(lane) as usize;
+        vld1q_f32(points.get_unchecked(at).as_ptr())
+    }
+}
+
+/// Each number in all lanes of a vector.
+///
+/// # Safety
+/// None is needed: every such machine has NEON.
+#[inline(always)]
+unsafe fn each(v: float32x4_t) -> [float32x4_t; 4] {
     // SAFETY: see above.
     unsafe {
-        let (ab_low, ab_high) = (vzip1q_f32(a, b), vzip2q_f32(a, b));
-        let (cd_low, cd_high) = (vzip1q_f32(c, d), vzip2q_f32(c, d));
-        let ([x, y], [z, w]) = (twos(ab_low, cd_low), twos(ab_high, cd_high));
-        [x, y, z, w]
+        [
+            vdupq_laneq_f32::<0>(v),
+            vdupq_laneq_f32::<1>(v),
+            vdupq_laneq_f32::<2>(v),
+            vdupq_laneq_f32::<3>(v),
+        ]
     }
 }

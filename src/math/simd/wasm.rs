@@ -1,6 +1,6 @@
 //! Vectors of WebAssembly: four lanes. The module is compiled with or without them.
 
-use super::{Arithmetic, Number, Simd};
+use super::{Arithmetic, Between, Number, Simd};
 use core::arch::wasm32::*;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -133,37 +133,95 @@ impl Simd for Simd128 {
     fn undealt(self, v: Four) -> Four {
         v
     }
+}
+
+impl Between for Simd128 {
+    type Pairs = [[v128; 4]; 2];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Four; 4] {
+    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
         // SAFETY: the caller's promise; a point is sixteen bytes.
-        let one = |lane: usize| unsafe {
-            v128_load(points.get_unchecked(*at.get_unchecked(lane) as usize).as_ptr().cast())
-        };
-        turn([one(0), one(1), one(2), one(3)]).map(Four)
+        unsafe {
+            let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
+            let span = [
+                f32x4_sub(b[0], a[0]),
+                f32x4_sub(b[1], a[1]),
+                f32x4_sub(b[2], a[2]),
+                f32x4_sub(b[3], a[3]),
+            ];
+            let low = [
+                i32x4_shuffle::<0, 4, 1, 5>(span[0], span[1]),
+                i32x4_shuffle::<0, 4, 1, 5>(span[2], span[3]),
+            ];
+            let high = [
+                i32x4_shuffle::<2, 6, 3, 7>(span[0], span[1]),
+                i32x4_shuffle::<2, 6, 3, 7>(span[2], span[3]),
+            ];
+            let x = i64x2_shuffle::<0, 2>(low[0], low[1]);
+            let y = i64x2_shuffle::<1, 3>(low[0], low[1]);
+            let z = i64x2_shuffle::<0, 2>(high[0], high[1]);
+            ([a, b], [Four(x), Four(y), Four(z)])
+        }
     }
 
     #[inline(always)]
-    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Four; 4]) {
-        for (lane, one) in turn(lanes.map(|v| v.0)).into_iter().enumerate() {
-            // SAFETY: the caller's promise; a point is sixteen bytes.
-            unsafe {
-                let point = points.get_unchecked_mut(*at.get_unchecked(lane) as usize);
-                v128_store(point.as_mut_ptr().cast(), one);
+    unsafe fn put<const CHOOSY: bool>(
+        self,
+        points: &mut [[f32; 4]],
+        at: [&[u32]; 2],
+        [a, b]: Self::Pairs,
+        shares: [Four; 2],
+        moves: &[bool],
+    ) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let (to_a, to_b) = (each(shares[0].0), each(shares[1].0));
+            for lane in 0..4 {
+                if CHOOSY && !*moves.get_unchecked(lane) {
+                    continue;
+                }
+                let span = f32x4_sub(b[lane], a[lane]);
+                let at_a = *at[0].get_unchecked(lane) as usize;
+                let at_b = *at[1].get_unchecked(lane) as usize;
+                let a = f32x4_add(a[lane], f32x4_mul(span, to_a[lane]));
+                v128_store(points.get_unchecked_mut(at_a).as_mut_ptr().cast(), a);
+                let b = f32x4_sub(b[lane], f32x4_mul(span, to_b[lane]));
+                v128_store(points.get_unchecked_mut(at_b).as_mut_ptr().cast(), b);
             }
         }
     }
 }
 
-/// Turns four by four numbers.
+/// Four of the points.
+///
+/// # Safety
+/// `at` has four entries, each below the number of points.
 #[inline(always)]
-fn turn([a, b, c, d]: [v128; 4]) -> [v128; 4] {
-    let ab = (i32x4_shuffle::<0, 4, 1, 5>(a, b), i32x4_shuffle::<2, 6, 3, 7>(a, b));
-    let cd = (i32x4_shuffle::<0, 4, 1, 5>(c, d), i32x4_shuffle::<2, 6, 3, 7>(c, d));
+unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [v128; 4] {
+    // SAFETY: the caller's promise.
+    unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
+}
+
+/// One of the points.
+///
+/// # Safety
+/// `at` has entry `lane`, and that is below the number of points.
+#[inline(always)]
+unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> v128 {
+    // SAFETY: the caller's promise; a point is sixteen bytes.
+    unsafe {
+        let at = *at.get_unchecked(lane) as usize;
+        v128_load(points.get_unchecked(at).as_ptr().cast())
+    }
+}
+
+/// Each number in all lanes of a vector.
+#[inline(always)]
+fn each(v: v128) -> [v128; 4] {
     [
-        i64x2_shuffle::<0, 2>(ab.0, cd.0),
-        i64x2_shuffle::<1, 3>(ab.0, cd.0),
-        i64x2_shuffle::<0, 2>(ab.1, cd.1),
-        i64x2_shuffle::<1, 3>(ab.1, cd.1),
+        i32x4_shuffle::<0, 0, 0, 0>(v, v),
+        i32x4_shuffle::<1, 1, 1, 1>(v, v),
+        i32x4_shuffle::<2, 2, 2, 2>(v, v),
+        i32x4_shuffle::<3, 3, 3, 3>(v, v),
     ]
 }

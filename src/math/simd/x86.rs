@@ -1,6 +1,6 @@
 //! Vectors of x86-64: four, eight and sixteen lanes.
 
-use super::{Arithmetic, Number, Simd};
+use super::{Arithmetic, Between, Number, Simd};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -212,29 +212,6 @@ impl Simd for Sse2 {
     fn undealt(self, v: Four) -> Four {
         v
     }
-
-    #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Four; 4] {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
-        unsafe {
-            let one = |lane: usize| {
-                let at = *at.get_unchecked(lane) as usize;
-                _mm_loadu_ps(points.get_unchecked(at).as_ptr())
-            };
-            turn_four([one(0), one(1), one(2), one(3)]).map(Four)
-        }
-    }
-
-    #[inline(always)]
-    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Four; 4]) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
-        unsafe {
-            for (lane, one) in turn_four(lanes.map(|v| v.0)).into_iter().enumerate() {
-                let at = *at.get_unchecked(lane) as usize;
-                _mm_storeu_ps(points.get_unchecked_mut(at).as_mut_ptr(), one);
-            }
-        }
-    }
 }
 
 impl Simd for Avx2 {
@@ -304,36 +281,6 @@ impl Simd for Avx2 {
     #[inline(always)]
     fn undealt(self, v: Eight) -> Eight {
         self.dealt(v)
-    }
-
-    #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Eight; 4] {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
-        unsafe {
-            let one = |lane: usize| {
-                let at = *at.get_unchecked(lane) as usize;
-                _mm_loadu_ps(points.get_unchecked(at).as_ptr())
-            };
-            let two = |lane: usize| {
-                _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(one(lane)), one(lane + 4))
-            };
-            turn_eight([two(0), two(1), two(2), two(3)]).map(Eight)
-        }
-    }
-
-    #[inline(always)]
-    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Eight; 4]) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
-        unsafe {
-            for (lane, two) in turn_eight(lanes.map(|v| v.0)).into_iter().enumerate() {
-                let low = *at.get_unchecked(lane) as usize;
-                let high = *at.get_unchecked(lane + 4) as usize;
-                let (first, second) =
-                    (_mm256_castps256_ps128(two), _mm256_extractf128_ps::<1>(two));
-                _mm_storeu_ps(points.get_unchecked_mut(low).as_mut_ptr(), first);
-                _mm_storeu_ps(points.get_unchecked_mut(high).as_mut_ptr(), second);
-            }
-        }
     }
 }
 
@@ -412,71 +359,193 @@ impl Simd for Avx512 {
             Sixteen(_mm512_castpd_ps(twos))
         }
     }
+}
+
+impl Between for Sse2 {
+    type Pairs = [[__m128; 4]; 2];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: &[u32]) -> [Sixteen; 4] {
-        // SAFETY: the caller's promise, which holds for each half.
-        let (low, high) =
-            unsafe { (Avx2(()).fetch(points, at), Avx2(()).fetch(points, at.get_unchecked(8..))) };
-        // SAFETY: see above.
-        [0, 1, 2, 3].map(|number: usize| unsafe {
-            let low = _mm512_castpd256_pd512(_mm256_castps_pd(low[number].0));
-            let both = _mm512_insertf64x4::<1>(low, _mm256_castps_pd(high[number].0));
-            Sixteen(_mm512_castpd_ps(both))
-        })
+    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
+            let span = [
+                _mm_sub_ps(b[0], a[0]),
+                _mm_sub_ps(b[1], a[1]),
+                _mm_sub_ps(b[2], a[2]),
+                _mm_sub_ps(b[3], a[3]),
+            ];
+            let low = [_mm_unpacklo_ps(span[0], span[1]), _mm_unpacklo_ps(span[2], span[3])];
+            let high = [_mm_unpackhi_ps(span[0], span[1]), _mm_unpackhi_ps(span[2], span[3])];
+            let x = _mm_movelh_ps(low[0], low[1]);
+            let y = _mm_movehl_ps(low[1], low[0]);
+            ([a, b], [Four(x), Four(y), Four(_mm_movelh_ps(high[0], high[1]))])
+        }
     }
 
     #[inline(always)]
-    unsafe fn put(self, points: &mut [[f32; 4]], at: &[u32], lanes: [Sixteen; 4]) {
-        // SAFETY: see above.
-        let half = |v: Sixteen, high: bool| unsafe {
-            let twos = _mm512_castps_pd(v.0);
-            let half =
-                if high { _mm512_extractf64x4_pd::<1>(twos) } else { _mm512_castpd512_pd256(twos) };
-            Eight(_mm256_castpd_ps(half))
-        };
-        // SAFETY: the caller's promise, which holds for each half.
+    unsafe fn put<const CHOOSY: bool>(
+        self,
+        points: &mut [[f32; 4]],
+        at: [&[u32]; 2],
+        [a, b]: Self::Pairs,
+        shares: [Four; 2],
+        moves: &[bool],
+    ) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
         unsafe {
-            Avx2(()).put(points, at, lanes.map(|v| half(v, false)));
-            Avx2(()).put(points, at.get_unchecked(8..), lanes.map(|v| half(v, true)));
+            let (to_a, to_b) = (each(shares[0].0), each(shares[1].0));
+            for lane in 0..4 {
+                if CHOOSY && !*moves.get_unchecked(lane) {
+                    continue;
+                }
+                let span = _mm_sub_ps(b[lane], a[lane]);
+                let at_a = *at[0].get_unchecked(lane) as usize;
+                let at_b = *at[1].get_unchecked(lane) as usize;
+                let a = _mm_add_ps(a[lane], _mm_mul_ps(span, to_a[lane]));
+                _mm_storeu_ps(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
+                let b = _mm_sub_ps(b[lane], _mm_mul_ps(span, to_b[lane]));
+                _mm_storeu_ps(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+            }
         }
     }
 }
 
-/// Turns four by four numbers.
+impl Between for Avx2 {
+    /// Pair `i` is the lower half of vector `i`, pair `i + 4` the upper one.
+    type Pairs = [[__m256; 4]; 2];
+
+    #[inline(always)]
+    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Eight; 3]) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let (a, b) = (all_eight(points, at[0]), all_eight(points, at[1]));
+            let span = [
+                _mm256_sub_ps(b[0], a[0]),
+                _mm256_sub_ps(b[1], a[1]),
+                _mm256_sub_ps(b[2], a[2]),
+                _mm256_sub_ps(b[3], a[3]),
+            ];
+            let low = [_mm256_unpacklo_ps(span[0], span[1]), _mm256_unpacklo_ps(span[2], span[3])];
+            let high = [_mm256_unpackhi_ps(span[0], span[1]), _mm256_unpackhi_ps(span[2], span[3])];
+            let x = _mm256_shuffle_ps::<0x44>(low[0], low[1]);
+            let y = _mm256_shuffle_ps::<0xee>(low[0], low[1]);
+            let z = _mm256_shuffle_ps::<0x44>(high[0], high[1]);
+            ([a, b], [Eight(x), Eight(y), Eight(z)])
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn put<const CHOOSY: bool>(
+        self,
+        points: &mut [[f32; 4]],
+        at: [&[u32]; 2],
+        [a, b]: Self::Pairs,
+        shares: [Eight; 2],
+        moves: &[bool],
+    ) {
+        // SAFETY: the caller's promise; a point is sixteen bytes.
+        unsafe {
+            let (to_a, to_b) = (each_twice(shares[0].0), each_twice(shares[1].0));
+            for lane in 0..4 {
+                let span = _mm256_sub_ps(b[lane], a[lane]);
+                let a = _mm256_add_ps(a[lane], _mm256_mul_ps(span, to_a[lane]));
+                let b = _mm256_sub_ps(b[lane], _mm256_mul_ps(span, to_b[lane]));
+                if !CHOOSY || *moves.get_unchecked(lane) {
+                    let at_a = *at[0].get_unchecked(lane) as usize;
+                    let at_b = *at[1].get_unchecked(lane) as usize;
+                    let (a, b) = (_mm256_castps256_ps128(a), _mm256_castps256_ps128(b));
+                    _mm_storeu_ps(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
+                    _mm_storeu_ps(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+                }
+                if !CHOOSY || *moves.get_unchecked(lane + 4) {
+                    let at_a = *at[0].get_unchecked(lane + 4) as usize;
+                    let at_b = *at[1].get_unchecked(lane + 4) as usize;
+                    let (a, b) = (_mm256_extractf128_ps::<1>(a), _mm256_extractf128_ps::<1>(b));
+                    _mm_storeu_ps(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
+                    _mm_storeu_ps(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+                }
+            }
+        }
+    }
+}
+
+/// Four of the points.
 ///
 /// # Safety
-/// None is needed where there is SSE2, which is everywhere.
+/// `at` has four entries, each below the number of points.
 #[inline(always)]
-unsafe fn turn_four([a, b, c, d]: [__m128; 4]) -> [__m128; 4] {
-    // SAFETY: every x86-64 has SSE2.
+unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [__m128; 4] {
+    // SAFETY: the caller's promise.
+    unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
+}
+
+/// One of the points.
+///
+/// # Safety
+/// `at` has entry `lane`, and that is below the number of points.
+#[inline(always)]
+unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> __m128 {
+    // SAFETY: the caller's promise; a point is sixteen bytes.
     unsafe {
-        let (ab_low, ab_high) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
-        let (cd_low, cd_high) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
+        let at = *at.get_unchecked(lane) as usize;
+        _mm_loadu_ps(points.get_unchecked(at).as_ptr())
+    }
+}
+
+/// Each number in all lanes of a vector.
+///
+/// # Safety
+/// None is needed: every x86-64 has SSE2.
+#[inline(always)]
+unsafe fn each(v: __m128) -> [__m128; 4] {
+    // SAFETY: see above.
+    unsafe {
         [
-            _mm_movelh_ps(ab_low, cd_low),
-            _mm_movehl_ps(cd_low, ab_low),
-            _mm_movelh_ps(ab_high, cd_high),
-            _mm_movehl_ps(cd_high, ab_high),
+            _mm_shuffle_ps::<0b00_00_00_00>(v, v),
+            _mm_shuffle_ps::<0b01_01_01_01>(v, v),
+            _mm_shuffle_ps::<0b10_10_10_10>(v, v),
+            _mm_shuffle_ps::<0b11_11_11_11>(v, v),
         ]
     }
 }
 
-/// Turns four by four numbers, in both halves.
+/// Eight of the points, `i` and `i + 4` in one vector.
+///
+/// # Safety
+/// `at` has eight entries, each below the number of points, and the machine has AVX2.
+#[inline(always)]
+unsafe fn all_eight(points: &[[f32; 4]], at: &[u32]) -> [__m256; 4] {
+    // SAFETY: the caller's promise.
+    unsafe { [two(points, at, 0), two(points, at, 1), two(points, at, 2), two(points, at, 3)] }
+}
+
+/// Two of the points.
+///
+/// # Safety
+/// As for `all_eight`; `lane` is below four.
+#[inline(always)]
+unsafe fn two(points: &[[f32; 4]], at: &[u32], lane: usize) -> __m256 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let low = _mm256_castps128_ps256(one(points, at, lane));
+        _mm256_insertf128_ps::<1>(low, one(points, at, lane + 4))
+    }
+}
+
+/// Each number of a half in all lanes of that half.
 ///
 /// # Safety
 /// The machine has AVX2.
 #[inline(always)]
-unsafe fn turn_eight([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
+unsafe fn each_twice(v: __m256) -> [__m256; 4] {
     // SAFETY: the caller's promise.
     unsafe {
-        let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-        let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
         [
-            _mm256_shuffle_ps::<0x44>(ab_low, cd_low),
-            _mm256_shuffle_ps::<0xee>(ab_low, cd_low),
-            _mm256_shuffle_ps::<0x44>(ab_high, cd_high),
-            _mm256_shuffle_ps::<0xee>(ab_high, cd_high),
+            _mm256_permute_ps::<0b00_00_00_00>(v),
+            _mm256_permute_ps::<0b01_01_01_01>(v),
+            _mm256_permute_ps::<0b10_10_10_10>(v),
+            _mm256_permute_ps::<0b11_11_11_11>(v),
         ]
     }
 }
