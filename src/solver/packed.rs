@@ -142,21 +142,31 @@ fn solve_color<S: Between, const LAW: u8>(
         }
     }
     assert!((most as usize) < packed.points.len(), "links end at particles");
+    let mut is_whole = true;
+    for is_active in &links.active[range.clone()] {
+        is_whole &= is_active;
+    }
     let mut link = range.start;
     while link + S::LANES <= range.end {
         // SAFETY: all ends of the range were just found to be particles.
-        unsafe { solve_chunk::<S, LAW>(s, link, links, packed, scale) };
+        unsafe {
+            if is_whole {
+                solve_chunk::<S, LAW, false>(s, link, links, packed, scale);
+            } else {
+                solve_chunk::<S, LAW, true>(s, link, links, packed, scale);
+            }
+        }
         link += S::LANES;
     }
     solve_apart::<LAW>(link..range.end, links, packed, scale);
 }
 
-/// As many links as there are lanes.
+/// As many links as there are lanes; with `CHOOSY` set, only those that hold.
 ///
 /// # Safety
 /// Both ends of each are below the number of points.
 #[inline(always)]
-unsafe fn solve_chunk<S: Between, const LAW: u8>(
+unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool>(
     s: S,
     first: usize,
     links: &mut Links,
@@ -179,25 +189,16 @@ unsafe fn solve_chunk<S: Between, const LAW: u8>(
     let (share, mut multiplier) =
         correct::<LAW, S>(s, span, wa + wb, rest, compliance, lambda, scale);
     let shares = [share * wa, share * wb];
-    let mut all_move = true;
-    for moves in active {
-        all_move &= moves;
-    }
-    if all_move {
-        // SAFETY: the caller's promise.
-        unsafe { s.put::<false>(&mut packed.points, at, pairs, shares, active) };
-    } else {
-        // SAFETY: as above, and `active` has an entry for each lane.
-        unsafe { s.put::<true>(&mut packed.points, at, pairs, shares, active) };
-        if LAW == SOFT {
+    // SAFETY: the caller's promise, and `active` has an entry for each lane.
+    unsafe { s.put::<CHOOSY>(&mut packed.points, at, pairs, shares, active) };
+    if LAW == SOFT {
+        if CHOOSY {
             let mut keep = [0.0; 16];
             for (keep, is_active) in keep.iter_mut().zip(active) {
                 *keep = f32::from(u8::from(*is_active));
             }
             multiplier = s.pick(s.load(&keep, 0), multiplier, lambda);
         }
-    }
-    if LAW == SOFT {
         s.store(&mut links.lambda, first, multiplier);
     }
 }

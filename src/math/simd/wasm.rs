@@ -136,7 +136,9 @@ impl Simd for Simd128 {
 }
 
 impl Between for Simd128 {
-    type Pairs = [[v128; 4]; 2];
+    /// What leads from one to the other; the points are fetched again, since engines run out of
+    /// registers.
+    type Pairs = [v128; 4];
 
     #[inline(always)]
     unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
@@ -160,7 +162,7 @@ impl Between for Simd128 {
             let x = i64x2_shuffle::<0, 2>(low[0], low[1]);
             let y = i64x2_shuffle::<1, 3>(low[0], low[1]);
             let z = i64x2_shuffle::<0, 2>(high[0], high[1]);
-            ([a, b], [Four(x), Four(y), Four(z)])
+            (span, [Four(x), Four(y), Four(z)])
         }
     }
 
@@ -169,26 +171,43 @@ impl Between for Simd128 {
         self,
         points: &mut [[f32; 4]],
         at: [&[u32]; 2],
-        [a, b]: Self::Pairs,
+        span: Self::Pairs,
         shares: [Four; 2],
         moves: &[bool],
     ) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
+        // SAFETY: the caller's promise.
         unsafe {
-            let (to_a, to_b) = (each(shares[0].0), each(shares[1].0));
-            for lane in 0..4 {
-                if CHOOSY && !*moves.get_unchecked(lane) {
-                    continue;
-                }
-                let span = f32x4_sub(b[lane], a[lane]);
-                let at_a = *at[0].get_unchecked(lane) as usize;
-                let at_b = *at[1].get_unchecked(lane) as usize;
-                let a = f32x4_add(a[lane], f32x4_mul(span, to_a[lane]));
-                v128_store(points.get_unchecked_mut(at_a).as_mut_ptr().cast(), a);
-                let b = f32x4_sub(b[lane], f32x4_mul(span, to_b[lane]));
-                v128_store(points.get_unchecked_mut(at_b).as_mut_ptr().cast(), b);
-            }
+            move_one::<0, CHOOSY>(points, at, span, shares, moves);
+            move_one::<1, CHOOSY>(points, at, span, shares, moves);
+            move_one::<2, CHOOSY>(points, at, span, shares, moves);
+            move_one::<3, CHOOSY>(points, at, span, shares, moves);
         }
+    }
+}
+
+/// Moves the two points of a lane.
+///
+/// # Safety
+/// As for `put`.
+#[inline(always)]
+unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
+    points: &mut [[f32; 4]],
+    at: [&[u32]; 2],
+    span: [v128; 4],
+    [to_a, to_b]: [Four; 2],
+    moves: &[bool],
+) {
+    // SAFETY: the caller's promise; a point is sixteen bytes.
+    unsafe {
+        if CHOOSY && !*moves.get_unchecked(LANE) {
+            return;
+        }
+        let to_a = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_a.0, to_a.0);
+        let to_b = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_b.0, to_b.0);
+        let at_a = points.get_unchecked_mut(*at[0].get_unchecked(LANE) as usize).as_mut_ptr();
+        v128_store(at_a.cast(), f32x4_add(v128_load(at_a.cast()), f32x4_mul(span[LANE], to_a)));
+        let at_b = points.get_unchecked_mut(*at[1].get_unchecked(LANE) as usize).as_mut_ptr();
+        v128_store(at_b.cast(), f32x4_sub(v128_load(at_b.cast()), f32x4_mul(span[LANE], to_b)));
     }
 }
 
@@ -213,15 +232,4 @@ unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> v128 {
         let at = *at.get_unchecked(lane) as usize;
         v128_load(points.get_unchecked(at).as_ptr().cast())
     }
-}
-
-/// Each number in all lanes of a vector.
-#[inline(always)]
-fn each(v: v128) -> [v128; 4] {
-    [
-        i32x4_shuffle::<0, 0, 0, 0>(v, v),
-        i32x4_shuffle::<1, 1, 1, 1>(v, v),
-        i32x4_shuffle::<2, 2, 2, 2>(v, v),
-        i32x4_shuffle::<3, 3, 3, 3>(v, v),
-    ]
 }
