@@ -1,6 +1,7 @@
 //! Stage `Guard`: what is no longer a number, or has run away, goes back to where it last was.
 
 use super::World;
+use crate::math::simd::leveled;
 use crate::state::events::{Event, EventKind};
 use glam::Vec3;
 
@@ -11,6 +12,15 @@ const REALM: f32 = 1.0e6;
 pub(crate) fn mend(world: &mut World) {
     let (h, gravity) = (world.settings.scheme().h, world.settings.gravity);
     let p = &mut world.particles;
+    let mut all_sound = true;
+    for columns in [&p.x, &p.moved, &p.v, &p.v_ahead] {
+        for column in [&columns.x, &columns.y, &columns.z] {
+            look_over(world.level, column, &mut all_sound);
+        }
+    }
+    if all_sound {
+        return;
+    }
     let (mut mended, mut first) = (0, Vec3::ZERO);
     for i in 0..p.len() {
         let sound =
@@ -33,6 +43,24 @@ pub(crate) fn mend(world: &mut World) {
 }
 
 fn is_sound(v: Vec3) -> bool {
-    let sound = |c: f32| c > -REALM && c < REALM;
-    sound(v.x) && sound(v.y) && sound(v.z)
+    is_within(v.x) && is_within(v.y) && is_within(v.z)
+}
+
+#[inline(always)]
+fn is_within(c: f32) -> bool {
+    c > -REALM && c < REALM
+}
+
+leveled! {
+    /// Whether all numbers of a column are sound, and all before it were.
+    fn look_over(column: &[f32], all_sound: &mut bool) = look_over_column
+}
+
+#[inline(always)]
+fn look_over_column(column: &[f32], all_sound: &mut bool) {
+    let mut sound = *all_sound;
+    for c in column {
+        sound &= is_within(*c);
+    }
+    *all_sound = sound;
 }
