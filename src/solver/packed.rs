@@ -4,6 +4,12 @@
 //! inverse masses of its ends beside it. The arithmetic is `links::correct`, the very one that goes
 //! link by link, so the bits are the same too.
 
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
 use super::World;
 use super::links::{BOUND, RIGID, SOFT, Spots, correct, project};
 use crate::fabric::links::Links;

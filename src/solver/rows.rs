@@ -4,6 +4,12 @@
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
 //! left of a row after whole chunks is one more chunk from its end, of which only the new links count.
 
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
 use super::links::{BOUND, RIGID, SOFT, correct, project};
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};

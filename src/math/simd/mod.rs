@@ -6,6 +6,12 @@
 //! the links are written over [`Simd`] (`vectored`), since compilers do not find how to deal out the
 //! particles of a row, or to turn four by four numbers.
 
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
 #[cfg(target_arch = "aarch64")]
 mod neon;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -135,7 +141,10 @@ pub(crate) trait Between: Simd {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Level {
     /// Number by number, as far as the code says: what machines without vectors do.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), allow(dead_code))]
+    #[cfg_attr(
+        any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"),
+        allow(dead_code)
+    )]
     Scalar,
     /// What the target always has: SSE2, NEON or simd128, four lanes.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))]
