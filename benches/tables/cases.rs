@@ -7,6 +7,9 @@ use serde::Deserialize;
 pub struct Cases {
     pub kernels: Vec<KernelCase>,
     pub ticks: Vec<TickCase>,
+    /// Whole ticks on one thread and on several.
+    #[cfg_attr(not(feature = "parallel"), allow(dead_code))]
+    pub threads: Vec<TickCase>,
 }
 
 /// A square sheet, and how much of it makes a figure.

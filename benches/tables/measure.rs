@@ -17,6 +17,14 @@ pub fn seconds(work: impl FnOnce()) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
+/// Seconds that `work` takes on whatever threads, with all that others do meanwhile.
+#[cfg(feature = "parallel")]
+pub fn wall_seconds(work: impl FnOnce()) -> f64 {
+    let start = now();
+    work();
+    now() - start
+}
+
 /// What was measured of one contender, a figure a round.
 #[derive(Clone, Debug, Default)]
 pub struct Figures(Vec<f64>);

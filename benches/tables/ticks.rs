@@ -2,8 +2,12 @@
 
 use crate::Effort;
 use crate::cases::{Cases, TickCase, rounds};
+#[cfg(feature = "parallel")]
+use crate::measure::wall_seconds;
 use crate::measure::{in_turn, seconds};
 use crate::table::{Table, none, number, percent, times};
+#[cfg(feature = "parallel")]
+use muslin::MeshDesc;
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode};
 use muslin_plain::{Order, PlainSheet, Size};
@@ -52,6 +56,94 @@ pub fn print(effort: Effort) {
          x real time and faster: by medians. Stretch is that of the threads.\n"
     );
     println!("{table}");
+    #[cfg(feature = "parallel")]
+    print_threads(effort);
+}
+
+/// Whole ticks of large sheets on one thread and on two.
+#[cfg(feature = "parallel")]
+fn print_threads(effort: Effort) {
+    let cases = Cases::read().threads;
+    let mut table =
+        Table::new(&["sheet", "woven as", "hung by"], &["one thread", "two", "faster", "median"]);
+    let said = rounds(cases.iter().map(|case| case.rounds));
+    for mut case in cases {
+        if effort == Effort::Once {
+            case = TickCase { seconds: 2.0 * case.settings.tick, ticks: 1, rounds: 1, ..case };
+        }
+        for (hung_by, pin_mode, is_windy) in WAYS {
+            for is_grid in [true, false] {
+                table.push(measure_threads(&case, is_grid, hung_by, pin_mode, is_windy));
+            }
+        }
+    }
+    println!(
+        "\nThreads: ms of wall time for a whole tick with normals, on one thread and on two; least of \
+         {said}.\nfaster: by the least, and by the median of the rounds' ratios. Here a busy machine is \
+         in the figures.\n"
+    );
+    println!("{table}");
+}
+
+#[cfg(feature = "parallel")]
+fn measure_threads(
+    case: &TickCase,
+    is_grid: bool,
+    hung_by: &str,
+    pin_mode: PinMode,
+    is_windy: bool,
+) -> Vec<String> {
+    let desc = case.desc(pin_mode);
+    let grid = Cloth::grid(&desc).expect("a grid of the benchmark's own");
+    let mut cloth = if is_grid { grid } else { as_mesh(&desc, &grid) };
+    if is_windy {
+        cloth.set_wind(HangingSheet::wind(2.0)).expect("the scene's own wind");
+    }
+    cloth.step((case.seconds / desc.settings.tick).round() as u32);
+    let mut cloths = [1, 2].map(|threads| {
+        let mut copy = cloth.clone();
+        copy.set_threads(threads).expect("there is one at least");
+        copy
+    });
+    let a_tick = 1.0e3 / f64::from(case.ticks);
+    let [one, two] = cloths.each_mut().map(|cloth| {
+        move || {
+            a_tick
+                * wall_seconds(|| {
+                    for _ in 0..case.ticks {
+                        cloth.step(1);
+                        black_box(cloth.view());
+                    }
+                })
+        }
+    });
+    let (mut one, mut two) = (one, two);
+    let [one, two] = in_turn(case.rounds, [&mut one, &mut two]);
+    let [on_one, on_two] = cloths.map(|cloth| cloth.state_hash());
+    assert_eq!(on_one, on_two, "threads change no bit");
+    vec![
+        format!("{} x {}", desc.columns, desc.rows),
+        if is_grid { "grid" } else { "mesh" }.into(),
+        hung_by.into(),
+        number(one.min(), 3),
+        number(two.min(), 3),
+        times(one.min() / two.min()),
+        times(two.times_below(&one)),
+    ]
+}
+
+/// The same triangles as any mesh.
+#[cfg(feature = "parallel")]
+fn as_mesh(desc: &GridDesc, grid: &Cloth) -> Cloth {
+    let mesh = Cloth::mesh(&MeshDesc {
+        positions: grid.positions().to_vec(),
+        indices: grid.indices().to_vec(),
+        pinned: grid.pinned().collect(),
+        material: desc.material.clone(),
+        settings: desc.settings.clone(),
+        ..MeshDesc::default()
+    });
+    mesh.expect("a mesh of the benchmark's own")
 }
 
 fn measure(case: &TickCase, hung_by: &str, pin_mode: PinMode, is_windy: bool) -> Vec<String> {

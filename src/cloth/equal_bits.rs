@@ -55,6 +55,39 @@ fn assert_equal_bits(material: &Material) {
     }
 }
 
+/// The same for several threads: bands of several rows, and rows that are too short for chunks.
+#[cfg(feature = "parallel")]
+fn assert_equal_bits_on_threads(material: &Material) {
+    for (columns, rows) in [(16, 64), (23, 49), (12, 50), (13, 83), (5, 52)] {
+        for is_grid in [true, false] {
+            let prepare = |cloth: &mut Cloth, threads: u32| {
+                if !is_grid {
+                    (cloth.world.weave.rows, cloth.world.cells) = (None, None);
+                }
+                cloth.set_threads_eagerly(threads).unwrap();
+            };
+            let alone = play(material, columns, rows, |cloth| prepare(cloth, 1));
+            for threads in [2, 3, 4] {
+                let shared = play(material, columns, rows, |cloth| prepare(cloth, threads));
+                assert_eq!(shared, alone, "{columns} x {rows} on {threads}, a grid: {is_grid}");
+            }
+        }
+    }
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn soft_links_have_equal_bits_on_threads() {
+    assert_equal_bits_on_threads(&Material::preset(Preset::Cotton));
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn rigid_links_have_equal_bits_on_threads() {
+    let (lift, bend_stiffness) = (0.5, 1.0);
+    assert_equal_bits_on_threads(&Material { bend_stiffness, lift, ..Material::default() });
+}
+
 #[test]
 fn soft_links_have_equal_bits() {
     assert_equal_bits(&Material::preset(Preset::Cotton));

@@ -7,6 +7,8 @@ mod hash;
 pub(crate) mod query;
 mod save;
 mod tear;
+#[cfg(feature = "parallel")]
+mod threads;
 pub(crate) mod view;
 mod world;
 
@@ -115,6 +117,7 @@ impl Cloth {
         fresh.material = self.world.material.clone();
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
+        fresh.threads = self.world.threads;
         // Grabs are let go, and their handles stay stale.
         core::mem::swap(&mut fresh.grabs, &mut self.world.grabs);
         fresh.grabs.clear();
@@ -223,16 +226,19 @@ impl Cloth {
         if ticks == 0 {
             return;
         }
-        guarded(|| {
-            if core::mem::take(&mut self.pins_changed) {
-                self.world.tether();
-            }
-            let vertices = self.world.mesh.vertex_count();
-            (0..ticks).for_each(|_| pipeline::tick(&mut self.world));
-            if self.world.mesh.vertex_count() != vertices {
-                self.changed_topology();
-            }
+        let vertices = self.world.mesh.vertex_count();
+        let (pins_changed, world) = (core::mem::take(&mut self.pins_changed), &mut self.world);
+        world.threads.enter(world.particles.len(), || {
+            guarded(|| {
+                if pins_changed {
+                    world.tether();
+                }
+                (0..ticks).for_each(|_| pipeline::tick(world));
+            });
         });
+        if self.world.mesh.vertex_count() != vertices {
+            self.changed_topology();
+        }
         self.changed_state();
     }
 

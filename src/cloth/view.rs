@@ -208,7 +208,8 @@ impl Cloth {
             return;
         }
         let start = self.world.profile.start();
-        guarded(|| self.outputs.follow_normals(&self.world));
+        let (world, outputs) = (&self.world, &mut self.outputs);
+        world.threads.enter(world.particles.len(), || guarded(|| outputs.follow_normals(world)));
         self.world.profile.book(Stage::Outputs, start);
     }
 

@@ -10,6 +10,7 @@ use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::geom::triangle::corner_areas;
 use crate::math::simd::Level;
+use crate::math::threads::Threads;
 use crate::mesh::grid::{self, Frame};
 use crate::mesh::{Mesh, NONE, after, intake};
 use crate::solver::profile::Profile;
@@ -130,6 +131,7 @@ fn build(
         is_apart_current: false,
         events: Events::new(),
         level: Level::best(),
+        threads: Threads::ONE,
         profile: Profile::default(),
         mesh,
         weave,

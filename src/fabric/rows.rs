@@ -75,7 +75,7 @@ impl Rows {
     /// Takes note of what became of a link.
     pub fn follow(&mut self, link: usize, ends: (u32, u32), holds: bool) {
         let row = &self.rows[self.row_of[link] as usize];
-        let is_in_place = Self::ends(row, link as u32 - row.first) == ends;
+        let is_in_place = row.ends(link as u32 - row.first) == ends;
         self.mask[link] = if is_in_place && holds { 1.0 } else { 0.0 };
         if self.mask[link] == 0.0 {
             self.rows[self.row_of[link] as usize].is_torn = true;
@@ -99,18 +99,6 @@ impl Rows {
     pub fn bytes(&self) -> usize {
         12 * self.mask.len() + size_of::<Row>() * self.rows.len()
     }
-
-    /// The particles of a link in its row.
-    fn ends(row: &Row, k: u32) -> (u32, u32) {
-        match row.pattern {
-            Pattern::Straight => (row.a + k, row.b + k),
-            Pattern::Pairs => (row.a + 2 * k, row.a + 2 * k + 1),
-            Pattern::Quads => {
-                let a = row.a + k / 2 * 4 + k % 2;
-                (a, a + 2)
-            }
-        }
-    }
 }
 
 impl Row {
@@ -127,6 +115,38 @@ impl Row {
     /// ones where it is straight.
     fn take(&self, a: u32, b: u32) -> bool {
         let has_room = self.pattern != Pattern::Straight || a < self.b;
-        has_room && Rows::ends(self, self.count) == (a, b)
+        has_room && self.ends(self.count) == (a, b)
+    }
+
+    /// The particles of its link `k`.
+    #[inline(always)]
+    pub fn ends(&self, k: u32) -> (u32, u32) {
+        let along = match self.pattern {
+            Pattern::Straight => k,
+            Pattern::Pairs => 2 * k,
+            Pattern::Quads => k / 2 * 4 + k % 2,
+        };
+        (self.a + along, self.b + along)
+    }
+
+    /// How many of its links have their lower end before a particle.
+    #[cfg(feature = "parallel")]
+    pub fn count_before(&self, particle: u32) -> u32 {
+        let along = particle.saturating_sub(self.a);
+        let count = match self.pattern {
+            Pattern::Straight => along,
+            Pattern::Pairs => along.div_ceil(2),
+            Pattern::Quads => along / 4 * 2 + (along % 4).min(2),
+        };
+        count.min(self.count)
+    }
+
+    /// The part of it that holds such links, of which there are some. A row of quads is cut between two.
+    #[cfg(feature = "parallel")]
+    pub fn part(&self, links: Range<u32>) -> Self {
+        let from = links.start.max(self.first) - self.first;
+        let end = links.end.min(self.first + self.count) - self.first;
+        let (a, b) = self.ends(from);
+        Self { a, b, first: self.first + from, count: end - from, ..*self }
     }
 }

@@ -5,6 +5,7 @@ use crate::fabric::links::{Batch, LinkKind, Links, Spec, Support, Thread};
 use crate::fabric::material::Material;
 use crate::fabric::rows::Rows;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
+use core::ops::Range;
 use glam::Vec3;
 
 /// All links of a cloth.
@@ -295,6 +296,23 @@ impl Weave {
             let starts_here = mesh.source[mesh.vertex(spec.anchors[0]) as usize] == source;
             at = self.extra_next[at as usize][usize::from(!starts_here)];
         }
+    }
+
+    /// The batches of a kind, which lie next to each other.
+    pub fn batches_of(&self, kind: LinkKind) -> Range<usize> {
+        let first = self.batches.partition_point(|batch| batch.kind < kind);
+        first..self.batches.partition_point(|batch| batch.kind <= kind)
+    }
+
+    /// The links of a kind that left their rows, if there are rows, and still hold.
+    #[cfg(feature = "parallel")]
+    pub fn strays_of(&self, kind: LinkKind) -> &[u32] {
+        let batches = &self.batches[self.batches_of(kind)];
+        let (Some(rows), Some(first), Some(last)) = (&self.rows, batches.first(), batches.last())
+        else {
+            return &[];
+        };
+        rows.strays(first.first..last.first + last.count)
     }
 
     /// All links that hold, as particle, particle and kind.

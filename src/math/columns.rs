@@ -37,6 +37,18 @@ impl Columns {
         self.z.fill(v.z);
     }
 
+    /// The three columns.
+    #[inline(always)]
+    pub fn all(&self) -> [&[f32]; 3] {
+        [&self.x, &self.y, &self.z]
+    }
+
+    /// The three columns.
+    #[inline(always)]
+    pub fn all_mut(&mut self) -> [&mut [f32]; 3] {
+        [&mut self.x, &mut self.y, &mut self.z]
+    }
+
     #[inline(always)]
     pub fn at(&self, i: usize) -> Vec3 {
         Vec3::new(self.x[i], self.y[i], self.z[i])

@@ -4,6 +4,7 @@ pub(crate) mod columns;
 pub(crate) mod float_env;
 pub(crate) mod mix;
 pub(crate) mod simd;
+pub(crate) mod threads;
 pub(crate) mod trig;
 
 /// Below this a length or a sum of inverse masses counts as nothing.

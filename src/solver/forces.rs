@@ -3,9 +3,8 @@
 //! The air pushes each triangle along its normal by the square of the relative speed,
 //! p = ½ ρ C |u·n| (u·n), and across the wind by ½ ρ C_L sin α cos α |u|². Gathered once a tick.
 
-use super::World;
-use super::surface::{Give, Surface, sum};
-use crate::math::columns::Columns;
+use super::surface::{Band, Give, Surface, in_bands, sum};
+use super::{PARTICLES, World};
 use crate::math::simd::leveled;
 use crate::math::{TINY, max, min};
 use crate::state::wind::{Breeze, WindModel};
@@ -14,6 +13,9 @@ use glam::Vec3;
 /// The largest share of a triangle's relative speed that the air may take in one tick: explicit
 /// drag is stable up to one, and without ringing up to this.
 const MAX_BRAKE: f32 = 0.5;
+
+/// Particles in the wind that one thread does at least.
+const SWIRLS: usize = 2048;
 
 /// Fills `scratch.acceleration`.
 pub(crate) fn gather(world: &mut World) {
@@ -38,9 +40,10 @@ fn push_particles(world: &mut World, gravity: Vec3) {
 }
 
 fn push_surfaces(world: &mut World, gravity: Vec3) {
-    let (level, p) = (world.level, &world.particles);
+    let (level, threads, p) = (world.level, world.threads, &world.particles);
     let breeze = world.wind.at(world.time);
-    face_air(level, &breeze, &p.x, &p.v, &mut world.scratch.air);
+    let particles = (p.x.all(), p.v.all(), world.scratch.air.all_mut());
+    threads.over(particles, SWIRLS, |(x, v, air)| face_air(level, &breeze, x, v, air));
     let half_density = 0.5 * world.wind.air_density;
     let pressure = Pressure {
         drag: half_density * world.material.drag,
@@ -56,36 +59,37 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
     };
     let force = &mut world.scratch.acceleration;
     force.fill(Vec3::ZERO);
-    if pressure.lift > 0.0 {
-        push_and_lift(level, surface, WithLift(pressure), force);
-    } else {
-        push(level, surface, pressure, force);
-    }
-    for (force, gravity) in
-        [(&mut force.x, gravity.x), (&mut force.y, gravity.y), (&mut force.z, gravity.z)]
-    {
-        accelerate(level, force, &p.mass, gravity);
-    }
+    in_bands(threads, surface, force, |band, force| {
+        if pressure.lift > 0.0 {
+            push_and_lift(level, surface, WithLift(pressure), band, force);
+        } else {
+            push(level, surface, pressure, band, force);
+        }
+    });
+    threads.over((force.all_mut(), &p.mass[..]), PARTICLES, |(force, mass)| {
+        for (force, gravity) in force.into_iter().zip(gravity.to_array()) {
+            accelerate(level, force, mass, gravity);
+        }
+    });
 }
 
 leveled! {
     /// The air's velocity against each particle.
-    fn face_air(breeze: &Breeze, x: &Columns, v: &Columns, air: &mut Columns) = face_air_lanes
+    fn face_air(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
+        = face_air_lanes
 }
 
 #[inline(always)]
-fn face_air_lanes(breeze: &Breeze, x: &Columns, v: &Columns, air: &mut Columns) {
-    let mean = breeze.mean;
-    for (air, mean, v) in
-        [(&mut air.x, mean.x, &v.x), (&mut air.y, mean.y, &v.y), (&mut air.z, mean.z, &v.z)]
-    {
+fn face_air_lanes(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], mut air: [&mut [f32]; 3]) {
+    for ((air, mean), v) in air.iter_mut().zip(breeze.mean.to_array()).zip(v) {
         for (air, v) in air.iter_mut().zip(v) {
             *air = mean - v;
         }
     }
     if breeze.swirls() {
-        let particles = x.x.iter().zip(&x.y).zip(&x.z);
-        let air = air.x.iter_mut().zip(&mut air.y).zip(&mut air.z);
+        let ([x, y, z], [ax, ay, az]) = (x, air);
+        let particles = x.iter().zip(y).zip(z);
+        let air = ax.iter_mut().zip(ay).zip(az);
         for (((x, y), z), ((ax, ay), az)) in particles.zip(air) {
             let [sx, sy, sz] = breeze.swirl_at(*x, *y, *z);
             *ax += sx;
@@ -96,11 +100,12 @@ fn face_air_lanes(breeze: &Breeze, x: &Columns, v: &Columns, air: &mut Columns) 
 }
 
 leveled! {
-    fn push(surface: Surface<'_>, pressure: Pressure, force: &mut Columns) = sum::<Pressure>
+    fn push(surface: Surface<'_>, pressure: Pressure, band: Band, force: [&mut [f32]; 3])
+        = sum::<Pressure>
 }
 
 leveled! {
-    fn push_and_lift(surface: Surface<'_>, pressure: WithLift, force: &mut Columns)
+    fn push_and_lift(surface: Surface<'_>, pressure: WithLift, band: Band, force: [&mut [f32]; 3])
         = sum::<WithLift>
 }
 

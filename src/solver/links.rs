@@ -7,6 +7,8 @@
 //! inside a batch any order gives the same bits: a grid's batches go row by row (see `rows`), those of
 //! other meshes some at a time (see `packed`). The extra links of torn edges go in their order.
 
+#[cfg(feature = "parallel")]
+use super::bands;
 use super::{World, packed, rows};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::TINY;
@@ -60,9 +62,7 @@ pub(crate) fn shorten(world: &mut World, kind: LinkKind, order: Order, most: f32
 fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: f32) {
     match order {
         Order::Forward => {
-            for at in 0..world.weave.batches.len() {
-                solve_batch::<LAW>(world, at, kind, scale);
-            }
+            solve_batches::<LAW>(world, kind, order, scale);
             for link in 0..world.weave.extra.len() {
                 solve_extra::<LAW>(world, link, kind, scale);
             }
@@ -71,23 +71,38 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: 
             for link in (0..world.weave.extra.len()).rev() {
                 solve_extra::<LAW>(world, link, kind, scale);
             }
-            for at in (0..world.weave.batches.len()).rev() {
-                solve_batch::<LAW>(world, at, kind, scale);
-            }
+            solve_batches::<LAW>(world, kind, order, scale);
         }
     }
 }
 
-fn solve_batch<const LAW: u8>(world: &mut World, at: usize, kind: LinkKind, scale: f32) {
-    let batch = world.weave.batches[at];
-    if batch.kind != kind {
+fn solve_batches<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: f32) {
+    let batches = world.weave.batches_of(kind);
+    #[cfg(feature = "parallel")]
+    if world.weave.strays_of(kind).is_empty()
+        && bands::solve::<LAW>(world, batches.clone(), order, scale)
+    {
         return;
     }
+    match order {
+        Order::Forward => batches.for_each(|at| solve_batch::<LAW>(world, at, scale)),
+        Order::Backward => batches.rev().for_each(|at| solve_batch::<LAW>(world, at, scale)),
+    }
+}
+
+fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
+    let batch = world.weave.batches[at];
     let range = batch.first..batch.first + batch.count;
+    #[cfg(feature = "parallel")]
+    let is_solved = bands::solve::<LAW>(world, at..at + 1, Order::Forward, scale);
+    #[cfg(not(feature = "parallel"))]
+    let is_solved = false;
     let (weave, p) = (&mut world.weave, &mut world.particles);
     let packed = &mut world.scratch.packed;
     if let Some(grid) = &weave.rows {
-        rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
+        if !is_solved {
+            rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
+        }
         for link in grid.strays(range) {
             project::<LAW, _>(&mut weave.links, *link as usize, p, scale);
         }
@@ -142,24 +157,31 @@ pub(crate) fn project<const LAW: u8, S: Spots>(
     if !links.active[link] {
         return;
     }
-    let (a, b) = (links.a[link] as usize, links.b[link] as usize);
-    let ((xa, wa), (xb, wb)) = (spots.spot(a), spots.spot(b));
-    let span = xb - xa;
+    let ends = (links.a[link] as usize, links.b[link] as usize);
     let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
-    let (share, lambda) = correct::<LAW, _>(
-        Scalar,
-        span.to_array(),
-        wa + wb,
-        links.rest[link],
-        compliance,
-        lambda,
-        scale,
-    );
+    let lambda = pull::<LAW, _>(ends, links.rest[link], compliance, lambda, spots, scale);
     if LAW == SOFT {
         links.lambda[link] = lambda;
     }
+}
+
+/// Moves the ends of a link, and gives its multiplier then.
+#[inline(always)]
+pub(crate) fn pull<const LAW: u8, S: Spots>(
+    (a, b): (usize, usize),
+    rest: f32,
+    compliance: f32,
+    lambda: f32,
+    spots: &mut S,
+    scale: f32,
+) -> f32 {
+    let ((xa, wa), (xb, wb)) = (spots.spot(a), spots.spot(b));
+    let span = xb - xa;
+    let (share, lambda) =
+        correct::<LAW, _>(Scalar, span.to_array(), wa + wb, rest, compliance, lambda, scale);
     spots.put(a, xa + span * (share * wa));
     spots.put(b, xb + span * -(share * wb));
+    lambda
 }
 
 /// The share of its span that a link gives back for each unit of inverse mass, and its multiplier

@@ -1,5 +1,7 @@
 //! The tick: what it works on, its stages, and the order they run in (see `pipeline`).
 
+#[cfg(feature = "parallel")]
+mod bands;
 pub(crate) mod contacts;
 pub(crate) mod forces;
 pub(crate) mod guard;
@@ -25,6 +27,7 @@ use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::math::columns::Columns;
 use crate::math::simd::Level;
+use crate::math::threads::Threads;
 use crate::mesh::Mesh;
 use crate::mesh::split::Opening;
 use crate::state::colliders::Colliders;
@@ -36,6 +39,9 @@ use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use profile::Profile;
+
+/// Particles that one thread does at least, where there is little to do for each.
+pub(crate) const PARTICLES: usize = 8192;
 
 /// Everything that a tick reads and writes.
 #[derive(Clone, Debug)]
@@ -79,6 +85,8 @@ pub(crate) struct World {
     pub events: Events,
     /// The instructions that kernels may use.
     pub level: Level,
+    /// The threads that its ticks may use.
+    pub threads: Threads,
     pub profile: Profile,
     pub scratch: Scratch,
 }

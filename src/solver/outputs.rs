@@ -1,7 +1,7 @@
 //! Stage `Outputs`: what a renderer reads, from what the solver keeps.
 
-use super::World;
-use super::surface::{Give, Surface, sum};
+use super::surface::{Band, Give, Surface, in_bands, sum};
+use super::{PARTICLES, World};
 use crate::fabric::links::LinkKind;
 use crate::math::columns::Columns;
 use crate::math::simd::leveled;
@@ -27,23 +27,26 @@ pub(crate) fn normals(world: &World, sums: &mut Columns, out: &mut Vec<Vec3>) {
         x,
         air: x,
     };
-    sum_normals(world.level, surface, Doubled, sums);
-    normalize(world.level, sums);
+    let level = world.level;
+    in_bands(world.threads, surface, sums, |band, sums| {
+        sum_normals(level, surface, Doubled, band, sums);
+    });
+    world.threads.over(sums.all_mut(), PARTICLES, |sums| normalize(level, sums));
     out.clear();
     out.extend(sums.iter());
 }
 
 leveled! {
-    fn sum_normals(surface: Surface<'_>, give: Doubled, sums: &mut Columns) = sum::<Doubled>
+    fn sum_normals(surface: Surface<'_>, give: Doubled, band: Band, sums: [&mut [f32]; 3])
+        = sum::<Doubled>
 }
 
 leveled! {
-    fn normalize(sums: &mut Columns) = normalize_lanes
+    fn normalize(sums: [&mut [f32]; 3]) = normalize_lanes
 }
 
 #[inline(always)]
-fn normalize_lanes(sums: &mut Columns) {
-    let Columns { x, y, z } = sums;
+fn normalize_lanes([x, y, z]: [&mut [f32]; 3]) {
     for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
         let length = (*x * *x + *y * *y + *z * *z).sqrt();
         let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };

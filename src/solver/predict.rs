@@ -2,10 +2,11 @@
 //!
 //! By the formula of `Scheme`, with a limit on what a violent yank may do.
 
-use super::World;
+use super::{PARTICLES, World};
 use crate::math::columns::Columns;
 use crate::math::simd::leveled;
 use crate::state::settings::Scheme;
+use core::sync::atomic::{AtomicBool, Ordering};
 use glam::{Mat3, Vec3};
 
 /// Moves every free particle; `scratch` keeps the way it went and where it came to.
@@ -14,28 +15,30 @@ pub(crate) fn advance(world: &mut World) {
     let reach = world.reach();
     // A way longer than `reach` has a component longer than this.
     let limit = reach * 0.577;
-    let p = &world.particles;
-    let a = &world.scratch.acceleration;
-    let way = &mut world.scratch.way;
-    let mut is_long = false;
-    for (way, moved, v_ahead, a) in [
-        (&mut way.x, &p.moved.x, &p.v_ahead.x, &a.x),
-        (&mut way.y, &p.moved.y, &p.v_ahead.y, &a.y),
-        (&mut way.z, &p.moved.z, &p.v_ahead.z, &a.z),
-    ] {
-        plan(world.level, way, [moved, v_ahead, a, &p.w], scheme, limit, &mut is_long);
-    }
-    if is_long {
+    let (level, threads) = (world.level, world.threads);
+    let (p, scratch) = (&mut world.particles, &mut world.scratch);
+    let is_long = AtomicBool::new(false);
+    let write = scratch.way.all_mut();
+    let read = (p.moved.all(), p.v_ahead.all(), scratch.acceleration.all(), &p.w[..]);
+    threads.over((write, read), PARTICLES, |(write, (moved, v_ahead, a, w))| {
+        let mut is_one_long = false;
+        for (((way, moved), v_ahead), a) in write.into_iter().zip(moved).zip(v_ahead).zip(a) {
+            plan(level, way, [moved, v_ahead, a, w], scheme, limit, &mut is_one_long);
+        }
+        if is_one_long {
+            is_long.store(true, Ordering::Relaxed);
+        }
+    });
+    if is_long.into_inner() {
         clamp_displacement(world, reach);
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    for (x, way, predicted) in [
-        (&mut p.x.x, &scratch.way.x, &mut scratch.predicted.x),
-        (&mut p.x.y, &scratch.way.y, &mut scratch.predicted.y),
-        (&mut p.x.z, &scratch.way.z, &mut scratch.predicted.z),
-    ] {
-        go(world.level, x, way, predicted);
-    }
+    let columns = (p.x.all_mut(), scratch.way.all(), scratch.predicted.all_mut());
+    threads.over(columns, PARTICLES, |(x, way, predicted)| {
+        for ((x, way), predicted) in x.into_iter().zip(way).zip(predicted) {
+            go(level, x, way, predicted);
+        }
+    });
 }
 
 leveled! {
@@ -87,20 +90,29 @@ fn clamp_displacement(world: &mut World, reach: f32) {
     let p = &world.particles;
     let way = &mut world.scratch.way;
     let rigid = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
-    for i in 0..p.len() {
-        if p.w[i] <= 0.0 {
+    let particles = (way.all_mut(), p.x.all(), &p.w[..]);
+    world.threads.over(particles, PARTICLES, |(way, x, w)| clamp(way, x, w, rigid, reach));
+}
+
+fn clamp(way: [&mut [f32]; 3], [x, y, z]: [&[f32]; 3], w: &[f32], rigid: RigidMotion, reach: f32) {
+    let [way_x, way_y, way_z] = way;
+    let ways = way_x.iter_mut().zip(way_y).zip(way_z);
+    let particles = x.iter().zip(y).zip(z).zip(w).zip(ways);
+    for ((((x, y), z), w), ((way_x, way_y), way_z)) in particles {
+        if *w <= 0.0 {
             continue;
         }
-        let common = rigid.at(p.x.at(i));
-        let own = way.at(i) - common;
+        let common = rigid.at(Vec3::new(*x, *y, *z));
+        let own = Vec3::new(*way_x, *way_y, *way_z) - common;
         let length2 = own.length_squared();
         if length2 > reach * reach {
-            way.set(i, common + own * (reach / length2.sqrt()));
+            [*way_x, *way_y, *way_z] = (common + own * (reach / length2.sqrt())).to_array();
         }
     }
 }
 
 /// The motion of a solid body: a shift and a small turn about the centre.
+#[derive(Clone, Copy)]
 struct RigidMotion {
     center: Vec3,
     shift: Vec3,

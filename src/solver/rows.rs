@@ -10,13 +10,14 @@
     allow(dead_code)
 )]
 
-use super::links::{BOUND, RIGID, SOFT, correct, project};
+use super::links::{BOUND, RIGID, SOFT, Spots, correct, pull};
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, Simd, vectored};
 use crate::state::particles::Particles;
 use core::ops::Range;
+use glam::Vec3;
 
 /// The patterns as numbers that a kernel can be compiled for.
 const STRAIGHT: u8 = Pattern::Straight as u8;
@@ -36,52 +37,67 @@ pub(crate) fn solve<const LAW: u8>(
     p: &mut Particles,
     scale: f32,
 ) {
-    let rows = &grid.rows[grid.between(range)];
+    let Links { rest, compliance, lambda, .. } = links;
+    let Columns { x, y, z } = &mut p.x;
+    let mut sheet = Sheet {
+        first_particle: 0,
+        first_link: 0,
+        x,
+        y,
+        z,
+        w: &p.w,
+        mask: &grid.mask,
+        rest,
+        compliance,
+        lambda,
+    };
+    solve_rows::<LAW>(level, &grid.rows[grid.between(range)], &mut sheet, scale);
+}
+
+/// Solves rows, all within the sheet.
+pub(crate) fn solve_rows<const LAW: u8>(
+    level: Level,
+    rows: &[Row],
+    sheet: &mut Sheet<'_>,
+    scale: f32,
+) {
     match LAW {
-        SOFT => solve_soft(level, rows, &grid.mask, links, p, scale),
-        RIGID => solve_rigid(level, rows, &grid.mask, links, p, scale),
-        _ => solve_bound(level, rows, &grid.mask, links, p, scale),
+        SOFT => solve_soft(level, rows, sheet, scale),
+        RIGID => solve_rigid(level, rows, sheet, scale),
+        _ => solve_bound(level, rows, sheet, scale),
     }
 }
 
 vectored! {
-    fn solve_soft(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
-        = solve_rows::<_, SOFT>, Avx512, solve_all_apart::<SOFT>
+    fn solve_soft(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
+        = solve_in_chunks::<_, SOFT>, Avx512, solve_all_apart::<SOFT>
 }
 
 vectored! {
-    fn solve_rigid(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
-        = solve_rows::<_, RIGID>, Avx512, solve_all_apart::<RIGID>
+    fn solve_rigid(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
+        = solve_in_chunks::<_, RIGID>, Avx512, solve_all_apart::<RIGID>
 }
 
 vectored! {
-    fn solve_bound(rows: &[Row], mask: &[f32], links: &mut Links, p: &mut Particles, scale: f32)
-        = solve_rows::<_, BOUND>, Avx512, solve_all_apart::<BOUND>
+    fn solve_bound(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
+        = solve_in_chunks::<_, BOUND>, Avx512, solve_all_apart::<BOUND>
 }
 
 #[inline(always)]
-fn solve_rows<S: Simd, const LAW: u8>(
-    s: S,
-    rows: &[Row],
-    mask: &[f32],
-    links: &mut Links,
-    p: &mut Particles,
-    scale: f32,
-) {
+fn solve_in_chunks<S: Simd, const LAW: u8>(s: S, rows: &[Row], sheet: &mut Sheet<'_>, scale: f32) {
     // One length for all columns, so that one check does for all.
-    let (particles, all) = (p.w.len(), links.rest.len());
-    let Columns { x, y, z } = &mut p.x;
+    let (particles, all) = (sheet.w.len(), sheet.rest.len());
     let mut sheet = Sheet {
-        x: &mut x[..particles],
-        y: &mut y[..particles],
-        z: &mut z[..particles],
-        w: &p.w,
-        mask: &mask[..all],
-        rest: &links.rest,
-        compliance: &links.compliance[..all],
-        lambda: &mut links.lambda[..all],
+        x: &mut sheet.x[..particles],
+        y: &mut sheet.y[..particles],
+        z: &mut sheet.z[..particles],
+        mask: &sheet.mask[..all],
+        compliance: &sheet.compliance[..all],
+        lambda: &mut sheet.lambda[..all],
+        ..*sheet
     };
     for row in rows {
+        let row = &sheet.own(row);
         match row.pattern {
             Pattern::Straight => solve_row::<S, LAW, STRAIGHT>(s, row, &mut sheet, scale),
             Pattern::Pairs => solve_row::<S, LAW, PAIRS>(s, row, &mut sheet, scale),
@@ -89,8 +105,8 @@ fn solve_rows<S: Simd, const LAW: u8>(
         }
     }
     for row in rows {
-        let count = row.count as usize;
-        solve_apart::<LAW>(row, in_chunks(row)..count, mask, links, p, scale);
+        let row = &sheet.own(row);
+        solve_apart::<LAW>(row, in_chunks(row)..row.count as usize, &mut sheet, scale);
     }
 }
 
@@ -104,46 +120,65 @@ fn in_chunks(row: &Row) -> usize {
 }
 
 #[inline(always)]
-fn solve_all_apart<const LAW: u8>(
-    rows: &[Row],
-    mask: &[f32],
-    links: &mut Links,
-    p: &mut Particles,
-    scale: f32,
-) {
+fn solve_all_apart<const LAW: u8>(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32) {
     for row in rows {
-        solve_apart::<LAW>(row, 0..row.count as usize, mask, links, p, scale);
+        let row = &sheet.own(row);
+        solve_apart::<LAW>(row, 0..row.count as usize, sheet, scale);
     }
 }
 
 /// Links of a row one by one.
 #[inline(always)]
-fn solve_apart<const LAW: u8>(
-    row: &Row,
-    range: Range<usize>,
-    mask: &[f32],
-    links: &mut Links,
-    p: &mut Particles,
-    scale: f32,
-) {
+fn solve_apart<const LAW: u8>(row: &Row, range: Range<usize>, sheet: &mut Sheet<'_>, scale: f32) {
     for k in range {
         let link = row.first as usize + k;
-        if mask[link] != 0.0 {
-            project::<LAW, _>(links, link, p, scale);
+        if sheet.mask[link] != 0.0 {
+            let (a, b) = row.ends(k as u32);
+            let (rest, compliance) = (sheet.rest[link], sheet.compliance[link]);
+            let lambda = sheet.lambda[link];
+            let ends = (a as usize, b as usize);
+            let lambda = pull::<LAW, _>(ends, rest, compliance, lambda, sheet, scale);
+            if LAW == SOFT {
+                sheet.lambda[link] = lambda;
+            }
         }
     }
 }
 
-/// Particles and links as the kernels see them: the lists of each have one length.
-struct Sheet<'a> {
-    x: &'a mut [f32],
-    y: &'a mut [f32],
-    z: &'a mut [f32],
-    w: &'a [f32],
-    mask: &'a [f32],
-    rest: &'a [f32],
-    compliance: &'a [f32],
-    lambda: &'a mut [f32],
+/// Particles and links as the kernels see them, both from some first one on: the lists of each have
+/// one length.
+pub(crate) struct Sheet<'a> {
+    pub first_particle: u32,
+    pub first_link: u32,
+    pub x: &'a mut [f32],
+    pub y: &'a mut [f32],
+    pub z: &'a mut [f32],
+    pub w: &'a [f32],
+    pub mask: &'a [f32],
+    pub rest: &'a [f32],
+    pub compliance: &'a [f32],
+    pub lambda: &'a mut [f32],
+}
+
+impl Sheet<'_> {
+    /// A row as it lies in these lists.
+    #[inline(always)]
+    fn own(&self, row: &Row) -> Row {
+        let (a, b) = (row.a - self.first_particle, row.b - self.first_particle);
+        Row { a, b, first: row.first - self.first_link, ..*row }
+    }
+}
+
+impl Spots for Sheet<'_> {
+    #[inline(always)]
+    fn spot(&self, i: usize) -> (Vec3, f32) {
+        (Vec3::new(self.x[i], self.y[i], self.z[i]), self.w[i])
+    }
+
+    #[inline(always)]
+    fn put(&mut self, i: usize, x: Vec3) {
+        (self.x[i], self.y[i], self.z[i]) = (x.x, x.y, x.z);
+    }
 }
 
 /// Those of a row: its links, and the particles at their ends.

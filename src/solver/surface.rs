@@ -1,11 +1,14 @@
 //! Sums over triangles: what each gives to its corners, for wind and for normals alike.
 //!
 //! Every corner is added to in the order of the triangles. On a grid eight cells go at once where
-//! they are as they were made; the additions come in that order still, so the bits are the same.
+//! they are as they were made; the additions come in that order still, so the bits are the same. So
+//! they do where several threads each add to rows of their own: the cells between two of them are
+//! looked at by both, and each adds its half.
 
 use crate::fabric::cells::Cells;
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Lanes};
+use crate::math::threads::Threads;
 use crate::mesh::grid::falls;
 
 type V = [f32; 3];
@@ -31,9 +34,50 @@ pub(crate) struct Surface<'a> {
     pub air: &'a Columns,
 }
 
+/// Rows of a grid's particles that are added to, from `first` on.
+#[derive(Clone, Copy)]
+pub(crate) struct Band {
+    first: usize,
+    end: usize,
+}
+
+impl Band {
+    /// All that there is, on a grid or not.
+    const ALL: Self = Self { first: 0, end: usize::MAX };
+}
+
+/// Cells that one thread sums up at least.
+#[cfg(feature = "parallel")]
+const CELLS: usize = 2048;
+
+/// Has `sum` add up all, in bands of a grid that is not torn where there are threads for that. It is
+/// given the band, and what to add to from the first of its particles on.
+pub(crate) fn in_bands(
+    threads: Threads,
+    surface: Surface<'_>,
+    out: &mut Columns,
+    sum: impl Fn(Band, [&mut [f32]; 3]) + Sync,
+) {
+    #[cfg(feature = "parallel")]
+    if let Some(cells) = surface.cells {
+        let Cells { columns, rows, .. } = *cells;
+        let parts = threads.parts(columns * rows, CELLS).min(rows);
+        if parts > 1 && columns > LANES && surface.x.x.len() == columns * rows {
+            let row = |part: usize| rows * part / parts;
+            let add = |part: usize, out: [&mut [f32]; 3]| {
+                sum(Band { first: row(part), end: row(part + 1) }, out);
+            };
+            return threads.parted(parts, out.all_mut(), |part| columns * row(part), add);
+        }
+    }
+    let _ = (threads, surface);
+    sum(Band::ALL, out.all_mut());
+}
+
 /// Adds what every triangle gives.
 #[inline(always)]
-pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, out: &mut Columns) {
+pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, band: Band, mut out: [&mut [f32]; 3]) {
+    let out = &mut out;
     let Some(cells) = surface.cells.filter(|cells| cells.columns > LANES) else {
         let count = surface.triangles.len();
         let whole = count / LANES * LANES;
@@ -41,7 +85,7 @@ pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, out: &mut Columns) {
         return (whole..count).for_each(|at| add_triangle(surface, at, give, out));
     };
     let across = cells.columns - 1;
-    for row in 0..cells.rows - 1 {
+    for row in band.first.saturating_sub(1)..band.end.min(cells.rows - 1) {
         for start in (0..across).step_by(LANES) {
             // The last chunk reaches back over cells that are done, so as to be whole.
             let first = start.min(across - LANES);
@@ -52,29 +96,29 @@ pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, out: &mut Columns) {
                 (from..end).for_each(|at| add_triangle(surface, at, give, out));
             } else {
                 let place = Place { row, first, done: start - first, columns: cells.columns };
-                add_cells(surface, place, give, out);
+                add_cells(surface, place, band, give, out);
             }
         }
     }
 }
 
 #[inline(always)]
-fn add_triangle<G: Give>(surface: Surface<'_>, at: usize, give: G, out: &mut Columns) {
+fn add_triangle<G: Give>(surface: Surface<'_>, at: usize, give: G, out: &mut [&mut [f32]; 3]) {
     let corners = surface.triangles[at].map(|v| v as usize);
     let areas = surface.areas[at];
     let of = |columns: &Columns| corners.map(|v| columns.at(v).to_array());
     let [gx, gy, gz] = give.give(of(surface.x), of(surface.air), areas[0] + areas[1] + areas[2]);
     for (v, area) in corners.into_iter().zip(areas) {
         let part = give.part(area);
-        out.x[v] += gx * part;
-        out.y[v] += gy * part;
-        out.z[v] += gz * part;
+        out[0][v] += gx * part;
+        out[1][v] += gy * part;
+        out[2][v] += gz * part;
     }
 }
 
 /// Eight triangles from anywhere: what they give is found in lanes, and added one by one.
 #[inline(always)]
-fn add_triangles<G: Give>(surface: Surface<'_>, first: usize, give: G, out: &mut Columns) {
+fn add_triangles<G: Give>(surface: Surface<'_>, first: usize, give: G, out: &mut [&mut [f32]; 3]) {
     let zero = Vectors { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
     let (mut xa, mut xb, mut xc) = (zero, zero, zero);
     let (mut ua, mut ub, mut uc) = (zero, zero, zero);
@@ -100,9 +144,9 @@ fn add_triangles<G: Give>(surface: Surface<'_>, first: usize, give: G, out: &mut
         let at = first + lane;
         for (v, area) in surface.triangles[at].into_iter().zip(surface.areas[at]) {
             let part = give.part(area);
-            out.x[v as usize] += gx * part;
-            out.y[v as usize] += gy * part;
-            out.z[v as usize] += gz * part;
+            out[0][v as usize] += gx * part;
+            out[1][v as usize] += gy * part;
+            out[2][v as usize] += gz * part;
         }
     }
 }
@@ -161,7 +205,13 @@ fn alternate(first_falls: bool, falling: f32, rising: f32) -> Lanes {
 }
 
 #[inline(always)]
-fn add_cells<G: Give>(surface: Surface<'_>, place: Place, give: G, out: &mut Columns) {
+fn add_cells<G: Give>(
+    surface: Surface<'_>,
+    place: Place,
+    band: Band,
+    give: G,
+    out: &mut [&mut [f32]; 3],
+) {
     let top = place.row * place.columns + place.first;
     let bottom = top + place.columns;
     let load = Vectors::load;
@@ -196,12 +246,18 @@ fn add_cells<G: Give>(surface: Surface<'_>, place: Place, give: G, out: &mut Col
     let (quarter, half) = (give.part(areas[0]), give.part(2.0 * areas[0]));
     // Which part of the first and of the second triangle a corner gets. The right corners go first:
     // to them the cell on their left gives before the one on their right.
+    let before = band.first * place.columns;
     for (first, falling, rising) in [
         (top + 1, [0.0, half], [quarter, quarter]),
         (top, [quarter, quarter], [half, 0.0]),
         (bottom + 1, [quarter, quarter], [0.0, half]),
         (bottom, [half, 0.0], [quarter, quarter]),
     ] {
+        let row = place.row + usize::from(first >= bottom);
+        if row < band.first || row >= band.end {
+            continue;
+        }
+        let first = first - before;
         let mut of_one = alternate(first_falls, falling[0], rising[0]);
         let mut of_two = alternate(first_falls, falling[1], rising[1]);
         for lane in 0..LANES {
@@ -209,9 +265,9 @@ fn add_cells<G: Give>(surface: Surface<'_>, place: Place, give: G, out: &mut Col
             of_one[lane] = if counts { of_one[lane] } else { 0.0 };
             of_two[lane] = if counts { of_two[lane] } else { 0.0 };
         }
-        add(&mut out.x, first, (&one.x, &of_one), (&two.x, &of_two));
-        add(&mut out.y, first, (&one.y, &of_one), (&two.y, &of_two));
-        add(&mut out.z, first, (&one.z, &of_one), (&two.z, &of_two));
+        add(out[0], first, (&one.x, &of_one), (&two.x, &of_two));
+        add(out[1], first, (&one.y, &of_one), (&two.y, &of_two));
+        add(out[2], first, (&one.z, &of_one), (&two.z, &of_two));
     }
 }
 

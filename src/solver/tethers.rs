@@ -1,10 +1,11 @@
 //! Stage `Tethers`: no particle gets farther from a pin than its way along the cloth.
 
-use super::World;
 use super::packed::Packed;
+use super::{PARTICLES, World};
 use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Level, leveled};
+use crate::math::threads::Threads;
 use crate::math::{max, min};
 
 /// What tethers of soft links give at least.
@@ -134,53 +135,107 @@ fn pins_apart(world: &World) -> f32 {
 
 /// Pulls every particle within `slack` times its way to the pins.
 pub(crate) fn draw_in(world: &mut World, slack: f32) {
-    let (level, p) = (world.level, &mut world.particles);
+    let (level, threads, p) = (world.level, world.threads, &mut world.particles);
     let (found, packed) = (&world.scratch.anchor, &mut world.scratch.packed);
     for set in world.tethers.sets() {
         if packed.is_current {
-            pull_packed(set, slack, found, packed);
+            pull_packed(threads, set, slack, found, packed);
         } else {
-            pull_set(level, set, slack, found, &mut p.x, &p.w);
+            pull_set(level, threads, set, slack, found, &mut p.x, &p.w);
         }
     }
 }
 
-fn pull_packed(set: &TetherSet, slack: f32, found: &Columns, packed: &mut Packed) {
-    let only = set.only.map(|pin| packed.points[pin as usize]);
-    let particles = packed.points.iter_mut().zip(&packed.w).zip(&set.length);
-    for (i, ((point, w), length)) in particles.enumerate() {
+fn pull_packed(
+    threads: Threads,
+    set: &TetherSet,
+    slack: f32,
+    found: &Columns,
+    packed: &mut Packed,
+) {
+    let Packed { points, w, .. } = packed;
+    let only = set.only.map(|pin| points[pin as usize]);
+    let particles = (&mut points[..], &w[..], &set.length[..]);
+    match only {
+        Some(pin) => threads.over(particles, PARTICLES, |(points, w, length)| {
+            packed_to_one(points, pin, length, slack, w);
+        }),
+        None => {
+            threads.over((particles, found.all()), PARTICLES, |((points, w, length), pins)| {
+                packed_to_many(points, pins, length, slack, w);
+            });
+        }
+    }
+}
+
+fn packed_to_one(
+    points: &mut [[f32; 4]],
+    [px, py, pz, _]: [f32; 4],
+    length: &[f32],
+    slack: f32,
+    w: &[f32],
+) {
+    for ((point, length), w) in points.iter_mut().zip(length).zip(w) {
         let [x, y, z, _] = *point;
-        let pin = only.map_or_else(|| found.at(i).to_array(), |[x, y, z, _]| [x, y, z]);
-        let [x, y, z] = within([x, y, z], pin, length * slack, *w);
+        let [x, y, z] = within([x, y, z], [px, py, pz], length * slack, *w);
+        *point = [x, y, z, 0.0];
+    }
+}
+
+fn packed_to_many(
+    points: &mut [[f32; 4]],
+    [px, py, pz]: [&[f32]; 3],
+    length: &[f32],
+    slack: f32,
+    w: &[f32],
+) {
+    let pins = px.iter().zip(py).zip(pz);
+    for (((point, length), w), ((px, py), pz)) in points.iter_mut().zip(length).zip(w).zip(pins) {
+        let [x, y, z, _] = *point;
+        let [x, y, z] = within([x, y, z], [*px, *py, *pz], length * slack, *w);
         *point = [x, y, z, 0.0];
     }
 }
 
 fn pull_set(
     level: Level,
+    threads: Threads,
     set: &TetherSet,
     slack: f32,
     found: &Columns,
     x: &mut Columns,
     w: &[f32],
 ) {
-    let length = &set.length;
+    let length = &set.length[..];
     match set.only {
         Some(pin) => {
             let pin = x.at(pin as usize).to_array();
-            pull_to_one(level, x, pin, length, slack, w);
+            threads.over((x.all_mut(), length, w), PARTICLES, |(x, length, w)| {
+                pull_to_one(level, x, pin, length, slack, w);
+            });
         }
-        None => pull_to_many(level, x, found, length, slack, w),
+        None => {
+            let particles = (x.all_mut(), found.all(), length, w);
+            threads.over(particles, PARTICLES, |(x, pins, length, w)| {
+                pull_to_many(level, x, pins, length, slack, w);
+            });
+        }
     }
 }
 
 leveled! {
-    fn pull_to_one(x: &mut Columns, pin: [f32; 3], length: &[f32], slack: f32, w: &[f32]) = to_one
+    fn pull_to_one(x: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32])
+        = to_one
 }
 
 leveled! {
-    fn pull_to_many(x: &mut Columns, pins: &Columns, length: &[f32], slack: f32, w: &[f32])
-        = to_many
+    fn pull_to_many(
+        x: [&mut [f32]; 3],
+        pins: [&[f32]; 3],
+        length: &[f32],
+        slack: f32,
+        w: &[f32],
+    ) = to_many
 }
 
 leveled! {
@@ -192,8 +247,13 @@ leveled! {
 }
 
 #[inline(always)]
-fn to_one(columns: &mut Columns, [px, py, pz]: [f32; 3], length: &[f32], slack: f32, w: &[f32]) {
-    let Columns { x, y, z } = columns;
+fn to_one(
+    [x, y, z]: [&mut [f32]; 3],
+    [px, py, pz]: [f32; 3],
+    length: &[f32],
+    slack: f32,
+    w: &[f32],
+) {
     let particles = x.iter_mut().zip(y).zip(z);
     for ((((x, y), z), length), w) in particles.zip(length).zip(w) {
         [*x, *y, *z] = within([*x, *y, *z], [px, py, pz], length * slack, *w);
@@ -201,10 +261,15 @@ fn to_one(columns: &mut Columns, [px, py, pz]: [f32; 3], length: &[f32], slack: 
 }
 
 #[inline(always)]
-fn to_many(columns: &mut Columns, pins: &Columns, length: &[f32], slack: f32, w: &[f32]) {
-    let Columns { x, y, z } = columns;
+fn to_many(
+    [x, y, z]: [&mut [f32]; 3],
+    [px, py, pz]: [&[f32]; 3],
+    length: &[f32],
+    slack: f32,
+    w: &[f32],
+) {
     let particles = x.iter_mut().zip(y).zip(z);
-    let pins = pins.x.iter().zip(&pins.y).zip(&pins.z);
+    let pins = px.iter().zip(py).zip(pz);
     for (((((x, y), z), ((px, py), pz)), length), w) in particles.zip(pins).zip(length).zip(w) {
         [*x, *y, *z] = within([*x, *y, *z], [*px, *py, *pz], length * slack, *w);
     }

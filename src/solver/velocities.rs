@@ -3,8 +3,8 @@
 //! The other half of `Scheme`. Damping scales the velocity and its whole history alike, which makes a
 //! free particle slow down by exactly exp(-damping h).
 
-use super::World;
 use super::contacts::Touch;
+use super::{PARTICLES, World};
 use crate::math::min;
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
@@ -26,14 +26,17 @@ pub(crate) fn derive(world: &mut World) {
             }
         }
     }
-    let columns = [
-        (&p.x.x, &predicted.x, &way.x, &mut p.moved.x, &mut p.v.x, &mut p.v_ahead.x),
-        (&p.x.y, &predicted.y, &way.y, &mut p.moved.y, &mut p.v.y, &mut p.v_ahead.y),
-        (&p.x.z, &predicted.z, &way.z, &mut p.moved.z, &mut p.v.z, &mut p.v_ahead.z),
-    ];
-    for (x, predicted, way, moved, v, v_ahead) in columns {
-        renew(world.level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
-    }
+    let level = world.level;
+    let read = (p.x.all(), predicted.all(), way.all());
+    let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());
+    world.threads.over((read, write), PARTICLES, |((x, predicted, way), write)| {
+        let (moved, v, v_ahead) = write;
+        let read = x.into_iter().zip(predicted).zip(way);
+        let write = moved.into_iter().zip(v).zip(v_ahead);
+        for (((x, predicted), way), ((moved, v), v_ahead)) in read.zip(write) {
+            renew(level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
+        }
+    });
     if world.colliders.iter().next().is_some() {
         bounce(world, scheme.h, keep);
     }

@@ -23,8 +23,9 @@ pub fn run(options: &[String]) -> Result {
     let wanted = NATIVE.iter().copied().filter(|name| all || words.contains(name));
     let wanted: Vec<_> = wanted.collect();
     if !wanted.is_empty() {
-        let mut cargo = shell::cargo(&["bench", "--package", "muslin", "--bench", "tables", "--"]);
-        shell::run(cargo.args(wanted).args(test))?;
+        // One thread costs the same with the feature as without.
+        let tables = ["bench", "--package=muslin", "--features=parallel", "--bench=tables", "--"];
+        shell::run(shell::cargo(&tables).args(wanted).args(test))?;
     }
     if all || words.contains(&NODE) {
         in_node(test)?;

@@ -90,11 +90,14 @@ pub fn run(options: &[String]) -> Result {
 }
 
 /// The step of the tests: the script and the scenes in release, also under strange floating-point
-/// modes, natively and on the other kind of processor; then the table.
+/// modes and cut up for several threads, natively and on the other kind of processor; then the table.
 pub fn test() -> Result {
     let packages = ["--package", "muslin", "--package", PACKAGE];
     let tests = ["test", "--release", "--test", "bits", "--test", "golden"];
     shell::run(shell::cargo(&tests).args(packages))?;
+    let features = ["--features", "muslin/parallel,muslin-golden/parallel"];
+    let threads = ["test", "--release", "--lib", "--test", "golden", "--test", "*threads"];
+    shell::run(shell::cargo(&threads).args(packages).args(features).args(["--", "threads"]))?;
     if can_emulate() {
         setup::ensure_target(AARCH64)?;
         let modes = ["test", "--release", "--package", PACKAGE, "--test", "golden"];

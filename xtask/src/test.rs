@@ -136,6 +136,9 @@ fn clippy() -> Result {
     setup::ensure_target(wasm::TARGET)?;
     let deny = ["--", "-D", "warnings"];
     shell::run(shell::cargo(&["clippy", "--workspace", "--all-targets"]).args(deny))?;
+    let threads = ["clippy", "--all-targets", "--package=muslin", "--package=muslin-golden"];
+    let features = ["--features", "muslin/parallel,muslin-golden/parallel"];
+    shell::run(shell::cargo(&threads).args(features).args(deny))?;
     let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
     web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
     shell::run(web.args(deny))

@@ -26,7 +26,19 @@ impl Scene {
     /// # Panics
     /// If something that the scene is there for does not happen in it.
     pub fn play(&self) -> Trace {
-        let mut trace = Trace::default();
+        self.play_into(Trace::default())
+    }
+
+    /// Plays it with every tick cut up for so many threads, however small the cloth.
+    ///
+    /// # Panics
+    /// As [`Scene::play`].
+    #[cfg(feature = "parallel")]
+    pub fn play_on(&self, threads: u32) -> Trace {
+        self.play_into(Trace::on(threads))
+    }
+
+    fn play_into(&self, mut trace: Trace) -> Trace {
         let played = (self.play)(&mut trace);
         played.unwrap_or_else(|error| panic!("scene {} was refused a call: {error}", self.name));
         trace

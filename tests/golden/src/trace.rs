@@ -18,6 +18,9 @@ pub struct Trace {
     hash: u64,
     marks: Vec<Mark>,
     events: Vec<EventKind>,
+    /// What cloths are to use, if that is said.
+    #[cfg(feature = "parallel")]
+    threads: Option<u32>,
 }
 
 /// Every so many ticks a cloth is looked at closely.
@@ -34,8 +37,24 @@ impl Trace {
         &self.marks
     }
 
+    /// A trace of cloths that use so many threads.
+    #[cfg(feature = "parallel")]
+    pub fn on(threads: u32) -> Self {
+        Self { threads: Some(threads), ..Self::default() }
+    }
+
+    /// Gives a cloth the threads that it is to use.
+    fn lend_threads(&self, cloth: &mut Cloth) {
+        #[cfg(feature = "parallel")]
+        if let Some(threads) = self.threads {
+            cloth.set_threads_eagerly(threads).expect("scenes are played on one thread at least");
+        }
+        let _ = cloth;
+    }
+
     /// Runs the cloth for so many ticks, with its state in the hash after each.
     pub fn run(&mut self, cloth: &mut Cloth, ticks: u32) {
+        self.lend_threads(cloth);
         for _ in 0..ticks {
             cloth.step(1);
             self.mark(cloth);
@@ -47,6 +66,7 @@ impl Trace {
     /// # Errors
     /// As [`Cloth::advance`].
     pub fn advance(&mut self, cloth: &mut Cloth, seconds: f32) -> muslin::Result<()> {
+        self.lend_threads(cloth);
         let ticks = cloth.advance(seconds)?;
         self.word(u64::from(ticks));
         self.float(cloth.blend());

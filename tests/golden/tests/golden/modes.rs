@@ -112,6 +112,31 @@ fn a_hosts_modes_change_no_bit_and_stay() {
     }
 }
 
+/// Threads of the host's with its modes, on which cloths are cut up beside the host's own work: a thread
+/// that waits for its part of a cloth may take up either.
+#[cfg(feature = "parallel")]
+#[test]
+fn modes_of_the_hosts_threads_change_no_bit_and_stay_for_its_own_work() {
+    let parts = scenes();
+    for (name, modes) in register::MODES {
+        let is_as_set = move || register::read() & register::MASK == modes & register::MASK;
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(3);
+        let pool = threads.start_handler(move |_| register::write(modes)).build().unwrap();
+        pool.in_place_scope(|scope| {
+            for (scene, hash) in &parts {
+                scope.spawn(move |_| {
+                    let trace = scene.play_on(3);
+                    assert_eq!(written(&trace), *hash, "{} under {name}", scene.name);
+                    assert!(is_as_set(), "{} took the host's modes away: {name}", scene.name);
+                });
+                for _ in 0..500 {
+                    scope.spawn(move |_| assert!(is_as_set(), "the host's work missed {name}"));
+                }
+            }
+        });
+    }
+}
+
 type Call = fn(&mut Cloth);
 
 /// Every call that computes, by its name.

@@ -1,4 +1,4 @@
-//! Many cloths on many threads.
+//! Many cloths on many threads; and, with the feature `parallel`, one cloth on several.
 
 use crate::{scenes, written};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,4 +17,15 @@ fn four_threads_at_once_play_the_same_bits() {
             });
         }
     });
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn a_cloth_on_several_threads_plays_the_same_bits() {
+    for (scene, hash) in scenes() {
+        for threads in 1..=3 {
+            let trace = scene.play_on(threads);
+            assert_eq!(written(&trace), hash, "{} on {threads} threads", scene.name);
+        }
+    }
 }

@@ -1,0 +1,143 @@
+//! A cloth on several threads: every tick has the bits that it has on one.
+#![cfg(feature = "parallel")]
+
+use muslin::glam::Vec3;
+use muslin::{Cloth, Error, GridDesc, MeshDesc, PinMode, Wind};
+
+mod common;
+
+/// A sheet of so many particles a side, two metres wide and high.
+fn sheet(side: u32, pin_mode: PinMode) -> GridDesc {
+    let spacing = 2.0 / (side - 1) as f32;
+    GridDesc { columns: side, rows: side, spacing, pin_mode, ..GridDesc::default() }
+}
+
+fn blow(cloth: &mut Cloth) {
+    let velocity = Vec3::new(0.5, 0.25, 3.0);
+    let wind = Wind { velocity, turbulence: 0.5, gust: 0.5, ..Wind::default() };
+    cloth.set_wind(wind).unwrap();
+}
+
+/// The same triangles as any mesh.
+fn as_mesh(desc: &GridDesc) -> Cloth {
+    let grid = Cloth::grid(desc).unwrap();
+    let mesh = Cloth::mesh(&MeshDesc {
+        positions: grid.positions().to_vec(),
+        indices: grid.indices().to_vec(),
+        pinned: grid.pinned().collect(),
+        material: desc.material.clone(),
+        settings: desc.settings.clone(),
+        ..MeshDesc::default()
+    });
+    mesh.unwrap()
+}
+
+/// Plays copies of a cloth on 1, 2, 3 and 4 threads side by side, and compares them after every tick.
+fn assert_equal_bits(cloth: &Cloth, ticks: u32, before: impl Fn(&mut Cloth, u32)) -> Cloth {
+    let mut copies = [1, 2, 3, 4].map(|threads| {
+        let mut copy = cloth.clone();
+        copy.set_threads(threads).unwrap();
+        copy
+    });
+    for tick in 0..ticks {
+        let [one, more @ ..] = &mut copies;
+        for cloth in std::iter::once(&mut *one).chain(&mut *more) {
+            before(cloth, tick);
+            cloth.step(1);
+        }
+        for cloth in more {
+            let threads = cloth.threads();
+            assert_eq!(cloth.state_hash(), one.state_hash(), "tick {tick} on {threads} threads");
+            assert!(
+                cloth.normals() == one.normals(),
+                "normals of tick {tick} on {threads} threads"
+            );
+        }
+    }
+    let [one, ..] = copies;
+    one
+}
+
+#[test]
+fn a_sheet_in_the_wind_has_the_same_bits_on_any_number_of_threads() {
+    let mut cloth = Cloth::grid(&sheet(128, PinMode::TopCorners)).unwrap();
+    blow(&mut cloth);
+    assert_equal_bits(&cloth, 120, |_, _| ());
+}
+
+#[test]
+fn a_bounded_sheet_with_lift_has_the_same_bits_on_any_number_of_threads() {
+    // An odd number of rows and columns; rigid links, one sweep.
+    let mut desc = sheet(129, PinMode::TopEdge);
+    desc.settings.max_stretch = 0.05;
+    desc.settings.iterations = 1;
+    desc.material.lift = 0.5;
+    desc.material.bend_stiffness = 1.0;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    blow(&mut cloth);
+    assert_equal_bits(&cloth, 30, |_, _| ());
+}
+
+#[test]
+fn a_mesh_in_the_wind_has_the_same_bits_on_any_number_of_threads() {
+    let mut cloth = as_mesh(&sheet(128, PinMode::TopCorners));
+    blow(&mut cloth);
+    assert_equal_bits(&cloth, 120, |_, _| ());
+}
+
+/// Pulls at the middle of a cloth until it tears, with pins above it let go on the way.
+fn pull(cloth: &mut Cloth, tick: u32) {
+    const MIDDLE: u32 = 64 * 128 + 64;
+    if tick == 0 {
+        cloth.pin(MIDDLE, None).unwrap();
+    }
+    let pulled = Vec3::new(0.0, -1.0, 0.03 * tick as f32);
+    cloth.set_pin_targets(&[MIDDLE], &[Vec3::new(1.0, 0.0, 0.0) + pulled]).unwrap();
+    if tick == 60 {
+        cloth.unpin(0).unwrap();
+    }
+}
+
+fn tearing(side: u32) -> GridDesc {
+    let mut desc = sheet(side, PinMode::TopEdge);
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    desc
+}
+
+#[test]
+fn a_tearing_sheet_has_the_same_bits_on_any_number_of_threads() {
+    let mut cloth = Cloth::grid(&tearing(128)).unwrap();
+    blow(&mut cloth);
+    let torn = assert_equal_bits(&cloth, 120, pull);
+    assert!(torn.positions().len() > cloth.positions().len() + 20, "hardly anything tore");
+}
+
+#[test]
+fn a_tearing_mesh_has_the_same_bits_on_any_number_of_threads() {
+    let mut cloth = as_mesh(&tearing(128));
+    blow(&mut cloth);
+    let torn = assert_equal_bits(&cloth, 120, pull);
+    assert!(torn.positions().len() > cloth.positions().len() + 20, "hardly anything tore");
+}
+
+#[test]
+fn threads_are_one_until_a_cloth_is_given_more_and_stay() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    assert_eq!(cloth.threads(), 1);
+    cloth.set_threads(3).unwrap();
+    let refused = cloth.set_threads(0).unwrap_err();
+    assert_eq!(refused, Error::BadValue { field: "threads", must: "be at least 1" });
+    cloth.reset();
+    assert_eq!((cloth.threads(), cloth.clone().threads()), (3, 3));
+}
+
+#[test]
+fn threads_are_neither_hashed_nor_saved() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    let (hash, saved) = (cloth.state_hash(), cloth.save());
+    cloth.set_threads(2).unwrap();
+    assert_eq!(cloth.state_hash(), hash);
+    assert_eq!(cloth.save(), saved);
+    assert_eq!(Cloth::restore(&saved).unwrap().threads(), 1);
+}
