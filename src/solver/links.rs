@@ -107,7 +107,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
             project::<LAW, _>(&mut weave.links, *link as usize, p, scale);
         }
     } else if packed.is_current {
-        packed::solve::<LAW>(world.level, range, &mut weave.links, packed, scale);
+        packed::solve::<LAW>(world.level, world.threads, range, &mut weave.links, packed, scale);
     } else {
         range.for_each(|link| project::<LAW, _>(&mut weave.links, link, p, scale));
     }

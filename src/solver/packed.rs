@@ -2,7 +2,8 @@
 //!
 //! While links are solved, the position of a particle is one load, wherever it is, and a link has the
 //! inverse masses of its ends beside it. The arithmetic is `links::correct`, the very one that goes
-//! link by link, so the bits are the same too.
+//! link by link, so the bits are the same too. Links of one colour share no particle, so that several
+//! threads may each have some of them, and the points at their ends, to themselves.
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -11,9 +12,11 @@
 )]
 
 use super::World;
-use super::links::{BOUND, RIGID, SOFT, Spots, correct, project};
+use super::links::{BOUND, RIGID, SOFT, Spots, correct, pull};
 use crate::fabric::links::Links;
+use crate::math::shared::Points;
 use crate::math::simd::{Between, Level, vectored};
+use crate::math::threads::Threads;
 use core::ops::Range;
 use glam::Vec3;
 
@@ -92,111 +95,171 @@ pub(crate) fn unpack(world: &mut World) {
     }
 }
 
+/// Links that one thread solves at least.
+const LINKS: usize = 4096;
+
 /// Solves the links `range`, which are of one colour.
 pub(crate) fn solve<const LAW: u8>(
     level: Level,
+    threads: Threads,
     range: Range<usize>,
     links: &mut Links,
     packed: &mut Packed,
     scale: f32,
 ) {
-    match LAW {
-        SOFT => solve_soft(level, range, links, packed, scale),
-        RIGID => solve_rigid(level, range, links, packed, scale),
-        _ => solve_bound(level, range, links, packed, scale),
-    }
+    let Packed { points, w, ends: [wa, wb], .. } = packed;
+    let (points, w) = (Points::new(points), &w[..]);
+    let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);
+    let weights = (&wa[range.clone()], &wb[range.clone()]);
+    let lengths = (&links.rest[range.clone()], &links.compliance[range.clone()]);
+    let all = (joins, weights, lengths, &mut links.lambda[range]);
+    threads.over(all, LINKS, |(((a, b), active), (wa, wb), (rest, compliance), lambda)| {
+        let color = Color { a, b, active, wa, wb, rest, compliance, lambda, points, w };
+        match LAW {
+            SOFT => solve_soft(level, color, scale),
+            RIGID => solve_rigid(level, color, scale),
+            _ => solve_bound(level, color, scale),
+        }
+    });
+}
+
+/// Links of one colour, and the particles at their ends: of no other link at the same time.
+struct Color<'a> {
+    a: &'a [u32],
+    b: &'a [u32],
+    active: &'a [bool],
+    wa: &'a [f32],
+    wb: &'a [f32],
+    rest: &'a [f32],
+    compliance: &'a [f32],
+    lambda: &'a mut [f32],
+    points: Points<'a>,
+    w: &'a [f32],
 }
 
 vectored! {
-    fn solve_soft(range: Range<usize>, links: &mut Links, packed: &mut Packed, scale: f32)
+    fn solve_soft(color: Color<'_>, scale: f32)
         = solve_color::<_, SOFT>, Avx2, solve_apart::<SOFT>
 }
 
 vectored! {
-    fn solve_rigid(range: Range<usize>, links: &mut Links, packed: &mut Packed, scale: f32)
+    fn solve_rigid(color: Color<'_>, scale: f32)
         = solve_color::<_, RIGID>, Avx2, solve_apart::<RIGID>
 }
 
 vectored! {
-    fn solve_bound(range: Range<usize>, links: &mut Links, packed: &mut Packed, scale: f32)
+    fn solve_bound(color: Color<'_>, scale: f32)
         = solve_color::<_, BOUND>, Avx2, solve_apart::<BOUND>
 }
 
 /// Links one by one.
 #[inline(always)]
-fn solve_apart<const LAW: u8>(
-    range: Range<usize>,
-    links: &mut Links,
-    packed: &mut Packed,
-    scale: f32,
-) {
-    range.for_each(|link| project::<LAW, _>(links, link, packed, scale));
+fn solve_apart<const LAW: u8>(mut color: Color<'_>, scale: f32) {
+    (0..color.a.len()).for_each(|link| color.solve::<LAW>(link, scale));
 }
 
 #[inline(always)]
-fn solve_color<S: Between, const LAW: u8>(
-    s: S,
-    range: Range<usize>,
-    links: &mut Links,
-    packed: &mut Packed,
-    scale: f32,
-) {
+fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
+    // One length for all columns, so that one check does for all.
+    let count = color.a.len();
+    let mut color = Color {
+        b: &color.b[..count],
+        active: &color.active[..count],
+        wa: &color.wa[..count],
+        wb: &color.wb[..count],
+        rest: &color.rest[..count],
+        compliance: &color.compliance[..count],
+        lambda: &mut color.lambda[..count],
+        ..color
+    };
     let mut most = 0;
-    for ends in [&links.a[range.clone()], &links.b[range.clone()]] {
+    for ends in [color.a, color.b] {
         for end in ends {
             most = if *end > most { *end } else { most };
         }
     }
-    assert!((most as usize) < packed.points.len(), "links end at particles");
+    assert!((most as usize) < color.points.len(), "links end at particles");
     let mut is_whole = true;
-    for is_active in &links.active[range.clone()] {
+    for is_active in color.active {
         is_whole &= is_active;
     }
-    let mut link = range.start;
-    while link + S::LANES <= range.end {
-        // SAFETY: all ends of the range were just found to be particles.
+    let mut link = 0;
+    while link + S::LANES <= count {
+        // SAFETY: all ends were just found to be particles, and this thread has them to itself.
         unsafe {
             if is_whole {
-                solve_chunk::<S, LAW, false>(s, link, links, packed, scale);
+                solve_chunk::<S, LAW, false>(s, link, &mut color, scale);
             } else {
-                solve_chunk::<S, LAW, true>(s, link, links, packed, scale);
+                solve_chunk::<S, LAW, true>(s, link, &mut color, scale);
             }
         }
         link += S::LANES;
     }
-    solve_apart::<LAW>(link..range.end, links, packed, scale);
+    (link..count).for_each(|link| color.solve::<LAW>(link, scale));
+}
+
+impl Color<'_> {
+    /// One link by itself.
+    #[inline(always)]
+    fn solve<const LAW: u8>(&mut self, link: usize, scale: f32) {
+        if !self.active[link] {
+            return;
+        }
+        let ends = (self.a[link] as usize, self.b[link] as usize);
+        let (rest, compliance) = (self.rest[link], self.compliance[link]);
+        let lambda = pull::<LAW, _>(ends, rest, compliance, self.lambda[link], self, scale);
+        if LAW == SOFT {
+            self.lambda[link] = lambda;
+        }
+    }
+}
+
+impl Spots for Color<'_> {
+    #[inline(always)]
+    fn spot(&self, i: usize) -> (Vec3, f32) {
+        assert!(i < self.points.len(), "links end at particles");
+        // SAFETY: there is such a point, and this thread has it to itself.
+        let [x, y, z, _] = unsafe { *self.points.at(i as u32).cast::<[f32; 4]>() };
+        (Vec3::new(x, y, z), self.w[i])
+    }
+
+    #[inline(always)]
+    fn put(&mut self, i: usize, x: Vec3) {
+        assert!(i < self.points.len(), "links end at particles");
+        // SAFETY: as above.
+        unsafe { *self.points.at(i as u32).cast::<[f32; 3]>() = x.to_array() };
+    }
 }
 
 /// As many links as there are lanes; with `CHOOSY` set, only those that hold.
 ///
 /// # Safety
-/// Both ends of each are below the number of points.
+/// Both ends of each are below the number of points, and no other thread reaches those.
 #[inline(always)]
 unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool>(
     s: S,
     first: usize,
-    links: &mut Links,
-    packed: &mut Packed,
+    color: &mut Color<'_>,
     scale: f32,
 ) {
     let all = first..first + S::LANES;
-    let at = [&links.a[all.clone()], &links.b[all.clone()]];
-    let active = &links.active[all];
-    let rest = s.load(&links.rest, first);
+    let at = [&color.a[all.clone()], &color.b[all.clone()]];
+    let active = &color.active[all];
+    let rest = s.load(color.rest, first);
     let zero = s.splat(0.0);
     let (mut compliance, mut lambda) = (zero, zero);
     if LAW == SOFT {
-        compliance = s.load(&links.compliance, first);
-        lambda = s.load(&links.lambda, first);
+        compliance = s.load(color.compliance, first);
+        lambda = s.load(color.lambda, first);
     }
-    let [wa, wb] = [s.load(&packed.ends[0], first), s.load(&packed.ends[1], first)];
+    let [wa, wb] = [s.load(color.wa, first), s.load(color.wb, first)];
     // SAFETY: the caller's promise.
-    let (pairs, span) = unsafe { s.fetch(&packed.points, at) };
+    let (pairs, span) = unsafe { s.fetch(color.points, at) };
     let (share, mut multiplier) =
         correct::<LAW, S>(s, span, wa + wb, rest, compliance, lambda, scale);
     let shares = [share * wa, share * wb];
     // SAFETY: the caller's promise, and `active` has an entry for each lane.
-    unsafe { s.put::<CHOOSY>(&mut packed.points, at, pairs, shares, active) };
+    unsafe { s.put::<CHOOSY>(color.points, at, pairs, shares, active) };
     if LAW == SOFT {
         if CHOOSY {
             let mut keep = [0.0; 16];
@@ -205,6 +268,6 @@ unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool>(
             }
             multiplier = s.pick(s.load(&keep, 0), multiplier, lambda);
         }
-        s.store(&mut links.lambda, first, multiplier);
+        s.store(color.lambda, first, multiplier);
     }
 }

@@ -26,6 +26,7 @@ pub(crate) use wasm::Simd128;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::{Avx2, Avx512, Sse2};
 
+use crate::math::shared::Points;
 use core::ops::{Add, Div, Mul, Sub};
 
 /// A number, or one in each lane.
@@ -119,8 +120,9 @@ pub(crate) trait Between: Simd {
     /// number has its lanes.
     ///
     /// # Safety
-    /// Both lists of places have an entry for each lane, each below the number of points; so for `put`.
-    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Self::F; 3]);
+    /// Both lists of places have an entry for each lane, each below the number of points, and no other
+    /// thread reaches those points meanwhile; so for `put`.
+    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Self::F; 3]);
 
     /// Puts pairs back, moved along what led from one to the other: the first by so much of it, the
     /// second by so much against it; with `CHOOSY` set, only those that are to move.
@@ -129,7 +131,7 @@ pub(crate) trait Between: Simd {
     /// As for `fetch`; there is an entry of `moves` for each lane.
     unsafe fn put<const CHOOSY: bool>(
         self,
-        points: &mut [[f32; 4]],
+        points: Points<'_>,
         at: [&[u32]; 2],
         pairs: Self::Pairs,
         shares: [Self::F; 2],

@@ -1,6 +1,7 @@
 //! Vectors of aarch64: four lanes, which every such machine has.
 
 use super::{Arithmetic, Between, Number, Simd};
+use crate::math::shared::Points;
 use core::arch::aarch64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -164,7 +165,7 @@ impl Between for Neon {
     type Pairs = [[float32x4_t; 4]; 2];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
+    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
         // SAFETY: the caller's promise; a point is sixteen bytes.
         unsafe {
             let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
@@ -183,7 +184,7 @@ impl Between for Neon {
     #[inline(always)]
     unsafe fn put<const CHOOSY: bool>(
         self,
-        points: &mut [[f32; 4]],
+        points: Points<'_>,
         at: [&[u32]; 2],
         [a, b]: Self::Pairs,
         shares: [Four; 2],
@@ -197,12 +198,12 @@ impl Between for Neon {
                     continue;
                 }
                 let span = vsubq_f32(b[lane], a[lane]);
-                let at_a = *at[0].get_unchecked(lane) as usize;
-                let at_b = *at[1].get_unchecked(lane) as usize;
+                let at_a = *at[0].get_unchecked(lane);
+                let at_b = *at[1].get_unchecked(lane);
                 let a = vaddq_f32(a[lane], vmulq_f32(span, to_a[lane]));
-                vst1q_f32(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
+                vst1q_f32(points.at(at_a), a);
                 let b = vsubq_f32(b[lane], vmulq_f32(span, to_b[lane]));
-                vst1q_f32(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+                vst1q_f32(points.at(at_b), b);
             }
         }
     }
@@ -213,7 +214,7 @@ impl Between for Neon {
 /// # Safety
 /// `at` has four entries, each below the number of points.
 #[inline(always)]
-unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [float32x4_t; 4] {
+unsafe fn all_four(points: Points<'_>, at: &[u32]) -> [float32x4_t; 4] {
     // SAFETY: the caller's promise.
     unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
 }
@@ -223,11 +224,11 @@ unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [float32x4_t; 4] {
 /// # Safety
 /// `at` has entry `lane`, and that is below the number of points.
 #[inline(always)]
-unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> float32x4_t {
+unsafe fn one(points: Points<'_>, at: &[u32], lane: usize) -> float32x4_t {
     // SAFETY: the caller's promise; a point is sixteen bytes.
     unsafe {
-        let at = *at.get_unchecked(lane) as usize;
-        vld1q_f32(points.get_unchecked(at).as_ptr())
+        let at = *at.get_unchecked(lane);
+        vld1q_f32(points.at(at))
     }
 }
 

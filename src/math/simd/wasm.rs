@@ -1,6 +1,7 @@
 //! Vectors of WebAssembly: four lanes. The module is compiled with or without them.
 
 use super::{Arithmetic, Between, Number, Simd};
+use crate::math::shared::Points;
 use core::arch::wasm32::*;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -141,7 +142,7 @@ impl Between for Simd128 {
     type Pairs = [v128; 4];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
+    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
         // SAFETY: the caller's promise; a point is sixteen bytes.
         unsafe {
             let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
@@ -169,7 +170,7 @@ impl Between for Simd128 {
     #[inline(always)]
     unsafe fn put<const CHOOSY: bool>(
         self,
-        points: &mut [[f32; 4]],
+        points: Points<'_>,
         at: [&[u32]; 2],
         span: Self::Pairs,
         shares: [Four; 2],
@@ -191,7 +192,7 @@ impl Between for Simd128 {
 /// As for `put`.
 #[inline(always)]
 unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
-    points: &mut [[f32; 4]],
+    points: Points<'_>,
     at: [&[u32]; 2],
     span: [v128; 4],
     [to_a, to_b]: [Four; 2],
@@ -204,9 +205,9 @@ unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
         }
         let to_a = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_a.0, to_a.0);
         let to_b = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_b.0, to_b.0);
-        let at_a = points.get_unchecked_mut(*at[0].get_unchecked(LANE) as usize).as_mut_ptr();
+        let at_a = points.at(*at[0].get_unchecked(LANE));
         v128_store(at_a.cast(), f32x4_add(v128_load(at_a.cast()), f32x4_mul(span[LANE], to_a)));
-        let at_b = points.get_unchecked_mut(*at[1].get_unchecked(LANE) as usize).as_mut_ptr();
+        let at_b = points.at(*at[1].get_unchecked(LANE));
         v128_store(at_b.cast(), f32x4_sub(v128_load(at_b.cast()), f32x4_mul(span[LANE], to_b)));
     }
 }
@@ -216,7 +217,7 @@ unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
 /// # Safety
 /// `at` has four entries, each below the number of points.
 #[inline(always)]
-unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [v128; 4] {
+unsafe fn all_four(points: Points<'_>, at: &[u32]) -> [v128; 4] {
     // SAFETY: the caller's promise.
     unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
 }
@@ -226,10 +227,10 @@ unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [v128; 4] {
 /// # Safety
 /// `at` has entry `lane`, and that is below the number of points.
 #[inline(always)]
-unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> v128 {
+unsafe fn one(points: Points<'_>, at: &[u32], lane: usize) -> v128 {
     // SAFETY: the caller's promise; a point is sixteen bytes.
     unsafe {
-        let at = *at.get_unchecked(lane) as usize;
-        v128_load(points.get_unchecked(at).as_ptr().cast())
+        let at = *at.get_unchecked(lane);
+        v128_load(points.at(at).cast())
     }
 }

@@ -1,6 +1,7 @@
 //! Vectors of x86-64: four, eight and sixteen lanes.
 
 use super::{Arithmetic, Between, Number, Simd};
+use crate::math::shared::Points;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -365,7 +366,7 @@ impl Between for Sse2 {
     type Pairs = [[__m128; 4]; 2];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
+    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
         // SAFETY: the caller's promise; a point is sixteen bytes.
         unsafe {
             let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
@@ -386,7 +387,7 @@ impl Between for Sse2 {
     #[inline(always)]
     unsafe fn put<const CHOOSY: bool>(
         self,
-        points: &mut [[f32; 4]],
+        points: Points<'_>,
         at: [&[u32]; 2],
         [a, b]: Self::Pairs,
         shares: [Four; 2],
@@ -400,12 +401,12 @@ impl Between for Sse2 {
                     continue;
                 }
                 let span = _mm_sub_ps(b[lane], a[lane]);
-                let at_a = *at[0].get_unchecked(lane) as usize;
-                let at_b = *at[1].get_unchecked(lane) as usize;
+                let at_a = *at[0].get_unchecked(lane);
+                let at_b = *at[1].get_unchecked(lane);
                 let a = _mm_add_ps(a[lane], _mm_mul_ps(span, to_a[lane]));
-                _mm_storeu_ps(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
+                _mm_storeu_ps(points.at(at_a), a);
                 let b = _mm_sub_ps(b[lane], _mm_mul_ps(span, to_b[lane]));
-                _mm_storeu_ps(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+                _mm_storeu_ps(points.at(at_b), b);
             }
         }
     }
@@ -416,7 +417,7 @@ impl Between for Avx2 {
     type Pairs = [[__m256; 4]; 2];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: &[[f32; 4]], at: [&[u32]; 2]) -> (Self::Pairs, [Eight; 3]) {
+    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Eight; 3]) {
         // SAFETY: the caller's promise; a point is sixteen bytes.
         unsafe {
             let (a, b) = (all_eight(points, at[0]), all_eight(points, at[1]));
@@ -438,7 +439,7 @@ impl Between for Avx2 {
     #[inline(always)]
     unsafe fn put<const CHOOSY: bool>(
         self,
-        points: &mut [[f32; 4]],
+        points: Points<'_>,
         at: [&[u32]; 2],
         [a, b]: Self::Pairs,
         shares: [Eight; 2],
@@ -452,18 +453,18 @@ impl Between for Avx2 {
                 let a = _mm256_add_ps(a[lane], _mm256_mul_ps(span, to_a[lane]));
                 let b = _mm256_sub_ps(b[lane], _mm256_mul_ps(span, to_b[lane]));
                 if !CHOOSY || *moves.get_unchecked(lane) {
-                    let at_a = *at[0].get_unchecked(lane) as usize;
-                    let at_b = *at[1].get_unchecked(lane) as usize;
+                    let at_a = *at[0].get_unchecked(lane);
+                    let at_b = *at[1].get_unchecked(lane);
                     let (a, b) = (_mm256_castps256_ps128(a), _mm256_castps256_ps128(b));
-                    _mm_storeu_ps(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
-                    _mm_storeu_ps(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+                    _mm_storeu_ps(points.at(at_a), a);
+                    _mm_storeu_ps(points.at(at_b), b);
                 }
                 if !CHOOSY || *moves.get_unchecked(lane + 4) {
-                    let at_a = *at[0].get_unchecked(lane + 4) as usize;
-                    let at_b = *at[1].get_unchecked(lane + 4) as usize;
+                    let at_a = *at[0].get_unchecked(lane + 4);
+                    let at_b = *at[1].get_unchecked(lane + 4);
                     let (a, b) = (_mm256_extractf128_ps::<1>(a), _mm256_extractf128_ps::<1>(b));
-                    _mm_storeu_ps(points.get_unchecked_mut(at_a).as_mut_ptr(), a);
-                    _mm_storeu_ps(points.get_unchecked_mut(at_b).as_mut_ptr(), b);
+                    _mm_storeu_ps(points.at(at_a), a);
+                    _mm_storeu_ps(points.at(at_b), b);
                 }
             }
         }
@@ -475,7 +476,7 @@ impl Between for Avx2 {
 /// # Safety
 /// `at` has four entries, each below the number of points.
 #[inline(always)]
-unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [__m128; 4] {
+unsafe fn all_four(points: Points<'_>, at: &[u32]) -> [__m128; 4] {
     // SAFETY: the caller's promise.
     unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
 }
@@ -485,11 +486,11 @@ unsafe fn all_four(points: &[[f32; 4]], at: &[u32]) -> [__m128; 4] {
 /// # Safety
 /// `at` has entry `lane`, and that is below the number of points.
 #[inline(always)]
-unsafe fn one(points: &[[f32; 4]], at: &[u32], lane: usize) -> __m128 {
+unsafe fn one(points: Points<'_>, at: &[u32], lane: usize) -> __m128 {
     // SAFETY: the caller's promise; a point is sixteen bytes.
     unsafe {
-        let at = *at.get_unchecked(lane) as usize;
-        _mm_loadu_ps(points.get_unchecked(at).as_ptr())
+        let at = *at.get_unchecked(lane);
+        _mm_loadu_ps(points.at(at))
     }
 }
 
@@ -515,7 +516,7 @@ unsafe fn each(v: __m128) -> [__m128; 4] {
 /// # Safety
 /// `at` has eight entries, each below the number of points, and the machine has AVX2.
 #[inline(always)]
-unsafe fn all_eight(points: &[[f32; 4]], at: &[u32]) -> [__m256; 4] {
+unsafe fn all_eight(points: Points<'_>, at: &[u32]) -> [__m256; 4] {
     // SAFETY: the caller's promise.
     unsafe { [two(points, at, 0), two(points, at, 1), two(points, at, 2), two(points, at, 3)] }
 }
@@ -525,7 +526,7 @@ unsafe fn all_eight(points: &[[f32; 4]], at: &[u32]) -> [__m256; 4] {
 /// # Safety
 /// As for `all_eight`; `lane` is below four.
 #[inline(always)]
-unsafe fn two(points: &[[f32; 4]], at: &[u32], lane: usize) -> __m256 {
+unsafe fn two(points: Points<'_>, at: &[u32], lane: usize) -> __m256 {
     // SAFETY: the caller's promise.
     unsafe {
         let low = _mm256_castps128_ps256(one(points, at, lane));
