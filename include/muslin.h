@@ -255,6 +255,7 @@ typedef struct MuslinSettings {
   /**
    * 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
    * They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
+   * From two iterations on, whole lines of links are solved at once as well.
    */
   uint32_t tethers;
   /** Whether layers of the cloth keep apart; 0. 1 is not supported yet. */

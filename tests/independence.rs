@@ -1,5 +1,5 @@
 //! What a cloth does depends on its size and material, not on how finely it is woven or stepped: the
-//! I cases of the validation list.
+//! I cases of the validation list, and M7.
 
 mod common;
 
@@ -79,6 +79,47 @@ fn the_settled_shape_depends_on_neither_resolution_nor_tick_nor_sweeps() {
             let mut desc = sheet(40, pin_mode);
             (desc.settings.substeps, desc.settings.iterations) = (substeps, iterations);
             assert_same_shape(&desc, &usual, 0.01);
+        }
+    }
+}
+
+/// The first mode of a hanging strip of length 1 m, `s` up from its lower end: J0(2.4048 √s).
+fn first_mode(s: f32) -> f32 {
+    let q = (2.4048 * s.max(0.0).sqrt() / 2.0).powi(2);
+    1.0 - q + q * q / 4.0 - q.powi(3) / 36.0 + q.powi(4) / 576.0
+}
+
+/// The period at which a limp strip of so many rows swings, its tip by 3° to either side [s].
+fn swing(rows: u32, rate: u32) -> f32 {
+    let mut desc = bare_grid(3, rows, 1.0 / (rows - 1) as f32, PinMode::TopEdge);
+    desc.settings.tick = 1.0 / rate as f32;
+    desc.material.bend_stiffness = 0.0;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    for i in 3..3 * rows {
+        let s = 1.0 + cloth.positions()[i as usize].y;
+        cloth.set_velocity(i, Vec3::Z * 0.2 * first_mode(s)).unwrap();
+    }
+    let tip = 3 * (rows as usize - 1);
+    let (mut last, mut passages, mut tick) = (0.0, Vec::new(), 0);
+    while passages.len() < 5 && tick < 20 * rate {
+        cloth.step(1);
+        tick += 1;
+        let z = cloth.positions()[tip].z;
+        if (z < 0.0) != (last < 0.0) {
+            passages.push((tick as f32 - z / (z - last)) / rate as f32);
+        }
+        last = z;
+    }
+    (passages[4] - passages[0]) / 2.0
+}
+
+#[test]
+fn a_hanging_strip_swings_at_its_period() {
+    let exact = 5.2255 / 9.81_f32.sqrt();
+    for rows in SIDES {
+        for rate in RATES {
+            let off = swing(rows, rate) / exact - 1.0;
+            assert!(off.abs() < 0.003, "{rows} rows at {rate} Hz: off by {off}");
         }
     }
 }

@@ -70,6 +70,19 @@ fn the_bound_holds_at_any_tick_and_mass() {
 }
 
 #[test]
+fn a_breeze_hardly_stretches_a_sheet_without_a_bound() {
+    for (pin_mode, most) in [(PinMode::TopEdge, 0.01), (PinMode::TopCorners, 0.02)] {
+        let mut cloth = Cloth::grid(&GridDesc { pin_mode, ..GridDesc::default() }).unwrap();
+        cloth.set_wind(Wind { velocity: Vec3::Z * 2.0, ..Wind::default() }).unwrap();
+        for tick in 0..600 {
+            cloth.step(1);
+            let stretch = cloth.stats().max_stretch;
+            assert!(stretch < most, "{pin_mode:?}: {stretch} in tick {tick}");
+        }
+    }
+}
+
+#[test]
 fn a_cloth_held_apart_says_so_once_and_recovers() {
     let desc = bounded(24, PinMode::TopCorners, Material::preset(Preset::Cotton), 0.02);
     let mut cloth = Cloth::grid(&desc).unwrap();

@@ -87,6 +87,12 @@ fn a_tangle_of_many_sweeps_comes_to_rest() {
 }
 
 #[test]
+fn a_tangle_hung_by_two_corners_comes_to_rest() {
+    assert_tangles_rest(24, PinMode::TopCorners, 2);
+    assert_tangles_rest(40, PinMode::TopCorners, 2);
+}
+
+#[test]
 fn a_sheet_comes_to_rest_after_wind_however_fine_it_is_and_coarse_its_ticks() {
     for (side, rate) in [(24, 60), (40, 60), (56, 30), (128, 60)] {
         let mut desc = sheet(side, PinMode::TopEdge);

@@ -4,6 +4,7 @@ use super::desc::{GridDesc, MeshDesc};
 use crate::arena::Arena;
 use crate::error::Result;
 use crate::fabric::cells::Cells;
+use crate::fabric::lines::Lines;
 use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
@@ -13,6 +14,7 @@ use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::{self, Frame};
 use crate::mesh::{Mesh, NONE, after, intake};
+use crate::solver::lines;
 use crate::solver::profile::Profile;
 use crate::solver::{Scratch, World};
 use crate::state::colliders::MAX_COLLIDERS;
@@ -106,7 +108,8 @@ fn build(
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, weave, rest, areas, cells } = fabric;
+    let Fabric { mesh, mut weave, rest, areas, cells } = fabric;
+    weave.lines = Lines::find(&weave.links, &rest);
     let max_tears = settings.max_tears_per_tick as usize;
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
@@ -202,5 +205,6 @@ impl World {
         if self.weave.rows.is_none() {
             self.scratch.packed.reserve(capacity, self.weave.links.len());
         }
+        self.scratch.lines = lines::Scratch::new(self.weave.lines.longest, capacity);
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod cells;
 pub(crate) mod color;
+pub(crate) mod lines;
 pub(crate) mod links;
 pub(crate) mod material;
 pub(crate) mod outward;

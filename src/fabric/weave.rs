@@ -1,6 +1,7 @@
 //! The weave: from a mesh to all its links, and how they follow when it splits.
 
 use crate::fabric::color;
+use crate::fabric::lines::Lines;
 use crate::fabric::links::{Batch, LinkKind, Links, Spec, Support, Thread};
 use crate::fabric::material::Material;
 use crate::fabric::rows::Rows;
@@ -16,6 +17,8 @@ pub(crate) struct Weave {
     pub batches: Vec<Batch>,
     /// Where the links of a grid lie in rows.
     pub rows: Option<Rows>,
+    /// The stretch links as lines.
+    pub lines: Lines,
     /// The second sides of opened edges, in the order they opened.
     pub extra: Links,
     /// Where each extra link is anchored: the edge on its side, and the woven link on the other.
@@ -199,6 +202,7 @@ impl Weave {
             links,
             batches,
             rows: None,
+            lines: Lines::default(),
             extra,
             extra_sides: Vec::with_capacity(opening_capacity),
             link_of_edge,
@@ -230,6 +234,7 @@ impl Weave {
         let links = self.links.len() + self.extra.rest.capacity();
         links * each
             + self.rows.as_ref().map_or(0, Rows::bytes)
+            + self.lines.bytes()
             + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
     }
 
@@ -281,6 +286,7 @@ impl Weave {
         for link in &self.involved[range] {
             let link = *link as usize;
             self.links.follow(mesh, link);
+            self.lines.follow(&self.links, link);
             if let Some(rows) = &mut self.rows {
                 rows.follow(
                     link,

@@ -220,7 +220,7 @@ pub(crate) fn correct<const LAW: u8, S: Arithmetic>(
 
 /// Whether no link of a kind gives way at all, so that there is nothing to remember from sweep to
 /// sweep; else each does as its compliance says.
-fn is_rigid(world: &World, kind: LinkKind) -> bool {
+pub(crate) fn is_rigid(world: &World, kind: LinkKind) -> bool {
     let m = &world.material;
     let stretch_is_rigid = m.stretch_stiffness_warp == 0.0 && m.stretch_stiffness_weft == 0.0;
     match kind {

@@ -7,6 +7,7 @@ pub(crate) mod forces;
 pub(crate) mod guard;
 pub(crate) mod hold;
 pub(crate) mod limit;
+pub(crate) mod lines;
 pub(crate) mod links;
 pub(crate) mod outputs;
 pub(crate) mod packed;
@@ -105,6 +106,7 @@ pub(crate) struct Scratch {
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub anchor: Columns,
     pub packed: packed::Packed,
+    pub lines: lines::Scratch,
     /// What each particle touched in this substep, if anything.
     pub touch: Vec<contacts::Touch>,
     pub tear: tear::Scratch,
@@ -124,6 +126,7 @@ impl Scratch {
             predicted: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
             packed: packed::Packed::default(),
+            lines: lines::Scratch::default(),
             touch: Vec::with_capacity(capacity),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),

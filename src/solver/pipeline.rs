@@ -2,7 +2,8 @@
 
 use super::stage::Stage;
 use super::{
-    World, contacts, forces, guard, hold, limit, links, packed, predict, tear, tethers, velocities,
+    World, contacts, forces, guard, hold, limit, lines, links, packed, predict, tear, tethers,
+    velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -52,18 +53,7 @@ fn run_substep(world: &mut World, number: u32) {
     links::restart(world);
     timed!(world, Stretch, packed::pack(world));
     for iteration in 0..world.settings.iterations {
-        if world.settings.tethers {
-            timed!(world, Tethers, tethers::solve(world));
-        }
-        if iteration.is_multiple_of(2) {
-            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Forward));
-            timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Forward));
-            timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Forward));
-        } else {
-            timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Backward));
-            timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
-            timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
-        }
+        run_iteration(world, iteration);
     }
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::draw_in(world));
@@ -71,4 +61,26 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Bend, packed::unpack(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));
+}
+
+/// Sweep `iteration` of a substep: to and fro in turn.
+fn run_iteration(world: &mut World, iteration: u32) {
+    let is_back = !iteration.is_multiple_of(2);
+    if is_back {
+        timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Backward));
+        timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
+        timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
+    } else if iteration == 0 && lines::are_used(world) {
+        // Lines bear a load as wholes, so that tethers and sweeps have little left to do.
+        timed!(world, Stretch, lines::solve(world));
+    } else {
+        timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Forward));
+    }
+    if world.settings.tethers {
+        timed!(world, Tethers, tethers::solve(world));
+    }
+    if !is_back {
+        timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Forward));
+        timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Forward));
+    }
 }

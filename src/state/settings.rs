@@ -32,7 +32,9 @@ pub struct Settings {
     /// apart: 0.02 is 2 %; 0 is no bound. Then [`Stats::over_stretched`](crate::Stats) and an event say so.
     pub max_stretch: f32,
     /// Long-range attachments that keep every particle within reach of the pins; on. They bear what the
-    /// sweeps do not get to, and nothing of what a load stretches soft links by.
+    /// sweeps do not get to, and nothing of what a load stretches soft links by. From two iterations on,
+    /// whole lines of links are solved at once as well, so that a load reaches the pins in one go. Off,
+    /// sweeps are all there is.
     pub tethers: bool,
     /// Layers of the cloth keep apart; off.
     pub self_collision: bool,

@@ -78,7 +78,10 @@ export interface Settings {
    * apart: 0.02 is 2 %; 0 is no bound.
    */
   maxStretch: number;
-  /** Long-range attachments that keep every particle within reach of the pins; true. */
+  /**
+   * Long-range attachments that keep every particle within reach of the pins; true. From two
+   * iterations on, whole lines of links are solved at once as well.
+   */
   tethers: boolean;
   /** Layers of the cloth keep apart; false. Nothing else is supported yet. */
   selfCollision: boolean;

@@ -37,6 +37,7 @@ pub struct MuslinSettings {
     pub max_stretch: f32,
     /// 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
     /// They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
+    /// From two iterations on, whole lines of links are solved at once as well.
     pub tethers: u32,
     /// Whether layers of the cloth keep apart; 0. 1 is not supported yet.
     pub self_collision: u32,

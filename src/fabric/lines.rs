@@ -1,0 +1,312 @@
+//! Lines: stretch links end to end, as straight as the mesh has them, to be solved as wholes.
+//!
+//! On a grid they are its rows and columns. On any mesh links continue each other where they meet most
+//! nearly straight. Every stretch link is in one line.
+
+use crate::fabric::links::{LinkKind, Links};
+use crate::math::simd::{LANES, Lanes};
+use crate::mesh::NONE;
+use core::cmp::Reverse;
+use core::ops::Range;
+use glam::Vec3;
+
+/// Links continue each other up to a turn of which this is the cosine.
+const STRAIGHT: f32 = 0.8;
+
+/// So many unfinished blocks are looked at for room.
+const OPEN_BLOCKS: usize = 16;
+
+/// The seat that lanes without a link look at. Every particle has the seat after its own number.
+pub(crate) const NOBODY: u32 = 0;
+
+/// A line: links and whether they are turned.
+type Line = Vec<(u32, bool)>;
+
+/// All lines of a weave, eight that share no particle side by side in a block. A block is so many
+/// steps, each the next link of each of its lines.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lines {
+    /// The steps of each block.
+    pub blocks: Vec<Range<usize>>,
+    /// The links of each step; `NONE` after a line's end.
+    pub links: Vec<[u32; LANES]>,
+    /// The seats of the particles that they run from and to; `NOBODY` where there is no link any more.
+    pub from: Vec<[u32; LANES]>,
+    pub to: Vec<[u32; LANES]>,
+    /// Their lengths at rest [m].
+    pub rest: Vec<Lanes>,
+    /// Steps of the longest block.
+    pub longest: usize,
+    /// Where each link is: step, lane, and whether its line runs from its second particle.
+    places: Vec<Place>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    step: u32,
+    lane: u32,
+    is_turned: bool,
+}
+
+impl Lines {
+    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex.
+    pub fn find(links: &Links, rest: &[Vec3]) -> Self {
+        let next = continuations(links, rest);
+        let mut lines = Vec::new();
+        let mut seen = vec![false; links.len()];
+        let mut visited = vec![NONE; rest.len()];
+        for link in stretch_links(links) {
+            if !seen[link as usize] {
+                let start = walk_back(links, &next, link, &seen, lines.len() as u32, &mut visited);
+                lines.push(walk(links, &next, start, &mut seen, lines.len() as u32, &mut visited));
+            }
+            // A line that ran into itself from behind did not come by.
+            if !seen[link as usize] {
+                seen[link as usize] = true;
+                lines.push(vec![(link, false)]);
+            }
+        }
+        // Those of a length go together, in the order of their first links.
+        lines.sort_by_key(|line| Reverse(line.len()));
+        let mut found = Self::default();
+        let nowhere = Place { step: NONE, lane: 0, is_turned: false };
+        found.places = vec![nowhere; links.len()];
+        for block in arrange(links, &lines, rest.len()) {
+            found.add(links, &block);
+        }
+        found
+    }
+
+    fn add(&mut self, links: &Links, block: &[&Line]) {
+        let first = self.links.len();
+        let longest = block.iter().map(|line| line.len()).max().unwrap_or(0);
+        for at in 0..longest {
+            self.links.push([NONE; LANES]);
+            self.from.push([NOBODY; LANES]);
+            self.to.push([NOBODY; LANES]);
+            self.rest.push([0.0; LANES]);
+            for (lane, line) in block.iter().enumerate() {
+                if let Some((link, is_turned)) = line.get(at).copied() {
+                    let step = first + at;
+                    self.links[step][lane] = link;
+                    self.rest[step][lane] = links.rest[link as usize];
+                    self.places[link as usize] =
+                        Place { step: step as u32, lane: lane as u32, is_turned };
+                    self.follow(links, link as usize);
+                }
+            }
+        }
+        self.blocks.push(first..first + longest);
+        self.longest = self.longest.max(longest);
+    }
+
+    /// Brings a link's place in line with the link.
+    pub fn follow(&mut self, links: &Links, link: usize) {
+        let Some(Place { step, lane, is_turned }) = self.places.get(link).copied() else {
+            return;
+        };
+        if step == NONE {
+            return;
+        }
+        let ends = match (links.active[link], is_turned) {
+            (false, _) => (NOBODY, NOBODY),
+            (true, false) => (links.a[link] + 1, links.b[link] + 1),
+            (true, true) => (links.b[link] + 1, links.a[link] + 1),
+        };
+        (self.from[step as usize][lane as usize], self.to[step as usize][lane as usize]) = ends;
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let step = LANES * (3 * size_of::<u32>() + size_of::<f32>());
+        self.links.len() * step + self.places.len() * size_of::<Place>()
+    }
+}
+
+fn stretch_links(links: &Links) -> impl Iterator<Item = u32> + '_ {
+    (0..links.len()).filter(|link| links.kind(*link) == LinkKind::Stretch).map(|link| link as u32)
+}
+
+/// For each link the one that continues it beyond its first and beyond its second particle.
+fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
+    let mut at_vertex: Vec<Vec<(u32, Vec3)>> = vec![Vec::new(); rest.len()];
+    for link in stretch_links(links) {
+        let (a, b) = (links.a[link as usize], links.b[link as usize]);
+        let way = (rest[b as usize] - rest[a as usize]).normalize_or_zero();
+        at_vertex[a as usize].push((link, way));
+        at_vertex[b as usize].push((link, -way));
+    }
+    let mut next = vec![[NONE; 2]; links.len()];
+    for (vertex, around) in at_vertex.iter().enumerate() {
+        let mut pairs = Vec::new();
+        for (at, (p, along)) in around.iter().enumerate() {
+            for (q, back) in &around[at + 1..] {
+                let straight = -along.dot(*back);
+                if straight > STRAIGHT {
+                    pairs.push((straight, *p, *q));
+                }
+            }
+        }
+        pairs.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+        for (_, p, q) in pairs {
+            let end = |link: u32| usize::from(links.b[link as usize] == vertex as u32);
+            if next[p as usize][end(p)] == NONE && next[q as usize][end(q)] == NONE {
+                next[p as usize][end(p)] = q;
+                next[q as usize][end(q)] = p;
+            }
+        }
+    }
+    next
+}
+
+/// The vertex where the walk goes on after a link.
+fn far_end(links: &Links, (link, turned): (u32, bool)) -> u32 {
+    if turned { links.a[link as usize] } else { links.b[link as usize] }
+}
+
+/// The next link of a walk, if it leads to a new vertex.
+fn step(
+    links: &Links,
+    next: &[[u32; 2]],
+    from: (u32, bool),
+    seen: &[bool],
+    (number, visited): (u32, &[u32]),
+) -> Option<(u32, bool)> {
+    let end = far_end(links, from);
+    let link = next[from.0 as usize][usize::from(!from.1)];
+    if link == NONE || seen[link as usize] {
+        return None;
+    }
+    let to = (link, links.b[link as usize] == end);
+    (visited[far_end(links, to) as usize] != number).then_some(to)
+}
+
+/// The link where a line begins that has `link` in it, in the direction it runs.
+fn walk_back(
+    links: &Links,
+    next: &[[u32; 2]],
+    link: u32,
+    seen: &[bool],
+    number: u32,
+    visited: &mut [u32],
+) -> (u32, bool) {
+    let mut at = (link, true);
+    // Marks of this walk differ from those of the walk back along it.
+    let number = number | 1 << 31;
+    visited[links.b[link as usize] as usize] = number;
+    visited[links.a[link as usize] as usize] = number;
+    while let Some(to) = step(links, next, at, seen, (number, visited)) {
+        visited[far_end(links, to) as usize] = number;
+        at = to;
+    }
+    (at.0, !at.1)
+}
+
+fn walk(
+    links: &Links,
+    next: &[[u32; 2]],
+    start: (u32, bool),
+    seen: &mut [bool],
+    number: u32,
+    visited: &mut [u32],
+) -> Line {
+    let mut line = vec![start];
+    seen[start.0 as usize] = true;
+    visited[links.a[start.0 as usize] as usize] = number;
+    visited[links.b[start.0 as usize] as usize] = number;
+    let mut at = start;
+    while let Some(to) = step(links, next, at, seen, (number, visited)) {
+        seen[to.0 as usize] = true;
+        visited[far_end(links, to) as usize] = number;
+        line.push(to);
+        at = to;
+    }
+    line
+}
+
+/// Puts lines side by side, so that those in a block share no vertex.
+fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec<&'a Line>> {
+    let mut blocks: Vec<Vec<&Line>> = Vec::new();
+    // The blocks that each vertex is in.
+    let mut member: Vec<Vec<u32>> = vec![Vec::new(); vertex_count];
+    for line in lines {
+        let ends = |link: u32| [links.a[link as usize], links.b[link as usize]];
+        let vertices: Vec<u32> = line.iter().flat_map(|(link, _)| ends(*link)).collect();
+        let oldest = blocks.len().saturating_sub(OPEN_BLOCKS);
+        let fits = |block: &usize| {
+            let is_out = |v: &u32| !member[*v as usize].contains(&(*block as u32));
+            blocks[*block].len() < LANES && vertices.iter().all(is_out)
+        };
+        let block = (oldest..blocks.len()).find(fits).unwrap_or(blocks.len());
+        if block == blocks.len() {
+            blocks.push(Vec::new());
+        }
+        blocks[block].push(line);
+        vertices.iter().for_each(|v| member[*v as usize].push(block as u32));
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fabric::weave::Weave;
+    use crate::mesh::Mesh;
+    use crate::mesh::grid::{self, Frame};
+
+    fn sheet(columns: u32, rows: u32) -> (Mesh, Vec<Vec3>) {
+        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let rest = grid::positions(columns, rows, &frame);
+        (Mesh::new(grid::triangles(columns, rows), rest.len(), rest.len()), rest)
+    }
+
+    /// Every stretch link is in one line, lines in a block share no particle, and lines are chains.
+    fn assert_sound(lines: &Lines, links: &Links) {
+        let mut uses = vec![0; links.len()];
+        for block in &lines.blocks {
+            let mut lane_of = std::collections::HashMap::new();
+            for step in block.clone() {
+                for lane in 0..LANES {
+                    let link = lines.links[step][lane];
+                    if link == NONE {
+                        continue;
+                    }
+                    uses[link as usize] += 1;
+                    let (from, to) = (lines.from[step][lane], lines.to[step][lane]);
+                    if step > block.start {
+                        assert_eq!(lines.to[step - 1][lane], from, "a line is a chain");
+                    }
+                    for end in [from, to] {
+                        assert_eq!(*lane_of.entry(end).or_insert(lane), lane);
+                    }
+                }
+            }
+        }
+        for (link, uses) in uses.iter().enumerate() {
+            assert_eq!(*uses, u32::from(links.kind(link) == LinkKind::Stretch), "link {link}");
+        }
+    }
+
+    #[test]
+    fn lines_of_a_grid_are_its_rows_and_columns() {
+        let (mesh, rest) = sheet(11, 19);
+        let weave = Weave::grid(11, 19, 0.1, &mesh, 0);
+        let lines = Lines::find(&weave.links, &rest);
+        assert_sound(&lines, &weave.links);
+        // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
+        let lengths: Vec<usize> = lines.blocks.iter().map(Range::len).collect();
+        assert_eq!(lengths, [18, 18, 10, 10, 10]);
+    }
+
+    #[test]
+    fn lines_of_a_mesh_run_straight_on() {
+        let (mesh, mut rest) = sheet(9, 9);
+        for (i, x) in rest.iter_mut().enumerate() {
+            x.z = (i as f32 * 1.3).sin() * 0.03;
+        }
+        let weave = Weave::mesh(&mesh, &rest, 0);
+        let lines = Lines::find(&weave.links, &rest);
+        assert_sound(&lines, &weave.links);
+        assert_eq!(lines.longest, 8, "from border to border");
+    }
+}
