@@ -110,7 +110,8 @@ fn take_seats(world: &mut World, is_rigid: bool) {
     s.points.clear();
     s.points.push([0.0; 4]);
     if world.scratch.packed.is_current {
-        s.points.extend_from_slice(&world.scratch.packed.points);
+        let particles = world.scratch.packed.points.iter().zip(&p.w);
+        s.points.extend(particles.map(|([x, y, z, _], w)| [*x, *y, *z, *w]));
     } else {
         let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z).zip(&p.w);
         s.points.extend(particles.map(|(((x, y), z), w)| [*x, *y, *z, *w]));
@@ -133,7 +134,9 @@ fn take_seats(world: &mut World, is_rigid: bool) {
 fn leave_seats(world: &mut World) {
     let seats = &world.scratch.lines.points[1..];
     if world.scratch.packed.is_current {
-        world.scratch.packed.points.copy_from_slice(seats);
+        for (point, [x, y, z, _]) in world.scratch.packed.points.iter_mut().zip(seats) {
+            *point = [*x, *y, *z, 0.0];
+        }
         return;
     }
     let x = &mut world.particles.x;

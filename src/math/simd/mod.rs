@@ -14,6 +14,7 @@
 
 #[cfg(target_arch = "aarch64")]
 mod neon;
+mod turn;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod wasm;
 #[cfg(target_arch = "x86_64")]
@@ -27,6 +28,8 @@ pub(crate) use wasm::Simd128;
 pub(crate) use x86::{Avx2, Avx512, Sse2};
 
 use crate::math::shared::Points;
+pub(crate) use turn::{gather, scatter};
+
 use core::ops::{Add, Div, Mul, Sub};
 
 /// A number, or one in each lane.
