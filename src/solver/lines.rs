@@ -36,6 +36,9 @@ const GIVE: f32 = 1.0e-6;
 /// The share of what a link was too long or too short by that a substep puts right.
 const MEND: f32 = 0.3;
 
+/// Loads are at least as on earth [m/s²]: wind and hands pull where there is no gravity.
+const EARTH: f32 = 9.81;
+
 /// Three columns of eight.
 type Lanes3 = [Lanes; 3];
 
@@ -84,9 +87,18 @@ impl Scratch {
     }
 }
 
-/// Whether lines are solved at all: the plain scheme is sweeps and nothing else.
+/// What sweeps may leave of a line's weight as stretch before lines are solved as wholes.
+const LITTLE: f32 = 1.0e-3;
+
+/// Whether lines are solved at all. The plain scheme is sweeps and nothing else, and where substeps are
+/// short enough sweeps do by themselves: n of them leave a hanging line of N links stretched by
+/// g h² N / (2 n rest) on average.
 pub(crate) fn are_used(world: &World) -> bool {
-    world.settings.tethers && world.settings.iterations > 1
+    let settings = &world.settings;
+    let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
+    let load = max(settings.gravity.length(), EARTH);
+    let left = load * h * h * world.weave.lines.longest as f32 / (2.0 * sweeps * world.spacing);
+    settings.tethers && settings.iterations > 1 && left > LITTLE
 }
 
 /// Solves all lines.
