@@ -95,6 +95,17 @@ fn a_mesh_allocates_nothing_once_it_is_made() {
 }
 
 #[test]
+fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
+    let mut desc = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let (from, to) = (Vec3::new(-0.2, -0.33, -1.0), Vec3::new(0.61, -0.77, -1.0));
+    assert!(cloth.cut(from, to, Vec3::Z * 2.0).unwrap() > 20);
+    assert_allocates_nothing(cloth, 230);
+}
+
+#[test]
 fn the_counter_counts() {
     let made = allocations(|| drop(Vec::<u32>::with_capacity(9)));
     assert_eq!(made, 1);

@@ -7,7 +7,7 @@ use crate::math::simd::Level;
 use crate::state::wind::Wind;
 use glam::Vec3;
 
-/// A grid of a size that leaves rests of rows, in the wind, torn by a grab, then falling.
+/// A grid of a size that leaves rests of rows, in the wind, torn by a grab, cut, then falling.
 fn play(material: &Material, columns: u32, rows: u32, prepare: impl Fn(&mut Cloth)) -> Vec<u64> {
     let mut desc = GridDesc { columns, rows, pin_mode: PinMode::TopCorners, ..GridDesc::default() };
     desc.material = material.clone();
@@ -25,6 +25,10 @@ fn play(material: &Material, columns: u32, rows: u32, prepare: impl Fn(&mut Clot
     for tick in 1..=40 {
         cloth.move_grab(grab, from + Vec3::new(0.02, 0.01, 0.05) * tick as f32).unwrap();
         cloth.step(1);
+        if tick == 20 {
+            let blade = [Vec3::new(0.21, 0.5, -9.0), Vec3::new(0.26, -9.0, -9.0)];
+            assert!(cloth.cut(blade[0], blade[1], Vec3::Z * 18.0).unwrap() > 0, "nothing was cut");
+        }
         hashes.push(cloth.state_hash());
     }
     cloth.release(grab).unwrap();

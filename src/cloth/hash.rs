@@ -18,6 +18,10 @@ impl Cloth {
         mixer.floats(&p.w);
         mixer.words(world.mesh.triangles.as_flattened());
         mixer.words(&world.mesh.source);
+        for crossing in &world.crossings {
+            mixer.words(&crossing.ends);
+            mixer.floats(&[crossing.share]);
+        }
         for pin in world.pins.iter() {
             mixer.word(pin.particle);
             mixer.floats(&pin.from.to_array());

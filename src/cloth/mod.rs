@@ -1,5 +1,6 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
+mod cut;
 pub(crate) mod desc;
 #[cfg(test)]
 mod equal_bits;

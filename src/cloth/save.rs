@@ -7,11 +7,13 @@ use super::Cloth;
 use super::view::Outputs;
 use super::world::Origin;
 use crate::error::{Error, Result};
+use crate::fabric::extra::Changes;
 use crate::fabric::material::Material;
 use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
 use crate::math::mix::Mixer;
-use crate::mesh::{Fan, NONE};
+use crate::mesh::divide::Crossing;
+use crate::mesh::{NONE, intake};
 use crate::solver::World;
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
@@ -20,10 +22,11 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -35,7 +38,8 @@ struct Saved<'a> {
     wind: Owned<'a, Wind>,
     triangles: Owned<'a, Vec<[u32; 3]>>,
     sources: Owned<'a, Vec<u32>>,
-    opened: Owned<'a, Vec<(u32, u32)>>,
+    crossings: Owned<'a, Vec<Crossing>>,
+    links: Changes,
     particles: Owned<'a, Particles>,
     pins: Owned<'a, Pins>,
     grabs: Owned<'a, Grabs>,
@@ -67,7 +71,8 @@ impl Cloth {
             wind: Owned::Borrowed(&world.wind),
             triangles: Owned::Borrowed(&world.mesh.triangles),
             sources: Owned::Borrowed(&world.mesh.source),
-            opened: Owned::Borrowed(&world.weave.extra_sides),
+            crossings: Owned::Borrowed(&world.crossings),
+            links: world.weave.changes(),
             particles: Owned::Borrowed(&world.particles),
             pins: Owned::Borrowed(&world.pins),
             grabs: Owned::Borrowed(&world.grabs),
@@ -142,10 +147,16 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     let triangles = saved.triangles.into_owned();
     let count = sources.len();
     must(count >= world.mesh.vertex_count() && count <= capacity)?;
-    must(triangles.len() == world.mesh.triangles.len())?;
-    for (now, then) in triangles.iter().flatten().zip(world.mesh.triangles.iter().flatten()) {
-        must(sources.get(*now as usize) == Some(then))?;
+    let woven = world.mesh.triangles.len();
+    must(triangles.len() >= woven && triangles.len() <= world.triangle_capacity)?;
+    for crossing in saved.crossings.iter() {
+        let is_known = crossing.ends.iter().all(|end| (*end as usize) < world.rest.len());
+        must(is_known && crossing.share > 0.0 && crossing.share < 1.0)?;
+        world.rest.push(crossing.between(|end| world.rest[end as usize]));
     }
+    world.crossings = saved.crossings.into_owned();
+    must(sources.iter().all(|site| (*site as usize) < world.rest.len()))?;
+    must(sources[..world.mesh.vertex_count()].iter().copied().eq(0..world.mesh.original_count))?;
     let particles = saved.particles.into_owned();
     must(particles.is_consistent(count) && is_finite(&particles))?;
     must(
@@ -153,25 +164,22 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
             && (saved.owed.is_finite() && saved.owed >= 0.0),
     )?;
 
-    world.mesh.triangles = triangles;
-    world.mesh.source = sources;
-    world.mesh.corner_of.resize(count, NONE);
-    world.mesh.connect();
-    must(has_whole_fans(&world))?;
+    let rest: Vec<Vec3> = sources.iter().map(|site| world.rest[*site as usize]).collect();
+    let original_count = world.mesh.original_count;
+    let mesh = intake::mesh(triangles, &rest, capacity).map_err(|_| bad())?;
+    must(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
+    let fresh = core::mem::replace(&mut world.mesh, mesh);
+    world.mesh.original_count = original_count;
+    world.mesh.source.copy_from_slice(&sources);
+    world.measure_divided(&fresh);
     world.particles = particles;
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
     world.reserve(capacity);
-    must(saved.opened.len() <= world.weave.extra_capacity())?;
-    for (edge, woven) in saved.opened.iter() {
-        must(world.weave.may_open(*edge, *woven))?;
-        let material = &world.material;
-        world.weave.add_extra(&world.mesh, *edge, *woven, material);
-    }
+    must(world.weave.change(&world.mesh, &saved.links, &world.material))?;
     world.weave.stiffen(&world.material);
-    for source in 0..world.mesh.original_count {
-        world.follow(source);
-    }
+    (0..world.rest.len() as u32).for_each(|site| world.follow(site));
+    world.reserve_for_tears();
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
@@ -213,7 +221,7 @@ fn restore_holds(
     bad: impl Fn() -> Error,
 ) -> Result<()> {
     let count = world.particles.len();
-    let held_well = |particle: u32, at: [glam::Vec3; 2]| {
+    let held_well = |particle: u32, at: [Vec3; 2]| {
         (particle as usize) < count && at.iter().all(|v| v.is_finite())
     };
     let pins_fit = pins.iter().all(|pin| held_well(pin.particle, [pin.from, pin.target]));
@@ -231,19 +239,4 @@ fn is_finite(particles: &Particles) -> bool {
     [&particles.x, &particles.moved, &particles.v, &particles.v_ahead, &particles.x_last]
         .into_iter()
         .all(finite)
-}
-
-/// Whether the triangles of every vertex form one fan, as tears always leave them.
-fn has_whole_fans(world: &World) -> bool {
-    let mesh = &world.mesh;
-    let mut uses = vec![0usize; mesh.vertex_count()];
-    mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);
-    let mut fan = Fan::default();
-    mesh.corner_of.iter().zip(&uses).all(|(corner, uses)| {
-        if *corner == NONE {
-            return true;
-        }
-        mesh.fan(*corner, &mut fan);
-        fan.corners.len() == *uses
-    })
 }

@@ -19,7 +19,7 @@ pub struct View<'a> {
     pub uvs: &'a [Vec2],
     /// Three vertices a triangle.
     pub indices: &'a [u32],
-    /// Which original vertex each vertex came from.
+    /// Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's.
     pub source_vertices: &'a [u32],
     /// How many vertices there may ever be.
     pub vertex_capacity: u32,
@@ -71,7 +71,10 @@ pub(crate) struct Outputs {
     /// Room for summing up normals.
     sums: Columns,
     uvs: Vec<Vec2>,
-    original_uvs: Vec<Vec2>,
+    /// Texture coordinates of each site, and the original vertex it came from.
+    site_uvs: Vec<Vec2>,
+    site_sources: Vec<u32>,
+    sources: Vec<u32>,
     indices: Vec<u32>,
 }
 
@@ -85,14 +88,17 @@ impl Outputs {
             normals_current: false,
             sums: Columns::with_capacity(capacity),
             uvs: Vec::with_capacity(capacity),
-            original_uvs: Vec::new(),
-            indices: Vec::with_capacity(3 * world.mesh.triangles.len()),
+            site_uvs: Vec::new(),
+            site_sources: Vec::new(),
+            sources: Vec::with_capacity(capacity),
+            indices: Vec::with_capacity(3 * world.triangle_capacity),
         }
     }
 
     /// Takes on the texture coordinates that the cloth was made with.
     pub fn set_uvs(&mut self, origin: &Origin) {
-        self.original_uvs = guarded(|| origin.uvs());
+        self.site_uvs = guarded(|| origin.uvs());
+        self.site_sources = (0..self.site_uvs.len() as u32).collect();
     }
 
     /// Follows a change of positions.
@@ -105,8 +111,21 @@ impl Outputs {
     pub fn follow_topology(&mut self, world: &World) {
         self.indices.clear();
         self.indices.extend_from_slice(world.mesh.triangles.as_flattened());
+        guarded(|| self.follow_sites(world));
         self.uvs.clear();
-        self.uvs.extend(world.mesh.source.iter().map(|v| self.original_uvs[*v as usize]));
+        self.uvs.extend(world.mesh.source.iter().map(|site| self.site_uvs[*site as usize]));
+        self.sources.clear();
+        self.sources.extend(world.mesh.source.iter().map(|site| self.site_sources[*site as usize]));
+    }
+
+    fn follow_sites(&mut self, world: &World) {
+        let original = world.mesh.original_count as usize;
+        self.site_uvs.truncate(world.rest.len());
+        self.site_sources.truncate(world.rest.len());
+        for crossing in &world.crossings[self.site_uvs.len() - original..] {
+            self.site_uvs.push(crossing.between(|end| self.site_uvs[end as usize]));
+            self.site_sources.push(self.site_sources[crossing.nearer() as usize]);
+        }
     }
 
     fn follow_normals(&mut self, world: &World) {
@@ -126,9 +145,9 @@ impl Cloth {
             normals: &self.outputs.normals,
             uvs: &self.outputs.uvs,
             indices: &self.outputs.indices,
-            source_vertices: &self.world.mesh.source,
+            source_vertices: &self.outputs.sources,
             vertex_capacity: self.world.capacity() as u32,
-            index_capacity: self.outputs.indices.len() as u32,
+            index_capacity: 3 * self.world.triangle_capacity as u32,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
         }
@@ -155,9 +174,9 @@ impl Cloth {
         &self.outputs.indices
     }
 
-    /// Which original vertex each vertex came from.
+    /// Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's.
     pub fn source_vertices(&self) -> &[u32] {
-        &self.world.mesh.source
+        &self.outputs.sources
     }
 
     /// Velocity of a particle [m/s]; `None` if there is no such particle.
@@ -218,7 +237,7 @@ impl Cloth {
         let particle = world.particles.bytes_each() + size_of::<[Vec3; 2]>() + size_of::<Vec2>();
         let triangle = size_of::<[u32; 3]>() * 3 + size_of::<[f32; 3]>();
         let bytes = world.capacity() * particle
-            + world.mesh.triangles.len() * triangle
+            + world.triangle_capacity * triangle
             + world.weave.bytes()
             + world.tethers.bytes();
         bytes as u64

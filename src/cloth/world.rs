@@ -73,7 +73,8 @@ fn grid_world(desc: &GridDesc) -> World {
     let capacity = desc.capacity();
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
     let openings = opening_capacity(&mesh, capacity);
-    let weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
+    let mut weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
+    weave.run_along([frame.right, frame.down]);
     let areas = grid::corner_areas(desc.columns, desc.rows, desc.spacing);
     let cells = Some(Cells::new(desc.columns, desc.rows));
     let fabric = Fabric { mesh, weave, rest, areas, cells };
@@ -125,6 +126,7 @@ fn build(
         time: 0.0,
         tick: 0,
         pieces: 0,
+        triangle_capacity: mesh.triangles.len() + capacity - rest.len(),
         reserve_told: false,
         over_stretched: 0,
         over_stretch_told: false,
@@ -139,6 +141,7 @@ fn build(
         mesh,
         weave,
         rest,
+        crossings: Vec::new(),
         corner_area: areas,
         cells,
     };
@@ -188,7 +191,7 @@ impl World {
         self.pins.reserve(capacity);
         self.events.reserve();
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.weave.reserve(openings);
+        self.weave.reserve(openings, capacity);
         self.tethers.reserve(capacity);
         self.outward.reserve(capacity, self.weave.links.len());
         self.scratch = Scratch::new(
@@ -199,6 +202,15 @@ impl World {
         );
         self.reserve_packed(capacity);
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
+    }
+
+    /// Sees to room for all that tears may still need, after a cut made more triangles.
+    pub(crate) fn reserve_for_tears(&mut self) {
+        let openings = opening_capacity(&self.mesh, self.capacity());
+        self.weave.reserve(openings, self.capacity());
+        let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
+        scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
+        scratch.pieces.reserve();
     }
 
     fn reserve_packed(&mut self, capacity: usize) {

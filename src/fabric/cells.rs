@@ -21,9 +21,9 @@ impl Cells {
         Self { columns, rows, torn: vec![false; (columns - 1) * (rows - 1)] }
     }
 
-    /// Takes note of what a split did around an original vertex.
-    pub fn follow(&mut self, mesh: &Mesh, source: u32) {
-        let (row, column) = (source as usize / self.columns, source as usize % self.columns);
+    /// Takes note of what a split did around a site.
+    pub fn follow(&mut self, mesh: &Mesh, site: u32) {
+        let (row, column) = (site as usize / self.columns, site as usize % self.columns);
         for row in row.saturating_sub(1)..(row + 1).min(self.rows - 1) {
             for column in column.saturating_sub(1)..(column + 1).min(self.columns - 1) {
                 let cell = row * (self.columns - 1) + column;

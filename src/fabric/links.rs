@@ -4,7 +4,7 @@
 //! follows the triangle that it lies on, and one whose triangles have parted is gone.
 
 use crate::fabric::material::Material;
-use crate::mesh::{Corner, Mesh, NONE};
+use crate::mesh::{Corner, Mesh, NONE, after};
 use serde::{Deserialize, Serialize};
 
 /// What a link resists.
@@ -20,14 +20,14 @@ pub enum LinkKind {
 }
 
 /// Which of the material's two stretch stiffnesses holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Thread {
     Weft,
     Warp,
 }
 
 /// What a link lies on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Support {
     /// An edge of a triangle: for ever.
     Edge,
@@ -35,10 +35,12 @@ pub(crate) enum Support {
     Flap(Corner),
     /// Two edges in a row: until these two corners are no longer the same vertex.
     Pair([Corner; 2]),
+    /// Nothing any more: a cut divided what it lay on, and other links have taken its place.
+    Gone,
 }
 
 /// What stays of a link when its particles change.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Spec {
     pub kind: LinkKind,
     pub thread: Thread,
@@ -46,6 +48,18 @@ pub(crate) struct Spec {
     pub support: Support,
     /// Spring constant over material stiffness: 1 for a stretch link inside a grid.
     pub shape: f32,
+}
+
+impl Spec {
+    /// The corners that it depends on, some of them named more than once.
+    pub fn corners(&self) -> [Corner; 4] {
+        let [a, b] = self.anchors;
+        match self.support {
+            Support::Edge | Support::Gone => [a, b, a, a],
+            Support::Flap(edge) => [a, b, edge, after(edge)],
+            Support::Pair([left, right]) => [a, b, left, right],
+        }
+    }
 }
 
 /// Links as columns, one entry a link.
@@ -96,12 +110,18 @@ impl Links {
     /// Follows the mesh after a split.
     pub fn follow(&mut self, mesh: &Mesh, link: usize) {
         let spec = &self.spec[link];
+        // One that is gone keeps its particles, which no other link of its colour has.
+        if spec.support == Support::Gone {
+            self.active[link] = false;
+            return;
+        }
         self.a[link] = mesh.vertex(spec.anchors[0]);
         self.b[link] = mesh.vertex(spec.anchors[1]);
         self.active[link] = match spec.support {
             Support::Edge => true,
             Support::Flap(edge) => mesh.across(edge) != NONE,
             Support::Pair([left, right]) => mesh.vertex(left) == mesh.vertex(right),
+            Support::Gone => false,
         };
     }
 

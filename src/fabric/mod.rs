@@ -2,6 +2,8 @@
 
 pub(crate) mod cells;
 pub(crate) mod color;
+pub(crate) mod divide;
+pub(crate) mod extra;
 pub(crate) mod lines;
 pub(crate) mod links;
 pub(crate) mod material;

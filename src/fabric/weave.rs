@@ -19,18 +19,23 @@ pub(crate) struct Weave {
     pub rows: Option<Rows>,
     /// The stretch links as lines.
     pub lines: Lines,
-    /// The second sides of opened edges, in the order they opened.
+    /// Whether a link that it was woven with is anchored or as strong as it was no longer.
+    pub(super) is_changed: Vec<bool>,
+    /// The second sides of opened edges and what cuts made, in the order they came, see `extra`.
     pub extra: Links,
-    /// Where each extra link is anchored: the edge on its side, and the woven link on the other.
-    pub extra_sides: Vec<(Corner, u32)>,
-    /// The woven link along the edge that starts at each corner; `NONE` on the edge's second side.
-    link_of_edge: Vec<u32>,
+    /// The sites that each extra link involves; `NONE` where there are fewer.
+    pub(super) extra_sites: Vec<[u32; 4]>,
+    /// The link along the edge that starts at each corner, by its number as in `extra`; `NONE` on the
+    /// second side of an inner edge.
+    pub(super) link_of_edge: Vec<u32>,
     /// Links that involve each original vertex: `involved[first[v]..first[v + 1]]`.
-    first: Vec<u32>,
-    involved: Vec<u32>,
-    /// The extra links of each original vertex as chains.
-    extra_head: Vec<u32>,
-    extra_next: Vec<[u32; 2]>,
+    pub(super) first: Vec<u32>,
+    pub(super) involved: Vec<u32>,
+    /// The extra links of each site as chains.
+    pub(super) extra_head: Vec<u32>,
+    pub(super) extra_next: Vec<[u32; 4]>,
+    /// Which way the threads of a grid run; any mesh has none.
+    pub(super) threads: Option<[Vec3; 2]>,
 }
 
 /// A link about to be woven.
@@ -196,6 +201,7 @@ impl Weave {
             }
         }
         let (first, involved) = involvement(mesh, &links);
+        let is_changed = vec![false; links.len()];
         let mut extra = Links::default();
         extra.reserve(opening_capacity);
         Self {
@@ -203,29 +209,16 @@ impl Weave {
             batches,
             rows: None,
             lines: Lines::default(),
+            is_changed,
             extra,
-            extra_sides: Vec::with_capacity(opening_capacity),
+            extra_sites: Vec::with_capacity(opening_capacity),
             link_of_edge,
             first,
             involved,
             extra_head: vec![NONE; mesh.original_count as usize],
             extra_next: Vec::with_capacity(opening_capacity),
+            threads: None,
         }
-    }
-
-    /// Makes room for `openings` more opened edges.
-    pub fn reserve(&mut self, openings: usize) {
-        self.extra.reserve(openings);
-        self.extra_sides.reserve_exact(openings);
-        self.extra_next.reserve_exact(openings);
-        if let Some(rows) = &mut self.rows {
-            rows.reserve();
-        }
-    }
-
-    /// How many edges may open in all.
-    pub fn extra_capacity(&self) -> usize {
-        self.extra_sides.capacity()
     }
 
     /// Bytes that it holds.
@@ -236,71 +229,13 @@ impl Weave {
             + self.rows.as_ref().map_or(0, Rows::bytes)
             + self.lines.bytes()
             + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
+            + size_of::<[u32; 8]>() * self.extra_next.capacity()
     }
 
     /// Takes on a material's stiffnesses.
     pub fn stiffen(&mut self, material: &Material) {
         for links in [&mut self.links, &mut self.extra] {
             (0..links.len()).for_each(|link| links.stiffen(link, material));
-        }
-    }
-
-    /// Gives the second side of an opened edge a link of its own; either side keeps half the strength.
-    ///
-    /// The cloth has seen to room for it.
-    pub fn open(&mut self, mesh: &Mesh, sides: [Corner; 2], material: &Material) {
-        let of = |edge: Corner| self.link_of_edge[edge as usize];
-        let (woven, bare) =
-            if of(sides[0]) == NONE { (sides[1], sides[0]) } else { (sides[0], sides[1]) };
-        self.add_extra(mesh, bare, of(woven), material);
-    }
-
-    /// As `open`, for a woven link that is known by its number.
-    pub fn add_extra(&mut self, mesh: &Mesh, edge: Corner, woven: u32, material: &Material) {
-        let at = woven as usize;
-        self.links.spec[at].shape *= 0.5;
-        self.links.stiffen(at, material);
-        let spec = Spec { anchors: [edge, after(edge)], ..self.links.spec[at] };
-        let rest = self.links.rest[at];
-        let new = self.extra.len();
-        self.extra.push(mesh, spec, rest);
-        self.extra.stiffen(new, material);
-        self.extra_sides.push((edge, woven));
-        let ends = spec.anchors.map(|corner| mesh.source[mesh.vertex(corner) as usize] as usize);
-        self.extra_next.push(ends.map(|end| self.extra_head[end]));
-        for end in ends {
-            self.extra_head[end] = new as u32;
-        }
-    }
-
-    /// Whether `woven` may be the other side of an extra link at `edge`; for bytes from outside.
-    pub fn may_open(&self, edge: Corner, woven: u32) -> bool {
-        let is_edge = |spec: &Spec| spec.support == Support::Edge;
-        (edge as usize) < self.link_of_edge.len()
-            && self.links.spec.get(woven as usize).is_some_and(is_edge)
-    }
-
-    /// Brings every link of an original vertex in line with the mesh.
-    pub fn follow(&mut self, mesh: &Mesh, source: u32) {
-        let range = self.first[source as usize] as usize..self.first[source as usize + 1] as usize;
-        for link in &self.involved[range] {
-            let link = *link as usize;
-            self.links.follow(mesh, link);
-            self.lines.follow(&self.links, link);
-            if let Some(rows) = &mut self.rows {
-                rows.follow(
-                    link,
-                    (self.links.a[link], self.links.b[link]),
-                    self.links.active[link],
-                );
-            }
-        }
-        let mut at = self.extra_head[source as usize];
-        while at != NONE {
-            self.extra.follow(mesh, at as usize);
-            let spec = &self.extra.spec[at as usize];
-            let starts_here = mesh.source[mesh.vertex(spec.anchors[0]) as usize] == source;
-            at = self.extra_next[at as usize][usize::from(!starts_here)];
         }
     }
 
@@ -328,12 +263,6 @@ impl Weave {
             held.map(|link| (links.a[link], links.b[link], links.kind(link)))
         })
     }
-
-    /// The links of an original vertex: first woven, then extra ones, as (links, number).
-    pub fn of_vertex(&self, source: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
-        let range = self.first[source as usize] as usize..self.first[source as usize + 1] as usize;
-        self.involved[range].iter().map(|link| (&self.links, *link as usize))
-    }
 }
 
 /// Spring constant of a link of length `span` that reaches across an edge of length `width`, over
@@ -341,7 +270,7 @@ impl Weave {
 ///
 /// A fold by θ shortens the link by span·θ²/8 and costs the sheet ½·D·θ²·(2·width/span); equal
 /// energies at a fold of half a radian give 512·width/span³.
-fn bend_shape(width: f32, span: f32) -> f32 {
+pub(super) fn bend_shape(width: f32, span: f32) -> f32 {
     512.0 * width / (span * span * span)
 }
 
@@ -383,7 +312,7 @@ fn edge_spec(
 }
 
 /// The edge between two corners of one triangle: the corner where it starts.
-fn edge_of(anchors: [Corner; 2]) -> Corner {
+pub(super) fn edge_of(anchors: [Corner; 2]) -> Corner {
     if after(anchors[0]) == anchors[1] { anchors[0] } else { anchors[1] }
 }
 
@@ -403,12 +332,7 @@ fn shared_edge(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
 fn involvement(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
     let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * links.len());
     for (at, spec) in links.spec.iter().enumerate() {
-        let corners = match spec.support {
-            Support::Edge => [spec.anchors[0], spec.anchors[1], spec.anchors[0], spec.anchors[0]],
-            Support::Flap(edge) => [spec.anchors[0], spec.anchors[1], edge, after(edge)],
-            Support::Pair([left, right]) => [spec.anchors[0], spec.anchors[1], left, right],
-        };
-        pairs.extend(corners.map(|corner| (mesh.vertex(corner), at as u32)));
+        pairs.extend(spec.corners().map(|corner| (mesh.vertex(corner), at as u32)));
     }
     pairs.sort_unstable();
     pairs.dedup();

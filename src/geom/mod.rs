@@ -1,4 +1,5 @@
 //! Geometry that knows nothing of cloth.
 
+pub(crate) mod blade;
 pub(crate) mod ray;
 pub(crate) mod triangle;

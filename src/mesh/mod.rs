@@ -1,5 +1,6 @@
 //! Indexed triangles that can be split: who lies across each edge, and the fan around each vertex.
 
+pub(crate) mod divide;
 pub(crate) mod grid;
 pub(crate) mod intake;
 pub(crate) mod split;
@@ -23,7 +24,8 @@ pub(crate) struct Mesh {
     pub across: Vec<[u32; 3]>,
     /// One corner of each vertex; `NONE` where no triangle uses it.
     pub corner_of: Vec<Corner>,
-    /// Which original vertex each vertex came from.
+    /// The site of each vertex, see `divide::Crossing`: the original vertex it came from, or where a cut
+    /// made it.
     pub source: Vec<u32>,
     /// Vertices before anything tore.
     pub original_count: u32,
@@ -188,6 +190,11 @@ impl Mesh {
                 self.across[triangle_of(*b)][*b as usize % 3] = a / 3;
             }
         }
+        self.find_corners();
+    }
+
+    /// Finds one corner of each vertex, the lowest.
+    pub fn find_corners(&mut self) {
         self.corner_of.fill(NONE);
         for corner in (0..3 * self.triangles.len() as u32).rev() {
             let vertex = self.vertex(corner) as usize;

@@ -3,6 +3,7 @@
 #[cfg(feature = "parallel")]
 mod bands;
 pub(crate) mod contacts;
+pub(crate) mod cut;
 pub(crate) mod forces;
 pub(crate) mod guard;
 pub(crate) mod hold;
@@ -26,10 +27,12 @@ use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
+use crate::geom::triangle::corner_areas;
 use crate::math::columns::Columns;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::Mesh;
+use crate::mesh::divide::Crossing;
 use crate::mesh::split::Opening;
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
@@ -57,8 +60,10 @@ pub(crate) struct World {
     /// How far pins hold the cloth apart, see `tethers::held_apart`, and whether that is still so.
     pub apart: f32,
     pub is_apart_current: bool,
-    /// Rest position of each original vertex [m].
+    /// Rest position of each site [m].
     pub rest: Vec<Vec3>,
+    /// The sites that cuts made, after those of the original vertices.
+    pub crossings: Vec<Crossing>,
     /// The share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
     /// Where the triangles of a grid lie in cells.
@@ -77,6 +82,8 @@ pub(crate) struct World {
     /// Ticks since creation or reset.
     pub tick: u32,
     pub pieces: u32,
+    /// How many triangles there may be in all.
+    pub triangle_capacity: usize,
     /// Whether the host knows that the reserve for tears is used up.
     pub reserve_told: bool,
     /// Links past the stretch bound after the last tick.
@@ -163,11 +170,11 @@ impl World {
         self.mesh.vertex_count() + 3 > self.capacity()
     }
 
-    /// Brings links and cells around an original vertex in line with the mesh.
-    pub fn follow(&mut self, source: u32) {
-        self.weave.follow(&self.mesh, source);
+    /// Brings links and cells around a site in line with the mesh.
+    pub fn follow(&mut self, site: u32) {
+        self.weave.follow(&self.mesh, site);
         if let Some(cells) = &mut self.cells {
-            cells.follow(&self.mesh, source);
+            cells.follow(&self.mesh, site);
         }
     }
 
@@ -189,6 +196,20 @@ impl World {
             }
         }
         (0..self.particles.len() as u32).for_each(|particle| self.refresh_weight(particle));
+    }
+
+    /// The areas of triangles that are not those of the `fresh` mesh any more.
+    pub fn measure_divided(&mut self, fresh: &Mesh) {
+        let (mesh, rest) = (&self.mesh, &self.rest);
+        let sites = |triangle: &[u32; 3]| triangle.map(|v| mesh.source[v as usize]);
+        self.corner_area.resize(mesh.triangles.len(), [0.0; 3]);
+        for (at, (triangle, areas)) in mesh.triangles.iter().zip(&mut self.corner_area).enumerate()
+        {
+            let sites = sites(triangle);
+            if fresh.triangles.get(at) != Some(&sites) {
+                *areas = corner_areas(sites.map(|site| rest[site as usize]));
+            }
+        }
     }
 
     /// Puts a particle somewhere with a velocity.

@@ -100,6 +100,9 @@ pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, band: Band, mut out: [
             }
         }
     }
+    // What cuts divided off follows behind the cells.
+    let woven = 2 * across * (cells.rows - 1);
+    (woven..surface.triangles.len()).for_each(|at| add_triangle(surface, at, give, out));
 }
 
 #[inline(always)]

@@ -37,6 +37,19 @@ pub(crate) struct Pieces {
 }
 
 impl Pieces {
+    /// A triangle more, parted from another one.
+    pub fn divide(&mut self, triangle: usize) {
+        self.label.push(self.label[triangle]);
+        self.old_label.push(NONE);
+    }
+
+    /// Makes room for as many pieces as there are triangles.
+    pub fn reserve(&mut self) {
+        let count = self.label.len();
+        self.size.reserve_exact(count.saturating_sub(self.size.len()));
+        self.stays.reserve_exact(count.saturating_sub(self.stays.len()));
+    }
+
     pub fn new(triangles: usize) -> Self {
         Self {
             label: vec![0; triangles],
@@ -198,7 +211,7 @@ fn part_along(world: &mut World, scratch: &mut Scratch, a: u32, b: u32) -> bool 
     false
 }
 
-fn tell_torn(world: &mut World, a: u32, b: u32) {
+pub(super) fn tell_torn(world: &mut World, a: u32, b: u32) {
     let middle = (world.particles.x.at(a as usize) + world.particles.x.at(b as usize)) * 0.5;
     let mut event = Event::new(EventKind::EdgeTorn, world.tick, middle);
     (event.particle_a, event.particle_b) = (a, b);
@@ -220,7 +233,12 @@ fn load(world: &World, particle: u32) -> f32 {
         if stretch > 0.0 { stretch } else { 0.0 }
     };
     let source = world.mesh.source[particle as usize];
-    world.weave.of_vertex(source).map(|(links, link)| pull(links, link)).sum()
+    let woven = world.weave.of_vertex(source).map(|(links, link)| pull(links, link)).sum();
+    if world.crossings.is_empty() {
+        return woven;
+    }
+    let extra = world.weave.extra_of_vertex(source).map(|(links, link)| pull(links, link));
+    extra.fold(woven, |sum, pull| sum + pull)
 }
 
 /// Splits `end` by the plane across the way to `other`; false if that leaves nothing on one side.
@@ -285,7 +303,7 @@ fn far_ends(scratch: &Scratch, arc: Arc) -> [Option<u32>; 2] {
 }
 
 /// Brings a new vertex to life as a copy of the one it came from.
-fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
+pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
     let at = world.particles.push_copy_of(from as usize);
     debug_assert_eq!(at, new as usize);
     world.scratch.grow();
@@ -326,7 +344,7 @@ fn rejoin(world: &mut World, opened: &[Opening]) {
 }
 
 /// After the last tear of a tick: pieces that came off are told, ways to pins are measured anew.
-fn settle(world: &mut World) {
+pub(super) fn settle(world: &mut World) {
     let mut pieces = core::mem::take(&mut world.scratch.pieces);
     core::mem::swap(&mut pieces.label, &mut pieces.old_label);
     let count = world.mesh.pieces(&mut pieces.label, &mut world.scratch.stack);

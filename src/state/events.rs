@@ -21,6 +21,8 @@ pub enum EventKind {
     /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
     /// `particle_a` and `particle_b`. Told once, until the bound holds again.
     HeldApart = 5,
+    /// A cut made `vertex` on the edge between `particle_a` and `particle_b`.
+    EdgeDivided = 6,
 }
 
 /// Something that happened in a tick. Fields that its kind does not mention are 0.

@@ -84,6 +84,18 @@ impl Particles {
         self.len() - 1
     }
 
+    /// Adds a particle between two others, at a share of the way from `a` to `b`, and gives its index. It
+    /// is free; its mass is still to be found.
+    pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
+        for columns in self.all_columns() {
+            let (from, to) = (columns.at(a), columns.at(b));
+            columns.push(from + (to - from) * share);
+        }
+        self.mass.push(0.0);
+        self.w.push(0.0);
+        self.len() - 1
+    }
+
     /// Puts a particle somewhere with a velocity, as if it had been falling freely for ever.
     pub fn place(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);

@@ -48,7 +48,8 @@ pub fn irregular_mesh() -> MeshDesc {
     }
     positions.push(Vec3::new(1.8, -0.2, 0.0));
     indices.extend([1, 2, positions.len() as u32 - 1]);
-    MeshDesc { positions, indices, pinned: vec![0, 2], ..MeshDesc::default() }
+    let uvs = positions.iter().map(|x| x.truncate()).collect();
+    MeshDesc { positions, indices, uvs, pinned: vec![0, 2], ..MeshDesc::default() }
 }
 
 /// Triangles of a cloth.
@@ -64,16 +65,31 @@ pub fn total_mass(cloth: &Cloth) -> f64 {
 
 /// The laws that hold for every cloth, however torn. `before` is the untorn one.
 pub fn assert_sound(cloth: &Cloth, before: &Cloth) {
+    assert_clean(cloth, before);
+    let sources = cloth.source_vertices();
+    assert_eq!(cloth.indices().len(), before.indices().len(), "no triangle is lost or doubled");
+    for (now, then) in cloth.indices().iter().zip(before.indices()) {
+        let source = sources[*now as usize];
+        assert_eq!(source, *then, "a corner keeps its original vertex");
+    }
+}
+
+/// The laws that hold for every cloth, however torn and cut. `before` is the whole one; its texture lies
+/// flat and without overlaps, so that areas can be measured in it.
+pub fn assert_clean(cloth: &Cloth, before: &Cloth) {
     let count = cloth.positions().len();
     let sources = cloth.source_vertices();
     assert_eq!(sources.len(), count);
     assert_eq!(cloth.uvs().len(), count);
-    assert_eq!(cloth.indices().len(), before.indices().len(), "no triangle is lost or doubled");
-    for (now, then) in cloth.indices().iter().zip(before.indices()) {
-        assert!((*now as usize) < count, "index {now} is out of range");
-        let source = sources[*now as usize];
-        assert_eq!(source, *then, "a corner keeps its original vertex");
-    }
+    assert!(cloth.indices().iter().all(|index| (*index as usize) < count));
+    assert!(sources.iter().all(|source| (*source as usize) < before.positions().len()));
+    let mut is_used = vec![false; count];
+    cloth.indices().iter().for_each(|index| is_used[*index as usize] = true);
+    let was_used =
+        |v: usize| v >= before.positions().len() || before.indices().contains(&(v as u32));
+    assert!((0..count).all(|v| is_used[v] || !was_used(v)), "a vertex without triangles");
+    let (area, whole) = (texture_area(cloth), texture_area(before));
+    assert!((area - whole).abs() <= 1.0e-6 * whole, "area {area}, was {whole}");
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     for [a, b, c] in triangles(cloth) {
         for (p, q) in [(a, b), (b, c), (c, a)] {
@@ -95,6 +111,13 @@ pub fn assert_sound(cloth: &Cloth, before: &Cloth) {
     let (mass, exact) = (total_mass(cloth), total_mass(before));
     assert!((mass - exact).abs() <= 1.0e-6 * exact, "mass {mass} kg, was {exact} kg");
     assert!(cloth.positions().iter().all(|x| x.is_finite()));
+}
+
+/// The area of all triangles in the texture.
+fn texture_area(cloth: &Cloth) -> f64 {
+    let uv = |v: u32| cloth.uvs()[v as usize].as_dvec2();
+    let area = |[a, b, c]: [u32; 3]| 0.5 * (uv(b) - uv(a)).perp_dot(uv(c) - uv(a)).abs();
+    triangles(cloth).into_iter().map(area).sum()
 }
 
 /// No vertex joins two fans of triangles by a mere point.
