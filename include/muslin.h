@@ -103,6 +103,9 @@
  */
 #define MUSLIN_EVENT_HELD_APART 5
 
+/** A cut made `vertex` on the edge between `particle_a` and `particle_b`. */
+#define MUSLIN_EVENT_EDGE_DIVIDED 6
+
 /** Room for the times of stages in MuslinStats; how many there are is in `stage_count`. */
 #define MUSLIN_STAGE_SLOTS 31
 
@@ -479,7 +482,7 @@ typedef struct MuslinCollider {
  * A cloth as its renderer sees it: the library's own memory, borrowed. Begin with muslin_view_init.
  *
  * The pointers stay valid, and what they point to stays as it is, until the next call that changes
- * the cloth (advance, step, reset, pin, set_position, tear_edge, destroy, ...). Read, do not write.
+ * the cloth (advance, step, reset, pin, set_position, tear_edge, cut, destroy, ...). Read, do not write.
  */
 typedef struct MuslinView {
   /** Set by muslin_view_init. */
@@ -494,7 +497,10 @@ typedef struct MuslinView {
   const float *uvs;
   /** Vertices of the triangles, 3 a triangle. */
   const uint32_t *indices;
-  /** Which original vertex each vertex came from, 1 a vertex. */
+  /**
+   * Which original vertex each vertex came from, 1 a vertex; for one that a cut made on an edge, the
+   * nearer end's.
+   */
   const uint32_t *source_vertices;
   /** How many vertices there are. */
   uint32_t vertex_count;
@@ -800,6 +806,29 @@ MuslinStatus muslin_cloth_release(MuslinCloth cloth,
 MuslinStatus muslin_cloth_tear_edge(MuslinCloth cloth,
                                     uint32_t particle_a,
                                     uint32_t particle_b);
+
+/**
+ * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. `out_edges`
+ * (may be NULL) gets how many edges opened; 0 leaves the cloth as it was.
+ *
+ * Triangles that the blade goes through are divided along it: vertices come to be on the edges that it
+ * crosses, between their ends in all that they have, and the mesh opens along them. Where it would come
+ * nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5 degrees or
+ * less area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex
+ * instead; past a pinned one it goes at an eighth of the edge. Where the blade ends inside a triangle,
+ * the cut ends at the edge before. Vertices that a cut makes are free; a pinned one that it goes through
+ * is pinned on both sides. Mass and area at rest stay. Each edge that is crossed takes one particle of
+ * the reserve (`extra_particles`), and one more where it opens.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE for a number that is not finite, or unless `to` is apart from `from` and
+ * `sweep` leads away from the line through both; MUSLIN_STATUS_FULL if the reserve cannot take the whole
+ * cut; the cloth is untouched then
+ */
+MuslinStatus muslin_cloth_cut(MuslinCloth cloth,
+                              MuslinVec3 from,
+                              MuslinVec3 to,
+                              MuslinVec3 sweep,
+                              uint32_t *out_edges);
 
 /**
  * Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if

@@ -7,8 +7,8 @@ use muslin::{Cloth, ColliderDesc, EventKind, GridDesc, Wind, glam};
 /// A new hash is a new simulation: say why in CHANGELOG.md, then replace the number in the file.
 const GOLDEN: &str = include_str!("script.hash");
 
-/// Six hundred ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let
-/// go, fall on the floor, be picked up by a corner.
+/// Six hundred and thirty ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let
+/// go, be cut, fall on the floor, be picked up by a corner.
 fn play_script() -> Cloth {
     let mut desc = GridDesc::default();
     desc.settings.tearing = true;
@@ -38,6 +38,10 @@ fn play_script() -> Cloth {
     cloth.tear_edge(820, 860).unwrap();
     cloth.release(grab).unwrap();
     cloth.step(180);
+    let (from, to) = (Vec3::new(-1.0, -0.59375, -9.0), Vec3::new(3.0, -0.78125, -9.0));
+    let edges = cloth.cut(from, to, Vec3::Z * 18.0).unwrap();
+    assert!(edges > 40, "the blade is to cut all through, but opened {edges} edges");
+    cloth.step(30);
 
     cloth.unpin_all();
     cloth.step(120);

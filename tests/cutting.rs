@@ -215,12 +215,8 @@ fn a_cut_cloth_hangs_as_calmly_as_a_whole_one() {
         cut.kinetic_energy,
         whole.kinetic_energy
     );
-    assert!(
-        cut.max_stretch < 2.0 * whole.max_stretch + 0.05,
-        "{} {}",
-        cut.max_stretch,
-        whole.max_stretch
-    );
+    // The short links at the tips of a cut carry what the cut does not, but come apart by no more.
+    assert!(cut.max_stretch < 0.25, "{}, whole {}", cut.max_stretch, whole.max_stretch);
 }
 
 #[test]

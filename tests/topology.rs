@@ -40,18 +40,30 @@ fn describe(cloth: &Cloth) -> String {
     text
 }
 
-/// What tears changed: triangles that got new vertices, where those came from, pieces and events.
+/// What tears and cuts changed: triangles that got new vertices, where those came from, pieces, borders and
+/// events.
 fn describe_tears(cloth: &mut Cloth, before: &Cloth) -> String {
     let mut text = String::new();
-    for (at, (now, then)) in triangles(cloth).iter().zip(triangles(before)).enumerate() {
-        if *now != then {
+    let (whole, now) = (triangles(before), triangles(cloth));
+    for (at, (now, then)) in now.iter().zip(&whole).enumerate() {
+        if now != then {
             writeln!(text, "triangle {at}: {then:?} -> {now:?}").unwrap();
         }
+    }
+    for (at, triangle) in now.iter().enumerate().skip(whole.len()) {
+        writeln!(text, "triangle {at}: new, {triangle:?}").unwrap();
     }
     for (vertex, source) in
         cloth.source_vertices().iter().enumerate().skip(before.positions().len())
     {
-        writeln!(text, "vertex {vertex} <- {source}").unwrap();
+        let uv = cloth.uvs()[vertex];
+        let moved = uv != cloth.uvs()[*source as usize];
+        let at = if moved {
+            format!(" at {:.3} {:.3} of the texture", uv.x, uv.y)
+        } else {
+            String::new()
+        };
+        writeln!(text, "vertex {vertex} <- {source}{at}").unwrap();
     }
     let (now, then) = (cloth.stats(), before.stats());
     let (links, whole) = (now.active_constraints, then.active_constraints);
@@ -62,6 +74,10 @@ fn describe_tears(cloth: &mut Cloth, before: &Cloth) -> String {
             EventKind::VertexSplit => format!("vertex {} split off {}", event.vertex, event.source),
             EventKind::PieceDetached => {
                 format!("piece of {} triangles at vertex {} detached", event.count, event.vertex)
+            }
+            EventKind::EdgeDivided => {
+                let (a, b) = (event.particle_a, event.particle_b);
+                format!("edge {a}-{b} divided at vertex {}", event.vertex)
             }
             other => format!("{other:?}"),
         };
@@ -155,5 +171,34 @@ fn a_scripted_yank_tears_so() {
         cloth.move_grab(grab, pull).unwrap();
         cloth.step(1);
     }
+    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+}
+
+/// Cuts straight through whatever lies in the x–y plane.
+fn slice(cloth: &mut Cloth, [x, y]: [f32; 2], [to_x, to_y]: [f32; 2]) -> u32 {
+    cloth.cut(Vec3::new(x, y, -2.0), Vec3::new(to_x, to_y, -2.0), Vec3::Z * 4.0).unwrap()
+}
+
+#[test]
+fn a_cut_from_the_border_into_the_sheet_divides_so() {
+    let mut cloth = Cloth::grid(&bare_grid(4, 4, 0.1, PinMode::TopEdge)).unwrap();
+    let before = cloth.clone();
+    assert_eq!(slice(&mut cloth, [-0.1, -0.13], [0.17, -0.17]), 3);
+    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+}
+
+#[test]
+fn a_slanted_cut_all_through_divides_so() {
+    let mut cloth = Cloth::grid(&bare_grid(6, 6, 0.1, PinMode::TopEdge)).unwrap();
+    let before = cloth.clone();
+    assert_eq!(slice(&mut cloth, [-0.1, -0.3], [0.6, -0.15]), 8);
+    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+}
+
+#[test]
+fn cuts_of_a_ring_divide_so() {
+    let mut cloth = Cloth::mesh(&irregular_mesh()).unwrap();
+    let before = cloth.clone();
+    assert_eq!(slice(&mut cloth, [0.05, 0.3], [0.55, 1.5]), 4);
     insta::assert_snapshot!(describe_tears(&mut cloth, &before));
 }

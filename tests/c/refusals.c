@@ -129,6 +129,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   REFUSED(muslin_cloth_grab_particle(none, 0, &grab), bad, "`cloth`");
   REFUSED(muslin_cloth_move_grab(none, grab, zero), bad, "`cloth`");
   REFUSED(muslin_cloth_release(none, grab), bad, "`cloth`");
+  REFUSED(muslin_cloth_cut(none, zero, eye, ahead, NULL), bad, "`cloth`");
   REFUSED(muslin_cloth_tear_edge(none, 0, 1), bad, "`cloth`");
   REFUSED(muslin_cloth_next_event(none, &event, &number), bad, "`cloth`");
   REFUSED(muslin_cloth_add_collider(none, &floor, &collider), bad, "`cloth`");
@@ -293,6 +294,14 @@ static void edits_are_refused_by_argument(void) {
   REFUSED(muslin_cloth_tear_edge(cloth, 0, 400), BAD_INDEX, "`particle_b`");
   REFUSED(muslin_cloth_tear_edge(cloth, 0, 399), BAD_VALUE, "`particle_b`");
   REFUSED(muslin_cloth_tear_edge(cloth, 0, 1), MUSLIN_STATUS_NOT_TORN, "did not give way");
+  const MuslinVec3 right = {1, 0, 0}, left = {-1, 0, 0};
+  uint32_t edges = 7;
+  REFUSED(muslin_cloth_cut(cloth, nan, right, left, &edges), BAD_VALUE, "`from`");
+  REFUSED(muslin_cloth_cut(cloth, right, nan, left, &edges), BAD_VALUE, "`to`");
+  REFUSED(muslin_cloth_cut(cloth, zero, right, nan, &edges), BAD_VALUE, "`sweep`");
+  REFUSED(muslin_cloth_cut(cloth, right, right, left, &edges), BAD_VALUE, "`to`");
+  REFUSED(muslin_cloth_cut(cloth, zero, right, left, &edges), BAD_VALUE, "`sweep`");
+  CHECK(edges == 7);
 }
 
 static void pointing_is_refused_by_argument_and_may_meet_nothing(void) {

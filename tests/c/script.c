@@ -40,8 +40,8 @@ static MuslinCloth hang_in_the_wind(void) {
   return cloth;
 }
 
-/* Hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, fall on the floor,
- * be picked up by a corner: 600 ticks. */
+/* Hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, be cut, fall on the floor,
+ * be picked up by a corner: 630 ticks. */
 static MuslinCloth play_script(void) {
   MuslinCloth cloth = hang_in_the_wind();
   MuslinVec3 eye = {1.0f, -1.0f, 5.0f}, ahead = {0.0f, 0.0f, -1.0f}, at = {0};
@@ -57,6 +57,11 @@ static MuslinCloth play_script(void) {
   DONE(muslin_cloth_tear_edge(cloth, 820, 860));
   DONE(muslin_cloth_release(cloth, grab));
   DONE(muslin_cloth_step(cloth, 180));
+  MuslinVec3 from = {-1.0f, -0.59375f, -9.0f}, to = {3.0f, -0.78125f, -9.0f}, sweep = {0.0f, 0.0f, 18.0f};
+  uint32_t edges = 0;
+  DONE(muslin_cloth_cut(cloth, from, to, sweep, &edges));
+  CHECK(edges > 40);
+  DONE(muslin_cloth_step(cloth, 30));
 
   DONE(muslin_cloth_unpin_all(cloth));
   DONE(muslin_cloth_step(cloth, 120));

@@ -1,7 +1,7 @@
 // The script of tests/bits.rs, told in JavaScript, for node and for a page.
 
 /**
- * Six hundred ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go,
+ * Six hundred and thirty ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, be cut,
  * fall on the floor, be picked up by a corner.
  */
 export function playScript(Cloth) {
@@ -19,6 +19,9 @@ export function playScript(Cloth) {
   cloth.tearEdge(820, 860);
   grab.release();
   cloth.step(180);
+  const opened = cloth.cut([-1, -0.59375, -9], [3, -0.78125, -9], [0, 0, 18]);
+  if (opened <= 40) throw new Error(`the blade is to cut all through, but opened ${opened} edges`);
+  cloth.step(30);
 
   cloth.unpinAll();
   cloth.step(120);

@@ -123,6 +123,7 @@ grab?.release();
 // @ts-expect-error: a ray may miss
 grab.release();
 const held: Vec3 = cloth.grabParticle(3).position;
+const opened: number = cloth.cut([-1, -0.5, -1], [3, -0.5, -1], new Float32Array([0, 0, 2]));
 const tore: boolean = cloth.tearEdge(820, 860);
 
 const floor: ColliderDesc = { shape: "plane", position: [0, -2, 0], friction: 0.5 };

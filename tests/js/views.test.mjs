@@ -30,7 +30,7 @@ test("lists have the sizes and the values of a fresh grid", () => {
   assert.ok(cloth.indices.every((vertex) => vertex < 6));
   assert.deepEqual([...cloth.sourceVertices], [0, 1, 2, 3, 4, 5]);
   assert.equal(cloth.vertexCapacity, 12);
-  assert.equal(cloth.indexCapacity, 12);
+  assert.equal(cloth.indexCapacity, 30, "room for cuts too");
   assert.deepEqual([...cloth.pinned], [0, 1, 2]);
 });
 
@@ -116,6 +116,23 @@ test("a tear lengthens the lists and turns triangles to the new vertex", () => {
   assert.deepEqual(Object.keys(torn), ["kind", "tick", "position", "particleA", "particleB"]);
   assert.deepEqual([split.vertex, split.source], [1600, source]);
   assert.deepEqual(Object.keys(split), ["kind", "tick", "position", "vertex", "source"]);
+});
+
+test("a cut divides triangles and tells where its vertices are from", () => {
+  const cloth = Cloth.grid();
+  const [triangles, vertices] = [cloth.indices.length / 3, cloth.positions.length / 3];
+  const opened = cloth.cut([-1, -0.51, -1], [3, -0.83, -1], [0, 0, 2]);
+  assert.ok(opened > 40);
+  assert.ok(cloth.indices.length / 3 > triangles && cloth.indices.length <= cloth.indexCapacity);
+  assert.equal(cloth.stats.pieces, 2);
+  assert.ok(cloth.sourceVertices.every((source) => source < vertices));
+  const events = cloth.events();
+  const count = (kind) => events.filter((event) => event.kind === kind).length;
+  assert.equal(count("edge-torn"), opened);
+  assert.equal(count("edge-divided") + count("vertex-split"), cloth.positions.length / 3 - vertices);
+  const divided = events.find(({ kind }) => kind === "edge-divided");
+  assert.deepEqual(Object.keys(divided), ["kind", "tick", "position", "particleA", "particleB", "vertex"]);
+  assert.equal(cloth.cut([-1, -0.51, -1], [3, -0.83, -1], [0, 0, 2]), 0, "cut already");
 });
 
 test("a mesh may be made from another cloth's views, though they move meanwhile", () => {

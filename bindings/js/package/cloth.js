@@ -233,7 +233,7 @@ export class Cloth {
     live.set_pin_targets(wholes(particles, "particles"), floats(targets, "targets", 3));
   }
 
-  // Pointing, grabbing and tearing
+  // Pointing, grabbing, cutting and tearing
 
   raycast(origin, direction, maxDistance = Infinity) {
     const live = this.#live;
@@ -251,6 +251,12 @@ export class Cloth {
     const grab = this.#live.grab_particle(whole(particle, "particle"));
     const at = this.positions.subarray(3 * particle, 3 * particle + 3);
     return new Grab(OURS, () => this.#live, grab, at);
+  }
+
+  cut(from, to, sweep) {
+    const live = this.#live;
+    const blade = [vector(from, "from"), vector(to, "to"), vector(sweep, "sweep")];
+    return live.cut(Float64Array.from(blade.flat()));
   }
 
   tearEdge(particleA, particleB) {

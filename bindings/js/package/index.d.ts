@@ -271,6 +271,13 @@ export type ClothEvent = { tick: number; position: Vec3 } & (
       particleB: number;
       count: number;
     }
+  | {
+      /** A cut made `vertex` on the edge between the two. */
+      kind: "edge-divided";
+      particleA: number;
+      particleB: number;
+      vertex: number;
+    }
 );
 
 /** The stages of a tick. */
@@ -403,8 +410,8 @@ export class Cloth {
    *
    * This and the other lists are views of the module's own memory: read them, and do not write to them.
    * Ask anew each frame, which is cheap: what you are given is live. One that you keep follows the cloth
-   * in place until the cloth tears, is reset or freed, or the memory grows because another cloth is made
-   * or saved; then it is of length 0 or out of date.
+   * in place until the cloth tears, is cut, reset or freed, or the memory grows because another cloth is
+   * made or saved; then it is of length 0 or out of date.
    */
   readonly positions: Float32Array;
   /** Unit normals of the vertices, computed when first asked for after a change. */
@@ -413,7 +420,7 @@ export class Cloth {
   readonly uvs: Float32Array;
   /** Three vertices a triangle, counter-clockwise. */
   readonly indices: Uint32Array;
-  /** Which original vertex each vertex came from. */
+  /** Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's. */
   readonly sourceVertices: Uint32Array;
   /** How many vertices there may ever be. */
   readonly vertexCapacity: number;
@@ -458,6 +465,23 @@ export class Cloth {
   grabRay(origin: Vec3Like, direction: Vec3Like, options?: { radius?: number }): Grab | undefined;
   /** Takes hold of a particle where it is. Throws if 64 grabs are held already. */
   grabParticle(particle: number): Grab;
+  /**
+   * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. Says how
+   * many edges opened; 0 leaves the cloth as it was.
+   *
+   * Triangles that the blade goes through are divided along it: vertices come to be on the edges that it
+   * crosses, between their ends in all that they have, and the mesh opens along them. Where it would
+   * come nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5° or less
+   * area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex instead;
+   * past a pinned one it goes at an eighth of the edge. Where the blade ends inside a triangle, the cut
+   * ends at the edge before. Vertices that a cut makes are free; a pinned one that it goes through is
+   * pinned on both sides. Each edge that is crossed takes one particle of the reserve
+   * (`extraParticles`), and one more where it opens.
+   *
+   * @throws unless `to` is apart from `from` and `sweep` leads away from the line through both, or if the
+   * reserve cannot take the whole cut
+   */
+  cut(from: Vec3Like, to: Vec3Like, sweep: Vec3Like): number;
   /**
    * Tears between two neighbouring particles, as over-stretching would. Says whether it tore: an end
    * that is pinned or grabbed does not give way, nor does an edge that is a border already.

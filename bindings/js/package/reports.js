@@ -7,6 +7,7 @@ const KINDS = [
   "recovered",
   "reserve-used-up",
   "held-apart",
+  "edge-divided",
 ];
 
 /** The fields that each kind of event has, besides kind, tick and position. */
@@ -17,6 +18,7 @@ const TOLD = [
   ["count"],
   [],
   ["particleA", "particleB", "count"],
+  ["particleA", "particleB", "vertex"],
 ];
 
 const FIELDS = ["particleA", "particleB", "vertex", "source", "count"];

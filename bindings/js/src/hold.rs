@@ -104,6 +104,13 @@ impl RawCloth {
         self.cloth.remove_collider(Collider::from_bits(collider)).map_err(refusal)
     }
 
+    /// Cuts with a blade: `blade` is where it is from, where to, and its sweep; says how many edges opened.
+    pub fn cut(&mut self, blade: &[f64]) -> Result<u32> {
+        let mut blade = Reader::new(blade);
+        let (from, to, sweep) = (blade.vector(), blade.vector(), blade.vector());
+        self.cloth.cut(from, to, sweep).map_err(refusal)
+    }
+
     /// Tears between two neighbouring particles; says whether it tore.
     pub fn tear_edge(&mut self, particle_a: u32, particle_b: u32) -> Result<bool> {
         self.cloth.tear_edge(particle_a, particle_b).map_err(refusal)

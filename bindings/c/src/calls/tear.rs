@@ -1,10 +1,10 @@
-//! Tearing by hand, and what happened.
+//! Tearing and cutting by hand, and what happened.
 
 use crate::boundary::{Out, Report};
 use crate::registry::with_cloth;
 use crate::status::{MuslinStatus, Refusal};
 use crate::types::event::MuslinEvent;
-use crate::types::value::MuslinCloth;
+use crate::types::value::{MuslinCloth, MuslinVec3};
 
 /// Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded of the
 /// two is split by the plane across the way between them. Where neither has anything on its other
@@ -25,6 +25,40 @@ pub extern "C" fn muslin_cloth_tear_edge(
         }
         let sentence = "the edge did not give way: its ends are held, or it is a border";
         Err(Refusal::new(MuslinStatus::NotTorn, sentence))
+    })
+}
+
+/// Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. `out_edges`
+/// (may be NULL) gets how many edges opened; 0 leaves the cloth as it was.
+///
+/// Triangles that the blade goes through are divided along it: vertices come to be on the edges that it
+/// crosses, between their ends in all that they have, and the mesh opens along them. Where it would come
+/// nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5 degrees or
+/// less area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex
+/// instead; past a pinned one it goes at an eighth of the edge. Where the blade ends inside a triangle,
+/// the cut ends at the edge before. Vertices that a cut makes are free; a pinned one that it goes through
+/// is pinned on both sides. Mass and area at rest stay. Each edge that is crossed takes one particle of
+/// the reserve (`extra_particles`), and one more where it opens.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE for a number that is not finite, or unless `to` is apart from `from` and
+/// `sweep` leads away from the line through both; MUSLIN_STATUS_FULL if the reserve cannot take the whole
+/// cut; the cloth is untouched then
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_cut(
+    cloth: MuslinCloth,
+    from: MuslinVec3,
+    to: MuslinVec3,
+    sweep: MuslinVec3,
+    out_edges: *mut u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    let out_edges = unsafe { Out::optional(out_edges) };
+    with_cloth(cloth, |cloth| {
+        let edges = cloth.cut(from.into(), to.into(), sweep.into())?;
+        if let Some(out_edges) = out_edges {
+            out_edges.write(edges);
+        }
+        Ok(())
     })
 }
 

@@ -16,6 +16,8 @@ pub const MUSLIN_EVENT_RESERVE_USED_UP: u32 = 4;
 /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
 /// `particle_a` and `particle_b`. Told once, until the bound holds again.
 pub const MUSLIN_EVENT_HELD_APART: u32 = 5;
+/// A cut made `vertex` on the edge between `particle_a` and `particle_b`.
+pub const MUSLIN_EVENT_EDGE_DIVIDED: u32 = 6;
 
 /// Something that happened in a tick. Fields that its kind does not mention are 0. Begin with
 /// muslin_event_init.
@@ -65,4 +67,5 @@ const _: () = {
     assert!(MUSLIN_EVENT_RECOVERED == EventKind::Recovered as u32);
     assert!(MUSLIN_EVENT_RESERVE_USED_UP == EventKind::ReserveUsedUp as u32);
     assert!(MUSLIN_EVENT_HELD_APART == EventKind::HeldApart as u32);
+    assert!(MUSLIN_EVENT_EDGE_DIVIDED == EventKind::EdgeDivided as u32);
 };

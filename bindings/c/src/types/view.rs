@@ -7,7 +7,7 @@ use muslin_core::glam::{Vec2, Vec3};
 /// A cloth as its renderer sees it: the library's own memory, borrowed. Begin with muslin_view_init.
 ///
 /// The pointers stay valid, and what they point to stays as it is, until the next call that changes
-/// the cloth (advance, step, reset, pin, set_position, tear_edge, destroy, ...). Read, do not write.
+/// the cloth (advance, step, reset, pin, set_position, tear_edge, cut, destroy, ...). Read, do not write.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinView {
@@ -21,7 +21,8 @@ pub struct MuslinView {
     pub uvs: *const f32,
     /// Vertices of the triangles, 3 a triangle.
     pub indices: *const u32,
-    /// Which original vertex each vertex came from, 1 a vertex.
+    /// Which original vertex each vertex came from, 1 a vertex; for one that a cut made on an edge, the
+    /// nearer end's.
     pub source_vertices: *const u32,
     /// How many vertices there are.
     pub vertex_count: u32,

@@ -3,7 +3,9 @@
 use super::along;
 use crate::Trace;
 use muslin::glam::Vec3;
-use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Result, Settings, Wind};
+use muslin::{
+    Cloth, EventKind, GridDesc, Material, MeshDesc, PinMode, Preset, Result, Settings, Wind,
+};
 
 /// A sheet that tears easily, pinned by its corners.
 fn thin_sheet(columns: u32, rows: u32) -> GridDesc {
@@ -53,6 +55,62 @@ pub fn sheet_torn_to_pieces(trace: &mut Trace) -> Result<()> {
     assert!(pieces >= 3, "the sheet is in {pieces} pieces");
     assert!(trace.count_of(EventKind::PieceDetached) >= 2, "no piece was told of");
     Ok(())
+}
+
+/// Blades go through a sheet and through a mesh in the wind, beside pins, ahead of tears and twice.
+pub fn cut_by_blades(trace: &mut Trace) -> Result<()> {
+    let mut cloth = Cloth::grid(&thin_sheet(19, 21))?;
+    let mut mesh = Cloth::mesh(&patch())?;
+    for cloth in [&mut cloth, &mut mesh] {
+        cloth.set_wind(Wind { velocity: Vec3::new(0.5, 0.0, 1.5), ..Wind::default() })?;
+        trace.run(cloth, 25);
+        let mut opened = 0;
+        for (from, to) in [([0.28125, 0.5], [0.34375, -0.5]), ([-0.5, -0.40625], [0.875, -0.59375])]
+        {
+            let at = |[x, y]: [f32; 2]| Vec3::new(x, y, -4.0);
+            for _ in 0..2 {
+                opened += cloth.cut(at(from), at(to), Vec3::Z * 8.0)?;
+                trace.word(u64::from(opened));
+            }
+            trace.run(cloth, 15);
+        }
+        assert!(opened > 20, "only {opened} edges were cut");
+        let held = cloth.grab_particle(40)?;
+        for i in 1..=30 {
+            let start = Vec3::new(0.25, -0.25, 0.0);
+            cloth.move_grab(held, along(start, Vec3::new(0.0, -0.015625, 0.03125), i))?;
+            trace.run(cloth, 1);
+        }
+        cloth.release(held)?;
+        cloth.unpin_all();
+        trace.run(cloth, 20);
+        trace.look(cloth);
+    }
+    assert!(trace.count_of(EventKind::EdgeDivided) > 20, "nothing was divided");
+    assert!(trace.count_of(EventKind::PieceDetached) >= 2, "nothing was cut off");
+    Ok(())
+}
+
+/// A patch of nine by nine vertices that lie unevenly, wound to and fro, pinned by two corners.
+fn patch() -> MeshDesc {
+    let uneven = |k: u32| (k * 37 % 16) as f32 * 0.0009765625;
+    let at = |i: u32| {
+        let (column, row) = ((i % 9) as f32, (i / 9) as f32);
+        Vec3::new(column * 0.09375 + uneven(i), row * -0.125 - uneven(i + 5), uneven(i + 3))
+    };
+    let quads = (0..64).map(|i| i / 8 * 9 + i % 8);
+    let indices = quads.flat_map(|a| {
+        let (b, c, d) = (a + 1, a + 9, a + 10);
+        if a % 3 == 0 { [a, c, b, c, b, d] } else { [a, c, d, a, d, b] }
+    });
+    MeshDesc {
+        positions: (0..81).map(at).collect(),
+        indices: indices.collect(),
+        pinned: vec![0, 8],
+        material: Material { tear_stretch: 1.5, ..Material::preset(Preset::Silk) },
+        settings: Settings { tearing: true, ..Settings::default() },
+        ..MeshDesc::default()
+    }
 }
 
 /// With room for only so many new particles tearing stops, and says so.
