@@ -514,7 +514,30 @@ typedef struct MuslinView {
   uint32_t topology_revision;
   /** Changes when positions do. */
   uint32_t state_revision;
+  /**
+   * 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others,
+   * those at the borders that the cloth was made with among them. 1 byte a vertex.
+   */
+  const uint8_t *frayed;
 } MuslinView;
+
+/**
+ * The parts of a cloth's lists that changed with its triangles since some revision: of what does not
+ * change with every tick, as texture coordinates, source vertices and frayed borders. Begin with
+ * muslin_changes_init.
+ */
+typedef struct MuslinChanges {
+  /** Set by muslin_changes_init. */
+  uint32_t struct_size;
+  /** The first vertex that is new or not as it was. */
+  uint32_t first_vertex;
+  /** How many vertices from there on. */
+  uint32_t vertex_count;
+  /** The first index that is new or not as it was. */
+  uint32_t first_index;
+  /** How many indices from there on. */
+  uint32_t index_count;
+} MuslinChanges;
 
 /** Numbers about a cloth. Begin with muslin_stats_init. */
 typedef struct MuslinStats {
@@ -873,6 +896,16 @@ MuslinStatus muslin_cloth_remove_collider(MuslinCloth cloth,
  */
 MuslinStatus muslin_cloth_view(MuslinCloth cloth, MuslinView *out_view);
 
+/**
+ * Which vertices and indices are new or not as they were when the view's `topology_revision` was
+ * `since_topology_revision`: all that a renderer must upload again of what does not change with every
+ * tick. Everything, if that is more than 64 changes ago, or was never (0 is never). `out_changes` has
+ * begun with muslin_changes_init.
+ */
+MuslinStatus muslin_cloth_changes(MuslinCloth cloth,
+                                  uint32_t since_topology_revision,
+                                  MuslinChanges *out_changes);
+
 /** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
 MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
 
@@ -974,6 +1007,10 @@ static inline void muslin_collider_desc_init(MuslinColliderDesc *desc) {
 
 static inline void muslin_view_init(MuslinView *view) {
   view->struct_size = (uint32_t)sizeof(MuslinView);
+}
+
+static inline void muslin_changes_init(MuslinChanges *changes) {
+  changes->struct_size = (uint32_t)sizeof(MuslinChanges);
 }
 
 static inline void muslin_hit_init(MuslinHit *hit) {

@@ -11,6 +11,7 @@ mod solver;
 mod state;
 
 pub use cloth::Cloth;
+pub use cloth::changes::Changes;
 pub use cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
 pub use cloth::query::Hit;
 pub use cloth::view::{Stats, View};

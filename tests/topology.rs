@@ -65,6 +65,9 @@ fn describe_tears(cloth: &mut Cloth, before: &Cloth) -> String {
         };
         writeln!(text, "vertex {vertex} <- {source}{at}").unwrap();
     }
+    let frayed: Vec<String> =
+        (0..cloth.frayed().len()).filter(|v| cloth.frayed()[*v]).map(|v| v.to_string()).collect();
+    writeln!(text, "frayed: {}", frayed.join(" ")).unwrap();
     let (now, then) = (cloth.stats(), before.stats());
     let (links, whole) = (now.active_constraints, then.active_constraints);
     writeln!(text, "links: {whole} -> {links}, pieces: {} -> {}", then.pieces, now.pieces).unwrap();

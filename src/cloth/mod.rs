@@ -1,5 +1,6 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
+pub(crate) mod changes;
 mod cut;
 pub(crate) mod desc;
 #[cfg(test)]
@@ -24,6 +25,7 @@ use crate::state::events::Event;
 use crate::state::grabs::{Grab, Held};
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
+use changes::History;
 use desc::{GridDesc, MeshDesc};
 use glam::{Quat, Vec3};
 use view::Outputs;
@@ -44,6 +46,7 @@ pub struct Cloth {
     pins_changed: bool,
     topology_revision: u32,
     state_revision: u32,
+    history: History,
 }
 
 impl Clone for Cloth {
@@ -57,6 +60,7 @@ impl Clone for Cloth {
             pins_changed: self.pins_changed,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
+            history: self.history.clone(),
         };
         // A cloned list has no spare room; what tears need is reserved anew.
         copy.world.reserve(self.world.capacity());
@@ -103,6 +107,7 @@ impl Cloth {
             pins_changed: false,
             topology_revision: 1,
             state_revision: 1,
+            history: History::new(),
         })
     }
 
@@ -457,7 +462,8 @@ impl Cloth {
 
     fn changed_topology(&mut self) {
         self.topology_revision = self.topology_revision.wrapping_add(1);
-        self.outputs.follow_topology(&self.world);
+        let change = self.outputs.follow_topology(&self.world);
+        self.history.push(change);
     }
 
     fn changed_pins(&mut self) {

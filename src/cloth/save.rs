@@ -4,6 +4,7 @@
 //! `Saved` holds in the postcard format.
 
 use super::Cloth;
+use super::changes::History;
 use super::view::Outputs;
 use super::world::Origin;
 use crate::error::{Error, Result};
@@ -39,6 +40,7 @@ struct Saved<'a> {
     triangles: Owned<'a, Vec<[u32; 3]>>,
     sources: Owned<'a, Vec<u32>>,
     crossings: Owned<'a, Vec<Crossing>>,
+    hems: Owned<'a, Vec<u8>>,
     links: Changes,
     particles: Owned<'a, Particles>,
     pins: Owned<'a, Pins>,
@@ -72,6 +74,7 @@ impl Cloth {
             triangles: Owned::Borrowed(&world.mesh.triangles),
             sources: Owned::Borrowed(&world.mesh.source),
             crossings: Owned::Borrowed(&world.crossings),
+            hems: Owned::Borrowed(&world.mesh.hems),
             links: world.weave.changes(),
             particles: Owned::Borrowed(&world.particles),
             pins: Owned::Borrowed(&world.pins),
@@ -171,6 +174,8 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     let fresh = core::mem::replace(&mut world.mesh, mesh);
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
+    must(saved.hems.len() == world.mesh.triangles.len())?;
+    world.mesh.hems = saved.hems.into_owned();
     world.measure_divided(&fresh);
     world.particles = particles;
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
@@ -211,6 +216,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
         pins_changed: false,
         topology_revision: saved.topology_revision,
         state_revision: saved.state_revision,
+        history: History::new(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! What a renderer reads: positions, normals, uvs, triangles, numbers about the cloth.
 
 use super::Cloth;
+use super::changes::{Change, differing};
 use super::world::Origin;
 use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
@@ -21,6 +22,8 @@ pub struct View<'a> {
     pub indices: &'a [u32],
     /// Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's.
     pub source_vertices: &'a [u32],
+    /// Whether a vertex is at a border that a tear or a cut made; at a hem it is not.
+    pub frayed: &'a [bool],
     /// How many vertices there may ever be.
     pub vertex_capacity: u32,
     /// How many indices there may ever be.
@@ -75,6 +78,9 @@ pub(crate) struct Outputs {
     site_uvs: Vec<Vec2>,
     site_sources: Vec<u32>,
     sources: Vec<u32>,
+    frayed: Vec<bool>,
+    /// Room to find the next ones in.
+    next: (Vec<Vec2>, Vec<u32>, Vec<bool>),
     indices: Vec<u32>,
 }
 
@@ -91,6 +97,12 @@ impl Outputs {
             site_uvs: Vec::new(),
             site_sources: Vec::new(),
             sources: Vec::with_capacity(capacity),
+            frayed: Vec::with_capacity(capacity),
+            next: (
+                Vec::with_capacity(capacity),
+                Vec::with_capacity(capacity),
+                Vec::with_capacity(capacity),
+            ),
             indices: Vec::with_capacity(3 * world.triangle_capacity),
         }
     }
@@ -107,15 +119,31 @@ impl Outputs {
         self.normals_current = false;
     }
 
-    /// Follows a change of triangles.
-    pub fn follow_topology(&mut self, world: &World) {
-        self.indices.clear();
-        self.indices.extend_from_slice(world.mesh.triangles.as_flattened());
+    /// Follows a change of triangles, and says which entries are not as they were.
+    pub fn follow_topology(&mut self, world: &World) -> Change {
         guarded(|| self.follow_sites(world));
-        self.uvs.clear();
-        self.uvs.extend(world.mesh.source.iter().map(|site| self.site_uvs[*site as usize]));
-        self.sources.clear();
-        self.sources.extend(world.mesh.source.iter().map(|site| self.site_sources[*site as usize]));
+        let (uvs, sources, frayed) = &mut self.next;
+        uvs.clear();
+        uvs.extend(world.mesh.source.iter().map(|site| self.site_uvs[*site as usize]));
+        sources.clear();
+        sources.extend(world.mesh.source.iter().map(|site| self.site_sources[*site as usize]));
+        world.mesh.find_frayed(frayed);
+        let indices = world.mesh.triangles.as_flattened();
+        let change = Change { indices: differing(&self.indices, indices), ..Change::default() }
+            .and_vertices(differing(&self.uvs, uvs))
+            .and_vertices(differing(&self.sources, sources))
+            .and_vertices(differing(&self.frayed, frayed));
+        // Copied, since lists that were handed out stay where they are.
+        self.uvs.clone_from(uvs);
+        self.sources.clone_from(sources);
+        self.frayed.clone_from(frayed);
+        self.indices.clear();
+        self.indices.extend_from_slice(indices);
+        change
+    }
+
+    pub fn vertex_count(&self) -> u32 {
+        self.positions.len() as u32
     }
 
     fn follow_sites(&mut self, world: &World) {
@@ -146,6 +174,7 @@ impl Cloth {
             uvs: &self.outputs.uvs,
             indices: &self.outputs.indices,
             source_vertices: &self.outputs.sources,
+            frayed: &self.outputs.frayed,
             vertex_capacity: self.world.capacity() as u32,
             index_capacity: 3 * self.world.triangle_capacity as u32,
             topology_revision: self.topology_revision,
@@ -177,6 +206,12 @@ impl Cloth {
     /// Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's.
     pub fn source_vertices(&self) -> &[u32] {
         &self.outputs.sources
+    }
+
+    /// Whether each vertex is at a border that a tear or a cut made, which a renderer may fringe. The
+    /// borders that the cloth was made with are hems.
+    pub fn frayed(&self) -> &[bool] {
+        &self.outputs.frayed
     }
 
     /// Velocity of a particle [m/s]; `None` if there is no such particle.
@@ -234,7 +269,8 @@ impl Cloth {
 
     fn bytes(&self) -> u64 {
         let world = &self.world;
-        let particle = world.particles.bytes_each() + size_of::<[Vec3; 2]>() + size_of::<Vec2>();
+        let outputs = size_of::<[Vec3; 2]>() + 2 * (size_of::<Vec2>() + size_of::<u32>() + 1);
+        let particle = world.particles.bytes_each() + outputs;
         let triangle = size_of::<[u32; 3]>() * 3 + size_of::<[f32; 3]>();
         let bytes = world.capacity() * particle
             + world.triangle_capacity * triangle

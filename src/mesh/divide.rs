@@ -117,6 +117,11 @@ impl Mesh {
         let moved = self.ends(after(edge));
         self.triangles.push([vertex, far, opposite]);
         self.across.push([NONE; 3]);
+        // Both halves of a hem are hems, the moved edge stays what it was, and the new one is inside.
+        let is_hem = |edge: Corner| u8::from(self.is_hem(edge));
+        let (divided, kept) = (is_hem(edge), is_hem(before(edge)));
+        self.hems.push(divided | is_hem(after(edge)) << 1);
+        self.hems[triangle_of(edge)] = divided << (edge % 3) | kept << (before(edge) % 3);
         self.triangles[triangle_of(edge)][after(edge) as usize % 3] = vertex;
         if beyond != NONE {
             let kept = edge / 3;

@@ -27,6 +27,8 @@ pub(crate) struct Mesh {
     /// The site of each vertex, see `divide::Crossing`: the original vertex it came from, or where a cut
     /// made it.
     pub source: Vec<u32>,
+    /// Which edges of each triangle were borders from the start, or are parts of such: bit `e` for edge `e`.
+    pub hems: Vec<u8>,
     /// Vertices before anything tore.
     pub original_count: u32,
 }
@@ -70,8 +72,12 @@ impl Mesh {
         source.extend(0..vertex_count as u32);
         let across = vec![[NONE; 3]; triangles.len()];
         let original_count = vertex_count as u32;
-        let mut mesh = Self { triangles, across, corner_of, source, original_count };
+        let hems = vec![0; triangles.len()];
+        let mut mesh = Self { triangles, across, corner_of, source, hems, original_count };
         mesh.connect();
+        for (hems, across) in mesh.hems.iter_mut().zip(&mesh.across) {
+            *hems = (0..3).filter(|edge| across[*edge] == NONE).map(|edge| 1 << edge).sum();
+        }
         mesh
     }
 
@@ -89,6 +95,24 @@ impl Mesh {
     #[inline(always)]
     pub fn across(&self, corner: Corner) -> u32 {
         self.across[triangle_of(corner)][corner as usize % 3]
+    }
+
+    /// Whether the edge that starts at `corner` was a border from the start, or is part of one.
+    pub fn is_hem(&self, corner: Corner) -> bool {
+        self.hems[triangle_of(corner)] >> (corner % 3) & 1 == 1
+    }
+
+    /// Marks the vertices at borders that tears and cuts made.
+    pub fn find_frayed(&self, frayed: &mut Vec<bool>) {
+        frayed.clear();
+        frayed.resize(self.vertex_count(), false);
+        for edge in 0..3 * self.triangles.len() as u32 {
+            if self.across(edge) == NONE && !self.is_hem(edge) {
+                for end in [edge, after(edge)] {
+                    frayed[self.vertex(end) as usize] = true;
+                }
+            }
+        }
     }
 
     /// The edges, each once: the corner where it starts in its first triangle.

@@ -94,6 +94,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   MuslinHit hit;
   MuslinEvent event;
   MuslinView view;
+  MuslinChanges changes;
   MuslinStats stats;
   muslin_settings_init(&settings);
   muslin_material_init(&material);
@@ -102,6 +103,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   muslin_hit_init(&hit);
   muslin_event_init(&event);
   muslin_view_init(&view);
+  muslin_changes_init(&changes);
   muslin_stats_init(&stats);
   MuslinGrab grab = {9};
   MuslinCollider collider = {9};
@@ -136,6 +138,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   REFUSED(muslin_cloth_move_collider(none, collider, zero, straight), bad, "`cloth`");
   REFUSED(muslin_cloth_remove_collider(none, collider), bad, "`cloth`");
   REFUSED(muslin_cloth_view(none, &view), bad, "`cloth`");
+  REFUSED(muslin_cloth_changes(none, 0, &changes), bad, "`cloth`");
   REFUSED(muslin_cloth_get_stats(none, &stats), bad, "`cloth`");
   REFUSED(muslin_cloth_state_hash(none, &long_number), bad, "`cloth`");
   REFUSED(muslin_cloth_save(none, NULL, 0, &size), bad, "`cloth`");
@@ -237,6 +240,23 @@ static void meshes_are_refused_by_field(void) {
   CHECK(view.vertex_count == 4 && view.index_count == 6);
   CHECK(memcmp(view.positions, positions, sizeof positions) == 0);
   CHECK(view.uvs[0] == 0 && view.source_vertices[3] == 3 && view.normals[2] == 1);
+
+  /* A cut is a part of the lists, and its borders are frayed. */
+  MuslinVec3 from = {-9, 0.5f, -9}, to = {9, 0.5f, -9}, sweep = {0, 0, 18};
+  uint32_t edges = 0;
+  DONE(muslin_cloth_cut(made, from, to, sweep, &edges));
+  CHECK(edges == 2);
+  MuslinChanges changes;
+  muslin_changes_init(&changes);
+  REFUSED(muslin_cloth_changes(made, 0, NULL), BAD_VALUE, "`out_changes`");
+  DONE(muslin_cloth_changes(made, view.topology_revision, &changes));
+  CHECK(changes.first_vertex == 4 && changes.vertex_count == 6);
+  CHECK(changes.first_index < 6 && changes.first_index + changes.index_count == 18);
+  DONE(muslin_cloth_view(made, &view));
+  CHECK(view.vertex_count == 10 && view.index_count == 18);
+  for (uint32_t i = 0; i < 10; i++) CHECK(view.frayed[i] == (i >= 4));
+  DONE(muslin_cloth_changes(made, view.topology_revision, &changes));
+  CHECK(changes.vertex_count == 0 && changes.index_count == 0);
   DONE(muslin_cloth_destroy(made));
 }
 

@@ -131,6 +131,7 @@ test("free may be called twice, and any use after it says so", async () => {
     raycast: [[0, 0, 1], [0, 0, -1]],
     grabRay: [[0, 0, 1], [0, 0, -1]],
     grabParticle: [0],
+    changes: [0],
     cut: [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
     tearEdge: [0, 1],
   };

@@ -177,6 +177,7 @@ refuses("radius", [...NOT_NUMBERS, -1, Infinity], (radius, { cloth }) =>
 );
 refuses("options", NOT_OBJECTS, (value, { cloth }) => cloth.grabRay([0, 0, 1], ahead, value));
 refuses("target", [...NOT_FINITE, undefined], (value, { grab }) => grab.moveTo(value));
+refuses("sinceTopologyRevision", NOT_WHOLE, (value, { cloth }) => cloth.changes(value));
 refuses("from", NOT_FINITE, (value, { cloth }) => cloth.cut(value, [1, 0, 0], [0, 0, 1]));
 refuses("to", [...NOT_FINITE, [0, 0, 0]], (value, { cloth }) => cloth.cut([0, 0, 0], value, [0, 0, 1]));
 refuses("sweep", [...NOT_FINITE, [0, 0, 0], [2, 0, 0]], (value, { cloth }) => cloth.cut([0, 0, 0], [1, 0, 0], value));

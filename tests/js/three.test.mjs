@@ -57,6 +57,24 @@ test("an update uploads what changed and nothing else", () => {
   assert.deepEqual(Object.values(geometry.attributes).map(({ array }) => array), arrays, "in place");
 });
 
+test("a tear uploads its part of the indices, and what was not drawn yet", () => {
+  const cloth = Cloth.grid();
+  const geometry = new ClothGeometry(cloth);
+  const { index } = geometry;
+  const tear = (a, b) => {
+    cloth.tearEdge(a, b);
+    geometry.update();
+    return index.updateRanges;
+  };
+  index.clearUpdateRanges(); // as the renderer does once it has uploaded them
+  const [first, ...none] = tear(820, 860);
+  assert.deepEqual(none, []);
+  assert.ok(first.count > 0 && first.count < 500, `${first.count} indices`);
+  const [both] = tear(220, 260);
+  assert.ok(both.start < first.start && both.start + both.count === first.start + first.count);
+  assert.deepEqual([...index.array.subarray(0, cloth.indices.length)], [...cloth.indices]);
+});
+
 test("it goes on when the memory has grown", () => {
   const cloth = Cloth.grid();
   const geometry = new ClothGeometry(cloth);

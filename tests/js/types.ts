@@ -4,6 +4,7 @@ import init, {
   Cloth,
   initSync,
   version,
+  type Changes,
   type ClothEvent,
   type Collider,
   type ColliderDesc,
@@ -123,6 +124,8 @@ grab?.release();
 // @ts-expect-error: a ray may miss
 grab.release();
 const held: Vec3 = cloth.grabParticle(3).position;
+const changed: Changes = cloth.changes(cloth.topologyRevision);
+const atBorder: boolean = cloth.frayed[changed.firstVertex] === 1;
 const opened: number = cloth.cut([-1, -0.5, -1], [3, -0.5, -1], new Float32Array([0, 0, 2]));
 const tore: boolean = cloth.tearEdge(820, 860);
 
@@ -149,6 +152,8 @@ function tell(event: ClothEvent): number {
       return event.tick + event.position[0];
     case "held-apart":
       return event.particleA + event.particleB + event.count;
+    case "edge-divided":
+      return event.particleA + event.particleB + event.vertex;
   }
 }
 const sum: number = cloth.events().reduce((total, event) => total + tell(event), 0);

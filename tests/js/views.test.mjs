@@ -7,7 +7,7 @@ import init, { Cloth } from "muslin";
 
 await init();
 
-const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices"];
+const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices", "frayed"];
 
 /** Makes cloths until the memory has grown under a view that is held. */
 function growMemory(view) {
@@ -116,6 +116,24 @@ test("a tear lengthens the lists and turns triangles to the new vertex", () => {
   assert.deepEqual(Object.keys(torn), ["kind", "tick", "position", "particleA", "particleB"]);
   assert.deepEqual([split.vertex, split.source], [1600, source]);
   assert.deepEqual(Object.keys(split), ["kind", "tick", "position", "vertex", "source"]);
+});
+
+test("changes name what a tear changed, and frayed its borders", () => {
+  const cloth = Cloth.grid();
+  const since = cloth.topologyRevision;
+  const nothing = { firstVertex: 0, vertexCount: 0, firstIndex: 0, indexCount: 0 };
+  assert.deepEqual(cloth.changes(since), nothing);
+  assert.deepEqual(cloth.changes(0), { firstVertex: 0, vertexCount: 1600, firstIndex: 0, indexCount: 9126 });
+  const before = Array.from(cloth.indices);
+  assert.ok(cloth.frayed.every((frayed) => frayed === 0));
+  assert.equal(cloth.tearEdge(820, 860), true);
+  const { firstVertex, vertexCount, firstIndex, indexCount } = cloth.changes(since);
+  const turned = before.flatMap((vertex, at) => (cloth.indices[at] === vertex ? [] : [at]));
+  assert.deepEqual([turned[0], turned.at(-1)], [firstIndex, firstIndex + indexCount - 1]);
+  assert.equal(firstVertex, cloth.frayed.indexOf(1));
+  assert.equal(firstVertex + vertexCount, 1601);
+  assert.deepEqual([cloth.frayed[1600], cloth.frayed[cloth.sourceVertices[1600]]], [1, 1]);
+  assert.deepEqual(cloth.changes(cloth.topologyRevision), nothing);
 });
 
 test("a cut divides triangles and tells where its vertices are from", () => {

@@ -4,6 +4,7 @@
 
 use crate::log::{self, Listener, MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN};
 use crate::status::{MuslinStatus, Refusal, Result, remember};
+use crate::types::changes::MuslinChanges;
 use crate::types::collider::MuslinColliderDesc;
 use crate::types::event::MuslinEvent;
 use crate::types::grid::MuslinGridDesc;
@@ -221,7 +222,8 @@ growing! {
     MuslinColliderDesc from restitution[4] to tangential_restitution[4], "muslin_collider_desc_init";
     MuslinEvent from source[4] to count[4], "muslin_event_init";
     MuslinHit from normal[12] to normal[12], "muslin_hit_init";
-    MuslinView from state_revision[4] to state_revision[4], "muslin_view_init";
+    MuslinView from state_revision[4] to frayed[size_of::<*const u8>()], "muslin_view_init";
+    MuslinChanges from index_count[4] to index_count[4], "muslin_changes_init";
     MuslinStats from seconds[4 * MUSLIN_STAGE_SLOTS] to over_stretched[4], "muslin_stats_init";
 }
 

@@ -8,7 +8,7 @@ const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
 /// The files with items of the header, in its order: types that others hold first, then functions by
 /// theme.
-const FILES: [&str; 23] = [
+const FILES: [&str; 24] = [
     "status.rs",
     "log.rs",
     "types/value.rs",
@@ -21,6 +21,7 @@ const FILES: [&str; 23] = [
     "types/hit.rs",
     "types/event.rs",
     "types/view.rs",
+    "types/changes.rs",
     "types/stats.rs",
     "calls/library.rs",
     "calls/create.rs",

@@ -5,7 +5,7 @@ import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from 
 import { ready } from "./memory.js";
 import * as fields from "./fields.js";
 import { Collider, Grab, OURS, onlyOurs } from "./handles.js";
-import { readEvents, readHit, readStats } from "./reports.js";
+import { readChanges, readEvents, readHit, readStats } from "./reports.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
 const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
@@ -163,6 +163,16 @@ export class Cloth {
   get sourceVertices() {
     const live = this.#live;
     return this.#view("sources", Uint32Array, live.source_vertices_ptr(), live.vertex_count());
+  }
+
+  get frayed() {
+    const live = this.#live;
+    return this.#view("frayed", Uint8Array, live.frayed_ptr(), live.vertex_count());
+  }
+
+  changes(sinceTopologyRevision) {
+    const since = whole(sinceTopologyRevision, "sinceTopologyRevision");
+    return readChanges(this.#live.changes(since));
   }
 
   /** The view of last time if it still fits: the same memory, place and length. */

@@ -327,6 +327,21 @@ export interface Stats {
   seconds: Record<Stage, number>;
 }
 
+/**
+ * The parts of a cloth's lists that changed with its triangles: of what does not change with every tick, as
+ * uvs, source vertices and frayed borders.
+ */
+export interface Changes {
+  /** The first vertex that is new or not as it was. */
+  firstVertex: number;
+  /** How many vertices from there on. */
+  vertexCount: number;
+  /** The first index that is new or not as it was. */
+  firstIndex: number;
+  /** How many indices from there on. */
+  indexCount: number;
+}
+
 /** A particle held by a pointer. Stale once released, or once the cloth is reset. */
 export interface Grab {
   /** Where the particle was when it was taken [m]. */
@@ -422,6 +437,11 @@ export class Cloth {
   readonly indices: Uint32Array;
   /** Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's. */
   readonly sourceVertices: Uint32Array;
+  /**
+   * 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others, those
+   * at the borders that the cloth was made with among them.
+   */
+  readonly frayed: Uint8Array;
   /** How many vertices there may ever be. */
   readonly vertexCapacity: number;
   /** How many indices there may ever be. */
@@ -430,6 +450,13 @@ export class Cloth {
   readonly topologyRevision: number;
   /** Changes when positions do. */
   readonly stateRevision: number;
+
+  /**
+   * Which vertices and indices are new or not as they were when `topologyRevision` was that: all that a
+   * renderer must upload again of what does not change with every tick. Everything, if that is more
+   * than 64 changes ago, or was never (0 is never).
+   */
+  changes(sinceTopologyRevision: number): Changes;
 
   /** Velocity of a particle [m/s]. */
   velocity(particle: number): Vec3;

@@ -50,6 +50,10 @@ export function readEvents(list) {
   return events;
 }
 
+export function readChanges([firstVertex, vertexCount, firstIndex, indexCount]) {
+  return { firstVertex, vertexCount, firstIndex, indexCount };
+}
+
 export function readHit(list) {
   if (list.length === 0) return undefined;
   const [triangle, particle, u, v, distance, ...rest] = list;

@@ -9,18 +9,23 @@ function roomFor(count, Kind, size) {
   return attribute;
 }
 
-/** Puts a view into a buffer; only that part of it is uploaded. */
-function upload(attribute, view) {
-  attribute.array.set(view);
+/** Puts a part of a view into a buffer; only that is uploaded, with what still waits to be. */
+function upload(attribute, view, first = 0, count = view.length) {
+  attribute.array.set(view.subarray(first, first + count), first);
+  let end = first + count;
+  for (const waiting of attribute.updateRanges) {
+    end = Math.max(end, waiting.start + waiting.count);
+    first = Math.min(first, waiting.start);
+  }
   attribute.clearUpdateRanges();
-  attribute.addUpdateRange(0, view.length);
+  attribute.addUpdateRange(first, end - first);
   attribute.needsUpdate = true;
 }
 
 export class ClothGeometry extends BufferGeometry {
   #cloth;
   #vertexCount = 0;
-  #topology;
+  #topology = 0;
   #state;
 
   constructor(cloth) {
@@ -45,8 +50,9 @@ export class ClothGeometry extends BufferGeometry {
     const isMoved = isRetied || stateRevision !== this.#state;
     if (isRetied) {
       const { indices } = cloth;
-      upload(this.index, indices);
-      upload(this.attributes.uv, cloth.uvs);
+      const changes = cloth.changes(this.#topology);
+      upload(this.index, indices, changes.firstIndex, changes.indexCount);
+      upload(this.attributes.uv, cloth.uvs, 2 * changes.firstVertex, 2 * changes.vertexCount);
       this.setDrawRange(0, indices.length);
     }
     if (isMoved) {

@@ -53,6 +53,17 @@ impl RawCloth {
         self.cloth.source_vertices().as_ptr()
     }
 
+    /// Where it says whether vertices are frayed: 1 byte a vertex.
+    pub fn frayed_ptr(&self) -> *const u8 {
+        self.cloth.frayed().as_ptr().cast()
+    }
+
+    /// What changed with the triangles since a revision: first vertex, how many, first index, how many.
+    pub fn changes(&self, since_topology_revision: u32) -> Vec<u32> {
+        let changes = self.cloth.changes(since_topology_revision);
+        vec![changes.first_vertex, changes.vertex_count, changes.first_index, changes.index_count]
+    }
+
     /// Changes when the triangles do.
     pub fn topology_revision(&self) -> u32 {
         self.cloth.topology_revision()

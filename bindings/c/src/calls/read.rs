@@ -3,6 +3,7 @@
 use crate::boundary::{Out, Report};
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
+use crate::types::changes::MuslinChanges;
 use crate::types::stats::MuslinStats;
 use crate::types::value::MuslinCloth;
 use crate::types::view::MuslinView;
@@ -20,6 +21,24 @@ pub unsafe extern "C" fn muslin_cloth_view(
     let out = unsafe { Report::new("out_view", out_view) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.view().into());
+        Ok(())
+    })
+}
+
+/// Which vertices and indices are new or not as they were when the view's `topology_revision` was
+/// `since_topology_revision`: all that a renderer must upload again of what does not change with every
+/// tick. Everything, if that is more than 64 changes ago, or was never (0 is never). `out_changes` has
+/// begun with muslin_changes_init.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_changes(
+    cloth: MuslinCloth,
+    since_topology_revision: u32,
+    out_changes: *mut MuslinChanges,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    let out = unsafe { Report::new("out_changes", out_changes) };
+    with_cloth(cloth, |cloth| {
+        out?.write(&cloth.changes(since_topology_revision).into());
         Ok(())
     })
 }

@@ -1,5 +1,6 @@
 //! The structs and numbers of the header, one noun a file, and their way from and to the core.
 
+pub mod changes;
 pub mod collider;
 pub mod event;
 pub mod grid;

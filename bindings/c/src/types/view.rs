@@ -36,6 +36,9 @@ pub struct MuslinView {
     pub topology_revision: u32,
     /// Changes when positions do.
     pub state_revision: u32,
+    /// 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others,
+    /// those at the borders that the cloth was made with among them. 1 byte a vertex.
+    pub frayed: *const u8,
 }
 
 impl Default for MuslinView {
@@ -53,6 +56,7 @@ impl Default for MuslinView {
             index_capacity: 0,
             topology_revision: 0,
             state_revision: 0,
+            frayed: ptr::null(),
         }
     }
 }
@@ -72,9 +76,10 @@ impl From<View<'_>> for MuslinView {
             index_capacity: view.index_capacity,
             topology_revision: view.topology_revision,
             state_revision: view.state_revision,
+            frayed: view.frayed.as_ptr().cast(),
         }
     }
 }
 
 // Lists of vectors are lists of numbers, without gaps.
-const _: () = assert!(size_of::<Vec3>() == 12 && size_of::<Vec2>() == 8);
+const _: () = assert!(size_of::<Vec3>() == 12 && size_of::<Vec2>() == 8 && size_of::<bool>() == 1);
