@@ -233,6 +233,7 @@ static void meshes_are_refused_by_field(void) {
   desc.position_stride = 20;
   desc.pinned = pinned;
   desc.pinned_count = 1;
+  desc.extra_particles = 6;
   DONE(muslin_cloth_create_mesh(&desc, &made));
   MuslinView view;
   muslin_view_init(&view);
