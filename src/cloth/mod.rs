@@ -440,6 +440,12 @@ impl Cloth {
     }
 
     /// The oldest event that was not read yet. The 1024 newest are kept.
+    ///
+    /// They come by tick; in a tick recoveries first, then tears, the worst first, and of each the
+    /// vertices that it split before the torn edge; then, if there was no room for another, that; then the
+    /// pieces that came off, in the order of their first triangles; then what is held apart. A cut tells
+    /// the edges that it divided, in its order; those that it opened; the vertices that it split; and the
+    /// pieces.
     pub fn next_event(&mut self) -> Option<Event> {
         self.world.events.pop()
     }

@@ -201,6 +201,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.over_stretch_told = saved.over_stretch_told;
     must(saved.tether_slack >= 0.0)?;
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
+    world.find_tips();
     world.weigh();
     world.tether();
     world.tether_slack = saved.tether_slack;

@@ -142,6 +142,7 @@ fn build(
         weave,
         rest,
         crossings: Vec::new(),
+        tips: Vec::with_capacity(capacity),
         corner_area: areas,
         cells,
     };
@@ -153,6 +154,7 @@ fn build(
         world.pins.insert(*particle, x, x);
     }
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
+    world.find_tips();
     world.weigh();
     world.weave.stiffen(material);
     world.tether();
@@ -188,6 +190,7 @@ impl World {
         reserve(&mut self.mesh.source);
         reserve(&mut self.mesh.corner_of);
         self.particles.reserve(capacity);
+        self.tips.reserve_exact(capacity.saturating_sub(self.tips.len()));
         self.pins.reserve(capacity);
         self.events.reserve();
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));

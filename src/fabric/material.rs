@@ -32,7 +32,9 @@ pub struct Material {
     pub drag: f32,
     /// Lift coefficient of a triangle askew to the wind; 0. At least 0.
     pub lift: f32,
-    /// Length over rest length at which an edge tears; 4. Above 1, or 0: never.
+    /// Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
+    /// less, as the finer the mesh is the more of the load is there: √(16 · `thickness` / mean edge) of
+    /// the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
     pub tear_stretch: f32,
     /// How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2.
     pub tear_variation: f32,

@@ -10,4 +10,5 @@ pub(crate) mod material;
 pub(crate) mod outward;
 pub(crate) mod rows;
 pub(crate) mod tethers;
+pub(crate) mod tips;
 pub(crate) mod weave;

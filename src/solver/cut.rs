@@ -91,6 +91,7 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
     world.weigh();
     world.reserve_for_tears();
+    world.find_tips();
     settle(world);
 }
 

@@ -26,14 +26,15 @@ use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
 use crate::fabric::tethers::Tethers;
+use crate::fabric::tips;
 use crate::fabric::weave::Weave;
 use crate::geom::triangle::corner_areas;
 use crate::math::columns::Columns;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
-use crate::mesh::Mesh;
 use crate::mesh::divide::Crossing;
 use crate::mesh::split::Opening;
+use crate::mesh::{Fan, Mesh};
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
 use crate::state::grabs::Grabs;
@@ -68,6 +69,8 @@ pub(crate) struct World {
     pub corner_area: Vec<[f32; 3]>,
     /// Where the triangles of a grid lie in cells.
     pub cells: Option<Cells>,
+    /// Whether each vertex is the tip of a slit.
+    pub tips: Vec<bool>,
     /// Mean length of the edges at rest [m].
     pub spacing: f32,
     pub particles: Particles,
@@ -210,6 +213,14 @@ impl World {
                 *areas = corner_areas(sites.map(|site| rest[site as usize]));
             }
         }
+    }
+
+    /// Finds the tips of all slits.
+    pub fn find_tips(&mut self) {
+        let mut fan = Fan::default();
+        let is_tip = |vertex| tips::is_tip(&self.mesh, &self.rest, vertex, &mut fan);
+        self.tips.clear();
+        self.tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
     }
 
     /// Puts a particle somewhere with a velocity.

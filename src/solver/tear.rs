@@ -5,6 +5,7 @@
 
 use super::World;
 use crate::fabric::links::{LinkKind, Links};
+use crate::fabric::tips;
 use crate::math::mix::unit;
 use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
@@ -108,11 +109,12 @@ pub(crate) fn tear(world: &mut World) {
         if scratch.touched.contains(&a) || scratch.touched.contains(&b) {
             continue;
         }
-        if !has_room(world) {
+        if !has_room(world, a) {
             break;
         }
         torn += u32::from(tear_between(world, &mut scratch, a, b));
     }
+    follow_tips(world, &mut scratch);
     world.scratch.tear = scratch;
     if torn > 0 {
         settle(world);
@@ -124,8 +126,9 @@ pub(crate) fn tear(world: &mut World) {
 pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
     let mut scratch = core::mem::take(&mut world.scratch.tear);
     scratch.touched.clear();
-    let torn = has_room(world)
+    let torn = has_room(world, a)
         && (tear_between(world, &mut scratch, a, b) || part_along(world, &mut scratch, a, b));
+    follow_tips(world, &mut scratch);
     world.scratch.tear = scratch;
     if torn {
         settle(world);
@@ -133,14 +136,24 @@ pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
     torn
 }
 
-/// Whether the reserve holds one more tear; tells the host once if it does not.
-fn has_room(world: &mut World) -> bool {
+/// Finds out which of the vertices that were touched are tips now.
+fn follow_tips(world: &mut World, scratch: &mut Scratch) {
+    world.tips.resize(world.mesh.vertex_count(), false);
+    for vertex in &scratch.touched {
+        let is_tip = tips::is_tip(&world.mesh, &world.rest, *vertex, &mut scratch.part);
+        world.tips[*vertex as usize] = is_tip;
+    }
+}
+
+/// Whether the reserve holds one more tear, at a particle; tells the host once if it does not.
+fn has_room(world: &mut World, particle: u32) -> bool {
     if !world.is_reserve_used_up() {
         return true;
     }
     if !world.reserve_told {
         world.reserve_told = true;
-        world.events.push(Event::new(EventKind::ReserveUsedUp, world.tick, Vec3::ZERO));
+        let place = world.particles.x.at(particle as usize);
+        world.events.push(Event::new(EventKind::ReserveUsedUp, world.tick, place));
     }
     false
 }
@@ -151,6 +164,8 @@ fn find_worst(world: &World, worst: &mut Vec<Candidate>) {
     let most = (world.settings.max_tears_per_tick as usize).min(worst.capacity().saturating_sub(1));
     let limit = world.material.tear_stretch;
     let variation = world.material.tear_variation;
+    let weakness = tips::weakness(&world.material, world.spacing);
+    let least = (limit - 1.0) * (1.0 - 0.5 * variation) * weakness;
     let p = &world.particles;
     for links in [&world.weave.links, &world.weave.extra] {
         for link in 0..links.len() {
@@ -161,9 +176,11 @@ fn find_worst(world: &World, worst: &mut Vec<Candidate>) {
             let length = (p.x.at(b as usize) - p.x.at(a as usize)).length();
             // The weakest of an uneven weave tears at half the excess; most need not be looked up.
             let stretch = length / links.rest[link] - 1.0;
-            if stretch <= (limit - 1.0) * (1.0 - 0.5 * variation) {
+            if stretch <= least {
                 continue;
             }
+            let is_at_tip = world.tips[a as usize] || world.tips[b as usize];
+            let limit = if is_at_tip { 1.0 + (limit - 1.0) * weakness } else { limit };
             let ends = [a, b].map(|end| world.mesh.source[end as usize]);
             let strength = 1.0 + variation * (unit(WEAVE_SEED, &ends) - 0.5);
             let excess = stretch / ((limit - 1.0) * strength);
@@ -233,12 +250,8 @@ fn load(world: &World, particle: u32) -> f32 {
         if stretch > 0.0 { stretch } else { 0.0 }
     };
     let source = world.mesh.source[particle as usize];
-    let woven = world.weave.of_vertex(source).map(|(links, link)| pull(links, link)).sum();
-    if world.crossings.is_empty() {
-        return woven;
-    }
-    let extra = world.weave.extra_of_vertex(source).map(|(links, link)| pull(links, link));
-    extra.fold(woven, |sum, pull| sum + pull)
+    let links = world.weave.of_vertex(source).chain(world.weave.extra_of_vertex(source));
+    links.map(|(links, link)| pull(links, link)).sum()
 }
 
 /// Splits `end` by the plane across the way to `other`; false if that leaves nothing on one side.

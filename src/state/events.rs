@@ -16,7 +16,7 @@ pub enum EventKind {
     PieceDetached = 2,
     /// `count` particles had left the realm of numbers and were put back where they last were.
     Recovered = 3,
-    /// Tearing stopped: the room that was reserved for it is used up. Told once.
+    /// Tearing stopped here: the room that was reserved for it is used up. Told once.
     ReserveUsedUp = 4,
     /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
     /// `particle_a` and `particle_b`. Told once, until the bound holds again.
@@ -55,7 +55,12 @@ impl Event {
 /// How many events wait to be read; when more come, the oldest go.
 pub(crate) const MAX_EVENTS: usize = 1024;
 
-/// Events in the order they happened: by tick, then worst tear first, then recoveries.
+/// Events in the order they happened.
+///
+/// By tick; in a tick recoveries first, then tears, the worst first, and of each the vertices that it
+/// split before the torn edge; then, if there was no room for another, that; then the pieces that came
+/// off, in the order of their first triangles; then what is held apart. A cut tells the edges that it
+/// divided, in its order; those that it opened; the vertices that it split; and the pieces.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Events {
     queue: VecDeque<Event>,

@@ -119,7 +119,11 @@ export interface Material {
   drag: number;
   /** Lift coefficient of a triangle aslant to the wind; 0. At least 0. */
   lift: number;
-  /** Length over rest length at which an edge tears; 4. Above 1, or 0: never. */
+  /**
+   * Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
+   * less, as the finer the mesh is the more of the load is there: √(16 · `thickness` / mean edge) of
+   * the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+   */
   tearStretch: number;
   /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
   tearVariation: number;
@@ -520,7 +524,14 @@ export class Cloth {
   /** Adds a collider. Throws if there are 1024 already. */
   addCollider(collider?: ColliderDesc): Collider;
 
-  /** All events since the last call, oldest first; the 1024 newest are kept. */
+  /**
+   * All events since the last call, oldest first; the 1024 newest are kept.
+   *
+   * They come by tick; in a tick recoveries first, then tears, the worst first, and of each the vertices
+   * that it split before the torn edge; then, if there was no room for another, that; then the pieces that
+   * came off, in the order of their first triangles; then what is held apart. A cut tells the edges that
+   * it divided, in its order; those that it opened; the vertices that it split; and the pieces.
+   */
   events(): ClothEvent[];
   /** Numbers about the cloth as it is now. */
   readonly stats: Stats;

@@ -64,6 +64,11 @@ pub unsafe extern "C" fn muslin_cloth_cut(
 
 /// Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if
 /// there is none, which leaves `out_event` as it is. `out_event` has begun with muslin_event_init.
+///
+/// They come by tick; in a tick recoveries first, then tears, the worst first, and of each the vertices that
+/// it split before the torn edge; then, if there was no room for another, that; then the pieces that
+/// came off, in the order of their first triangles; then what is held apart. A cut tells the edges that it
+/// divided, in its order; those that it opened; the vertices that it split; and the pieces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_next_event(
     cloth: MuslinCloth,
