@@ -166,3 +166,83 @@ fn nothing_tears_while_tearing_is_off() {
     assert!(cloth.stats().max_stretch > 0.5);
     assert_eq!(cloth.positions().len(), 64);
 }
+
+#[test]
+fn pins_that_are_dropped_while_it_tears_let_all_go_that_hung_from_them() {
+    let mut desc = bare_grid(16, 12, 0.1, PinMode::TopEdge);
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.3;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    let grab = cloth.grab_particle(6 * 16 + 8).unwrap();
+    for tick in 1..=90 {
+        cloth.move_grab(grab, Vec3::new(0.8, -0.6, 0.03 * tick as f32)).unwrap();
+        cloth.step(1);
+        if tick == 40 {
+            let row: Vec<u32> = cloth.pinned().collect();
+            row.into_iter().filter(|pin| pin % 2 == 0).for_each(|pin| cloth.unpin(pin).unwrap());
+        }
+        if tick == 60 {
+            cloth.unpin_all();
+        }
+    }
+    assert!(cloth.positions().len() > before.positions().len(), "it tore");
+    assert_sound(&cloth, &before);
+    cloth.release(grab).unwrap();
+    cloth.step(120);
+    assert_eq!(cloth.pinned().count(), 0);
+    assert!(cloth.positions().iter().all(|x| x.y < -5.0), "nothing holds it any more");
+    assert_sound(&cloth, &before);
+}
+
+#[test]
+fn a_tear_beside_a_pin_splits_the_free_end_and_leaves_the_pin() {
+    let mut cloth = Cloth::grid(&bare_grid(6, 6, 0.1, PinMode::TopEdge)).unwrap();
+    let before = cloth.clone();
+    assert!(cloth.tear_edge(2, 8).unwrap(), "the lower end gives way");
+    let split: Vec<Event> = events(&mut cloth)
+        .into_iter()
+        .filter(|event| event.kind == EventKind::VertexSplit)
+        .collect();
+    assert_eq!(split[0].source, 8);
+    assert_eq!(cloth.pinned().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
+    assert!(!cloth.tear_edge(2, 3).unwrap(), "between two pins nothing gives way");
+    cloth.step(60);
+    assert!((0..6).all(|pin| cloth.positions()[pin].y == 0.0));
+    assert_sound(&cloth, &before);
+}
+
+#[test]
+fn a_whole_row_torn_below_the_pins_falls_and_the_pins_hold_what_is_left() {
+    let mut desc = bare_grid(8, 8, 0.1, PinMode::TopEdge);
+    desc.extra_particles = 200;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    // Whatever still joins the second row to the third is torn, until nothing does.
+    for _ in 0..60 {
+        let sources = cloth.source_vertices().to_vec();
+        let row = |v: u32| sources[v as usize] / 8;
+        let joins = common::triangles(&cloth).into_iter().find_map(|triangle| {
+            let ends = |a: usize, b: usize| [triangle[a], triangle[b]];
+            [ends(0, 1), ends(1, 2), ends(2, 0)].into_iter().find(|[a, b]| {
+                let both = [row(*a).min(row(*b)), row(*a).max(row(*b))];
+                both == [1, 2] && cloth.clone().tear_edge(*a, *b).unwrap()
+            })
+        });
+        let Some([a, b]) = joins else { break };
+        assert!(cloth.tear_edge(a, b).unwrap());
+        if cloth.stats().pieces > 1 {
+            break;
+        }
+    }
+    assert!(cloth.stats().pieces > 1, "torn off");
+    let off: u32 = events(&mut cloth)
+        .iter()
+        .filter(|event| event.kind == EventKind::PieceDetached)
+        .map(|event| event.count)
+        .sum();
+    assert!(off > 0);
+    cloth.step(60);
+    assert_sound(&cloth, &before);
+    assert!((0..8).all(|pin| cloth.positions()[pin].y == 0.0));
+}

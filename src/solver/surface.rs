@@ -93,7 +93,11 @@ pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, band: Band, mut out: [
             if cells.torn[cell..cell + LANES].contains(&true) {
                 let from = 2 * (row * across + start);
                 let end = 2 * (row * across + (start + LANES).min(across));
-                (from..end).for_each(|at| add_triangle(surface, at, give, out));
+                let whole = from + (end - from) / LANES * LANES;
+                (from..whole)
+                    .step_by(LANES)
+                    .for_each(|first| add_triangles(surface, first, give, out));
+                (whole..end).for_each(|at| add_triangle(surface, at, give, out));
             } else {
                 let place = Place { row, first, done: start - first, columns: cells.columns };
                 add_cells(surface, place, band, give, out);

@@ -10,7 +10,6 @@ use crate::math::mix::unit;
 use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::state::events::{Event, EventKind};
-use glam::Vec3;
 
 /// Seed of the weave's unevenness.
 const WEAVE_SEED: u32 = 0x6d75_736c;
@@ -167,15 +166,23 @@ fn find_worst(world: &World, worst: &mut Vec<Candidate>) {
     let weakness = tips::weakness(&world.material, world.spacing);
     let least = (limit - 1.0) * (1.0 - 0.5 * variation) * weakness;
     let p = &world.particles;
-    for links in [&world.weave.links, &world.weave.extra] {
-        for link in 0..links.len() {
-            if !links.active[link] || links.kind(link) == LinkKind::Bend {
+    let weave = &world.weave;
+    let woven = weave.batches.iter().filter(|batch| batch.kind != LinkKind::Bend);
+    let woven = woven.map(|batch| (&weave.links, batch.first..batch.first + batch.count));
+    for (links, range) in woven.chain([(&weave.extra, 0..weave.extra.len())]) {
+        for link in range {
+            let (a, b, rest) = (links.a[link], links.b[link], links.rest[link]);
+            let span = p.x.at(b as usize) - p.x.at(a as usize);
+            // The weakest of an uneven weave tears at half the excess; most need not be looked up, nor
+            // measured but by their squares. A hair less, since those round otherwise.
+            let short = rest * (1.0 + least) * (1.0 - 1.0e-5);
+            if span.length_squared() <= short * short
+                || !links.active[link]
+                || links.kind(link) == LinkKind::Bend
+            {
                 continue;
             }
-            let (a, b) = (links.a[link], links.b[link]);
-            let length = (p.x.at(b as usize) - p.x.at(a as usize)).length();
-            // The weakest of an uneven weave tears at half the excess; most need not be looked up.
-            let stretch = length / links.rest[link] - 1.0;
+            let stretch = span.length() / rest - 1.0;
             if stretch <= least {
                 continue;
             }
