@@ -204,7 +204,11 @@ typedef struct MuslinMaterial {
   float drag;
   /** Lift coefficient of a triangle askew to the wind; 0. At least 0. */
   float lift;
-  /** Length over rest length at which an edge tears; 4. Above 1, or 0: never. */
+  /**
+   * Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
+   * less, as the finer the mesh is the more of the load is there: sqrt(16 thickness / mean edge) of
+   * the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+   */
   float tear_stretch;
   /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
   float tear_variation;
@@ -856,6 +860,11 @@ MuslinStatus muslin_cloth_cut(MuslinCloth cloth,
 /**
  * Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if
  * there is none, which leaves `out_event` as it is. `out_event` has begun with muslin_event_init.
+ *
+ * They come by tick; in a tick recoveries first, then tears, the worst first, and of each the vertices that
+ * it split before the torn edge; then, if there was no room for another, that; then the pieces that
+ * came off, in the order of their first triangles; then what is held apart. A cut tells the edges that it
+ * divided, in its order; those that it opened; the vertices that it split; and the pieces.
  */
 MuslinStatus muslin_cloth_next_event(MuslinCloth cloth,
                                      MuslinEvent *out_event,
