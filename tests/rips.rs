@@ -15,8 +15,8 @@ fn most_strained(cloth: &Cloth) -> f32 {
 }
 
 fn has_torn(cloth: &mut Cloth) -> bool {
-    core::iter::from_fn(|| cloth.next_event())
-        .fold(false, |torn, event| torn || event.kind == EventKind::EdgeTorn)
+    let events = core::iter::from_fn(|| cloth.next_event());
+    events.filter(|event| event.kind == EventKind::EdgeTorn).count() > 0
 }
 
 /// A strip of 12 × 40 cells of 2 cm, its middle narrowed to 7; its first and last rows are pinned. All

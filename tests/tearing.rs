@@ -222,7 +222,7 @@ fn a_whole_row_torn_below_the_pins_falls_and_the_pins_hold_what_is_left() {
     for _ in 0..60 {
         let sources = cloth.source_vertices().to_vec();
         let row = |v: u32| sources[v as usize] / 8;
-        let joins = common::triangles(&cloth).into_iter().find_map(|triangle| {
+        let joins = triangles(&cloth).into_iter().find_map(|triangle| {
             let ends = |a: usize, b: usize| [triangle[a], triangle[b]];
             [ends(0, 1), ends(1, 2), ends(2, 0)].into_iter().find(|[a, b]| {
                 let both = [row(*a).min(row(*b)), row(*a).max(row(*b))];
