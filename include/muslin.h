@@ -915,6 +915,22 @@ MuslinStatus muslin_cloth_changes(MuslinCloth cloth,
                                   uint32_t since_topology_revision,
                                   MuslinChanges *out_changes);
 
+/**
+ * Writes the indices of all triangles to the beginning of `buffer`, which has room for `size` bytes:
+ * `index_format` is how many bits each takes, 16 or 32; each has `base_vertex` added, and every triangle
+ * is turned round if `flip` is 1. With room for the view's `index_capacity` it fits for ever.
+ *
+ * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `size` is less than the view's `index_count` takes;
+ * MUSLIN_STATUS_BAD_VALUE unless `index_format` and `flip` are one of these, or for 16 bits if an index is
+ * above 65534; `buffer` is untouched then
+ */
+MuslinStatus muslin_cloth_write_indices(MuslinCloth cloth,
+                                        void *buffer,
+                                        size_t size,
+                                        uint32_t index_format,
+                                        uint32_t flip,
+                                        uint32_t base_vertex);
+
 /** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
 MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
 

@@ -15,6 +15,7 @@ pub use cloth::changes::Changes;
 pub use cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
 pub use cloth::query::Hit;
 pub use cloth::view::{Stats, View};
+pub use cloth::write::IndexFormat;
 pub use error::{Error, Result};
 pub use fabric::links::LinkKind;
 pub use fabric::material::{Material, Preset};

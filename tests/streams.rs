@@ -4,7 +4,7 @@ mod common;
 
 use common::{bare_grid, irregular_mesh, triangles};
 use muslin::glam::{Vec2, Vec3};
-use muslin::{Changes, Cloth, PinMode};
+use muslin::{Changes, Cloth, Error, IndexFormat, PinMode};
 use std::collections::HashMap;
 
 /// A renderer that uploads only what `changes` names.
@@ -158,4 +158,37 @@ fn borders_of_tears_and_cuts_are_frayed_and_hems_are_not() {
     let frayed: Vec<u32> = (0..10).filter(|v| sheet.frayed()[*v as usize]).collect();
     assert_eq!(frayed, [] as [u32; 0], "the pinned row has a new vertex there");
     assert!(sheet.frayed()[80..].iter().all(|frayed| *frayed));
+}
+
+#[test]
+fn indices_are_written_as_wide_as_asked_while_they_fit() {
+    let mut cloth = Cloth::grid(&bare_grid(5, 4, 0.1, PinMode::TopEdge)).unwrap();
+    cloth.cut(Vec3::new(-1.0, -0.16, -1.0), Vec3::new(0.33, -0.14, -1.0), Vec3::Z * 2.0).unwrap();
+    let count = cloth.indices().len();
+    let mut narrow = vec![0xee_u8; 2 * count + 3];
+    cloth.write_indices(&mut narrow, IndexFormat::U16, true, 1000).unwrap();
+    let read = |at: usize| u32::from(u16::from_ne_bytes([narrow[2 * at], narrow[2 * at + 1]]));
+    for (at, [a, b, c]) in triangles(&cloth).into_iter().enumerate() {
+        let turned = [3 * at, 3 * at + 1, 3 * at + 2].map(read);
+        assert_eq!(turned, [a + 1000, c + 1000, b + 1000]);
+    }
+    assert_eq!(narrow[2 * count..], [0xee; 3]);
+    let mut wide = vec![0_u8; 4 * count];
+    cloth.write_indices(&mut wide, IndexFormat::U32, false, 0).unwrap();
+    let (wide, _) = wide.as_chunks::<4>();
+    assert!(wide.iter().map(|b| u32::from_ne_bytes(*b)).eq(cloth.indices().iter().copied()));
+
+    let last = cloth.positions().len() as u32 - 1;
+    let mut refused = |size: usize, format, base, field: &str| {
+        let before = narrow.clone();
+        let told = cloth.write_indices(&mut narrow[..size], format, false, base).unwrap_err();
+        assert!(matches!(told, Error::BadValue { field: named, .. } if named == field), "{told}");
+        assert_eq!(narrow, before);
+    };
+    refused(2 * count - 1, IndexFormat::U16, 0, "buffer");
+    refused(2 * count, IndexFormat::U32, 0, "buffer");
+    refused(2 * count, IndexFormat::U16, 65535 - last, "index_format");
+    cloth.write_indices(&mut narrow, IndexFormat::U16, false, 65534 - last).unwrap();
+    let mut wide = vec![0_u8; 4 * count];
+    assert!(cloth.write_indices(&mut wide, IndexFormat::U32, false, u32::MAX - last).is_err());
 }

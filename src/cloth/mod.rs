@@ -13,6 +13,7 @@ mod tear;
 mod threads;
 pub(crate) mod view;
 mod world;
+pub(crate) mod write;
 
 use crate::error::{Result, check, check_finite, check_index};
 use crate::fabric::links::LinkKind;

@@ -139,6 +139,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   REFUSED(muslin_cloth_remove_collider(none, collider), bad, "`cloth`");
   REFUSED(muslin_cloth_view(none, &view), bad, "`cloth`");
   REFUSED(muslin_cloth_changes(none, 0, &changes), bad, "`cloth`");
+  REFUSED(muslin_cloth_write_indices(none, &number, 4, 32, 0, 0), bad, "`cloth`");
   REFUSED(muslin_cloth_get_stats(none, &stats), bad, "`cloth`");
   REFUSED(muslin_cloth_state_hash(none, &long_number), bad, "`cloth`");
   REFUSED(muslin_cloth_save(none, NULL, 0, &size), bad, "`cloth`");
@@ -258,6 +259,22 @@ static void meshes_are_refused_by_field(void) {
   for (uint32_t i = 0; i < 10; i++) CHECK(view.frayed[i] == (i >= 4));
   DONE(muslin_cloth_changes(made, view.topology_revision, &changes));
   CHECK(changes.vertex_count == 0 && changes.index_count == 0);
+
+  /* Indices of 16 bits, turned round and moved up. */
+  uint16_t written[19];
+  memset(written, 0xee, sizeof written);
+  DONE(muslin_cloth_write_indices(made, written, sizeof written, 16, 1, 100));
+  for (int i = 0; i < 18; i += 3) {
+    CHECK(written[i] == view.indices[i] + 100u);
+    CHECK(written[i + 1] == view.indices[i + 2] + 100u && written[i + 2] == view.indices[i + 1] + 100u);
+  }
+  CHECK(written[18] == 0xeeee);
+  REFUSED(muslin_cloth_write_indices(made, NULL, 99, 16, 0, 0), BAD_VALUE, "`buffer`");
+  REFUSED(muslin_cloth_write_indices(made, written, 99, 8, 0, 0), BAD_VALUE, "`index_format`");
+  REFUSED(muslin_cloth_write_indices(made, written, 99, 16, 2, 0), BAD_VALUE, "`flip`");
+  REFUSED(muslin_cloth_write_indices(made, written, 35, 16, 0, 0), MUSLIN_STATUS_BUFFER_TOO_SMALL, "`size`");
+  REFUSED(muslin_cloth_write_indices(made, written, 38, 16, 0, 65526), BAD_VALUE, "`index_format`");
+  CHECK(written[0] == view.indices[0] + 100u);
   DONE(muslin_cloth_destroy(made));
 }
 
