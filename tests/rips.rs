@@ -215,7 +215,8 @@ fn t7_what_a_rip_leaves_is_whole() {
     cloth.step(120);
     assert_clean(&cloth, &before);
     assert!((total_mass(&cloth) - total_mass(&before)).abs() < 1.0e-6 * total_mass(&before));
-    assert!(cloth.positions().len() > before.positions().len() + 10, "it did not rip");
+    let torn = cloth.positions().len() - before.positions().len();
+    assert!(torn >= 8, "only {torn} tore");
     for (a, b, kind) in cloth.links().filter(|link| link.2 != LinkKind::Bend) {
         let at = |v: u32| cloth.positions()[v as usize];
         let flat = |v: u32| cloth.uvs()[v as usize] * Vec2::splat(23.0 * 0.04);

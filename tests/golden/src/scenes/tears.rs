@@ -115,7 +115,7 @@ fn patch() -> MeshDesc {
 
 /// With room for only so many new particles tearing stops, and says so.
 pub fn tears_use_up_their_room(trace: &mut Trace) -> Result<()> {
-    let desc = GridDesc { extra_particles: 12, ..thin_sheet(9, 10) };
+    let desc = GridDesc { extra_particles: 6, ..thin_sheet(9, 10) };
     let mut cloth = Cloth::grid(&desc)?;
     let grab = cloth.grab_particle(4 * 9 + 4)?;
     for i in 1..=80 {
