@@ -19,13 +19,13 @@
 //! was too long or too short by when the substep began is not all put right at once: in a tangle
 //! lines cannot be right, and those that insist never come to rest.
 //!
-//! Eight lines go side by side; each lane is a line of its own, so that lanes change no bits.
+//! Eight lines lie side by side; each lane is a line of its own, so that lanes change no bits.
 
 use super::World;
 use super::links::is_rigid;
 use crate::fabric::lines::{Lines, NOBODY};
 use crate::fabric::links::{LinkKind, Links};
-use crate::math::simd::{LANES, Lanes, gather, leveled, scatter};
+use crate::math::simd::{LANES, Lanes, Number, Scalar, Simd, turn, turn_back, vectored};
 use crate::math::{TINY, max};
 use crate::mesh::NONE;
 
@@ -158,203 +158,287 @@ fn leave_seats(world: &mut World) {
     }
 }
 
-leveled! {
-    fn solve_rigid(lines: &Lines, links: &mut Links, s: &mut Scratch, scale: f32)
-        = solve_all::<false, false>, solve_all::<false, true>
+vectored! {
+    fn solve_rigid(lines: &Lines, links: &mut Links, room: &mut Scratch, scale: f32)
+        = solve_all::<_, false>, Avx2, solve_apart::<false>
 }
 
-leveled! {
-    fn solve_soft(lines: &Lines, links: &mut Links, s: &mut Scratch, scale: f32)
-        = solve_all::<true, false>, solve_all::<true, true>
+vectored! {
+    fn solve_soft(lines: &Lines, links: &mut Links, room: &mut Scratch, scale: f32)
+        = solve_all::<_, true>, Avx2, solve_apart::<true>
+}
+
+/// Line by line.
+fn solve_apart<const SOFT: bool>(lines: &Lines, links: &mut Links, room: &mut Scratch, scale: f32) {
+    solve_all::<_, SOFT>(Scalar, lines, links, room, scale);
 }
 
 #[inline(always)]
-fn solve_all<const SOFT: bool, const FAST: bool>(
+fn solve_all<S: Simd, const SOFT: bool>(
+    s: S,
     lines: &Lines,
     links: &mut Links,
-    s: &mut Scratch,
+    room: &mut Scratch,
     scale: f32,
 ) {
     for block in &lines.blocks {
-        let block = Block {
-            links: &lines.links[block.clone()],
-            from: &lines.from[block.clone()],
-            to: &lines.to[block.clone()],
-            rest: &lines.rest[block.clone()],
-        };
-        block.eliminate::<SOFT, FAST>(links, s, scale);
-        block.pull::<SOFT, FAST>(links, s);
-        block.go::<FAST>(s);
+        for first in (0..LANES).step_by(S::LANES) {
+            let abreast = Abreast {
+                s,
+                first,
+                links: &lines.links[block.clone()],
+                from: &lines.from[block.clone()],
+                to: &lines.to[block.clone()],
+                rest: &lines.rest[block.clone()],
+            };
+            abreast.eliminate::<SOFT>(links, room, scale);
+            abreast.pull::<SOFT>(links, room);
+            abreast.go(room);
+        }
     }
 }
 
-/// Eight lines.
-struct Block<'a> {
+/// As many lines of a block as go at once.
+struct Abreast<'a, S> {
+    s: S,
+    /// The first one's lane in the block.
+    first: usize,
     links: &'a [[u32; LANES]],
     from: &'a [[u32; LANES]],
     to: &'a [[u32; LANES]],
     rest: &'a [Lanes],
 }
 
-impl Block<'_> {
+impl<S: Simd> Abreast<'_, S> {
+    /// What these lines have of a step of the block.
+    #[inline(always)]
+    fn own<'b, T>(&self, step: &'b [T; LANES]) -> &'b [T] {
+        &step[self.first..self.first + S::LANES]
+    }
+
+    #[inline(always)]
+    fn load(&self, lanes: &Lanes) -> S::F {
+        self.s.load(lanes, self.first)
+    }
+
+    #[inline(always)]
+    fn store(&self, lanes: &mut Lanes, v: S::F) {
+        self.s.store(lanes, self.first, v);
+    }
+
+    #[inline(always)]
+    fn load3(&self, [x, y, z]: &Lanes3) -> [S::F; 3] {
+        [self.load(x), self.load(y), self.load(z)]
+    }
+
+    #[inline(always)]
+    fn store3(&self, lanes: &mut Lanes3, [x, y, z]: [S::F; 3]) {
+        self.store(&mut lanes[0], x);
+        self.store(&mut lanes[1], y);
+        self.store(&mut lanes[2], z);
+    }
+
+    /// 1 where two lists of seats agree, else 0.
+    #[inline(always)]
+    fn agree(&self, a: &[u32], b: &[u32]) -> S::F {
+        let mut agree = [0.0; LANES];
+        for (agree, (a, b)) in agree.iter_mut().zip(a.iter().zip(b)) {
+            *agree = if a == b { 1.0 } else { 0.0 };
+        }
+        self.s.load(&agree, 0)
+    }
+
     /// The way there: what each link has to do with the one before goes out of the first system.
     #[inline(always)]
-    fn eliminate<const SOFT: bool, const FAST: bool>(
-        &self,
-        links: &Links,
-        s: &mut Scratch,
-        scale: f32,
-    ) {
-        let mut end = [NOBODY; LANES];
-        let (mut last, mut start) = ([[0.0; LANES]; 4], [[0.0; LANES]; 4]);
-        let (mut n, mut inverse, mut right) = ([[0.0; LANES]; 3], [0.0; LANES], [0.0; LANES]);
+    fn eliminate<const SOFT: bool>(&self, links: &Links, room: &mut Scratch, scale: f32) {
+        let s = self.s;
+        let (zero, one, tiny) = (s.splat(0.0), s.splat(1.0), s.splat(TINY));
+        let mut end: &[u32] = &[NOBODY; LANES][..S::LANES];
+        let (mut last, mut start) = ([zero; 4], [zero; 4]);
+        let (mut n, mut inverse, mut right) = ([zero; 3], zero, zero);
         let own = self.from.iter().zip(self.to).zip(self.rest).zip(self.links);
-        for ((((from, to), rest), own), step) in own.zip(&mut s.steps) {
-            let mut joins = [true; LANES];
-            if *from != end {
-                (0..LANES).for_each(|i| joins[i] = from[i] == end[i]);
-                last = gather::<FAST>(&s.points, from);
+        for ((((from, to), rest), own), step) in own.zip(&mut room.steps) {
+            let (from, to, rest) = (self.own(from), self.own(to), self.load(rest));
+            let mut joins = one;
+            if from != end {
+                joins = self.agree(from, end);
+                last = turn(s, &room.points, from);
                 if !SOFT {
-                    start = gather::<FAST>(&s.starts, from);
+                    start = turn(s, &room.starts, from);
                 }
             }
-            let next = gather::<FAST>(&s.points, to);
-            let mut aim = *rest;
+            let next = turn(s, &room.points, to);
+            let mut aim = rest;
             if !SOFT {
-                let was = gather::<FAST>(&s.starts, to);
-                aim = self::aim(&start, &was, rest);
+                // What they were when the substep began, mended a little.
+                let was = turn(s, &room.starts, to);
+                aim = rest + (length(s, &start, &was) - rest) * s.splat(1.0 - MEND);
                 start = was;
             }
-            let mut softness = [0.0; LANES];
+            let (dx, dy, dz) = (next[0] - last[0], next[1] - last[1], next[2] - last[2]);
+            let length = (dx * dx + dy * dy + dz * dz).sqrt().max(tiny);
+            let over = one / length;
+            let (nx, ny, nz) = (dx * over, dy * over, dz * over);
+            let along = nx * n[0] + ny * n[1] + nz * n[2];
+            n = [nx, ny, nz];
+            let before = s.pick(joins, s.splat(-0.0) - last[3] * along, zero);
+            let both = last[3] + next[3];
+            // Between two that are held there is nothing to solve.
+            let least = (both * s.splat(GIVE)).max(tiny);
+            let least = s.pick(both, least, s.splat(f32::INFINITY));
+            let mut weight = both * s.splat(1.0 + GIVE);
             if SOFT {
-                for i in (0..LANES).filter(|i| own[*i] != NONE) {
-                    softness[i] = links.compliance[own[i] as usize] * scale;
-                }
+                weight = weight + self.softness(links, self.own(own), scale);
             }
-            for i in 0..LANES {
-                let [dx, dy, dz] = [0, 1, 2].map(|axis| next[axis][i] - last[axis][i]);
-                let length = max((dx * dx + dy * dy + dz * dz).sqrt(), TINY);
-                let over = 1.0 / length;
-                let (nx, ny, nz) = (dx * over, dy * over, dz * over);
-                let along = nx * n[0][i] + ny * n[1][i] + nz * n[2][i];
-                (n[0][i], n[1][i], n[2][i]) = (nx, ny, nz);
-                let before = if joins[i] { -(last[3][i] * along) } else { 0.0 };
-                let both = last[3][i] + next[3][i];
-                // Between two that are held there is nothing to solve.
-                let least = if both > 0.0 { max(both * GIVE, TINY) } else { f32::INFINITY };
-                let weight = both * (1.0 + GIVE) + softness[i];
-                let share = before * inverse[i];
-                inverse[i] = 1.0 / max(weight - share * before, least);
-                right[i] = length - aim[i] - share * right[i];
-                step.before[i] = before;
-                step.over[i] = 1.0 / max(aim[i], TINY);
-                step.ratio[i] = length * step.over[i];
-            }
-            (step.to, step.w) = ([next[0], next[1], next[2]], next[3]);
-            (step.n, step.inverse, step.right) = (n, inverse, right);
-            (last, end) = (next, *to);
+            let share = before * inverse;
+            inverse = one / (weight - share * before).max(least);
+            right = length - aim - share * right;
+            let over = one / aim.max(tiny);
+            self.store(&mut step.before, before);
+            self.store(&mut step.over, over);
+            self.store(&mut step.ratio, length * over);
+            self.store3(&mut step.to, [next[0], next[1], next[2]]);
+            self.store(&mut step.w, next[3]);
+            self.store3(&mut step.n, n);
+            self.store(&mut step.inverse, inverse);
+            self.store(&mut step.right, right);
+            (last, end) = (next, to);
         }
+    }
+
+    #[inline(always)]
+    fn softness(&self, links: &Links, own: &[u32], scale: f32) -> S::F {
+        let mut softness = [0.0; LANES];
+        for (softness, link) in softness.iter_mut().zip(own) {
+            if *link != NONE {
+                *softness = links.compliance[*link as usize] * scale;
+            }
+        }
+        self.s.load(&softness, 0)
     }
 
     /// The way back: the multipliers, and with them what each particle has to do with the one after
     /// goes out of the second system.
     #[inline(always)]
-    fn pull<const SOFT: bool, const FAST: bool>(&self, links: &mut Links, s: &mut Scratch) {
-        let mut begin = [NOBODY; LANES];
-        let (mut after, mut coupling) = ([0.0; LANES], [0.0; LANES]);
+    fn pull<const SOFT: bool>(&self, links: &mut Links, room: &mut Scratch) {
+        let s = self.s;
+        let (zero, one) = (s.splat(0.0), s.splat(1.0));
+        let mut begin: &[u32] = &[NOBODY; LANES][..S::LANES];
+        let (mut after, mut coupling) = (zero, zero);
         // What the link after pulls with at its beginning: of itself, and against going there.
-        let (mut m, mut hold) = ([[0.0; LANES]; 3], [0.0; LANES]);
+        let (mut m, mut hold) = ([zero; 3], zero);
         for k in (0..self.to.len()).rev() {
-            let step = &mut s.steps[k];
-            let to = &self.to[k];
-            let mut joins = [true; LANES];
-            if *to != begin {
-                (0..LANES).for_each(|i| joins[i] = to[i] == begin[i]);
+            let step = &mut room.steps[k];
+            let to = self.own(&self.to[k]);
+            if to != begin {
+                let joins = self.agree(to, begin);
+                hold = s.pick(joins, hold, zero);
+                m = [
+                    s.pick(joins, m[0], zero),
+                    s.pick(joins, m[1], zero),
+                    s.pick(joins, m[2], zero),
+                ];
             }
-            for i in 0..LANES {
-                after[i] = (step.right[i] - coupling[i] * after[i]) * step.inverse[i];
-                let is_taut = after[i] > 0.0;
-                let q = if is_taut { after[i] * step.over[i] } else { 0.0 };
-                let tension = if is_taut { after[i] * step.ratio[i] } else { after[i] };
-                let held = if joins[i] { hold[i] } else { 0.0 };
-                let give = step.w[i] / (1.0 + step.w[i] * (q + held));
-                let share = give * q;
-                for axis in 0..3 {
-                    let pull = step.n[axis][i] * tension;
-                    let next = if joins[i] { m[axis][i] } else { 0.0 };
-                    let own = (next - pull) * give;
-                    m[axis][i] = pull + q * own;
-                    step.own[axis][i] = own;
-                }
-                hold[i] = q * (1.0 - share);
-                step.share[i] = share;
+            after = (self.load(&step.right) - coupling * after) * self.load(&step.inverse);
+            let q = s.pick(after, after * self.load(&step.over), zero);
+            let tension = s.pick(after, after * self.load(&step.ratio), after);
+            let w = self.load(&step.w);
+            let give = w / (one + w * (q + hold));
+            let share = give * q;
+            let n = self.load3(&step.n);
+            let mut own = [zero; 3];
+            for axis in 0..3 {
+                let pull = n[axis] * tension;
+                own[axis] = (m[axis] - pull) * give;
+                m[axis] = pull + q * own[axis];
             }
-            coupling = step.before;
-            begin = self.from[k];
+            hold = q * (one - share);
+            self.store3(&mut step.own, own);
+            self.store(&mut step.share, share);
+            coupling = self.load(&step.before);
+            begin = self.own(&self.from[k]);
             if SOFT {
-                for i in (0..LANES).filter(|i| self.links[k][*i] != NONE) {
-                    links.lambda[self.links[k][i] as usize] = -after[i];
+                let mut lambda = [0.0; LANES];
+                s.store(&mut lambda, 0, after);
+                for (link, lambda) in self.own(&self.links[k]).iter().zip(lambda) {
+                    if *link != NONE {
+                        links.lambda[*link as usize] = -lambda;
+                    }
                 }
             }
-            if k == 0 || begin != self.to[k - 1] {
-                let w = gather::<FAST>(&s.points, &begin)[3];
-                for i in 0..LANES {
-                    let give = w[i] / (1.0 + w[i] * hold[i]);
-                    (0..3).for_each(|axis| step.begin[axis][i] = m[axis][i] * give);
-                }
+            if k == 0 || begin != self.own(&self.to[k - 1]) {
+                let w = turn(s, &room.points, begin)[3];
+                let give = w / (one + w * hold);
+                self.store3(&mut step.begin, [m[0] * give, m[1] * give, m[2] * give]);
             }
         }
     }
 
     /// There again: the particles go.
     #[inline(always)]
-    fn go<const FAST: bool>(&self, s: &mut Scratch) {
-        let mut end = [NOBODY; LANES];
-        let mut way = [[0.0; LANES]; 3];
+    fn go(&self, room: &mut Scratch) {
+        let s = self.s;
+        let mut end: &[u32] = &[NOBODY; LANES][..S::LANES];
+        let mut way = [s.splat(0.0); 3];
         let own = self.from.iter().zip(self.to).zip(self.rest);
-        for (number, (((from, to), most), step)) in own.zip(&s.steps).enumerate() {
-            if number == 0 || *from != end {
-                for i in (0..LANES).filter(|i| number == 0 || from[*i] != end[*i]) {
-                    let begin = step.begin.map(|axis| axis[i]);
-                    (0..3).for_each(|axis| way[axis][i] = begin[axis]);
-                    let point = &mut s.points[from[i] as usize];
-                    let limited = limit(begin, most[i]);
-                    (0..3).for_each(|axis| point[axis] += limited[axis]);
+        for (number, (((from, to), most), step)) in own.zip(&room.steps).enumerate() {
+            let (from, to) = (self.own(from), self.own(to));
+            if number == 0 || from != end {
+                let begins = |lane: usize| number == 0 || from[lane] != end[lane];
+                let mut ways = self.spread(way);
+                for lane in (0..S::LANES).filter(|lane| begins(*lane)) {
+                    let begin = step.begin.map(|axis| axis[self.first + lane]);
+                    let limited = limit(begin, most[self.first + lane]);
+                    let point = &mut room.points[from[lane] as usize];
+                    for axis in 0..3 {
+                        ways[axis][lane] = begin[axis];
+                        point[axis] += limited[axis];
+                    }
                 }
+                way = self.take_up(&ways);
             }
-            let mut is_far = false;
-            for i in 0..LANES {
-                let [x, y, z] =
-                    [0, 1, 2].map(|axis| step.share[i] * way[axis][i] + step.own[axis][i]);
-                (way[0][i], way[1][i], way[2][i]) = (x, y, z);
-                is_far |= x * x + y * y + z * z > most[i] * most[i];
-            }
+            let (share, own) = (self.load(&step.share), self.load3(&step.own));
+            way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];
+            let at_most = self.load(most);
+            let length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
             let mut moved = way;
-            if is_far {
-                for i in 0..LANES {
-                    let limited = limit([way[0][i], way[1][i], way[2][i]], most[i]);
-                    (0..3).for_each(|axis| moved[axis][i] = limited[axis]);
+            if s.is_any_positive(length2 - at_most * at_most) {
+                let mut ways = self.spread(way);
+                for lane in 0..S::LANES {
+                    let one = [ways[0][lane], ways[1][lane], ways[2][lane]];
+                    let limited = limit(one, most[self.first + lane]);
+                    (0..3).for_each(|axis| ways[axis][lane] = limited[axis]);
                 }
+                moved = self.take_up(&ways);
             }
-            for (moved, to) in moved.iter_mut().zip(&step.to) {
-                (0..LANES).for_each(|i| moved[i] += to[i]);
-            }
-            scatter::<FAST>(&mut s.points, to, &[moved[0], moved[1], moved[2], step.w]);
-            end = *to;
+            let [x, y, z] = self.load3(&step.to);
+            let there = [moved[0] + x, moved[1] + y, moved[2] + z, self.load(&step.w)];
+            turn_back(s, &mut room.points, to, there);
+            end = to;
         }
+    }
+
+    /// Lanes as lists, and back.
+    #[inline(always)]
+    fn spread(&self, v: [S::F; 3]) -> Lanes3 {
+        let mut lists = [[0.0; LANES]; 3];
+        for (list, v) in lists.iter_mut().zip(v) {
+            self.s.store(list, 0, v);
+        }
+        lists
+    }
+
+    #[inline(always)]
+    fn take_up(&self, [x, y, z]: &Lanes3) -> [S::F; 3] {
+        [self.s.load(x, 0), self.s.load(y, 0), self.s.load(z, 0)]
     }
 }
 
-/// The lengths that links are to have: what they were when the substep began, mended a little.
+/// How far it is from some points to others.
 #[inline(always)]
-fn aim(from: &[Lanes; 4], to: &[Lanes; 4], rest: &Lanes) -> Lanes {
-    let mut aim = *rest;
-    for i in 0..LANES {
-        let [dx, dy, dz] = [0, 1, 2].map(|axis| to[axis][i] - from[axis][i]);
-        let was = (dx * dx + dy * dy + dz * dz).sqrt();
-        aim[i] += (was - rest[i]) * (1.0 - MEND);
-    }
-    aim
+fn length<S: Simd>(_: S, from: &[S::F; 4], to: &[S::F; 4]) -> S::F {
+    let (dx, dy, dz) = (to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+    (dx * dx + dy * dy + dz * dz).sqrt()
 }
 
 /// A way that is no longer than `most`: lines that cannot be right would fling their particles.

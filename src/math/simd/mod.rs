@@ -28,7 +28,7 @@ pub(crate) use wasm::Simd128;
 pub(crate) use x86::{Avx2, Avx512, Sse2};
 
 use crate::math::shared::Points;
-pub(crate) use turn::{gather, scatter};
+pub(crate) use turn::{turn, turn_back};
 
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -78,7 +78,7 @@ impl Arithmetic for Scalar {
 
 /// Vectors of a number of lanes that is known when a kernel is compiled.
 pub(crate) trait Simd: Arithmetic {
-    /// A power of two, at least four.
+    /// A power of two, at least four but for `Scalar`, which deals nothing out.
     const LANES: usize;
 
     /// What has half the lanes, or itself if there is no such thing.
@@ -98,6 +98,9 @@ pub(crate) trait Simd: Arithmetic {
     /// `new` where `keep` is above 0, else `old`.
     fn pick(self, keep: Self::F, new: Self::F, old: Self::F) -> Self::F;
 
+    /// Whether any number is above 0.
+    fn is_any_positive(self, v: Self::F) -> bool;
+
     /// Deals two vectors out by turns: the even and the odd numbers. In what order, `dealt` says.
     fn deal(self, low: Self::F, high: Self::F) -> (Self::F, Self::F);
 
@@ -112,6 +115,62 @@ pub(crate) trait Simd: Arithmetic {
 
     /// Takes back what `dealt` did.
     fn undealt(self, v: Self::F) -> Self::F;
+}
+
+impl Simd for Scalar {
+    const LANES: usize = 1;
+
+    type Half = Self;
+
+    #[inline(always)]
+    fn half(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn load(self, list: &[f32], at: usize) -> f32 {
+        list[at]
+    }
+
+    #[inline(always)]
+    fn store(self, list: &mut [f32], at: usize, v: f32) {
+        list[at] = v;
+    }
+
+    #[inline(always)]
+    fn pick(self, keep: f32, new: f32, old: f32) -> f32 {
+        if keep > 0.0 { new } else { old }
+    }
+
+    #[inline(always)]
+    fn is_any_positive(self, v: f32) -> bool {
+        v > 0.0
+    }
+
+    #[inline(always)]
+    fn deal(self, low: f32, high: f32) -> (f32, f32) {
+        (low, high)
+    }
+
+    #[inline(always)]
+    fn gather_up(self, even: f32, odd: f32) -> (f32, f32) {
+        (even, odd)
+    }
+
+    #[inline(always)]
+    fn deal_twos(self, low: f32, high: f32) -> (f32, f32) {
+        (low, high)
+    }
+
+    #[inline(always)]
+    fn dealt(self, v: f32) -> f32 {
+        v
+    }
+
+    #[inline(always)]
+    fn undealt(self, v: f32) -> f32 {
+        v
+    }
 }
 
 /// Vectors for links between points that lie anywhere.

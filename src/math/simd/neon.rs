@@ -118,6 +118,12 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
+    fn is_any_positive(self, v: Four) -> bool {
+        // SAFETY: see above.
+        unsafe { vmaxvq_u32(vcgtq_f32(v.0, vdupq_n_f32(0.0))) != 0 }
+    }
+
+    #[inline(always)]
     fn deal(self, low: Four, high: Four) -> (Four, Four) {
         // SAFETY: see above.
         unsafe { (Four(vuzp1q_f32(low.0, high.0)), Four(vuzp2q_f32(low.0, high.0))) }

@@ -1,56 +1,58 @@
-//! Points turned into lanes and back, for kernels that are plain loops over eight lanes.
+//! Points turned into lanes and back.
 
-use super::{LANES, Lanes};
+use super::Simd;
 
-/// Four numbers of each of eight points, turned so that each number has its lanes.
-///
-/// `FAST` is whether the code around is compiled for AVX2 or better.
+/// Four numbers of each of some points, turned so that each number has its lanes.
 ///
 /// # Panics
-/// If a point is not there.
+/// If a point is not there, or `at` has not one for every lane.
 #[inline(always)]
-pub(crate) fn gather<const FAST: bool>(points: &[[f32; 4]], at: &[u32; LANES]) -> [Lanes; 4] {
+pub(crate) fn turn<S: Simd>(s: S, points: &[[f32; 4]], at: &[u32]) -> [S::F; 4] {
+    let at = &at[..S::LANES];
     assert_all_within(points, at);
+    let mut lanes = [[0.0; 8]; 4];
     #[cfg(target_arch = "x86_64")]
-    if FAST {
-        // SAFETY: the caller runs with AVX2, and all indices were just found to be within.
-        return unsafe { avx2::gather(points, at) };
+    if S::LANES == 8 {
+        // SAFETY: only AVX2 has eight lanes, and all of `at` were just found to be within.
+        lanes = unsafe { avx2::gather(points, at) };
+        let [x, y, z, w] = &lanes;
+        return [s.load(x, 0), s.load(y, 0), s.load(z, 0), s.load(w, 0)];
     }
-    let mut lanes = [[0.0; LANES]; 4];
-    for lane in 0..LANES {
-        let point = points[at[lane] as usize];
-        for number in 0..4 {
-            lanes[number][lane] = point[number];
-        }
+    for (lane, at) in at.iter().enumerate() {
+        let [x, y, z, w] = points[*at as usize];
+        (lanes[0][lane], lanes[1][lane], lanes[2][lane], lanes[3][lane]) = (x, y, z, w);
     }
-    lanes
+    let [x, y, z, w] = &lanes;
+    [s.load(x, 0), s.load(y, 0), s.load(z, 0), s.load(w, 0)]
 }
 
-/// Puts eight points back. Of equal indices the last one stays.
+/// Puts points back. Of equal places the last one stays.
 ///
 /// # Panics
-/// If a point is not there.
+/// As `turn`.
 #[inline(always)]
-pub(crate) fn scatter<const FAST: bool>(
-    points: &mut [[f32; 4]],
-    at: &[u32; LANES],
-    lanes: &[Lanes; 4],
-) {
+pub(crate) fn turn_back<S: Simd>(s: S, points: &mut [[f32; 4]], at: &[u32], numbers: [S::F; 4]) {
+    let at = &at[..S::LANES];
     assert_all_within(points, at);
+    let mut lanes = [[0.0; 8]; 4];
+    for (lanes, number) in lanes.iter_mut().zip(numbers) {
+        s.store(lanes, 0, number);
+    }
     #[cfg(target_arch = "x86_64")]
-    if FAST {
-        // SAFETY: as in `gather`.
-        unsafe { avx2::scatter(points, at, lanes) };
+    if S::LANES == 8 {
+        // SAFETY: as in `turn`.
+        unsafe { avx2::scatter(points, at, &lanes) };
         return;
     }
-    for lane in 0..LANES {
-        points[at[lane] as usize] = [0, 1, 2, 3].map(|number| lanes[number][lane]);
+    for (lane, at) in at.iter().enumerate() {
+        let [x, y, z, w] = &lanes;
+        points[*at as usize] = [x[lane], y[lane], z[lane], w[lane]];
     }
 }
 
-/// One comparison for all eight.
+/// One comparison for all.
 #[inline(always)]
-fn assert_all_within(points: &[[f32; 4]], at: &[u32; LANES]) {
+fn assert_all_within(points: &[[f32; 4]], at: &[u32]) {
     let mut most = 0;
     for index in at {
         most = if *index > most { *index } else { most };
@@ -61,7 +63,6 @@ fn assert_all_within(points: &[[f32; 4]], at: &[u32; LANES]) {
 /// What compilers do not find by themselves: four by four numbers turned in registers.
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use super::{LANES, Lanes};
     use core::arch::x86_64::{
         __m256, _mm_loadu_ps, _mm_storeu_ps, _mm256_castps128_ps256, _mm256_castps256_ps128,
         _mm256_extractf128_ps, _mm256_insertf128_ps, _mm256_shuffle_ps, _mm256_unpackhi_ps,
@@ -69,36 +70,40 @@ mod avx2 {
     };
 
     /// # Safety
-    /// All of `at` are below the number of points.
+    /// `at` has eight entries, all below the number of points.
     #[inline]
     #[target_feature(enable = "avx2")]
-    pub unsafe fn gather(points: &[[f32; 4]], at: &[u32; LANES]) -> [Lanes; 4] {
+    pub unsafe fn gather(points: &[[f32; 4]], at: &[u32]) -> [[f32; 8]; 4] {
         let two = |lane: usize| {
             // SAFETY: the caller's promise above; a point is sixteen bytes.
             unsafe {
-                let low = _mm_loadu_ps(points.get_unchecked(at[lane] as usize).as_ptr());
-                let high = _mm_loadu_ps(points.get_unchecked(at[lane + 4] as usize).as_ptr());
+                let low =
+                    _mm_loadu_ps(points.get_unchecked(*at.get_unchecked(lane) as usize).as_ptr());
+                let high = _mm_loadu_ps(
+                    points.get_unchecked(*at.get_unchecked(lane + 4) as usize).as_ptr(),
+                );
                 _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high)
             }
         };
         let turned = turn([two(0), two(1), two(2), two(3)]);
         // SAFETY: both are eight times four floats.
-        unsafe { core::mem::transmute::<[__m256; 4], [Lanes; 4]>(turned) }
+        unsafe { core::mem::transmute::<[__m256; 4], [[f32; 8]; 4]>(turned) }
     }
 
     /// # Safety
-    /// All of `at` are below the number of points.
+    /// `at` has eight entries, all below the number of points.
     #[inline]
     #[target_feature(enable = "avx2")]
-    pub unsafe fn scatter(points: &mut [[f32; 4]], at: &[u32; LANES], lanes: &[Lanes; 4]) {
+    pub unsafe fn scatter(points: &mut [[f32; 4]], at: &[u32], lanes: &[[f32; 8]; 4]) {
         // SAFETY: both are eight times four floats.
-        let lanes = unsafe { core::mem::transmute::<[Lanes; 4], [__m256; 4]>(*lanes) };
+        let lanes = unsafe { core::mem::transmute::<[[f32; 8]; 4], [__m256; 4]>(*lanes) };
         for (lane, two) in turn(lanes).into_iter().enumerate() {
             // SAFETY: the caller's promise above; a point is sixteen bytes.
             unsafe {
-                let low = points.get_unchecked_mut(at[lane] as usize).as_mut_ptr();
+                let low = points.get_unchecked_mut(*at.get_unchecked(lane) as usize).as_mut_ptr();
                 _mm_storeu_ps(low, _mm256_castps256_ps128(two));
-                let high = points.get_unchecked_mut(at[lane + 4] as usize).as_mut_ptr();
+                let high =
+                    points.get_unchecked_mut(*at.get_unchecked(lane + 4) as usize).as_mut_ptr();
                 _mm_storeu_ps(high, _mm256_extractf128_ps::<1>(two));
             }
         }

@@ -184,6 +184,12 @@ impl Simd for Sse2 {
     }
 
     #[inline(always)]
+    fn is_any_positive(self, v: Four) -> bool {
+        // SAFETY: see above.
+        unsafe { _mm_movemask_ps(_mm_cmpgt_ps(v.0, _mm_setzero_ps())) != 0 }
+    }
+
+    #[inline(always)]
     fn deal(self, low: Four, high: Four) -> (Four, Four) {
         // SAFETY: see above.
         unsafe {
@@ -242,6 +248,12 @@ impl Simd for Avx2 {
             let keep = _mm256_cmp_ps::<_CMP_GT_OQ>(keep.0, _mm256_setzero_ps());
             Eight(_mm256_blendv_ps(old.0, new.0, keep))
         }
+    }
+
+    #[inline(always)]
+    fn is_any_positive(self, v: Eight) -> bool {
+        // SAFETY: see above.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(v.0, _mm256_setzero_ps())) != 0 }
     }
 
     #[inline(always)]
@@ -312,6 +324,12 @@ impl Simd for Avx512 {
             let keep = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(keep.0, _mm512_setzero_ps());
             Sixteen(_mm512_mask_blend_ps(keep, old.0, new.0))
         }
+    }
+
+    #[inline(always)]
+    fn is_any_positive(self, v: Sixteen) -> bool {
+        // SAFETY: see above.
+        unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) != 0 }
     }
 
     #[inline(always)]
