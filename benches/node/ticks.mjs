@@ -44,6 +44,7 @@ x real time and faster: by medians. Stretch is that of the threads.
 
 async function measure(timed, [hungBy, pinMode, isWindy], makePlain, isTest) {
   const desc = { ...hangingSheet(timed.columns, timed.rows, pinMode), settings: timed.settings };
+  desc.spacing = timed.spacing ?? desc.spacing;
   const cloth = grid(desc, isWindy);
   if (timed.floor) cloth.addCollider({ shape: "plane", position: below(desc) });
   const { tick, substeps, iterations } = cloth.settings;

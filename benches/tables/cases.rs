@@ -27,6 +27,9 @@ pub struct KernelCase {
 pub struct TickCase {
     pub columns: u32,
     pub rows: u32,
+    /// Distance between neighbours [m], if not that of the scene's sheet.
+    #[serde(default)]
+    pub spacing: Option<f32>,
     /// What differs from the defaults.
     pub settings: Settings,
     /// Whether there is a floor a little below, as in the brief of the receipt.

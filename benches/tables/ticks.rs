@@ -214,7 +214,8 @@ fn measure(case: &TickCase, hung_by: &str, pin_mode: PinMode, is_windy: bool) ->
 impl TickCase {
     fn desc(&self, pin_mode: PinMode) -> GridDesc {
         let sheet = HangingSheet::desc(self.columns, pin_mode);
-        GridDesc { rows: self.rows, settings: self.settings.clone(), ..sheet }
+        let spacing = self.spacing.unwrap_or(sheet.spacing);
+        GridDesc { rows: self.rows, spacing, settings: self.settings.clone(), ..sheet }
     }
 }
 
