@@ -36,7 +36,7 @@ fn as_mesh(desc: &GridDesc) -> Cloth {
 fn assert_equal_bits(cloth: &Cloth, ticks: u32, before: impl Fn(&mut Cloth, u32)) -> Cloth {
     let mut copies = [1, 2, 3, 4].map(|threads| {
         let mut copy = cloth.clone();
-        copy.set_threads(threads).unwrap();
+        copy.set_threads_eagerly(threads).unwrap();
         copy
     });
     for tick in 0..ticks {

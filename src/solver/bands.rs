@@ -23,7 +23,7 @@ use core::ops::Range;
 const COLORS: usize = 4;
 
 /// Links that one thread solves at least.
-const LINKS: usize = 8192;
+const LINKS: usize = 32_768;
 
 /// Rows of a band at least, about: colours take four from it on each side, and then reach two more.
 const ROWS: usize = 16;

@@ -46,7 +46,7 @@ use glam::Vec3;
 use profile::Profile;
 
 /// Particles that one thread does at least, where there is little to do for each.
-pub(crate) const PARTICLES: usize = 8192;
+pub(crate) const PARTICLES: usize = 16_384;
 
 /// Everything that a tick reads and writes.
 #[derive(Clone, Debug)]

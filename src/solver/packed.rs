@@ -96,7 +96,7 @@ pub(crate) fn unpack(world: &mut World) {
 }
 
 /// Links that one thread solves at least.
-const LINKS: usize = 4096;
+const LINKS: usize = 8192;
 
 /// Solves the links `range`, which are of one colour.
 pub(crate) fn solve<const LAW: u8>(

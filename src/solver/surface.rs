@@ -48,7 +48,7 @@ impl Band {
 
 /// Cells that one thread sums up at least.
 #[cfg(feature = "parallel")]
-const CELLS: usize = 2048;
+const CELLS: usize = 8192;
 
 /// Has `sum` add up all, in bands of a grid that is not torn where there are threads for that. It is
 /// given the band, and what to add to from the first of its particles on.
