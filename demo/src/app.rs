@@ -6,10 +6,12 @@ use muslin::{Cloth, Result};
 use serde::Serialize;
 use three_d::{CoreError, RenderTarget};
 
+use crate::blade::Afterglow;
 use crate::camera::Camera;
 use crate::controls::{self, Action, Kind};
 use crate::meter::{Governor, Meter};
 use crate::pointer::{Cursor, Pointers, Scene, Screen};
+use crate::render::trail::Spark;
 use crate::render::{Frame, Renderer, Surface};
 use crate::settings::Settings;
 use crate::sheet;
@@ -23,6 +25,10 @@ pub struct App {
     cloth: Cloth,
     camera: Camera,
     hands: Pointers,
+    /// The blade is out for as long as a key is held.
+    blade: bool,
+    afterglow: Afterglow,
+    sparks: Vec<Spark>,
     screen: Screen,
     calm: bool,
     meter: Meter,
@@ -61,6 +67,9 @@ impl App {
             settings,
             camera: Camera::default(),
             hands: Pointers::default(),
+            blade: false,
+            afterglow: Afterglow::default(),
+            sparks: Vec::new(),
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
             calm: false,
             meter: Meter::default(),
@@ -84,7 +93,8 @@ impl App {
     pub fn set_settings(&mut self, mut settings: Settings) -> Result<()> {
         settings.clamp();
         let rebuild = settings.resolution != self.settings.resolution
-            || settings.pinning != self.settings.pinning;
+            || settings.pinning != self.settings.pinning
+            || settings.fabric != self.settings.fabric;
         if rebuild {
             self.hang(&settings)?;
         } else {
@@ -203,6 +213,11 @@ impl App {
         self.camera.zoom(1.0 / factor);
     }
 
+    /// The key for the blade goes down or up.
+    pub fn hold_blade(&mut self, out: bool) {
+        self.blade = out;
+    }
+
     /// What the cursor should say.
     ///
     /// # Errors
@@ -226,6 +241,7 @@ impl App {
             self.cloth.advance(seconds)?;
             self.meter.simulated((self.clock)() - start);
         }
+        self.afterglow.fade(seconds);
         self.meter.frame(seconds);
         self.governor.frame(seconds);
         Ok(())
@@ -234,6 +250,7 @@ impl App {
     /// Runs exactly so many ticks, whatever the clock says.
     pub fn play(&mut self, ticks: u32) {
         self.cloth.step(ticks);
+        self.afterglow.fade(ticks as f32 / 60.0);
     }
 
     /// Draws the scene as it is now.
@@ -258,13 +275,19 @@ impl App {
             positions: view.positions,
             normals: view.normals,
             uvs: view.uvs,
+            frayed: view.frayed,
             indices: view.indices,
             lines: &self.lines,
+            span: sheet::span(&self.settings),
             revision,
         };
+        self.sparks.clear();
+        self.sparks.extend(self.afterglow.sparks());
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
         let frame = Frame {
             sight: self.camera.sight(),
+            look: self.settings.fabric.look(),
+            trail: &self.sparks,
             wireframe: self.settings.wireframe,
             share: self.governor.share(density),
         };
@@ -291,6 +314,11 @@ impl App {
     /// The camera rig.
     pub fn camera(&mut self) -> &mut Camera {
         &mut self.camera
+    }
+
+    /// Particles across and down the sheet, as it was woven.
+    pub fn weave(&self) -> [u32; 2] {
+        [self.settings.resolution; 2]
     }
 
     /// Where a particle is [m].
@@ -321,7 +349,11 @@ impl App {
     fn hands(&mut self) -> (&mut Pointers, Scene<'_>) {
         let scene = Scene {
             sight: self.camera.sight(),
+            spacing: sheet::spacing(&self.settings),
+            span: sheet::span(&self.settings),
             grab_radius: 0.6 * sheet::spacing(&self.settings),
+            blade: self.blade || self.settings.blade,
+            afterglow: &mut self.afterglow,
             screen: self.screen,
             cloth: &mut self.cloth,
             camera: &mut self.camera,

@@ -119,6 +119,11 @@ impl Camera {
 }
 
 impl Sight {
+    /// Pixels that a metre covers at a distance of a metre, on a screen so many pixels high.
+    pub fn lens(&self, height: f32) -> f32 {
+        0.5 * height / (FIELD * 0.5).tan()
+    }
+
     /// The direction of looking.
     pub fn forward(&self) -> Vec3 {
         (self.target - self.eye).normalize()

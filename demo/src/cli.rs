@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::controls::{self, Kind};
+use crate::gesture::Gesture;
 use crate::settings::Settings;
 use crate::shot::Shot;
 
@@ -14,11 +15,13 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear.
   --shot FILE.png     draw a picture without a window and stop
     --size WxH        its size in pixels (1280x720)
     --frames N        ticks of 1/60 s that the scene plays first (240)
-    --tear            a hand rips the cloth while it plays
+    --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear
+    --strip N         a film strip: N pictures of that size side by side (1)
     --orbit X,Y       drag the camera, in heights of the screen (0,0)
     --zoom F          multiply the camera's distance (1)
   --NAME VALUE        give a control a value: wind, gravity, stiffness, damping,
-                      pinning (0 top edge, 1 top corners, 2 corners), resolution (0, 1, 2)
+                      fabric (0 silk, 1 cotton, 2 denim, 3 flag), pinning (0 top edge,
+                      1 top corners, 2 corners), resolution (0 to 4: 24, 40, 56, 96, 128)
   --wireframe         draw the links
   --tearing           let over-stretched links tear
   --web               serve the demo as a page (through `cargo xtask demo --web`)
@@ -65,7 +68,9 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
                 shot.orbit = glam::Vec2::new(finite(&arg, x)?, finite(&arg, y)?);
             }
             "--zoom" => shot.zoom = finite(&arg, &value()?)?,
-            "--tear" => shot.tear = true,
+            "--tear" => shot.play = Some(Gesture::Tear),
+            "--play" => shot.play = Some(gesture(&value()?)?),
+            "--strip" => shot.strip = frames(&value()?)?,
             other => {
                 let control = other
                     .strip_prefix("--")
@@ -113,6 +118,17 @@ fn finite(option: &str, text: &str) -> Result<f32, String> {
         .ok_or_else(|| format!("{option} must be a number, not {text:?}"))
 }
 
+fn gesture(name: &str) -> Result<Gesture, String> {
+    let known = Gesture::ALL.iter().find(|(known, _)| *known == name);
+    let names = Gesture::ALL.map(|(name, _)| name).join(", ");
+    known.map(|(_, g)| *g).ok_or_else(|| format!("--play must be one of {names}, not {name:?}"))
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok().filter(|n| (1..=16).contains(n));
+    count.ok_or_else(|| format!("--strip must be 1 to 16, not {text:?}"))
+}
+
 fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |side: &str| side.parse().ok().filter(|n| (16..=8192).contains(n));
     text.split_once('x')
@@ -135,7 +151,7 @@ mod tests {
             panic!("{task:?}");
         };
         assert_eq!(file, PathBuf::from("a.png"));
-        assert_eq!((shot.size, shot.ticks, shot.tear), ([390, 844], 60, true));
+        assert_eq!((shot.size, shot.ticks, shot.play), ([390, 844], 60, Some(Gesture::Tear)));
         assert!(shot.settings.wireframe && (shot.settings.wind - 2.0).abs() < 1.0e-5);
     }
 
@@ -153,6 +169,8 @@ mod tests {
             ("--shot a.png --frames many", "--frames"),
             ("--wind strong", "--wind"),
             ("--frames 3", "--shot"),
+            ("--shot a.png --play dead", "--play"),
+            ("--shot a.png --strip 0", "--strip"),
             ("--sail", "--sail"),
             ("--reset", "--reset"),
         ] {

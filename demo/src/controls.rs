@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use crate::fabric::Fabric;
 use crate::settings::{DAMPING, GRAVITY, Pinning, RESOLUTIONS, STIFFNESS, Settings, WIND};
 
 /// One control.
@@ -146,11 +147,29 @@ pub static CONTROLS: &[Control] = &[
         kind: Kind::Switch { get: |s| s.tearing, set: |s, on| s.tearing = on },
     },
     Control {
+        name: "blade",
+        label: "Blade",
+        about: "Swipe to cut; Shift does it for one swipe",
+        key: 'B',
+        kind: Kind::Switch { get: |s| s.blade, set: |s, on| s.blade = on },
+    },
+    Control {
         name: "paused",
         label: "Pause",
         about: "Time stands still",
         key: ' ',
         kind: Kind::Switch { get: |s| s.paused, set: |s, on| s.paused = on },
+    },
+    Control {
+        name: "fabric",
+        label: "Fabric",
+        about: "What the sheet is of",
+        key: 'L',
+        kind: Kind::Choice {
+            options: &Fabric::NAMES,
+            get: |s| Fabric::ALL.iter().position(|f| *f == s.fabric).unwrap_or(0),
+            set: |s, i| s.fabric = Fabric::ALL[i],
+        },
     },
     Control {
         name: "pinning",
@@ -169,7 +188,7 @@ pub static CONTROLS: &[Control] = &[
         about: "Particles along a side",
         key: 'N',
         kind: Kind::Choice {
-            options: &["24", "40", "56"],
+            options: &["24", "40", "56", "96", "128"],
             get: |s| RESOLUTIONS.iter().position(|r| *r == s.resolution).unwrap_or(1),
             set: |s, i| s.resolution = RESOLUTIONS[i],
         },

@@ -4,8 +4,12 @@
 //! picture. [`controls`] is the one table behind both panels.
 
 pub mod app;
+pub mod blade;
 pub mod camera;
 pub mod controls;
+pub mod fabric;
+pub mod gesture;
+pub mod hand;
 pub mod meter;
 pub mod pointer;
 pub mod render;

@@ -1,9 +1,11 @@
 //! Hands on the scene: each pointer holds a piece of cloth or the camera, or nothing.
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, Grab, Result};
+use muslin::{Cloth, Result};
 
+use crate::blade::{Afterglow, Swipe};
 use crate::camera::{Camera, Sight};
+use crate::hand::Hand;
 use crate::render::light::{FLOOR, STAGE_CENTRE};
 
 /// How far a held particle may be pulled from the middle of the stage [m].
@@ -39,8 +41,9 @@ impl Screen {
 /// What a pointer holds.
 #[derive(Debug)]
 enum Hold {
-    Cloth { grab: Grab, at: Vec3 },
+    Cloth(Hand),
     Camera,
+    Blade(Swipe),
 }
 
 #[derive(Debug)]
@@ -59,6 +62,8 @@ pub enum Cursor {
     Grab,
     /// Cloth is held.
     Grabbing,
+    /// The blade is out.
+    Crosshair,
 }
 
 impl Cursor {
@@ -68,6 +73,7 @@ impl Cursor {
             Self::Default => "default",
             Self::Grab => "grab",
             Self::Grabbing => "grabbing",
+            Self::Crosshair => "crosshair",
         }
     }
 }
@@ -85,7 +91,8 @@ impl Pointers {
         !self.down.is_empty()
     }
 
-    /// A pointer comes down: on cloth it grabs, elsewhere it takes the camera.
+    /// A pointer comes down: on cloth it grabs, elsewhere it takes the camera; with the blade out it
+    /// cuts, wherever it is.
     ///
     /// A second finger that lands beside the cloth turns both into a pinch.
     ///
@@ -96,9 +103,15 @@ impl Pointers {
             return Ok(());
         }
         self.lift(id, scene)?;
+        if scene.blade {
+            scene.glow(at, true);
+            self.down.push(Pointer { id, at, hold: Hold::Blade(Swipe::new(at)) });
+            return Ok(());
+        }
         let direction = scene.ray(at);
-        let hold = match scene.cloth.grab_ray(scene.sight.eye, direction, scene.grab_radius)? {
-            Some((grab, at)) => Hold::Cloth { grab, at },
+        let ray = [scene.sight.eye, direction];
+        let hold = match Hand::take(scene.cloth, ray, scene.grab_radius, scene.span)? {
+            Some(hand) => Hold::Cloth(hand),
             None => {
                 self.open_hands(scene)?;
                 Hold::Camera
@@ -121,6 +134,10 @@ impl Pointers {
             return Ok(());
         };
         let from = std::mem::replace(&mut self.down[moved].at, to);
+        if let Hold::Blade(swipe) = &mut self.down[moved].hold {
+            scene.glow(to, false);
+            return swipe.reach(to, false, scene);
+        }
         if matches!(self.down[moved].hold, Hold::Camera) {
             let others: Vec<Vec2> = self
                 .down
@@ -146,12 +163,15 @@ impl Pointers {
     /// # Errors
     /// As [`Cloth::release`].
     pub fn lift(&mut self, id: u32, scene: &mut Scene<'_>) -> Result<()> {
-        if let Some(i) = self.down.iter().position(|p| p.id == id)
-            && let Hold::Cloth { grab, .. } = self.down.swap_remove(i).hold
-        {
-            scene.cloth.release(grab)?;
+        let Some(i) = self.down.iter().position(|p| p.id == id) else {
+            return Ok(());
+        };
+        let pointer = self.down.swap_remove(i);
+        match pointer.hold {
+            Hold::Cloth(hand) => hand.release(scene.cloth),
+            Hold::Blade(mut swipe) => swipe.reach(pointer.at, true, scene),
+            Hold::Camera => Ok(()),
         }
-        Ok(())
     }
 
     /// The pointer has left the screen.
@@ -166,11 +186,10 @@ impl Pointers {
     pub fn follow(&mut self, scene: &mut Scene<'_>) -> Result<()> {
         let forward = scene.sight.forward();
         for pointer in &mut self.down {
-            if let Hold::Cloth { grab, at } = &mut pointer.hold {
-                let ray = scene.ray(pointer.at);
-                let depth = (*at - scene.sight.eye).dot(forward) / ray.dot(forward);
-                *at = within_reach(scene.sight.eye + ray * depth);
-                scene.cloth.move_grab(*grab, *at)?;
+            if let Hold::Cloth(hand) = &mut pointer.hold {
+                let depth = (hand.at() - scene.sight.eye).dot(forward);
+                let to = within_reach(scene.at_depth(pointer.at, depth));
+                hand.move_to(to, scene.cloth)?;
             }
         }
         Ok(())
@@ -180,8 +199,10 @@ impl Pointers {
     /// pinch begins.
     fn open_hands(&mut self, scene: &mut Scene<'_>) -> Result<()> {
         for pointer in &mut self.down {
-            if let Hold::Cloth { grab, .. } = std::mem::replace(&mut pointer.hold, Hold::Camera) {
-                scene.cloth.release(grab)?;
+            if matches!(pointer.hold, Hold::Cloth(_))
+                && let Hold::Cloth(hand) = std::mem::replace(&mut pointer.hold, Hold::Camera)
+            {
+                hand.release(scene.cloth)?;
             }
         }
         Ok(())
@@ -197,8 +218,11 @@ impl Pointers {
     /// # Errors
     /// As [`Cloth::raycast`].
     pub fn cursor(&self, scene: &mut Scene<'_>) -> Result<Cursor> {
-        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth { .. })) {
+        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth(_))) {
             return Ok(Cursor::Grabbing);
+        }
+        if scene.blade || self.down.iter().any(|p| matches!(p.hold, Hold::Blade(_))) {
+            return Ok(Cursor::Crosshair);
         }
         match self.hover {
             Some(at) if self.down.is_empty() => {
@@ -221,13 +245,52 @@ pub struct Scene<'a> {
     pub sight: Sight,
     /// The screen.
     pub screen: Screen,
+    /// Whether the blade is out.
+    pub blade: bool,
+    /// The path of the blade.
+    pub afterglow: &'a mut Afterglow,
+    /// Distance between neighbouring particles [m].
+    pub spacing: f32,
+    /// What the weave's coordinates span [m].
+    pub span: Vec2,
     /// How far beside the cloth a grab still takes hold [m].
     pub grab_radius: f32,
 }
 
 impl Scene<'_> {
-    fn ray(&self, at: Vec2) -> Vec3 {
+    /// The unit direction from the eye through a pixel.
+    pub fn ray(&self, at: Vec2) -> Vec3 {
         self.sight.ray(self.screen.normal(at), self.screen.aspect())
+    }
+
+    /// Where a point appears, in pixels; `None` behind the eye.
+    pub fn pixels(&self, at: Vec3) -> Option<Vec2> {
+        self.sight.project(at, self.screen.aspect()).map(|normal| self.screen.pixels(normal))
+    }
+
+    /// How far in front of the eye the cloth is behind a pixel [m].
+    ///
+    /// # Errors
+    /// As [`Cloth::raycast`].
+    pub fn depth(&self, at: Vec2) -> Result<Option<f32>> {
+        let hit = self.cloth.raycast(self.sight.eye, self.ray(at), 100.0)?;
+        Ok(hit.map(|hit| (hit.position - self.sight.eye).dot(self.sight.forward())))
+    }
+
+    /// The point behind a pixel, so far in front of the eye [m].
+    pub fn at_depth(&self, at: Vec2, depth: f32) -> Vec3 {
+        let ray = self.ray(at);
+        self.sight.eye + ray * (depth / ray.dot(self.sight.forward()))
+    }
+
+    /// How many pixels an edge of the cloth covers, about.
+    pub fn edge_pixels(&self) -> f32 {
+        let away = self.sight.eye.distance(self.sight.target);
+        self.spacing * self.sight.lens(self.screen.size.y) / away.max(0.1)
+    }
+
+    fn glow(&mut self, at: Vec2, first: bool) {
+        self.afterglow.add(self.screen.normal(at), first);
     }
 }
 

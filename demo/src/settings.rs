@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
+use crate::fabric::Fabric;
+
 /// Wind, as a share of a fresh breeze.
 pub const WIND: RangeInclusive<f32> = 0.0..=3.0;
 /// Gravity [m/s²].
@@ -13,7 +15,7 @@ pub const STIFFNESS: RangeInclusive<f32> = 1.0..=12.0;
 /// Damping: the share of its velocity that a particle loses in a sixtieth of a second.
 pub const DAMPING: RangeInclusive<f32> = 0.0..=0.06;
 /// Particles along a side of the sheet.
-pub const RESOLUTIONS: [u32; 3] = [24, 40, 56];
+pub const RESOLUTIONS: [u32; 5] = [24, 40, 56, 96, 128];
 
 /// Which particles hold the sheet up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,8 +46,12 @@ pub struct Settings {
     pub wireframe: bool,
     /// Over-stretched links tear.
     pub tearing: bool,
+    /// Pointers cut instead of grabbing.
+    pub blade: bool,
     /// Time stands still.
     pub paused: bool,
+    /// What it is of.
+    pub fabric: Fabric,
     /// What holds the sheet up.
     pub pinning: Pinning,
     /// Particles along a side, one of [`RESOLUTIONS`].
@@ -61,7 +67,9 @@ impl Default for Settings {
             damping: 0.012,
             wireframe: false,
             tearing: false,
+            blade: false,
             paused: false,
+            fabric: Fabric::Silk,
             pinning: Pinning::TopEdge,
             resolution: 40,
         }
@@ -115,6 +123,7 @@ mod tests {
         let settings = Settings {
             wind: 2.25,
             tearing: true,
+            fabric: Fabric::Denim,
             pinning: Pinning::Corners,
             resolution: 56,
             ..Settings::default()

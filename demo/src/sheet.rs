@@ -19,6 +19,11 @@ pub fn spacing(settings: &Settings) -> f32 {
     HangingSheet::SIZE / (settings.resolution - 1) as f32
 }
 
+/// Width and height of the sheet [m].
+pub fn span(_settings: &Settings) -> Vec2 {
+    Vec2::splat(HangingSheet::SIZE)
+}
+
 /// A fresh sheet over its floor.
 ///
 /// # Errors
@@ -30,6 +35,7 @@ pub fn build(settings: &Settings, calm: bool) -> Result<Cloth> {
         Pinning::Corners => PinMode::Corners,
     };
     let mut desc = HangingSheet::desc(settings.resolution, pin_mode);
+    desc.material = settings.fabric.material();
     // The stiffness slider multiplies them by up to twelve sweeps: four are smooth, and cheap.
     desc.settings.substeps = 4;
     let mut cloth = Cloth::grid(&desc)?;

@@ -1,10 +1,13 @@
-//! A picture without a window: so many ticks of the scene, then one frame into a PNG.
+//! A picture without a window: so many ticks of the scene, then one frame into a PNG, or several side
+//! by side: a film strip.
 
 use std::path::Path;
 
 use glam::Vec2;
 
 use crate::app::App;
+use crate::camera::Camera;
+use crate::gesture::{Gesture, Play};
 use crate::headless::Headless;
 use crate::render::{Canvas, Renderer};
 use crate::settings::Settings;
@@ -16,8 +19,10 @@ pub struct Shot {
     pub size: [u32; 2],
     /// Ticks that the scene plays first.
     pub ticks: u32,
-    /// Whether a hand rips the cloth while it plays.
-    pub tear: bool,
+    /// What hands do in the last of them.
+    pub play: Option<Gesture>,
+    /// How many frames there are, side by side.
+    pub strip: u32,
     /// The controls.
     pub settings: Settings,
     /// How far the camera is dragged from where it starts, in heights of the screen.
@@ -31,7 +36,8 @@ impl Default for Shot {
         Self {
             size: [1280, 720],
             ticks: 240,
-            tear: false,
+            play: None,
+            strip: 1,
             settings: Settings::default(),
             orbit: Vec2::ZERO,
             zoom: 1.0,
@@ -47,13 +53,6 @@ pub struct Picture {
     pub rgb: Vec<u8>,
 }
 
-/// Ticks that a rip takes, until the cloth hangs again.
-const RIP: u32 = 110;
-/// Ticks of it that the hands pull.
-const PULL: u32 = 80;
-/// Ticks until they are as far as they go.
-const WAY: f32 = 45.0;
-
 type Failure = Box<dyn std::error::Error>;
 
 impl Shot {
@@ -64,66 +63,84 @@ impl Shot {
     pub fn take(&self) -> Result<Picture, Failure> {
         let headless = Headless::new()?;
         let mut renderer = Renderer::new(&headless.context)?;
-        let mut app = self.play()?;
         let [width, height] = self.size;
         let canvas = Canvas::new(&headless.context, width, height);
-        app.draw(&mut renderer, &canvas.target())?;
-        let rgb = canvas.pixels().iter().flat_map(|p| [p[0], p[1], p[2]]).collect();
-        Ok(Picture { size: self.size, rgb })
+        let mut strip = Picture::black([width * self.strip, height]);
+        // The hands work before the usual camera, whatever the picture: the same gesture in each.
+        let (mut app, mut play) = self.begin()?;
+        let hands_view = app.camera().clone();
+        let mut ticks = 0;
+        for i in 0..self.strip {
+            let until = self.moment(i);
+            while ticks < until {
+                match &mut play {
+                    Some(play) => play.step(&mut app)?,
+                    None => app.play(1),
+                }
+                ticks += 1;
+            }
+            *app.camera() = self.view(&hands_view);
+            app.draw(&mut renderer, &canvas.target())?;
+            *app.camera() = hands_view.clone();
+            strip.put(i * width, self.size, &canvas.pixels());
+        }
+        Ok(strip)
     }
 
-    fn play(&self) -> Result<App, Failure> {
+    /// The scene after as many ticks as come before the gesture, and the gesture.
+    fn begin(&self) -> Result<(App, Option<Play>), Failure> {
         let mut settings = self.settings.clone();
-        settings.tearing |= self.tear;
+        settings.tearing |= matches!(self.play, Some(Gesture::Tear | Gesture::Yank));
         let mut app = App::new(settings, || 0.0)?;
         app.camera().set_drift(false);
-        // The hands work before the usual camera, whatever the picture: the same rip in each.
-        if self.tear {
-            let before = self.ticks.saturating_sub(RIP);
-            app.play(before);
-            self.rip(&mut app, self.ticks - before)?;
-        } else {
-            app.play(self.ticks);
-        }
-        let [width, height] = self.size.map(|side| side as f32);
-        app.resize(Vec2::new(width, height));
-        app.camera().orbit(self.orbit);
-        app.camera().zoom(self.zoom);
-        for _ in 0..600 {
-            app.camera().advance(1.0 / 60.0, true);
-        }
-        Ok(app)
+        app.play(self.ticks - self.played());
+        let play = self.play.map(|gesture| Play::new(gesture, &mut app));
+        Ok((app, play))
     }
 
-    /// Two hands take the hem, a little apart, and pull it asunder; then they let go.
-    fn rip(&self, app: &mut App, ticks: u32) -> Result<(), Failure> {
-        let n = app.settings().resolution;
-        let height = app.screen().size.y;
-        let mut hands = Vec::new();
-        for (id, column, pull) in [(1, 0.44, [-0.5, 0.0]), (2, 0.54, [0.5, -0.1])] {
-            let at = |share: f32| (share * (n - 1) as f32) as u32;
-            let Some(from) = app.particle_on_screen(at(0.85) * n + at(column)) else {
-                return Ok(());
-            };
-            app.press(id, from)?;
-            hands.push((id, from, Vec2::from_array(pull) * height));
+    /// Ticks that are played with hands, or from the first picture of a strip to the last.
+    fn played(&self) -> u32 {
+        let gesture = self.play.map_or(0, Gesture::ticks);
+        let still = if self.strip > 1 { 60 } else { 0 };
+        if self.play.is_some() { gesture } else { still }.min(self.ticks)
+    }
+
+    /// After how many of these the picture of this number is taken.
+    fn moment(&self, i: u32) -> u32 {
+        self.played() * (i + 1) / self.strip
+    }
+
+    /// The camera of the picture.
+    fn view(&self, usual: &Camera) -> Camera {
+        let [width, height] = self.size.map(|side| side as f32);
+        let mut camera = usual.clone();
+        camera.frame(width / height);
+        camera.orbit(self.orbit);
+        camera.zoom(self.zoom);
+        for _ in 0..600 {
+            camera.advance(1.0 / 60.0, true);
         }
-        for tick in 0..ticks {
-            let share = (tick as f32 / WAY).min(1.0);
-            for (id, from, pull) in &hands {
-                if tick < PULL {
-                    app.drag(*id, *from + *pull * share)?;
-                } else {
-                    app.lift(*id)?;
-                }
-            }
-            app.play(1);
-        }
-        Ok(())
+        camera
     }
 }
 
 impl Picture {
+    fn black(size: [u32; 2]) -> Self {
+        Self { size, rgb: vec![0; 3 * size[0] as usize * size[1] as usize] }
+    }
+
+    /// Puts the pixels of a smaller picture into this one, so far from its left side.
+    fn put(&mut self, left: u32, size: [u32; 2], pixels: &[[u8; 4]]) {
+        let [width, height] = size.map(|side| side as usize);
+        for row in 0..height {
+            let start = 3 * (row * self.size[0] as usize + left as usize);
+            let into = self.rgb[start..start + 3 * width].chunks_exact_mut(3);
+            for (into, pixel) in into.zip(&pixels[row * width..]) {
+                into.copy_from_slice(&pixel[..3]);
+            }
+        }
+    }
+
     /// Writes it as PNG.
     ///
     /// # Errors

@@ -134,6 +134,12 @@ impl Demo {
         Box::new(self.app.camera().sight().eye.to_array())
     }
 
+    /// The key for the blade goes down or up.
+    #[wasm_bindgen(js_name = holdBlade)]
+    pub fn hold_blade(&mut self, out: bool) {
+        self.app.hold_blade(out);
+    }
+
     /// The CSS cursor that fits.
     pub fn cursor(&mut self) -> Result<String, JsError> {
         self.app.cursor().map(|c| c.css().into()).map_err(told)

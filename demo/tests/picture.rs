@@ -1,6 +1,7 @@
 //! Pictures that the demo draws without a window. They need EGL; without it they fail and say which
 //! packages to install.
 
+use muslin_demo::gesture::Gesture;
 use muslin_demo::settings::Settings;
 use muslin_demo::shot::{Picture, Shot};
 
@@ -68,6 +69,31 @@ fn wireframe_and_a_rip_can_be_seen() {
     let settings = Settings { wireframe: true, ..Settings::default() };
     let lines = take(&Shot { ticks: 120, settings, ..small() });
     assert!(difference(&plain, &lines) > 0.05);
-    let ripped = take(&Shot { ticks: 120, tear: true, ..small() });
+    let ripped = take(&Shot { ticks: 120, play: Some(Gesture::Tear), ..small() });
     assert!(difference(&plain, &ripped) > 0.01);
+}
+
+#[test]
+fn a_film_strip_shows_the_gesture_go_on() {
+    let settings = Settings::default();
+    for gesture in [Gesture::Yank, Gesture::Cut] {
+        let shot = Shot {
+            size: [160, 160],
+            play: Some(gesture),
+            strip: 3,
+            settings: settings.clone(),
+            ..small()
+        };
+        let strip = take(&shot);
+        assert_eq!(strip.size, [480, 160]);
+        let frame = |i: usize| {
+            let rows = strip.rgb.chunks_exact(3 * 480);
+            rows.flat_map(|row| &row[3 * 160 * i..3 * 160 * (i + 1)]).copied().collect()
+        };
+        let frames = [0, 1, 2].map(|i| Picture { size: [160, 160], rgb: frame(i) });
+        for two in frames.windows(2) {
+            let differ = difference(&two[0], &two[1]);
+            assert!(differ > 0.02, "{gesture:?}: two frames differ by {differ}");
+        }
+    }
 }

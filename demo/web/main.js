@@ -154,6 +154,7 @@ function followPointers(demo) {
   canvas.addEventListener("pointerdown", (event) => {
     if (event.pointerType === "mouse" && event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
+    demo.holdBlade(event.shiftKey);
     demo.press(event.pointerId, ...at(event));
     cursor();
     by("help").dispatchEvent(new Event("touched"));
@@ -193,7 +194,14 @@ function followKeys(demo, changed) {
     ArrowUp: [0, -0.04],
     ArrowDown: [0, 0.04],
   };
+  const blade = (event) => {
+    demo.holdBlade(event.shiftKey === true);
+    canvas.style.cursor = demo.cursor();
+  };
+  addEventListener("keyup", blade);
+  addEventListener("blur", blade);
   addEventListener("keydown", (event) => {
+    if (event.key === "Shift") blade(event);
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const free = event.target === canvas || event.target === document.body;
     if (free && arrows[event.key]) {

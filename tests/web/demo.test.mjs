@@ -117,6 +117,44 @@ test("with tearing on a hard pull rips the sheet, with tearing off it does not",
   await context.close();
 });
 
+test("a swipe with Shift held cuts, and so does a finger with the blade switched on", async () => {
+  const { context, page, complaints } = await visit({ hasTouch: true });
+  const swipe = async (down, move, up) => {
+    const [left, right] = [await particle(page, 20 * 40), await particle(page, 20 * 40 + 39)];
+    const at = (share) => left.map((x, i) => x + (right[i] - x) * share);
+    await down(at(-0.1));
+    for (let i = 1; i <= 12; i++) await move(at(-0.1 + 0.07 * i));
+    await up();
+  };
+  const whole = await stats(page);
+  const before = await eye(page);
+  await page.keyboard.down("Shift");
+  await swipe(
+    async (at) => (await page.mouse.move(...at), await page.mouse.down()),
+    (at) => page.mouse.move(...at),
+    () => page.mouse.up(),
+  );
+  await page.keyboard.up("Shift");
+  const cut = await stats(page);
+  assert.ok(cut.particles > whole.particles + 20, `${cut.particles} of ${whole.particles}`);
+  assert.equal(cut.pieces, 1);
+  assert.ok(apart(await eye(page), before) < 0.02, "the camera turned with the swipe");
+
+  await page.locator("#control-reset").click();
+  await page.locator("#control-blade").click();
+  const touch = await context.newCDPSession(page);
+  const finger = (type) => async (at) => {
+    const touchPoints = at ? [{ x: at[0], y: at[1], id: 1 }] : [];
+    await touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+  };
+  await frames(page, 4);
+  await swipe(finger("touchStart"), finger("touchMove"), finger("touchEnd"));
+  const touched = ({ particles }) => particles > whole.particles + 20;
+  await becomes(page, () => stats(page), touched, "the finger cut nothing");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test("the wheel zooms, a drag beside the sheet orbits", async () => {
   const { context, page, complaints } = await visit();
   const first = await eye(page);

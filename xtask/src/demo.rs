@@ -79,6 +79,11 @@ pub fn test_shot() -> Result {
     let shots = files::target().join("shots");
     files::make(&shots)?;
     shoot(&shots.join("shot.png"), &[])?;
+    // Film strips: how a sheet rips, and how it is cut.
+    for gesture in ["yank", "cut"] {
+        let options = ["--play", gesture, "--strip", "5", "--size", "400x400"];
+        shoot(&shots.join(gesture).with_extension("png"), &options)?;
+    }
     refuse_without_a_display()
 }
 

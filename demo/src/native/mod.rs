@@ -186,7 +186,14 @@ impl Stage {
                     TouchPhase::Ended | TouchPhase::Cancelled => self.app.lift(finger),
                 }
             }
-            WindowEvent::Focused(false) => self.app.lift(MOUSE),
+            WindowEvent::ModifiersChanged(keys) => {
+                self.app.hold_blade(keys.shift());
+                Ok(())
+            }
+            WindowEvent::Focused(false) => {
+                self.app.hold_blade(false);
+                self.app.lift(MOUSE)
+            }
             WindowEvent::ReceivedCharacter(key) => self.key(*key),
             _ => Ok(()),
         };
@@ -239,6 +246,7 @@ impl Stage {
             Cursor::Default => CursorIcon::Default,
             Cursor::Grab => CursorIcon::Grab,
             Cursor::Grabbing => CursorIcon::Grabbing,
+            Cursor::Crosshair => CursorIcon::Crosshair,
         };
         self.window.set_cursor_icon(cursor);
 

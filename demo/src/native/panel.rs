@@ -118,7 +118,7 @@ impl Panel {
     }
 
     fn instructions(&mut self, ui: &mut Ui) {
-        let text = "Drag the cloth to pull it  ·  Drag the background to orbit  ·  Scroll to zoom  ·  Toggle wind & tearing in the panel";
+        let text = "Drag the cloth to pull it  ·  Drag the background to orbit  ·  Scroll to zoom  ·  Hold Shift and swipe to cut  ·  Toggle wind & tearing in the panel";
         ui.spacing_mut().interact_size.y = 28.0;
         ui.horizontal(|ui| {
             ui.label(RichText::new(text).color(TEXT));

@@ -12,11 +12,15 @@ pub struct Surface<'a> {
     pub normals: &'a [Vec3],
     /// Where in the weave, 0 to 1 along each side.
     pub uvs: &'a [Vec2],
+    /// Whether a vertex is at a border that came about by tearing or cutting.
+    pub frayed: &'a [bool],
     /// Three a triangle.
     pub indices: &'a [u32],
     /// Two a line of the wireframe.
     pub lines: &'a [u32],
-    /// Another number says that uvs, indices or lines are others.
+    /// What the weave's coordinates span [m].
+    pub span: Vec2,
+    /// Another number says that uvs, frayed borders, indices or lines are others.
     pub revision: u64,
 }
 
@@ -25,8 +29,10 @@ pub struct Mesh {
     pub(super) positions: VertexBuffer<[f32; 3]>,
     pub(super) normals: VertexBuffer<[f32; 3]>,
     pub(super) uvs: VertexBuffer<[f32; 2]>,
+    pub(super) frayed: VertexBuffer<f32>,
     pub(super) triangles: ElementBuffer<u32>,
     pub(super) lines: ElementBuffer<u32>,
+    pub(super) span: Vec2,
     revision: Option<u64>,
     staging: Vec<[f32; 3]>,
 }
@@ -38,8 +44,10 @@ impl Mesh {
             positions: VertexBuffer::new(context),
             normals: VertexBuffer::new(context),
             uvs: VertexBuffer::new(context),
+            frayed: VertexBuffer::new(context),
             triangles: ElementBuffer::new(context),
             lines: ElementBuffer::new(context),
+            span: Vec2::ONE,
             revision: None,
             staging: Vec::new(),
         }
@@ -55,9 +63,12 @@ impl Mesh {
         };
         upload(&mut self.positions, surface.positions);
         upload(&mut self.normals, surface.normals);
+        self.span = surface.span;
         if self.revision != Some(surface.revision) {
             let uvs: Vec<_> = surface.uvs.iter().map(|uv| uv.to_array()).collect();
             self.uvs.fill(&uvs);
+            let frayed: Vec<_> = surface.frayed.iter().map(|f| f32::from(u8::from(*f))).collect();
+            self.frayed.fill(&frayed);
             self.triangles.fill(surface.indices);
             self.lines.fill(surface.lines);
             self.revision = Some(surface.revision);

@@ -4,6 +4,7 @@
 //! picture. Every shader is written for both desktop GL 3.3 and WebGL 2.
 
 pub mod cloth_material;
+pub mod fringe;
 pub mod glow;
 pub mod ground;
 pub mod light;
@@ -11,6 +12,7 @@ pub mod mesh;
 pub mod post;
 pub mod shadow;
 pub mod sky;
+pub mod trail;
 pub mod wireframe;
 
 use glam::{Mat4, Vec3};
@@ -20,13 +22,19 @@ use three_d::{
 };
 
 use crate::camera::Sight;
+use crate::fabric::Look;
+use cloth_material::Dye;
 pub use mesh::Surface;
 
 /// What a frame shows besides the cloth itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct Frame<'a> {
     /// From where, and how wide.
     pub sight: Sight,
+    /// How the cloth takes the light.
+    pub look: Look,
+    /// The path of the blade.
+    pub trail: &'a [trail::Spark],
     /// Whether the links are drawn over the dimmed cloth.
     pub wireframe: bool,
     /// The share of the output's pixels that are drawn along each side; the rest are blended.
@@ -45,6 +53,8 @@ pub struct Renderer {
     ground: ground::Ground,
     glow: glow::Glow,
     wireframe: wireframe::Wireframe,
+    fringe: fringe::Fringe,
+    trail: trail::Trail,
     post: post::Post,
     corners: Corners,
     target: Option<Target>,
@@ -81,6 +91,8 @@ impl Renderer {
             ground: ground::Ground::new(context)?,
             glow: glow::Glow::new(context)?,
             wireframe: wireframe::Wireframe::new(context)?,
+            fringe: fringe::Fringe::new(context)?,
+            trail: trail::Trail::new(context)?,
             post: post::Post::new(context)?,
             corners: Corners::new(context),
             target: None,
@@ -94,19 +106,21 @@ impl Renderer {
     pub fn draw(
         &mut self,
         surface: &Surface<'_>,
-        frame: &Frame,
+        frame: &Frame<'_>,
         output: &RenderTarget<'_>,
     ) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * frame.share).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
         self.fit(width, height);
         self.mesh.update(surface);
+        self.fringe.update(surface);
         self.shadow.draw(&self.mesh, &self.lights)?;
         self.floor_shadow.draw(&self.mesh, &self.lights)?;
 
         let Some(target) = &self.target else {
             return Ok(());
         };
+        let dye = Dye::new(frame.look);
         let pass = Pass {
             viewport: Viewport::new_at_origo(width, height),
             clip_from_world: frame.sight.clip_from_world(width as f32 / height as f32),
@@ -118,14 +132,16 @@ impl Renderer {
             .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
             .write::<CoreError>(|| {
                 self.sky.draw(&pass, &self.corners);
-                self.cloth.draw_reflection(&pass, &self.mesh, &self.shadow);
+                self.cloth.draw_reflection(&pass, &self.mesh, &self.shadow, &dye);
                 self.ground.draw(&pass, &self.corners, &self.floor_shadow);
                 let dim = if frame.wireframe { 0.16 } else { 1.0 };
-                self.cloth.draw(&pass, &self.mesh, &self.shadow, dim);
+                self.cloth.draw(&pass, &self.mesh, &self.shadow, &dye, dim);
+                self.fringe.draw(&pass, &self.shadow, &dye, dim);
                 if frame.wireframe {
                     self.wireframe.draw(&pass, &self.mesh);
                 }
                 self.glow.draw(&pass, &self.corners);
+                self.trail.draw(&pass, frame.trail);
                 Ok(())
             })?;
         target.samples.resolve_color_to(&target.resolved.as_color_target(None));

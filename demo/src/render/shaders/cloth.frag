@@ -1,13 +1,13 @@
-// Woven silk: two faces, a satin highlight stretched across the threads, sheen at grazing angles,
-// and key light that comes through from behind.
+// Woven cloth: two faces, a highlight stretched across the threads, sheen at grazing angles, and key
+// light that comes through from behind. How much of each is the fabric's own.
 
 uniform vec3 eye;
 uniform vec3 fillTowards;
 uniform vec3 fillColour;
 uniform vec3 rimTowards;
 uniform vec3 rimColour;
-uniform vec3 frontAlbedo;
-uniform vec3 backAlbedo;
+uniform vec4 gloss;  // width across and along, strength, what it mirrors
+uniform vec2 fibres; // fuzz, share of light that comes through
 uniform float dim;      // 1.0, less under the wireframe
 uniform float mirrored; // 1.0: this is the floor's picture of the cloth
 uniform float floorHeight;
@@ -15,47 +15,9 @@ uniform float floorHeight;
 in vec3 at;
 in vec3 facing;
 in vec2 uv;
+in float loose; // 1.0 at a torn border, 0.0 a triangle further in
 
 layout (location = 0) out vec4 colour;
-
-const float PI = 3.14159265;
-const float THREADS = 440.0; // along each side
-
-float hash(vec2 p) {
-    uvec2 q = uvec2(ivec2(p)) * uvec2(1597334673u, 3812015801u);
-    uint n = (q.x ^ q.y) * 1597334673u;
-    n ^= n >> 15;
-    n *= 2246822519u;
-    return float(n >> 8) / 16777216.0;
-}
-
-float noise(vec2 p) {
-    vec2 i = floor(p);
-    vec2 f = p - i;
-    f = f * f * (3.0 - 2.0 * f);
-    return mix(
-        mix(hash(i), hash(i + vec2(1.0, 0.0)), f.x),
-        mix(hash(i + vec2(0.0, 1.0)), hash(i + vec2(1.0, 1.0)), f.x),
-        f.y);
-}
-
-// Tilts of the surface along warp and weft: the threads pass over and under each other, and no
-// thread is evenly thick. Both fade before they could flicker.
-vec2 weave(vec2 uv, float footprint) {
-    vec2 t = uv * THREADS;
-    float near = 1.0 - smoothstep(0.24, 0.56, footprint * THREADS);
-    vec2 bump = vec2(0.0);
-    if (near > 0.0) {
-        float over = sin(PI * t.x) * sin(PI * t.y);
-        bump = near * 0.15 * vec2(cos(PI * t.x) * sin(PI * t.y), sin(PI * t.x) * cos(PI * t.y))
-             + near * 0.04 * over * vec2(sin(2.0 * PI * t.x), sin(2.0 * PI * t.y));
-    }
-    float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 130.0);
-    vec2 slub = vec2(
-        noise(vec2(uv.x * 130.0, uv.y * 5.0)) - 0.5,
-        noise(vec2(uv.x * 4.0 + 71.0, uv.y * 130.0)) - 0.5);
-    return bump + fine * 0.05 * slub;
-}
 
 // The studio as the satin mirrors it: a graded dome and two soft boxes.
 vec3 studio(vec3 d) {
@@ -109,18 +71,15 @@ void main() {
     vec3 t = (px * uy.y - py * ux.y) * flip;
     t = direction(t - smoothN * dot(smoothN, t), cross(smoothN, v.yzx));
     vec3 b = cross(smoothN, t);
-    float footprint = max(length(ux), length(uy));
+    // How many metres of cloth a pixel covers, and how much of the weave has come undone here.
+    float footprint = max(length(ux * span), length(uy * span));
+    float undone = smoothstep(0.35, 1.0, loose);
 
-    vec2 tilt = weave(uv, footprint);
+    vec2 tilt = weave(uv * span, footprint) * (1.0 + 1.5 * undone);
     vec3 n = normalize(smoothN + t * tilt.x + b * tilt.y);
 
-    vec3 albedo = front ? frontAlbedo : backAlbedo;
-    // A hem: folded over twice, so a little deeper in colour and lighter-tight, with one seam.
-    vec2 inside = min(uv, 1.0 - uv);
-    float edge = min(inside.x, inside.y);
-    float hem = 1.0 - smoothstep(0.0125, 0.0125 + max(footprint, 0.0004), edge);
-    float seam = 1.0 - smoothstep(0.0, 0.0011 + 0.5 * footprint, abs(edge - 0.0115));
-    albedo *= 1.0 - 0.07 * hem - 0.16 * seam;
+    float hem;
+    vec3 albedo = dyed(front, uv, footprint, hem);
 
     float nv = clamp(dot(n, v), 0.03, 1.0); // above one, `pow` of the rest would be no number
     float nl = dot(n, keyTowards);
@@ -134,19 +93,19 @@ void main() {
     // How open to the studio a point is: what turns away or lies in shadow is hollow.
     float open = lit * smoothstep(-0.15, 0.55, nl);
     vec3 h = normalize(keyTowards + v);
-    float lobe = satin(n, t, b, keyTowards, v, vec2(0.21, 0.46)) * max(nl, 0.0);
-    light += keyColour * lit * (albedo * soft / PI * 1.08 + vec3(0.15) * lobe);
-    light += keyColour * lit * max(nl, 0.0) * 0.20 * vec3(0.80, 0.87, 1.0) * fuzz(dot(n, h), max(nl, 0.0), nv);
+    float lobe = satin(n, t, b, keyTowards, v, gloss.xy) * max(nl, 0.0);
+    light += keyColour * lit * (albedo * soft / PI * 1.08 + vec3(gloss.z * (1.0 - 0.6 * undone)) * lobe);
+    light += keyColour * lit * max(nl, 0.0) * (fibres.x + 0.12 * undone) * mix(vec3(1.0), normalize(albedo + 0.05) * 1.7, 0.35) * fuzz(dot(n, h), max(nl, 0.0), nv);
     float through = max(-nl, 0.0);
     through = 0.30 * through + 0.55 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
-    light += keyColour * lit * through * (1.0 - 0.30 * hem) * albedo * vec3(0.90, 0.92, 1.0) * 0.66;
+    light += keyColour * lit * through * (1.0 - 0.30 * hem) * albedo * fibres.y * (1.0 + 0.4 * undone) * 0.62;
 
     // Fill and rim throw no shadow, so they are kept off faces that turn away.
     float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);
     light += fillColour * albedo * fl / PI * 1.6;
     float rl = max(dot(n, rimTowards), 0.0);
     light += rimColour * (albedo * rl / PI * 0.35 + 0.5 * pow(1.0 - nv, 3.0) * max(dot(smoothN, rimTowards) + 0.35, 0.0) * 0.6);
-    light += rimColour * max(-dot(n, rimTowards), 0.0) * albedo * 0.07;
+    light += rimColour * max(-dot(n, rimTowards), 0.0) * albedo * 0.07 * fibres.y;
 
     // Sky and floor, and what the satin mirrors of the studio.
     vec3 dome = mix(vec3(0.050, 0.054, 0.074), vec3(0.165, 0.190, 0.265), 0.5 + 0.5 * n.y);
@@ -154,7 +113,7 @@ void main() {
     light += albedo * dome * hollow * 1.05;
     float grazing = pow(1.0 - nv, 4.0);
     vec3 mirror = reflect(-v, normalize(mix(n, smoothN, 0.3)));
-    light += studio(mirror) * (0.045 + 0.34 * grazing) * mix(0.35, 1.0, max(open, through * lit));
+    light += studio(mirror) * gloss.w * (0.045 + 0.34 * grazing) * mix(0.35, 1.0, max(open, through * lit));
 
     float alpha = 1.0;
     if (mirrored > 0.5) alpha = 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0));

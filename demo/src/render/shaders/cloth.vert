@@ -5,14 +5,17 @@ uniform float floorHeight;
 in vec3 position;
 in vec3 normal;
 in vec2 texcoord;
+in float frayed;
 
 out vec3 at;
 out vec3 facing;
 out vec2 uv;
+out float loose;
 
 void main() {
     at = position;
     facing = normal;
     uv = texcoord;
+    loose = frayed;
     gl_Position = clipFromWorld * vec4(position.x, mix(position.y, 2.0 * floorHeight - position.y, mirrored), position.z, 1.0);
 }

@@ -1,0 +1,151 @@
+//! The fabrics of the demo: what they are made of, and how they take the light.
+
+use muslin::{Material, Preset};
+use serde::{Deserialize, Serialize};
+
+/// A fabric that the sheet can be of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fabric {
+    /// Light and fluid, silvery blue.
+    #[default]
+    Silk,
+    /// Unbleached shirting: dull, and the light comes through.
+    Cotton,
+    /// Heavy indigo twill with a pale back and topstitching.
+    Denim,
+    /// Printed nylon, crisp and bright.
+    Flag,
+}
+
+/// How a fabric takes the light. Colours are sRGB, `0xrrggbb`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Colour of the front.
+    pub front: u32,
+    /// Colour of the back.
+    pub back: u32,
+    /// How much of these colours the fabric keeps: the lights of the stage bring the rest.
+    pub kept: f32,
+    /// Colour of loose threads that run down, and across.
+    pub threads: [u32; 2],
+    /// Colour of the seam along the hem, and how plainly it shows.
+    pub seam: (u32, f32),
+    /// Threads a metre that the eye makes out.
+    pub count: f32,
+    /// How far they stand out, and how unevenly they are spun.
+    pub relief: [f32; 2],
+    /// 0: over and under by turns; 1: diagonal ridges; 2: fine, with a stouter thread now and then.
+    pub weave: f32,
+    /// Width of the gloss across and along, its strength, and what the surface mirrors.
+    pub gloss: [f32; 4],
+    /// Sheen of loose fibres at grazing angles.
+    pub fuzz: f32,
+    /// Share of the light that comes through.
+    pub through: f32,
+    /// Whether it bears the print of a flag.
+    pub printed: bool,
+}
+
+impl Fabric {
+    /// All of them, in the order of the panel.
+    pub const ALL: [Self; 4] = [Self::Silk, Self::Cotton, Self::Denim, Self::Flag];
+    /// What the panel calls them.
+    pub const NAMES: [&'static str; 4] = ["Silk", "Cotton", "Denim", "Flag"];
+
+    /// What it is made of. It stretches as little as the sweeps allow, so that the slider for them
+    /// is felt.
+    pub fn material(self) -> Material {
+        // Four times its length, as the brief has it, is rubber: these rip as cloth does.
+        let (preset, tear_stretch) = match self {
+            Self::Silk => (Preset::Silk, 1.6),
+            Self::Cotton => (Preset::Cotton, 1.65),
+            Self::Denim => (Preset::Denim, 1.9),
+            Self::Flag => (Preset::FlagNylon, 1.75),
+        };
+        Material {
+            stretch_stiffness_warp: 0.0,
+            stretch_stiffness_weft: 0.0,
+            tear_stretch,
+            ..Material::preset(preset)
+        }
+    }
+
+    /// How it takes the light.
+    pub fn look(self) -> Look {
+        match self {
+            Self::Silk => Look {
+                front: 0x9fb6ff,
+                back: 0xc0c8ff,
+                kept: 0.72,
+                threads: [0xb4c2ff, 0xd6dcff],
+                seam: (0x6f7fbf, 0.30),
+                count: 220.0,
+                relief: [0.15, 0.05],
+                weave: 0.0,
+                gloss: [0.21, 0.46, 0.15, 1.0],
+                fuzz: 0.20,
+                through: 1.0,
+                printed: false,
+            },
+            Self::Cotton => Look {
+                front: 0xe9dfcf,
+                back: 0xdcd3c6,
+                kept: 0.85,
+                threads: [0xf2eadc, 0xe6dccb],
+                seam: (0xb9ab95, 0.55),
+                count: 130.0,
+                relief: [0.30, 0.16],
+                weave: 0.0,
+                gloss: [0.62, 0.70, 0.035, 0.10],
+                fuzz: 0.34,
+                through: 1.35,
+                printed: false,
+            },
+            Self::Denim => Look {
+                front: 0x34518f,
+                back: 0x93a3bf,
+                kept: 1.0,
+                threads: [0x3d5fa8, 0xd9dde6],
+                seam: (0xe0913f, 1.0),
+                count: 150.0,
+                relief: [0.34, 0.12],
+                weave: 1.0,
+                gloss: [0.55, 0.65, 0.035, 0.08],
+                fuzz: 0.16,
+                through: 0.10,
+                printed: false,
+            },
+            Self::Flag => Look {
+                front: 0xf2ead8,
+                back: 0xf2ead8,
+                kept: 1.0,
+                threads: [0xf2ead8, 0xff8a5c],
+                seam: (0xf7f2e6, 0.8),
+                count: 260.0,
+                relief: [0.08, 0.02],
+                weave: 2.0,
+                gloss: [0.26, 0.30, 0.11, 0.75],
+                fuzz: 0.05,
+                through: 1.5,
+                printed: true,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fabrics_differ_in_weight_and_in_look() {
+        for (i, a) in Fabric::ALL.iter().enumerate() {
+            for b in &Fabric::ALL[i + 1..] {
+                let (light, heavy) = (a.material().density, b.material().density);
+                assert!((light - heavy).abs() > 0.004, "{a:?} and {b:?} weigh {light} and {heavy}");
+                assert_ne!(a.look().front, b.look().front);
+            }
+        }
+    }
+}

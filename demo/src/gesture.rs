@@ -1,0 +1,164 @@
+//! What hands do in pictures: gestures played by tick, through the same door as a person's pointers.
+
+use glam::Vec2;
+use muslin::Result;
+
+use crate::app::App;
+
+/// A gesture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// Two hands take the hem, a little apart, and pull it asunder.
+    Tear,
+    /// One hand takes the sheet by its side and yanks it down and away.
+    Yank,
+    /// The blade swipes across the sheet.
+    Cut,
+}
+
+/// A pointer's way: where it is at which tick, straight in between, in shares of the sheet as it
+/// appears when the gesture begins: (0, 0) is its top left corner.
+struct Stroke {
+    blade: bool,
+    way: &'static [(u32, [f32; 2])],
+}
+
+const TEAR: [Stroke; 2] = [
+    Stroke { blade: false, way: &[(0, [0.44, 0.85]), (45, [-0.18, 0.85]), (80, [-0.18, 0.85])] },
+    Stroke { blade: false, way: &[(0, [0.54, 0.85]), (45, [1.16, 0.73]), (80, [1.16, 0.73])] },
+];
+
+const YANK: [Stroke; 1] = [Stroke {
+    blade: false,
+    way: &[(0, [0.04, 0.50]), (6, [0.03, 0.50]), (20, [-0.38, 0.78]), (32, [-0.40, 0.82])],
+}];
+
+const CUT: [Stroke; 1] =
+    [Stroke { blade: true, way: &[(0, [-0.12, 0.30]), (10, [0.22, 0.46]), (24, [0.78, 0.60])] }];
+
+impl Gesture {
+    /// All of them, with the names that the command line knows.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("tear", Self::Tear), ("yank", Self::Yank), ("cut", Self::Cut)];
+
+    /// Ticks from its beginning until the cloth hangs again.
+    pub fn ticks(self) -> u32 {
+        match self {
+            Self::Tear => 110,
+            Self::Yank => 100,
+            Self::Cut => 90,
+        }
+    }
+
+    fn strokes(self) -> &'static [Stroke] {
+        match self {
+            Self::Tear => &TEAR,
+            Self::Yank => &YANK,
+            Self::Cut => &CUT,
+        }
+    }
+}
+
+/// A gesture while it is played.
+pub struct Play {
+    gesture: Gesture,
+    tick: u32,
+    corner: Vec2,
+    size: Vec2,
+}
+
+impl Play {
+    /// Begins on the sheet as it hangs now.
+    pub fn new(gesture: Gesture, app: &mut App) -> Self {
+        let [columns, rows] = app.weave();
+        let place = |app: &mut App, particle| app.particle_on_screen(particle).unwrap_or_default();
+        let corner = place(app, 0);
+        let right = place(app, columns - 1);
+        let bottom = place(app, (rows - 1) * columns);
+        let size = Vec2::new(right.x - corner.x, bottom.y - corner.y);
+        Self { gesture, tick: 0, corner, size }
+    }
+
+    /// Plays one tick.
+    ///
+    /// # Errors
+    /// As [`App::press`], [`App::drag`] and [`App::lift`].
+    pub fn step(&mut self, app: &mut App) -> Result<()> {
+        for (id, stroke) in (1..).zip(self.gesture.strokes()) {
+            let [(begin, _), .., (end, _)] = stroke.way else {
+                continue;
+            };
+            let at = self.corner + stroke.at(self.tick) * self.size;
+            if self.tick == *begin {
+                app.hold_blade(stroke.blade);
+                app.press(id, at)?;
+                app.hold_blade(false);
+            } else if self.tick > *begin && self.tick < *end {
+                app.drag(id, at)?;
+            } else if self.tick == *end {
+                app.drag(id, at)?;
+                app.lift(id)?;
+            }
+        }
+        app.play(1);
+        self.tick += 1;
+        Ok(())
+    }
+}
+
+impl Stroke {
+    fn at(&self, tick: u32) -> Vec2 {
+        let after = self.way.iter().position(|(at, _)| *at >= tick);
+        let to = after.unwrap_or(self.way.len() - 1);
+        let from = to.saturating_sub(1);
+        let [(start, a), (end, b)] = [self.way[from], self.way[to]];
+        let share = (tick.saturating_sub(start) as f32 / (end - start).max(1) as f32).min(1.0);
+        Vec2::from(a).lerp(Vec2::from(b), share)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Settings;
+
+    fn played(gesture: Gesture, settings: Settings) -> App {
+        let mut app = App::new(settings, || 0.0).unwrap();
+        app.camera().set_drift(false);
+        app.play(60);
+        let mut play = Play::new(gesture, &mut app);
+        for _ in 0..gesture.ticks() {
+            play.step(&mut app).unwrap();
+        }
+        app
+    }
+
+    #[test]
+    fn a_stroke_passes_its_places_at_their_ticks() {
+        let stroke = &CUT[0];
+        for (tick, place) in stroke.way {
+            assert!(stroke.at(*tick).distance(Vec2::from(*place)) < 1.0e-6);
+        }
+        let half = Vec2::new(0.5, 0.53);
+        assert!(stroke.at(17).distance(half) < 1.0e-3, "{}", stroke.at(17));
+    }
+
+    #[test]
+    fn a_swipe_of_the_blade_cuts_one_slit_and_leaves_one_piece() {
+        let app = played(Gesture::Cut, Settings::default());
+        let readout = app.readout();
+        assert!(readout.particles > 1600 + 25, "{} particles", readout.particles);
+        assert!(readout.particles < 1600 + 110, "{} particles", readout.particles);
+        assert_eq!(readout.pieces, 1);
+    }
+
+    #[test]
+    fn a_yank_rips_a_slit_and_no_confetti() {
+        let app = played(Gesture::Yank, Settings { tearing: true, ..Settings::default() });
+        let readout = app.readout();
+        assert!(readout.particles > 1600 + 8, "{} particles", readout.particles);
+        assert!(readout.pieces <= 3, "{} pieces", readout.pieces);
+        let whole = played(Gesture::Yank, Settings::default()).readout();
+        assert_eq!(whole.particles, 1600);
+    }
+}

@@ -1,0 +1,150 @@
+//! A hand on the cloth: it takes not one thread but the patch under its fingertip, so that a pull
+//! is felt around it and does not bite a hole.
+
+use glam::{Vec2, Vec3};
+use muslin::{Cloth, Error, Grab, LinkKind, Result};
+
+/// How far a fingertip reaches along the cloth [m]; one edge at least.
+const TIP: f32 = 0.055;
+/// So many particles at most: the cloth has a few dozen grabs for all fingers together.
+const MOST: usize = 9;
+
+/// What a hand holds, from taking it to letting go.
+#[derive(Debug)]
+pub struct Hand {
+    /// Each with its place beside the first one.
+    held: Vec<(Grab, Vec3)>,
+    /// Where the first one is sent [m].
+    at: Vec3,
+}
+
+impl Hand {
+    /// Takes what a ray hits, or what is within `radius` [m] of it; `span` is what the weave's
+    /// coordinates cover [m].
+    ///
+    /// # Errors
+    /// As [`Cloth::grab_ray`].
+    pub fn take(
+        cloth: &mut Cloth,
+        [eye, direction]: [Vec3; 2],
+        radius: f32,
+        span: Vec2,
+    ) -> Result<Option<Self>> {
+        let hit = cloth.raycast(eye, direction, f32::INFINITY)?;
+        let Some((grab, at)) = cloth.grab_ray(eye, direction, radius)? else {
+            return Ok(None);
+        };
+        let first = hit.map(|hit| hit.particle).or_else(|| {
+            let found = cloth.positions().iter().position(|x| *x == at)?;
+            Some(found as u32)
+        });
+        let mut hand = Self { held: vec![(grab, Vec3::ZERO)], at };
+        for particle in first.map_or_else(Vec::new, |first| patch(cloth, first, span)) {
+            let beside = cloth.positions()[particle as usize] - at;
+            match cloth.grab_particle(particle) {
+                Ok(grab) => hand.held.push((grab, beside)),
+                // Other fingers hold all that can be held.
+                Err(Error::Full { .. }) => break,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(Some(hand))
+    }
+
+    /// Where it holds the cloth [m].
+    pub fn at(&self) -> Vec3 {
+        self.at
+    }
+
+    /// Takes what it holds along.
+    ///
+    /// # Errors
+    /// As [`Cloth::move_grab`].
+    pub fn move_to(&mut self, at: Vec3, cloth: &mut Cloth) -> Result<()> {
+        self.at = at;
+        self.held.iter().try_for_each(|(grab, beside)| cloth.move_grab(*grab, at + *beside))
+    }
+
+    /// Lets go.
+    ///
+    /// # Errors
+    /// As [`Cloth::release`].
+    pub fn release(self, cloth: &mut Cloth) -> Result<()> {
+        self.held.into_iter().try_for_each(|(grab, _)| cloth.release(grab))
+    }
+}
+
+/// The particles around `first` that threads lead to within a fingertip, nearest first, itself not
+/// included.
+fn patch(cloth: &Cloth, first: u32, span: Vec2) -> Vec<u32> {
+    let place = |particle: u32| cloth.uvs()[particle as usize] * span;
+    let threads: Vec<_> = cloth.links().filter(|link| link.2 != LinkKind::Bend).collect();
+    let edge = threads.iter().filter(|link| link.2 == LinkKind::Stretch);
+    let edge = edge.map(|(a, b, _)| place(*a).distance(place(*b))).fold(f32::INFINITY, f32::min);
+    let reach = TIP.max(1.05 * edge);
+    let near = |particle: u32| place(particle).distance(place(first)) <= reach;
+    let mut patch = vec![first];
+    let mut next = 0;
+    while next < patch.len() {
+        let from = patch[next];
+        for (a, b, _) in &threads {
+            let other = if *a == from { *b } else { *a };
+            if (*a == from || *b == from) && near(other) && !patch.contains(&other) {
+                patch.push(other);
+            }
+        }
+        next += 1;
+    }
+    patch.remove(0);
+    let far = |particle: &u32| place(*particle).distance(place(first));
+    patch.sort_by(|a, b| far(a).total_cmp(&far(b)).then(a.cmp(b)));
+    patch.truncate(MOST - 1);
+    patch
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use muslin::GridDesc;
+
+    const AHEAD: Vec3 = Vec3::NEG_Z;
+
+    fn sheet() -> Cloth {
+        let desc = GridDesc { columns: 21, rows: 21, spacing: 0.05, ..GridDesc::default() };
+        Cloth::grid(&desc).unwrap()
+    }
+
+    #[test]
+    fn a_hand_holds_a_particle_and_its_neighbours_and_lets_go_of_all() {
+        let mut cloth = sheet();
+        let eye = Vec3::new(0.5, -0.5, 1.0);
+        let mut hand = Hand::take(&mut cloth, [eye, AHEAD], 0.0, Vec2::ONE).unwrap().unwrap();
+        assert_eq!(hand.held.len(), 5);
+        let to = hand.at() + Vec3::new(0.1, 0.1, 0.3);
+        hand.move_to(to, &mut cloth).unwrap();
+        cloth.step(30);
+        let middle = 10 * 21 + 10;
+        assert!(cloth.positions()[middle].distance(to) < 1.0e-4);
+        assert!(cloth.positions()[middle + 1].distance(to + Vec3::X * 0.05) < 1.0e-4);
+        hand.release(&mut cloth).unwrap();
+        cloth.step(30);
+        assert!(cloth.positions()[middle].distance(to) > 0.05);
+    }
+
+    #[test]
+    fn a_patch_does_not_reach_across_a_slit() {
+        let mut cloth = sheet();
+        let (from, to) = (Vec3::new(0.475, 0.1, -0.2), Vec3::new(0.475, -0.9, -0.2));
+        assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
+        let left = 10 * 21 + 9;
+        for particle in patch(&cloth, left, Vec2::ONE) {
+            assert!(cloth.positions()[particle as usize].x < 0.476);
+        }
+    }
+
+    #[test]
+    fn past_the_cloth_there_is_nothing_to_hold() {
+        let eye = Vec3::new(3.0, 3.0, 1.0);
+        assert!(Hand::take(&mut sheet(), [eye, AHEAD], 0.05, Vec2::ONE).unwrap().is_none());
+    }
+}

@@ -1,0 +1,317 @@
+//! The fringe of torn borders: loose ends of warp and weft that stand out from where the cloth came
+//! apart. Hems have none.
+//!
+//! ```text
+//!   cloth  ───┬──┬─┬──┬───  border      root + reach · s, then droop, lift and curl · s²
+//!             │  ╲ │  ╰╮    threads     reach follows the thread that crosses the border
+//! ```
+//! Which threads there are changes with the triangles; where they are is read off their triangle
+//! anew in each frame, so they ride on every fold.
+
+use std::collections::HashMap;
+use std::f32::consts::TAU;
+
+use glam::{Mat2, Vec2};
+use three_d::{
+    Blend, Context, CoreError, InstanceBuffer, Program, RenderStates, VertexBuffer, WriteMask,
+};
+
+use super::cloth_material::Dye;
+use super::mesh::Surface;
+use super::shadow::Shadow;
+use super::{Pass, matrix, vector};
+
+/// Short fibres along a border [1/m].
+const FUZZ: f32 = 420.0;
+/// Long loose threads along a border [1/m].
+const STRANDS: f32 = 75.0;
+/// No cloth gets more threads than this: one torn to shreds has thinner fringes.
+const MOST: f32 = 9000.0;
+/// Pieces that a thread bends in.
+const BENDS: u32 = 4;
+
+/// A thread, as it is woven into its triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Thread {
+    /// The ends of the border edge, and the corner of its triangle inside.
+    corners: [u32; 3],
+    /// Where on the edge it comes out, as a share.
+    at: f32,
+    /// Which way it goes: so much of the edge, so much of the side that leads inside.
+    way: [f32; 2],
+    /// Its length [m].
+    length: f32,
+    /// Half its width [m], how it leans, sags and is coloured: see `fringe.vert`.
+    traits: [f32; 4],
+}
+
+/// The threads, and the program that draws them.
+pub struct Fringe {
+    program: Program,
+    ribbon: VertexBuffer<[f32; 2]>,
+    roots: InstanceBuffer<[f32; 3]>,
+    reaches: InstanceBuffer<[f32; 3]>,
+    normals: InstanceBuffer<[f32; 3]>,
+    traits: InstanceBuffer<[f32; 4]>,
+    threads: Vec<Thread>,
+    revision: Option<u64>,
+    staging: [Vec<[f32; 3]>; 3],
+}
+
+impl Fringe {
+    /// Compiles the threads.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        let fragment =
+            concat!(include_str!("shaders/light.glsl"), include_str!("shaders/fringe.frag"));
+        Ok(Self {
+            program: Program::from_source(context, include_str!("shaders/fringe.vert"), fragment)?,
+            ribbon: VertexBuffer::new_with_data(context, &ribbon()),
+            roots: InstanceBuffer::new(context),
+            reaches: InstanceBuffer::new(context),
+            normals: InstanceBuffer::new(context),
+            traits: InstanceBuffer::new(context),
+            threads: Vec::new(),
+            revision: None,
+            staging: [const { Vec::new() }; 3],
+        })
+    }
+
+    /// Follows the cloth.
+    pub fn update(&mut self, surface: &Surface<'_>) {
+        if self.revision != Some(surface.revision) {
+            self.revision = Some(surface.revision);
+            fray(surface, &mut self.threads);
+            let traits: Vec<_> = self.threads.iter().map(|thread| thread.traits).collect();
+            self.traits.fill(&traits);
+        }
+        let [roots, reaches, normals] = &mut self.staging;
+        for list in [&mut *roots, &mut *reaches, &mut *normals] {
+            list.clear();
+        }
+        for thread in &self.threads {
+            let [a, b, c] = thread.corners.map(|corner| surface.positions[corner as usize]);
+            let [na, nb] = [0, 1].map(|i| surface.normals[thread.corners[i] as usize]);
+            let way = (b - a) * thread.way[0] + (c - a) * thread.way[1];
+            roots.push(a.lerp(b, thread.at).to_array());
+            reaches.push((way.normalize_or_zero() * thread.length).to_array());
+            normals.push(na.lerp(nb, thread.at).to_array());
+        }
+        self.roots.fill(roots);
+        self.reaches.fill(reaches);
+        self.normals.fill(normals);
+    }
+
+    pub(super) fn draw(&self, pass: &Pass, shadow: &Shadow, dye: &Dye, dim: f32) {
+        if self.threads.is_empty() {
+            return;
+        }
+        let p = &self.program;
+        let pixels = Vec2::new(pass.viewport.width as f32, pass.viewport.height as f32);
+        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("pixels", three_d::Vec2::new(pixels.x, pixels.y));
+        p.use_uniform("lens", pass.sight.lens(pixels.y));
+        p.use_uniform("eye", vector(pass.sight.eye));
+        p.use_uniform("dim", dim);
+        p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
+        p.use_uniform("fillColour", vector(pass.lights.fill.colour));
+        p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
+        p.use_uniform("rimColour", vector(pass.lights.rim.colour));
+        p.use_uniform("warp", vector(dye.warp));
+        p.use_uniform("weft", vector(dye.weft));
+        shadow.use_in(p, &pass.lights);
+        p.use_vertex_attribute("corner", &self.ribbon);
+        p.use_instance_attribute("root", &self.roots);
+        p.use_instance_attribute("reach", &self.reaches);
+        p.use_instance_attribute("normal", &self.normals);
+        p.use_instance_attribute("traits", &self.traits);
+        let states = RenderStates {
+            blend: Blend::TRANSPARENCY,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
+        let (corners, threads) = (self.ribbon.vertex_count(), self.threads.len() as u32);
+        p.draw_arrays_instanced(states, pass.viewport, corners, threads);
+    }
+}
+
+/// Two triangles a bend: x is the side, −1 or 1; y runs along the thread from 0 to 1.
+fn ribbon() -> Vec<[f32; 2]> {
+    let corners = |bend: u32| {
+        let [near, far] = [bend, bend + 1].map(|i| i as f32 / BENDS as f32);
+        [[-1.0, near], [1.0, near], [1.0, far], [-1.0, near], [1.0, far], [-1.0, far]]
+    };
+    (0..BENDS).flat_map(corners).collect()
+}
+
+/// Finds the threads of every torn border.
+fn fray(surface: &Surface<'_>, threads: &mut Vec<Thread>) {
+    threads.clear();
+    let borders = borders(surface);
+    let uv = |corner: u32| surface.uvs[corner as usize] * surface.span;
+    let long: f32 = borders.iter().map(|[a, b, _]| uv(*a).distance(uv(*b))).sum();
+    let share = (MOST / (long * (FUZZ + STRANDS))).min(1.0);
+    for corners in borders {
+        let [a, b, c] = corners.map(uv);
+        let plane = Mat2::from_cols(b - a, c - a);
+        if plane.determinant().abs() < 1.0e-12 {
+            continue;
+        }
+        let into_triangle = plane.inverse();
+        let outward = outward(a, b, c);
+        let mut dice = Dice::of(a + b);
+        // Weft threads cross a border by how much of it runs along the warp, and the other way.
+        let run = (b - a).abs();
+        for (axis, extent) in [(Vec2::X, run.y), (Vec2::Y, run.x)] {
+            let along = axis * if axis.dot(outward) < 0.0 { -1.0 } else { 1.0 };
+            for (density, strand) in [(FUZZ, false), (STRANDS, true)] {
+                let wanted = extent * density * share;
+                let count = wanted.floor() + f32::from(u8::from(dice.roll() < wanted.fract()));
+                for i in 0..count as u32 {
+                    let lean = (dice.roll() - 0.5) * if strand { 0.7 } else { 1.5 };
+                    let way = into_triangle * Vec2::from_angle(lean).rotate(along);
+                    let long = dice.roll();
+                    // Few are much longer than the rest.
+                    let length =
+                        if strand { 0.012 + 0.052 * long * long } else { 0.004 + 0.008 * long };
+                    let width = if strand { 0.00055 } else { 0.0004 };
+                    let lift = dice.roll() - 0.5;
+                    let shade = if axis == Vec2::X { 0.0 } else { 1.0 };
+                    threads.push(Thread {
+                        corners,
+                        at: (i as f32 + dice.roll()) / count,
+                        way: way.to_array(),
+                        length,
+                        traits: [width, lift, TAU * dice.roll(), shade + 0.9 * dice.roll()],
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// The edges that one triangle alone has and that are no hems, with that triangle's third corner.
+fn borders(surface: &Surface<'_>) -> Vec<[u32; 3]> {
+    let torn = |corner: u32| surface.frayed[corner as usize];
+    let mut open: HashMap<[u32; 2], [u32; 3]> = HashMap::new();
+    for triangle in surface.indices.chunks_exact(3) {
+        for i in 0..3 {
+            let [a, b, c] = [0, 1, 2].map(|j| triangle[(i + j) % 3]);
+            if torn(a) && torn(b) && open.remove(&[b, a]).is_none() {
+                open.insert([a, b], [a, b, c]);
+            }
+        }
+    }
+    let hem = |a: Vec2, b: Vec2| {
+        let on = |side: f32, of: fn(Vec2) -> f32| of(a) == side && of(b) == side;
+        [0.0, 1.0].iter().any(|side| on(*side, |uv| uv.x) || on(*side, |uv| uv.y))
+    };
+    let mut borders: Vec<_> = open
+        .into_values()
+        .filter(|[a, b, _]| !hem(surface.uvs[*a as usize], surface.uvs[*b as usize]))
+        .collect();
+    // The table gives them in an order of its own.
+    borders.sort_unstable();
+    borders
+}
+
+/// Square to the edge from `a` to `b`, away from `c`.
+fn outward(a: Vec2, b: Vec2, c: Vec2) -> Vec2 {
+    let square = (b - a).perp().normalize_or_zero();
+    if square.dot(c - a) > 0.0 { -square } else { square }
+}
+
+/// Numbers from 0 to 1 that look random, the same for the same place in the cloth.
+struct Dice(u32);
+
+impl Dice {
+    fn of(place: Vec2) -> Self {
+        let [x, y] = place.to_array().map(f32::to_bits);
+        Self(x.wrapping_mul(0x9e37_79b1) ^ y.rotate_left(13).wrapping_mul(0x85eb_ca77) | 1)
+    }
+
+    fn roll(&mut self) -> f32 {
+        // Marsaglia, "Xorshift RNGs" (2003).
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 17;
+        self.0 ^= self.0 << 5;
+        (self.0 >> 8) as f32 / 16_777_216.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use muslin::{Cloth, GridDesc};
+
+    fn threads_of(cloth: &mut Cloth) -> Vec<Thread> {
+        let view = cloth.view();
+        let surface = Surface {
+            positions: view.positions,
+            normals: view.normals,
+            uvs: view.uvs,
+            frayed: view.frayed,
+            indices: view.indices,
+            lines: &[],
+            span: Vec2::ONE,
+            revision: 1,
+        };
+        let mut threads = Vec::new();
+        fray(&surface, &mut threads);
+        threads
+    }
+
+    fn sheet() -> Cloth {
+        let desc = GridDesc { columns: 9, rows: 9, spacing: 0.125, ..GridDesc::default() };
+        Cloth::grid(&desc).unwrap()
+    }
+
+    #[test]
+    fn hems_have_no_threads_and_a_cut_has_them_on_both_of_its_sides() {
+        let mut cloth = sheet();
+        assert_eq!(threads_of(&mut cloth), []);
+        // Across the sheet from its left hem, between two rows.
+        let (from, to) = (Vec3::new(-0.1, -0.55, -0.2), Vec3::new(0.7, -0.55, -0.2));
+        assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
+        let threads = threads_of(&mut cloth);
+        let (mut up, mut down) = (0, 0);
+        for thread in &threads {
+            let [a, b, c] = thread.corners.map(|corner| cloth.positions()[corner as usize]);
+            let root = a.lerp(b, thread.at);
+            assert!((root.y + 0.55).abs() < 1.0e-3, "a thread grows at {root}");
+            let way = (b - a) * thread.way[0] + (c - a) * thread.way[1];
+            // Away from the triangle that it is woven into.
+            assert!(way.y * (c.y - root.y) < 0.0, "a thread goes {way} at {root}");
+            if way.y > 0.0 { up += 1 } else { down += 1 }
+        }
+        let wanted = (0.6 * (FUZZ + STRANDS)) as usize;
+        assert!(up > wanted / 2 && down > wanted / 2, "{up} up, {down} down");
+    }
+
+    #[test]
+    fn a_cloth_in_shreds_has_no_more_threads_than_it_may() {
+        let desc = GridDesc { columns: 40, rows: 40, spacing: 1.0 / 39.0, ..GridDesc::default() };
+        let mut cloth = Cloth::grid(&GridDesc { extra_particles: 4000, ..desc }).unwrap();
+        for i in 1..16 {
+            let x = i as f32 / 16.0 + 0.003;
+            let (from, to) = (Vec3::new(x, 0.1, -0.2), Vec3::new(x, -1.1, -0.2));
+            assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
+        }
+        let count = threads_of(&mut cloth).len() as f32;
+        assert!(count > 0.8 * MOST && count < 1.05 * MOST, "{count} threads");
+    }
+
+    #[test]
+    fn the_same_tear_has_the_same_threads() {
+        let torn = || {
+            let mut cloth = sheet();
+            cloth.tear_edge(40, 41).unwrap();
+            threads_of(&mut cloth)
+        };
+        assert!(!torn().is_empty());
+        assert_eq!(torn(), torn());
+    }
+}

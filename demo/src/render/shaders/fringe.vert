@@ -1,0 +1,50 @@
+// A loose thread as a ribbon that faces the eye. Threads are finer than pixels: one that would be
+// is drawn a pixel wide and as much fainter instead.
+uniform mat4 clipFromWorld;
+uniform vec2 pixels;
+uniform float lens; // pixels that a metre covers at a metre
+
+in vec2 corner; // side, share of the way to the tip
+in vec3 root;
+in vec3 reach;
+in vec3 normal;
+in vec4 traits; // half width, lean out of the cloth, turn of the curl, weft or warp and shade
+
+out vec3 at;
+out vec3 along;
+out vec3 facing;
+out vec4 look; // weft 0 or warp 1, shade, cover, share
+
+vec3 bent(float s) {
+    float len = length(reach);
+    vec3 n = normal;
+    vec3 side = cross(n, reach) / max(len, 1.0e-6);
+    float curl = s * s * len;
+    vec3 p = root + reach * s;
+    p += n * (0.9 * traits.y * s + 0.22 * s * s * cos(traits.z)) * len;
+    p += side * 0.34 * curl * sin(traits.z + 2.2 * s);
+    // The longer, the more it hangs.
+    p.y -= curl * min(0.85, 16.0 * len);
+    return p;
+}
+
+void main() {
+    float s = corner.y;
+    at = bent(s);
+    vec3 ahead = bent(s + 0.05);
+    along = ahead - at;
+    facing = normal;
+    vec4 here = clipFromWorld * vec4(at, 1.0);
+    vec4 there = clipFromWorld * vec4(ahead, 1.0);
+    vec2 line = (there.xy / there.w - here.xy / here.w) * pixels;
+    line = dot(line, line) > 1.0e-8 ? normalize(line) : vec2(0.0, 1.0);
+    // Half widths in pixels: what it is, and what is drawn.
+    float fine = traits.x * (1.0 - 0.55 * s) * lens / max(here.w, 0.01);
+    float wide = max(fine, 0.6);
+    float shade = fract(traits.w);
+    look = vec4(floor(traits.w), shade, min(1.0, 1.9 * fine / wide) * (1.0 - s * s * s * 0.6), s);
+    here.xy += vec2(-line.y, line.x) * corner.x * wide * 2.0 / pixels * here.w;
+    // In front of the cloth that it grows from.
+    here.z -= 0.0004 * here.w * s;
+    gl_Position = here;
+}

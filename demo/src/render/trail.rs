@@ -1,0 +1,122 @@
+//! The path of the blade: a fine line that glows and fades.
+
+use glam::Vec2;
+use three_d::{
+    Blend, Context, CoreError, DepthTest, Program, RenderStates, VertexBuffer, WriteMask,
+};
+
+use super::light::linear;
+use super::{Pass, vector};
+
+/// Half the width of the glow, as a share of the picture's height.
+const REACH: f32 = 0.016;
+
+/// Where the blade was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spark {
+    /// On the screen, x and y from -1 to 1, y up.
+    pub at: Vec2,
+    /// How much of its glow is left: 1 is fresh, 0 has gone out.
+    pub glow: f32,
+    /// Whether a new path begins here.
+    pub first: bool,
+}
+
+/// The program that draws the path.
+pub struct Trail {
+    program: Program,
+    ribbon: VertexBuffer<[f32; 4]>,
+}
+
+impl Trail {
+    /// Compiles the glow.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        Ok(Self {
+            program: Program::from_source(
+                context,
+                include_str!("shaders/trail.vert"),
+                include_str!("shaders/trail.frag"),
+            )?,
+            ribbon: VertexBuffer::new(context),
+        })
+    }
+
+    pub(super) fn draw(&mut self, pass: &Pass, sparks: &[Spark]) {
+        let ribbon = ribbon(sparks, pass.aspect());
+        if ribbon.is_empty() {
+            return;
+        }
+        self.ribbon.fill(&ribbon);
+        let p = &self.program;
+        p.use_uniform("glow", vector(linear(0x7cc0ff)));
+        p.use_vertex_attribute("place", &self.ribbon);
+        let states = RenderStates {
+            blend: Blend::ADD,
+            depth_test: DepthTest::Always,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
+        p.draw_arrays(states, pass.viewport, self.ribbon.vertex_count());
+    }
+}
+
+/// Two triangles a piece of the path: x, y on the screen, side from -1 to 1, glow.
+fn ribbon(sparks: &[Spark], aspect: f32) -> Vec<[f32; 4]> {
+    let wide = Vec2::new(aspect, 1.0);
+    let mut ribbon = Vec::new();
+    // Pieces meet in the middle of their directions, so that no bend shows a gap.
+    let direction = |i: usize| {
+        let (before, after) = (sparks[..=i].iter().rev(), sparks[i + 1..].iter());
+        let from = before.take(2).take_while(|s| !s.first || s.at == sparks[i].at).last();
+        let to = after.take(1).take_while(|s| !s.first).last();
+        let (from, to) = (from.unwrap_or(&sparks[i]), to.unwrap_or(&sparks[i]));
+        ((to.at - from.at) * wide).normalize_or(Vec2::X)
+    };
+    for i in 1..sparks.len() {
+        if sparks[i].first {
+            continue;
+        }
+        let ends = [i - 1, i].map(|i| {
+            let spark = sparks[i];
+            let across = direction(i).perp() * REACH * 2.0 * (0.35 + 0.65 * spark.glow) / wide;
+            [-1.0, 1.0].map(|side| {
+                let at = spark.at + across * side;
+                [at.x, at.y, side, spark.glow]
+            })
+        });
+        let [[a, b], [c, d]] = ends;
+        ribbon.extend([a, b, d, a, d, c]);
+    }
+    ribbon
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spark(x: f32, first: bool) -> Spark {
+        Spark { at: Vec2::new(x, 0.2), glow: 1.0, first }
+    }
+
+    #[test]
+    fn two_paths_are_not_joined() {
+        let one = [spark(-0.5, true), spark(-0.4, false), spark(-0.3, false)];
+        assert_eq!(ribbon(&one, 1.5).len(), 12);
+        let two = [spark(-0.5, true), spark(-0.4, false), spark(0.3, true), spark(0.4, false)];
+        assert_eq!(ribbon(&two, 1.5).len(), 12);
+        assert!(ribbon(&two, 1.5).iter().all(|v| v[0] < -0.35 || v[0] > 0.25));
+        assert_eq!(ribbon(&[spark(0.0, true)], 1.5).len(), 0);
+    }
+
+    #[test]
+    fn a_path_is_as_wide_as_it_should_be_and_straight_where_it_is_straight() {
+        for vertex in ribbon(&[spark(-0.5, true), spark(0.5, false)], 2.0) {
+            let [x, y, side, _] = vertex;
+            assert!((x.abs() - 0.5).abs() < 1.0e-6);
+            assert!((y - 0.2 - side * REACH * 2.0).abs() < 1.0e-6, "{y} at side {side}");
+        }
+    }
+}
