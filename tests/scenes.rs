@@ -1,6 +1,6 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
-use muslin_scenes::{HangingSheet, Scene, play};
+use muslin_scenes::{Flag, HangingSheet, Scene, play};
 
 fn keeps_its_promise<S: Scene>() {
     for seconds in [1, 5, 20] {
@@ -14,4 +14,9 @@ fn keeps_its_promise<S: Scene>() {
 #[test]
 fn the_hanging_sheet_hangs() {
     keeps_its_promise::<HangingSheet>();
+}
+
+#[test]
+fn the_flag_streams_and_waves() {
+    keeps_its_promise::<Flag>();
 }

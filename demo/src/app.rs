@@ -14,7 +14,7 @@ use crate::pointer::{Cursor, Pointers, Scene, Screen};
 use crate::render::trail::Spark;
 use crate::render::{Frame, Renderer, Surface};
 use crate::settings::Settings;
-use crate::sheet;
+use crate::stage;
 
 /// The longest frame that the camera eases through [s].
 const LONGEST_FRAME: f32 = 0.1;
@@ -34,6 +34,7 @@ pub struct App {
     meter: Meter,
     governor: Governor,
     clock: fn() -> f64,
+    times_stages: bool,
     lines: Vec<u32>,
     /// Which cloth this is: a new one may count its topology from the start again.
     generation: u32,
@@ -55,15 +56,24 @@ pub struct Readout {
     pub milliseconds: f32,
 }
 
+/// How long a stage takes in a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StageTime {
+    /// What it is called.
+    pub name: &'static str,
+    /// How long it takes [ms], smoothed.
+    pub milliseconds: f32,
+}
+
 impl App {
     /// Hangs the sheet. `clock` counts seconds from anywhere; it only times the simulation.
     ///
     /// # Errors
-    /// As [`sheet::build`].
+    /// As [`stage::build`].
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
         Ok(Self {
-            cloth: sheet::build(&settings, false)?,
+            cloth: stage::build(&settings, false)?,
             settings,
             camera: Camera::default(),
             hands: Pointers::default(),
@@ -75,6 +85,7 @@ impl App {
             meter: Meter::default(),
             governor: Governor::default(),
             clock,
+            times_stages: false,
             lines: Vec::new(),
             generation: 0,
             lines_of: None,
@@ -89,16 +100,17 @@ impl App {
     /// Takes other values, clamped: rebuilds the sheet if it must, tunes it otherwise.
     ///
     /// # Errors
-    /// As [`sheet::build`]; the old values stay.
+    /// As [`stage::build`]; the old values stay.
     pub fn set_settings(&mut self, mut settings: Settings) -> Result<()> {
         settings.clamp();
         let rebuild = settings.resolution != self.settings.resolution
             || settings.pinning != self.settings.pinning
-            || settings.fabric != self.settings.fabric;
+            || settings.fabric != self.settings.fabric
+            || settings.scene != self.settings.scene;
         if rebuild {
             self.hang(&settings)?;
         } else {
-            sheet::tune(&mut self.cloth, &settings, self.calm)?;
+            stage::tune(&mut self.cloth, &settings, self.calm)?;
         }
         self.settings = settings;
         Ok(())
@@ -139,7 +151,7 @@ impl App {
     /// Does what a button says.
     ///
     /// # Errors
-    /// As [`sheet::build`].
+    /// As [`stage::build`].
     pub fn act(&mut self, action: Action) -> Result<()> {
         match action {
             Action::Reset => {
@@ -156,11 +168,11 @@ impl App {
     /// Takes most of the restlessness out of wind and camera, for people who ask their system so.
     ///
     /// # Errors
-    /// As [`sheet::tune`].
+    /// As [`stage::tune`].
     pub fn set_calm(&mut self, calm: bool) -> Result<()> {
         self.calm = calm;
         self.camera.set_drift(!calm);
-        sheet::tune(&mut self.cloth, &self.settings, calm)
+        stage::tune(&mut self.cloth, &self.settings, calm)
     }
 
     /// The screen has this size, in the pixels that pointers count in.
@@ -240,11 +252,26 @@ impl App {
             let start = (self.clock)();
             self.cloth.advance(seconds)?;
             self.meter.simulated((self.clock)() - start);
+            if self.times_stages {
+                self.meter.simulated_in(&self.cloth.stats().seconds);
+            }
         }
         self.afterglow.fade(seconds);
         self.meter.frame(seconds);
         self.governor.frame(seconds);
         Ok(())
+    }
+
+    /// Times every stage of a frame from now on, or no longer.
+    pub fn time_stages(&mut self, on: bool) {
+        self.times_stages = on;
+        self.cloth.set_clock(on.then_some(self.clock));
+    }
+
+    /// How long each stage takes, while [`App::time_stages`] is on.
+    pub fn stage_times(&self) -> Vec<StageTime> {
+        let time = |(name, milliseconds)| StageTime { name, milliseconds };
+        self.meter.stages().map(time).collect()
     }
 
     /// Runs exactly so many ticks, whatever the clock says.
@@ -278,20 +305,27 @@ impl App {
             frayed: view.frayed,
             indices: view.indices,
             lines: &self.lines,
-            span: sheet::span(&self.settings),
+            span: stage::span(&self.settings),
             revision,
         };
         self.sparks.clear();
         self.sparks.extend(self.afterglow.sparks());
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
+        let solids = stage::solids(&self.settings);
         let frame = Frame {
+            solids: &solids,
             sight: self.camera.sight(),
             look: self.settings.fabric.look(),
             trail: &self.sparks,
             wireframe: self.settings.wireframe,
             share: self.governor.share(density),
         };
-        renderer.draw(&surface, &frame, output)
+        let start = (self.clock)();
+        renderer.take(&surface);
+        let taken = (self.clock)();
+        renderer.draw(&frame, output)?;
+        self.meter.drawn(taken - start, (self.clock)() - taken);
+        Ok(())
     }
 
     /// The numbers of the panel.
@@ -318,7 +352,7 @@ impl App {
 
     /// Particles across and down the sheet, as it was woven.
     pub fn weave(&self) -> [u32; 2] {
-        [self.settings.resolution; 2]
+        stage::weave(&self.settings)
     }
 
     /// Where a particle is [m].
@@ -340,7 +374,8 @@ impl App {
     }
 
     fn hang(&mut self, settings: &Settings) -> Result<()> {
-        self.cloth = sheet::build(settings, self.calm)?;
+        self.cloth = stage::build(settings, self.calm)?;
+        self.cloth.set_clock(self.times_stages.then_some(self.clock));
         self.hands.forget();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
@@ -349,9 +384,9 @@ impl App {
     fn hands(&mut self) -> (&mut Pointers, Scene<'_>) {
         let scene = Scene {
             sight: self.camera.sight(),
-            spacing: sheet::spacing(&self.settings),
-            span: sheet::span(&self.settings),
-            grab_radius: 0.6 * sheet::spacing(&self.settings),
+            spacing: stage::spacing(&self.settings),
+            span: stage::span(&self.settings),
+            grab_radius: 0.6 * stage::spacing(&self.settings),
             blade: self.blade || self.settings.blade,
             afterglow: &mut self.afterglow,
             screen: self.screen,

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::fabric::Fabric;
 use crate::settings::{DAMPING, GRAVITY, Pinning, RESOLUTIONS, STIFFNESS, Settings, WIND};
+use crate::stage::Show;
 
 /// One control.
 pub struct Control {
@@ -161,9 +162,23 @@ pub static CONTROLS: &[Control] = &[
         kind: Kind::Switch { get: |s| s.paused, set: |s, on| s.paused = on },
     },
     Control {
+        name: "scene",
+        label: "Scene",
+        about: "What is on the stage",
+        key: 'E',
+        kind: Kind::Choice {
+            options: &Show::NAMES,
+            get: |s| Show::ALL.iter().position(|show| *show == s.scene).unwrap_or(0),
+            set: |s, i| {
+                s.scene = Show::ALL[i];
+                s.fabric = s.scene.fabric();
+            },
+        },
+    },
+    Control {
         name: "fabric",
         label: "Fabric",
-        about: "What the sheet is of",
+        about: "What the cloth is of",
         key: 'L',
         kind: Kind::Choice {
             options: &Fabric::NAMES,

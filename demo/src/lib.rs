@@ -14,7 +14,7 @@ pub mod meter;
 pub mod pointer;
 pub mod render;
 pub mod settings;
-pub mod sheet;
+pub mod stage;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;

@@ -1,13 +1,19 @@
 //! Smoothed figures of how fast it runs, and how finely it can be drawn at that speed.
 
+use muslin::Stage;
+
 /// How quickly a figure follows: the share that one frame has in it.
 const FOLLOW: f64 = 0.06;
 
-/// Frame time and simulation time, smoothed.
+/// Stages of the simulation, and after them those of the picture.
+const STAGES: usize = Stage::COUNT + 2;
+
+/// Frame time, simulation time and what it is made of, smoothed.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Meter {
     frame: f64,
     simulation: f64,
+    stages: [f64; STAGES],
 }
 
 impl Meter {
@@ -21,6 +27,29 @@ impl Meter {
     /// The simulation of a frame took so long [s].
     pub fn simulated(&mut self, seconds: f64) {
         blend(&mut self.simulation, seconds.max(0.0));
+    }
+
+    /// The stages of the simulation took so long in a frame [s].
+    pub fn simulated_in(&mut self, stages: &[f32; Stage::COUNT]) {
+        for (figure, seconds) in self.stages.iter_mut().zip(stages) {
+            blend(figure, f64::from(*seconds));
+        }
+    }
+
+    /// Handing the cloth to the graphics card took so long in a frame, and asking for the picture [s].
+    pub fn drawn(&mut self, upload: f64, draw: f64) {
+        blend(&mut self.stages[Stage::COUNT], upload.max(0.0));
+        blend(&mut self.stages[Stage::COUNT + 1], draw.max(0.0));
+    }
+
+    /// What each stage is called and how long it takes in a frame [ms].
+    pub fn stages(&self) -> impl Iterator<Item = (&'static str, f32)> + '_ {
+        let names = Stage::ALL.iter().map(|stage| match stage {
+            Stage::Outputs => "normals",
+            stage => stage.name(),
+        });
+        let names = names.chain(["upload", "draw calls"]);
+        names.zip(self.stages.iter().map(|seconds| (1000.0 * seconds) as f32))
     }
 
     /// Frames a second.
@@ -106,5 +135,20 @@ mod tests {
         }
         assert!((meter.fps() - 60.0).abs() < 0.5, "{} fps", meter.fps());
         assert!((meter.milliseconds() - 1.5).abs() < 0.01);
+    }
+
+    #[test]
+    fn every_stage_has_a_name_and_its_own_figure() {
+        let mut meter = Meter::default();
+        let seconds = std::array::from_fn(|i| 0.001 * i as f32);
+        meter.simulated_in(&seconds);
+        meter.drawn(0.020, 0.021);
+        let told: Vec<_> = meter.stages().collect();
+        assert_eq!(told.len(), STAGES);
+        for (i, (name, milliseconds)) in told[..Stage::COUNT].iter().enumerate() {
+            assert!((milliseconds - i as f32).abs() < 1.0e-3, "{name}: {milliseconds} ms");
+        }
+        let [.., (upload, a), (draw, b)] = told[..] else { panic!("{told:?}") };
+        assert_eq!((upload, a.round(), draw, b.round()), ("upload", 20.0, "draw calls", 21.0));
     }
 }

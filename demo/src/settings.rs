@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use crate::fabric::Fabric;
+use crate::stage::Show;
 
 /// Wind, as a share of a fresh breeze.
 pub const WIND: RangeInclusive<f32> = 0.0..=3.0;
@@ -50,7 +51,9 @@ pub struct Settings {
     pub blade: bool,
     /// Time stands still.
     pub paused: bool,
-    /// What it is of.
+    /// What is on the stage.
+    pub scene: Show,
+    /// What its cloth is of.
     pub fabric: Fabric,
     /// What holds the sheet up.
     pub pinning: Pinning,
@@ -69,6 +72,7 @@ impl Default for Settings {
             tearing: false,
             blade: false,
             paused: false,
+            scene: Show::Sheet,
             fabric: Fabric::Silk,
             pinning: Pinning::TopEdge,
             resolution: 40,

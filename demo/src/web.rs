@@ -161,6 +161,18 @@ impl Demo {
         serde_json::to_string(&self.app.readout()).unwrap_or_default()
     }
 
+    /// Times every stage of a frame from now on, or no longer.
+    #[wasm_bindgen(js_name = timeStages)]
+    pub fn time_stages(&mut self, on: bool) {
+        self.app.time_stages(on);
+    }
+
+    /// How long each stage takes, as JSON: name and milliseconds.
+    #[wasm_bindgen(js_name = stageTimes)]
+    pub fn stage_times(&self) -> String {
+        serde_json::to_string(&self.app.stage_times()).unwrap_or_default()
+    }
+
     /// The hash of the cloth's state, as the same hexadecimal number everywhere.
     #[wasm_bindgen(js_name = stateHash)]
     pub fn state_hash(&self) -> String {

@@ -60,6 +60,7 @@ function run(demo) {
   CALM.addEventListener("change", calm);
   calm();
 
+  by("stages").addEventListener("toggle", () => demo.timeStages(by("stages").open));
   loop(demo);
   followPointers(demo);
   followKeys(demo, () => {
@@ -73,6 +74,7 @@ function run(demo) {
     stateHash: () => demo.stateHash(),
     stats: () => JSON.parse(demo.readout()),
     settings: () => JSON.parse(demo.settings()),
+    stages: () => JSON.parse(demo.stageTimes()),
     particleScreen: (i) => {
       const at = demo.particleScreen(i);
       return at && Array.from(at);
@@ -106,6 +108,7 @@ function loop(demo) {
     if (now - shown > 250) {
       shown = now;
       show(JSON.parse(demo.readout()));
+      if (by("stages").open) showStages(JSON.parse(demo.stageTimes()));
     }
   }
 
@@ -141,6 +144,26 @@ function show(stats) {
   by("stat-constraints").textContent = stats.constraints.toLocaleString("en");
   by("stat-fps").textContent = `${stats.fps.toFixed(0)} fps`;
   by("stat-milliseconds").textContent = `${stats.milliseconds.toFixed(2)} ms`;
+}
+
+// Bars are drawn against the longest stage.
+function showStages(stages) {
+  const list = by("stage-times");
+  const longest = Math.max(0.05, ...stages.map((stage) => stage.milliseconds));
+  if (list.children.length !== stages.length) {
+    const row = ({ name }) => {
+      const made = document.createElement("div");
+      made.append(document.createElement("dt"), document.createElement("dd"));
+      made.firstChild.textContent = name;
+      return made;
+    };
+    list.replaceChildren(...stages.map(row));
+  }
+  stages.forEach(({ milliseconds }, i) => {
+    const row = list.children[i];
+    row.style.setProperty("--share", `${(100 * milliseconds) / longest}%`);
+    row.lastChild.textContent = `${milliseconds.toFixed(3)} ms`;
+  });
 }
 
 function followPointers(demo) {

@@ -1,7 +1,9 @@
 //! Scenes of cloth: the demo shows them, `tests/scenes.rs` plays them, the benchmarks time them.
 
+mod flag;
 mod hanging_sheet;
 
+pub use flag::Flag;
 pub use hanging_sheet::HangingSheet;
 use muslin::Cloth;
 

@@ -239,6 +239,7 @@ impl Stage {
             match wish {
                 Wish::Set(name, value) => self.app.set(name, value)?,
                 Wish::Act(action) => self.app.act(action)?,
+                Wish::TimeStages(on) => self.app.time_stages(on),
             }
         }
         let cursor = match self.app.cursor()? {

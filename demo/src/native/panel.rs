@@ -2,8 +2,8 @@
 
 use glam::Vec2;
 use three_d::egui::{
-    self, Align, Align2, Area, Button, Color32, Context, CornerRadius, Frame, Id, Layout, Margin,
-    Rect, RichText, ScrollArea, Sense, Slider, Stroke, StrokeKind, Ui, vec2,
+    self, Align, Align2, Area, Button, CollapsingHeader, Color32, Context, CornerRadius, Frame, Id,
+    Layout, Margin, Rect, RichText, ScrollArea, Sense, Slider, Stroke, StrokeKind, Ui, vec2,
 };
 
 use crate::app::App;
@@ -27,6 +27,8 @@ pub enum Wish {
     Set(&'static str, f32),
     /// A button was pressed.
     Act(Action),
+    /// The times of stages are shown, or hidden.
+    TimeStages(bool),
 }
 
 /// Whether it is open, and where it was drawn.
@@ -159,6 +161,19 @@ fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
         r.particles, r.constraints, r.fps, r.milliseconds
     );
     ui.label(RichText::new(figures).size(12.0).color(MUTED));
+    let title = RichText::new("Time per stage").size(12.0).color(MUTED);
+    let stages = CollapsingHeader::new(title).id_salt("stages").show(ui, |ui| {
+        for time in app.stage_times() {
+            ui.horizontal(|ui| {
+                ui.label(RichText::new(time.name).size(12.0).color(MUTED));
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let figure = format!("{:.3} ms", time.milliseconds);
+                    ui.label(RichText::new(figure).size(12.0).color(TEXT));
+                });
+            });
+        }
+    });
+    wishes.push(Wish::TimeStages(stages.fully_open()));
 }
 
 fn row(ui: &mut Ui, app: &App, control: &Control, wishes: &mut Vec<Wish>) {

@@ -12,6 +12,7 @@ pub mod mesh;
 pub mod post;
 pub mod shadow;
 pub mod sky;
+pub mod solid;
 pub mod trail;
 pub mod wireframe;
 
@@ -33,6 +34,8 @@ pub struct Frame<'a> {
     pub sight: Sight,
     /// How the cloth takes the light.
     pub look: Look,
+    /// What the cloth hangs on.
+    pub solids: &'a [solid::Solid],
     /// The path of the blade.
     pub trail: &'a [trail::Spark],
     /// Whether the links are drawn over the dimmed cloth.
@@ -55,6 +58,7 @@ pub struct Renderer {
     wireframe: wireframe::Wireframe,
     fringe: fringe::Fringe,
     trail: trail::Trail,
+    solids: solid::Solids,
     post: post::Post,
     corners: Corners,
     target: Option<Target>,
@@ -93,29 +97,30 @@ impl Renderer {
             wireframe: wireframe::Wireframe::new(context)?,
             fringe: fringe::Fringe::new(context)?,
             trail: trail::Trail::new(context)?,
+            solids: solid::Solids::new(context)?,
             post: post::Post::new(context)?,
             corners: Corners::new(context),
             target: None,
         })
     }
 
-    /// Draws one picture of `surface` into `output`, filling it.
+    /// Takes the cloth as it is now.
+    pub fn take(&mut self, surface: &Surface<'_>) {
+        self.mesh.update(surface);
+        self.fringe.update(surface);
+    }
+
+    /// Draws one picture of what it was given into `output`, filling it.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
-    pub fn draw(
-        &mut self,
-        surface: &Surface<'_>,
-        frame: &Frame<'_>,
-        output: &RenderTarget<'_>,
-    ) -> Result<(), CoreError> {
+    pub fn draw(&mut self, frame: &Frame<'_>, output: &RenderTarget<'_>) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * frame.share).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
         self.fit(width, height);
-        self.mesh.update(surface);
-        self.fringe.update(surface);
-        self.shadow.draw(&self.mesh, &self.lights)?;
-        self.floor_shadow.draw(&self.mesh, &self.lights)?;
+        for shadow in [&self.shadow, &self.floor_shadow] {
+            shadow.draw(&self.mesh, &self.lights, &self.solids, frame.solids)?;
+        }
 
         let Some(target) = &self.target else {
             return Ok(());
@@ -135,6 +140,7 @@ impl Renderer {
                 self.cloth.draw_reflection(&pass, &self.mesh, &self.shadow, &dye);
                 self.ground.draw(&pass, &self.corners, &self.floor_shadow);
                 let dim = if frame.wireframe { 0.16 } else { 1.0 };
+                self.solids.draw(&pass, &self.shadow, frame.solids, dim);
                 self.cloth.draw(&pass, &self.mesh, &self.shadow, &dye, dim);
                 self.fringe.draw(&pass, &self.shadow, &dye, dim);
                 if frame.wireframe {

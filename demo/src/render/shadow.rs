@@ -10,6 +10,7 @@ use three_d::{
 
 use super::light::Lights;
 use super::mesh::Mesh;
+use super::solid::{Solid, Solids};
 use super::{matrix, vector};
 
 /// The map and the program that fills it.
@@ -42,20 +43,28 @@ impl Shadow {
         })
     }
 
-    /// Fills the map with the cloth as the key light sees it.
+    /// Fills the map with the cloth and the solids as the key light sees it.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
-    pub fn draw(&self, mesh: &Mesh, lights: &Lights) -> Result<(), CoreError> {
+    pub(super) fn draw(
+        &self,
+        mesh: &Mesh,
+        lights: &Lights,
+        shapes: &Solids,
+        solids: &[Solid],
+    ) -> Result<(), CoreError> {
         self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
             let clip = lights.key.clip_from_world();
             self.program.use_uniform("shadowFromWorld", matrix(clip));
             self.program.use_vertex_attribute("position", &mesh.positions);
+            let viewport = Viewport::new_at_origo(self.map.width(), self.map.height());
             self.program.draw_elements(
                 RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() },
-                Viewport::new_at_origo(self.map.width(), self.map.height()),
+                viewport,
                 &mesh.triangles,
             );
+            shapes.draw_depth(clip, viewport, solids);
             Ok(())
         })?;
         Ok(())

@@ -84,7 +84,8 @@ vec3 flag(vec2 p, float footprint) {
 vec3 dyed(bool front, vec2 uv, float footprint, out float hem) {
     vec2 m = uv * span;
     vec3 c = front ? frontAlbedo : backAlbedo;
-    if (printed > 0.5) c = flag(uv, footprint);
+    // The weave counts upwards, a flag is read downwards.
+    if (printed > 0.5) c = flag(vec2(uv.x, 1.0 - uv.y), footprint);
     if (cloth.w == 1.0) {
         // Indigo takes unevenly along the warp, and the white weft shows between the ridges.
         float streak = noise(vec2(m.x * 210.0, m.y * 3.0)) - 0.5;
@@ -111,5 +112,5 @@ vec3 dyed(bool front, vec2 uv, float footprint, out float hem) {
         float gap = smoothstep(0.30, 0.42, abs(fract(run) - 0.5));
         seam *= 1.0 - gap * (1.0 - smoothstep(0.15, 0.6, footprint / 0.011));
     }
-    return mix(c, seamAlbedo, seam * seamCover * clamp(0.0032 / max(footprint, 0.0016), 0.35, 1.0));
+    return mix(c, seamAlbedo, seam * seamCover * clamp(0.0040 / max(footprint, 0.0016), 0.5, 1.0));
 }

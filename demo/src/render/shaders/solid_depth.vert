@@ -1,0 +1,3 @@
+void main() {
+    gl_Position = clipFromWorld * vec4(spot(), 1.0);
+}

@@ -1,0 +1,147 @@
+//! What cloth hangs on and lies over: rods and balls, which are one shape. A ball is a rod without
+//! length.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::{Mat4, Vec3};
+use three_d::{
+    Context, CoreError, ElementBuffer, Program, RenderStates, VertexBuffer, Viewport, WriteMask,
+};
+
+use super::light::linear;
+use super::shadow::Shadow;
+use super::{Pass, matrix, vector};
+
+/// A rod with round ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solid {
+    /// The middle of one end [m].
+    pub from: Vec3,
+    /// The middle of the other [m].
+    pub to: Vec3,
+    /// Its radius [m].
+    pub radius: f32,
+    /// Its colour, `0xrrggbb`.
+    pub colour: u32,
+}
+
+/// The shape, and the programs that draw it.
+pub struct Solids {
+    program: Program,
+    depth: Program,
+    /// Direction from the middle of its end, and which end: 0 or 1.
+    shell: VertexBuffer<[f32; 4]>,
+    triangles: ElementBuffer<u32>,
+}
+
+/// Corners around, and from the middle to a pole.
+const AROUND: u32 = 48;
+const UP: u32 = 12;
+
+impl Solids {
+    /// Makes the shape.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses a shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        let (shell, triangles) = shell();
+        let vertex =
+            concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid.vert"));
+        let depth =
+            concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid_depth.vert"));
+        let fragment =
+            concat!(include_str!("shaders/light.glsl"), include_str!("shaders/solid.frag"));
+        Ok(Self {
+            program: Program::from_source(context, vertex, fragment)?,
+            depth: Program::from_source(context, depth, include_str!("shaders/depth.frag"))?,
+            shell: VertexBuffer::new_with_data(context, &shell),
+            triangles: ElementBuffer::new_with_data(context, &triangles),
+        })
+    }
+
+    pub(super) fn draw(&self, pass: &Pass, shadow: &Shadow, solids: &[Solid], dim: f32) {
+        let p = &self.program;
+        for solid in solids {
+            self.place(p, pass.clip_from_world, solid);
+            p.use_uniform("eye", vector(pass.sight.eye));
+            p.use_uniform("dim", dim);
+            p.use_uniform("albedo", vector(linear(solid.colour)));
+            p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
+            p.use_uniform("fillColour", vector(pass.lights.fill.colour));
+            p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
+            p.use_uniform("rimColour", vector(pass.lights.rim.colour));
+            shadow.use_in(p, &pass.lights);
+            p.draw_elements(RenderStates::default(), pass.viewport, &self.triangles);
+        }
+    }
+
+    /// Draws them into a shadow map.
+    pub(super) fn draw_depth(&self, clip_from_world: Mat4, viewport: Viewport, solids: &[Solid]) {
+        let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
+        for solid in solids {
+            self.place(&self.depth, clip_from_world, solid);
+            self.depth.draw_elements(states, viewport, &self.triangles);
+        }
+    }
+
+    fn place(&self, program: &Program, clip_from_world: Mat4, solid: &Solid) {
+        let along = (solid.to - solid.from).normalize_or(Vec3::Y);
+        let across = along.any_orthonormal_vector();
+        program.use_uniform("clipFromWorld", matrix(clip_from_world));
+        program.use_uniform("from", vector(solid.from));
+        program.use_uniform("to", vector(solid.to));
+        program.use_uniform("radius", solid.radius);
+        program.use_uniform("across", vector(across));
+        program.use_uniform("along", vector(along));
+        program.use_vertex_attribute("place", &self.shell);
+    }
+}
+
+/// Two half balls, whose rims are joined.
+fn shell() -> (Vec<[f32; 4]>, Vec<u32>) {
+    let mut corners = Vec::new();
+    for ring in 0..2 * (UP + 1) {
+        // Both rims lie on the equator.
+        let (end, step) = (ring / (UP + 1), ring % (UP + 1));
+        let height = step as f32 / UP as f32 - (1 - end) as f32;
+        let (y, wide) = (0.5 * PI * height).sin_cos();
+        for i in 0..AROUND {
+            let (z, x) = (TAU * i as f32 / AROUND as f32).sin_cos();
+            corners.push([x * wide, y, z * wide, end as f32]);
+        }
+    }
+    let mut triangles = Vec::new();
+    for ring in 0..2 * UP + 1 {
+        for i in 0..AROUND {
+            let j = (i + 1) % AROUND;
+            let [a, b] = [ring * AROUND + i, ring * AROUND + j];
+            let [c, d] = [a + AROUND, b + AROUND];
+            triangles.extend([a, c, b, b, c, d]);
+        }
+    }
+    (corners, triangles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shell_is_round_and_closed() {
+        let (corners, triangles) = shell();
+        for [x, y, z, end] in &corners {
+            assert!((x * x + y * y + z * z - 1.0).abs() < 1.0e-5);
+            assert!(y * (end - 0.5) >= -1.0e-6, "height {y} at end {end}");
+        }
+        for triangle in triangles.chunks_exact(3) {
+            let [a, b, c] = [0, 1, 2].map(|i| {
+                let [x, y, z, _] = corners[triangle[i] as usize];
+                Vec3::new(x, y, z)
+            });
+            // Seen from outside; at the poles and between the rims there is nothing to see.
+            let normal = (b - a).cross(c - a);
+            assert!(normal.dot(a + b + c) > -1.0e-6);
+        }
+        assert_eq!(triangles.iter().max(), Some(&(corners.len() as u32 - 1)));
+    }
+}
