@@ -76,7 +76,7 @@ impl Camera {
     /// Steps back until a sheet fits across a screen of this width over height.
     pub fn frame(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
-            let across = 1.22 / ((FIELD * 0.5).tan() * aspect);
+            let across = 1.34 / ((FIELD * 0.5).tan() * aspect);
             self.goal.radius = across.max(Self::default().goal.radius);
             self.keep_in_range();
             self.now.radius = self.goal.radius;

@@ -14,7 +14,7 @@ use crate::render::solid::Solid;
 use crate::settings::{Pinning, Settings};
 
 /// Speed of the air at wind 1 [m/s].
-const BREEZE: f32 = 1.5;
+const BREEZE: f32 = 1.3;
 /// And where a flag flies.
 const STIFF_BREEZE: f32 = 7.0;
 /// What the cloth is kept over the floor, so that it never flickers through [m].

@@ -56,7 +56,7 @@ const builders = {
     const refresh = () => {
       input.checked = get(control.name) === 1;
     };
-    return { row: element("div", { className: "row" }, label, input), refresh };
+    return { row: element("div", { className: "row half" }, label, input), refresh };
   },
 
   choice(control, { get, set }) {

@@ -2,63 +2,18 @@
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 
-import { launch, open, url, variable } from "./browser.mjs";
+import { variable } from "./browser.mjs";
+import "./demo-panel.test.mjs";
+import "./demo-robust.test.mjs";
+import { MIDDLE, apart, becomes, eye, fingers, frames, hash, particle, running, settings, stats, visitRunning } from "./demo-visit.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
-const MIDDLE = 20 * 40 + 20; // of the 40 x 40 particles
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser?.close());
-
-/** A page that runs, with the help out of the way. A busy machine without a graphics card draws slowly. */
-async function visit(options) {
-  const visit = await open(browser, { viewport: { width: 960, height: 540 }, ...options });
-  visit.page.setDefaultTimeout(180_000);
-  await visit.page.goto(url);
-  await running(visit);
-  return visit;
-}
-
-async function running({ page, complaints }) {
-  const state = () => document.documentElement.dataset.state;
-  await page.waitForFunction(state, null, { timeout: 180_000 }).catch(() => {});
-  const reason = await page.locator("#reason").textContent();
-  assert.equal(await page.evaluate(state), "running", `${reason} ${complaints.join("; ")}`);
-  await page.locator("#dismiss").click();
-}
-
-const stats = (page) => page.evaluate(() => window.muslinDemo.stats());
-const settings = (page) => page.evaluate(() => window.muslinDemo.settings());
-const hash = (page) => page.evaluate(() => window.muslinDemo.stateHash());
-const particle = (page, i) => page.evaluate((i) => window.muslinDemo.particleScreen(i), i);
-const eye = (page) => page.evaluate(() => window.muslinDemo.eye());
-const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
-
-/** Waits until frames have been drawn: the demo moves in them, not in time. */
-const frames = (page, count) =>
-  page.evaluate(async (count) => {
-    for (let i = 0; i < count; i++) await new Promise(requestAnimationFrame);
-  }, count);
-
-/** Waits until `read` gives what `fits`; fails with what it gave last. */
-async function becomes(page, read, fits, what) {
-  let last;
-  for (let i = 0; i < 120; i++) {
-    last = await read();
-    if (fits(last)) return last;
-    await frames(page, 2);
-  }
-  assert.fail(`${what}: ${JSON.stringify(last)}`);
-}
 
 test("the sheet moves, and its picture fits a wide and a tall screen", async () => {
   for (const [width, height] of [[1280, 720], [390, 844]]) {
-    const { context, page, complaints } = await visit({ viewport: { width, height } });
+    const { context, page, complaints } = await visitRunning({ viewport: { width, height } });
     const first = await hash(page);
     await becomes(page, () => hash(page), (now) => now !== first, "nothing moves");
     await frames(page, 20);
@@ -73,31 +28,31 @@ test("the sheet moves, and its picture fits a wide and a tall screen", async () 
 });
 
 test("a pointer drags the particle that it grabs, and nothing else turns", async () => {
-  const { context, page, complaints } = await visit();
+  const { context, page, complaints } = await visitRunning();
   const from = await particle(page, MIDDLE);
   const before = await eye(page);
   await page.mouse.move(...from);
   await page.mouse.down();
-  const to = [from[0] + 120, from[1] - 60];
+  const to = [from[0] + 90, from[1] - 45];
   await page.mouse.move(...to, { steps: 8 });
   // The particle under the pointer may be a neighbour: the sheet sways.
-  const near = (at) => apart(at, to) < 25;
+  const near = (at) => apart(at, to) < 20;
   await becomes(page, () => particle(page, MIDDLE), near, `the particle did not come to ${to}`);
   assert.ok(apart(await eye(page), before) < 0.02, "the camera turned with the drag");
   await page.mouse.up();
-  const away = (at) => apart(at, to) > 40;
+  const away = (at) => apart(at, to) > 30;
   await becomes(page, () => particle(page, MIDDLE), away, "the particle was not let go");
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
 test("with tearing on a hard pull rips the sheet, with tearing off it does not", async () => {
-  const { context, page, complaints } = await visit();
+  const { context, page, complaints } = await visitRunning();
   const pull = async () => {
     const from = await particle(page, MIDDLE);
     await page.mouse.move(...from);
     await page.mouse.down();
-    await page.mouse.move(from[0] + 380, from[1] + 190, { steps: 12 });
+    await page.mouse.move(from[0] + 280, from[1] + 140, { steps: 12 });
     await frames(page, 20);
     await page.mouse.up();
   };
@@ -119,7 +74,7 @@ test("with tearing on a hard pull rips the sheet, with tearing off it does not",
 });
 
 test("a swipe with Shift held cuts, and so does a finger with the blade switched on", async () => {
-  const { context, page, complaints } = await visit({ hasTouch: true });
+  const { context, page, complaints } = await visitRunning({ hasTouch: true, uncovered: true });
   const swipe = async (down, move, up) => {
     const [left, right] = [await particle(page, 20 * 40), await particle(page, 20 * 40 + 39)];
     const at = (share) => left.map((x, i) => x + (right[i] - x) * share);
@@ -141,15 +96,15 @@ test("a swipe with Shift held cuts, and so does a finger with the blade switched
   assert.equal(cut.pieces, 1);
   assert.ok(apart(await eye(page), before) < 0.02, "the camera turned with the swipe");
 
-  await page.locator("#control-reset").click();
-  await page.locator("#control-blade").click();
-  const touch = await context.newCDPSession(page);
-  const finger = (type) => async (at) => {
-    const touchPoints = at ? [{ x: at[0], y: at[1], id: 1 }] : [];
-    await touch.send("Input.dispatchTouchEvent", { type, touchPoints });
-  };
+  await page.keyboard.press("r");
+  await page.keyboard.press("b");
+  const touch = await fingers(page);
   await frames(page, 4);
-  await swipe(finger("touchStart"), finger("touchMove"), finger("touchEnd"));
+  await swipe(
+    (at) => touch("touchStart", at),
+    (at) => touch("touchMove", at),
+    () => touch("touchEnd"),
+  );
   const touched = ({ particles }) => particles > whole.particles + 20;
   await becomes(page, () => stats(page), touched, "the finger cut nothing");
   assert.deepEqual(complaints, []);
@@ -157,17 +112,17 @@ test("a swipe with Shift held cuts, and so does a finger with the blade switched
 });
 
 test("the wheel zooms, a drag beside the sheet orbits", async () => {
-  const { context, page, complaints } = await visit();
+  const { context, page, complaints } = await visitRunning();
   const first = await eye(page);
-  await page.mouse.move(480, 270);
+  await page.mouse.move(350, 197);
   await page.mouse.wheel(0, -600);
   const nearer = (at) => apart(at, first) > 0.1;
   const zoomed = await becomes(page, () => eye(page), nearer, "the wheel did not zoom");
   await page.mouse.wheel(0, 600);
   await frames(page, 20);
-  await page.mouse.move(740, 500);
+  await page.mouse.move(560, 385);
   await page.mouse.down();
-  await page.mouse.move(900, 470, { steps: 6 });
+  await page.mouse.move(670, 370, { steps: 6 });
   await page.mouse.up();
   const turned = (at) => Math.abs(at[0] - zoomed[0]) > 0.1;
   await becomes(page, () => eye(page), turned, "the drag did not orbit");
@@ -176,7 +131,7 @@ test("the wheel zooms, a drag beside the sheet orbits", async () => {
 });
 
 test("a slider and a key change the settings, which outlive a reload", async () => {
-  const visited = await visit();
+  const visited = await visitRunning();
   const { context, page, complaints } = visited;
   const before = await settings(page);
   const slider = page.locator("#control-gravity");
@@ -196,7 +151,7 @@ test("a slider and a key change the settings, which outlive a reload", async () 
 });
 
 test("a pause stops the sheet and a reset hangs a fresh one", async () => {
-  const { context, page, complaints } = await visit();
+  const { context, page, complaints } = await visitRunning();
   await frames(page, 10);
   await page.locator("#control-paused").click();
   await frames(page, 2);
@@ -205,6 +160,73 @@ test("a pause stops the sheet and a reset hangs a fresh one", async () => {
   assert.equal(await hash(page), still);
   await page.locator("#control-reset").click();
   await becomes(page, () => hash(page), (now) => now !== still, "the reset did nothing");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("two fingers pinch, and neither the second's coming nor its going jumps", async () => {
+  const { context, page, complaints } = await visitRunning({ hasTouch: true });
+  const touch = await fingers(page);
+  const far = async () => Math.hypot(...(await eye(page)));
+  const settled = async () => {
+    await frames(page, 12);
+    return far();
+  };
+  const still = await far();
+  await touch("touchStart", [440, 386]);
+  await touch("touchStart", [440, 386], [680, 386]);
+  assert.ok(Math.abs((await settled()) - still) < 0.05, "the second finger jumped");
+  for (let x = 670; x >= 560; x -= 10) await touch("touchMove", [440, 386], [x, 386]);
+  await becomes(page, far, (now) => now > 1.3 * still, "the pinch did not zoom");
+  await frames(page, 30);
+  const pinched = await settled();
+  await touch("touchEnd", [440, 386]);
+  assert.ok(Math.abs((await settled()) - pinched) < 0.05, "the finger that left jumped");
+  await touch("touchEnd");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("two fingers hold the cloth at once, and one that is cancelled lets go", async () => {
+  const { context, page, complaints } = await visitRunning({ hasTouch: true, uncovered: true });
+  const touch = await fingers(page);
+  const places = [12 * 40 + 12, 12 * 40 + 27];
+  const [a, b] = [await particle(page, places[0]), await particle(page, places[1])];
+  const before = await eye(page);
+  await touch("touchStart", a);
+  await touch("touchStart", a, b);
+  const [to, and] = [[a[0] - 40, a[1] + 20], [b[0] + 40, b[1] + 20]];
+  for (let i = 1; i <= 4; i++) {
+    const on = (from, to) => from.map((x, axis) => x + ((to[axis] - x) * i) / 4);
+    await touch("touchMove", on(a, to), on(b, and));
+  }
+  const held = async () => Promise.all(places.map((i) => particle(page, i)));
+  const both = ([x, y]) => apart(x, to) < 25 && apart(y, and) < 25;
+  await becomes(page, held, both, "the fingers do not hold both");
+  assert.ok(apart(await eye(page), before) < 0.02, "the camera moved with the fingers");
+  await touch("touchCancel");
+  const free = ([x, y]) => apart(x, to) > 8 && apart(y, and) > 8;
+  await becomes(page, held, free, "a cancelled finger still holds");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("the cursor says what can be grabbed, what is held, and that the blade is out", async () => {
+  const { context, page, complaints } = await visitRunning();
+  const cursor = () => page.evaluate(() => document.getElementById("stage").style.cursor);
+  const over = async (at, wanted) => {
+    await page.mouse.move(...at);
+    await becomes(page, cursor, (now) => now === wanted, `the cursor is not ${wanted}`);
+  };
+  await over([690, 300], "default");
+  await over(await particle(page, MIDDLE), "grab");
+  await page.mouse.down();
+  await becomes(page, cursor, (now) => now === "grabbing", "the cursor does not hold");
+  await page.mouse.up();
+  await page.keyboard.down("Shift");
+  await becomes(page, cursor, (now) => now === "crosshair", "the blade does not show");
+  await page.keyboard.up("Shift");
+  assert.notEqual(await cursor(), "crosshair");
   assert.deepEqual(complaints, []);
   await context.close();
 });

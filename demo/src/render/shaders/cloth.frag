@@ -98,7 +98,7 @@ void main() {
     light += keyColour * lit * max(nl, 0.0) * (fibres.x + 0.12 * undone) * mix(vec3(1.0), normalize(albedo + 0.05) * 1.7, 0.35) * fuzz(dot(n, h), max(nl, 0.0), nv);
     float through = max(-nl, 0.0);
     through = 0.30 * through + 0.55 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
-    light += keyColour * lit * through * (1.0 - 0.30 * hem) * albedo * fibres.y * (1.0 + 0.4 * undone) * 0.62;
+    light += keyColour * lit * through * (1.0 - 0.30 * hem) * albedo * fibres.y * (1.0 + 0.4 * undone) * 0.80;
 
     // Fill and rim throw no shadow, so they are kept off faces that turn away.
     float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);

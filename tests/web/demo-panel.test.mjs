@@ -1,0 +1,176 @@
+// The panel: every control does what it says, by hand and by key, and says so to everybody.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { frames, running, settings, stats, visit, visitRunning } from "./demo-visit.mjs";
+
+/** Puts a value under the settings' key before the page loads. */
+const keeping = (kept) => (page) =>
+  page.addInitScript((kept) => localStorage.setItem("cloth3d.settings.v1", kept), kept);
+
+test("every control changes its own setting and no other, by hand and by key", async () => {
+  const { context, page, complaints } = await visitRunning();
+  const usual = await settings(page);
+  const names = await page.locator("#controls input, #controls fieldset").evaluateAll((found) => [
+    ...new Set(found.map((one) => one.closest("fieldset")?.id ?? one.id)),
+  ]);
+  assert.ok(names.length >= 11, `${names}`);
+  const keys = { scene: "e", fabric: "l", pinning: "p", resolution: "n", paused: " ", wireframe: "f" };
+  for (const id of names) {
+    const name = id.replace("control-", "");
+    const control = page.locator(`#${id}`);
+    const before = await settings(page);
+    if (await control.evaluate((one) => one.tagName === "FIELDSET")) {
+      await control.locator("input:not(:checked)").first().check();
+    } else if ((await control.getAttribute("type")) === "range") {
+      await control.fill(await control.getAttribute("max"));
+    } else {
+      await control.click();
+    }
+    const after = await settings(page);
+    const changed = Object.keys(usual).filter((key) => after[key] !== before[key]);
+    // Another scene brings its own fabric.
+    const wanted = name === "scene" ? ["scene", "fabric"] : [name];
+    assert.deepEqual(changed.toSorted(), wanted.toSorted(), `${id} changed ${changed}`);
+    if (keys[name]) {
+      await page.locator("#stage").focus();
+      await page.keyboard.press(keys[name]);
+      assert.notEqual((await settings(page))[name], after[name], `${keys[name]} does nothing`);
+    }
+  }
+  await page.locator("#control-drop").click();
+  await frames(page, 4);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("resolution, pieces and the times of stages are told", async () => {
+  const { context, page, complaints } = await visitRunning();
+  await page.locator("#control-resolution input").last().check();
+  assert.equal((await stats(page)).particles, 128 * 128);
+  await page.locator("#control-resolution input").first().check();
+  assert.equal((await stats(page)).particles, 24 * 24);
+  await page.locator("#stages summary").click();
+  await frames(page, 6);
+  const stages = await page.evaluate(() => window.muslinDemo.stages());
+  const named = (name) => stages.find((stage) => stage.name === name)?.milliseconds;
+  for (const name of ["forces", "stretch", "normals", "upload", "draw calls"]) {
+    assert.ok(named(name) >= 0, `no ${name} in ${JSON.stringify(stages)}`);
+  }
+  assert.ok(stages.some((stage) => stage.milliseconds > 0), JSON.stringify(stages));
+  await page.waitForFunction((count) => document.querySelectorAll("#stage-times dd").length === count, stages.length);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("corrupt and wild settings are put right, and what is kept is what shows", async () => {
+  for (const kept of ["{ wind:", "null", '{"pinning": "glue"}']) {
+    const { context, page, complaints } = await visitRunning({}, keeping(kept));
+    const { wind, gravity, resolution, pinning } = await settings(page);
+    assert.deepEqual({ wind, gravity, resolution, pinning }, { wind: 0.8, gravity: 9.8, resolution: 40, pinning: "top-edge" });
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
+  const wild = '{"wind": 1e9, "gravity": -3, "stiffness": 4000, "damping": 7, "resolution": 100000}';
+  const { context, page, complaints } = await visitRunning({}, keeping(wild));
+  const { wind, gravity, stiffness, damping, resolution } = await settings(page);
+  assert.deepEqual([wind, gravity, stiffness, resolution], [3, 0, 12, 40]);
+  assert.ok(Math.abs(damping - 0.06) < 1e-6, `damping is ${damping}`);
+  assert.deepEqual(JSON.parse(await page.evaluate(() => localStorage.getItem("cloth3d.settings.v1"))), await settings(page));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a browser without storage runs the demo all the same", async () => {
+  const { context, page, complaints } = await visitRunning({}, (page) =>
+    page.addInitScript(() => {
+      const refuse = () => {
+        throw new DOMException("denied", "SecurityError");
+      };
+      Storage.prototype.getItem = refuse;
+      Storage.prototype.setItem = refuse;
+    }),
+  );
+  await page.locator("#control-wireframe").click();
+  assert.equal((await settings(page)).wireframe, true);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("controls have labels, rings of focus, contrast, and the footer its link", async () => {
+  const { context, page, complaints } = await visitRunning();
+  const nameless = await page.locator("#controls input").evaluateAll((inputs) =>
+    inputs.filter((input) => !input.labels?.[0]?.textContent.trim()).map((input) => input.id),
+  );
+  assert.deepEqual(nameless, []);
+  assert.ok((await page.locator("#stage").getAttribute("aria-label")).length > 40);
+  await page.locator("#collapse").focus();
+  // From control to control by the keyboard alone, each with a ring.
+  const reached = new Set();
+  for (let i = 0; i < 24; i++) {
+    await page.keyboard.press("Tab");
+    const [id, ring] = await page.evaluate(() => {
+      const focused = document.activeElement;
+      const shown = focused.matches(".segments input") ? focused.nextSibling : focused;
+      return [focused.id, getComputedStyle(shown).outlineStyle];
+    });
+    reached.add(id.replace(/-\d$/, ""));
+    if (id) assert.notEqual(ring, "none", `${id} has no ring`);
+  }
+  for (const name of ["wind", "gravity", "stiffness", "damping", "wireframe", "tearing", "blade", "paused", "reset", "drop"]) {
+    assert.ok(reached.has(`control-${name}`), `Tab does not reach ${name}: ${[...reached]}`);
+  }
+  // On the panel's surface over the brightest part of the backdrop.
+  const contrasts = await page.evaluate(() => {
+    const light = ([r, g, b]) => {
+      const linear = (c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+      return 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+    };
+    const numbers = (colour) => colour.match(/[\d.]+/g).map(Number);
+    const [r, g, b, a = 1] = numbers(getComputedStyle(document.getElementById("panel")).backgroundColor);
+    const surface = [r, g, b].map((c, i) => a * c + (1 - a) * [30, 34, 48][i]);
+    return ["h1", ".name", ".chip", "#stats dt", "#stats dd", "#stages summary", "#controls button"].map((where) => {
+      const [high, low] = [light(numbers(getComputedStyle(document.querySelector(where)).color)), light(surface)];
+      return [where, (high + 0.05) / (low + 0.05)];
+    });
+  });
+  for (const [where, contrast] of contrasts) assert.ok(contrast >= 4.5, `${where}: ${contrast}`);
+  const link = page.locator("footer a");
+  assert.equal(await link.textContent(), "Built with a one-shot prompt from 1ShotGen");
+  assert.deepEqual(
+    [await link.getAttribute("href"), await link.getAttribute("target"), await link.getAttribute("rel")],
+    ["https://1shotgen.com", "_blank", "noopener noreferrer"],
+  );
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("panel and instructions open and close, and a narrow screen starts with the panel shut", async () => {
+  const visited = await visit({ viewport: { width: 390, height: 700 }, reducedMotion: "reduce" });
+  const { context, page, complaints } = visited;
+  const help = page.locator("#help");
+  await help.waitFor({ state: "visible" });
+  await running(visited);
+  await help.waitFor({ state: "hidden" });
+  const rows = page.locator("#rows");
+  assert.equal(await rows.isVisible(), false);
+  await page.locator("#collapse").click();
+  assert.equal(await rows.isVisible(), true);
+  const box = await page.locator("#panel").boundingBox();
+  assert.ok(box.x >= 0 && box.x + box.width <= 390 && box.y + box.height <= 700, JSON.stringify(box));
+  await page.keyboard.press("c");
+  assert.equal(await rows.isVisible(), false);
+  await page.keyboard.press("?");
+  await help.waitFor({ state: "visible" });
+  await page.keyboard.press("Escape");
+  await help.waitFor({ state: "hidden" });
+  await page.locator("#ask").click();
+  await help.waitFor({ state: "visible" });
+  await page.mouse.click(200, 560);
+  await help.waitFor({ state: "hidden" });
+  const transition = await help.evaluate((it) => getComputedStyle(it).transitionDuration);
+  assert.ok(parseFloat(transition) <= 0.0011, `with reduced motion things still glide: ${transition}`);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});

@@ -1,0 +1,77 @@
+// What the tests of the demo's page share: a browser, a visit, and how to read the page.
+
+import assert from "node:assert/strict";
+import { after, before } from "node:test";
+
+import { launch, open, url } from "./browser.mjs";
+
+/** A particle in the middle of the 40 x 40. */
+export const MIDDLE = 20 * 40 + 20;
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser?.close());
+
+/**
+ * A page that runs, with the help out of the way; `prepare(page)` comes before it loads. A busy machine
+ * without a graphics card draws slowly, so the page is small and patience long.
+ */
+export async function visit(options, prepare) {
+  const visit = await open(browser, { viewport: { width: 700, height: 394 }, ...options });
+  visit.page.setDefaultTimeout(180_000);
+  await prepare?.(visit.page);
+  await visit.page.goto(url);
+  return visit;
+}
+
+/** The same once it runs, with the panel shut if `uncovered`. */
+export async function visitRunning({ uncovered, ...options } = {}, prepare) {
+  const visited = await visit(options, prepare);
+  await running(visited);
+  if (uncovered) await visited.page.locator("#collapse").click();
+  return visited;
+}
+
+export async function running({ page, complaints }) {
+  const state = () => document.documentElement.dataset.state;
+  await page.waitForFunction(state, null, { timeout: 180_000 }).catch(() => {});
+  const reason = await page.locator("#reason").textContent();
+  assert.equal(await page.evaluate(state), "running", `${reason} ${complaints.join("; ")}`);
+  await page.locator("#dismiss").click();
+}
+
+export const stats = (page) => page.evaluate(() => window.muslinDemo.stats());
+export const settings = (page) => page.evaluate(() => window.muslinDemo.settings());
+export const hash = (page) => page.evaluate(() => window.muslinDemo.stateHash());
+export const particle = (page, i) => page.evaluate((i) => window.muslinDemo.particleScreen(i), i);
+export const eye = (page) => page.evaluate(() => window.muslinDemo.eye());
+export const state = (page) => page.evaluate(() => document.documentElement.dataset.state);
+export const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
+
+/** Waits until frames have been drawn: the demo moves in them, not in time. */
+export const frames = (page, count) =>
+  page.evaluate(async (count) => {
+    for (let i = 0; i < count; i++) await new Promise(requestAnimationFrame);
+  }, count);
+
+/** Waits until `read` gives what `fits`; fails with what it gave last. */
+export async function becomes(page, read, fits, what) {
+  let last;
+  for (let i = 0; i < 120; i++) {
+    last = await read();
+    if (fits(last)) return last;
+    await frames(page, 2);
+  }
+  assert.fail(`${what}: ${JSON.stringify(last)}`);
+}
+
+/** Touches a page with as many fingers as there are places; real events, from outside the page. */
+export async function fingers(page) {
+  const session = await page.context().newCDPSession(page);
+  return (type, ...places) => {
+    const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
+    return session.send("Input.dispatchTouchEvent", { type, touchPoints });
+  };
+}
