@@ -106,6 +106,53 @@
 /** A cut made `vertex` on the edge between `particle_a` and `particle_b`. */
 #define MUSLIN_EVENT_EDGE_DIVIDED 6
 
+/** Where a vertex is [m]: x y z, and 1 in 16 bits. */
+#define MUSLIN_ATTRIBUTE_POSITION 0
+
+/** Its unit normal: x y z, and 0 in 16 bits. */
+#define MUSLIN_ATTRIBUTE_NORMAL 1
+
+/**
+ * The unit direction square to the normal in which the texture coordinate u grows, x y z, and w, which
+ * is 1 or -1: v grows along cross(normal, tangent) times w. It is the sum over the vertex's triangles of
+ * (p dv2 - q dv1) sign(du1 dv2 - du2 dv1), p and q being edges and (du1, dv1), (du2, dv2) what they
+ * are in the texture, made square to the normal; where a texture says nothing, any such direction.
+ */
+#define MUSLIN_ATTRIBUTE_TANGENT 2
+
+/** Its texture coordinates: u v. */
+#define MUSLIN_ATTRIBUTE_UV 3
+
+/**
+ * 1 at a border that a tear or a cut made, which a renderer may fringe, else 0; and another 0 in 16 bits.
+ */
+#define MUSLIN_ATTRIBUTE_FRAYED 4
+
+/** 32-bit floats: 12 bytes of a position or normal, 16 of a tangent, 8 of a uv, 4 of frayed. */
+#define MUSLIN_FORMAT_F32 0
+
+/** 16-bit floats: 8 bytes, of a uv or frayed 4. What is beyond 65504 becomes that. */
+#define MUSLIN_FORMAT_F16 1
+
+/**
+ * 16-bit whole numbers from -32767 to 32767, which stand for -1 to 1: 8 bytes of a normal or tangent, 4
+ * of frayed; nothing else.
+ */
+#define MUSLIN_FORMAT_SNORM16 2
+
+/**
+ * A direction as two of those, x and y where it meets the octahedron |x| + |y| + |z| = 1, its lower
+ * half (z < 0) folded outward, to (1 - |y|) sign(x) and (1 - |x|) sign(y): 4 bytes of a normal; 8 of a
+ * tangent, those two, w and 0; nothing else.
+ */
+#define MUSLIN_FORMAT_OCTAHEDRAL16 3
+
+/** How many streams one call takes. */
+#define MUSLIN_MAX_STREAMS 16
+
+/** For `vertex_count`: all from the first one on. */
+#define MUSLIN_ALL_VERTICES UINT32_MAX
+
 /** Room for the times of stages in MuslinStats; how many there are is in `stage_count`. */
 #define MUSLIN_STAGE_SLOTS 31
 
@@ -585,6 +632,59 @@ typedef struct MuslinStats {
   uint32_t over_stretched;
 } MuslinStats;
 
+/**
+ * A place that one attribute of vertices is written to. Streams may share a buffer: interleaved, at
+ * equal strides, or one behind the other. Begin with muslin_stream_init, or take muslin_stream.
+ */
+typedef struct MuslinStream {
+  /** Set by muslin_stream_init; equal for all streams of a call. */
+  uint32_t struct_size;
+  /** What is written: MUSLIN_ATTRIBUTE_...; MUSLIN_ATTRIBUTE_POSITION. */
+  uint32_t attribute;
+  /** How: MUSLIN_FORMAT_...; MUSLIN_FORMAT_F32. */
+  uint32_t format;
+  /**
+   * Bytes from one vertex to the next: a multiple of the 4 (MUSLIN_FORMAT_F32) or 2 bytes of a number,
+   * and at least what the attribute takes; 0, which leaves no gaps.
+   */
+  uint32_t stride;
+  /** Where the first vertex goes, aligned to a number; NULL. It is yours, not a view's. */
+  void *buffer;
+  /** Bytes from there to the end of the buffer; 0. */
+  size_t size;
+} MuslinStream;
+
+/**
+ * Which vertices are written, and how they are placed. Begin with muslin_write_desc_init: all, as they
+ * are.
+ */
+typedef struct MuslinWriteDesc {
+  /** Set by muslin_write_desc_init. */
+  uint32_t struct_size;
+  /** The first vertex; 0. It goes to the beginning of each stream. */
+  uint32_t first_vertex;
+  /** How many; MUSLIN_ALL_VERTICES. */
+  uint32_t vertex_count;
+  /**
+   * How far from the last tick to this one, from 0 to 1; 1. The stats' `blend` is how far the time is
+   * that was asked for. Normals and tangents are those of the surface there.
+   */
+  float blend;
+  /**
+   * What is done to positions, after the offset: three rows of four, so that x becomes
+   * t[0] x + t[1] y + t[2] z + t[3]; nothing. Normals stay square to the surface and on their side of
+   * it, tangents along it.
+   */
+  float transform[12];
+  /** 1 if normals point to the other side, for the back of a cloth; 0. */
+  uint32_t flip_normals;
+  /**
+   * How far positions are moved along the normals that are written [m]; 0. Half of the thickness on
+   * either side gives a cloth a body.
+   */
+  float offset;
+} MuslinWriteDesc;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -915,6 +1015,30 @@ MuslinStatus muslin_cloth_changes(MuslinCloth cloth,
                                   uint32_t since_topology_revision,
                                   MuslinChanges *out_changes);
 
+/** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
+MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
+
+/**
+ * A hash over all that the next tick depends on: equal on every machine that was told the same.
+ */
+MuslinStatus muslin_cloth_state_hash(MuslinCloth cloth, uint64_t *out_hash);
+
+/**
+ * Writes vertices into buffers of yours: each attribute in the format, at the place and at the distances
+ * that one of the `stream_count` streams says. Nothing else in the buffers is touched. With room for the
+ * view's `vertex_capacity` vertices they fit for ever. `desc` may be NULL: all vertices, as they are.
+ *
+ * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the vertices do not fit the `size` of a stream;
+ * MUSLIN_STATUS_BAD_VALUE for a field of a stream or of `desc` that cannot be, a format that an attribute
+ * is not written in, bytes that two streams write or that a view is of, unless `stream_count` is from 1 to
+ * MUSLIN_MAX_STREAMS, or if a stream takes normals or tangents and the transform cannot be inverted; the
+ * buffers are untouched then
+ */
+MuslinStatus muslin_cloth_write_vertices(MuslinCloth cloth,
+                                         const MuslinStream *streams,
+                                         uint32_t stream_count,
+                                         const MuslinWriteDesc *desc);
+
 /**
  * Writes the indices of all triangles to the beginning of `buffer`, which has room for `size` bytes:
  * `index_format` is how many bits each takes, 16 or 32; each has `base_vertex` added, and every triangle
@@ -930,14 +1054,6 @@ MuslinStatus muslin_cloth_write_indices(MuslinCloth cloth,
                                         uint32_t index_format,
                                         uint32_t flip,
                                         uint32_t base_vertex);
-
-/** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
-MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
-
-/**
- * A hash over all that the next tick depends on: equal on every machine that was told the same.
- */
-MuslinStatus muslin_cloth_state_hash(MuslinCloth cloth, uint64_t *out_hash);
 
 /**
  * Writes all of a cloth into `size` bytes at `buffer`; `out_needed` gets the number of bytes that it
@@ -975,6 +1091,12 @@ MuslinStatus muslin_wind_init_sized(MuslinWind *wind, uint32_t struct_size);
 /** What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc. */
 MuslinStatus muslin_collider_desc_init_sized(MuslinColliderDesc *desc,
                                              uint32_t struct_size);
+
+/** What muslin_stream_init calls: pass the sizeof of MuslinStream. */
+MuslinStatus muslin_stream_init_sized(MuslinStream *stream, uint32_t struct_size);
+
+/** What muslin_write_desc_init calls: pass the sizeof of MuslinWriteDesc. */
+MuslinStatus muslin_write_desc_init_sized(MuslinWriteDesc *desc, uint32_t struct_size);
 
 /**
  * What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
@@ -1026,6 +1148,27 @@ static inline void muslin_wind_init(MuslinWind *wind) {
 
 static inline void muslin_collider_desc_init(MuslinColliderDesc *desc) {
   (void)muslin_collider_desc_init_sized(desc, (uint32_t)sizeof(MuslinColliderDesc));
+}
+
+static inline void muslin_stream_init(MuslinStream *stream) {
+  (void)muslin_stream_init_sized(stream, (uint32_t)sizeof(MuslinStream));
+}
+
+static inline void muslin_write_desc_init(MuslinWriteDesc *desc) {
+  (void)muslin_write_desc_init_sized(desc, (uint32_t)sizeof(MuslinWriteDesc));
+}
+
+/* A whole stream at once; see MuslinStream for what each is. */
+static inline MuslinStream muslin_stream(uint32_t attribute, uint32_t format, void *buffer,
+                                         uint32_t stride, size_t size) {
+  MuslinStream stream;
+  muslin_stream_init(&stream);
+  stream.attribute = attribute;
+  stream.format = format;
+  stream.stride = stride;
+  stream.buffer = buffer;
+  stream.size = size;
+  return stream;
 }
 
 /* Begin a report: set its size, as the compiler of this very program knows it. */

@@ -37,6 +37,24 @@ pub enum Error {
         /// The rule it broke.
         must: &'static str,
     },
+    /// A stream of vertices cannot be written.
+    BadStream {
+        /// Which of the streams, from 0 on.
+        stream: u32,
+        /// Its field, as it is spelt in the API.
+        field: &'static str,
+        /// The rule it broke: "`streams[0].field` must …".
+        must: &'static str,
+    },
+    /// The buffer of a stream of vertices has too little room.
+    SmallStream {
+        /// Which of the streams, from 0 on.
+        stream: u32,
+        /// The bytes that are to be written, from the first to the last.
+        needed: u64,
+        /// The bytes that there are.
+        size: u64,
+    },
     /// The room that was reserved when the cloth was made is used up.
     Full {
         /// What there is no room for.
@@ -63,6 +81,12 @@ impl fmt::Display for Error {
             }
             Self::BadHandle { what } => write!(f, "`{what}` must be a live {what} of this cloth"),
             Self::BadMesh { at, must } => write!(f, "`indices` must {must} (see number {at})"),
+            Self::BadStream { stream, field, must } => {
+                write!(f, "`streams[{stream}].{field}` must {must}")
+            }
+            Self::SmallStream { stream, needed, size } => {
+                write!(f, "`streams[{stream}].size` must be at least {needed}, but is {size}")
+            }
             Self::Full { what } => write!(f, "no room is left for {what}"),
             Self::BadSave { why } => write!(f, "`buffer` must hold a saved cloth: {why}"),
             Self::Unsupported { what } => write!(f, "{what} is not supported"),

@@ -14,6 +14,7 @@ pub use cloth::Cloth;
 pub use cloth::changes::Changes;
 pub use cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
 pub use cloth::query::Hit;
+pub use cloth::stream::{ALL_VERTICES, Attribute, MAX_STREAMS, Stream, VertexFormat, WriteDesc};
 pub use cloth::view::{Stats, View};
 pub use cloth::write::IndexFormat;
 pub use error::{Error, Result};

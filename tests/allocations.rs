@@ -1,7 +1,9 @@
 //! Once a cloth is made, moving, tearing within its reserve and reading allocate nothing.
 
 use muslin::glam::Vec3;
-use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, Wind};
+use muslin::{
+    Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, Stream, VertexFormat, Wind, WriteDesc,
+};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -109,4 +111,38 @@ fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
 fn the_counter_counts() {
     let made = allocations(|| drop(Vec::<u32>::with_capacity(9)));
     assert_eq!(made, 1);
+}
+
+#[test]
+fn writing_vertices_allocates_nothing_after_the_first_time() {
+    let mut desc = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.4;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let mut buffer = vec![0; 48 * cloth.view().vertex_capacity as usize];
+    let bytes = Cell::from_mut(&mut buffer[..]).as_slice_of_cells();
+    let mut at = 0;
+    let streams = [Attribute::Position, Attribute::Normal, Attribute::Tangent, Attribute::Uv];
+    let streams = streams.map(|attribute| {
+        let format = VertexFormat::F32;
+        let stream = Stream { attribute, format, stride: 48, bytes: &bytes[at..] };
+        at += format.width(attribute).unwrap();
+        stream
+    });
+    let write = |cloth: &mut Cloth, blend: f32| {
+        cloth.write_vertices(&streams, &WriteDesc { blend, ..WriteDesc::default() }).unwrap();
+    };
+    write(&mut cloth, 0.5);
+    let grab = cloth.grab_particle(210).unwrap();
+    let before = cloth.positions().len();
+    let count = allocations(|| {
+        for tick in 1..=90 {
+            cloth.move_grab(grab, Vec3::new(0.5, -0.5, 0.05 * tick as f32)).unwrap();
+            cloth.step(1);
+            write(&mut cloth, 0.25);
+            write(&mut cloth, 1.0);
+        }
+    });
+    assert_eq!(count, 0);
+    assert!(cloth.positions().len() > before, "nothing tore");
 }

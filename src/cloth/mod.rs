@@ -3,11 +3,13 @@
 pub(crate) mod changes;
 mod cut;
 pub(crate) mod desc;
+mod drawn;
 #[cfg(test)]
 mod equal_bits;
 mod hash;
 pub(crate) mod query;
 mod save;
+pub(crate) mod stream;
 mod tear;
 #[cfg(feature = "parallel")]
 mod threads;

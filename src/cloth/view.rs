@@ -2,11 +2,12 @@
 
 use super::Cloth;
 use super::changes::{Change, differing};
+use super::drawn::Drawn;
 use super::world::Origin;
-use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
 use crate::solver::stage::Stage;
 use crate::solver::{World, outputs};
+use core::ops::Range;
 use glam::{Vec2, Vec3};
 
 /// A cloth as its renderer sees it. All lists have one entry a vertex, but for the indices.
@@ -71,8 +72,7 @@ pub(crate) struct Outputs {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     normals_current: bool,
-    /// Room for summing up normals.
-    sums: Columns,
+    pub drawn: Drawn,
     uvs: Vec<Vec2>,
     /// Texture coordinates of each site, and the original vertex it came from.
     site_uvs: Vec<Vec2>,
@@ -92,7 +92,7 @@ impl Outputs {
             positions: Vec::with_capacity(capacity),
             normals: Vec::with_capacity(capacity),
             normals_current: false,
-            sums: Columns::with_capacity(capacity),
+            drawn: Drawn::with_capacity(capacity),
             uvs: Vec::with_capacity(capacity),
             site_uvs: Vec::new(),
             site_sources: Vec::new(),
@@ -117,6 +117,7 @@ impl Outputs {
     pub fn follow(&mut self, world: &World) {
         outputs::positions(world, &mut self.positions);
         self.normals_current = false;
+        self.drawn.moved();
     }
 
     /// Follows a change of triangles, and says which entries are not as they were.
@@ -133,6 +134,7 @@ impl Outputs {
             .and_vertices(differing(&self.uvs, uvs))
             .and_vertices(differing(&self.sources, sources))
             .and_vertices(differing(&self.frayed, frayed));
+        self.drawn.retied();
         // Copied, since lists that were handed out stay where they are.
         self.uvs.clone_from(uvs);
         self.sources.clone_from(sources);
@@ -140,6 +142,11 @@ impl Outputs {
         self.indices.clear();
         self.indices.extend_from_slice(indices);
         change
+    }
+
+    /// Finds the surface as it is at a share of the way between two ticks.
+    pub fn follow_drawn(&mut self, world: &World, share: f32, with_tangents: bool) {
+        self.drawn.follow(world, share, with_tangents.then_some(&self.uvs[..]));
     }
 
     pub fn vertex_count(&self) -> u32 {
@@ -158,7 +165,9 @@ impl Outputs {
 
     fn follow_normals(&mut self, world: &World) {
         if !self.normals_current {
-            outputs::normals(world, &mut self.sums, &mut self.normals);
+            self.drawn.follow(world, 1.0, None);
+            self.normals.clear();
+            self.normals.extend(self.drawn.normals.iter());
             self.normals_current = true;
         }
     }
@@ -225,6 +234,20 @@ impl Cloth {
         self.world.particles.mass.get(particle as usize).copied()
     }
 
+    /// Whether any of these addresses lies in a list that it lends, now or later: for faces whose callers
+    /// hold plain pointers.
+    pub fn lends(&self, addresses: &Range<usize>) -> bool {
+        fn meets<T>(list: &Vec<T>, addresses: &Range<usize>) -> bool {
+            let start = list.as_ptr().addr();
+            start < addresses.end && addresses.start < start + size_of::<T>() * list.capacity()
+        }
+        let lent = &self.outputs;
+        [&lent.positions, &lent.normals].into_iter().any(|list| meets(list, addresses))
+            || [&lent.sources, &lent.indices].into_iter().any(|list| meets(list, addresses))
+            || meets(&lent.uvs, addresses)
+            || meets(&lent.frayed, addresses)
+    }
+
     /// Changes when the triangles do.
     pub fn topology_revision(&self) -> u32 {
         self.topology_revision
@@ -275,7 +298,8 @@ impl Cloth {
         let bytes = world.capacity() * particle
             + world.triangle_capacity * triangle
             + world.weave.bytes()
-            + world.tethers.bytes();
+            + world.tethers.bytes()
+            + self.outputs.drawn.bytes();
         bytes as u64
     }
 }

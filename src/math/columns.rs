@@ -49,6 +49,12 @@ impl Columns {
         [&mut self.x, &mut self.y, &mut self.z]
     }
 
+    /// Makes it the list of these vectors.
+    pub fn set_all(&mut self, vectors: impl Iterator<Item = Vec3>) {
+        [&mut self.x, &mut self.y, &mut self.z].into_iter().for_each(Vec::clear);
+        vectors.for_each(|v| self.push(v));
+    }
+
     #[inline(always)]
     pub fn at(&self, i: usize) -> Vec3 {
         Vec3::new(self.x[i], self.y[i], self.z[i])

@@ -3,6 +3,7 @@
 pub(crate) mod columns;
 pub(crate) mod float_env;
 pub(crate) mod mix;
+pub(crate) mod pack;
 pub(crate) mod shared;
 pub(crate) mod simd;
 pub(crate) mod threads;

@@ -18,9 +18,11 @@ pub(crate) mod profile;
 pub(crate) mod rows;
 pub(crate) mod stage;
 pub(crate) mod surface;
+pub(crate) mod tangents;
 pub(crate) mod tear;
 pub(crate) mod tethers;
 pub(crate) mod velocities;
+pub(crate) mod vertices;
 
 use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;

@@ -13,11 +13,9 @@ pub(crate) fn positions(world: &World, out: &mut Vec<Vec3>) {
     out.extend(world.particles.x.iter());
 }
 
-/// Vertex normals: the mean of the triangles around, weighted by area. Zero where there is none.
-///
-/// `sums` is room to work in.
-pub(crate) fn normals(world: &World, sums: &mut Columns, out: &mut Vec<Vec3>) {
-    let x = &world.particles.x;
+/// Vertex normals of the surface at `x`: the mean of the triangles around, weighted by area. Zero where
+/// there is none.
+pub(crate) fn normals(world: &World, x: &Columns, sums: &mut Columns) {
     sums.copy_from(x);
     sums.fill(Vec3::ZERO);
     let surface = Surface {
@@ -32,8 +30,26 @@ pub(crate) fn normals(world: &World, sums: &mut Columns, out: &mut Vec<Vec3>) {
         sum_normals(level, surface, Doubled, band, sums);
     });
     world.threads.over(sums.all_mut(), PARTICLES, |sums| normalize(level, sums));
-    out.clear();
-    out.extend(sums.iter());
+}
+
+/// Where the particles are at a share of the way from the last tick to this one.
+pub(crate) fn between(world: &World, share: f32, out: &mut Columns) {
+    out.copy_from(&world.particles.x);
+    let lists = out.all_mut().into_iter().zip(world.particles.x_last.all());
+    lists.for_each(|(x, last)| blend(world.level, x, last, share));
+}
+
+leveled! {
+    /// Moves numbers back to a share of the way from `last`; a share of 1 leaves their very bits.
+    pub(crate) fn blend(x: &mut [f32], last: &[f32], share: f32) = blend_lanes
+}
+
+#[inline(always)]
+fn blend_lanes(x: &mut [f32], last: &[f32], share: f32) {
+    let rest = 1.0 - share;
+    for (x, last) in x.iter_mut().zip(last) {
+        *x = *x * share + *last * rest;
+    }
 }
 
 leveled! {

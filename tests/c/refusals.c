@@ -47,6 +47,8 @@ static void null_is_refused_by_name(void) {
   REFUSED(muslin_material_init_sized(NULL, sizeof(MuslinMaterial)), BAD_VALUE, "`material`");
   REFUSED(muslin_wind_init_sized(NULL, sizeof(MuslinWind)), BAD_VALUE, "`wind`");
   REFUSED(muslin_collider_desc_init_sized(NULL, sizeof floor), BAD_VALUE, "`desc`");
+  REFUSED(muslin_stream_init_sized(NULL, sizeof(MuslinStream)), BAD_VALUE, "`stream`");
+  REFUSED(muslin_write_desc_init_sized(NULL, sizeof(MuslinWriteDesc)), BAD_VALUE, "`desc`");
   REFUSED(muslin_grid_desc_init_sized(NULL, sizeof grid, sizeof(MuslinMaterial),
                                       sizeof(MuslinSettings)),
           BAD_VALUE, "`desc`");
@@ -105,6 +107,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   muslin_view_init(&view);
   muslin_changes_init(&changes);
   muslin_stats_init(&stats);
+  MuslinStream stream = muslin_stream(MUSLIN_ATTRIBUTE_POSITION, MUSLIN_FORMAT_F32, &stats, 0, 0);
   MuslinGrab grab = {9};
   MuslinCollider collider = {9};
   MuslinQuat straight = {0, 0, 0, 1};
@@ -140,6 +143,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   REFUSED(muslin_cloth_view(none, &view), bad, "`cloth`");
   REFUSED(muslin_cloth_changes(none, 0, &changes), bad, "`cloth`");
   REFUSED(muslin_cloth_write_indices(none, &number, 4, 32, 0, 0), bad, "`cloth`");
+  REFUSED(muslin_cloth_write_vertices(none, &stream, 1, NULL), bad, "`cloth`");
   REFUSED(muslin_cloth_get_stats(none, &stats), bad, "`cloth`");
   REFUSED(muslin_cloth_state_hash(none, &long_number), bad, "`cloth`");
   REFUSED(muslin_cloth_save(none, NULL, 0, &size), bad, "`cloth`");

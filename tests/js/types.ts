@@ -17,8 +17,10 @@ import init, {
   type Settings,
   type Stage,
   type Stats,
+  type Stream,
   type Vec3,
   type Wind,
+  type WriteDesc,
 } from "muslin";
 import { ClothGeometry } from "muslin/three";
 import { BufferGeometry, Mesh } from "three";
@@ -172,5 +174,20 @@ const kept: Cloth = drawn.geometry.cloth;
 cloth.free();
 const isFreed: boolean = cloth.isFreed;
 
+const streams: Stream[] = [
+  { attribute: "position", buffer: new Float32Array(9), stride: 12 },
+  { attribute: "normal", format: "octahedral16", buffer: new ArrayBuffer(12), offset: 0 },
+];
+const placing: WriteDesc = { blend: cloth.blend, transform: new Float32Array(12), flipNormals: true };
+const writtenVertices: number = cloth.writeVertices(streams, placing);
+const writtenIndices: number = cloth.writeIndices(new Uint16Array(3), { flip: true, baseVertex: 4 });
+// @ts-expect-error: no such attribute
+cloth.writeVertices([{ attribute: "colour", buffer: new Float32Array(9) }]);
+// @ts-expect-error: a list is not written to
+cloth.writeVertices([{ attribute: "uv", buffer: [0, 0] }]);
+// @ts-expect-error: indices are whole numbers
+cloth.writeIndices(new Float32Array(3));
+
 export { clocks, floats, geometry, hash, held, isFreed, kept, loaded, mass, material, moved, other };
 export { revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };
+export { writtenIndices, writtenVertices };

@@ -13,9 +13,11 @@ use crate::types::material::MuslinMaterial;
 use crate::types::mesh::MuslinMeshDesc;
 use crate::types::settings::MuslinSettings;
 use crate::types::stats::{MUSLIN_STAGE_SLOTS, MuslinStats};
+use crate::types::stream::{MuslinStream, MuslinWriteDesc};
 use crate::types::view::MuslinView;
 use crate::types::wind::MuslinWind;
 use core::ffi::{CStr, c_void};
+use core::fmt::Display;
 use core::mem::offset_of;
 use core::ptr::NonNull;
 use core::{ptr, slice};
@@ -42,7 +44,7 @@ pub fn guard(call: impl FnOnce() -> Result) -> MuslinStatus {
     refusal.status
 }
 
-fn check(ok: bool, field: &str, must: &str) -> Result {
+fn check(ok: bool, field: impl Display, must: &str) -> Result {
     if ok { Ok(()) } else { Err(Refusal::bad_value(field, must)) }
 }
 
@@ -224,6 +226,8 @@ growing! {
     MuslinHit from normal[12] to normal[12], "muslin_hit_init";
     MuslinView from state_revision[4] to frayed[size_of::<*const u8>()], "muslin_view_init";
     MuslinChanges from index_count[4] to index_count[4], "muslin_changes_init";
+    MuslinStream from size[size_of::<usize>()] to size[size_of::<usize>()], "muslin_stream_init";
+    MuslinWriteDesc from offset[4] to offset[4], "muslin_write_desc_init";
     MuslinStats from seconds[4 * MUSLIN_STAGE_SLOTS] to over_stretched[4], "muslin_stats_init";
 }
 
@@ -234,19 +238,18 @@ const MAX_STRUCT_SIZE: usize = 4096;
 ///
 /// # Safety
 /// `at` points to at least 4 bytes.
-unsafe fn told_size(field: &str, at: *const u8, least: usize, init: &str) -> Result<usize> {
+unsafe fn told_size(field: impl Display, at: *const u8, least: usize, init: &str) -> Result<usize> {
     // SAFETY: the caller's promise above.
     let told = unsafe { at.cast::<u32>().read_unaligned() } as usize;
     let fits = (least..=MAX_STRUCT_SIZE).contains(&told) && told.is_multiple_of(4);
-    check(fits, field, &format!("be set by {init}"))?;
-    Ok(told)
+    if fits { Ok(told) } else { Err(Refusal::bad_value(field, format_args!("be set by {init}"))) }
 }
 
 /// Refuses bytes that this version does not know, unless they are all zero.
 ///
 /// # Safety
 /// `at` points to `to` bytes at least.
-unsafe fn refuse_unknown(field: &str, at: *const u8, from: usize, to: usize) -> Result {
+unsafe fn refuse_unknown(field: impl Display, at: *const u8, from: usize, to: usize) -> Result {
     // SAFETY: the caller's promise above.
     if (from..to).all(|i| unsafe { at.add(i).read() } == 0) {
         return Ok(());
@@ -267,7 +270,7 @@ pub unsafe fn read<T: Growing>(name: &str, at: *const T) -> Result<T> {
 
 /// # Safety
 /// As [`read`], but not NULL.
-unsafe fn read_sized<T: Growing>(field: &str, at: *const u8) -> Result<(T, usize)> {
+unsafe fn read_sized<T: Growing>(field: impl Display + Copy, at: *const u8) -> Result<(T, usize)> {
     let (mut value, ours) = (T::default(), size_of::<T>());
     // SAFETY: the caller's promise above: `told` bytes are there. `known` is at most that and at most
     // `ours`; a `T` holds only numbers and pointers, so any bytes are a value.
@@ -458,5 +461,8 @@ impl<T: Growing> Report<T> {
     }
 }
 
+mod streams;
 #[cfg(test)]
 mod tests;
+
+pub use streams::streams;

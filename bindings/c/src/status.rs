@@ -1,6 +1,7 @@
 //! What a call returns, and the sentence that goes with it.
 
 use core::ffi::{CStr, c_char};
+use core::fmt::Display;
 use muslin_core::Error;
 use std::cell::RefCell;
 use std::ffi::CString;
@@ -79,7 +80,7 @@ impl Refusal {
     }
 
     /// "`field` must …", as the core says it.
-    pub fn bad_value(field: &str, must: &str) -> Self {
+    pub fn bad_value(field: impl Display, must: impl Display) -> Self {
         Self::new(MuslinStatus::BadValue, format!("`{field}` must {must}"))
     }
 
@@ -108,7 +109,8 @@ impl Refusal {
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
         let status = match error {
-            Error::BadValue { .. } => MuslinStatus::BadValue,
+            Error::BadValue { .. } | Error::BadStream { .. } => MuslinStatus::BadValue,
+            Error::SmallStream { .. } => MuslinStatus::BufferTooSmall,
             Error::BadIndex { .. } => MuslinStatus::BadIndex,
             Error::BadHandle { .. } => MuslinStatus::BadHandle,
             Error::BadMesh { .. } => MuslinStatus::BadMesh,

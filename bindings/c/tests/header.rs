@@ -8,7 +8,7 @@ const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
 /// The files with items of the header, in its order: types that others hold first, then functions by
 /// theme.
-const FILES: [&str; 24] = [
+const FILES: [&str; 26] = [
     "status.rs",
     "log.rs",
     "types/value.rs",
@@ -22,6 +22,7 @@ const FILES: [&str; 24] = [
     "types/event.rs",
     "types/view.rs",
     "types/changes.rs",
+    "types/stream.rs",
     "types/stats.rs",
     "calls/library.rs",
     "calls/create.rs",
@@ -31,6 +32,7 @@ const FILES: [&str; 24] = [
     "calls/tear.rs",
     "calls/colliders.rs",
     "calls/read.rs",
+    "calls/write.rs",
     "calls/save.rs",
     "calls/init.rs",
 ];

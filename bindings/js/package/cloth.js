@@ -6,6 +6,7 @@ import { ready } from "./memory.js";
 import * as fields from "./fields.js";
 import { Collider, Grab, OURS, onlyOurs } from "./handles.js";
 import { readChanges, readEvents, readHit, readStats } from "./reports.js";
+import { writeIndices, writeVertices } from "./write.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
 const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
@@ -173,6 +174,16 @@ export class Cloth {
   changes(sinceTopologyRevision) {
     const since = whole(sinceTopologyRevision, "sinceTopologyRevision");
     return readChanges(this.#live.changes(since));
+  }
+
+  // Buffers of one's own
+
+  writeVertices(streams, desc = {}) {
+    return writeVertices(this.#live, streams, desc);
+  }
+
+  writeIndices(buffer, options = {}) {
+    return writeIndices(this.#live, buffer, options);
   }
 
   /** The view of last time if it still fits: the same memory, place and length. */

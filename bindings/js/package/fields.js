@@ -11,6 +11,11 @@ const ROTATION = {
   read: (list, at) => sliceOf(list, at, 4),
   write: (value, name) => vector(value, name, "x, y, z, w"),
 };
+const TRANSFORM = {
+  size: 12,
+  read: (list, at) => sliceOf(list, at, 12),
+  write: (value, name) => vector(value, name, "xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z"),
+};
 const CHOICE = (...names) => ({
   size: 1,
   read: (list, at) => names[list[at]],
@@ -84,6 +89,15 @@ export const COLLIDER = {
   friction: NUMBER,
   restitution: NUMBER,
   tangentialRestitution: NUMBER,
+};
+
+export const WRITE = {
+  firstVertex: WHOLE,
+  vertexCount: WHOLE,
+  blend: NUMBER,
+  transform: TRANSFORM,
+  flipNormals: FLAG,
+  offset: NUMBER,
 };
 
 /** A list as an object that cannot be changed by mistake. */

@@ -9,6 +9,7 @@ mod numbers;
 mod read;
 mod refusal;
 mod tune;
+mod write;
 
 use muslin::Cloth;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -18,11 +19,13 @@ use wasm_bindgen::prelude::wasm_bindgen;
 pub struct RawCloth {
     cloth: Cloth,
     is_timed: bool,
+    /// What is written for buffers of the page, before it is copied there.
+    room: Vec<u8>,
 }
 
 impl RawCloth {
     fn new(cloth: Cloth) -> Self {
-        Self { cloth, is_timed: false }
+        Self { cloth, is_timed: false, room: Vec::new() }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::types::grid::MuslinGridDesc;
 use crate::types::material::MuslinMaterial;
 use crate::types::mesh::MuslinMeshDesc;
 use crate::types::settings::MuslinSettings;
+use crate::types::stream::{MuslinStream, MuslinWriteDesc};
 use crate::types::wind::MuslinWind;
 
 /// What muslin_settings_init calls: pass the sizeof of MuslinSettings.
@@ -44,6 +45,26 @@ pub unsafe extern "C" fn muslin_wind_init_sized(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_collider_desc_init_sized(
     desc: *mut MuslinColliderDesc,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe { boundary::init("desc", desc, struct_size) })
+}
+
+/// What muslin_stream_init calls: pass the sizeof of MuslinStream.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_stream_init_sized(
+    stream: *mut MuslinStream,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    guard(|| unsafe { boundary::init("stream", stream, struct_size) })
+}
+
+/// What muslin_write_desc_init calls: pass the sizeof of MuslinWriteDesc.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_write_desc_init_sized(
+    desc: *mut MuslinWriteDesc,
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.

@@ -10,3 +10,4 @@ mod read;
 mod save;
 mod tear;
 mod time;
+mod write;

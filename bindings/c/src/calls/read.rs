@@ -1,14 +1,12 @@
 //! Reading: what a renderer needs, and numbers.
 
-use crate::boundary::{Buffer, Out, Report};
+use crate::boundary::{Out, Report};
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal};
+use crate::status::MuslinStatus;
 use crate::types::changes::MuslinChanges;
 use crate::types::stats::MuslinStats;
 use crate::types::value::MuslinCloth;
 use crate::types::view::MuslinView;
-use core::ffi::c_void;
-use muslin_core::IndexFormat;
 use std::sync::LazyLock;
 use std::time::Instant;
 
@@ -42,40 +40,6 @@ pub unsafe extern "C" fn muslin_cloth_changes(
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.changes(since_topology_revision).into());
         Ok(())
-    })
-}
-
-/// Writes the indices of all triangles to the beginning of `buffer`, which has room for `size` bytes:
-/// `index_format` is how many bits each takes, 16 or 32; each has `base_vertex` added, and every triangle
-/// is turned round if `flip` is 1. With room for the view's `index_capacity` it fits for ever.
-///
-/// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `size` is less than the view's `index_count` takes;
-/// MUSLIN_STATUS_BAD_VALUE unless `index_format` and `flip` are one of these, or for 16 bits if an index is
-/// above 65534; `buffer` is untouched then
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn muslin_cloth_write_indices(
-    cloth: MuslinCloth,
-    buffer: *mut c_void,
-    size: usize,
-    index_format: u32,
-    flip: u32,
-    base_vertex: u32,
-) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
-    let buffer = unsafe { Buffer::new(buffer, size) };
-    with_cloth(cloth, |cloth| {
-        let buffer = buffer.ok_or_else(|| Refusal::bad_value("buffer", "not be NULL"))?;
-        let format = match index_format {
-            16 => IndexFormat::U16,
-            32 => IndexFormat::U32,
-            _ => return Err(Refusal::bad_value("index_format", "be 16 or 32")),
-        };
-        if flip > 1 {
-            return Err(Refusal::bad_value("flip", "be 0 or 1"));
-        }
-        let mut bytes = vec![0; cloth.indices().len() * format.size()];
-        cloth.write_indices(&mut bytes, format, flip == 1, base_vertex)?;
-        buffer.write(&bytes)
     })
 }
 

@@ -9,6 +9,7 @@ pub mod material;
 pub mod mesh;
 pub mod settings;
 pub mod stats;
+pub mod stream;
 pub mod value;
 pub mod view;
 pub mod wind;

@@ -1,0 +1,205 @@
+/// <reference lib="esnext.disposable" />
+
+import type { Vec3, Vec3Like } from "./check.js";
+import type { ColliderDesc, GridDesc, Material, MaterialLike, MeshDesc, Settings, Wind } from "./fields.js";
+import type { Collider, Grab } from "./handles.js";
+import type { Changes, ClothEvent, Hit, Stats } from "./reports.js";
+import type { Stream, WriteDesc } from "./write.js";
+
+/** A piece of cloth. */
+export class Cloth {
+  private constructor();
+
+  /**
+   * Makes a cloth from a regular grid: by default 40 × 40 particles, 5 cm apart, pinned along its top.
+   *
+   * @throws if a field cannot be, or `init()` was not awaited
+   */
+  static grid(desc?: GridDesc): Cloth;
+
+  /**
+   * Makes a cloth from any triangle mesh.
+   *
+   * @throws if a field cannot be, or the mesh cannot be cloth; says where
+   */
+  static mesh(desc: MeshDesc): Cloth;
+
+  /**
+   * The cloth that `save()` was asked of; it goes on in the same bits.
+   *
+   * @throws if the bytes are not a saved cloth of this version, or were damaged
+   */
+  static restore(buffer: Uint8Array | ArrayBuffer): Cloth;
+
+  /** Gives the memory back. Any later use throws, but for another `free()`. */
+  free(): void;
+  /** The same, for `using`. */
+  [Symbol.dispose](): void;
+  /** Whether it was freed. */
+  readonly isFreed: boolean;
+
+  /**
+   * Runs the ticks that a frame of `seconds` [s] owes, and says how many ran. What is left over waits
+   * for the next frame, see `blend`; a late frame owes at most `maxTicksPerAdvance`.
+   *
+   * @throws if `seconds` is negative or not finite
+   */
+  advance(seconds: number): number;
+  /** Runs exactly `ticks` ticks; 1. */
+  step(ticks?: number): void;
+  /** Back to the start: rest shape, untorn, at rest, pinned as it was made. No grab outlives it. */
+  reset(): void;
+  /** Time since it was made or reset [s]. */
+  readonly time: number;
+  /** The share of a tick that `advance` still owes, 0 to 1. */
+  readonly blend: number;
+  /** Whether the stages of a tick are timed, for `stats.seconds`; false. Costs a little. */
+  timing: boolean;
+
+  /** How time runs. Reading gives all, frozen; what is set is merged, from the next tick on. */
+  get settings(): Readonly<Settings>;
+  set settings(settings: Partial<Settings>);
+  /** What it is made of. Reading gives all, frozen; what is set is merged, from the next tick on. */
+  get material(): Readonly<Material>;
+  set material(material: MaterialLike);
+  /** The air around it. Reading gives all, frozen; what is set is merged, from the next tick on. */
+  get wind(): Readonly<Wind>;
+  set wind(wind: Partial<Wind>);
+
+  /**
+   * Positions of the particles, x y z x y z … [m].
+   *
+   * This and the other lists are views of the module's own memory: read them, and do not write to them.
+   * Ask anew each frame, which is cheap: what you are given is live. One that you keep follows the cloth
+   * in place until the cloth tears, is cut, reset or freed, or the memory grows because another cloth is
+   * made or saved; then it is of length 0 or out of date.
+   */
+  readonly positions: Float32Array;
+  /** Unit normals of the vertices, computed when first asked for after a change. */
+  readonly normals: Float32Array;
+  /** Texture coordinates of the vertices, u v u v …. */
+  readonly uvs: Float32Array;
+  /** Three vertices a triangle, counter-clockwise. */
+  readonly indices: Uint32Array;
+  /** Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's. */
+  readonly sourceVertices: Uint32Array;
+  /**
+   * 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others, those
+   * at the borders that the cloth was made with among them.
+   */
+  readonly frayed: Uint8Array;
+  /** How many vertices there may ever be. */
+  readonly vertexCapacity: number;
+  /** How many indices there may ever be. */
+  readonly indexCapacity: number;
+  /** Changes when the triangles do. */
+  readonly topologyRevision: number;
+  /** Changes when positions do. */
+  readonly stateRevision: number;
+
+  /**
+   * Which vertices and indices are new or not as they were when `topologyRevision` was that: all that a
+   * renderer must upload again of what does not change with every tick. Everything, if that is more
+   * than 64 changes ago, or was never (0 is never).
+   */
+  changes(sinceTopologyRevision: number): Changes;
+
+  /**
+   * Writes vertices into buffers of your own, each attribute where and how its stream says: separate,
+   * interleaved or one behind the other, 1 to 16 at once. Nothing else in the buffers changes. Says how many
+   * vertices that were. With room for `vertexCapacity` vertices they fit for ever.
+   *
+   * @throws if a field cannot be, the vertices do not fit, two streams write the same bytes, or normals or
+   * tangents are asked for with a transform that cannot be inverted; nothing is written then
+   */
+  writeVertices(streams: readonly Stream[], desc?: WriteDesc): number;
+  /**
+   * Writes the indices of all triangles to the beginning of `buffer`, 16 bits wide or 32 as that is; each
+   * with `baseVertex` added, 0, and every triangle turned round if `flip` is set. Says how many. With room
+   * for `indexCapacity` indices they fit for ever.
+   *
+   * @throws unless the indices fit, and for 16 bits if one is above 65534; nothing is written then
+   */
+  writeIndices(
+    buffer: Uint16Array | Uint32Array,
+    options?: { flip?: boolean; baseVertex?: number },
+  ): number;
+
+  /** Velocity of a particle [m/s]. */
+  velocity(particle: number): Vec3;
+  /** Mass of a particle [kg]. */
+  mass(particle: number): number;
+  /** Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it. */
+  setPosition(particle: number, position: Vec3Like): void;
+  /** Gives a particle a velocity [m/s]. */
+  setVelocity(particle: number, velocity: Vec3Like): void;
+
+  /** The pinned particles, lowest first. */
+  readonly pinned: Uint32Array;
+  /** Holds a particle at `target` [m], or where it is. The target is reached over the next tick. */
+  pin(particle: number, target?: Vec3Like): void;
+  /** Lets a particle go. One that is not pinned stays as it is. */
+  unpin(particle: number): void;
+  /** Lets every particle go. */
+  unpinAll(): void;
+  /** Gives many pins their targets, x y z x y z … [m]; particles that are not pinned yet become so. */
+  setPinTargets(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    targets: Float32Array | Float64Array | readonly number[],
+  ): void;
+
+  /** The first triangle along a ray, within `maxDistance` [m], Infinity; hit from either side. */
+  raycast(origin: Vec3Like, direction: Vec3Like, maxDistance?: number): Hit | undefined;
+  /**
+   * Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
+   * else the nearest one within `radius` [m], 0, of it.
+   *
+   * @throws if 64 grabs are held already
+   */
+  grabRay(origin: Vec3Like, direction: Vec3Like, options?: { radius?: number }): Grab | undefined;
+  /** Takes hold of a particle where it is. Throws if 64 grabs are held already. */
+  grabParticle(particle: number): Grab;
+  /**
+   * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. Says how
+   * many edges opened; 0 leaves the cloth as it was.
+   *
+   * Triangles that the blade goes through are divided along it: vertices come to be on the edges that it
+   * crosses, between their ends in all that they have, and the mesh opens along them. Where it would
+   * come nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5° or less
+   * area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex instead;
+   * past a pinned one it goes at an eighth of the edge. Where the blade ends inside a triangle, the cut
+   * ends at the edge before. Vertices that a cut makes are free; a pinned one that it goes through is
+   * pinned on both sides. Each edge that is crossed takes one particle of the reserve
+   * (`extraParticles`), and one more where it opens.
+   *
+   * @throws unless `to` is apart from `from` and `sweep` leads away from the line through both, or if the
+   * reserve cannot take the whole cut
+   */
+  cut(from: Vec3Like, to: Vec3Like, sweep: Vec3Like): number;
+  /**
+   * Tears between two neighbouring particles, as over-stretching would. Says whether it tore: an end
+   * that is pinned or grabbed does not give way, nor does an edge that is a border already.
+   *
+   * @throws unless the two are the ends of an edge, or if the room for tears is used up
+   */
+  tearEdge(particleA: number, particleB: number): boolean;
+
+  /** Adds a collider. Throws if there are 1024 already. */
+  addCollider(collider?: ColliderDesc): Collider;
+
+  /**
+   * All events since the last call, oldest first; the 1024 newest are kept.
+   *
+   * They come by tick; in a tick recoveries first, then tears, the worst first, and of each the vertices
+   * that it split before the torn edge; then, if there was no room for another, that; then the pieces that
+   * came off, in the order of their first triangles; then what is held apart. A cut tells the edges that
+   * it divided, in its order; those that it opened; the vertices that it split; and the pieces.
+   */
+  events(): ClothEvent[];
+  /** Numbers about the cloth as it is now. */
+  readonly stats: Stats;
+  /** All that the next tick depends on as one number, equal to the native one. */
+  stateHash(): bigint;
+  /** The cloth as bytes, for `Cloth.restore`. A copy of your own. */
+  save(): Uint8Array;
+}

@@ -1,0 +1,164 @@
+// What is told to a cloth: how it runs, what it is made of, what is around it.
+
+import type { QuatLike, Vec3Like } from "./check.js";
+
+/** How time runs: ticks, sweeps, gravity, damping and the switches of the solver. */
+export interface Settings {
+  /** Length of a tick [s]; 1/60. Above 0, at most 1. */
+  tick: number;
+  /** Substeps in a tick; 4. From 1 to 1000. At the same cost they stiffen more than iterations do. */
+  substeps: number;
+  /** Sweeps over the links in a substep; 2. From 1 to 1000. With a single one all motion is braked. */
+  iterations: number;
+  /** Ticks that one `advance` may run; 5. What a late frame owes beyond it is dropped. */
+  maxTicksPerAdvance: number;
+  /** Acceleration of everything [m/s²]; [0, -9.81, 0]. */
+  gravity: Vec3Like;
+  /** Rate at which velocity decays [1/s]: as exp(−damping · t), whatever the step; 0.5. At least 0. */
+  damping: number;
+  /** The farthest that a particle moves in a substep, in mean rest lengths; 0.5. Above 0. */
+  maxDisplacement: number;
+  /**
+   * The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
+   * apart: 0.02 is 2 %; 0 is no bound.
+   */
+  maxStretch: number;
+  /**
+   * Long-range attachments that keep every particle within reach of the pins; true. From two
+   * iterations on, whole lines of links are solved at once as well.
+   */
+  tethers: boolean;
+  /** Layers of the cloth keep apart; false. Nothing else is supported yet. */
+  selfCollision: boolean;
+  /** Distance between layers [m]; 0 takes the material's thickness. */
+  selfDistance: number;
+  /** Over-stretched links tear, see `tearStretch` of the material; false. */
+  tearing: boolean;
+  /** Vertices that tearing may split in one tick, the worst first; 8. At least 1. */
+  maxTearsPerTick: number;
+}
+
+/** What a cloth is made of, in SI units. */
+export interface Material {
+  /** Mass per area [kg/m²]; 0.18, a cotton. Above 0. */
+  density: number;
+  /** Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge. */
+  thickness: number;
+  /** Membrane stiffness down a grid [N/m]; 0 is as stiff as the sweeps allow. */
+  stretchStiffnessWarp: number;
+  /** Membrane stiffness across a grid [N/m]; 0 is as stiff as the sweeps allow. */
+  stretchStiffnessWeft: number;
+  /** Stiffness against shear [N/m]; 0 is as the stretch stiffness. */
+  shearStiffness: number;
+  /** Bending rigidity per width [N·m]; 2.5e-5. 0 is limp, 1 or more as rigid as the sweeps allow. */
+  bendStiffness: number;
+  /** Damping of bending [s]; 0. No other value is supported yet. */
+  bendDamping: number;
+  /** Damping of stretching [s]; 0. No other value is supported yet. */
+  stretchDamping: number;
+  /** Coulomb coefficient against colliders; 0.4. At least 0. */
+  friction: number;
+  /** Share of the normal speed that a bounce gives back; 0. From 0 to 1. */
+  restitution: number;
+  /** Pressure coefficient of a triangle square to the wind; 1.2. At least 0. */
+  drag: number;
+  /** Lift coefficient of a triangle aslant to the wind; 0. At least 0. */
+  lift: number;
+  /**
+   * Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
+   * less, as the finer the mesh is the more of the load is there: √(16 · `thickness` / mean edge) of
+   * the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+   */
+  tearStretch: number;
+  /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
+  tearVariation: number;
+  /** Angle at which a fold stays [rad]; 0: never. No other value is supported yet. */
+  yieldAngle: number;
+  /** Share of a fold beyond `yieldAngle` that stays; 0. No other value is supported yet. */
+  yieldCreep: number;
+}
+
+/** The fabrics that come with Muslin. */
+export type Preset = "silk" | "cotton" | "denim" | "leather" | "paper" | "flag-nylon";
+
+/** A preset's name, or what is to be different: from `preset`, or else from what is there. */
+export type MaterialLike = Preset | (Partial<Material> & { preset?: Preset });
+
+/** The air around a cloth. The default is still air. */
+export interface Wind {
+  /**
+   * How the air pushes: "surface", on each triangle by the square of the relative speed; "sine-field",
+   * on each particle as a field of sine waves, with the length of `velocity` as its strength [m/s²].
+   */
+  model: "surface" | "sine-field";
+  /** Mean velocity of the air [m/s]; still. */
+  velocity: Vec3Like;
+  /** How much the speed swells and falls, as a share of it; 0. From 0 to 1. */
+  gust: number;
+  /** How far the direction strays [rad]; 0. From 0 to π. */
+  wander: number;
+  /** Swirls in space, as a share of the speed; 0. From 0 to 1. */
+  turbulence: number;
+  /** Density of the air [kg/m³]; 1.2. At least 0; 0 is a vacuum. */
+  airDensity: number;
+  /** Which gusts and swirls; 0. A whole number. */
+  seed: number;
+}
+
+/** What grids and meshes have in common. */
+export interface ClothDesc {
+  /** Particles that tears may add; as many as the cloth starts with. */
+  extraParticles?: number;
+  /** What it is made of. */
+  material?: MaterialLike;
+  /** How its time runs. */
+  settings?: Partial<Settings>;
+}
+
+/** A regular grid of particles; particle = row · columns + column. */
+export interface GridDesc extends ClothDesc {
+  /** Particles across; 40. At least 2. */
+  columns?: number;
+  /** Particles down; 40. At least 2. */
+  rows?: number;
+  /** Distance between neighbours [m]; 0.05. Above 0. */
+  spacing?: number;
+  /** Where particle 0, the top left, is [m]; [0, 0, 0]. */
+  origin?: Vec3Like;
+  /** Unit direction of a row; [1, 0, 0]. */
+  right?: Vec3Like;
+  /** Unit direction of a column, square to `right`; [0, -1, 0]. */
+  down?: Vec3Like;
+  /** What is pinned from the start; "top-edge". */
+  pinMode?: "none" | "top-edge" | "top-corners" | "corners";
+}
+
+/** Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point. */
+export interface MeshDesc extends ClothDesc {
+  /** Where the vertices are at rest, x y z x y z … [m]; particle = vertex. */
+  positions: Float32Array | Float64Array | readonly number[];
+  /** Three vertices a triangle, counter-clockwise seen from its front. */
+  indices: Uint32Array | Uint16Array | readonly number[];
+  /** Texture coordinates, u v u v …, one pair a vertex; or none at all. */
+  uvs?: Float32Array | Float64Array | readonly number[];
+  /** Vertices that are pinned from the start; none. */
+  pinned?: Uint32Array | Uint16Array | readonly number[];
+  /** Vertices nearer to each other than this are one [m]; −1 leaves all apart. No other yet. */
+  weldDistance?: number;
+}
+
+/** A collider: its shape, where it is and how it feels. */
+export interface ColliderDesc {
+  /** What it is; "plane": all that is below `position` along the turned y axis. */
+  shape?: "plane";
+  /** Where it is [m]; [0, 0, 0]. */
+  position?: Vec3Like;
+  /** How it is turned, a unit quaternion; [0, 0, 0, 1]. */
+  rotation?: QuatLike;
+  /** Coulomb coefficient; −1 takes the material's. */
+  friction?: number;
+  /** Share of the normal speed that a bounce gives back, 0 to 1; −1 takes the material's. */
+  restitution?: number;
+  /** Share of the sliding speed that every substep of touching leaves, beside friction; 1. */
+  tangentialRestitution?: number;
+}

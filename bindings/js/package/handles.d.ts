@@ -1,0 +1,21 @@
+// What a cloth has given out.
+
+import type { QuatLike, Vec3, Vec3Like } from "./check.js";
+
+/** A particle held by a pointer. Stale once released, or once the cloth is reset. */
+export interface Grab {
+  /** Where the particle was when it was taken [m]. */
+  readonly position: Vec3;
+  /** Gives it a new target [m]; the particle follows as fast as `maxDisplacement` allows. */
+  moveTo(target: Vec3Like): void;
+  /** Lets the particle go, with the velocity it has. Throws if it was released before. */
+  release(): void;
+}
+
+/** A collider of a cloth. Stale once removed. */
+export interface Collider {
+  /** Moves it; it gets there over the next tick. Without a rotation it keeps the last one. */
+  moveTo(position: Vec3Like, rotation?: QuatLike): void;
+  /** Removes it. Throws if it was removed before. */
+  remove(): void;
+}

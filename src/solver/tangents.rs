@@ -1,0 +1,129 @@
+//! Stage `Outputs`: tangents, along which the texture coordinate u grows.
+//!
+//! ```text
+//! triangle   T = (p dv₂ - q dv₁) sign(d),  d = du₁ dv₂ - du₂ dv₁     p, q: its edges from corner a
+//! vertex     t = ΣT - n (n · ΣT), at unit length;  w = sign(Σd)
+//! ```
+//! T is as long as the triangle is large in the texture, so large ones count for more. w says on which
+//! side of the surface v grows: along w (n × t). Where a texture says nothing, t is any unit vector square
+//! to n, and w is 1.
+
+use super::World;
+use super::surface::{Band, Give, Surface, in_bands, sum};
+use crate::math::columns::Columns;
+use crate::math::simd::leveled;
+use glam::{Vec2, Vec3};
+
+/// The sums over triangles, each vertex's direction still to be made square to its normal.
+#[derive(Debug)]
+pub(crate) struct Tangents {
+    uvs: Columns,
+    sums: Columns,
+    /// Of each vertex, 1 or -1.
+    hands: Vec<f32>,
+    /// Whether `uvs` and `hands` are those of the triangles as they are.
+    follows: bool,
+    /// The share between ticks that `sums` are of.
+    share: Option<f32>,
+}
+
+impl Tangents {
+    /// Room for `capacity` vertices.
+    pub fn with_capacity(capacity: usize) -> Self {
+        Self {
+            uvs: Columns::with_capacity(capacity),
+            sums: Columns::with_capacity(capacity),
+            hands: Vec::with_capacity(capacity),
+            follows: false,
+            share: None,
+        }
+    }
+
+    /// Bytes that one vertex takes.
+    pub const BYTES_EACH: usize = size_of::<[f32; 7]>();
+
+    /// Tells of a change of positions.
+    pub fn moved(&mut self) {
+        self.share = None;
+    }
+
+    /// Tells of a change of triangles.
+    pub fn retied(&mut self) {
+        self.follows = false;
+        self.share = None;
+    }
+
+    /// Whether the sums are those at a share between two ticks.
+    pub fn is_of(&self, share: f32) -> bool {
+        self.share == Some(share)
+    }
+
+    /// Sums up the surface at `x`, which is at a share between two ticks.
+    pub fn follow(&mut self, world: &World, uvs: &[Vec2], x: &Columns, share: f32) {
+        if !self.follows {
+            self.take(&world.mesh.triangles, uvs);
+            self.follows = true;
+        }
+        self.share = Some(share);
+        self.sums.copy_from(x);
+        self.sums.fill(Vec3::ZERO);
+        let surface = Surface {
+            triangles: &world.mesh.triangles,
+            areas: &world.corner_area,
+            cells: world.cells.as_ref(),
+            x,
+            air: &self.uvs,
+        };
+        let level = world.level;
+        in_bands(world.threads, surface, &mut self.sums, |band, sums| {
+            sum_tangents(level, surface, Along, band, sums);
+        });
+    }
+
+    /// Takes on the texture, and finds which way it lies.
+    fn take(&mut self, triangles: &[[u32; 3]], uvs: &[Vec2]) {
+        self.uvs.set_all(uvs.iter().map(|uv| uv.extend(0.0)));
+        self.hands.clear();
+        self.hands.resize(uvs.len(), 0.0);
+        for corners in triangles {
+            let [a, b, c] = corners.map(|v| uvs[v as usize]);
+            let area = (b - a).perp_dot(c - a);
+            corners.iter().for_each(|v| self.hands[*v as usize] += area);
+        }
+        for hand in &mut self.hands {
+            *hand = if *hand < 0.0 { -1.0 } else { 1.0 };
+        }
+    }
+
+    /// The sums, and on which side v grows.
+    pub fn lists(&self) -> ([&[f32]; 3], &[f32]) {
+        (self.sums.all(), &self.hands)
+    }
+}
+
+leveled! {
+    fn sum_tangents(surface: Surface<'_>, give: Along, band: Band, sums: [&mut [f32]; 3])
+        = sum::<Along>
+}
+
+/// The direction in which u grows on a triangle, as long as it is large in the texture. What is `air` of
+/// others is here where its corners lie in the texture.
+#[derive(Clone, Copy)]
+struct Along;
+
+impl Give for Along {
+    #[inline(always)]
+    fn give(self, [a, b, c]: [[f32; 3]; 3], [ua, ub, uc]: [[f32; 3]; 3], _: f32) -> [f32; 3] {
+        let (du1, dv1) = (ub[0] - ua[0], ub[1] - ua[1]);
+        let (du2, dv2) = (uc[0] - ua[0], uc[1] - ua[1]);
+        let is_mirrored = du1 * dv2 - du2 * dv1 < 0.0;
+        let (dv1, dv2) = if is_mirrored { (-dv1, -dv2) } else { (dv1, dv2) };
+        let along = |k: usize| (b[k] - a[k]) * dv2 - (c[k] - a[k]) * dv1;
+        [along(0), along(1), along(2)]
+    }
+
+    #[inline(always)]
+    fn part(self, _: f32) -> f32 {
+        1.0
+    }
+}
