@@ -251,7 +251,7 @@ fn a_yank_rips_a_slit_and_not_confetti() {
         .filter(|event| event.kind == EventKind::PieceDetached)
         .map(|event| event.count)
         .collect();
-    assert!(torn > 10, "{torn} edges tore");
+    assert!(torn >= 8, "{torn} edges tore");
     // Slits are long and few: most tears make a slit longer, and crumbs are few.
     let crumbs = pieces.iter().filter(|count| **count < 10).count();
     assert!(crumbs <= 2 && pieces.len() <= 4, "{torn} tears left pieces of {pieces:?} triangles");

@@ -6,9 +6,8 @@
 //! it grows (Griffith 1921): with it threads at a tip tear at √(z / h) times the strain that others
 //! do, where z is the length over which strain spreads at the tip of a real one.
 //!
-//! Threads that do not give way at all are strained by no load: what strain they have is what the solver
-//! has not got to, and at a tip that hangs in folds it stays. Such threads tear when they are yanked, which
-//! strains them far more.
+//! What the solver has not got to of a load looks like strain too, and at a tip it is greatest. Threads
+//! there tear at no less than that, so that a slit cloth does not come apart under its own weight.
 
 use crate::fabric::material::Material;
 use crate::mesh::{Fan, Mesh, NONE, after, before};
@@ -24,15 +23,12 @@ const LEAST: f32 = 0.2;
 /// any corner.
 const AROUND: f32 = 5.235_988;
 
-/// The most strain that the solver leaves rigid threads with while nothing but their own weight pulls.
-const LEFT: f32 = 0.25;
-
-/// The strain at which threads at a tip tear.
-pub(crate) fn strain(material: &Material, spacing: f32) -> f32 {
+/// The strain at which threads at a tip tear, where the solver may leave them with so much.
+pub(crate) fn strain(material: &Material, spacing: f32, left: f32) -> f32 {
     let others = material.tear_stretch - 1.0;
     let at_tip = others * weakness(material, spacing);
-    let is_rigid = material.stretch_stiffness_warp == 0.0 && material.stretch_stiffness_weft == 0.0;
-    if is_rigid && at_tip < LEFT { if others < LEFT { others } else { LEFT } } else { at_tip }
+    let at_least = if left < others { left } else { others };
+    if at_tip < at_least { at_least } else { at_tip }
 }
 
 /// At what share of the strain that others do threads at a tip tear.
