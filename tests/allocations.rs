@@ -107,6 +107,70 @@ fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
     assert_allocates_nothing(cloth, 230);
 }
 
+/// Where the lists that a renderer reads lie.
+fn places(cloth: &mut Cloth) -> [usize; 5] {
+    let (x, normals) = (cloth.positions().as_ptr(), cloth.normals().as_ptr());
+    let (uvs, sources) = (cloth.uvs().as_ptr(), cloth.source_vertices().as_ptr());
+    [
+        x as usize,
+        normals as usize,
+        uvs as usize,
+        sources as usize,
+        cloth.indices().as_ptr() as usize,
+    ]
+}
+
+#[test]
+fn a_large_sheet_torn_to_shreds_allocates_nothing_and_keeps_within_its_reserve() {
+    let side = 128;
+    let mut desc = GridDesc { columns: side, rows: side, ..GridDesc::default() };
+    desc.spacing = 2.0 / side as f32;
+    desc.extra_particles = 6000;
+    desc.settings.tearing = true;
+    desc.settings.max_tears_per_tick = 64;
+    desc.material.tear_stretch = 1.2;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    // A cut makes its own room; what comes after has to do with it.
+    let at = |x: f32| Vec3::new(x, -0.7, -1.0);
+    assert!(cloth.cut(at(-1.0), at(0.9), Vec3::Z * 2.0).unwrap() > 100);
+    cloth.step(10);
+    let bottom: Vec<u32> = (side * (side - 1)..side * side).collect();
+    let starts: Vec<Vec3> = bottom.iter().map(|i| cloth.positions()[*i as usize]).collect();
+    let (before, room) = (cloth.positions().len(), cloth.stats().bytes);
+    let lists = places(&mut cloth);
+    let mut by_hand = 0;
+    let count = allocations(|| {
+        let mut pick = 1_u32;
+        while cloth.positions().len() < before + 1800 {
+            pick = pick.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            let corner = (pick >> 8) as usize % cloth.indices().len();
+            let triangle = corner - corner % 3;
+            let (a, b) = (cloth.indices()[corner], cloth.indices()[triangle + (corner + 1) % 3]);
+            cloth.tear_edge(a, b).unwrap();
+            if pick % 64 == 0 {
+                cloth.step(1);
+            }
+        }
+        by_hand = cloth.positions().len();
+        let mut targets = [Vec3::ZERO; 128];
+        for tick in 1..=120 {
+            for (target, start) in targets.iter_mut().zip(&starts) {
+                *target = *start + Vec3::new(0.0, -0.02, 0.01) * tick as f32;
+            }
+            cloth.set_pin_targets(&bottom, &targets).unwrap();
+            cloth.step(1);
+            cloth.view();
+            while cloth.next_event().is_some() {}
+        }
+    });
+    assert_eq!(count, 0, "allocations");
+    let after = cloth.positions().len();
+    assert!(after > by_hand + 200, "ticks tore {by_hand} to {after}");
+    assert!(after >= before + 2000, "{before} to {after} particles");
+    assert_eq!(cloth.stats().bytes, room, "no list grew");
+    assert_eq!(places(&mut cloth), lists, "no list moved");
+}
+
 #[test]
 fn the_counter_counts() {
     let made = allocations(|| drop(Vec::<u32>::with_capacity(9)));

@@ -2,10 +2,40 @@
 
 mod common;
 
-use common::{assert_sound, bare_grid, irregular_mesh, total_mass, triangles};
+use common::{assert_clean, assert_sound, bare_grid, irregular_mesh, total_mass, triangles};
 use muslin::glam::Vec3;
-use muslin::{AS_MANY_AGAIN, Cloth, Error, Event, EventKind, PinMode};
+use muslin::{AS_MANY_AGAIN, Cloth, Error, Event, EventKind, MeshDesc, PinMode};
 use proptest::prelude::*;
+
+/// A mesh of uneven quads with holes in it, its diagonals this way and that, a third of it wound the
+/// other way.
+fn random_mesh(columns: u32, rows: u32, seed: u32) -> MeshDesc {
+    let mut random = seed | 1;
+    let mut next = move |below: u32| {
+        random ^= random << 13;
+        random ^= random >> 17;
+        random ^= random << 5;
+        random % below
+    };
+    let mut desc = MeshDesc::default();
+    for at in 0..columns * rows {
+        let [x, y] = [at % columns, at / columns].map(|at| at as f32 + next(100) as f32 / 300.0);
+        desc.positions.push(Vec3::new(x, -y, next(100) as f32 / 300.0) * 0.1);
+    }
+    for (row, column) in (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |c| (row, c))) {
+        // No two holes meet in a point.
+        let is_hole = row % 2 == 1 && column % 2 == 1 && next(2) == 0;
+        let a = row * columns + column;
+        let (b, c, d) = (a + 1, a + columns, a + columns + 1);
+        let halves = if next(2) == 0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
+        for [p, q, r] in halves.into_iter().filter(|_| !is_hole) {
+            desc.indices.extend(if next(3) == 0 { [q, p, r] } else { [p, q, r] });
+        }
+    }
+    desc.uvs = desc.positions.iter().map(|x| x.truncate()).collect();
+    desc.extra_particles = 1000;
+    desc
+}
 
 fn events(cloth: &mut Cloth) -> Vec<Event> {
     core::iter::from_fn(|| cloth.next_event()).collect()
@@ -55,6 +85,32 @@ proptest! {
         }
         cloth.step(5);
         assert_sound(&cloth, &before);
+    }
+
+    #[test]
+    fn random_tears_and_cuts_of_random_meshes_leave_clean_meshes(
+        (columns, rows, seed) in (2u32..8, 2u32..8, any::<u32>()),
+        steps in prop::collection::vec((any::<[u8; 4]>(), 0usize..10_000, 0u32..3), 1..40),
+    ) {
+        let mut cloth = Cloth::mesh(&random_mesh(columns, rows, seed)).unwrap();
+        let before = cloth.clone();
+        for (at, pick, ticks) in steps {
+            // One cut for every seven tears.
+            if pick % 8 == 0 {
+                let [a, b, c, d] = at.map(|at| f32::from(at) / 320.0);
+                let (from, to) = (Vec3::new(a, -b, -9.0), Vec3::new(c, -d, -9.0));
+                let is_blade = from != to;
+                prop_assert_eq!(cloth.cut(from, to, Vec3::Z * 18.0).is_ok(), is_blade);
+            } else {
+                tear_somewhere(&mut cloth, pick).unwrap();
+            }
+            cloth.step(ticks);
+        }
+        assert_clean(&cloth, &before);
+        let mut restored = Cloth::restore(&cloth.save()).unwrap();
+        restored.step(3);
+        cloth.step(3);
+        prop_assert_eq!(restored.state_hash(), cloth.state_hash());
     }
 }
 

@@ -10,6 +10,7 @@ use super::world::Origin;
 use crate::error::{Error, Result};
 use crate::fabric::extra::Changes;
 use crate::fabric::material::Material;
+use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
 use crate::math::mix::Mixer;
@@ -27,7 +28,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -42,6 +43,8 @@ struct Saved<'a> {
     crossings: Owned<'a, Vec<Crossing>>,
     hems: Owned<'a, Vec<u8>>,
     links: Changes,
+    /// What tears made of tethers; none where measuring gives the same.
+    tethers: Vec<TetherSet>,
     particles: Owned<'a, Particles>,
     pins: Owned<'a, Pins>,
     grabs: Owned<'a, Grabs>,
@@ -66,6 +69,7 @@ impl Cloth {
     /// bits. Handles of grabs and colliders hold for it too.
     pub fn save(&self) -> Vec<u8> {
         let world = &self.world;
+        let is_torn = world.mesh.vertex_count() > world.mesh.original_count as usize;
         let saved = Saved {
             origin: Owned::Borrowed(&self.origin),
             settings: Owned::Borrowed(&world.settings),
@@ -76,6 +80,7 @@ impl Cloth {
             crossings: Owned::Borrowed(&world.crossings),
             hems: Owned::Borrowed(&world.mesh.hems),
             links: world.weave.changes(),
+            tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             particles: Owned::Borrowed(&world.particles),
             pins: Owned::Borrowed(&world.pins),
             grabs: Owned::Borrowed(&world.grabs),
@@ -185,6 +190,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.weave.stiffen(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
     world.reserve_for_tears();
+    world.weave.gather(world.particles.len());
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
@@ -204,6 +210,10 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.find_tips();
     world.weigh();
     world.tether();
+    let (particles, triangles) = (world.particles.len(), world.mesh.triangles.len());
+    let is_measured = saved.tethers.is_empty();
+    must(is_measured || world.tethers.restore(&saved.tethers, particles, triangles))?;
+    world.sort_outward();
     world.tether_slack = saved.tether_slack;
     let mut outputs = Outputs::new(&world);
     outputs.set_uvs(&origin);

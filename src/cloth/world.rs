@@ -147,6 +147,7 @@ fn build(
         cells,
     };
     world.pins.reserve(capacity);
+    world.tethers.reserve(capacity, world.mesh.triangles.len());
     world.reserve_packed(capacity);
     world.outward.reserve(capacity, world.weave.links.len());
     for particle in pinned {
@@ -195,7 +196,7 @@ impl World {
         self.events.reserve();
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.weave.reserve(openings, capacity);
-        self.tethers.reserve(capacity);
+        self.tethers.reserve(capacity, self.mesh.triangles.len());
         self.outward.reserve(capacity, self.weave.links.len());
         self.scratch = Scratch::new(
             self.particles.len(),
@@ -211,6 +212,7 @@ impl World {
     pub(crate) fn reserve_for_tears(&mut self) {
         let openings = opening_capacity(&self.mesh, self.capacity());
         self.weave.reserve(openings, self.capacity());
+        self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
         scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
         scratch.pieces.reserve();

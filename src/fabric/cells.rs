@@ -11,14 +11,17 @@ pub(crate) struct Cells {
     pub columns: usize,
     /// Particles down.
     pub rows: usize,
-    /// Whether a corner of the cell has been split off.
+    /// Whether a corner of the cell has been split off, …
     pub torn: Vec<bool>,
+    /// … and whether a cut put a corner elsewhere.
+    pub divided: Vec<bool>,
 }
 
 impl Cells {
     pub fn new(columns: u32, rows: u32) -> Self {
         let (columns, rows) = (columns as usize, rows as usize);
-        Self { columns, rows, torn: vec![false; (columns - 1) * (rows - 1)] }
+        let whole = vec![false; (columns - 1) * (rows - 1)];
+        Self { columns, rows, torn: whole.clone(), divided: whole }
     }
 
     /// Takes note of what a split did around a site.
@@ -28,7 +31,10 @@ impl Cells {
             for column in column.saturating_sub(1)..(column + 1).min(self.columns - 1) {
                 let cell = row * (self.columns - 1) + column;
                 let woven = cell_triangles(self.columns as u32, row as u32, column as u32);
-                self.torn[cell] = mesh.triangles[2 * cell..2 * cell + 2] != woven;
+                let triangles = [2 * cell, 2 * cell + 1].map(|at| mesh.triangles[at]);
+                self.torn[cell] = triangles != woven;
+                let sites = triangles.map(|three| three.map(|v| mesh.source[v as usize]));
+                self.divided[cell] = sites != woven;
             }
         }
     }

@@ -21,6 +21,8 @@ impl Weave {
     /// Makes room for `count` more extra links, and for `sites` in all.
     pub fn reserve(&mut self, count: usize, sites: usize) {
         self.extra.reserve(count);
+        self.loose.reserve(self.extra.len() + count);
+        self.palette.reserve(self.extra.len() + count, sites);
         self.extra_sites.reserve_exact(count);
         self.extra_next.reserve_exact(count);
         self.extra_head.reserve_exact(sites.saturating_sub(self.extra_head.len()));
@@ -113,6 +115,15 @@ impl Weave {
         while at != NONE {
             self.extra.follow(mesh, at as usize);
             at = self.next_extra(at, site);
+        }
+    }
+
+    /// Gathers the links that sweeps find in no row, after some changed. `particles` is how many there
+    /// are.
+    pub fn gather(&mut self, particles: usize) {
+        self.palette.color(&self.extra, particles, &mut self.loose);
+        if let Some(rows) = &mut self.rows {
+            rows.gather(&self.links, &self.batches);
         }
     }
 

@@ -6,6 +6,7 @@ pub(crate) mod divide;
 pub(crate) mod extra;
 pub(crate) mod lines;
 pub(crate) mod links;
+pub(crate) mod loose;
 pub(crate) mod material;
 pub(crate) mod outward;
 pub(crate) mod rows;

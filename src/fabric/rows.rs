@@ -4,6 +4,8 @@
 //! colours. A link that tears or gets another particle leaves its row (its mask turns 0); if it still
 //! holds, it goes on as a stray.
 
+use crate::fabric::links::{Batch, Links};
+use crate::fabric::loose::Loose;
 use core::ops::Range;
 
 /// How the particles of a row's links lie in memory. Link `k` of a row joins …
@@ -37,6 +39,8 @@ pub(crate) struct Rows {
     pub mask: Vec<f32>,
     /// Links that left their row and still hold, lowest first.
     strays: Vec<u32>,
+    /// The same as sweeps want them, batch by batch; as of the last time they were gathered.
+    pub loose: Loose,
     /// The row of each link.
     row_of: Vec<u32>,
 }
@@ -57,7 +61,10 @@ impl Rows {
             }
             row_of.push(rows.len() as u32 - 1);
         }
-        Self { rows, mask: vec![1.0; a.len()], strays: Vec::with_capacity(a.len()), row_of }
+        let mask = vec![1.0; a.len()];
+        let mut found = Self { rows, mask, row_of, ..Self::default() };
+        found.reserve();
+        found
     }
 
     /// The rows that hold the links `range`, which are a batch.
@@ -67,6 +74,7 @@ impl Rows {
     }
 
     /// The strays among the links `range`.
+    #[cfg(feature = "parallel")]
     pub fn strays(&self, range: Range<usize>) -> &[u32] {
         let at = |link: usize| self.strays.partition_point(|stray| (*stray as usize) < link);
         &self.strays[at(range.start)..at(range.end)]
@@ -90,14 +98,27 @@ impl Rows {
         }
     }
 
+    /// Gathers the strays, after links changed.
+    pub fn gather(&mut self, links: &Links, batches: &[Batch]) {
+        self.loose.clear();
+        let mut left = &self.strays[..];
+        for batch in batches {
+            let end = batch.first + batch.count;
+            let (own, beyond) = left.split_at(left.partition_point(|link| (*link as usize) < end));
+            self.loose.add(batch.kind, links, own);
+            left = beyond;
+        }
+    }
+
     /// Makes room for every link to stray.
     pub fn reserve(&mut self) {
         self.strays.reserve_exact(self.mask.len() - self.strays.len());
+        self.loose.reserve(self.mask.len());
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        12 * self.mask.len() + size_of::<Row>() * self.rows.len()
+        12 * self.mask.len() + size_of::<Row>() * self.rows.len() + self.loose.bytes()
     }
 }
 

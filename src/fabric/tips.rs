@@ -5,6 +5,9 @@
 //! the earlier the finer its mesh is. What does not depend on the mesh is the energy that a slit frees as
 //! it grows (Griffith 1921): with it threads at a tip tear at √(z / h) times the strain that others
 //! do, where z is the length over which strain spreads at the tip of a real one.
+//!
+//! What the solver has not got to of a load looks like strain too, and at a tip it is greatest. Threads
+//! there tear at no less than that, so that a slit cloth does not come apart under its own weight.
 
 use crate::fabric::material::Material;
 use crate::mesh::{Fan, Mesh, NONE, after, before};
@@ -20,8 +23,16 @@ const LEAST: f32 = 0.2;
 /// any corner.
 const AROUND: f32 = 5.235_988;
 
+/// The strain at which threads at a tip tear, where the solver may leave them with so much.
+pub(crate) fn strain(material: &Material, spacing: f32, left: f32) -> f32 {
+    let others = material.tear_stretch - 1.0;
+    let at_tip = others * weakness(material, spacing);
+    let at_least = if left < others { left } else { others };
+    if at_tip < at_least { at_least } else { at_tip }
+}
+
 /// At what share of the strain that others do threads at a tip tear.
-pub(crate) fn weakness(material: &Material, spacing: f32) -> f32 {
+fn weakness(material: &Material, spacing: f32) -> f32 {
     let share = (ZONE * material.thickness / spacing).sqrt();
     let share = if share > LEAST { share } else { LEAST };
     if share < 1.0 { share } else { 1.0 }

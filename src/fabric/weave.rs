@@ -3,6 +3,7 @@
 use crate::fabric::color;
 use crate::fabric::lines::Lines;
 use crate::fabric::links::{Batch, LinkKind, Links, Spec, Support, Thread};
+use crate::fabric::loose::{Loose, Palette};
 use crate::fabric::material::Material;
 use crate::fabric::rows::Rows;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
@@ -23,6 +24,9 @@ pub(crate) struct Weave {
     pub(super) is_changed: Vec<bool>,
     /// The second sides of opened edges and what cuts made, in the order they came, see `extra`.
     pub extra: Links,
+    /// Those of them that hold by colour; as of the last time they were gathered.
+    pub loose: Loose,
+    pub(super) palette: Palette,
     /// The sites that each extra link involves; `NONE` where there are fewer.
     pub(super) extra_sites: Vec<[u32; 4]>,
     /// The link along the edge that starts at each corner, by its number as in `extra`; `NONE` on the
@@ -204,6 +208,9 @@ impl Weave {
         let is_changed = vec![false; links.len()];
         let mut extra = Links::default();
         extra.reserve(opening_capacity);
+        let (mut loose, mut palette) = (Loose::default(), Palette::default());
+        loose.reserve(opening_capacity);
+        palette.reserve(opening_capacity, mesh.source.capacity());
         Self {
             links,
             batches,
@@ -211,6 +218,8 @@ impl Weave {
             lines: Lines::default(),
             is_changed,
             extra,
+            loose,
+            palette,
             extra_sites: Vec::with_capacity(opening_capacity),
             link_of_edge,
             first,
@@ -228,6 +237,8 @@ impl Weave {
         links * each
             + self.rows.as_ref().map_or(0, Rows::bytes)
             + self.lines.bytes()
+            + self.loose.bytes()
+            + self.palette.bytes()
             + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
             + size_of::<[u32; 8]>() * self.extra_next.capacity()
     }

@@ -93,6 +93,7 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
     world.reserve_for_tears();
     world.find_tips();
     settle(world);
+    world.tether();
 }
 
 /// Divides one edge and all that lies on it.

@@ -385,17 +385,15 @@ impl<S: Simd> Abreast<'_, S> {
             let (from, to) = (self.own(from), self.own(to));
             if number == 0 || from != end {
                 let begins = |lane: usize| number == 0 || from[lane] != end[lane];
-                let mut ways = self.spread(way);
                 for lane in (0..S::LANES).filter(|lane| begins(*lane)) {
                     let begin = step.begin.map(|axis| axis[self.first + lane]);
                     let limited = limit(begin, most[self.first + lane]);
                     let point = &mut room.points[from[lane] as usize];
-                    for axis in 0..3 {
-                        ways[axis][lane] = begin[axis];
-                        point[axis] += limited[axis];
-                    }
+                    (0..3).for_each(|axis| point[axis] += limited[axis]);
                 }
-                way = self.take_up(&ways);
+                let begin = self.load3(&step.begin);
+                let goes_on = if number == 0 { s.splat(0.0) } else { self.agree(from, end) };
+                way = [0, 1, 2].map(|axis| s.pick(goes_on, way[axis], begin[axis]));
             }
             let (share, own) = (self.load(&step.share), self.load3(&step.own));
             way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];

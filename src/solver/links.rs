@@ -5,12 +5,14 @@
 //! ```
 //! Macklin, Müller, Chentanez, "XPBD", MIG 2016, eq. 18. Links of one colour share no particle, so
 //! inside a batch any order gives the same bits: a grid's batches go row by row (see `rows`), those of
-//! other meshes some at a time (see `packed`). The extra links of torn edges go in their order.
+//! other meshes some at a time (see `packed`). After them come the extra links of torn edges, which have
+//! colours of their own.
 
 #[cfg(feature = "parallel")]
 use super::bands;
 use super::{World, packed, rows};
 use crate::fabric::links::{LinkKind, Links};
+use crate::fabric::loose::Loose;
 use crate::math::TINY;
 use crate::math::simd::{Arithmetic, Number, Scalar};
 use crate::state::particles::Particles;
@@ -63,14 +65,12 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: 
     match order {
         Order::Forward => {
             solve_batches::<LAW>(world, kind, order, scale);
-            for link in 0..world.weave.extra.len() {
-                solve_extra::<LAW>(world, link, kind, scale);
-            }
+            let batches = world.weave.loose.batches_of(kind);
+            batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
         }
         Order::Backward => {
-            for link in (0..world.weave.extra.len()).rev() {
-                solve_extra::<LAW>(world, link, kind, scale);
-            }
+            let batches = world.weave.loose.batches_of(kind).rev();
+            batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
             solve_batches::<LAW>(world, kind, order, scale);
         }
     }
@@ -103,9 +103,8 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
         if !is_solved {
             rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
         }
-        for link in grid.strays(range) {
-            project::<LAW, _>(&mut weave.links, *link as usize, p, scale);
-        }
+        // These are of a colour for sure, so that any order does.
+        solve_loose::<LAW, _>(&grid.loose, (at, Order::Forward), &mut weave.links, p, scale);
     } else if packed.is_current {
         packed::solve::<LAW>(world.level, world.threads, range, &mut weave.links, packed, scale);
     } else {
@@ -113,15 +112,40 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
     }
 }
 
-fn solve_extra<const LAW: u8>(world: &mut World, link: usize, kind: LinkKind, scale: f32) {
-    let (links, packed) = (&mut world.weave.extra, &mut world.scratch.packed);
-    if links.kind(link) != kind {
-        return;
-    }
+fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: Order, scale: f32) {
+    let (weave, packed) = (&mut world.weave, &mut world.scratch.packed);
     if packed.is_current {
-        project::<LAW, _>(links, link, packed, scale);
+        solve_loose::<LAW, _>(&weave.loose, (at, order), &mut weave.extra, packed, scale);
     } else {
-        project::<LAW, _>(links, link, &mut world.particles, scale);
+        let p = &mut world.particles;
+        solve_loose::<LAW, _>(&weave.loose, (at, order), &mut weave.extra, p, scale);
+    }
+}
+
+/// Solves a batch of loose links, which are numbers of a list.
+fn solve_loose<const LAW: u8, S: Spots>(
+    loose: &Loose,
+    (batch, order): (usize, Order),
+    links: &mut Links,
+    spots: &mut S,
+    scale: f32,
+) {
+    let own = loose.of_batch(batch);
+    let ends = loose.a[own.clone()].iter().zip(&loose.b[own.clone()]);
+    let joins = ends.zip(&loose.rest[own.clone()]).zip(&loose.link[own]);
+    let mut solve = |(((a, b), rest), link): (((&u32, &u32), &f32), &u32)| {
+        let ends = (*a as usize, *b as usize);
+        if LAW == SOFT {
+            let link = *link as usize;
+            let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
+            links.lambda[link] = pull::<LAW, _>(ends, *rest, compliance, lambda, spots, scale);
+        } else {
+            pull::<LAW, _>(ends, *rest, 0.0, 0.0, spots, scale);
+        }
+    };
+    match order {
+        Order::Forward => joins.for_each(&mut solve),
+        Order::Backward => joins.rev().for_each(&mut solve),
     }
 }
 

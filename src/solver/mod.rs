@@ -248,6 +248,19 @@ impl World {
     pub fn tether(&mut self) {
         let pinned = self.pins.iter().map(|pin| pin.particle);
         self.tethers.measure(&self.mesh, &self.rest, pinned);
+        self.tethers_changed();
+    }
+
+    /// Measures anew which tethers tears changed: around the particles that were touched.
+    pub fn tether_around(&mut self, touched: &[u32]) {
+        if self.tethers.pin_count() != self.pins.iter().len() {
+            return self.tether();
+        }
+        self.tethers.follow(&self.mesh, &self.rest, touched);
+        self.tethers_changed();
+    }
+
+    fn tethers_changed(&mut self) {
         self.is_apart_current = false;
         self.tether_slack = f32::INFINITY;
         self.sort_outward();

@@ -1,7 +1,7 @@
 //! Sums over triangles: what each gives to its corners, for wind and for normals alike.
 //!
 //! Every corner is added to in the order of the triangles. On a grid eight cells go at once where
-//! they are as they were made; the additions come in that order still, so the bits are the same. So
+//! a cut divided none; the additions come in that order still, so the bits are the same. So
 //! they do where several threads each add to rows of their own: the cells between two of them are
 //! looked at by both, and each adds its half.
 
@@ -90,7 +90,9 @@ pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, band: Band, mut out: [
             // The last chunk reaches back over cells that are done, so as to be whole.
             let first = start.min(across - LANES);
             let cell = row * across + first;
-            if cells.torn[cell..cell + LANES].contains(&true) {
+            let torn = &cells.torn[cell..cell + LANES];
+            let place = Place { row, first, done: start - first, columns: cells.columns, torn };
+            if cells.divided[cell..cell + LANES].contains(&true) {
                 let from = 2 * (row * across + start);
                 let end = 2 * (row * across + (start + LANES).min(across));
                 let whole = from + (end - from) / LANES * LANES;
@@ -98,9 +100,10 @@ pub(crate) fn sum<G: Give>(surface: Surface<'_>, give: G, band: Band, mut out: [
                     .step_by(LANES)
                     .for_each(|first| add_triangles(surface, first, give, out));
                 (whole..end).for_each(|at| add_triangle(surface, at, give, out));
+            } else if torn.contains(&true) {
+                add_cells::<G, true>(surface, place, band, give, out);
             } else {
-                let place = Place { row, first, done: start - first, columns: cells.columns };
-                add_cells(surface, place, band, give, out);
+                add_cells::<G, false>(surface, place, band, give, out);
             }
         }
     }
@@ -160,11 +163,13 @@ fn add_triangles<G: Give>(surface: Surface<'_>, first: usize, give: G, out: &mut
 
 /// Eight cells next to each other, of which the first ones are done.
 #[derive(Clone, Copy)]
-struct Place {
+struct Place<'a> {
     row: usize,
     first: usize,
     done: usize,
     columns: usize,
+    /// Which of them have a corner that has been split off.
+    torn: &'a [bool],
 }
 
 /// A vector in each lane.
@@ -212,9 +217,9 @@ fn alternate(first_falls: bool, falling: f32, rising: f32) -> Lanes {
 }
 
 #[inline(always)]
-fn add_cells<G: Give>(
+fn add_cells<G: Give, const TORN: bool>(
     surface: Surface<'_>,
-    place: Place,
+    place: Place<'_>,
     band: Band,
     give: G,
     out: &mut [&mut [f32]; 3],
@@ -252,14 +257,22 @@ fn add_cells<G: Give>(
     }
     let (quarter, half) = (give.part(areas[0]), give.part(2.0 * areas[0]));
     // Which part of the first and of the second triangle a corner gets. The right corners go first:
-    // to them the cell on their left gives before the one on their right.
+    // to them the cell on their left gives before the one on their right. Torn cells give in between.
     let before = band.first * place.columns;
-    for (first, falling, rising) in [
+    let corners = [
         (top + 1, [0.0, half], [quarter, quarter]),
-        (top, [quarter, quarter], [half, 0.0]),
         (bottom + 1, [quarter, quarter], [0.0, half]),
+        (top, [quarter, quarter], [half, 0.0]),
         (bottom, [half, 0.0], [quarter, quarter]),
-    ] {
+    ];
+    for (number, (first, falling, rising)) in corners.into_iter().enumerate() {
+        if TORN && number == 2 {
+            for lane in (place.done..LANES).filter(|lane| place.torn[*lane]) {
+                let at = 2 * (place.row * (place.columns - 1) + place.first + lane);
+                add_triangle(surface, at, give, out);
+                add_triangle(surface, at + 1, give, out);
+            }
+        }
         let row = place.row + usize::from(first >= bottom);
         if row < band.first || row >= band.end {
             continue;
@@ -268,7 +281,7 @@ fn add_cells<G: Give>(
         let mut of_one = alternate(first_falls, falling[0], rising[0]);
         let mut of_two = alternate(first_falls, falling[1], rising[1]);
         for lane in 0..LANES {
-            let counts = lane >= place.done;
+            let counts = lane >= place.done && !(TORN && place.torn[lane]);
             of_one[lane] = if counts { of_one[lane] } else { 0.0 };
             of_two[lane] = if counts { of_two[lane] } else { 0.0 };
         }

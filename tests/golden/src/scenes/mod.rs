@@ -24,6 +24,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "sheet-torn-to-pieces", play: tears::sheet_torn_to_pieces },
     Scene { name: "tears-use-up-their-room", play: tears::tears_use_up_their_room },
     Scene { name: "cut-by-blades", play: tears::cut_by_blades },
+    Scene { name: "tears-and-cuts-at-random", play: tears::tears_and_cuts_at_random },
     Scene { name: "dropped-on-a-tilting-floor", play: floor::dropped_on_a_tilting_floor },
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },

@@ -113,6 +113,48 @@ fn patch() -> MeshDesc {
     }
 }
 
+/// Hundreds of tears and cuts of sheets and meshes, wherever chance has them.
+pub fn tears_and_cuts_at_random(trace: &mut Trace) -> Result<()> {
+    let mut random = 0x1f12_3bb5_u32;
+    // Xorshift (Marsaglia, 2003): integers, so the same on any host.
+    let mut next = move |below: u32| {
+        random ^= random << 13;
+        random ^= random >> 17;
+        random ^= random << 5;
+        random % below
+    };
+    let mut split = 0;
+    for round in 0..8 {
+        let mut cloth = if round % 2 == 0 {
+            let desc = thin_sheet(4 + next(12), 4 + next(12));
+            Cloth::grid(&GridDesc { extra_particles: 400, ..desc })?
+        } else {
+            Cloth::mesh(&MeshDesc { extra_particles: 400, ..patch() })?
+        };
+        let before = cloth.positions().len();
+        for _ in 0..60 {
+            if next(8) == 0 {
+                let [a, b, c, d] = [0; 4].map(|_| next(96) as f32 / 64.0 - 0.25);
+                let (from, to) = (Vec3::new(a, -b, -4.0), Vec3::new(c, -d, -4.0));
+                trace.word(cloth.cut(from, to, Vec3::Z * 8.0).map_or(1000, u64::from));
+            } else {
+                let corner = next(cloth.indices().len() as u32) as usize;
+                let end = corner - corner % 3 + (corner + 1) % 3;
+                let ends = [cloth.indices()[corner], cloth.indices()[end]];
+                trace.word(cloth.tear_edge(ends[0], ends[1]).map_or(2, u64::from));
+            }
+            if next(3) == 0 {
+                trace.run(&mut cloth, 1);
+            }
+        }
+        trace.run(&mut cloth, 10);
+        trace.look(&mut cloth);
+        split += cloth.positions().len() - before;
+    }
+    assert!(split > 400, "only {split} vertices were split");
+    Ok(())
+}
+
 /// With room for only so many new particles tearing stops, and says so.
 pub fn tears_use_up_their_room(trace: &mut Trace) -> Result<()> {
     let desc = GridDesc { extra_particles: 6, ..thin_sheet(9, 10) };
