@@ -255,7 +255,7 @@ fn a_yank_rips_a_slit_and_not_confetti() {
     // Slits are long and few: most tears make a slit longer, and crumbs are few.
     let crumbs = pieces.iter().filter(|count| **count < 10).count();
     assert!(crumbs <= 2 && pieces.len() <= 4, "{torn} tears left pieces of {pieces:?} triangles");
-    // And what tears is beside what tore: nearly all tears are one path, two cells apart at most.
+    // And what tears is beside what tore: four in five tears are one path, two cells apart at most.
     let place = |v: u32| cloth.uvs()[v as usize] * 39.0;
     let mut left: Vec<Vec2> = events
         .iter()
@@ -274,7 +274,7 @@ fn a_yank_rips_a_slit_and_not_confetti() {
         }
         longest = path.len().max(longest);
     }
-    assert!(10 * longest >= 9 * torn, "{longest} of {torn} tears are of one slit");
+    assert!(10 * longest >= 8 * torn, "{longest} of {torn} tears are of one slit");
 }
 
 #[test]
