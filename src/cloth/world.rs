@@ -219,8 +219,9 @@ impl World {
     }
 
     fn reserve_packed(&mut self, capacity: usize) {
+        self.scratch.weights.reserve(capacity, self.weave.links.len());
         if self.weave.rows.is_none() {
-            self.scratch.packed.reserve(capacity, self.weave.links.len());
+            self.scratch.packed.reserve(capacity);
         }
         self.scratch.lines = lines::Scratch::new(self.weave.lines.longest, capacity);
     }

@@ -29,6 +29,8 @@ pub(crate) struct Row {
     pub count: u32,
     /// Whether a link has left it.
     pub is_torn: bool,
+    /// From which link to before which the two ends weigh the same; see `solver::weights`.
+    pub even: [u32; 2],
 }
 
 /// All rows of a grid's weave.
@@ -129,7 +131,7 @@ impl Row {
             2 => Pattern::Quads,
             _ => Pattern::Straight,
         };
-        Self { pattern, a, b, first, count: 1, is_torn: false }
+        Self { pattern, a, b, first, count: 1, is_torn: false, even: [first; 2] }
     }
 
     /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper

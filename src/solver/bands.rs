@@ -69,6 +69,7 @@ pub(crate) fn solve<const LAW: u8>(
         mask: &grid.mask,
         rest: &weave.links.rest,
         compliance: &weave.links.compliance,
+        ends: world.scratch.weights.ends.each_ref().map(|list| &list[..]),
     };
     let (rows, columns) = (cells.rows, cells.columns);
     let row = |part: usize| if part == parts { rows } else { rows * part / parts / GRAIN * GRAIN };
@@ -145,6 +146,7 @@ struct Sweep<'a> {
     mask: &'a [f32],
     rest: &'a [f32],
     compliance: &'a [f32],
+    ends: [&'a [f32]; 2],
 }
 
 /// What one thread changes: particles from some row on, and the multipliers of links that start there.
@@ -204,7 +206,8 @@ impl Part<'_> {
             w: &sweep.w[particles],
             mask: &sweep.mask[all.clone()],
             rest: &sweep.rest[all.clone()],
-            compliance: &sweep.compliance[all],
+            compliance: &sweep.compliance[all.clone()],
+            ends: sweep.ends.map(|list| &list[all.clone()]),
             lambda,
         };
         let from = color.rows.partition_point(|row| row.first + row.count <= links.start);

@@ -21,8 +21,8 @@
 //!
 //! Eight lines lie side by side; each lane is a line of its own, so that lanes change no bits.
 
-use super::World;
 use super::links::is_rigid;
+use super::{World, seats};
 use crate::fabric::lines::{Lines, NOBODY};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::{LANES, Lanes, Number, Scalar, Simd, turn, turn_back, vectored};
@@ -46,9 +46,9 @@ type Lanes3 = [Lanes; 3];
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     /// Each particle's position and inverse mass, after a seat that is nobody's.
-    points: Vec<[f32; 4]>,
+    pub points: Vec<[f32; 4]>,
     /// Where each particle was when the substep began.
-    starts: Vec<[f32; 4]>,
+    pub starts: Vec<[f32; 4]>,
     /// What is known of each step of a block.
     steps: Vec<Step>,
 }
@@ -104,7 +104,7 @@ pub(crate) fn are_used(world: &World) -> bool {
 /// Solves all lines.
 pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(world, LinkKind::Stretch);
-    take_seats(world, is_rigid);
+    seats::take(world, is_rigid);
     let step = world.settings.scheme().step;
     let (lines, links) = (&world.weave.lines, &mut world.weave.links);
     let s = &mut world.scratch.lines;
@@ -113,49 +113,7 @@ pub(crate) fn solve(world: &mut World) {
     } else {
         solve_soft(world.level, lines, links, s, 1.0 / (step * step));
     }
-    leave_seats(world);
-}
-
-/// Copies the particles to their seats.
-fn take_seats(world: &mut World, is_rigid: bool) {
-    let (p, s) = (&world.particles, &mut world.scratch.lines);
-    s.points.clear();
-    s.points.push([0.0; 4]);
-    if world.scratch.packed.is_current {
-        let particles = world.scratch.packed.points.iter().zip(&p.w);
-        s.points.extend(particles.map(|([x, y, z, _], w)| [*x, *y, *z, *w]));
-    } else {
-        let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z).zip(&p.w);
-        s.points.extend(particles.map(|(((x, y), z), w)| [*x, *y, *z, *w]));
-    }
-    if is_rigid {
-        let (to, way) = (&world.scratch.predicted, &world.scratch.way);
-        let ways = way.x.iter().zip(&way.y).zip(&way.z);
-        let starts = to.x.iter().zip(&to.y).zip(&to.z).zip(ways);
-        s.starts.clear();
-        s.starts.push([0.0; 4]);
-        s.starts.extend(
-            starts.map(|(((x, y), z), ((way_x, way_y), way_z))| {
-                [x - way_x, y - way_y, z - way_z, 0.0]
-            }),
-        );
-    }
-}
-
-/// Copies them back.
-fn leave_seats(world: &mut World) {
-    let seats = &world.scratch.lines.points[1..];
-    if world.scratch.packed.is_current {
-        for (point, [x, y, z, _]) in world.scratch.packed.points.iter_mut().zip(seats) {
-            *point = [*x, *y, *z, 0.0];
-        }
-        return;
-    }
-    let x = &mut world.particles.x;
-    let particles = x.x.iter_mut().zip(&mut x.y).zip(&mut x.z);
-    for (((x, y), z), seat) in particles.zip(seats) {
-        [*x, *y, *z, _] = *seat;
-    }
+    seats::leave(world);
 }
 
 vectored! {

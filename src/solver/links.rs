@@ -10,11 +10,11 @@
 
 #[cfg(feature = "parallel")]
 use super::bands;
-use super::{World, packed, rows};
+use super::{World, packed, rows, weights};
 use crate::fabric::links::{LinkKind, Links};
 use crate::fabric::loose::Loose;
-use crate::math::TINY;
 use crate::math::simd::{Arithmetic, Number, Scalar};
+use crate::math::{TINY, max};
 use crate::state::particles::Particles;
 use glam::Vec3;
 
@@ -26,8 +26,9 @@ pub(crate) const RIGID: u8 = 1;
 /// … only to being longer than a bound.
 pub(crate) const BOUND: u8 = 2;
 
-/// Forgets the multipliers of the last substep.
+/// Gets ready for the sweeps of a substep: weights are those of now, multipliers begin at 0.
 pub(crate) fn restart(world: &mut World) {
+    weights::weigh(world);
     let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
     if !kinds.into_iter().all(|kind| is_rigid(world, kind)) {
         world.weave.links.lambda.fill(0.0);
@@ -101,12 +102,15 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
     let packed = &mut world.scratch.packed;
     if let Some(grid) = &weave.rows {
         if !is_solved {
-            rows::solve::<LAW>(world.level, grid, range.clone(), &mut weave.links, p, scale);
+            let ends = &world.scratch.weights.ends;
+            let links = &mut weave.links;
+            rows::solve::<LAW>(world.level, grid, range.clone(), links, ends, p, scale);
         }
         // These are of a colour for sure, so that any order does.
         solve_loose::<LAW, _>(&grid.loose, (at, Order::Forward), &mut weave.links, p, scale);
     } else if packed.is_current {
-        packed::solve::<LAW>(world.level, world.threads, range, &mut weave.links, packed, scale);
+        let (links, weights) = (&mut weave.links, &world.scratch.weights);
+        packed::solve::<LAW>(world.level, world.threads, range, links, weights, packed, scale);
     } else {
         range.for_each(|link| project::<LAW, _>(&mut weave.links, link, p, scale));
     }
@@ -201,45 +205,54 @@ pub(crate) fn pull<const LAW: u8, S: Spots>(
 ) -> f32 {
     let ((xa, wa), (xb, wb)) = (spots.spot(a), spots.spot(b));
     let span = xb - xa;
-    let (share, lambda) =
-        correct::<LAW, _>(Scalar, span.to_array(), wa + wb, rest, compliance, lambda, scale);
-    spots.put(a, xa + span * (share * wa));
-    spots.put(b, xb + span * -(share * wb));
+    let weights = if LAW == RIGID { over_mean([wa, wb]) } else { [wa, wb] };
+    let ([to_a, to_b], lambda) =
+        correct::<LAW, _>(Scalar, span.to_array(), weights, rest, compliance, lambda, scale);
+    spots.put(a, xa + span * to_a);
+    spots.put(b, xb - span * to_b);
     lambda
 }
 
-/// The share of its span that a link gives back for each unit of inverse mass, and its multiplier
-/// then.
+/// Inverse masses over the mean of both.
+#[inline(always)]
+pub(crate) fn over_mean([wa, wb]: [f32; 2]) -> [f32; 2] {
+    let mean = max(0.5 * (wa + wb), TINY);
+    [wa / mean, wb / mean]
+}
+
+/// The shares of its span that a link gives back at its two ends, and its multiplier then.
 ///
-/// `scale` is 1/h² for soft links and the greatest length over rest for bounded ones. Rigid ones take
-/// Halley's step towards the root of |span|² = rest², which needs no root of its own: a length l
-/// becomes l (l² + 3 rest²) / (3 l² + rest²), so an error of 10 % is one of 0.03 % then.
+/// Weights are inverse masses, of rigid links those over the mean of both. `scale` is 1/h² for soft
+/// links and the greatest length over rest for bounded ones. Rigid ones take Halley's step towards the
+/// root of |span|² = rest², which needs no root of its own: a length l becomes
+/// l (l² + 3 rest²) / (3 l² + rest²), so an error of 10 % is one of 0.03 % then.
 #[inline(always)]
 pub(crate) fn correct<const LAW: u8, S: Arithmetic>(
     s: S,
     [dx, dy, dz]: [S::F; 3],
-    weight: S::F,
+    [wa, wb]: [S::F; 2],
     rest: S::F,
     compliance: S::F,
     lambda: S::F,
     scale: f32,
-) -> (S::F, S::F) {
+) -> ([S::F; 2], S::F) {
     let tiny = s.splat(TINY);
     let length2 = dx * dx + dy * dy + dz * dz;
     if LAW == RIGID {
         let rest2 = rest * rest;
-        let slope = length2 * s.splat(1.5) + rest2 * s.splat(0.5);
-        return ((length2 - rest2) / (slope * weight).max(tiny), lambda);
+        let share = (length2 - rest2) / (length2 * s.splat(3.0) + rest2).max(tiny);
+        return ([share * wa, share * wb], lambda);
     }
-    let length = length2.sqrt().max(tiny);
+    let (length, weight) = (length2.sqrt().max(tiny), wa + wb);
     if LAW == SOFT {
         let softness = compliance * s.splat(scale);
         let pull = length - rest + softness * lambda;
         let share = pull / (length * (weight + softness).max(tiny));
-        return (share, lambda - share * length);
+        return ([share * wa, share * wb], lambda - share * length);
     }
     let stretch = (length - rest * s.splat(scale)).max(s.splat(0.0));
-    (stretch / (length * weight.max(tiny)), lambda)
+    let share = stretch / (length * weight.max(tiny));
+    ([share * wa, share * wb], lambda)
 }
 
 /// Whether no link of a kind gives way at all, so that there is nothing to remember from sweep to

@@ -13,9 +13,11 @@ pub(crate) mod links;
 pub(crate) mod outputs;
 pub(crate) mod packed;
 pub(crate) mod pipeline;
+pub(crate) mod places;
 pub(crate) mod predict;
 pub(crate) mod profile;
 pub(crate) mod rows;
+pub(crate) mod seats;
 pub(crate) mod stage;
 pub(crate) mod surface;
 pub(crate) mod tangents;
@@ -23,6 +25,7 @@ pub(crate) mod tear;
 pub(crate) mod tethers;
 pub(crate) mod velocities;
 pub(crate) mod vertices;
+pub(crate) mod weights;
 
 use crate::fabric::cells::Cells;
 use crate::fabric::material::Material;
@@ -117,6 +120,7 @@ pub(crate) struct Scratch {
     pub predicted: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub anchor: Columns,
+    pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
     /// What each particle touched in this substep, if anything.
@@ -137,6 +141,7 @@ impl Scratch {
             way: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
+            weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),
             touch: Vec::with_capacity(capacity),

@@ -13,6 +13,7 @@
 
 use super::World;
 use super::links::{BOUND, RIGID, SOFT, Spots, correct, pull};
+use super::weights::Weights;
 use crate::fabric::links::Links;
 use crate::math::shared::Points;
 use crate::math::simd::{Between, Level, vectored};
@@ -27,10 +28,8 @@ pub(crate) struct Packed {
     pub points: Vec<[f32; 4]>,
     /// Whether positions are here and not in their columns.
     pub is_current: bool,
-    /// Inverse masses of the particles, …
+    /// Inverse masses of the particles.
     pub w: Vec<f32>,
-    /// … and from them those of each woven link's ends.
-    ends: [Vec<f32>; 2],
 }
 
 impl Spots for Packed {
@@ -47,26 +46,10 @@ impl Spots for Packed {
 }
 
 impl Packed {
-    /// Makes room for `particles` and `links` in all.
-    pub fn reserve(&mut self, particles: usize, links: usize) {
+    /// Makes room for `particles` in all.
+    pub fn reserve(&mut self, particles: usize) {
         self.points.reserve_exact(particles.saturating_sub(self.points.len()));
         self.w.reserve_exact(particles.saturating_sub(self.w.len()));
-        for list in &mut self.ends {
-            list.reserve_exact(links.saturating_sub(list.len()));
-        }
-    }
-
-    /// Looks up the inverse masses of links' ends, if any changed or a vertex split.
-    fn weigh(&mut self, w: &[f32], links: &Links) {
-        if self.w == w {
-            return;
-        }
-        self.w.clear();
-        self.w.extend_from_slice(w);
-        for (list, ends) in self.ends.iter_mut().zip([&links.a, &links.b]) {
-            list.clear();
-            list.extend(ends.iter().map(|end| w[*end as usize]));
-        }
     }
 }
 
@@ -79,7 +62,7 @@ pub(crate) fn pack(world: &mut World) {
     packed.points.clear();
     let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z);
     packed.points.extend(particles.map(|((x, y), z)| [*x, *y, *z, 0.0]));
-    packed.weigh(&p.w, &world.weave.links);
+    packed.w.clone_from(&p.w);
     packed.is_current = true;
 }
 
@@ -104,17 +87,20 @@ pub(crate) fn solve<const LAW: u8>(
     threads: Threads,
     range: Range<usize>,
     links: &mut Links,
+    weights: &Weights,
     packed: &mut Packed,
     scale: f32,
 ) {
-    let Packed { points, w, ends: [wa, wb], .. } = packed;
+    let Packed { points, w, .. } = packed;
+    let [wa, wb] = &weights.ends;
     let (points, w) = (Points::new(points), &w[..]);
     let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);
-    let weights = (&wa[range.clone()], &wb[range.clone()]);
+    let weights = ((&wa[range.clone()], &wb[range.clone()]), &weights.is_even[range.clone()]);
     let lengths = (&links.rest[range.clone()], &links.compliance[range.clone()]);
     let all = (joins, weights, lengths, &mut links.lambda[range]);
-    threads.over(all, LINKS, |(((a, b), active), (wa, wb), (rest, compliance), lambda)| {
-        let color = Color { a, b, active, wa, wb, rest, compliance, lambda, points, w };
+    threads.over(all, LINKS, |(((a, b), active), (weights, is_even), lengths, lambda)| {
+        let ((wa, wb), (rest, compliance)) = (weights, lengths);
+        let color = Color { a, b, active, wa, wb, is_even, rest, compliance, lambda, points, w };
         match LAW {
             SOFT => solve_soft(level, color, scale),
             RIGID => solve_rigid(level, color, scale),
@@ -130,6 +116,7 @@ struct Color<'a> {
     active: &'a [bool],
     wa: &'a [f32],
     wb: &'a [f32],
+    is_even: &'a [bool],
     rest: &'a [f32],
     compliance: &'a [f32],
     lambda: &'a mut [f32],
@@ -167,6 +154,7 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
         active: &color.active[..count],
         wa: &color.wa[..count],
         wb: &color.wb[..count],
+        is_even: &color.is_even[..count],
         rest: &color.rest[..count],
         compliance: &color.compliance[..count],
         lambda: &mut color.lambda[..count],
@@ -187,10 +175,12 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
     while link + S::LANES <= count {
         // SAFETY: all ends were just found to be particles, and this thread has them to itself.
         unsafe {
-            if is_whole {
-                solve_chunk::<S, LAW, false>(s, link, &mut color, scale);
+            if !is_whole {
+                solve_chunk::<S, LAW, true, false>(s, link, &mut color, scale);
+            } else if LAW == RIGID && color.is_even[link..link + S::LANES] == EVEN[..S::LANES] {
+                solve_chunk::<S, LAW, false, true>(s, link, &mut color, scale);
             } else {
-                solve_chunk::<S, LAW, true>(s, link, &mut color, scale);
+                solve_chunk::<S, LAW, false, false>(s, link, &mut color, scale);
             }
         }
         link += S::LANES;
@@ -199,6 +189,18 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
 }
 
 impl Color<'_> {
+    /// Those of the particles at the ends of as many links as there are lanes.
+    #[inline(always)]
+    fn inverse_masses(&self, at: [&[u32]; 2]) -> [[f32; 8]; 2] {
+        let mut found = [[0.0; 8]; 2];
+        for (found, at) in found.iter_mut().zip(at) {
+            for (found, at) in found.iter_mut().zip(at) {
+                *found = self.w[*at as usize];
+            }
+        }
+        found
+    }
+
     /// One link by itself.
     #[inline(always)]
     fn solve<const LAW: u8>(&mut self, link: usize, scale: f32) {
@@ -231,12 +233,16 @@ impl Spots for Color<'_> {
     }
 }
 
-/// As many links as there are lanes; with `CHOOSY` set, only those that hold.
+/// Where both ends of all links weigh the same.
+const EVEN: [bool; 8] = [true; 8];
+
+/// As many links as there are lanes; with `CHOOSY` set, only those that hold; with `IS_EVEN` set,
+/// their two ends weigh the same.
 ///
 /// # Safety
 /// Both ends of each are below the number of points, and no other thread reaches those.
 #[inline(always)]
-unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool>(
+unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool, const IS_EVEN: bool>(
     s: S,
     first: usize,
     color: &mut Color<'_>,
@@ -252,12 +258,18 @@ unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool>(
         compliance = s.load(color.compliance, first);
         lambda = s.load(color.lambda, first);
     }
-    let [wa, wb] = [s.load(color.wa, first), s.load(color.wb, first)];
+    let weights = if IS_EVEN {
+        [s.splat(1.0); 2]
+    } else if LAW == BOUND {
+        let inverse_masses = color.inverse_masses(at);
+        inverse_masses.each_ref().map(|w| s.load(w, 0))
+    } else {
+        [s.load(color.wa, first), s.load(color.wb, first)]
+    };
     // SAFETY: the caller's promise.
     let (pairs, span) = unsafe { s.fetch(color.points, at) };
-    let (share, mut multiplier) =
-        correct::<LAW, S>(s, span, wa + wb, rest, compliance, lambda, scale);
-    let shares = [share * wa, share * wb];
+    let (shares, mut multiplier) =
+        correct::<LAW, S>(s, span, weights, rest, compliance, lambda, scale);
     // SAFETY: the caller's promise, and `active` has an entry for each lane.
     unsafe { s.put::<CHOOSY>(color.points, at, pairs, shares, active) };
     if LAW == SOFT {

@@ -85,13 +85,21 @@ fn go_column(x: &mut [f32], way: &[f32], predicted: &mut [f32]) {
 }
 
 /// Keeps each way within `reach` of the cloth's own rigid motion, so that a violent yank is
-/// absorbed and yet a cloth may fall, fly and spin as fast as it likes.
+/// absorbed and yet a cloth may fall, fly and spin as fast as it likes. One that nothing holds keeps
+/// its momentum and its spin: what this takes from some particles goes to all.
 fn clamp_displacement(world: &mut World, reach: f32) {
     let p = &world.particles;
     let way = &mut world.scratch.way;
     let rigid = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
     let particles = (way.all_mut(), p.x.all(), &p.w[..]);
     world.threads.over(particles, PARTICLES, |(way, x, w)| clamp(way, x, w, rigid, reach));
+    if p.w.iter().all(|w| *w > 0.0) {
+        let left = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
+        for i in 0..p.len() {
+            let x = p.x.at(i);
+            way.add(i, rigid.at(x) - left.at(x));
+        }
+    }
 }
 
 fn clamp(way: [&mut [f32]; 3], [x, y, z]: [&[f32]; 3], w: &[f32], rigid: RigidMotion, reach: f32) {

@@ -11,6 +11,7 @@
 )]
 
 use super::links::{BOUND, RIGID, SOFT, Spots, correct, pull};
+use super::places::{Lists, Place, in_chunks};
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::math::columns::Columns;
@@ -20,13 +21,12 @@ use core::ops::Range;
 use glam::Vec3;
 
 /// The patterns as numbers that a kernel can be compiled for.
-const STRAIGHT: u8 = Pattern::Straight as u8;
+pub(crate) const STRAIGHT: u8 = Pattern::Straight as u8;
 const PAIRS: u8 = Pattern::Pairs as u8;
 const QUADS: u8 = Pattern::Quads as u8;
 
-/// The most lanes that there are, and the fewest.
+/// The most lanes that there are.
 const MOST: usize = 16;
-const FEWEST: usize = 4;
 
 /// Solves the links `range`, which are a batch, but for those that left their rows.
 pub(crate) fn solve<const LAW: u8>(
@@ -34,6 +34,7 @@ pub(crate) fn solve<const LAW: u8>(
     grid: &Rows,
     range: Range<usize>,
     links: &mut Links,
+    ends: &[Vec<f32>; 2],
     p: &mut Particles,
     scale: f32,
 ) {
@@ -49,6 +50,7 @@ pub(crate) fn solve<const LAW: u8>(
         mask: &grid.mask,
         rest,
         compliance,
+        ends: ends.each_ref().map(|list| &list[..]),
         lambda,
     };
     solve_rows::<LAW>(level, &grid.rows[grid.between(range)], &mut sheet, scale);
@@ -61,76 +63,87 @@ pub(crate) fn solve_rows<const LAW: u8>(
     sheet: &mut Sheet<'_>,
     scale: f32,
 ) {
-    match LAW {
-        SOFT => solve_soft(level, rows, sheet, scale),
-        RIGID => solve_rigid(level, rows, sheet, scale),
-        _ => solve_bound(level, rows, sheet, scale),
+    if level == Level::Scalar {
+        return rows.iter().for_each(|row| solve_apart::<LAW>(row, 0, sheet, scale));
     }
-}
-
-vectored! {
-    fn solve_soft(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
-        = solve_in_chunks::<_, SOFT>, Avx512, solve_all_apart::<SOFT>
-}
-
-vectored! {
-    fn solve_rigid(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
-        = solve_in_chunks::<_, RIGID>, Avx512, solve_all_apart::<RIGID>
-}
-
-vectored! {
-    fn solve_bound(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
-        = solve_in_chunks::<_, BOUND>, Avx512, solve_all_apart::<BOUND>
-}
-
-#[inline(always)]
-fn solve_in_chunks<S: Simd, const LAW: u8>(s: S, rows: &[Row], sheet: &mut Sheet<'_>, scale: f32) {
-    // One length for all columns, so that one check does for all.
-    let (particles, all) = (sheet.w.len(), sheet.rest.len());
-    let mut sheet = Sheet {
-        x: &mut sheet.x[..particles],
-        y: &mut sheet.y[..particles],
-        z: &mut sheet.z[..particles],
-        mask: &sheet.mask[..all],
-        compliance: &sheet.compliance[..all],
-        lambda: &mut sheet.lambda[..all],
-        ..*sheet
-    };
-    for row in rows {
-        let row = &sheet.own(row);
-        match row.pattern {
-            Pattern::Straight => solve_row::<S, LAW, STRAIGHT>(s, row, &mut sheet, scale),
-            Pattern::Pairs => solve_row::<S, LAW, PAIRS>(s, row, &mut sheet, scale),
-            Pattern::Quads => solve_row::<S, LAW, QUADS>(s, row, &mut sheet, scale),
+    for rows in rows.chunk_by(|one, next| one.pattern == next.pattern) {
+        let solve = match (LAW, rows[0].pattern) {
+            (SOFT, Pattern::Straight) => soft_straight,
+            (SOFT, Pattern::Pairs) => soft_pairs,
+            (SOFT, Pattern::Quads) => soft_quads,
+            (RIGID, Pattern::Straight) => rigid_straight,
+            (RIGID, Pattern::Pairs) => rigid_pairs,
+            (RIGID, Pattern::Quads) => rigid_quads,
+            (_, Pattern::Straight) => bound_straight,
+            (_, Pattern::Pairs) => bound_pairs,
+            (_, Pattern::Quads) => bound_quads,
+        };
+        solve(level, rows, sheet, scale);
+        for row in rows.iter().filter(|row| in_chunks(row) < row.count as usize) {
+            solve_apart::<LAW>(row, in_chunks(row), sheet, scale);
         }
     }
-    for row in rows {
-        let row = &sheet.own(row);
-        solve_apart::<LAW>(row, in_chunks(row)..row.count as usize, &mut sheet, scale);
+}
+
+/// A function for each law and pattern: together they would be too long for engines to compile well.
+macro_rules! kernels {
+    ($($name:ident: $law:ident $pattern:ident;)*) => {$(
+        vectored! {
+            #[inline(never)]
+            fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
+                = solve_in_chunks::<_, $law, $pattern>, Avx512, nothing
+        }
+    )*};
+}
+
+kernels! {
+    soft_straight: SOFT STRAIGHT;
+    soft_pairs: SOFT PAIRS;
+    soft_quads: SOFT QUADS;
+    rigid_straight: RIGID STRAIGHT;
+    rigid_pairs: RIGID PAIRS;
+    rigid_quads: RIGID QUADS;
+    bound_straight: BOUND STRAIGHT;
+    bound_pairs: BOUND PAIRS;
+    bound_quads: BOUND QUADS;
+}
+
+/// Without vectors there are no chunks.
+fn nothing(_: &[Row], _: &mut Sheet<'_>, _: f32) {}
+
+#[inline(always)]
+fn solve_in_chunks<S: Simd, const LAW: u8, const PATTERN: u8>(
+    s: S,
+    rows: &[Row],
+    sheet: &mut Sheet<'_>,
+    scale: f32,
+) {
+    let lists = Lists::of(rows, sheet);
+    for row in rows.iter().filter(|row| !row.is_torn) {
+        // SAFETY: all rows lie within the lists.
+        unsafe { solve_whole::<S, LAW, PATTERN>(s, lists.place::<PATTERN>(row), row, scale) };
+    }
+    // Rests reach back over links that were just solved. Only here, for a machine that is to read
+    // what it has not finished writing must wait.
+    for row in rows.iter().filter(|row| !row.is_torn) {
+        let (place, count) = (lists.place::<PATTERN>(row), in_chunks(row));
+        let done = count / S::LANES * S::LANES;
+        // SAFETY: as above.
+        unsafe { solve_rest::<S, LAW, PATTERN, false>(s, place, done, count, scale) };
+    }
+    for row in rows.iter().filter(|row| row.is_torn) {
+        // SAFETY: as above.
+        unsafe {
+            solve_torn::<S, LAW, PATTERN>(s, lists.place::<PATTERN>(row), in_chunks(row), scale)
+        };
     }
 }
 
-/// How many links of a row go in chunks: all, but for those of a row shorter than any chunk, and an
-/// odd one where every two links belong together.
+/// Links of a row one by one, from some link on.
 #[inline(always)]
-fn in_chunks(row: &Row) -> usize {
-    let count = row.count as usize;
-    let even = if row.pattern == Pattern::Quads { count & !1 } else { count };
-    if even < FEWEST { 0 } else { even }
-}
-
-#[inline(always)]
-fn solve_all_apart<const LAW: u8>(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32) {
-    for row in rows {
-        let row = &sheet.own(row);
-        solve_apart::<LAW>(row, 0..row.count as usize, sheet, scale);
-    }
-}
-
-/// Links of a row one by one.
-#[inline(always)]
-fn solve_apart<const LAW: u8>(row: &Row, range: Range<usize>, sheet: &mut Sheet<'_>, scale: f32) {
-    for k in range {
+fn solve_apart<const LAW: u8>(row: &Row, from: usize, sheet: &mut Sheet<'_>, scale: f32) {
+    let row = &sheet.own(row);
+    for k in from..row.count as usize {
         let link = row.first as usize + k;
         if sheet.mask[link] != 0.0 {
             let (a, b) = row.ends(k as u32);
@@ -157,6 +170,8 @@ pub(crate) struct Sheet<'a> {
     pub mask: &'a [f32],
     pub rest: &'a [f32],
     pub compliance: &'a [f32],
+    /// What their ends weigh.
+    pub ends: [&'a [f32]; 2],
     pub lambda: &'a mut [f32],
 }
 
@@ -181,155 +196,162 @@ impl Spots for Sheet<'_> {
     }
 }
 
-/// Those of a row: its links, and the particles at their ends.
-struct Ends<'a> {
-    x: [&'a mut [f32]; 2],
-    y: [&'a mut [f32]; 2],
-    z: [&'a mut [f32]; 2],
-    w: [&'a [f32]; 2],
-    mask: &'a [f32],
-    rest: &'a [f32],
-    compliance: &'a [f32],
-    lambda: &'a mut [f32],
-}
-
-impl Ends<'_> {
-    /// Those of some of the links.
-    #[inline(always)]
-    fn part<const PATTERN: u8>(&mut self, links: Range<usize>) -> Ends<'_> {
-        let upper = if PATTERN == STRAIGHT { links.clone() } else { 0..0 };
-        let lower =
-            if PATTERN == STRAIGHT { links.clone() } else { 2 * links.start..2 * links.end };
-        let [[xa, xb], [ya, yb], [za, zb]] = [&mut self.x, &mut self.y, &mut self.z];
-        Ends {
-            x: [&mut xa[lower.clone()], &mut xb[upper.clone()]],
-            y: [&mut ya[lower.clone()], &mut yb[upper.clone()]],
-            z: [&mut za[lower.clone()], &mut zb[upper.clone()]],
-            w: [&self.w[0][lower.clone()], &self.w[1][upper.clone()]],
-            mask: &self.mask[links.clone()],
-            rest: &self.rest[links.clone()],
-            compliance: &self.compliance[links.clone()],
-            lambda: &mut self.lambda[links],
-        }
-    }
-}
-
-/// Solves those links of a row that go in chunks.
+/// Solves as many of a row's first `count` links as go in whole chunks.
+///
+/// # Safety
+/// The row has as many links; so for all that follow.
 #[inline(always)]
-fn solve_row<S: Simd, const LAW: u8, const PATTERN: u8>(
+unsafe fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
+    mut place: Place,
     row: &Row,
-    sheet: &mut Sheet<'_>,
     scale: f32,
 ) {
-    let (first, count) = (row.first as usize, in_chunks(row));
-    let all = first..first + count;
-    let mut ends = Ends {
-        x: ends_mut::<PATTERN>(row, count, sheet.x),
-        y: ends_mut::<PATTERN>(row, count, sheet.y),
-        z: ends_mut::<PATTERN>(row, count, sheet.z),
-        w: ends_of::<PATTERN>(row, count, sheet.w),
-        mask: &sheet.mask[all.clone()],
-        rest: &sheet.rest[all.clone()],
-        compliance: &sheet.compliance[all.clone()],
-        lambda: &mut sheet.lambda[all],
-    };
+    let count = in_chunks(row);
+    let even = row.even.map(|link| (link.max(row.first) - row.first) as usize);
+    let (from, end) = (even[0].next_multiple_of(S::LANES).min(count), even[1].min(count));
     let mut k = 0;
-    if row.is_torn {
+    // SAFETY: the caller's promise.
+    unsafe {
+        // What weighs the same at both ends, as nearly all does, has less to compute.
+        if LAW != BOUND {
+            while k < from && k + S::LANES <= count {
+                solve_chunk::<S, LAW, PATTERN, false, false>(s, place, 0, scale);
+                (place, k) = (place.after::<PATTERN>(S::LANES), k + S::LANES);
+            }
+            // Two at a time, so that they share what finds their places.
+            while k + 2 * S::LANES <= end {
+                let next = place.after::<PATTERN>(S::LANES);
+                solve_chunk::<S, LAW, PATTERN, false, true>(s, place, 0, scale);
+                solve_chunk::<S, LAW, PATTERN, false, true>(s, next, 0, scale);
+                (place, k) = (place.after::<PATTERN>(2 * S::LANES), k + 2 * S::LANES);
+            }
+            if k + S::LANES <= end {
+                solve_chunk::<S, LAW, PATTERN, false, true>(s, place, 0, scale);
+                (place, k) = (place.after::<PATTERN>(S::LANES), k + S::LANES);
+            }
+        }
         while k + S::LANES <= count {
-            solve_chunk::<S, LAW, PATTERN, true>(s, k, 0, &mut ends, scale);
-            k += S::LANES;
-        }
-    } else {
-        // Two at a time, so that they share what finds their places.
-        while k + 2 * S::LANES <= count {
-            let mut two = ends.part::<PATTERN>(k..k + 2 * S::LANES);
-            solve_chunk::<S, LAW, PATTERN, false>(s, 0, 0, &mut two, scale);
-            solve_chunk::<S, LAW, PATTERN, false>(s, S::LANES, 0, &mut two, scale);
-            k += 2 * S::LANES;
-        }
-        if k + S::LANES <= count {
-            solve_chunk::<S, LAW, PATTERN, false>(s, k, 0, &mut ends, scale);
-            k += S::LANES;
+            solve_chunk::<S, LAW, PATTERN, false, false>(s, place, 0, scale);
+            (place, k) = (place.after::<PATTERN>(S::LANES), k + S::LANES);
         }
     }
-    solve_rest::<S, LAW, PATTERN>(s, k, count, row.is_torn, &mut ends, scale);
+}
+
+/// Solves those links that are still in their row.
+///
+/// # Safety
+/// As for `solve_whole`.
+#[inline(always)]
+unsafe fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
+    s: S,
+    place: Place,
+    count: usize,
+    scale: f32,
+) {
+    let mut k = 0;
+    // SAFETY: the caller's promise.
+    unsafe {
+        while k + S::LANES <= count {
+            solve_chunk::<S, LAW, PATTERN, true, false>(s, place.after::<PATTERN>(k), 0, scale);
+            k += S::LANES;
+        }
+        solve_rest::<S, LAW, PATTERN, true>(s, place, k, count, scale);
+    }
 }
 
 /// Solves links `k` to `count` of a row, fewer than a chunk: with no more lanes than it takes, where
 /// need be as one chunk that reaches back over links which are done.
+///
+/// # Safety
+/// As for `solve_whole`.
 #[inline(always)]
-fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
+unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
     s: S,
-    k: usize,
+    row: Place,
+    mut k: usize,
     count: usize,
-    is_torn: bool,
-    ends: &mut Ends<'_>,
     scale: f32,
 ) {
     let (left, few) = (count - k, <S::Half as Simd>::LANES);
     if left == 0 {
         return;
     }
-    if few < S::LANES && (left <= few || count < S::LANES) {
-        let half = s.half();
-        let mut k = k;
-        if left >= few {
-            if is_torn {
-                solve_chunk::<S::Half, LAW, PATTERN, true>(half, k, 0, ends, scale);
-            } else {
-                solve_chunk::<S::Half, LAW, PATTERN, false>(half, k, 0, ends, scale);
+    // SAFETY: the caller's promise.
+    unsafe {
+        if few < S::LANES && (left <= few || count < S::LANES) {
+            let half = s.half();
+            if left >= few {
+                let place = row.after::<PATTERN>(k);
+                solve_chunk::<S::Half, LAW, PATTERN, CHOOSY, false>(half, place, 0, scale);
+                k += few;
             }
-            k += few;
+            return solve_rest::<S::Half, LAW, PATTERN, CHOOSY>(half, row, k, count, scale);
         }
-        return solve_rest::<S::Half, LAW, PATTERN>(half, k, count, is_torn, ends, scale);
+        let from = count - S::LANES;
+        solve_chunk::<S, LAW, PATTERN, true, false>(s, row.after::<PATTERN>(from), k - from, scale);
     }
-    let from = count - S::LANES;
-    solve_chunk::<S, LAW, PATTERN, true>(s, from, k - from, ends, scale);
 }
 
-/// As many links of a row as there are lanes, from `k` on, but for the first `done` of them; with
-/// `CHOOSY` set, only those that are still in the row.
+/// As many links of a row as there are lanes, but for the first `done` of them; with `CHOOSY` set,
+/// only those that are still in the row; with `IS_EVEN` set, both ends of each weigh the same.
+///
+/// # Safety
+/// As for `solve_whole`.
 #[inline(always)]
-fn solve_chunk<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+unsafe fn solve_chunk<
+    S: Simd,
+    const LAW: u8,
+    const PATTERN: u8,
+    const CHOOSY: bool,
+    const IS_EVEN: bool,
+>(
     s: S,
-    k: usize,
+    place: Place,
     done: usize,
-    ends: &mut Ends<'_>,
     scale: f32,
 ) {
     let in_order = |v: S::F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
-    let rest = in_order(s.load(ends.rest, k));
     let zero = s.splat(0.0);
-    let (mut compliance, mut lambda) = (zero, zero);
-    if LAW == SOFT {
-        compliance = in_order(s.load(ends.compliance, k));
-        lambda = in_order(s.load(ends.lambda, k));
+    // SAFETY: the caller's promise.
+    unsafe {
+        let rest = in_order(s.load_from(place.rest));
+        let (mut compliance, mut lambda) = (zero, zero);
+        if LAW == SOFT {
+            compliance = in_order(s.load_from(place.compliance));
+            lambda = in_order(s.load_from(place.lambda));
+        }
+        let (xa, xb) = load::<S, PATTERN>(s, fixed(place.x));
+        let (ya, yb) = load::<S, PATTERN>(s, fixed(place.y));
+        let (za, zb) = load::<S, PATTERN>(s, fixed(place.z));
+        let weights = if LAW == BOUND {
+            load::<S, PATTERN>(s, place.w).into()
+        } else if IS_EVEN {
+            // Those of rigid links are 1 then.
+            let one = s.splat(1.0);
+            [if LAW == RIGID { one } else { in_order(s.load_from(place.ends[0])) }; 2]
+        } else {
+            [in_order(s.load_from(place.ends[0])), in_order(s.load_from(place.ends[1]))]
+        };
+        let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
+        let ([to_a, to_b], multiplier) =
+            correct::<LAW, S>(s, [dx, dy, dz], weights, rest, compliance, lambda, scale);
+        let keep = if CHOOSY {
+            let counts = s.load(&COUNTS, MOST - done);
+            in_order(s.pick(counts, s.load_from(place.mask), zero))
+        } else {
+            zero
+        };
+        let take = |new: S::F, old: S::F| if CHOOSY { s.pick(keep, new, old) } else { new };
+        if LAW == SOFT {
+            let multiplier = take(multiplier, lambda);
+            let multiplier = if PATTERN == STRAIGHT { multiplier } else { s.undealt(multiplier) };
+            s.store_to(place.lambda, multiplier);
+        }
+        store::<S, PATTERN>(s, place.x, take(xa + dx * to_a, xa), take(xb - dx * to_b, xb));
+        store::<S, PATTERN>(s, place.y, take(ya + dy * to_a, ya), take(yb - dy * to_b, yb));
+        store::<S, PATTERN>(s, place.z, take(za + dz * to_a, za), take(zb - dz * to_b, zb));
     }
-    let (xa, xb) = load::<S, PATTERN>(s, [&*ends.x[0], &*ends.x[1]], k);
-    let (ya, yb) = load::<S, PATTERN>(s, [&*ends.y[0], &*ends.y[1]], k);
-    let (za, zb) = load::<S, PATTERN>(s, [&*ends.z[0], &*ends.z[1]], k);
-    let (wa, wb) = load::<S, PATTERN>(s, ends.w, k);
-    let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
-    let (share, multiplier) =
-        correct::<LAW, S>(s, [dx, dy, dz], wa + wb, rest, compliance, lambda, scale);
-    let (to_a, to_b) = (share * wa, share * wb);
-    let keep = if CHOOSY {
-        let counts = s.load(&COUNTS, MOST - done);
-        let mask = s.load(ends.mask, k);
-        in_order(s.pick(counts, mask, zero))
-    } else {
-        zero
-    };
-    let take = |new: S::F, old: S::F| if CHOOSY { s.pick(keep, new, old) } else { new };
-    if LAW == SOFT {
-        let multiplier = take(multiplier, lambda);
-        let multiplier = if PATTERN == STRAIGHT { multiplier } else { s.undealt(multiplier) };
-        s.store(ends.lambda, k, multiplier);
-    }
-    store::<S, PATTERN>(s, &mut ends.x, k, take(xa + dx * to_a, xa), take(xb - dx * to_b, xb));
-    store::<S, PATTERN>(s, &mut ends.y, k, take(ya + dy * to_a, ya), take(yb - dy * to_b, yb));
-    store::<S, PATTERN>(s, &mut ends.z, k, take(za + dz * to_a, za), take(zb - dz * to_b, zb));
 }
 
 /// 0 as often as there may be lanes, then 1 as often.
@@ -343,53 +365,42 @@ const COUNTS: [f32; 2 * MOST] = {
     counts
 };
 
-/// One column at the ends of a row's first `count` links: the lower and the upper ends, or all in the
-/// first list where they alternate.
 #[inline(always)]
-fn ends_of<'a, const PATTERN: u8>(row: &Row, count: usize, column: &'a [f32]) -> [&'a [f32]; 2] {
-    let (a, b) = (row.a as usize, row.b as usize);
-    if PATTERN == STRAIGHT {
-        [&column[a..a + count], &column[b..b + count]]
-    } else {
-        [&column[a..a + 2 * count], &[]]
-    }
-}
-
-/// As `ends_of`; a row's upper ends lie behind its lower ones.
-#[inline(always)]
-fn ends_mut<'a, const PATTERN: u8>(
-    row: &Row,
-    count: usize,
-    column: &'a mut [f32],
-) -> [&'a mut [f32]; 2] {
-    let (a, b) = (row.a as usize, row.b as usize);
-    if PATTERN == STRAIGHT {
-        let (lower, upper) = column.split_at_mut(b);
-        [&mut lower[a..a + count], &mut upper[..count]]
-    } else {
-        [&mut column[a..a + 2 * count], &mut []]
-    }
+fn fixed([a, b]: [*mut f32; 2]) -> [*const f32; 2] {
+    [a, b]
 }
 
 /// One column at both ends of a chunk's links.
+///
+/// # Safety
+/// As for `solve_whole`.
 #[inline(always)]
-fn load<S: Simd, const PATTERN: u8>(s: S, ends: [&[f32]; 2], k: usize) -> (S::F, S::F) {
-    if PATTERN == STRAIGHT {
-        return (s.load(ends[0], k), s.load(ends[1], k));
+unsafe fn load<S: Simd, const PATTERN: u8>(s: S, [a, b]: [*const f32; 2]) -> (S::F, S::F) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if PATTERN == STRAIGHT {
+            return (s.load_from(a), s.load_from(b));
+        }
+        let (low, high) = (s.load_from(a), s.load_from(a.add(S::LANES)));
+        if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
     }
-    let (low, high) = (s.load(ends[0], 2 * k), s.load(ends[0], 2 * k + S::LANES));
-    if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
 }
 
 /// Puts back what `load` read.
+///
+/// # Safety
+/// As for `solve_whole`.
 #[inline(always)]
-fn store<S: Simd, const PATTERN: u8>(s: S, ends: &mut [&mut [f32]; 2], k: usize, a: S::F, b: S::F) {
-    if PATTERN == STRAIGHT {
-        s.store(ends[0], k, a);
-        s.store(ends[1], k, b);
-        return;
+unsafe fn store<S: Simd, const PATTERN: u8>(s: S, [to_a, to_b]: [*mut f32; 2], a: S::F, b: S::F) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if PATTERN == STRAIGHT {
+            s.store_to(to_a, a);
+            s.store_to(to_b, b);
+            return;
+        }
+        let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
+        s.store_to(to_a, low);
+        s.store_to(to_a.add(S::LANES), high);
     }
-    let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
-    s.store(ends[0], 2 * k, low);
-    s.store(ends[0], 2 * k + S::LANES, high);
 }

@@ -86,14 +86,36 @@ pub(crate) trait Simd: Arithmetic {
 
     fn half(self) -> Self::Half;
 
+    /// The numbers from a place on.
+    ///
+    /// # Safety
+    /// There is one for each lane, which nobody else writes to.
+    unsafe fn load_from(self, place: *const f32) -> Self::F;
+
+    /// Puts numbers at a place and behind it.
+    ///
+    /// # Safety
+    /// There is room for each lane, which nobody else reads or writes.
+    unsafe fn store_to(self, place: *mut f32, v: Self::F);
+
     /// Numbers `at` and on of a list.
     ///
     /// # Panics
     /// If they are not there; so does `store`.
-    fn load(self, list: &[f32], at: usize) -> Self::F;
+    #[inline(always)]
+    fn load(self, list: &[f32], at: usize) -> Self::F {
+        let list = &list[at..at + Self::LANES];
+        // SAFETY: the slice has a number for every lane.
+        unsafe { self.load_from(list.as_ptr()) }
+    }
 
     /// Puts numbers `at` and on into a list.
-    fn store(self, list: &mut [f32], at: usize, v: Self::F);
+    #[inline(always)]
+    fn store(self, list: &mut [f32], at: usize, v: Self::F) {
+        let list = &mut list[at..at + Self::LANES];
+        // SAFETY: the slice has room for every lane.
+        unsafe { self.store_to(list.as_mut_ptr(), v) };
+    }
 
     /// `new` where `keep` is above 0, else `old`.
     fn pick(self, keep: Self::F, new: Self::F, old: Self::F) -> Self::F;
@@ -128,13 +150,15 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
-    fn load(self, list: &[f32], at: usize) -> f32 {
-        list[at]
+    unsafe fn load_from(self, place: *const f32) -> f32 {
+        // SAFETY: the caller's promise.
+        unsafe { *place }
     }
 
     #[inline(always)]
-    fn store(self, list: &mut [f32], at: usize, v: f32) {
-        list[at] = v;
+    unsafe fn store_to(self, place: *mut f32, v: f32) {
+        // SAFETY: the caller's promise.
+        unsafe { *place = v };
     }
 
     #[inline(always)]

@@ -20,8 +20,8 @@ impl Neon {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Four(float32x4_t);
 
-// SAFETY of all that follows: every aarch64 target of Rust has NEON, and loads and stores stay within
-// the slices, as is said where they are.
+// SAFETY of all that follows: every aarch64 target of Rust has NEON, and loads and stores are as their
+// callers promise.
 
 impl Add for Four {
     type Output = Self;
@@ -98,17 +98,15 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
-    fn load(self, list: &[f32], at: usize) -> Four {
-        let list = &list[at..at + 4];
-        // SAFETY: the slice has a number for every lane.
-        Four(unsafe { vld1q_f32(list.as_ptr()) })
+    unsafe fn load_from(self, place: *const f32) -> Four {
+        // SAFETY: the caller's promise.
+        Four(unsafe { vld1q_f32(place) })
     }
 
     #[inline(always)]
-    fn store(self, list: &mut [f32], at: usize, v: Four) {
-        let list = &mut list[at..at + 4];
-        // SAFETY: as in `load`.
-        unsafe { vst1q_f32(list.as_mut_ptr(), v.0) };
+    unsafe fn store_to(self, place: *mut f32, v: Four) {
+        // SAFETY: the caller's promise.
+        unsafe { vst1q_f32(place, v.0) };
     }
 
     #[inline(always)]

@@ -10,6 +10,14 @@ use super::Simd;
 pub(crate) fn turn<S: Simd>(s: S, points: &[[f32; 4]], at: &[u32]) -> [S::F; 4] {
     let at = &at[..S::LANES];
     assert_all_within(points, at);
+    if S::LANES == 4 {
+        let mut rows = [s.splat(0.0); 4];
+        for (row, at) in rows.iter_mut().zip(at) {
+            // SAFETY: all of `at` were just found to be within; a point is four numbers.
+            *row = unsafe { s.load_from(points.get_unchecked(*at as usize).as_ptr()) };
+        }
+        return turned(s, rows);
+    }
     let mut lanes = [[0.0; 8]; 4];
     #[cfg(target_arch = "x86_64")]
     if S::LANES == 8 {
@@ -34,6 +42,13 @@ pub(crate) fn turn<S: Simd>(s: S, points: &[[f32; 4]], at: &[u32]) -> [S::F; 4] 
 pub(crate) fn turn_back<S: Simd>(s: S, points: &mut [[f32; 4]], at: &[u32], numbers: [S::F; 4]) {
     let at = &at[..S::LANES];
     assert_all_within(points, at);
+    if S::LANES == 4 {
+        for (row, at) in turned(s, numbers).into_iter().zip(at) {
+            // SAFETY: as in `turn`.
+            unsafe { s.store_to(points.get_unchecked_mut(*at as usize).as_mut_ptr(), row) };
+        }
+        return;
+    }
     let mut lanes = [[0.0; 8]; 4];
     for (lanes, number) in lanes.iter_mut().zip(numbers) {
         s.store(lanes, 0, number);
@@ -48,6 +63,14 @@ pub(crate) fn turn_back<S: Simd>(s: S, points: &mut [[f32; 4]], at: &[u32], numb
         let [x, y, z, w] = &lanes;
         points[*at as usize] = [x[lane], y[lane], z[lane], w[lane]];
     }
+}
+
+/// Four by four numbers turned; done twice it changes nothing.
+#[inline(always)]
+fn turned<S: Simd>(s: S, [a, b, c, d]: [S::F; 4]) -> [S::F; 4] {
+    let ((ab_low, ab_high), (cd_low, cd_high)) = (s.gather_up(a, b), s.gather_up(c, d));
+    let ((x, y), (z, w)) = (s.deal_twos(ab_low, cd_low), s.deal_twos(ab_high, cd_high));
+    [x, y, z, w]
 }
 
 /// One comparison for all.

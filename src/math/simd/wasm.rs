@@ -89,17 +89,15 @@ impl Simd for Simd128 {
     }
 
     #[inline(always)]
-    fn load(self, list: &[f32], at: usize) -> Four {
-        let list = &list[at..at + 4];
-        // SAFETY: the slice has a number for every lane.
-        Four(unsafe { v128_load(list.as_ptr().cast()) })
+    unsafe fn load_from(self, place: *const f32) -> Four {
+        // SAFETY: the caller's promise.
+        Four(unsafe { v128_load(place.cast()) })
     }
 
     #[inline(always)]
-    fn store(self, list: &mut [f32], at: usize, v: Four) {
-        let list = &mut list[at..at + 4];
-        // SAFETY: as in `load`.
-        unsafe { v128_store(list.as_mut_ptr().cast(), v.0) };
+    unsafe fn store_to(self, place: *mut f32, v: Four) {
+        // SAFETY: the caller's promise.
+        unsafe { v128_store(place.cast(), v.0) };
     }
 
     #[inline(always)]

@@ -47,9 +47,8 @@ impl Avx512 {
 /// instructions.
 macro_rules! vector {
     (
-        $token:ident, $vector:ident($raw:ty), $lanes:literal,
-        $set:ident, $load:ident, $store:ident, $add:ident, $sub:ident, $mul:ident, $div:ident,
-        $sqrt:ident, $max:ident
+        $token:ident, $vector:ident($raw:ty), $set:ident, $add:ident, $sub:ident, $mul:ident,
+        $div:ident, $sqrt:ident, $max:ident
     ) => {
         /// Numbers in lanes.
         #[derive(Clone, Copy, Debug)]
@@ -118,42 +117,26 @@ macro_rules! vector {
                 $vector(unsafe { $set(value) })
             }
         }
-
-        impl $token {
-            #[inline(always)]
-            fn load_from(self, list: &[f32], at: usize) -> $vector {
-                let list = &list[at..at + $lanes];
-                // SAFETY: the slice has a number for every lane; the token as in `splat`.
-                $vector(unsafe { $load(list.as_ptr()) })
-            }
-
-            #[inline(always)]
-            fn store_to(self, list: &mut [f32], at: usize, v: $vector) {
-                let list = &mut list[at..at + $lanes];
-                // SAFETY: as in `load_from`.
-                unsafe { $store(list.as_mut_ptr(), v.0) };
-            }
-        }
     };
 }
 
 vector! {
-    Sse2, Four(__m128), 4, _mm_set1_ps, _mm_loadu_ps, _mm_storeu_ps, _mm_add_ps, _mm_sub_ps,
-    _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps, _mm_max_ps
+    Sse2, Four(__m128), _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps,
+    _mm_div_ps, _mm_sqrt_ps, _mm_max_ps
 }
 
 vector! {
-    Avx2, Eight(__m256), 8, _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_add_ps,
-    _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps
+    Avx2, Eight(__m256), _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps,
+    _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps
 }
 
 vector! {
-    Avx512, Sixteen(__m512), 16, _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps,
-    _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps
+    Avx512, Sixteen(__m512), _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps,
+    _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps
 }
 
 // SAFETY of all that follows: a token says that the machine has the instructions, and loads and stores
-// stay within the slices, as is said where they are.
+// are as their callers promise.
 
 impl Simd for Sse2 {
     const LANES: usize = 4;
@@ -166,13 +149,15 @@ impl Simd for Sse2 {
     }
 
     #[inline(always)]
-    fn load(self, list: &[f32], at: usize) -> Four {
-        self.load_from(list, at)
+    unsafe fn load_from(self, place: *const f32) -> Four {
+        // SAFETY: the caller's promise, and see above.
+        Four(unsafe { _mm_loadu_ps(place) })
     }
 
     #[inline(always)]
-    fn store(self, list: &mut [f32], at: usize, v: Four) {
-        self.store_to(list, at, v);
+    unsafe fn store_to(self, place: *mut f32, v: Four) {
+        // SAFETY: the caller's promise, and see above.
+        unsafe { _mm_storeu_ps(place, v.0) };
     }
 
     #[inline(always)]
@@ -233,13 +218,15 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    fn load(self, list: &[f32], at: usize) -> Eight {
-        self.load_from(list, at)
+    unsafe fn load_from(self, place: *const f32) -> Eight {
+        // SAFETY: the caller's promise, and see above.
+        Eight(unsafe { _mm256_loadu_ps(place) })
     }
 
     #[inline(always)]
-    fn store(self, list: &mut [f32], at: usize, v: Eight) {
-        self.store_to(list, at, v);
+    unsafe fn store_to(self, place: *mut f32, v: Eight) {
+        // SAFETY: the caller's promise, and see above.
+        unsafe { _mm256_storeu_ps(place, v.0) };
     }
 
     #[inline(always)]
@@ -309,13 +296,15 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
-    fn load(self, list: &[f32], at: usize) -> Sixteen {
-        self.load_from(list, at)
+    unsafe fn load_from(self, place: *const f32) -> Sixteen {
+        // SAFETY: the caller's promise, and see above.
+        Sixteen(unsafe { _mm512_loadu_ps(place) })
     }
 
     #[inline(always)]
-    fn store(self, list: &mut [f32], at: usize, v: Sixteen) {
-        self.store_to(list, at, v);
+    unsafe fn store_to(self, place: *mut f32, v: Sixteen) {
+        // SAFETY: the caller's promise, and see above.
+        unsafe { _mm512_storeu_ps(place, v.0) };
     }
 
     #[inline(always)]
