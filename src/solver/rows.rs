@@ -134,8 +134,8 @@ fn solve_in_chunks<S: Simd, const LAW: u8, const PATTERN: u8>(
     for row in rows.iter().filter(|row| row.is_torn) {
         // SAFETY: as above.
         unsafe {
-            solve_torn::<S, LAW, PATTERN>(s, lists.place::<PATTERN>(row), in_chunks(row), scale)
-        };
+            solve_torn::<S, LAW, PATTERN>(s, lists.place::<PATTERN>(row), in_chunks(row), scale);
+        }
     }
 }
 
