@@ -1,12 +1,14 @@
 //! The tables of `cargo xtask bench`: Muslin beside the plain loop that most people write, in one run.
 //!
 //! `kernels` tells what one projection of one constraint costs, `ticks` what whole ticks cost and
-//! how calm and how long the cloth is in the end, `shreds` what tears add to that. Names choose among them. `--test` runs everything
+//! how calm and how long the cloth is in the end, `shreds` what tears add to that,
+//! `scenes` what the demo's scenes cost. Names choose among them. `--test` runs everything
 //! once and tiny, and times nothing that is worth reading. `benches/node` prints the same in wasm.
 
 mod cases;
 mod kernels;
 mod measure;
+mod scenes;
 mod shreds;
 mod table;
 mod ticks;
@@ -25,8 +27,12 @@ enum Effort {
 /// A table's name, and what prints it.
 type Entry = (&'static str, fn(Effort));
 
-const TABLES: [Entry; 3] =
-    [("kernels", kernels::print), ("ticks", ticks::print), ("shreds", shreds::print)];
+const TABLES: [Entry; 4] = [
+    ("kernels", kernels::print),
+    ("ticks", ticks::print),
+    ("shreds", shreds::print),
+    ("scenes", scenes::print),
+];
 
 fn main() -> ExitCode {
     let (options, names): (Vec<_>, Vec<_>) =
@@ -36,7 +42,9 @@ fn main() -> ExitCode {
     let effort = if has("--bench") && !has("--test") { Effort::Timed } else { Effort::Once };
     if let Some(unknown) = names.iter().find(|name| !TABLES.iter().any(|(known, _)| known == name))
     {
-        eprintln!("there is no table {unknown:?}; the tables are kernels, ticks and shreds");
+        eprintln!(
+            "there is no table {unknown:?}; the tables are kernels, ticks, shreds and scenes"
+        );
         return ExitCode::FAILURE;
     }
     println!("Muslin {}, native: {}", env!("CARGO_PKG_VERSION"), machine());

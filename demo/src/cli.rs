@@ -17,6 +17,7 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear.
     --frames N        ticks of 1/60 s that the scene plays first (240)
     --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear
     --strip N         a film strip: N pictures of that size side by side (1)
+    --times           draw every tick, and say what the stages of a frame take
     --orbit X,Y       drag the camera, in heights of the screen (0,0)
     --zoom F          multiply the camera's distance (1)
   --NAME VALUE        give a control a value: wind, gravity, stiffness, damping,
@@ -70,6 +71,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             "--zoom" => shot.zoom = finite(&arg, &value()?)?,
             "--tear" => shot.play = Some(Gesture::Tear),
             "--play" => shot.play = Some(gesture(&value()?)?),
+            "--times" => shot.times = true,
             "--strip" => shot.strip = frames(&value()?)?,
             other => {
                 let control = other

@@ -11,7 +11,13 @@ fn main() -> std::process::ExitCode {
         match cli::parse(std::env::args().skip(1))? {
             Task::Help => println!("{}", cli::USAGE),
             Task::Web => return Err("--web needs the page built: cargo xtask demo --web".into()),
-            Task::Shot(file, shot) => shot.take()?.save(&file)?,
+            Task::Shot(file, shot) => {
+                let picture = shot.take()?;
+                picture.save(&file)?;
+                for time in picture.times {
+                    println!("{:12} {:7.3} ms", time.name, time.milliseconds);
+                }
+            }
             Task::Window(values) => {
                 let mut settings = native::store::read();
                 cli::apply(&values, &mut settings);

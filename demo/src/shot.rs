@@ -5,10 +5,11 @@ use std::path::Path;
 
 use glam::Vec2;
 
-use crate::app::App;
+use crate::app::{App, StageTime};
 use crate::camera::Camera;
 use crate::gesture::{Gesture, Play};
 use crate::headless::Headless;
+use crate::native;
 use crate::render::{Canvas, Renderer};
 use crate::settings::Settings;
 
@@ -23,6 +24,8 @@ pub struct Shot {
     pub play: Option<Gesture>,
     /// How many frames there are, side by side.
     pub strip: u32,
+    /// Whether every tick is drawn and timed.
+    pub times: bool,
     /// The controls.
     pub settings: Settings,
     /// How far the camera is dragged from where it starts, in heights of the screen.
@@ -38,6 +41,7 @@ impl Default for Shot {
             ticks: 240,
             play: None,
             strip: 1,
+            times: false,
             settings: Settings::default(),
             orbit: Vec2::ZERO,
             zoom: 1.0,
@@ -47,6 +51,8 @@ impl Default for Shot {
 
 /// A picture: rows from the top, three bytes a pixel.
 pub struct Picture {
+    /// What the stages of a frame took, if they were timed.
+    pub times: Vec<StageTime>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Red, green, blue.
@@ -78,11 +84,17 @@ impl Shot {
                     None => app.play(1),
                 }
                 ticks += 1;
+                if self.times {
+                    app.draw(&mut renderer, &canvas.target())?;
+                }
             }
             *app.camera() = self.view(&hands_view);
             app.draw(&mut renderer, &canvas.target())?;
             *app.camera() = hands_view.clone();
             strip.put(i * width, self.size, &canvas.pixels());
+        }
+        if self.times {
+            strip.times = app.stage_times();
         }
         Ok(strip)
     }
@@ -91,9 +103,10 @@ impl Shot {
     fn begin(&self) -> Result<(App, Option<Play>), Failure> {
         let mut settings = self.settings.clone();
         settings.tearing |= matches!(self.play, Some(Gesture::Tear | Gesture::Yank));
-        let mut app = App::new(settings, || 0.0)?;
+        let mut app = App::new(settings, native::clock)?;
         app.camera().set_drift(false);
         app.play(self.ticks - self.played());
+        app.time_stages(self.times);
         let play = self.play.map(|gesture| Play::new(gesture, &mut app));
         Ok((app, play))
     }
@@ -101,7 +114,13 @@ impl Shot {
     /// Ticks that are played with hands, or from the first picture of a strip to the last.
     fn played(&self) -> u32 {
         let gesture = self.play.map_or(0, Gesture::ticks);
-        let still = if self.strip > 1 { 60 } else { 0 };
+        let still = if self.times {
+            self.ticks
+        } else if self.strip > 1 {
+            60
+        } else {
+            0
+        };
         if self.play.is_some() { gesture } else { still }.min(self.ticks)
     }
 
@@ -126,7 +145,7 @@ impl Shot {
 
 impl Picture {
     fn black(size: [u32; 2]) -> Self {
-        Self { size, rgb: vec![0; 3 * size[0] as usize * size[1] as usize] }
+        Self { times: Vec::new(), size, rgb: vec![0; 3 * size[0] as usize * size[1] as usize] }
     }
 
     /// Puts the pixels of a smaller picture into this one, so far from its left side.

@@ -35,7 +35,7 @@ cargo xtask web                     build the demo's page into dist/web
 cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
-                                    kernels, ticks, shreds, node
+                                    kernels, ticks, shreds, scenes, node
   --test                            once and tiny, to see that it runs
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 

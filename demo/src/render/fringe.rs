@@ -13,7 +13,8 @@ use std::f32::consts::TAU;
 
 use glam::{Mat2, Vec2};
 use three_d::{
-    Blend, Context, CoreError, InstanceBuffer, Program, RenderStates, VertexBuffer, WriteMask,
+    Blend, Context, CoreError, Interpolation, Program, RenderStates, Texture2D, VertexBuffer,
+    Wrapping, WriteMask,
 };
 
 use super::cloth_material::Dye;
@@ -46,17 +47,23 @@ struct Thread {
 }
 
 /// The threads, and the program that draws them.
+///
+/// They are told to it by a texture and not as instances: to a rasteriser in software each instance
+/// is a draw call of its own.
 pub struct Fringe {
+    context: Context,
     program: Program,
-    ribbon: VertexBuffer<[f32; 2]>,
-    roots: InstanceBuffer<[f32; 3]>,
-    reaches: InstanceBuffer<[f32; 3]>,
-    normals: InstanceBuffer<[f32; 3]>,
-    traits: InstanceBuffer<[f32; 4]>,
+    /// Side, share of the way to the tip, which thread.
+    ribbons: VertexBuffer<[f32; 3]>,
+    told: Option<Texture2D>,
     threads: Vec<Thread>,
     revision: Option<u64>,
-    staging: [Vec<[f32; 3]>; 3],
+    staging: Vec<[f32; 4]>,
 }
+
+/// Texels that tell of a thread, and threads in a row of them.
+const TEXELS: usize = 4;
+const ROW: usize = 64;
 
 impl Fringe {
     /// Compiles the threads.
@@ -67,15 +74,13 @@ impl Fringe {
         let fragment =
             concat!(include_str!("shaders/light.glsl"), include_str!("shaders/fringe.frag"));
         Ok(Self {
+            context: context.clone(),
             program: Program::from_source(context, include_str!("shaders/fringe.vert"), fragment)?,
-            ribbon: VertexBuffer::new_with_data(context, &ribbon()),
-            roots: InstanceBuffer::new(context),
-            reaches: InstanceBuffer::new(context),
-            normals: InstanceBuffer::new(context),
-            traits: InstanceBuffer::new(context),
+            ribbons: VertexBuffer::new(context),
+            told: None,
             threads: Vec::new(),
             revision: None,
-            staging: [const { Vec::new() }; 3],
+            staging: Vec::new(),
         })
     }
 
@@ -84,30 +89,57 @@ impl Fringe {
         if self.revision != Some(surface.revision) {
             self.revision = Some(surface.revision);
             fray(surface, &mut self.threads);
-            let traits: Vec<_> = self.threads.iter().map(|thread| thread.traits).collect();
-            self.traits.fill(&traits);
+            self.make_room();
         }
-        let [roots, reaches, normals] = &mut self.staging;
-        for list in [&mut *roots, &mut *reaches, &mut *normals] {
-            list.clear();
-        }
+        let Some(told) = &mut self.told else {
+            return;
+        };
+        self.staging.clear();
         for thread in &self.threads {
             let [a, b, c] = thread.corners.map(|corner| surface.positions[corner as usize]);
             let [na, nb] = [0, 1].map(|i| surface.normals[thread.corners[i] as usize]);
             let way = (b - a) * thread.way[0] + (c - a) * thread.way[1];
-            roots.push(a.lerp(b, thread.at).to_array());
-            reaches.push((way.normalize_or_zero() * thread.length).to_array());
-            normals.push(na.lerp(nb, thread.at).to_array());
+            let reach = way.normalize_or_zero() * thread.length;
+            let [width, lean, curl, shade] = thread.traits;
+            self.staging.extend([
+                a.lerp(b, thread.at).extend(width).to_array(),
+                reach.extend(lean).to_array(),
+                na.lerp(nb, thread.at).extend(curl).to_array(),
+                [shade, 0.0, 0.0, 0.0],
+            ]);
         }
-        self.roots.fill(roots);
-        self.reaches.fill(reaches);
-        self.normals.fill(normals);
+        let texels = (told.width() * told.height()) as usize;
+        self.staging.resize(texels, [0.0; 4]);
+        told.fill(&self.staging);
+    }
+
+    /// A texture and ribbons for as many threads as there are.
+    fn make_room(&mut self) {
+        let rows = self.threads.len().div_ceil(ROW) as u32;
+        if rows == 0 {
+            self.told = None;
+        } else if self.told.as_ref().is_none_or(|told| told.height() != rows) {
+            // The old one goes first.
+            self.told = None;
+            self.told = Some(Texture2D::new_empty::<[f32; 4]>(
+                &self.context,
+                (TEXELS * ROW) as u32,
+                rows,
+                Interpolation::Nearest,
+                Interpolation::Nearest,
+                None,
+                Wrapping::ClampToEdge,
+                Wrapping::ClampToEdge,
+            ));
+            let ribbons: Vec<_> = (0..rows * ROW as u32).flat_map(ribbon).collect();
+            self.ribbons.fill(&ribbons);
+        }
     }
 
     pub(super) fn draw(&self, pass: &Pass, shadow: &Shadow, dye: &Dye, dim: f32) {
-        if self.threads.is_empty() {
+        let Some(told) = &self.told else {
             return;
-        }
+        };
         let p = &self.program;
         let pixels = Vec2::new(pass.viewport.width as f32, pass.viewport.height as f32);
         p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
@@ -122,28 +154,29 @@ impl Fringe {
         p.use_uniform("warp", vector(dye.warp));
         p.use_uniform("weft", vector(dye.weft));
         shadow.use_in(p, &pass.lights);
-        p.use_vertex_attribute("corner", &self.ribbon);
-        p.use_instance_attribute("root", &self.roots);
-        p.use_instance_attribute("reach", &self.reaches);
-        p.use_instance_attribute("normal", &self.normals);
-        p.use_instance_attribute("traits", &self.traits);
+        p.use_texture("threads", told);
+        p.use_vertex_attribute("corner", &self.ribbons);
         let states = RenderStates {
             blend: Blend::TRANSPARENCY,
             write_mask: WriteMask::COLOR,
             ..RenderStates::default()
         };
-        let (corners, threads) = (self.ribbon.vertex_count(), self.threads.len() as u32);
-        p.draw_arrays_instanced(states, pass.viewport, corners, threads);
+        let corners = CORNERS * self.threads.len() as u32;
+        p.draw_arrays(states, pass.viewport, corners);
     }
 }
 
-/// Two triangles a bend: x is the side, −1 or 1; y runs along the thread from 0 to 1.
-fn ribbon() -> Vec<[f32; 2]> {
-    let corners = |bend: u32| {
+/// Corners of a ribbon: two triangles a bend.
+const CORNERS: u32 = 6 * BENDS;
+
+/// The corners of a thread: x is the side, −1 or 1; y runs along it from 0 to 1; z is its number.
+fn ribbon(thread: u32) -> impl Iterator<Item = [f32; 3]> {
+    (0..BENDS).flat_map(move |bend| {
         let [near, far] = [bend, bend + 1].map(|i| i as f32 / BENDS as f32);
-        [[-1.0, near], [1.0, near], [1.0, far], [-1.0, near], [1.0, far], [-1.0, far]]
-    };
-    (0..BENDS).flat_map(corners).collect()
+        let corners =
+            [[-1.0, near], [1.0, near], [1.0, far], [-1.0, near], [1.0, far], [-1.0, far]];
+        corners.map(|[side, share]| [side, share, thread as f32])
+    })
 }
 
 /// Finds the threads of every torn border.

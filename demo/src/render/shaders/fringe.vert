@@ -4,11 +4,18 @@ uniform mat4 clipFromWorld;
 uniform vec2 pixels;
 uniform float lens; // pixels that a metre covers at a metre
 
-in vec2 corner; // side, share of the way to the tip
-in vec3 root;
-in vec3 reach;
-in vec3 normal;
-in vec4 traits; // half width, lean out of the cloth, turn of the curl, weft or warp and shade
+#ifdef GL_ES
+precision highp sampler2D;
+#endif
+uniform sampler2D threads; // four texels each, 64 threads a row
+
+in vec3 corner; // side, share of the way to the tip, which thread
+
+// What the texels tell.
+vec3 root;
+vec3 reach;
+vec3 normal;
+vec4 traits; // half width, lean out of the cloth, turn of the curl, weft or warp and shade
 
 out vec3 at;
 out vec3 along;
@@ -29,6 +36,14 @@ vec3 bent(float s) {
 }
 
 void main() {
+    int thread = int(corner.z);
+    ivec2 first = ivec2(4 * (thread % 64), thread / 64);
+    vec4 told[4];
+    for (int i = 0; i < 4; i++) told[i] = texelFetch(threads, first + ivec2(i, 0), 0);
+    root = told[0].xyz;
+    reach = told[1].xyz;
+    normal = told[2].xyz;
+    traits = vec4(told[0].w, told[1].w, told[2].w, told[3].x);
     float s = corner.y;
     at = bent(s);
     vec3 ahead = bent(s + 0.05);
