@@ -482,7 +482,7 @@ mod tests {
 
     #[test]
     fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
-        for scene in 0..crate::stage::Show::ALL.len() {
+        for scene in 0..stage::Show::ALL.len() {
             let mut app = app();
             for (name, value) in [("wind", 3.0), ("gravity", 20.0), ("damping", 0.0)] {
                 app.set(name, value).unwrap();
