@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::failure::Result;
-use crate::{files, setup, shell};
+use crate::failure::{Failure, Result};
+use crate::{abi, files, setup, shell};
 
 const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
 /// What Rust's standard library asks of the system.
@@ -33,7 +33,12 @@ enum Linking {
 
 /// Builds the library.
 pub fn build() -> Result {
-    shell::run(&mut shell::cargo(&["build", "--release", "--package", "muslin-c"]))
+    shell::run(&mut shell::cargo(&["build", "--release", "--package", "muslin-c"]))?;
+    if cfg!(target_os = "linux") {
+        let soname = concat!("libmuslin.so.", env!("CARGO_PKG_VERSION_MAJOR"));
+        files::link("libmuslin.so", &release().join(soname))?;
+    }
+    Ok(())
 }
 
 /// Builds the library, compiles header, tests and examples, and runs them, with valgrind too.
@@ -42,6 +47,8 @@ pub fn check() -> Result {
     build()?;
     files::make(&built())?;
     check_header()?;
+    check_wrapper()?;
+    abi::check()?;
     let root = files::root();
     let mut sources = files::ending(&root.join("tests/c"), ".c")?;
     sources.extend(files::ending(&root.join("bindings/c/examples"), ".c")?);
@@ -64,12 +71,13 @@ pub fn check_program(source: &Path) -> Result {
     shell::run(shell::command(&program).env("LD_LIBRARY_PATH", release()))
 }
 
-fn release() -> PathBuf {
+/// Where the library is built.
+pub fn release() -> PathBuf {
     files::target().join("release")
 }
 
 /// Where programs are built.
-fn built() -> PathBuf {
+pub fn built() -> PathBuf {
     files::target().join("c")
 }
 
@@ -81,7 +89,9 @@ fn compiler(language: Language, program: &str) -> Command {
 
 /// The header asks for nothing that the program must include first.
 fn check_header() -> Result {
-    for language in [C, CPP] {
+    let newer =
+        [Language { standard: "-std=c11", ..C }, Language { standard: "-std=c++20", ..CPP }];
+    for language in [C, CPP].into_iter().chain(newer) {
         let source = built().join("header").with_extension(language.end);
         files::write(
             &source,
@@ -94,6 +104,25 @@ fn check_header() -> Result {
         }
     }
     Ok(())
+}
+
+/// The wrapper has every call on a cloth, and does without exceptions too.
+fn check_wrapper() -> Result {
+    let root = files::root();
+    let (header, wrapper) = (
+        files::read(&root.join("include/muslin.h"))?,
+        files::read(&root.join("include/muslin.hpp"))?,
+    );
+    let calls = header.split("muslin_cloth_").skip(1).filter_map(|rest| rest.split_once('('));
+    for (call, _) in calls.filter(|(call, _)| call.chars().all(|c| c.is_alphanumeric() || c == '_'))
+    {
+        if !wrapper.contains(&format!("muslin_cloth_{call}(")) {
+            return Err(Failure::new(format!("muslin.hpp lacks muslin_cloth_{call}")));
+        }
+    }
+    let mut cc = compiler(CPP, CPP.compiler);
+    cc.args(["-fno-exceptions", "-fsyntax-only"]);
+    shell::run(cc.arg(root.join("tests/c/wrapper.cpp")))
 }
 
 fn compile(source: &Path, linking: Linking) -> Result<PathBuf> {

@@ -48,6 +48,19 @@ pub fn copy_all(from: &Path, to: &Path) -> Result {
     Ok(())
 }
 
+/// Makes `at` another name for what lies beside it, in place of what it was.
+pub fn link(target: &str, at: &Path) -> Result {
+    let told = || format!("linking {}", at.display());
+    if at.symlink_metadata().is_ok() {
+        fs::remove_file(at).during(told)?;
+    }
+    #[cfg(unix)]
+    let done = std::os::unix::fs::symlink(target, at);
+    #[cfg(not(unix))]
+    let done = at.parent().map_or(Ok(0), |dir| fs::copy(dir.join(target), at)).map(|_| ());
+    done.during(told)
+}
+
 /// What is in a folder, by name.
 pub fn list(dir: &Path) -> Result<Vec<PathBuf>> {
     let told = || format!("reading {}", dir.display());

@@ -1,5 +1,6 @@
 //! Every chore of Muslin as one command: `cargo xtask demo`, `cargo xtask test`, and what they are made of.
 
+mod abi;
 mod bench;
 mod bits;
 mod browser;
@@ -9,6 +10,7 @@ mod failure;
 mod files;
 mod js;
 mod npm;
+mod package;
 mod picture;
 mod readme;
 mod serve;
@@ -34,6 +36,7 @@ cargo xtask bits                    play the scenes of tests/golden everywhere, 
 cargo xtask web                     build the demo's page into dist/web
 cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
+cargo xtask package                 pack the C library as others install it, into dist/c
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
                                     kernels, ticks, shreds, scenes, node
   --test                            once and tiny, to see that it runs
@@ -63,6 +66,7 @@ fn run(args: &[String]) -> Result {
         "web" => alone(chore, rest, web::build),
         "js" => alone(chore, rest, js::build),
         "c" => alone(chore, rest, c::check),
+        "package" => alone(chore, rest, package::build),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(())

@@ -18,6 +18,20 @@ pub struct Need {
 pub const CXX: Need =
     Need { name: "a C++ compiler", packages: &["g++"], is_there: || which("c++").is_some() };
 
+/// What C and C++ projects are built with.
+pub const CMAKE: Need = Need {
+    name: "CMake and make",
+    packages: &["cmake", "make"],
+    is_there: || which("cmake").is_some() && which("make").is_some(),
+};
+
+/// What tells compilers where libraries are.
+pub const PKG_CONFIG: Need = Need {
+    name: "pkg-config",
+    packages: &["pkg-config"],
+    is_there: || which("pkg-config").is_some(),
+};
+
 /// The memory checker.
 pub const VALGRIND: Need = Need {
     name: "valgrind",

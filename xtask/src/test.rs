@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
-use crate::{bits, c, demo, js, npm, readme, shell, wasm, web};
+use crate::{bits, c, demo, js, npm, package, readme, shell, wasm, web};
 
 /// A part of the tests.
 struct Step {
@@ -34,6 +34,12 @@ const STEPS: &[Step] = &[
         about: "header, tests and examples in C and C++",
         needs: &[&setup::CXX, &setup::VALGRIND],
         run: c::check,
+    },
+    Step {
+        name: "package",
+        about: "the C library as others install it",
+        needs: package::NEEDS,
+        run: package::test,
     },
     Step { name: "js", about: "the npm package in node", needs: &[&setup::NODE], run: js::test },
     Step {

@@ -1,0 +1,14 @@
+//! Gives the shared library its soname: its major version, which changes when old programs need another
+//! header.
+
+use std::env;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let family = env::var("CARGO_CFG_TARGET_FAMILY").unwrap_or_default();
+    let vendor = env::var("CARGO_CFG_TARGET_VENDOR").unwrap_or_default();
+    if family.split(',').any(|name| name == "unix") && vendor != "apple" {
+        let major = env::var("CARGO_PKG_VERSION_MAJOR").unwrap_or_default();
+        println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,libmuslin.so.{major}");
+    }
+}

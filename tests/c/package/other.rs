@@ -1,0 +1,9 @@
+//! Another Rust library, for a program that links two of them statically.
+
+/// Panics and catches it, so that it brings all that a panic needs: 7.
+#[unsafe(no_mangle)]
+pub extern "C" fn other_catches() -> i32 {
+    std::panic::set_hook(Box::new(|_| {}));
+    let caught = std::panic::catch_unwind(|| -> i32 { panic!("on purpose") });
+    if caught.is_err() { 7 } else { 0 }
+}

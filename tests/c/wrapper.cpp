@@ -1,0 +1,137 @@
+// muslin.hpp: every call, a cloth that goes by itself, refusals as results and as exceptions.
+#include <muslin.hpp>
+
+#include <cstdio>
+#include <cstring>
+#include <type_traits>
+
+namespace {
+
+int failures = 0;
+
+void check(bool holds, const char *claim) {
+  if (holds) return;
+  failures++;
+  std::fprintf(stderr, "not so: %s (last error: %s)\n", claim, muslin_last_error());
+}
+
+#define CHECK(claim) check(static_cast<bool>(claim), #claim)
+
+static_assert(!std::is_copy_constructible<muslin::Cloth>::value, "a cloth is not copied");
+static_assert(std::is_nothrow_move_constructible<muslin::Cloth>::value, "it is moved");
+static_assert(sizeof(muslin::Cloth) == sizeof(MuslinCloth), "it is its handle");
+
+void a_cloth_does_all_that_c_does() {
+  MuslinGridDesc desc = muslin::grid_desc();
+  desc.columns = desc.rows = 20;
+  desc.material = muslin::material(MUSLIN_PRESET_SILK).value();
+  muslin::Cloth cloth = muslin::Cloth::grid(desc).value();
+  CHECK(cloth && cloth.handle().id != 0);
+  MuslinSettings settings = cloth.settings().value();
+  settings.iterations = 3;
+  cloth.set_settings(settings).value();
+  CHECK(cloth.settings().value().iterations == 3);
+  cloth.set_material(cloth.material().value()).value();
+  MuslinWind wind = muslin::wind();
+  wind.velocity.z = 1.0f;
+  cloth.set_wind(wind).value();
+  MuslinColliderDesc floor = muslin::collider_desc();
+  floor.position.y = -9.0f;
+  const MuslinCollider collider = cloth.add_collider(floor).value();
+  CHECK(cloth.advance(1.0f / 30.0f).value() == 2);
+  cloth.step(20).value();
+  cloth.move_collider(collider, {0, -8, 0}, {0, 0, 0, 1}).value();
+  cloth.remove_collider(collider).value();
+
+  const MuslinVec3 eye{0.5f, -0.5f, 5.0f}, ahead{0, 0, -1}, away{0, 0, 1};
+  CHECK(cloth.raycast(eye, ahead, 50.0f).value().has_value());
+  CHECK(!cloth.raycast(eye, away, 50.0f).value().has_value());
+  const auto grab = cloth.grab_ray(eye, ahead, 0.1f).value();
+  CHECK(grab.has_value());
+  if (grab) {
+    cloth.move_grab(*grab, {0.5f, -0.5f, 0.5f}).value();
+    cloth.step().value();
+    cloth.release(*grab).value();
+  }
+  CHECK(cloth.release(cloth.grab_particle(77).value()));
+  cloth.pin(399).value();
+  cloth.pin(380, {0, -1, 0}).value();
+  const std::uint32_t pins[] = {380};
+  const float targets[] = {0, -1, 0.1f};
+  cloth.set_pin_targets(pins, targets, 0, 1).value();
+  cloth.unpin(399).value();
+  cloth.set_position(200, {0, -0.5f, 0.1f}).value();
+  cloth.set_velocity(200, {0, 0, 0}).value();
+
+  const std::uint32_t seen = cloth.view().value().topology_revision;
+  CHECK(cloth.tear_edge(210, 230).value());
+  CHECK(!cloth.tear_edge(0, 1).value());
+  CHECK(cloth.cut({-1, -0.7f, -9}, {3, -0.7f, -9}, {0, 0, 18}).value() > 5);
+  CHECK(cloth.changes(seen).value().index_count > 0);
+  int torn = 0;
+  for (auto event = cloth.next_event().value(); event; event = cloth.next_event().value()) {
+    torn += event->kind == MUSLIN_EVENT_EDGE_TORN;
+  }
+  CHECK(torn > 5);
+
+  const MuslinView view = cloth.view().value();
+  std::vector<float> positions(3 * view.vertex_count);
+  std::vector<std::uint16_t> indices(view.index_count);
+  const MuslinStream streams[] = {muslin_stream(MUSLIN_ATTRIBUTE_POSITION, MUSLIN_FORMAT_F32,
+                                                positions.data(), 0, 4 * positions.size())};
+  cloth.write_vertices(streams, muslin::write_desc()).value();
+  CHECK(std::memcmp(positions.data(), view.positions, 4 * positions.size()) == 0);
+  cloth.write_indices(indices.data(), 2 * indices.size(), 16).value();
+  CHECK(indices.back() == view.indices[view.index_count - 1]);
+  CHECK(cloth.stats().value().particles == view.vertex_count);
+
+  const std::vector<unsigned char> saved = cloth.save().value();
+  muslin::Cloth same = muslin::Cloth::restore(saved.data(), saved.size()).value();
+  CHECK(same.state_hash().value() == cloth.state_hash().value());
+  cloth.unpin_all().value();
+  cloth.reset().value();
+  CHECK(cloth.stats().value().particles == 400);
+}
+
+void a_cloth_goes_with_its_owner() {
+  MuslinCloth handle{};
+  {
+    muslin::Cloth first = muslin::Cloth::grid(muslin::grid_desc()).value();
+    handle = first.handle();
+    muslin::Cloth second = std::move(first);
+    CHECK(!first && second.handle().id == handle.id);
+    CHECK(first.step().status() == MUSLIN_STATUS_BAD_HANDLE);
+    first = std::move(second);
+    CHECK(first.step());
+  }
+  CHECK(muslin_cloth_step(handle, 1) == MUSLIN_STATUS_BAD_HANDLE);
+  muslin::Cloth given = muslin::Cloth::grid(muslin::grid_desc()).value();
+  CHECK(muslin_cloth_destroy(given.release_handle()) == MUSLIN_STATUS_OK && !given);
+}
+
+void refusals_say_why() {
+  MuslinGridDesc desc = muslin::grid_desc();
+  desc.spacing = -1.0f;
+  const auto refused = muslin::Cloth::grid(desc);
+  CHECK(!refused && refused.status() == MUSLIN_STATUS_BAD_VALUE);
+  CHECK(std::strstr(refused.why(), "`spacing`") != nullptr);
+#ifndef MUSLIN_NO_EXCEPTIONS
+  bool is_caught = false;
+  try {
+    muslin::Cloth::grid(desc).value();
+  } catch (const muslin::Error &error) {
+    is_caught = error.status() == MUSLIN_STATUS_BAD_VALUE && std::strstr(error.what(), "`spacing`") != nullptr;
+  }
+  CHECK(is_caught);
+#endif
+}
+
+}  // namespace
+
+int main() {
+  a_cloth_does_all_that_c_does();
+  a_cloth_goes_with_its_owner();
+  refusals_say_why();
+  std::printf("%s the wrapper does all that C does\n", failures == 0 ? "  ok" : "FAIL");
+  return failures != 0;
+}
