@@ -2,7 +2,7 @@
 
 use crate::Scene;
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, GridDesc, Material, PinMode, Preset, Result, Wind};
+use muslin::{Cloth, GridDesc, Material, PinMode, Preset, Result, Settings, Wind};
 
 /// A flag of printed nylon, 1.8 m by 1.2 m, that streams from its hoist along x.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,8 @@ impl Flag {
             origin: Self::HOIST,
             pin_mode: PinMode::None,
             material: Material::preset(Preset::FlagNylon),
+            // A gust snaps it taut; woven nylon hardly gives way.
+            settings: Settings { max_stretch: 0.02, ..Settings::default() },
             ..GridDesc::default()
         }
     }
