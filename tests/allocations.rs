@@ -147,7 +147,7 @@ fn a_large_sheet_torn_to_shreds_allocates_nothing_and_keeps_within_its_reserve()
             let triangle = corner - corner % 3;
             let (a, b) = (cloth.indices()[corner], cloth.indices()[triangle + (corner + 1) % 3]);
             cloth.tear_edge(a, b).unwrap();
-            if pick % 64 == 0 {
+            if pick.is_multiple_of(64) {
                 cloth.step(1);
             }
         }
