@@ -101,8 +101,15 @@ test("a load that failed says why and may be tried again", () =>
 test("what the package's README shows runs", async () => {
   const readme = await readFile(new URL("README.md", manifest), "utf8");
   const blocks = [...readme.matchAll(/```js\n(.*?)```/gs)].map(([, code]) => code);
-  assert.equal(blocks.length, 2);
-  await inNode(`${blocks.join("")} if (!mesh.geometry.cloth.positions.every(Number.isFinite)) throw 0;`);
+  assert.equal(blocks.length, 3);
+  await inNode(`
+    const uploads = [];
+    const gl = { bufferSubData: (target, at, list) => uploads.push(list) };
+    ${blocks.join("")}
+    cloth.cut([-1, -1, -1], [3, -1.1, -1], [0, 0, 2]);
+    frame(1 / 60);
+    if (uploads.length !== 2 || !uploads[1].every(Number.isFinite)) throw new Error("nothing was written");
+    if (!mesh.geometry.cloth.positions.every(Number.isFinite)) throw new Error("not a number");`);
 });
 
 test("the version is the package's", async () => {
