@@ -206,7 +206,9 @@ function followPointers(demo) {
     { passive: false },
   );
   for (const name of ["touchstart", "touchmove", "gesturestart"]) {
-    canvas.addEventListener(name, (event) => event.preventDefault(), { passive: false });
+    // A scroll that is under way cannot be stopped, and the browser complains of attempts.
+    const stop = (event) => event.cancelable && event.preventDefault();
+    canvas.addEventListener(name, stop, { passive: false });
   }
 }
 
