@@ -99,7 +99,8 @@ fn ten_turns(side: u32, rate: u32, substeps: u32) -> [f64; 3] {
 
 #[test]
 fn a_spinning_sheet_spins_on() {
-    // The damping of the second-order scheme grows with the cube of the turn in a substep.
+    // The second-order scheme brakes the less the shorter substeps are; at the default rate it misses the
+    // 0.5 % of an excellent solver.
     for (rate, substeps, most) in
         [(60, 8, 5.0e-3), (120, 4, 5.0e-3), (240, 4, 5.0e-3), (60, 4, 1.0e-2)]
     {

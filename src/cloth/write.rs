@@ -64,6 +64,7 @@ impl Cloth {
         }
         Ok(())
     }
+
     /// Writes vertices into the caller's buffers, each attribute in the format, at the place and at the
     /// distances that its stream says: separate, interleaved or one behind the other. Nothing else in the
     /// buffers is touched. With room for the view's `vertex_capacity` vertices they fit for ever.

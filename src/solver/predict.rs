@@ -92,8 +92,13 @@ fn clamp_displacement(world: &mut World, reach: f32) {
     let way = &mut world.scratch.way;
     let rigid = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
     let particles = (way.all_mut(), p.x.all(), &p.w[..]);
-    world.threads.over(particles, PARTICLES, |(way, x, w)| clamp(way, x, w, rigid, reach));
-    if p.w.iter().all(|w| *w > 0.0) {
+    let is_clamped = AtomicBool::new(false);
+    world.threads.over(particles, PARTICLES, |(way, x, w)| {
+        if clamp(way, x, w, rigid, reach) {
+            is_clamped.store(true, Ordering::Relaxed);
+        }
+    });
+    if is_clamped.into_inner() && p.w.iter().all(|w| *w > 0.0) {
         let left = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
         for i in 0..p.len() {
             let x = p.x.at(i);
@@ -102,7 +107,15 @@ fn clamp_displacement(world: &mut World, reach: f32) {
     }
 }
 
-fn clamp(way: [&mut [f32]; 3], [x, y, z]: [&[f32]; 3], w: &[f32], rigid: RigidMotion, reach: f32) {
+/// Whether any way was too long.
+fn clamp(
+    way: [&mut [f32]; 3],
+    [x, y, z]: [&[f32]; 3],
+    w: &[f32],
+    rigid: RigidMotion,
+    reach: f32,
+) -> bool {
+    let mut is_clamped = false;
     let [way_x, way_y, way_z] = way;
     let ways = way_x.iter_mut().zip(way_y).zip(way_z);
     let particles = x.iter().zip(y).zip(z).zip(w).zip(ways);
@@ -115,8 +128,10 @@ fn clamp(way: [&mut [f32]; 3], [x, y, z]: [&[f32]; 3], w: &[f32], rigid: RigidMo
         let length2 = own.length_squared();
         if length2 > reach * reach {
             [*way_x, *way_y, *way_z] = (common + own * (reach / length2.sqrt())).to_array();
+            is_clamped = true;
         }
     }
+    is_clamped
 }
 
 /// The motion of a solid body: a shift and a small turn about the centre.

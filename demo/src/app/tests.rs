@@ -1,0 +1,117 @@
+//! Tests: what hands, controls and time do to the demo.
+
+use super::*;
+
+fn app() -> App {
+    App::new(Settings::default(), || 0.0).unwrap()
+}
+
+#[test]
+fn a_grabbed_particle_comes_along_with_its_pointer() {
+    let mut app = app();
+    let particle = 20 * 40 + 20;
+    let from = app.particle_on_screen(particle).unwrap();
+    app.press(7, from).unwrap();
+    assert_eq!(app.cursor().unwrap(), Cursor::Grabbing);
+    let to = from + Vec2::new(80.0, -30.0);
+    app.drag(7, to).unwrap();
+    for _ in 0..60 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    let held = app.particle_on_screen(particle).unwrap();
+    assert!(held.distance(to) < 6.0, "held at {held}, pointer at {to}");
+    app.lift(7).unwrap();
+    for _ in 0..240 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    let released = app.particle_on_screen(particle).unwrap();
+    assert!(released.distance(to) > 20.0, "still at {released}");
+}
+
+#[test]
+fn empty_space_turns_the_camera_and_leaves_the_cloth_alone() {
+    let mut app = app();
+    let (before, hash) = (app.camera.sight(), app.state_hash());
+    app.press(1, Vec2::new(20.0, 20.0)).unwrap();
+    app.drag(1, Vec2::new(220.0, 60.0)).unwrap();
+    for _ in 0..30 {
+        app.camera.advance(1.0 / 60.0, true);
+    }
+    assert!(app.camera.sight().eye.distance(before.eye) > 0.5);
+    assert_eq!(app.state_hash(), hash);
+}
+
+#[test]
+fn a_second_finger_zooms_and_neither_its_coming_nor_its_going_jumps() {
+    let mut app = app();
+    let settle = |app: &mut App| {
+        for _ in 0..300 {
+            app.camera.advance(1.0 / 60.0, true);
+        }
+        app.camera.sight().eye
+    };
+    app.press(1, Vec2::new(100.0, 650.0)).unwrap();
+    let still = settle(&mut app);
+    app.press(2, Vec2::new(1200.0, 650.0)).unwrap();
+    assert!(settle(&mut app).distance(still) < 1.0e-4);
+    app.drag(2, Vec2::new(700.0, 650.0)).unwrap();
+    let pinched = settle(&mut app);
+    let centre = crate::render::light::STAGE_CENTRE;
+    assert!(pinched.distance(centre) > 1.3 * still.distance(centre));
+    app.lift(1).unwrap();
+    assert!(settle(&mut app).distance(pinched) < 1.0e-4);
+    app.drag(2, Vec2::new(690.0, 650.0)).unwrap();
+    let moved = settle(&mut app).distance(pinched);
+    assert!(moved > 1.0e-3 && moved < 0.5, "moved {moved} m");
+}
+
+#[test]
+fn a_new_resolution_hangs_a_new_sheet_and_forgets_the_hands() {
+    let mut app = app();
+    let at = app.particle_on_screen(820).unwrap();
+    app.press(3, at).unwrap();
+    app.set("resolution", 2.0).unwrap();
+    assert_eq!(app.readout().particles, 56 * 56);
+    app.drag(3, at + Vec2::X).unwrap();
+    app.lift(3).unwrap();
+    app.frame(0.02).unwrap();
+}
+
+#[test]
+fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
+    for scene in 0..stage::Show::ALL.len() {
+        let mut app = app();
+        for (name, value) in [("wind", 3.0), ("gravity", 20.0), ("damping", 0.0)] {
+            app.set(name, value).unwrap();
+        }
+        app.set("scene", scene as f32).unwrap();
+        // A flag may tear in such a gale; the sheet may not.
+        app.set("tearing", f32::from(u8::from(scene == 0))).unwrap();
+        for stiffness in [1.0, 12.0] {
+            app.set("stiffness", stiffness).unwrap();
+            let whole = app.readout();
+            for _ in 0..300 {
+                app.frame(1.0 / 60.0).unwrap();
+            }
+            assert_eq!(app.readout().particles, whole.particles, "the wind tore scene {scene}");
+            for at in app.cloth.positions() {
+                assert!(at.is_finite() && at.length() < 4.0, "a particle is at {at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn pause_stops_the_cloth_and_dropped_pins_let_it_fall() {
+    let mut app = app();
+    app.set("paused", 1.0).unwrap();
+    let hash = app.state_hash();
+    app.frame(0.1).unwrap();
+    assert_eq!(app.state_hash(), hash);
+    app.set("paused", 0.0).unwrap();
+    let corner = app.particle(0).unwrap();
+    app.act(Action::DropPins).unwrap();
+    app.play(15);
+    let fallen = corner.y - app.particle(0).unwrap().y;
+    assert!(fallen > 0.15, "fell {fallen} m");
+}
