@@ -190,7 +190,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.weave.stiffen(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
     world.reserve_for_tears();
-    world.weave.gather(world.particles.len());
+    world.gather();
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;

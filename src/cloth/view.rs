@@ -4,6 +4,7 @@ use super::Cloth;
 use super::changes::{Change, differing};
 use super::drawn::Drawn;
 use super::world::Origin;
+use crate::fabric::cells::Cells;
 use crate::math::float_env::guarded;
 use crate::solver::stage::Stage;
 use crate::solver::{World, outputs};
@@ -298,6 +299,7 @@ impl Cloth {
         let bytes = world.capacity() * particle
             + world.triangle_capacity * triangle
             + world.weave.bytes()
+            + world.cells.as_ref().map_or(0, Cells::bytes)
             + world.tethers.bytes()
             + self.outputs.drawn.bytes();
         bytes as u64

@@ -76,7 +76,7 @@ fn grid_world(desc: &GridDesc) -> World {
     let mut weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
     weave.run_along([frame.right, frame.down]);
     let areas = grid::corner_areas(desc.columns, desc.rows, desc.spacing);
-    let cells = Some(Cells::new(desc.columns, desc.rows));
+    let cells = Some(Cells::new(desc.columns, desc.rows, desc.spacing));
     let fabric = Fabric { mesh, weave, rest, areas, cells };
     build(fabric, &desc.pinned(), capacity, &desc.material, &desc.settings)
 }
@@ -110,7 +110,7 @@ fn build(
     settings: &Settings,
 ) -> World {
     let Fabric { mesh, mut weave, rest, areas, cells } = fabric;
-    weave.lines = Lines::find(&weave.links, &rest);
+    weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
     let max_tears = settings.max_tears_per_tick as usize;
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
@@ -196,6 +196,9 @@ impl World {
         self.events.reserve();
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.weave.reserve(openings, capacity);
+        if let Some(cells) = &mut self.cells {
+            cells.reserve();
+        }
         self.tethers.reserve(capacity, self.mesh.triangles.len());
         self.outward.reserve(capacity, self.weave.links.len());
         self.scratch = Scratch::new(

@@ -105,7 +105,7 @@ impl Weave {
         for at in self.involved_range(site) {
             let link = self.involved[at] as usize;
             self.links.follow(mesh, link);
-            self.lines.follow(&self.links, link);
+            self.lines.abreast.forget(link);
             if let Some(rows) = &mut self.rows {
                 let ends = (self.links.a[link], self.links.b[link]);
                 rows.follow(link, ends, self.links.active[link]);

@@ -3,11 +3,11 @@
 //! On a grid they are its rows and columns. On any mesh links continue each other where they meet most
 //! nearly straight. Every stretch link is in one line.
 
+use crate::fabric::abreast::{Abreast, Member};
 use crate::fabric::links::{LinkKind, Links};
-use crate::math::simd::{LANES, Lanes};
+use crate::math::simd::LANES;
 use crate::mesh::NONE;
 use core::cmp::Reverse;
-use core::ops::Range;
 use glam::Vec3;
 
 /// Links continue each other up to a turn of which this is the cosine.
@@ -16,41 +16,21 @@ const STRAIGHT: f32 = 0.8;
 /// So many unfinished blocks are looked at for room.
 const OPEN_BLOCKS: usize = 16;
 
-/// The seat that lanes without a link look at. Every particle has the seat after its own number.
-pub(crate) const NOBODY: u32 = 0;
+type Line = Vec<Member>;
 
-/// A line: links and whether they are turned.
-type Line = Vec<(u32, bool)>;
-
-/// All lines of a weave, eight that share no particle side by side in a block. A block is so many
-/// steps, each the next link of each of its lines.
+/// All lines of a weave.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lines {
-    /// The steps of each block.
-    pub blocks: Vec<Range<usize>>,
-    /// The links of each step; `NONE` after a line's end.
-    pub links: Vec<[u32; LANES]>,
-    /// The seats of the particles that they run from and to; `NOBODY` where there is no link any more.
-    pub from: Vec<[u32; LANES]>,
-    pub to: Vec<[u32; LANES]>,
-    /// Their lengths at rest [m].
-    pub rest: Vec<Lanes>,
-    /// Steps of the longest block.
+    /// Eight that share no particle side by side in a block.
+    pub abreast: Abreast,
+    /// Links of the longest one as it was woven.
     pub longest: usize,
-    /// Where each link is: step, lane, and whether its line runs from its second particle.
-    places: Vec<Place>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    step: u32,
-    lane: u32,
-    is_turned: bool,
 }
 
 impl Lines {
-    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex.
-    pub fn find(links: &Links, rest: &[Vec3]) -> Self {
+    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex; `breaks`
+    /// says to have room for lines to break.
+    pub fn find(links: &Links, rest: &[Vec3], breaks: bool) -> Self {
         let next = continuations(links, rest);
         let mut lines = Vec::new();
         let mut seen = vec![false; links.len()];
@@ -68,58 +48,11 @@ impl Lines {
         }
         // Those of a length go together, in the order of their first links.
         lines.sort_by_key(|line| Reverse(line.len()));
-        let mut found = Self::default();
-        let nowhere = Place { step: NONE, lane: 0, is_turned: false };
-        found.places = vec![nowhere; links.len()];
-        for block in arrange(links, &lines, rest.len()) {
-            found.add(links, &block);
+        let blocks = arrange(links, &lines, rest.len());
+        Self {
+            abreast: Abreast::new(links, &blocks, breaks),
+            longest: lines.first().map_or(0, Vec::len),
         }
-        found
-    }
-
-    fn add(&mut self, links: &Links, block: &[&Line]) {
-        let first = self.links.len();
-        let longest = block.iter().map(|line| line.len()).max().unwrap_or(0);
-        for at in 0..longest {
-            self.links.push([NONE; LANES]);
-            self.from.push([NOBODY; LANES]);
-            self.to.push([NOBODY; LANES]);
-            self.rest.push([0.0; LANES]);
-            for (lane, line) in block.iter().enumerate() {
-                if let Some((link, is_turned)) = line.get(at).copied() {
-                    let step = first + at;
-                    self.links[step][lane] = link;
-                    self.rest[step][lane] = links.rest[link as usize];
-                    self.places[link as usize] =
-                        Place { step: step as u32, lane: lane as u32, is_turned };
-                    self.follow(links, link as usize);
-                }
-            }
-        }
-        self.blocks.push(first..first + longest);
-        self.longest = self.longest.max(longest);
-    }
-
-    /// Brings a link's place in line with the link.
-    pub fn follow(&mut self, links: &Links, link: usize) {
-        let Some(Place { step, lane, is_turned }) = self.places.get(link).copied() else {
-            return;
-        };
-        if step == NONE {
-            return;
-        }
-        let ends = match (links.active[link], is_turned) {
-            (false, _) => (NOBODY, NOBODY),
-            (true, false) => (links.a[link] + 1, links.b[link] + 1),
-            (true, true) => (links.b[link] + 1, links.a[link] + 1),
-        };
-        (self.from[step as usize][lane as usize], self.to[step as usize][lane as usize]) = ends;
-    }
-
-    /// Bytes that it holds.
-    pub fn bytes(&self) -> usize {
-        let step = LANES * (3 * size_of::<u32>() + size_of::<f32>());
-        self.links.len() * step + self.places.len() * size_of::<Place>()
     }
 }
 
@@ -225,8 +158,8 @@ fn walk(
 }
 
 /// Puts lines side by side, so that those in a block share no vertex.
-fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec<&'a Line>> {
-    let mut blocks: Vec<Vec<&Line>> = Vec::new();
+fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec<&'a [Member]>> {
+    let mut blocks: Vec<Vec<&[Member]>> = Vec::new();
     // The blocks that each vertex is in.
     let mut member: Vec<Vec<u32>> = vec![Vec::new(); vertex_count];
     for line in lines {
@@ -250,6 +183,7 @@ fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fabric::abreast::NOBODY;
     use crate::fabric::weave::Weave;
     use crate::mesh::Mesh;
     use crate::mesh::grid::{self, Frame};
@@ -263,27 +197,30 @@ mod tests {
     /// Every stretch link is in one line, lines in a block share no particle, and lines are chains.
     fn assert_sound(lines: &Lines, links: &Links) {
         let mut uses = vec![0; links.len()];
-        for block in &lines.blocks {
+        for (group, steps) in lines.abreast.groups() {
             let mut lane_of = std::collections::HashMap::new();
-            for step in block.clone() {
+            let mut end = group.from;
+            for step in steps {
                 for lane in 0..LANES {
-                    let link = lines.links[step][lane];
+                    let link = step.links[lane];
                     if link == NONE {
+                        assert_eq!((step.to[lane], step.rest[lane]), (NOBODY, 0.0));
                         continue;
                     }
                     uses[link as usize] += 1;
-                    let (from, to) = (lines.from[step][lane], lines.to[step][lane]);
-                    if step > block.start {
-                        assert_eq!(lines.to[step - 1][lane], from, "a line is a chain");
-                    }
-                    for end in [from, to] {
+                    let seats = [links.a[link as usize] + 1, links.b[link as usize] + 1];
+                    let ends = [end[lane], step.to[lane]];
+                    assert!(seats == ends || seats == [ends[1], ends[0]], "a line is a chain");
+                    end[lane] = step.to[lane];
+                    for end in ends {
                         assert_eq!(*lane_of.entry(end).or_insert(lane), lane);
                     }
                 }
             }
         }
         for (link, uses) in uses.iter().enumerate() {
-            assert_eq!(*uses, u32::from(links.kind(link) == LinkKind::Stretch), "link {link}");
+            let holds = links.kind(link) == LinkKind::Stretch && links.active[link];
+            assert_eq!(*uses, u32::from(holds), "link {link}");
         }
     }
 
@@ -291,11 +228,34 @@ mod tests {
     fn lines_of_a_grid_are_its_rows_and_columns() {
         let (mesh, rest) = sheet(11, 19);
         let weave = Weave::grid(11, 19, 0.1, &mesh, 0);
-        let lines = Lines::find(&weave.links, &rest);
+        let lines = Lines::find(&weave.links, &rest, false);
         assert_sound(&lines, &weave.links);
         // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
-        let lengths: Vec<usize> = lines.blocks.iter().map(Range::len).collect();
+        let lengths: Vec<usize> = lines.abreast.groups().map(|(_, steps)| steps.len()).collect();
         assert_eq!(lengths, [18, 18, 10, 10, 10]);
+    }
+
+    #[test]
+    fn pieces_of_broken_lines_begin_together() {
+        let (mesh, rest) = sheet(17, 9);
+        let mut weave = Weave::grid(17, 9, 0.1, &mesh, 0);
+        let mut lines = Lines::find(&weave.links, &rest, true);
+        let whole = lines.abreast.groups().count();
+        // Every fifth link goes, and then all of them but every seventh.
+        for step in [5, 7] {
+            for link in 0..weave.links.len() {
+                weave.links.active[link] = (link % step == 0) == (step == 7);
+                lines.abreast.forget(link);
+            }
+            lines.abreast.lay(&weave.links);
+            assert_sound(&lines, &weave.links);
+            assert!(lines.abreast.groups().count() > whole);
+        }
+        weave.links.active.fill(true);
+        (0..weave.links.len()).for_each(|link| lines.abreast.forget(link));
+        lines.abreast.lay(&weave.links);
+        assert_sound(&lines, &weave.links);
+        assert_eq!(lines.abreast.groups().count(), whole);
     }
 
     #[test]
@@ -305,7 +265,7 @@ mod tests {
             x.z = (i as f32 * 1.3).sin() * 0.03;
         }
         let weave = Weave::mesh(&mesh, &rest, 0);
-        let lines = Lines::find(&weave.links, &rest);
+        let lines = Lines::find(&weave.links, &rest, false);
         assert_sound(&lines, &weave.links);
         assert_eq!(lines.longest, 8, "from border to border");
     }

@@ -25,6 +25,8 @@ pub(crate) struct Loose {
     pub link: Vec<u32>,
     /// Those of a kind and colour, next to each other.
     pub batches: Vec<Batch>,
+    /// Of each batch, whether no two of its links share a particle.
+    are_colored: Vec<bool>,
 }
 
 impl Loose {
@@ -36,6 +38,7 @@ impl Loose {
         self.rest.reserve_exact(more);
         self.link.reserve_exact(more);
         self.batches.reserve_exact(GROUPS.saturating_sub(self.batches.len()));
+        self.are_colored.reserve_exact(GROUPS.saturating_sub(self.are_colored.len()));
     }
 
     /// Bytes that it holds.
@@ -49,11 +52,13 @@ impl Loose {
         self.rest.clear();
         self.link.clear();
         self.batches.clear();
+        self.are_colored.clear();
     }
 
-    /// Adds a batch of links from a list.
+    /// Adds a batch of links from a list, no two of which share a particle.
     pub fn add(&mut self, kind: LinkKind, links: &Links, numbers: &[u32]) {
         self.batches.push(Batch { kind, first: self.link.len(), count: numbers.len() });
+        self.are_colored.push(true);
         for number in numbers {
             let link = *number as usize;
             self.a.push(links.a[link]);
@@ -61,6 +66,11 @@ impl Loose {
             self.rest.push(links.rest[link]);
             self.link.push(*number);
         }
+    }
+
+    /// Whether no two links of a batch share a particle.
+    pub fn is_colored(&self, batch: usize) -> bool {
+        self.are_colored.get(batch).is_some_and(|colored| *colored)
     }
 
     /// The links of a batch.
@@ -120,6 +130,7 @@ impl Palette {
             if count > 0 {
                 let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
                 loose.batches.push(Batch { kind: kinds[group / (COLORS + 1)], first, count });
+                loose.are_colored.push(group % (COLORS + 1) < COLORS);
             }
             first += count;
         }

@@ -1,5 +1,6 @@
 //! The recipe of a cloth: its material, its links, and how far each particle is from the pins.
 
+pub(crate) mod abreast;
 pub(crate) mod cells;
 pub(crate) mod color;
 pub(crate) mod divide;

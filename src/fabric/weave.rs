@@ -236,7 +236,7 @@ impl Weave {
         let links = self.links.len() + self.extra.rest.capacity();
         links * each
             + self.rows.as_ref().map_or(0, Rows::bytes)
-            + self.lines.bytes()
+            + self.lines.abreast.bytes()
             + self.loose.bytes()
             + self.palette.bytes()
             + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())

@@ -3,10 +3,10 @@
 //! The air pushes each triangle along its normal by the square of the relative speed,
 //! p = ½ ρ C |u·n| (u·n), and across the wind by ½ ρ C_L sin α cos α |u|². Gathered once a tick.
 
-use super::surface::{Band, Give, Surface, in_bands, sum};
+use super::surface::{Band, Give, Surface, V, in_bands, sum, sum_apart};
 use super::{PARTICLES, World};
-use crate::math::simd::leveled;
-use crate::math::{TINY, max, min};
+use crate::math::simd::{Number, Simd, leveled, vectored};
+use crate::math::{TINY, max};
 use crate::state::wind::{Breeze, WindModel};
 use glam::Vec3;
 
@@ -99,14 +99,14 @@ fn face_air_lanes(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], mut air: [&mu
     }
 }
 
-leveled! {
+vectored! {
     fn push(surface: Surface<'_>, pressure: Pressure, band: Band, force: [&mut [f32]; 3])
-        = sum::<Pressure>
+        = sum, Avx2, sum_apart
 }
 
-leveled! {
+vectored! {
     fn push_and_lift(surface: Surface<'_>, pressure: WithLift, band: Band, force: [&mut [f32]; 3])
-        = sum::<WithLift>
+        = sum, Avx2, sum_apart
 }
 
 leveled! {
@@ -134,34 +134,40 @@ struct Pressure {
 
 impl Pressure {
     #[inline(always)]
-    fn on<const LIFT: bool>(
+    fn on<S: Simd, const LIFT: bool>(
         self,
-        [a, b, c]: [[f32; 3]; 3],
-        air: [[f32; 3]; 3],
-        rest_area: f32,
-    ) -> [f32; 3] {
-        let third = |k: usize| (air[0][k] + air[1][k] + air[2][k]) * (1.0 / 3.0);
-        let (ux, uy, uz) = (third(0), third(1), third(2));
+        s: S,
+        [a, b, c]: [V<S>; 3],
+        air: [V<S>; 3],
+        rest_area: S::F,
+    ) -> V<S> {
+        let (zero, tiny) = (s.splat(0.0), s.splat(TINY));
+        let [ua, ub, uc] = air;
+        let third = s.splat(1.0 / 3.0);
+        let ux = (ua[0] + ub[0] + uc[0]) * third;
+        let uy = (ua[1] + ub[1] + uc[1]) * third;
+        let uz = (ua[2] + ub[2] + uc[2]) * third;
         let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
         let (qx, qy, qz) = (c[0] - a[0], c[1] - a[1], c[2] - a[2]);
         let (nx, ny, nz) = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx);
         let double_area = (nx * nx + ny * ny + nz * nz).sqrt();
-        let inverse = 1.0 / max(double_area, TINY);
+        let inverse = s.splat(1.0) / double_area.max(tiny);
         let (nx, ny, nz) = (nx * inverse, ny * inverse, nz * inverse);
         let facing = ux * nx + uy * ny + uz * nz;
-        let head_on = facing.abs();
+        let head_on = s.pick(facing, facing, zero - facing);
         // The pressure acts on the triangle as it is now, shared out as its mass is.
-        let stretch = min(0.5 * double_area / max(rest_area, TINY), 4.0);
-        let push = min(self.drag * head_on, self.most) * facing * stretch;
+        let stretch = s.min(s.splat(0.5) * double_area / rest_area.max(tiny), s.splat(4.0));
+        let most = s.splat(self.most);
+        let push = s.min(s.splat(self.drag) * head_on, most) * facing * stretch;
         let mut force = [nx * push, ny * push, nz * push];
         if LIFT {
             let speed2 = ux * ux + uy * uy + uz * uz;
-            let sign = if facing < 0.0 { -1.0 } else { 1.0 };
-            let rate = min(self.lift * head_on, self.most) * sign * stretch;
-            let share = rate / max(speed2.sqrt(), TINY);
-            force[0] += (nx * speed2 - ux * facing) * share;
-            force[1] += (ny * speed2 - uy * facing) * share;
-            force[2] += (nz * speed2 - uz * facing) * share;
+            let sign = s.pick(zero - facing, s.splat(-1.0), s.splat(1.0));
+            let rate = s.min(s.splat(self.lift) * head_on, most) * sign * stretch;
+            let share = rate / speed2.sqrt().max(tiny);
+            force[0] = force[0] + (nx * speed2 - ux * facing) * share;
+            force[1] = force[1] + (ny * speed2 - uy * facing) * share;
+            force[2] = force[2] + (nz * speed2 - uz * facing) * share;
         }
         force
     }
@@ -169,8 +175,8 @@ impl Pressure {
 
 impl Give for Pressure {
     #[inline(always)]
-    fn give(self, x: [[f32; 3]; 3], air: [[f32; 3]; 3], rest_area: f32) -> [f32; 3] {
-        self.on::<false>(x, air, rest_area)
+    fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
+        self.on::<S, false>(s, x, air, rest_area)
     }
 
     #[inline(always)]
@@ -185,8 +191,8 @@ struct WithLift(Pressure);
 
 impl Give for WithLift {
     #[inline(always)]
-    fn give(self, x: [[f32; 3]; 3], air: [[f32; 3]; 3], rest_area: f32) -> [f32; 3] {
-        self.0.on::<true>(x, air, rest_area)
+    fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
+        self.0.on::<S, true>(s, x, air, rest_area)
     }
 
     #[inline(always)]

@@ -23,7 +23,7 @@
 
 use super::links::is_rigid;
 use super::{World, seats};
-use crate::fabric::lines::{Lines, NOBODY};
+use crate::fabric::abreast::{self, Abreast, Group};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::{LANES, Lanes, Number, Scalar, Simd, turn, turn_back, vectored};
 use crate::math::{TINY, max};
@@ -49,7 +49,7 @@ pub(crate) struct Scratch {
     pub points: Vec<[f32; 4]>,
     /// Where each particle was when the substep began.
     pub starts: Vec<[f32; 4]>,
-    /// What is known of each step of a block.
+    /// What is known of each step of a group.
     steps: Vec<Step>,
 }
 
@@ -72,12 +72,10 @@ struct Step {
     /// How a particle moves: by `share` of what the one before does, and by `own`.
     share: Lanes,
     own: Lanes3,
-    /// How the particles move that lines begin with.
-    begin: Lanes3,
 }
 
 impl Scratch {
-    /// Room for blocks of so many steps, and so many particles.
+    /// Room for groups of so many steps, and so many particles.
     pub fn new(steps: usize, particles: usize) -> Self {
         Self {
             points: Vec::with_capacity(particles + 1),
@@ -106,7 +104,8 @@ pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(world, LinkKind::Stretch);
     seats::take(world, is_rigid);
     let step = world.settings.scheme().step;
-    let (lines, links) = (&world.weave.lines, &mut world.weave.links);
+    let (lines, links) = (&mut world.weave.lines.abreast, &mut world.weave.links);
+    lines.lay(links);
     let s = &mut world.scratch.lines;
     if is_rigid {
         solve_rigid(world.level, lines, links, s, 0.0);
@@ -117,58 +116,54 @@ pub(crate) fn solve(world: &mut World) {
 }
 
 vectored! {
-    fn solve_rigid(lines: &Lines, links: &mut Links, room: &mut Scratch, scale: f32)
+    fn solve_rigid(lines: &Abreast, links: &mut Links, room: &mut Scratch, scale: f32)
         = solve_all::<_, false>, Avx2, solve_apart::<false>
 }
 
 vectored! {
-    fn solve_soft(lines: &Lines, links: &mut Links, room: &mut Scratch, scale: f32)
+    fn solve_soft(lines: &Abreast, links: &mut Links, room: &mut Scratch, scale: f32)
         = solve_all::<_, true>, Avx2, solve_apart::<true>
 }
 
 /// Line by line.
-fn solve_apart<const SOFT: bool>(lines: &Lines, links: &mut Links, room: &mut Scratch, scale: f32) {
+fn solve_apart<const SOFT: bool>(
+    lines: &Abreast,
+    links: &mut Links,
+    room: &mut Scratch,
+    scale: f32,
+) {
     solve_all::<_, SOFT>(Scalar, lines, links, room, scale);
 }
 
 #[inline(always)]
 fn solve_all<S: Simd, const SOFT: bool>(
     s: S,
-    lines: &Lines,
+    lines: &Abreast,
     links: &mut Links,
     room: &mut Scratch,
     scale: f32,
 ) {
-    for block in &lines.blocks {
+    for (group, steps) in lines.groups() {
         for first in (0..LANES).step_by(S::LANES) {
-            let abreast = Abreast {
-                s,
-                first,
-                links: &lines.links[block.clone()],
-                from: &lines.from[block.clone()],
-                to: &lines.to[block.clone()],
-                rest: &lines.rest[block.clone()],
-            };
-            abreast.eliminate::<SOFT>(links, room, scale);
-            abreast.pull::<SOFT>(links, room);
-            abreast.go(room);
+            let run = Run { s, first, group, steps };
+            let start = run.eliminate::<SOFT>(links, room, scale);
+            let begin = run.pull::<SOFT>(links, room, start[3]);
+            run.go(room, start, begin);
         }
     }
 }
 
-/// As many lines of a block as go at once.
-struct Abreast<'a, S> {
+/// As many lines of a group as go at once.
+struct Run<'a, S> {
     s: S,
-    /// The first one's lane in the block.
+    /// The first one's lane in the group.
     first: usize,
-    links: &'a [[u32; LANES]],
-    from: &'a [[u32; LANES]],
-    to: &'a [[u32; LANES]],
-    rest: &'a [Lanes],
+    group: &'a Group,
+    steps: &'a [abreast::Step],
 }
 
-impl<S: Simd> Abreast<'_, S> {
-    /// What these lines have of a step of the block.
+impl<S: Simd> Run<'_, S> {
+    /// What these lines have of a step of the group.
     #[inline(always)]
     fn own<'b, T>(&self, step: &'b [T; LANES]) -> &'b [T] {
         &step[self.first..self.first + S::LANES]
@@ -196,35 +191,24 @@ impl<S: Simd> Abreast<'_, S> {
         self.store(&mut lanes[2], z);
     }
 
-    /// 1 where two lists of seats agree, else 0.
+    /// The way there: what each link has to do with the one before goes out of the first system. Gives
+    /// the points that the lines begin at.
     #[inline(always)]
-    fn agree(&self, a: &[u32], b: &[u32]) -> S::F {
-        let mut agree = [0.0; LANES];
-        for (agree, (a, b)) in agree.iter_mut().zip(a.iter().zip(b)) {
-            *agree = if a == b { 1.0 } else { 0.0 };
-        }
-        self.s.load(&agree, 0)
-    }
-
-    /// The way there: what each link has to do with the one before goes out of the first system.
-    #[inline(always)]
-    fn eliminate<const SOFT: bool>(&self, links: &Links, room: &mut Scratch, scale: f32) {
+    fn eliminate<const SOFT: bool>(
+        &self,
+        links: &Links,
+        room: &mut Scratch,
+        scale: f32,
+    ) -> [S::F; 4] {
         let s = self.s;
         let (zero, one, tiny) = (s.splat(0.0), s.splat(1.0), s.splat(TINY));
-        let mut end: &[u32] = &[NOBODY; LANES][..S::LANES];
-        let (mut last, mut start) = ([zero; 4], [zero; 4]);
+        let from = self.own(&self.group.from);
+        let first = turn(s, &room.points, from);
+        let mut start = if SOFT { first } else { turn(s, &room.starts, from) };
+        let mut last = first;
         let (mut n, mut inverse, mut right) = ([zero; 3], zero, zero);
-        let own = self.from.iter().zip(self.to).zip(self.rest).zip(self.links);
-        for ((((from, to), rest), own), step) in own.zip(&mut room.steps) {
-            let (from, to, rest) = (self.own(from), self.own(to), self.load(rest));
-            let mut joins = one;
-            if from != end {
-                joins = self.agree(from, end);
-                last = turn(s, &room.points, from);
-                if !SOFT {
-                    start = turn(s, &room.starts, from);
-                }
-            }
+        for (laid, step) in self.steps.iter().zip(&mut room.steps) {
+            let (to, rest) = (self.own(&laid.to), self.load(&laid.rest));
             let next = turn(s, &room.points, to);
             let mut aim = rest;
             if !SOFT {
@@ -239,14 +223,16 @@ impl<S: Simd> Abreast<'_, S> {
             let (nx, ny, nz) = (dx * over, dy * over, dz * over);
             let along = nx * n[0] + ny * n[1] + nz * n[2];
             n = [nx, ny, nz];
-            let before = s.pick(joins, s.splat(-0.0) - last[3] * along, zero);
+            // Lines that ended have links without a length, which neither pull nor are pulled.
+            let before = s.pick(rest, s.splat(-0.0) - last[3] * along, zero);
             let both = last[3] + next[3];
             // Between two that are held there is nothing to solve.
             let least = (both * s.splat(GIVE)).max(tiny);
             let least = s.pick(both, least, s.splat(f32::INFINITY));
+            let least = s.pick(rest, least, s.splat(f32::INFINITY));
             let mut weight = both * s.splat(1.0 + GIVE);
             if SOFT {
-                weight = weight + self.softness(links, self.own(own), scale);
+                weight = weight + self.softness(links, self.own(&laid.links), scale);
             }
             let share = before * inverse;
             inverse = one / (weight - share * before).max(least);
@@ -260,8 +246,9 @@ impl<S: Simd> Abreast<'_, S> {
             self.store3(&mut step.n, n);
             self.store(&mut step.inverse, inverse);
             self.store(&mut step.right, right);
-            (last, end) = (next, to);
+            last = next;
         }
+        first
     }
 
     #[inline(always)]
@@ -276,27 +263,16 @@ impl<S: Simd> Abreast<'_, S> {
     }
 
     /// The way back: the multipliers, and with them what each particle has to do with the one after
-    /// goes out of the second system.
+    /// goes out of the second system. Gives how the particles move that the lines begin with, which
+    /// have the inverse masses `w`.
     #[inline(always)]
-    fn pull<const SOFT: bool>(&self, links: &mut Links, room: &mut Scratch) {
+    fn pull<const SOFT: bool>(&self, links: &mut Links, room: &mut Scratch, w: S::F) -> [S::F; 3] {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
-        let mut begin: &[u32] = &[NOBODY; LANES][..S::LANES];
         let (mut after, mut coupling) = (zero, zero);
         // What the link after pulls with at its beginning: of itself, and against going there.
         let (mut m, mut hold) = ([zero; 3], zero);
-        for k in (0..self.to.len()).rev() {
-            let step = &mut room.steps[k];
-            let to = self.own(&self.to[k]);
-            if to != begin {
-                let joins = self.agree(to, begin);
-                hold = s.pick(joins, hold, zero);
-                m = [
-                    s.pick(joins, m[0], zero),
-                    s.pick(joins, m[1], zero),
-                    s.pick(joins, m[2], zero),
-                ];
-            }
+        for (laid, step) in self.steps.iter().zip(&mut room.steps).rev() {
             after = (self.load(&step.right) - coupling * after) * self.load(&step.inverse);
             let q = s.pick(after, after * self.load(&step.over), zero);
             let tension = s.pick(after, after * self.load(&step.ratio), after);
@@ -314,64 +290,54 @@ impl<S: Simd> Abreast<'_, S> {
             self.store3(&mut step.own, own);
             self.store(&mut step.share, share);
             coupling = self.load(&step.before);
-            begin = self.own(&self.from[k]);
             if SOFT {
                 let mut lambda = [0.0; LANES];
                 s.store(&mut lambda, 0, after);
-                for (link, lambda) in self.own(&self.links[k]).iter().zip(lambda) {
+                for (link, lambda) in self.own(&laid.links).iter().zip(lambda) {
                     if *link != NONE {
                         links.lambda[*link as usize] = -lambda;
                     }
                 }
             }
-            if k == 0 || begin != self.own(&self.to[k - 1]) {
-                let w = turn(s, &room.points, begin)[3];
-                let give = w / (one + w * hold);
-                self.store3(&mut step.begin, [m[0] * give, m[1] * give, m[2] * give]);
-            }
         }
+        let give = w / (one + w * hold);
+        [m[0] * give, m[1] * give, m[2] * give]
     }
 
     /// There again: the particles go.
     #[inline(always)]
-    fn go(&self, room: &mut Scratch) {
+    fn go(&self, room: &mut Scratch, [x, y, z, w]: [S::F; 4], begin: [S::F; 3]) {
         let s = self.s;
-        let mut end: &[u32] = &[NOBODY; LANES][..S::LANES];
-        let mut way = [s.splat(0.0); 3];
-        let own = self.from.iter().zip(self.to).zip(self.rest);
-        for (number, (((from, to), most), step)) in own.zip(&room.steps).enumerate() {
-            let (from, to) = (self.own(from), self.own(to));
-            if number == 0 || from != end {
-                let begins = |lane: usize| number == 0 || from[lane] != end[lane];
-                for lane in (0..S::LANES).filter(|lane| begins(*lane)) {
-                    let begin = step.begin.map(|axis| axis[self.first + lane]);
-                    let limited = limit(begin, most[self.first + lane]);
-                    let point = &mut room.points[from[lane] as usize];
-                    (0..3).for_each(|axis| point[axis] += limited[axis]);
-                }
-                let begin = self.load3(&step.begin);
-                let goes_on = if number == 0 { s.splat(0.0) } else { self.agree(from, end) };
-                way = [0, 1, 2].map(|axis| s.pick(goes_on, way[axis], begin[axis]));
-            }
+        let Some(first) = self.steps.first() else { return };
+        let moved = self.limited(begin, &first.rest);
+        let there = [moved[0] + x, moved[1] + y, moved[2] + z, w];
+        turn_back(s, &mut room.points, self.own(&self.group.from), there);
+        let mut way = begin;
+        for (laid, step) in self.steps.iter().zip(&room.steps) {
             let (share, own) = (self.load(&step.share), self.load3(&step.own));
             way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];
-            let at_most = self.load(most);
-            let length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-            let mut moved = way;
-            if s.is_any_positive(length2 - at_most * at_most) {
-                let mut ways = self.spread(way);
-                for lane in 0..S::LANES {
-                    let one = [ways[0][lane], ways[1][lane], ways[2][lane]];
-                    let limited = limit(one, most[self.first + lane]);
-                    (0..3).for_each(|axis| ways[axis][lane] = limited[axis]);
-                }
-                moved = self.take_up(&ways);
-            }
+            let moved = self.limited(way, &laid.rest);
             let [x, y, z] = self.load3(&step.to);
             let there = [moved[0] + x, moved[1] + y, moved[2] + z, self.load(&step.w)];
-            turn_back(s, &mut room.points, to, there);
-            end = to;
+            turn_back(s, &mut room.points, self.own(&laid.to), there);
         }
+    }
+
+    /// Ways that are no longer than `most`, see `limit`.
+    #[inline(always)]
+    fn limited(&self, way: [S::F; 3], most: &Lanes) -> [S::F; 3] {
+        let at_most = self.load(most);
+        let length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+        if !self.s.is_any_positive(length2 - at_most * at_most) {
+            return way;
+        }
+        let mut ways = self.spread(way);
+        for lane in 0..S::LANES {
+            let one = [ways[0][lane], ways[1][lane], ways[2][lane]];
+            let limited = limit(one, most[self.first + lane]);
+            (0..3).for_each(|axis| ways[axis][lane] = limited[axis]);
+        }
+        self.take_up(&ways)
     }
 
     /// Lanes as lists, and back.

@@ -10,9 +10,8 @@
 
 #[cfg(feature = "parallel")]
 use super::bands;
-use super::{World, packed, rows, weights};
+use super::{World, loose, packed, rows, weights};
 use crate::fabric::links::{LinkKind, Links};
-use crate::fabric::loose::Loose;
 use crate::math::simd::{Arithmetic, Number, Scalar};
 use crate::math::{TINY, max};
 use crate::state::particles::Particles;
@@ -107,7 +106,8 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
             rows::solve::<LAW>(world.level, grid, range.clone(), links, ends, p, scale);
         }
         // These are of a colour for sure, so that any order does.
-        solve_loose::<LAW, _>(&grid.loose, (at, Order::Forward), &mut weave.links, p, scale);
+        let (links, order) = (&mut weave.links, Order::Forward);
+        loose::solve::<LAW>(world.level, &grid.loose, (at, order), links, p, scale);
     } else if packed.is_current {
         let (links, weights) = (&mut weave.links, &world.scratch.weights);
         packed::solve::<LAW>(world.level, world.threads, range, links, weights, packed, scale);
@@ -117,39 +117,12 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
 }
 
 fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: Order, scale: f32) {
-    let (weave, packed) = (&mut world.weave, &mut world.scratch.packed);
+    let (level, packed) = (world.level, &mut world.scratch.packed);
+    let (loose, links) = (&world.weave.loose, &mut world.weave.extra);
     if packed.is_current {
-        solve_loose::<LAW, _>(&weave.loose, (at, order), &mut weave.extra, packed, scale);
+        loose::solve_packed::<LAW>(level, loose, (at, order), links, packed, scale);
     } else {
-        let p = &mut world.particles;
-        solve_loose::<LAW, _>(&weave.loose, (at, order), &mut weave.extra, p, scale);
-    }
-}
-
-/// Solves a batch of loose links, which are numbers of a list.
-fn solve_loose<const LAW: u8, S: Spots>(
-    loose: &Loose,
-    (batch, order): (usize, Order),
-    links: &mut Links,
-    spots: &mut S,
-    scale: f32,
-) {
-    let own = loose.of_batch(batch);
-    let ends = loose.a[own.clone()].iter().zip(&loose.b[own.clone()]);
-    let joins = ends.zip(&loose.rest[own.clone()]).zip(&loose.link[own]);
-    let mut solve = |(((a, b), rest), link): (((&u32, &u32), &f32), &u32)| {
-        let ends = (*a as usize, *b as usize);
-        if LAW == SOFT {
-            let link = *link as usize;
-            let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
-            links.lambda[link] = pull::<LAW, _>(ends, *rest, compliance, lambda, spots, scale);
-        } else {
-            pull::<LAW, _>(ends, *rest, 0.0, 0.0, spots, scale);
-        }
-    };
-    match order {
-        Order::Forward => joins.for_each(&mut solve),
-        Order::Backward => joins.rev().for_each(&mut solve),
+        loose::solve::<LAW>(level, loose, (at, order), links, &mut world.particles, scale);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "parallel")]
 mod bands;
+pub(crate) mod cells;
 pub(crate) mod contacts;
 pub(crate) mod cut;
 pub(crate) mod forces;
@@ -10,6 +11,7 @@ pub(crate) mod hold;
 pub(crate) mod limit;
 pub(crate) mod lines;
 pub(crate) mod links;
+pub(crate) mod loose;
 pub(crate) mod outputs;
 pub(crate) mod packed;
 pub(crate) mod pipeline;
@@ -185,6 +187,14 @@ impl World {
         self.weave.follow(&self.mesh, site);
         if let Some(cells) = &mut self.cells {
             cells.follow(&self.mesh, site);
+        }
+    }
+
+    /// Gathers what sweeps and sums find apart from the rest, after links and cells changed.
+    pub fn gather(&mut self) {
+        self.weave.gather(self.particles.len());
+        if let Some(cells) = &mut self.cells {
+            cells.gather(&self.mesh);
         }
     }
 

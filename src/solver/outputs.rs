@@ -1,10 +1,10 @@
 //! Stage `Outputs`: what a renderer reads, from what the solver keeps.
 
-use super::surface::{Band, Give, Surface, in_bands, sum};
+use super::surface::{Band, Give, Surface, V, in_bands, sum, sum_apart};
 use super::{PARTICLES, World};
 use crate::fabric::links::LinkKind;
 use crate::math::columns::Columns;
-use crate::math::simd::leveled;
+use crate::math::simd::{Simd, leveled, vectored};
 use glam::Vec3;
 
 /// Positions, three numbers a vertex.
@@ -52,9 +52,9 @@ fn blend_lanes(x: &mut [f32], last: &[f32], share: f32) {
     }
 }
 
-leveled! {
+vectored! {
     fn sum_normals(surface: Surface<'_>, give: Doubled, band: Band, sums: [&mut [f32]; 3])
-        = sum::<Doubled>
+        = sum, Avx2, sum_apart
 }
 
 leveled! {
@@ -76,7 +76,7 @@ struct Doubled;
 
 impl Give for Doubled {
     #[inline(always)]
-    fn give(self, [a, b, c]: [[f32; 3]; 3], _: [[f32; 3]; 3], _: f32) -> [f32; 3] {
+    fn give<S: Simd>(self, _: S, [a, b, c]: [V<S>; 3], _: [V<S>; 3], _: S::F) -> V<S> {
         let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
         let (qx, qy, qz) = (c[0] - a[0], c[1] - a[1], c[2] - a[2]);
         [py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx]

@@ -9,9 +9,9 @@
 //! to n, and w is 1.
 
 use super::World;
-use super::surface::{Band, Give, Surface, in_bands, sum};
+use super::surface::{Band, Give, Surface, V, in_bands, sum, sum_apart};
 use crate::math::columns::Columns;
-use crate::math::simd::leveled;
+use crate::math::simd::{Simd, vectored};
 use glam::{Vec2, Vec3};
 
 /// The sums over triangles, each vertex's direction still to be made square to its normal.
@@ -101,9 +101,9 @@ impl Tangents {
     }
 }
 
-leveled! {
+vectored! {
     fn sum_tangents(surface: Surface<'_>, give: Along, band: Band, sums: [&mut [f32]; 3])
-        = sum::<Along>
+        = sum, Avx2, sum_apart
 }
 
 /// The direction in which u grows on a triangle, as long as it is large in the texture. What is `air` of
@@ -113,13 +113,18 @@ struct Along;
 
 impl Give for Along {
     #[inline(always)]
-    fn give(self, [a, b, c]: [[f32; 3]; 3], [ua, ub, uc]: [[f32; 3]; 3], _: f32) -> [f32; 3] {
+    fn give<S: Simd>(self, s: S, [a, b, c]: [V<S>; 3], [ua, ub, uc]: [V<S>; 3], _: S::F) -> V<S> {
+        let (zero, minus) = (s.splat(0.0), s.splat(-0.0));
         let (du1, dv1) = (ub[0] - ua[0], ub[1] - ua[1]);
         let (du2, dv2) = (uc[0] - ua[0], uc[1] - ua[1]);
-        let is_mirrored = du1 * dv2 - du2 * dv1 < 0.0;
-        let (dv1, dv2) = if is_mirrored { (-dv1, -dv2) } else { (dv1, dv2) };
-        let along = |k: usize| (b[k] - a[k]) * dv2 - (c[k] - a[k]) * dv1;
-        [along(0), along(1), along(2)]
+        let is_mirrored = zero - (du1 * dv2 - du2 * dv1);
+        let dv1 = s.pick(is_mirrored, minus - dv1, dv1);
+        let dv2 = s.pick(is_mirrored, minus - dv2, dv2);
+        let mut along = [zero; 3];
+        for (axis, along) in along.iter_mut().enumerate() {
+            *along = (b[axis] - a[axis]) * dv2 - (c[axis] - a[axis]) * dv1;
+        }
+        along
     }
 
     #[inline(always)]

@@ -390,7 +390,7 @@ pub(super) fn settle(world: &mut World) {
     }
     world.pieces = count;
     world.scratch.pieces = pieces;
-    world.weave.gather(world.particles.len());
+    world.gather();
 }
 
 /// One event for each piece that came off: of what was one, all but the largest part, in the order

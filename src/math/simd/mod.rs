@@ -120,6 +120,12 @@ pub(crate) trait Simd: Arithmetic {
     /// `new` where `keep` is above 0, else `old`.
     fn pick(self, keep: Self::F, new: Self::F, old: Self::F) -> Self::F;
 
+    /// The smaller; `b` if either is not a number.
+    #[inline(always)]
+    fn min(self, a: Self::F, b: Self::F) -> Self::F {
+        self.pick(b - a, a, b)
+    }
+
     /// Whether any number is above 0.
     fn is_any_positive(self, v: Self::F) -> bool;
 
