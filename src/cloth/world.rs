@@ -76,7 +76,11 @@ fn grid_world(desc: &GridDesc) -> World {
     let mut weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
     weave.run_along([frame.right, frame.down]);
     let areas = grid::corner_areas(desc.columns, desc.rows, desc.spacing);
-    let cells = Some(Cells::new(desc.columns, desc.rows, desc.spacing));
+    let mut cells = Cells::new(desc.columns, desc.rows, desc.spacing);
+    if capacity > rest.len() {
+        cells.reserve();
+    }
+    let cells = Some(cells);
     let fabric = Fabric { mesh, weave, rest, areas, cells };
     build(fabric, &desc.pinned(), capacity, &desc.material, &desc.settings)
 }

@@ -80,7 +80,7 @@ impl Abreast {
     /// Lays lines by blocks. `links` are all there are; `breaks` says to have room for lines to break.
     pub fn new(links: &Links, blocks: &[Vec<&[Member]>], breaks: bool) -> Self {
         let mut laid = Self { block_of: vec![NONE; links.len()], ..Self::default() };
-        let (mut steps, mut groups, mut most) = (0, 0, 0);
+        let (mut steps, mut groups) = (0, 0);
         for (at, lines) in blocks.iter().enumerate() {
             let first = laid.members.len();
             for member in lines.iter().flat_map(|line| line.iter()) {
@@ -102,14 +102,19 @@ impl Abreast {
             let longest = lines.iter().map(|line| line.len()).max().unwrap_or(0);
             steps += if breaks { longest + count.div_ceil(LANES) } else { longest };
             groups += if breaks { count.div_ceil(LANES) } else { 1 };
-            most = most.max(count);
         }
         laid.steps = vec![NO_STEP; steps];
         laid.groups = vec![NO_GROUP; groups];
-        laid.pieces.reserve_exact(most);
+        laid.reserve();
         laid.is_stale = true;
         laid.lay(links);
         laid
+    }
+
+    /// Makes room for the pieces of any block, which a copy has not.
+    pub fn reserve(&mut self) {
+        let most = self.blocks.iter().map(|block| block.lines.len()).max().unwrap_or(0);
+        self.pieces.reserve_exact(most.saturating_sub(self.pieces.len()));
     }
 
     /// All groups, in the order that they are to be solved in.

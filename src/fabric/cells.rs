@@ -88,7 +88,8 @@ impl Cells {
     pub fn corner_area(&self, triangle: usize, corner: usize) -> f32 {
         let across = self.columns - 1;
         let (cell, half) = (triangle / 2, triangle % 2);
-        let right = [[0, 1], [1, 2]][usize::from((cell / across + cell % across) % 2 == 0)][half];
+        let right =
+            [[0, 1], [1, 2]][usize::from((cell / across + cell % across).is_multiple_of(2))][half];
         if corner == right { 2.0 * self.quarter } else { self.quarter }
     }
 
