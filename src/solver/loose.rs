@@ -13,6 +13,7 @@ use super::packed::Packed;
 use crate::fabric::links::Links;
 use crate::fabric::loose::Loose;
 use crate::math::TINY;
+use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Lanes, Level, Number, Simd, vectored};
 use crate::state::particles::Particles;
 use glam::Vec3;
@@ -59,9 +60,43 @@ pub(crate) fn solve_packed<const LAW: u8>(
     }
 }
 
+/// Particles in columns that are all as long as each other, so that one check does for all.
+struct Sheet<'a> {
+    x: [&'a mut [f32]; 3],
+    w: &'a [f32],
+}
+
+impl<'a> Sheet<'a> {
+    #[inline(always)]
+    fn new(p: &'a mut Particles) -> Self {
+        let count = p.w.len();
+        let Columns { x, y, z } = &mut p.x;
+        Self { x: [&mut x[..count], &mut y[..count], &mut z[..count]], w: &p.w[..count] }
+    }
+}
+
+impl Spots for Sheet<'_> {
+    #[inline(always)]
+    fn spot(&self, i: usize) -> (Vec3, f32) {
+        let [x, y, z] = &self.x;
+        (Vec3::new(x[i], y[i], z[i]), self.w[i])
+    }
+
+    #[inline(always)]
+    fn put(&mut self, i: usize, at: Vec3) {
+        let [x, y, z] = &mut self.x;
+        (x[i], y[i], z[i]) = (at.x, at.y, at.z);
+    }
+}
+
 vectored! {
     fn in_columns(color: Color<'_>, p: &mut Particles, law: u8, scale: f32)
-        = by_law, Avx2, by_law_apart
+        = by_law_in_columns, Avx2, by_law_apart
+}
+
+#[inline(always)]
+fn by_law_in_columns<S: Simd>(s: S, color: Color<'_>, p: &mut Particles, law: u8, scale: f32) {
+    by_law(s, color, &mut Sheet::new(p), law, scale);
 }
 
 vectored! {
@@ -121,10 +156,11 @@ struct Ends {
 
 impl Ends {
     #[inline(always)]
-    fn of<P: Spots>(spots: &P, particles: &[u32]) -> Self {
+    fn of<S: Simd, P: Spots>(_: S, spots: &P, particles: &[u32]) -> Self {
         let mut ends = Self { x: [[0.0; LANES]; 3], w: [0.0; LANES] };
-        for (lane, particle) in particles.iter().enumerate() {
-            let (x, w) = spots.spot(*particle as usize);
+        let particles = &particles[..S::LANES];
+        for lane in 0..S::LANES {
+            let (x, w) = spots.spot(particles[lane] as usize);
             (ends.x[0][lane], ends.x[1][lane], ends.x[2][lane]) = (x.x, x.y, x.z);
             ends.w[lane] = w;
         }
@@ -167,7 +203,7 @@ impl<'a> Color<'a> {
     ) {
         let lanes = first..first + S::LANES;
         let (a, b) = (&self.a[lanes.clone()], &self.b[lanes.clone()]);
-        let (from, to) = (Ends::of(spots, a), Ends::of(spots, b));
+        let (from, to) = (Ends::of(s, spots, a), Ends::of(s, spots, b));
         let [xa, xb] = [from.x, to.x].map(|x| x.map(|x| s.load(&x, 0)));
         let mut weights = [s.load(&from.w, 0), s.load(&to.w, 0)];
         if LAW == RIGID {
