@@ -125,8 +125,8 @@ pub(crate) struct Scratch {
     pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
-    /// What each particle touched in this substep, if anything.
-    pub touch: Vec<contacts::Touch>,
+    /// What touched in this substep.
+    pub touches: contacts::Touches,
     pub tear: tear::Scratch,
     pub opened: Vec<Opening>,
     pub pieces: tear::Pieces,
@@ -146,7 +146,7 @@ impl Scratch {
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),
-            touch: Vec::with_capacity(capacity),
+            touches: contacts::Touches::new(count, capacity),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),
             pieces: tear::Pieces::new(triangles),
@@ -156,7 +156,6 @@ impl Scratch {
         zero(&mut scratch.air);
         zero(&mut scratch.way);
         zero(&mut scratch.predicted);
-        scratch.touch.resize(count, contacts::Touch::NONE);
         scratch
     }
 
@@ -166,7 +165,7 @@ impl Scratch {
         self.air.push(Vec3::ZERO);
         self.way.push(Vec3::ZERO);
         self.predicted.push(Vec3::ZERO);
-        self.touch.push(contacts::Touch::NONE);
+        self.touches.grow();
     }
 }
 

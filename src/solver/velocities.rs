@@ -3,7 +3,6 @@
 //! The other half of `Scheme`. Damping scales the velocity and its whole history alike, which makes a
 //! free particle slow down by exactly exp(-damping h).
 
-use super::contacts::Touch;
 use super::{PARTICLES, World};
 use crate::math::min;
 use crate::math::simd::leveled;
@@ -17,15 +16,6 @@ pub(crate) fn derive(world: &mut World) {
     let keep = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
     let p = &mut world.particles;
     let (way, predicted) = (&world.scratch.way, &world.scratch.predicted);
-    // Bounces need the velocity from before; they replace what the update makes of it.
-    if world.colliders.iter().next().is_some() {
-        for i in 0..p.mass.len() {
-            let touch = &mut world.scratch.touch[i];
-            if touch.is_some() {
-                touch.approach = p.v.at(i);
-            }
-        }
-    }
     let level = world.level;
     let read = (p.x.all(), predicted.all(), way.all());
     let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());
@@ -37,9 +27,7 @@ pub(crate) fn derive(world: &mut World) {
             renew(level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
         }
     });
-    if world.colliders.iter().next().is_some() {
-        bounce(world, scheme.h, keep);
-    }
+    bounce(world, scheme.h, keep);
 }
 
 leveled! {
@@ -76,11 +64,7 @@ fn bounce(world: &mut World, h: f32, keep: f32) {
     let gravity = world.settings.gravity;
     let p = &mut world.particles;
     let rest_speed = 2.0 * h * gravity.length();
-    for i in 0..p.mass.len() {
-        let touch: Touch = world.scratch.touch[i];
-        if !touch.is_some() || p.w[i] <= 0.0 {
-            continue;
-        }
+    for (i, touch) in world.scratch.touches.iter() {
         let (n, surface) = (touch.normal, touch.surface_velocity);
         let along = |v: Vec3| (v - n * v.dot(n)) * touch.tangential_restitution;
         let x = p.x.at(i);
