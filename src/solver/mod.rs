@@ -3,6 +3,7 @@
 #[cfg(feature = "parallel")]
 mod bands;
 pub(crate) mod cells;
+mod chunk;
 pub(crate) mod contacts;
 pub(crate) mod cut;
 pub(crate) mod forces;

@@ -16,9 +16,19 @@ const FEWEST: usize = 4;
 /// odd one where every two links belong together.
 #[inline(always)]
 pub(crate) fn in_chunks(row: &Row) -> usize {
-    let count = row.count as usize;
-    let even = if row.pattern == Pattern::Quads { count & !1 } else { count };
-    if even < FEWEST { 0 } else { even }
+    chunked(row.count, row.pattern == Pattern::Quads)
+}
+
+/// As `in_chunks`, of a row whose pattern is known.
+#[inline(always)]
+pub(crate) fn in_chunks_of<const PATTERN: u8>(row: &Row) -> usize {
+    chunked(row.count, PATTERN == Pattern::Quads as u8)
+}
+
+#[inline(always)]
+fn chunked(count: u32, is_in_twos: bool) -> usize {
+    let count = if is_in_twos { count & !1 } else { count } as usize;
+    if count < FEWEST { 0 } else { count }
 }
 
 /// Where the lists of a sheet begin.
@@ -26,6 +36,9 @@ pub(crate) fn in_chunks(row: &Row) -> usize {
 pub(crate) struct Lists {
     first_particle: u32,
     first_link: u32,
+    /// How many particles there are, and links.
+    particles: usize,
+    links: usize,
     x: *mut f32,
     y: *mut f32,
     z: *mut f32,
@@ -38,30 +51,17 @@ pub(crate) struct Lists {
 }
 
 impl Lists {
-    /// # Panics
-    /// If a row's chunks do not lie within the sheet.
     #[inline(always)]
-    pub fn of(rows: &[Row], sheet: &mut Sheet<'_>) -> Self {
+    pub fn of(sheet: &mut Sheet<'_>) -> Self {
         let Sheet { first_particle, first_link, x, y, z, w, mask, rest, compliance, ends, lambda } =
             sheet;
         let particles = w.len().min(x.len()).min(y.len()).min(z.len());
         let links = rest.len().min(mask.len()).min(compliance.len()).min(lambda.len());
-        let links = links.min(ends[0].len()).min(ends[1].len());
-        let (particles, links) = (particles as u64, links as u64);
-        for row in rows {
-            let count = in_chunks(row) as u64;
-            let end = if row.pattern == Pattern::Straight { row.b } else { row.a };
-            let wide = if row.pattern == Pattern::Straight { count } else { 2 * count };
-            let is_within = row.a >= *first_particle
-                && row.a <= row.b
-                && row.first >= *first_link
-                && u64::from(end - *first_particle) + wide <= particles
-                && u64::from(row.first - *first_link) + count <= links;
-            assert!(is_within, "rows lie within their sheet");
-        }
         Self {
             first_particle: *first_particle,
             first_link: *first_link,
+            particles,
+            links: links.min(ends[0].len()).min(ends[1].len()),
             x: x.as_mut_ptr(),
             y: y.as_mut_ptr(),
             z: z.as_mut_ptr(),
@@ -75,22 +75,69 @@ impl Lists {
     }
 
     /// Where a row begins.
+    ///
+    /// # Panics
+    /// If its first `count` links do not lie within the sheet.
     #[inline(always)]
-    pub fn place<const PATTERN: u8>(&self, row: &Row) -> Place {
-        let first = (row.first - self.first_link) as usize;
-        let a = (row.a - self.first_particle) as usize;
-        let b = if PATTERN == STRAIGHT { (row.b - self.first_particle) as usize } else { a };
-        Place {
-            x: [self.x.wrapping_add(a), self.x.wrapping_add(b)],
-            y: [self.y.wrapping_add(a), self.y.wrapping_add(b)],
-            z: [self.z.wrapping_add(a), self.z.wrapping_add(b)],
-            w: [self.w.wrapping_add(a), self.w.wrapping_add(b)],
-            mask: self.mask.wrapping_add(first),
-            rest: self.rest.wrapping_add(first),
-            compliance: self.compliance.wrapping_add(first),
-            ends: [self.ends[0].wrapping_add(first), self.ends[1].wrapping_add(first)],
-            lambda: self.lambda.wrapping_add(first),
+    pub fn spot<const PATTERN: u8>(&self, row: &Row, count: usize) -> Spot {
+        // What lies before the sheet is far behind it then.
+        let particle = |number: u32| number.wrapping_sub(self.first_particle) as usize;
+        let b = if PATTERN == STRAIGHT { row.b } else { row.a };
+        let link = row.first.wrapping_sub(self.first_link) as usize;
+        let spot = Spot { a: particle(row.a), b: particle(b), link };
+        let is_within = spot.a <= spot.b && self.have_room::<PATTERN>(spot, count);
+        assert!(is_within, "rows lie within their sheet");
+        spot
+    }
+
+    /// Whether there are so many links from a spot on, and particles at their ends.
+    #[inline(always)]
+    pub fn have_room<const PATTERN: u8>(&self, spot: Spot, links: usize) -> bool {
+        let particles = if PATTERN == STRAIGHT { links } else { 2 * links };
+        particles <= self.particles
+            && spot.b <= self.particles - particles
+            && links <= self.links
+            && spot.link <= self.links - links
+    }
+
+    /// What lies at a spot.
+    ///
+    /// # Safety
+    /// It is in the lists, or right behind their ends.
+    #[inline(always)]
+    pub unsafe fn place(&self, spot: Spot) -> Place {
+        let Spot { a, b, link } = spot;
+        // SAFETY: the caller's promise.
+        unsafe {
+            Place {
+                x: [self.x.add(a), self.x.add(b)],
+                y: [self.y.add(a), self.y.add(b)],
+                z: [self.z.add(a), self.z.add(b)],
+                w: [self.w.add(a), self.w.add(b)],
+                mask: self.mask.add(link),
+                rest: self.rest.add(link),
+                compliance: self.compliance.add(link),
+                ends: [self.ends[0].add(link), self.ends[1].add(link)],
+                lambda: self.lambda.add(link),
+            }
         }
+    }
+}
+
+/// A link of a row, and the particles at its ends; both the first of two where they alternate.
+#[derive(Clone, Copy)]
+pub(crate) struct Spot {
+    pub a: usize,
+    pub b: usize,
+    pub link: usize,
+}
+
+impl Spot {
+    /// So many links further on.
+    #[inline(always)]
+    pub fn after<const PATTERN: u8>(self, links: usize) -> Self {
+        let ends = if PATTERN == STRAIGHT { links } else { 2 * links };
+        Self { a: self.a + ends, b: self.b + ends, link: self.link + links }
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
-//! left of a row after whole chunks is one more chunk from its end, of which only the new links count.
+//! left of a row after whole chunks is one more chunk that reaches over its end, of which only the row's links
+//! count; at the end of all lists one that reaches back.
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -10,8 +11,9 @@
     allow(dead_code)
 )]
 
-use super::links::{BOUND, RIGID, SOFT, Spots, correct, pull};
-use super::places::{Lists, Place, in_chunks};
+use super::chunk::Chunk;
+use super::links::{BOUND, RIGID, SOFT, Spots, pull};
+use super::places::{Lists, Place, Spot, in_chunks, in_chunks_of};
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::math::columns::Columns;
@@ -24,9 +26,6 @@ use glam::Vec3;
 pub(crate) const STRAIGHT: u8 = Pattern::Straight as u8;
 const PAIRS: u8 = Pattern::Pairs as u8;
 const QUADS: u8 = Pattern::Quads as u8;
-
-/// The most lanes that there are.
-const MOST: usize = 16;
 
 /// Solves the links `range`, which are a batch, but for those that left their rows.
 pub(crate) fn solve<const LAW: u8>(
@@ -67,74 +66,111 @@ pub(crate) fn solve_rows<const LAW: u8>(
         return rows.iter().for_each(|row| solve_apart::<LAW>(row, 0, sheet, scale));
     }
     for rows in rows.chunk_by(|one, next| one.pattern == next.pattern) {
-        let solve = match (LAW, rows[0].pattern) {
-            (SOFT, Pattern::Straight) => soft_straight,
-            (SOFT, Pattern::Pairs) => soft_pairs,
-            (SOFT, Pattern::Quads) => soft_quads,
-            (RIGID, Pattern::Straight) => rigid_straight,
-            (RIGID, Pattern::Pairs) => rigid_pairs,
-            (RIGID, Pattern::Quads) => rigid_quads,
-            (_, Pattern::Straight) => bound_straight,
-            (_, Pattern::Pairs) => bound_pairs,
-            (_, Pattern::Quads) => bound_quads,
+        let [solve_whole, solve_torn] = match (LAW, rows[0].pattern) {
+            (SOFT, Pattern::Straight) => [soft_straight, torn_soft_straight],
+            (SOFT, Pattern::Pairs) => [soft_pairs, torn_soft_pairs],
+            (SOFT, Pattern::Quads) => [soft_quads, torn_soft_quads],
+            (RIGID, Pattern::Straight) => [rigid_straight, torn_rigid_straight],
+            (RIGID, Pattern::Pairs) => [rigid_pairs, torn_rigid_pairs],
+            (RIGID, Pattern::Quads) => [rigid_quads, torn_rigid_quads],
+            (_, Pattern::Straight) => [bound_straight, torn_bound_straight],
+            (_, Pattern::Pairs) => [bound_pairs, torn_bound_pairs],
+            (_, Pattern::Quads) => [bound_quads, torn_bound_quads],
         };
-        solve(level, rows, sheet, scale);
+        solve_whole(level, rows, sheet, scale);
+        if rows.iter().any(|row| row.is_torn) {
+            solve_torn(level, rows, sheet, scale);
+        }
         for row in rows.iter().filter(|row| in_chunks(row) < row.count as usize) {
             solve_apart::<LAW>(row, in_chunks(row), sheet, scale);
         }
     }
 }
 
-/// A function for each law and pattern: together they would be too long for engines to compile well.
+/// Functions for each law and pattern: together they would be too long for engines to compile well.
 macro_rules! kernels {
-    ($($name:ident: $law:ident $pattern:ident;)*) => {$(
+    ($($name:ident: $solve:ident $law:ident $pattern:ident;)*) => {$(
         vectored! {
             #[inline(never)]
             fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
-                = solve_in_chunks::<_, $law, $pattern>, Avx512, nothing
+                = $solve::<_, $law, $pattern>, Avx512, none
         }
     )*};
 }
 
 kernels! {
-    soft_straight: SOFT STRAIGHT;
-    soft_pairs: SOFT PAIRS;
-    soft_quads: SOFT QUADS;
-    rigid_straight: RIGID STRAIGHT;
-    rigid_pairs: RIGID PAIRS;
-    rigid_quads: RIGID QUADS;
-    bound_straight: BOUND STRAIGHT;
-    bound_pairs: BOUND PAIRS;
-    bound_quads: BOUND QUADS;
+    soft_straight: solve_whole SOFT STRAIGHT;
+    soft_pairs: solve_whole SOFT PAIRS;
+    soft_quads: solve_whole SOFT QUADS;
+    rigid_straight: solve_whole RIGID STRAIGHT;
+    rigid_pairs: solve_whole RIGID PAIRS;
+    rigid_quads: solve_whole RIGID QUADS;
+    bound_straight: solve_whole BOUND STRAIGHT;
+    bound_pairs: solve_whole BOUND PAIRS;
+    bound_quads: solve_whole BOUND QUADS;
+    torn_soft_straight: solve_torn SOFT STRAIGHT;
+    torn_soft_pairs: solve_torn SOFT PAIRS;
+    torn_soft_quads: solve_torn SOFT QUADS;
+    torn_rigid_straight: solve_torn RIGID STRAIGHT;
+    torn_rigid_pairs: solve_torn RIGID PAIRS;
+    torn_rigid_quads: solve_torn RIGID QUADS;
+    torn_bound_straight: solve_torn BOUND STRAIGHT;
+    torn_bound_pairs: solve_torn BOUND PAIRS;
+    torn_bound_quads: solve_torn BOUND QUADS;
 }
 
 /// Without vectors there are no chunks.
-fn nothing(_: &[Row], _: &mut Sheet<'_>, _: f32) {}
+fn none(_: &[Row], _: &mut Sheet<'_>, _: f32) {}
 
+/// The rows that no link has left.
 #[inline(always)]
-fn solve_in_chunks<S: Simd, const LAW: u8, const PATTERN: u8>(
+fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     rows: &[Row],
     sheet: &mut Sheet<'_>,
     scale: f32,
 ) {
-    let lists = Lists::of(rows, sheet);
+    let lists = Lists::of(sheet);
     for row in rows.iter().filter(|row| !row.is_torn) {
-        // SAFETY: all rows lie within the lists.
-        unsafe { solve_whole::<S, LAW, PATTERN>(s, lists.place::<PATTERN>(row), row, scale) };
-    }
-    // Rests reach back over links that were just solved. Only here, for a machine that is to read
-    // what it has not finished writing must wait.
-    for row in rows.iter().filter(|row| !row.is_torn) {
-        let (place, count) = (lists.place::<PATTERN>(row), in_chunks(row));
-        let done = count / S::LANES * S::LANES;
-        // SAFETY: as above.
-        unsafe { solve_rest::<S, LAW, PATTERN, false>(s, place, done, count, scale) };
-    }
-    for row in rows.iter().filter(|row| row.is_torn) {
-        // SAFETY: as above.
+        let count = in_chunks_of::<PATTERN>(row);
+        let start = lists.spot::<PATTERN>(row, count);
+        let (mut spot, end) = (start, start.link + count);
+        let even = row.even.map(|link| (link.max(row.first) - row.first) as usize);
+        let even = [even[0].next_multiple_of(S::LANES), even[1]].map(|k| spot.link + k.min(count));
+        // SAFETY: the row was just found to lie within the lists.
         unsafe {
-            solve_torn::<S, LAW, PATTERN>(s, lists.place::<PATTERN>(row), in_chunks(row), scale);
+            // What weighs the same at both ends, as nearly all does, has less to compute.
+            if LAW != BOUND {
+                solve_run::<S, LAW, PATTERN, false>(s, &lists, &mut spot, even[0], scale);
+                solve_run::<S, LAW, PATTERN, true>(s, &lists, &mut spot, even[1], scale);
+            }
+            solve_run::<S, LAW, PATTERN, false>(s, &lists, &mut spot, end, scale);
+            solve_end::<S, LAW, PATTERN, false>(s, &lists, [start, spot], count, scale);
+        }
+    }
+}
+
+/// The rows that links have left.
+#[inline(always)]
+fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
+    s: S,
+    rows: &[Row],
+    sheet: &mut Sheet<'_>,
+    scale: f32,
+) {
+    let lists = Lists::of(sheet);
+    for row in rows.iter().filter(|row| row.is_torn) {
+        let count = in_chunks_of::<PATTERN>(row);
+        let start = lists.spot::<PATTERN>(row, count);
+        let (mut spot, end) = (start, start.link + count);
+        // SAFETY: the row was just found to lie within the lists.
+        unsafe {
+            while spot.link + S::LANES <= end {
+                let place = lists.place(spot);
+                solve_chunk::<S, LAW, PATTERN, true, false>(s, place, 0, scale);
+                spot = spot.after::<PATTERN>(S::LANES);
+            }
+            solve_end::<S, LAW, PATTERN, true>(s, &lists, [start, spot], count, scale);
         }
     }
 }
@@ -196,108 +232,131 @@ impl Spots for Sheet<'_> {
     }
 }
 
-/// Solves as many of a row's first `count` links as go in whole chunks.
+/// How many chunks go together, so that they share what finds their places.
+const TOGETHER: usize = 4;
+
+/// Solves the links of a row from a spot up to `end` as far as they go in whole chunks.
 ///
 /// # Safety
-/// The row has as many links; so for all that follow.
+/// The row lies within the lists; so for all that follow.
 #[inline(always)]
-unsafe fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
+unsafe fn solve_run<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
     s: S,
-    mut place: Place,
-    row: &Row,
+    lists: &Lists,
+    spot: &mut Spot,
+    end: usize,
     scale: f32,
 ) {
-    let count = in_chunks(row);
-    let even = row.even.map(|link| (link.max(row.first) - row.first) as usize);
-    let (from, end) = (even[0].next_multiple_of(S::LANES).min(count), even[1].min(count));
-    let mut k = 0;
     // SAFETY: the caller's promise.
     unsafe {
-        // What weighs the same at both ends, as nearly all does, has less to compute.
-        if LAW != BOUND {
-            while k < from && k + S::LANES <= count {
-                solve_chunk::<S, LAW, PATTERN, false, false>(s, place, 0, scale);
-                (place, k) = (place.after::<PATTERN>(S::LANES), k + S::LANES);
+        while IS_EVEN && spot.link + TOGETHER * S::LANES <= end {
+            let place = lists.place(*spot);
+            for chunk in 0..TOGETHER {
+                let place = place.after::<PATTERN>(chunk * S::LANES);
+                solve_chunk::<S, LAW, PATTERN, false, IS_EVEN>(s, place, 0, scale);
             }
-            // Two at a time, so that they share what finds their places.
-            while k + 2 * S::LANES <= end {
-                let next = place.after::<PATTERN>(S::LANES);
-                solve_chunk::<S, LAW, PATTERN, false, true>(s, place, 0, scale);
-                solve_chunk::<S, LAW, PATTERN, false, true>(s, next, 0, scale);
-                (place, k) = (place.after::<PATTERN>(2 * S::LANES), k + 2 * S::LANES);
-            }
-            if k + S::LANES <= end {
-                solve_chunk::<S, LAW, PATTERN, false, true>(s, place, 0, scale);
-                (place, k) = (place.after::<PATTERN>(S::LANES), k + S::LANES);
-            }
+            *spot = spot.after::<PATTERN>(TOGETHER * S::LANES);
         }
-        while k + S::LANES <= count {
-            solve_chunk::<S, LAW, PATTERN, false, false>(s, place, 0, scale);
-            (place, k) = (place.after::<PATTERN>(S::LANES), k + S::LANES);
+        while spot.link + S::LANES <= end {
+            let place = lists.place(*spot);
+            solve_chunk::<S, LAW, PATTERN, false, IS_EVEN>(s, place, 0, scale);
+            *spot = spot.after::<PATTERN>(S::LANES);
         }
     }
 }
 
-/// Solves those links that are still in their row.
+/// Solves the links of a row that begins at one spot from another spot on: fewer than a chunk.
 ///
 /// # Safety
-/// As for `solve_whole`.
+/// As for `solve_run`.
 #[inline(always)]
-unsafe fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
+unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
     s: S,
-    place: Place,
+    lists: &Lists,
+    [start, spot]: [Spot; 2],
     count: usize,
     scale: f32,
 ) {
-    let mut k = 0;
-    // SAFETY: the caller's promise.
-    unsafe {
-        while k + S::LANES <= count {
-            solve_chunk::<S, LAW, PATTERN, true, false>(s, place.after::<PATTERN>(k), 0, scale);
-            k += S::LANES;
-        }
-        solve_rest::<S, LAW, PATTERN, true>(s, place, k, count, scale);
-    }
-}
-
-/// Solves links `k` to `count` of a row, fewer than a chunk: with no more lanes than it takes, where
-/// need be as one chunk that reaches back over links which are done.
-///
-/// # Safety
-/// As for `solve_whole`.
-#[inline(always)]
-unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
-    s: S,
-    row: Place,
-    mut k: usize,
-    count: usize,
-    scale: f32,
-) {
-    let (left, few) = (count - k, <S::Half as Simd>::LANES);
-    if left == 0 {
+    let done = spot.link - start.link;
+    if done == count {
         return;
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's promise; there is room for a whole chunk, or none is made.
     unsafe {
-        if few < S::LANES && (left <= few || count < S::LANES) {
-            let half = s.half();
-            if left >= few {
-                let place = row.after::<PATTERN>(k);
-                solve_chunk::<S::Half, LAW, PATTERN, CHOOSY, false>(half, place, 0, scale);
-                k += few;
-            }
-            return solve_rest::<S::Half, LAW, PATTERN, CHOOSY>(half, row, k, count, scale);
+        if lists.have_room::<PATTERN>(spot, S::LANES) {
+            let place = lists.place(spot);
+            solve_start::<S, LAW, PATTERN, CHOOSY>(s, place, count - done, scale);
+        } else {
+            solve_rest::<S, LAW, PATTERN>(s, lists.place(start), done, count, scale);
         }
-        let from = count - S::LANES;
-        solve_chunk::<S, LAW, PATTERN, true, false>(s, row.after::<PATTERN>(from), k - from, scale);
     }
 }
 
-/// As many links of a row as there are lanes, but for the first `done` of them; with `CHOOSY` set,
-/// only those that are still in the row; with `IS_EVEN` set, both ends of each weigh the same.
+/// Solves the `left` first links of a chunk that reaches over the end of its row, with no more lanes than it
+/// takes. Nothing beyond is written to, not even what it was: what follows would have to wait for that.
 ///
 /// # Safety
-/// As for `solve_whole`.
+/// There is as much in the lists; nobody writes to what is beyond the row.
+#[inline(always)]
+unsafe fn solve_start<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+    s: S,
+    place: Place,
+    left: usize,
+    scale: f32,
+) {
+    let few = <S::Half as Simd>::LANES;
+    // SAFETY: the caller's promise.
+    unsafe {
+        if few < S::LANES && left <= few {
+            let half = s.half();
+            return solve_start::<S::Half, LAW, PATTERN, CHOOSY>(half, place, left, scale);
+        }
+        if left == S::LANES {
+            return solve_chunk::<S, LAW, PATTERN, CHOOSY, false>(s, place, 0, scale);
+        }
+        let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, scale);
+        let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, 0) } else { chunk };
+        chunk.store_first::<LAW, PATTERN>(s, place, left);
+    }
+}
+
+/// Solves links `done` to `count` of a row, fewer than a chunk, as one chunk that reaches back over links
+/// which are done.
+///
+/// # Safety
+/// As for `solve_run`.
+#[inline(always)]
+unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
+    s: S,
+    row: Place,
+    mut done: usize,
+    count: usize,
+    scale: f32,
+) {
+    // SAFETY: the caller's promise. Rows that go in chunks have links for the fewest lanes, so this ends.
+    unsafe {
+        if count < S::LANES {
+            let (half, few) = (s.half(), <S::Half as Simd>::LANES);
+            while done + few <= count {
+                let place = row.after::<PATTERN>(done);
+                solve_chunk::<S::Half, LAW, PATTERN, true, false>(half, place, 0, scale);
+                done += few;
+            }
+            return solve_rest::<S::Half, LAW, PATTERN>(half, row, done, count, scale);
+        }
+        if done < count {
+            let from = count - S::LANES;
+            let place = row.after::<PATTERN>(from);
+            solve_chunk::<S, LAW, PATTERN, true, false>(s, place, done - from, scale);
+        }
+    }
+}
+
+/// As many links of a row as there are lanes; with `CHOOSY` set, only those that are still in the row, but
+/// for the first `done`; with `IS_EVEN` set, both ends of each weigh the same.
+///
+/// # Safety
+/// As for `solve_run`.
 #[inline(always)]
 unsafe fn solve_chunk<
     S: Simd,
@@ -311,96 +370,10 @@ unsafe fn solve_chunk<
     done: usize,
     scale: f32,
 ) {
-    let in_order = |v: S::F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
-    let zero = s.splat(0.0);
     // SAFETY: the caller's promise.
     unsafe {
-        let rest = in_order(s.load_from(place.rest));
-        let (mut compliance, mut lambda) = (zero, zero);
-        if LAW == SOFT {
-            compliance = in_order(s.load_from(place.compliance));
-            lambda = in_order(s.load_from(place.lambda));
-        }
-        let (xa, xb) = load::<S, PATTERN>(s, fixed(place.x));
-        let (ya, yb) = load::<S, PATTERN>(s, fixed(place.y));
-        let (za, zb) = load::<S, PATTERN>(s, fixed(place.z));
-        let weights = if LAW == BOUND {
-            load::<S, PATTERN>(s, place.w).into()
-        } else if IS_EVEN {
-            // Those of rigid links are 1 then.
-            let one = s.splat(1.0);
-            [if LAW == RIGID { one } else { in_order(s.load_from(place.ends[0])) }; 2]
-        } else {
-            [in_order(s.load_from(place.ends[0])), in_order(s.load_from(place.ends[1]))]
-        };
-        let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
-        let ([to_a, to_b], multiplier) =
-            correct::<LAW, S>(s, [dx, dy, dz], weights, rest, compliance, lambda, scale);
-        let keep = if CHOOSY {
-            let counts = s.load(&COUNTS, MOST - done);
-            in_order(s.pick(counts, s.load_from(place.mask), zero))
-        } else {
-            zero
-        };
-        let take = |new: S::F, old: S::F| if CHOOSY { s.pick(keep, new, old) } else { new };
-        if LAW == SOFT {
-            let multiplier = take(multiplier, lambda);
-            let multiplier = if PATTERN == STRAIGHT { multiplier } else { s.undealt(multiplier) };
-            s.store_to(place.lambda, multiplier);
-        }
-        store::<S, PATTERN>(s, place.x, take(xa + dx * to_a, xa), take(xb - dx * to_b, xb));
-        store::<S, PATTERN>(s, place.y, take(ya + dy * to_a, ya), take(yb - dy * to_b, yb));
-        store::<S, PATTERN>(s, place.z, take(za + dz * to_a, za), take(zb - dz * to_b, zb));
-    }
-}
-
-/// 0 as often as there may be lanes, then 1 as often.
-const COUNTS: [f32; 2 * MOST] = {
-    let mut counts = [0.0; 2 * MOST];
-    let mut at = MOST;
-    while at < 2 * MOST {
-        counts[at] = 1.0;
-        at += 1;
-    }
-    counts
-};
-
-#[inline(always)]
-fn fixed([a, b]: [*mut f32; 2]) -> [*const f32; 2] {
-    [a, b]
-}
-
-/// One column at both ends of a chunk's links.
-///
-/// # Safety
-/// As for `solve_whole`.
-#[inline(always)]
-unsafe fn load<S: Simd, const PATTERN: u8>(s: S, [a, b]: [*const f32; 2]) -> (S::F, S::F) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        if PATTERN == STRAIGHT {
-            return (s.load_from(a), s.load_from(b));
-        }
-        let (low, high) = (s.load_from(a), s.load_from(a.add(S::LANES)));
-        if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
-    }
-}
-
-/// Puts back what `load` read.
-///
-/// # Safety
-/// As for `solve_whole`.
-#[inline(always)]
-unsafe fn store<S: Simd, const PATTERN: u8>(s: S, [to_a, to_b]: [*mut f32; 2], a: S::F, b: S::F) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        if PATTERN == STRAIGHT {
-            s.store_to(to_a, a);
-            s.store_to(to_b, b);
-            return;
-        }
-        let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
-        s.store_to(to_a, low);
-        s.store_to(to_a.add(S::LANES), high);
+        let chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, scale);
+        let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, done) } else { chunk };
+        chunk.store::<LAW, PATTERN>(s, place);
     }
 }

@@ -1,0 +1,214 @@
+//! As many links of a grid's row as there are lanes.
+
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
+use super::links::{BOUND, RIGID, SOFT, correct};
+use super::places::Place;
+use super::rows::STRAIGHT;
+use crate::fabric::rows::Pattern;
+use crate::math::simd::{Number, Simd};
+
+const PAIRS: u8 = Pattern::Pairs as u8;
+
+/// The most lanes that there are.
+const MOST: usize = 16;
+
+/// Where the ends of some links come to, lower and upper, and the links' multipliers; as dealt.
+#[derive(Clone, Copy)]
+pub(crate) struct Chunk<F> {
+    x: [F; 2],
+    y: [F; 2],
+    z: [F; 2],
+    lambda: F,
+}
+
+impl<F: Number> Chunk<F> {
+    /// Solves links.
+    ///
+    /// # Safety
+    /// There are as many at that place, which nobody else writes to; so for all that follow.
+    #[inline(always)]
+    pub unsafe fn of<const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
+        s: impl Simd<F = F>,
+        place: Place,
+        scale: f32,
+    ) -> Self {
+        let in_order = |v: F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
+        let zero = s.splat(0.0);
+        // SAFETY: the caller's promise.
+        unsafe {
+            let rest = in_order(s.load_from(place.rest));
+            let (mut compliance, mut lambda) = (zero, zero);
+            if LAW == SOFT {
+                compliance = in_order(s.load_from(place.compliance));
+                lambda = in_order(s.load_from(place.lambda));
+            }
+            let (xa, xb) = load::<_, PATTERN>(s, fixed(place.x));
+            let (ya, yb) = load::<_, PATTERN>(s, fixed(place.y));
+            let (za, zb) = load::<_, PATTERN>(s, fixed(place.z));
+            let weights = if LAW == BOUND {
+                load::<_, PATTERN>(s, place.w).into()
+            } else if IS_EVEN {
+                // Those of rigid links are 1 then.
+                let one = s.splat(1.0);
+                [if LAW == RIGID { one } else { in_order(s.load_from(place.ends[0])) }; 2]
+            } else {
+                [in_order(s.load_from(place.ends[0])), in_order(s.load_from(place.ends[1]))]
+            };
+            let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
+            let ([to_a, to_b], lambda) =
+                correct::<LAW, _>(s, [dx, dy, dz], weights, rest, compliance, lambda, scale);
+            Self {
+                x: [xa + dx * to_a, xb - dx * to_b],
+                y: [ya + dy * to_a, yb - dy * to_b],
+                z: [za + dz * to_a, zb - dz * to_b],
+                lambda,
+            }
+        }
+    }
+
+    /// Takes back what links did that are not in the row any more, and the first `done`.
+    #[inline(always)]
+    pub unsafe fn only_in_row<const LAW: u8, const PATTERN: u8>(
+        self,
+        s: impl Simd<F = F>,
+        place: Place,
+        done: usize,
+    ) -> Self {
+        let in_order = |v: F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
+        // SAFETY: the caller's promise.
+        unsafe {
+            let counts = s.load(&COUNTS, MOST - done);
+            let keep = in_order(s.pick(counts, s.load_from(place.mask), s.splat(0.0)));
+            let only = |[a, b]: [F; 2], at: [*mut f32; 2]| {
+                let old = load::<_, PATTERN>(s, fixed(at));
+                [s.pick(keep, a, old.0), s.pick(keep, b, old.1)]
+            };
+            let mut lambda = self.lambda;
+            if LAW == SOFT {
+                lambda = s.pick(keep, lambda, in_order(s.load_from(place.lambda)));
+            }
+            let (x, y, z) = (only(self.x, place.x), only(self.y, place.y), only(self.z, place.z));
+            Self { x, y, z, lambda }
+        }
+    }
+
+    #[inline(always)]
+    pub unsafe fn store<const LAW: u8, const PATTERN: u8>(self, s: impl Simd<F = F>, place: Place) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            if LAW == SOFT {
+                s.store_to(place.lambda, self.lambda_in_memory::<PATTERN>(s));
+            }
+            store::<_, PATTERN>(s, place.x, self.x);
+            store::<_, PATTERN>(s, place.y, self.y);
+            store::<_, PATTERN>(s, place.z, self.z);
+        }
+    }
+
+    /// As `store`, the first `count` links.
+    #[inline(always)]
+    pub unsafe fn store_first<const LAW: u8, const PATTERN: u8>(
+        self,
+        s: impl Simd<F = F>,
+        place: Place,
+        count: usize,
+    ) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            if LAW == SOFT {
+                s.store_first(place.lambda, count, self.lambda_in_memory::<PATTERN>(s));
+            }
+            store_first::<_, PATTERN>(s, place.x, count, self.x);
+            store_first::<_, PATTERN>(s, place.y, count, self.y);
+            store_first::<_, PATTERN>(s, place.z, count, self.z);
+        }
+    }
+
+    #[inline(always)]
+    fn lambda_in_memory<const PATTERN: u8>(&self, s: impl Simd<F = F>) -> F {
+        if PATTERN == STRAIGHT { self.lambda } else { s.undealt(self.lambda) }
+    }
+}
+
+/// 0 as often as there may be lanes, then 1 as often.
+const COUNTS: [f32; 2 * MOST] = {
+    let mut counts = [0.0; 2 * MOST];
+    let mut at = MOST;
+    while at < 2 * MOST {
+        counts[at] = 1.0;
+        at += 1;
+    }
+    counts
+};
+
+#[inline(always)]
+fn fixed([a, b]: [*mut f32; 2]) -> [*const f32; 2] {
+    [a, b]
+}
+
+/// One column at both ends of a chunk's links.
+///
+/// # Safety
+/// As for `Chunk::of`.
+#[inline(always)]
+unsafe fn load<S: Simd, const PATTERN: u8>(s: S, [a, b]: [*const f32; 2]) -> (S::F, S::F) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if PATTERN == STRAIGHT {
+            return (s.load_from(a), s.load_from(b));
+        }
+        let (low, high) = (s.load_from(a), s.load_from(a.add(S::LANES)));
+        if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
+    }
+}
+
+/// Puts back what `load` read.
+///
+/// # Safety
+/// As for `Chunk::of`.
+#[inline(always)]
+unsafe fn store<S: Simd, const PATTERN: u8>(s: S, [to_a, to_b]: [*mut f32; 2], [a, b]: [S::F; 2]) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if PATTERN == STRAIGHT {
+            s.store_to(to_a, a);
+            s.store_to(to_b, b);
+            return;
+        }
+        let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
+        s.store_to(to_a, low);
+        s.store_to(to_a.add(S::LANES), high);
+    }
+}
+
+/// As `store`, the ends of the first `count` links: fewer than there are lanes.
+///
+/// # Safety
+/// As for `Chunk::of`.
+#[inline(always)]
+unsafe fn store_first<S: Simd, const PATTERN: u8>(
+    s: S,
+    [to_a, to_b]: [*mut f32; 2],
+    count: usize,
+    [a, b]: [S::F; 2],
+) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if PATTERN == STRAIGHT {
+            s.store_first(to_a, count, a);
+            s.store_first(to_b, count, b);
+            return;
+        }
+        let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
+        if 2 * count < S::LANES {
+            return s.store_first(to_a, 2 * count, low);
+        }
+        s.store_to(to_a, low);
+        s.store_first(to_a.add(S::LANES), 2 * count - S::LANES, high);
+    }
+}
