@@ -171,19 +171,27 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
     for is_active in color.active {
         is_whole &= is_active;
     }
+    let is_even = |color: &Color<'_>, link: usize| {
+        LAW != BOUND && color.is_even[link..link + S::LANES] == EVEN[..S::LANES]
+    };
     let mut link = 0;
-    while link + S::LANES <= count {
-        // SAFETY: all ends were just found to be particles, and this thread has them to itself.
-        unsafe {
-            if !is_whole {
-                solve_chunk::<S, LAW, true, false>(s, link, &mut color, scale);
-            } else if LAW == RIGID && color.is_even[link..link + S::LANES] == EVEN[..S::LANES] {
+    // SAFETY: all ends were just found to be particles, and this thread has them to itself.
+    unsafe {
+        while is_whole && link + S::LANES <= count {
+            // Loops of their own, which need less room.
+            while link + S::LANES <= count && is_even(&color, link) {
                 solve_chunk::<S, LAW, false, true>(s, link, &mut color, scale);
-            } else {
+                link += S::LANES;
+            }
+            while link + S::LANES <= count && !is_even(&color, link) {
                 solve_chunk::<S, LAW, false, false>(s, link, &mut color, scale);
+                link += S::LANES;
             }
         }
-        link += S::LANES;
+        while link + S::LANES <= count {
+            solve_chunk::<S, LAW, true, false>(s, link, &mut color, scale);
+            link += S::LANES;
+        }
     }
     (link..count).for_each(|link| color.solve::<LAW>(link, scale));
 }
@@ -259,7 +267,8 @@ unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool, const IS_EV
         lambda = s.load(color.lambda, first);
     }
     let weights = if IS_EVEN {
-        [s.splat(1.0); 2]
+        // Those of rigid links are 1 then.
+        [if LAW == RIGID { s.splat(1.0) } else { s.load(color.wa, first) }; 2]
     } else if LAW == BOUND {
         let inverse_masses = color.inverse_masses(at);
         inverse_masses.each_ref().map(|w| s.load(w, 0))

@@ -156,22 +156,24 @@ impl Simd for Simd128 {
     }
 }
 
+/// Pairs of points: where they lie, and what leads from one to the other. The points themselves are fetched
+/// again, since engines run out of registers.
+#[derive(Clone, Copy)]
+pub(crate) struct Pairs {
+    at: [[*mut v128; 4]; 2],
+    span: [v128; 4],
+}
+
 impl Between for Simd128 {
-    /// What leads from one to the other; the points are fetched again, since engines run out of
-    /// registers.
-    type Pairs = [v128; 4];
+    type Pairs = Pairs;
 
     #[inline(always)]
-    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
+    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Pairs, [Four; 3]) {
         // SAFETY: the caller's promise; a point is sixteen bytes.
         unsafe {
-            let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
-            let span = [
-                f32x4_sub(b[0], a[0]),
-                f32x4_sub(b[1], a[1]),
-                f32x4_sub(b[2], a[2]),
-                f32x4_sub(b[3], a[3]),
-            ];
+            let at = at.map(|at| [0, 1, 2, 3].map(|lane| place(points, at, lane)));
+            let span =
+                [0, 1, 2, 3].map(|lane| f32x4_sub(v128_load(at[1][lane]), v128_load(at[0][lane])));
             let low = [
                 i32x4_shuffle::<0, 4, 1, 5>(span[0], span[1]),
                 i32x4_shuffle::<0, 4, 1, 5>(span[2], span[3]),
@@ -183,25 +185,25 @@ impl Between for Simd128 {
             let x = i64x2_shuffle::<0, 2>(low[0], low[1]);
             let y = i64x2_shuffle::<1, 3>(low[0], low[1]);
             let z = i64x2_shuffle::<0, 2>(high[0], high[1]);
-            (span, [Four(x), Four(y), Four(z)])
+            (Pairs { at, span }, [Four(x), Four(y), Four(z)])
         }
     }
 
     #[inline(always)]
     unsafe fn put<const CHOOSY: bool>(
         self,
-        points: Points<'_>,
-        at: [&[u32]; 2],
-        span: Self::Pairs,
+        _: Points<'_>,
+        _: [&[u32]; 2],
+        pairs: Pairs,
         shares: [Four; 2],
         moves: &[bool],
     ) {
         // SAFETY: the caller's promise.
         unsafe {
-            move_one::<0, CHOOSY>(points, at, span, shares, moves);
-            move_one::<1, CHOOSY>(points, at, span, shares, moves);
-            move_one::<2, CHOOSY>(points, at, span, shares, moves);
-            move_one::<3, CHOOSY>(points, at, span, shares, moves);
+            move_one::<0, CHOOSY>(pairs, shares, moves);
+            move_one::<1, CHOOSY>(pairs, shares, moves);
+            move_one::<2, CHOOSY>(pairs, shares, moves);
+            move_one::<3, CHOOSY>(pairs, shares, moves);
         }
     }
 }
@@ -212,9 +214,7 @@ impl Between for Simd128 {
 /// As for `put`.
 #[inline(always)]
 unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
-    points: Points<'_>,
-    at: [&[u32]; 2],
-    span: [v128; 4],
+    Pairs { at, span }: Pairs,
     [to_a, to_b]: [Four; 2],
     moves: &[bool],
 ) {
@@ -225,32 +225,18 @@ unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
         }
         let to_a = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_a.0, to_a.0);
         let to_b = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_b.0, to_b.0);
-        let at_a = points.at(*at[0].get_unchecked(LANE));
-        v128_store(at_a.cast(), f32x4_add(v128_load(at_a.cast()), f32x4_mul(span[LANE], to_a)));
-        let at_b = points.at(*at[1].get_unchecked(LANE));
-        v128_store(at_b.cast(), f32x4_sub(v128_load(at_b.cast()), f32x4_mul(span[LANE], to_b)));
+        let [a, b] = [at[0][LANE], at[1][LANE]];
+        v128_store(a, f32x4_add(v128_load(a), f32x4_mul(span[LANE], to_a)));
+        v128_store(b, f32x4_sub(v128_load(b), f32x4_mul(span[LANE], to_b)));
     }
 }
 
-/// Four of the points.
-///
-/// # Safety
-/// `at` has four entries, each below the number of points.
-#[inline(always)]
-unsafe fn all_four(points: Points<'_>, at: &[u32]) -> [v128; 4] {
-    // SAFETY: the caller's promise.
-    unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
-}
-
-/// One of the points.
+/// Where one of the points lies.
 ///
 /// # Safety
 /// `at` has entry `lane`, and that is below the number of points.
 #[inline(always)]
-unsafe fn one(points: Points<'_>, at: &[u32], lane: usize) -> v128 {
-    // SAFETY: the caller's promise; a point is sixteen bytes.
-    unsafe {
-        let at = *at.get_unchecked(lane);
-        v128_load(points.at(at).cast())
-    }
+unsafe fn place(points: Points<'_>, at: &[u32], lane: usize) -> *mut v128 {
+    // SAFETY: the caller's promise.
+    unsafe { points.at(*at.get_unchecked(lane)).cast() }
 }
