@@ -1,7 +1,7 @@
 //! The stretch bound: after every tick, whatever the resolution, tick, material or treatment.
 
 use muslin::glam::Vec3;
-use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Preset, Wind};
+use muslin::{Cloth, ColliderDesc, EventKind, GridDesc, Material, PinMode, Preset, Wind};
 
 mod common;
 
@@ -169,4 +169,28 @@ fn a_particle_that_was_pulled_far_out_comes_back_to_the_cloth() {
     assert_eq!(cloth.stats().over_stretched, 0);
     cloth.step(120);
     assert!(cloth.stats().max_stretch <= 0.0201, "{}", cloth.stats().max_stretch);
+}
+
+/// Where folds lie on each other no link can have its length and the bound too.
+#[test]
+fn a_heap_on_the_floor_comes_to_rest_within_the_bound() {
+    for max_stretch in [0.02, 0.05] {
+        let mut cloth =
+            Cloth::grid(&bounded(24, PinMode::None, Material::default(), max_stretch)).unwrap();
+        let floor = ColliderDesc { position: Vec3::Y * -1.6, ..ColliderDesc::default() };
+        cloth.add_collider(&floor).unwrap();
+        for (i, x) in cloth.positions().to_vec().into_iter().enumerate() {
+            let twist = Vec3::new(0.3 * x.y, 0.0, 0.5 * (3.0 * x.x).sin());
+            cloth.set_velocity(i as u32, twist).unwrap();
+        }
+        cloth.step(900);
+        let mass: f32 = (0..cloth.positions().len() as u32).map(|i| cloth.mass(i).unwrap()).sum();
+        for _ in 0..60 {
+            cloth.step(1);
+            let stats = cloth.stats();
+            let speed = (2.0 * stats.kinetic_energy / mass).sqrt();
+            assert!(speed < 1.0e-3, "{speed} m/s at {max_stretch}");
+            assert!(stats.max_stretch <= max_stretch && stats.over_stretched == 0);
+        }
+    }
 }

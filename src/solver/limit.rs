@@ -31,7 +31,15 @@ const AIM: f32 = 0.5;
 /// Every so many sweeps one goes from the pins outward.
 const HANG_EVERY: u32 = 8;
 
+/// The share of its speed that a particle keeps that the bound sends back.
+const KEPT: f32 = 0.1;
+
 const KINDS: [LinkKind; 2] = [LinkKind::Stretch, LinkKind::Shear];
+
+/// A tick begins.
+pub(crate) fn begin(world: &mut World) {
+    world.scratch.begun.copy_from(&world.particles.v);
+}
 
 /// In a substep: a sweep that keeps what the solver has not got to yet within the bound, so that at
 /// the end of the tick there is little to do.
@@ -174,16 +182,33 @@ fn shift_of_holds(world: &World) -> Vec3 {
     if count > 0.0 { sum * (1.0 / count) } else { Vec3::ZERO }
 }
 
-/// Velocities follow what happened since `scratch.predicted`.
+/// Velocities follow what happened since `scratch.predicted`, but not everywhere.
+///
+/// Links that cannot all have their lengths push each other out, and the bound puts them back: that gets
+/// nowhere, and there must be no velocity left. So none differs from the mean over the tick by more than
+/// that itself, for what gets on from rest by an even push ends at twice its mean. And what came back
+/// from where it was going keeps half of its mean, or it would go to and fro for ever.
 fn follow(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
-    let share = world.settings.scheme().h * inv_tick;
-    let (p, before) = (&mut world.particles, &world.scratch.predicted);
-    for i in 0..p.len() {
-        let way = p.x.at(i) - before.at(i);
-        p.v.add(i, way * inv_tick);
-        p.v_ahead.add(i, way * inv_tick);
-        p.moved.add(i, way * share);
+    let h = world.settings.scheme().h;
+    let (p, scratch) = (&mut world.particles, &world.scratch);
+    for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
+        let mean = (p.x.at(i) - p.x_last.at(i)) * inv_tick;
+        let own = p.v.at(i) + (p.x.at(i) - scratch.predicted.at(i)) * inv_tick - mean;
+        let (own2, mean2) = (own.length_squared(), mean.length_squared());
+        // What tore off in this tick has no velocity from before.
+        let came_back = i < scratch.begun.x.len() && scratch.begun.at(i).dot(mean) < 0.0;
+        let v = if came_back {
+            mean * KEPT
+        } else if own2 > mean2 {
+            mean + own * (mean2 / own2).sqrt()
+        } else {
+            mean + own
+        };
+        let change = v - p.v.at(i);
+        p.v.add(i, change);
+        p.v_ahead.add(i, change);
+        p.moved.add(i, change * h);
     }
 }
 

@@ -121,6 +121,8 @@ pub(crate) struct Scratch {
     pub way: Columns,
     /// Where prediction took it [m].
     pub predicted: Columns,
+    /// The velocity that each particle began the tick with, while there is a stretch bound [m/s].
+    pub begun: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub anchor: Columns,
     pub weights: weights::Weights,
@@ -143,6 +145,7 @@ impl Scratch {
             air: Columns::with_capacity(capacity),
             way: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
+            begun: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),

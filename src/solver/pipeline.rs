@@ -20,6 +20,9 @@ macro_rules! timed {
 /// Runs one tick.
 pub(crate) fn tick(world: &mut World) {
     world.particles.x_last.copy_from(&world.particles.x);
+    if world.settings.max_stretch > 0.0 {
+        timed!(world, Limit, limit::begin(world));
+    }
     timed!(world, Forces, forces::gather(world));
     if world.settings.tethers {
         timed!(world, Tethers, tethers::measure_slack(world));
