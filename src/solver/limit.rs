@@ -4,7 +4,7 @@
 //! model", Graphics Interface 1995. That converges fast but promises nothing, so the ends of what is
 //! left go back to where they were a tick ago, and with them whatever that stretches: the bound held
 //! there, so this ends. What a particle is moved by, it moved over the whole tick, so its velocity
-//! changes by that. A cloth that was held apart has nowhere to go back to: it gets more sweeps, a few
+//! changes by that, as far as it got anywhere. A cloth that was held apart has nowhere to go back to: it gets more sweeps, a few
 //! ticks of them where it was pulled far out, and no velocity from them.
 
 use super::World;
