@@ -4,8 +4,9 @@
 //! model", Graphics Interface 1995. That converges fast but promises nothing, so the ends of what is
 //! left go back to where they were a tick ago, and with them whatever that stretches: the bound held
 //! there, so this ends. What a particle is moved by, it moved over the whole tick, so its velocity
-//! changes by that, as far as it got anywhere. A cloth that was held apart has nowhere to go back to: it gets more sweeps, a few
-//! ticks of them where it was pulled far out, and no velocity from them.
+//! changes by that, as far as it got anywhere. A cloth that was held apart has nowhere to go back
+//! to: it gets more sweeps, a few ticks of them where it was pulled far out, and no velocity from
+//! them.
 
 use super::World;
 use super::links::{Order, shorten};
@@ -184,10 +185,11 @@ fn shift_of_holds(world: &World) -> Vec3 {
 
 /// Velocities follow what happened since `scratch.predicted`, but not everywhere.
 ///
-/// Links that cannot all have their lengths push each other out, and the bound puts them back: that gets
-/// nowhere, and there must be no velocity left. So none differs from the mean over the tick by more than
-/// that itself, for what gets on from rest by an even push ends at twice its mean. And what came back
-/// from where it was going keeps half of its mean, or it would go to and fro for ever.
+/// Links that cannot all have their lengths push each other out, and the bound puts them back: that
+/// gets nowhere, and there must be no velocity left. So none differs from the mean over the tick by
+/// more than that itself, for what gets on from rest by an even push ends at twice its mean. And
+/// what came back from where it was going keeps half of its mean, or it would go to and fro for
+/// ever.
 fn follow(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
     let h = world.settings.scheme().h;

@@ -2,8 +2,8 @@
 //!
 //! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
-//! left of a row after whole chunks is one more chunk that reaches over its end, of which only the row's links
-//! count; at the end of all lists one that reaches back.
+//! left of a row after whole chunks is one more chunk that reaches over its end, of which only the
+//! row's links count; at the end of all lists one that reaches back.
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -292,8 +292,9 @@ unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: boo
     }
 }
 
-/// Solves the `left` first links of a chunk that reaches over the end of its row, with no more lanes than it
-/// takes. Nothing beyond is written to, not even what it was: what follows would have to wait for that.
+/// Solves the `left` first links of a chunk that reaches over the end of its row, with no more
+/// lanes than it takes. Nothing beyond is written to, not even what it was: what follows would have
+/// to wait for that.
 ///
 /// # Safety
 /// There is as much in the lists; nobody writes to what is beyond the row.
@@ -320,8 +321,8 @@ unsafe fn solve_start<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: b
     }
 }
 
-/// Solves links `done` to `count` of a row, fewer than a chunk, as one chunk that reaches back over links
-/// which are done.
+/// Solves links `done` to `count` of a row, fewer than a chunk, as one chunk that reaches back over
+/// links which are done.
 ///
 /// # Safety
 /// As for `solve_run`.
@@ -333,7 +334,8 @@ unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
     count: usize,
     scale: f32,
 ) {
-    // SAFETY: the caller's promise. Rows that go in chunks have links for the fewest lanes, so this ends.
+    // SAFETY: the caller's promise. Rows that go in chunks have links for the fewest lanes, so this
+    // ends.
     unsafe {
         if count < S::LANES {
             let (half, few) = (s.half(), <S::Half as Simd>::LANES);
@@ -352,8 +354,8 @@ unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
     }
 }
 
-/// As many links of a row as there are lanes; with `CHOOSY` set, only those that are still in the row, but
-/// for the first `done`; with `IS_EVEN` set, both ends of each weigh the same.
+/// As many links of a row as there are lanes; with `CHOOSY` set, only those that are still in the
+/// row, but for the first `done`; with `IS_EVEN` set, both ends of each weigh the same.
 ///
 /// # Safety
 /// As for `solve_run`.

@@ -10,8 +10,8 @@ use crate::{files, setup, shell};
 /// What Rust calls the web.
 pub const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Four lanes at a time; every current browser and node has them. LLVM's reduction of loop strength is off:
-/// what it makes of addresses cannot be folded into loads and stores of wasm.
+/// Four lanes at a time; every current browser and node has them. LLVM's reduction of loop strength
+/// is off: what it makes of addresses cannot be folded into loads and stores of wasm.
 pub const FLAGS: &str = "-C target-feature=+simd128 -C llvm-args=--disable-lsr";
 
 /// Builds the library of `package` for the web and puts `name.js` and `name_bg.wasm` into `dir`;

@@ -156,8 +156,8 @@ impl Simd for Simd128 {
     }
 }
 
-/// Pairs of points: where they lie, and what leads from one to the other. The points themselves are fetched
-/// again, since engines run out of registers.
+/// Pairs of points: where they lie, and what leads from one to the other. The points themselves are
+/// fetched again, since engines run out of registers.
 #[derive(Clone, Copy)]
 pub(crate) struct Pairs {
     at: [[*mut v128; 4]; 2],

@@ -302,7 +302,8 @@ impl Simd for Avx2 {
 
     #[inline(always)]
     fn dealt(self, v: Eight) -> Eight {
-        // SAFETY: see above. Instructions deal within halves, so twos go by turns; and back by the same.
+        // SAFETY: see above. Instructions deal within halves, so twos go by turns; and back by the
+        // same.
         unsafe {
             let twos = _mm256_castps_pd(v.0);
             Eight(_mm256_castpd_ps(_mm256_permute4x64_pd::<0b11_01_10_00>(twos)))
