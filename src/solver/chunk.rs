@@ -37,15 +37,14 @@ impl<F: Number> Chunk<F> {
         place: Place,
         scale: f32,
     ) -> Self {
-        let in_order = |v: F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
         let zero = s.splat(0.0);
         // SAFETY: the caller's promise.
         unsafe {
-            let rest = in_order(s.load_from(place.rest));
+            let rest = in_order::<_, PATTERN>(s, s.load_from(place.rest));
             let (mut compliance, mut lambda) = (zero, zero);
             if LAW == SOFT {
-                compliance = in_order(s.load_from(place.compliance));
-                lambda = in_order(s.load_from(place.lambda));
+                compliance = in_order::<_, PATTERN>(s, s.load_from(place.compliance));
+                lambda = in_order::<_, PATTERN>(s, s.load_from(place.lambda));
             }
             let (xa, xb) = load::<_, PATTERN>(s, fixed(place.x));
             let (ya, yb) = load::<_, PATTERN>(s, fixed(place.y));
@@ -55,9 +54,16 @@ impl<F: Number> Chunk<F> {
             } else if IS_EVEN {
                 // Those of rigid links are 1 then.
                 let one = s.splat(1.0);
-                [if LAW == RIGID { one } else { in_order(s.load_from(place.ends[0])) }; 2]
+                [if LAW == RIGID {
+                    one
+                } else {
+                    in_order::<_, PATTERN>(s, s.load_from(place.ends[0]))
+                }; 2]
             } else {
-                [in_order(s.load_from(place.ends[0])), in_order(s.load_from(place.ends[1]))]
+                [
+                    in_order::<_, PATTERN>(s, s.load_from(place.ends[0])),
+                    in_order::<_, PATTERN>(s, s.load_from(place.ends[1])),
+                ]
             };
             let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
             let ([to_a, to_b], lambda) =
@@ -79,21 +85,21 @@ impl<F: Number> Chunk<F> {
         place: Place,
         done: usize,
     ) -> Self {
-        let in_order = |v: F| if PATTERN == STRAIGHT { v } else { s.dealt(v) };
         // SAFETY: the caller's promise.
         unsafe {
             let counts = s.load(&COUNTS, MOST - done);
-            let keep = in_order(s.pick(counts, s.load_from(place.mask), s.splat(0.0)));
-            let only = |[a, b]: [F; 2], at: [*mut f32; 2]| {
-                let old = load::<_, PATTERN>(s, fixed(at));
-                [s.pick(keep, a, old.0), s.pick(keep, b, old.1)]
-            };
+            let keep =
+                in_order::<_, PATTERN>(s, s.pick(counts, s.load_from(place.mask), s.splat(0.0)));
             let mut lambda = self.lambda;
             if LAW == SOFT {
-                lambda = s.pick(keep, lambda, in_order(s.load_from(place.lambda)));
+                lambda = s.pick(keep, lambda, in_order::<_, PATTERN>(s, s.load_from(place.lambda)));
             }
-            let (x, y, z) = (only(self.x, place.x), only(self.y, place.y), only(self.z, place.z));
-            Self { x, y, z, lambda }
+            Self {
+                x: only::<_, PATTERN>(s, keep, self.x, place.x),
+                y: only::<_, PATTERN>(s, keep, self.y, place.y),
+                z: only::<_, PATTERN>(s, keep, self.z, place.z),
+                lambda,
+            }
         }
     }
 
@@ -133,6 +139,28 @@ impl<F: Number> Chunk<F> {
     fn lambda_in_memory<const PATTERN: u8>(&self, s: impl Simd<F = F>) -> F {
         if PATTERN == STRAIGHT { self.lambda } else { s.undealt(self.lambda) }
     }
+}
+
+/// What lies link by link, dealt as the ends are.
+#[inline(always)]
+fn in_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
+    if PATTERN == STRAIGHT { v } else { s.dealt(v) }
+}
+
+/// One column at both ends of a chunk's links, of those to keep; of the others what is there.
+///
+/// # Safety
+/// As for `Chunk::of`.
+#[inline(always)]
+unsafe fn only<S: Simd, const PATTERN: u8>(
+    s: S,
+    keep: S::F,
+    [a, b]: [S::F; 2],
+    at: [*mut f32; 2],
+) -> [S::F; 2] {
+    // SAFETY: the caller's promise.
+    let old = unsafe { load::<_, PATTERN>(s, fixed(at)) };
+    [s.pick(keep, a, old.0), s.pick(keep, b, old.1)]
 }
 
 /// 0 as often as there may be lanes, then 1 as often.
