@@ -230,6 +230,6 @@ impl World {
         if self.weave.rows.is_none() {
             self.scratch.packed.reserve(capacity);
         }
-        self.scratch.lines = lines::Scratch::new(self.weave.lines.longest, capacity);
+        self.scratch.lines = lines::Scratch::new(self.weave.lines.abreast.most_steps(), capacity);
     }
 }

@@ -20,7 +20,6 @@ impl Weave {
 
     /// Makes room for `count` more extra links, and for `sites` in all.
     pub fn reserve(&mut self, count: usize, sites: usize) {
-        self.lines.abreast.reserve();
         self.extra.reserve(count);
         self.loose.reserve(self.extra.len() + count);
         self.palette.reserve(self.extra.len() + count, sites);

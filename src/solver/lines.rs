@@ -23,7 +23,7 @@
 
 use super::links::is_rigid;
 use super::{World, seats};
-use crate::fabric::abreast::{self, Abreast, Group};
+use crate::fabric::abreast::{self, Abreast};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::{LANES, Lanes, Number, Scalar, Simd, turn, turn_back, vectored};
 use crate::math::{TINY, max};
@@ -49,7 +49,7 @@ pub(crate) struct Scratch {
     pub points: Vec<[f32; 4]>,
     /// Where each particle was when the substep began.
     pub starts: Vec<[f32; 4]>,
-    /// What is known of each step of a group.
+    /// What is known of each step of a block.
     steps: Vec<Step>,
 }
 
@@ -75,7 +75,7 @@ struct Step {
 }
 
 impl Scratch {
-    /// Room for groups of so many steps, and so many particles.
+    /// Room for blocks of so many steps, and so many particles.
     pub fn new(steps: usize, particles: usize) -> Self {
         Self {
             points: Vec::with_capacity(particles + 1),
@@ -143,27 +143,26 @@ fn solve_all<S: Simd, const SOFT: bool>(
     room: &mut Scratch,
     scale: f32,
 ) {
-    for (group, steps) in lines.groups() {
+    for steps in lines.blocks() {
         for first in (0..LANES).step_by(S::LANES) {
-            let run = Run { s, first, group, steps };
-            let start = run.eliminate::<SOFT>(links, room, scale);
-            let begin = run.pull::<SOFT>(links, room, start[3]);
-            run.go(room, start, begin);
+            let run = Run { s, first, steps };
+            run.eliminate::<SOFT>(links, room, scale);
+            run.pull::<SOFT>(links, room);
+            run.go(room);
         }
     }
 }
 
-/// As many lines of a group as go at once.
+/// As many lanes of a block as go at once.
 struct Run<'a, S> {
     s: S,
-    /// The first one's lane in the group.
+    /// The first one's number in the block.
     first: usize,
-    group: &'a Group,
     steps: &'a [abreast::Step],
 }
 
 impl<S: Simd> Run<'_, S> {
-    /// What these lines have of a step of the group.
+    /// What these lanes have of a step of the block.
     #[inline(always)]
     fn own<'b, T>(&self, step: &'b [T; LANES]) -> &'b [T] {
         &step[self.first..self.first + S::LANES]
@@ -191,21 +190,13 @@ impl<S: Simd> Run<'_, S> {
         self.store(&mut lanes[2], z);
     }
 
-    /// The way there: what each link has to do with the one before goes out of the first system. Gives
-    /// the points that the lines begin at.
+    /// The way there: what each link has to do with the one before goes out of the first system. Where a
+    /// piece begins, and behind the last, there is a link that neither pulls nor is pulled.
     #[inline(always)]
-    fn eliminate<const SOFT: bool>(
-        &self,
-        links: &Links,
-        room: &mut Scratch,
-        scale: f32,
-    ) -> [S::F; 4] {
+    fn eliminate<const SOFT: bool>(&self, links: &Links, room: &mut Scratch, scale: f32) {
         let s = self.s;
         let (zero, one, tiny) = (s.splat(0.0), s.splat(1.0), s.splat(TINY));
-        let from = self.own(&self.group.from);
-        let first = turn(s, &room.points, from);
-        let mut start = if SOFT { first } else { turn(s, &room.starts, from) };
-        let mut last = first;
+        let (mut last, mut start) = ([zero; 4], [zero; 4]);
         let (mut n, mut inverse, mut right) = ([zero; 3], zero, zero);
         for (laid, step) in self.steps.iter().zip(&mut room.steps) {
             let (to, rest) = (self.own(&laid.to), self.load(&laid.rest));
@@ -223,7 +214,6 @@ impl<S: Simd> Run<'_, S> {
             let (nx, ny, nz) = (dx * over, dy * over, dz * over);
             let along = nx * n[0] + ny * n[1] + nz * n[2];
             n = [nx, ny, nz];
-            // Lines that ended have links without a length, which neither pull nor are pulled.
             let before = s.pick(rest, s.splat(-0.0) - last[3] * along, zero);
             let both = last[3] + next[3];
             // Between two that are held there is nothing to solve.
@@ -248,7 +238,6 @@ impl<S: Simd> Run<'_, S> {
             self.store(&mut step.right, right);
             last = next;
         }
-        first
     }
 
     #[inline(always)]
@@ -263,10 +252,9 @@ impl<S: Simd> Run<'_, S> {
     }
 
     /// The way back: the multipliers, and with them what each particle has to do with the one after
-    /// goes out of the second system. Gives how the particles move that the lines begin with, which
-    /// have the inverse masses `w`.
+    /// goes out of the second system.
     #[inline(always)]
-    fn pull<const SOFT: bool>(&self, links: &mut Links, room: &mut Scratch, w: S::F) -> [S::F; 3] {
+    fn pull<const SOFT: bool>(&self, links: &mut Links, room: &mut Scratch) {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
         let (mut after, mut coupling) = (zero, zero);
@@ -300,19 +288,13 @@ impl<S: Simd> Run<'_, S> {
                 }
             }
         }
-        let give = w / (one + w * hold);
-        [m[0] * give, m[1] * give, m[2] * give]
     }
 
     /// There again: the particles go.
     #[inline(always)]
-    fn go(&self, room: &mut Scratch, [x, y, z, w]: [S::F; 4], begin: [S::F; 3]) {
+    fn go(&self, room: &mut Scratch) {
         let s = self.s;
-        let Some(first) = self.steps.first() else { return };
-        let moved = self.limited(begin, &first.rest);
-        let there = [moved[0] + x, moved[1] + y, moved[2] + z, w];
-        turn_back(s, &mut room.points, self.own(&self.group.from), there);
-        let mut way = begin;
+        let mut way = [s.splat(0.0); 3];
         for (laid, step) in self.steps.iter().zip(&room.steps) {
             let (share, own) = (self.load(&step.share), self.load3(&step.own));
             way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];
@@ -334,7 +316,7 @@ impl<S: Simd> Run<'_, S> {
         let mut ways = self.spread(way);
         for lane in 0..S::LANES {
             let one = [ways[0][lane], ways[1][lane], ways[2][lane]];
-            let limited = limit(one, most[self.first + lane]);
+            let limited = limit(one, most[self.first + lane].abs());
             (0..3).for_each(|axis| ways[axis][lane] = limited[axis]);
         }
         self.take_up(&ways)
