@@ -82,6 +82,34 @@
 /** All that is below `position` along the turned y axis. */
 #define MUSLIN_SHAPE_PLANE 0
 
+/** A ball of `radius` around `position`. */
+#define MUSLIN_SHAPE_SPHERE 1
+
+/**
+ * Balls of `radius` and `top_radius` at -`half_height` and +`half_height` along the turned y axis, and all
+ * between them.
+ */
+#define MUSLIN_SHAPE_CAPSULE 2
+
+/** A box that reaches `half_extents` to either side of `position` along each turned axis. */
+#define MUSLIN_SHAPE_BOX 3
+
+/** The least convex body that holds all of `positions`. */
+#define MUSLIN_SHAPE_CONVEX 4
+
+/**
+ * The triangles that `indices` join of `positions`. Cloth stays on the side where it is: both are outside,
+ * and nothing is inside, so that it need not be closed nor wound one way. It keeps a gap of 0.1 mm at
+ * least.
+ */
+#define MUSLIN_SHAPE_MESH 5
+
+/**
+ * Ground: all below a surface over `columns` * `rows` heights, `spacing` apart along the turned x and z axes
+ * from `position` on, as deep as it is wide. It has no sides.
+ */
+#define MUSLIN_SHAPE_HEIGHTFIELD 6
+
 /** The edge between `particle_a` and `particle_b` tore. */
 #define MUSLIN_EVENT_EDGE_TORN 0
 
@@ -495,12 +523,12 @@ typedef struct MuslinQuat {
 
 /**
  * A collider: its shape, where it is and how it feels. Begin with muslin_collider_desc_init: a floor
- * at height 0.
+ * at height 0. Fields that its shape does not use are ignored; all lists are copied while it is added.
  */
 typedef struct MuslinColliderDesc {
   /** Set by muslin_collider_desc_init. */
   uint32_t struct_size;
-  /** What it is: MUSLIN_SHAPE_PLANE. Nothing else is supported yet. */
+  /** What it is, one of MUSLIN_SHAPE_...; MUSLIN_SHAPE_PLANE. */
   uint32_t shape;
   /** Where it is [m]; 0, 0, 0. A point of the surface of a plane. */
   MuslinVec3 position;
@@ -518,6 +546,40 @@ typedef struct MuslinColliderDesc {
    * all of it. From 0 to 1.
    */
   float tangential_restitution;
+  /**
+   * Gap kept from its surface [m]; -1, which takes the material's thickness. Else at least 0. Where a surface is
+   * round or bends little, particles stay farther off by what is between them would sink in: at most a fifth
+   * of the mean edge from balls and capsules, a tenth from others.
+   */
+  float thickness;
+  /** Of a sphere or capsule [m]; 0.5. Above 0. */
+  float radius;
+  /** Of the upper end of a capsule [m]; -1, which is as `radius`. Else above 0. */
+  float top_radius;
+  /** Of a capsule: from its middle to the centres of its ends [m]; 0.5. At least 0. */
+  float half_height;
+  /** Of a box: from its middle to its sides [m]; 0.5 each. Above 0. */
+  MuslinVec3 half_extents;
+  /** Of a heightfield: from one height to the next [m]; 1. Above 0. */
+  float spacing;
+  /** Of a heightfield: heights along x; 0. From 2 to 4096. */
+  uint32_t columns;
+  /** Of a heightfield: heights along z; 0. From 2 to 4096. */
+  uint32_t rows;
+  /** Bytes from one position to the next; 0, which is 12. A multiple of 4. */
+  uint32_t position_stride;
+  /**
+   * How many positions there are; 0. Of a convex body from 4 to 1024, of a mesh at most 4194304.
+   */
+  uint32_t vertex_count;
+  /** How many indices there are; 0. A multiple of 3, at most 50331648. */
+  uint32_t index_count;
+  /** Of a convex body or a mesh: its points [m], 3 numbers each. */
+  const float *positions;
+  /** Of a mesh: points of its triangles, 3 each. Triangles without an area do not count. */
+  const uint32_t *indices;
+  /** Of a heightfield: `columns` * `rows` heights [m], row by row along x. */
+  const float *heights;
 } MuslinColliderDesc;
 
 /**
@@ -973,8 +1035,9 @@ MuslinStatus muslin_cloth_next_event(MuslinCloth cloth,
 /**
  * Adds a collider to a cloth.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED for another
- * shape than a plane; MUSLIN_STATUS_FULL if there are 1024 colliders already
+ * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field and the rule;
+ * MUSLIN_STATUS_UNSUPPORTED for a shape that this version does not know; MUSLIN_STATUS_FULL if there are
+ * 1024 colliders already
  */
 MuslinStatus muslin_cloth_add_collider(MuslinCloth cloth,
                                        const MuslinColliderDesc *desc,
@@ -998,6 +1061,19 @@ MuslinStatus muslin_cloth_move_collider(MuslinCloth cloth,
  */
 MuslinStatus muslin_cloth_remove_collider(MuslinCloth cloth,
                                           MuslinCollider collider);
+
+/**
+ * Tells what the cloth did to a collider in the last tick: `out_linear` (may be NULL) gets the momentum
+ * [kg m/s], `out_angular` (may be NULL) the angular momentum about the collider's position [kg m2/s].
+ * Divided by the length of a tick they are the force and the torque, for an engine that moves what the
+ * cloth lies on.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was removed
+ */
+MuslinStatus muslin_cloth_get_collider_impulse(MuslinCloth cloth,
+                                               MuslinCollider collider,
+                                               MuslinVec3 *out_linear,
+                                               MuslinVec3 *out_angular);
 
 /**
  * All that a renderer reads, without a copy; see MuslinView for how long it is valid. Normals are

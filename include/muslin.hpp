@@ -291,6 +291,17 @@ class Cloth {
   Done remove_collider(MuslinCollider collider) noexcept {
     return muslin_cloth_remove_collider(cloth_, collider);
   }
+  /** What a cloth did to a collider in a tick. */
+  struct Impulse {
+    /** Momentum [kg m/s], and angular momentum about the collider's position [kg m2/s]. */
+    MuslinVec3 linear, angular;
+  };
+  Result<Impulse> collider_impulse(MuslinCollider collider) const noexcept {
+    Impulse impulse{};
+    const MuslinStatus status = muslin_cloth_get_collider_impulse(cloth_, collider, &impulse.linear,
+                                                                  &impulse.angular);
+    return {status, impulse};
+  }
 
   /** The cloth's own memory, valid until the next call that changes it. */
   Result<MuslinView> view() const noexcept {

@@ -44,6 +44,14 @@ impl<T> Arena<T> {
         slot.value.as_mut().ok_or(Error::BadHandle { what })
     }
 
+    /// What `handle` names.
+    pub fn get(&self, handle: u32, what: &'static str) -> Result<&T> {
+        let at = (handle & 0xffff).checked_sub(1).map(|at| at as usize);
+        let slot = at.and_then(|at| self.slots.get(at));
+        let slot = slot.filter(|slot| u32::from(slot.generation) == handle >> 16);
+        slot.and_then(|slot| slot.value.as_ref()).ok_or(Error::BadHandle { what })
+    }
+
     /// Forgets every value; all handles are stale from then on.
     pub fn clear(&mut self) {
         for slot in &mut self.slots {

@@ -2,7 +2,8 @@
 
 use muslin::glam::Vec3;
 use muslin::{
-    Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, Stream, VertexFormat, Wind, WriteDesc,
+    Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, Shape, Stream, VertexFormat, Wind,
+    WriteDesc,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -209,4 +210,43 @@ fn writing_vertices_allocates_nothing_after_the_first_time() {
     });
     assert_eq!(count, 0);
     assert!(cloth.positions().len() > before, "nothing tore");
+}
+
+#[test]
+fn colliders_of_every_shape_are_touched_without_an_allocation() {
+    let mut cloth = Cloth::grid(&common::shapes::sheet(24, 1.0, 0.4)).unwrap();
+    let shape = |shape, x: f32, z: f32| ColliderDesc {
+        shape,
+        radius: 0.15,
+        half_extents: Vec3::splat(0.15),
+        half_height: 0.1,
+        position: Vec3::new(x, 0.0, z),
+        ..ColliderDesc::default()
+    };
+    let position = Vec3::new(0.25, 0.0, 0.25);
+    let all = [
+        shape(Shape::Plane, 0.0, 0.0),
+        shape(Shape::Sphere, -0.25, -0.25),
+        shape(Shape::Capsule, 0.25, -0.25),
+        shape(Shape::Box, -0.25, 0.25),
+        ColliderDesc { position, ..common::shapes::octahedron(0.2) },
+        common::shapes::ball_of_triangles(0.15, 6),
+        common::shapes::hills(8, 1.5),
+    ];
+    let handles = all.each_ref().map(|desc| cloth.add_collider(desc).unwrap());
+    let play = |cloth: &mut Cloth| {
+        for i in 0..90 {
+            for (desc, handle) in all.iter().zip(handles) {
+                let position = desc.position + Vec3::Y * (0.002 * i as f32);
+                cloth.move_collider(handle, position, desc.rotation).unwrap();
+            }
+            cloth.step(1);
+        }
+        assert!(
+            handles.iter().any(|handle| cloth.collider_impulse(*handle).unwrap().linear.y < 0.0)
+        );
+    };
+    assert_eq!(allocations(|| play(&mut cloth)), 0);
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    assert_eq!(allocations(|| play(&mut restored)), 0);
 }

@@ -5,7 +5,7 @@ use crate::math::mix::Mixer;
 
 impl Cloth {
     /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, pins, grabs, tethers and time.
+    /// triangles, pins, grabs, colliders, tethers and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
@@ -32,6 +32,7 @@ impl Cloth {
             mixer.floats(&held.target.to_array());
         }
         for body in world.colliders.iter() {
+            body.desc.hash(&mut mixer);
             for pose in [&body.last, &body.next] {
                 mixer.floats(&pose.position.to_array());
                 mixer.floats(&pose.rotation.to_array());

@@ -23,7 +23,8 @@ use crate::fabric::material::Material;
 use crate::math::float_env::guarded;
 use crate::solver::profile::Clock;
 use crate::solver::{World, pipeline};
-use crate::state::colliders::{Body, Collider, ColliderDesc};
+use crate::state::collider_desc::ColliderDesc;
+use crate::state::colliders::{Body, Collider, Impulse};
 use crate::state::events::Event;
 use crate::state::grabs::{Grab, Held};
 use crate::state::settings::Settings;
@@ -132,6 +133,7 @@ impl Cloth {
         fresh.grabs.clear();
         fresh.scratch.tear.reserve(fresh.settings.max_tears_per_tick as usize);
         self.world = fresh;
+        self.world.reserve_contacts();
         guarded(|| {
             self.world.weigh();
             self.world.weave.stiffen(&self.world.material);
@@ -182,6 +184,7 @@ impl Cloth {
         material.check()?;
         let world = &mut self.world;
         let reweigh = material.density != world.material.density;
+        world.scratch.contacts.near.forget();
         world.material = material;
         guarded(|| {
             world.weave.stiffen(&world.material);
@@ -416,7 +419,9 @@ impl Cloth {
     /// [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
     pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
         let body = guarded(|| Body::new(desc.clone()))?;
-        Ok(Collider(self.world.colliders.insert(body, "another collider")?))
+        let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
+        self.world.reserve_contacts();
+        Ok(Collider(handle))
     }
 
     /// Moves a collider; it gets there over the next tick.
@@ -439,7 +444,17 @@ impl Cloth {
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed before.
     pub fn remove_collider(&mut self, collider: Collider) -> Result<()> {
-        self.world.colliders.remove(collider.0, "collider").map(|_| ())
+        self.world.colliders.remove(collider.0, "collider")?;
+        self.world.scratch.contacts.near.forget();
+        Ok(())
+    }
+
+    /// What the cloth did to a collider in the last tick.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed.
+    pub fn collider_impulse(&self, collider: Collider) -> Result<Impulse> {
+        Ok(self.world.colliders.get(collider.0, "collider")?.impulse)
     }
 
     /// The oldest event that was not read yet. The 1024 newest are kept.

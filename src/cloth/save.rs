@@ -28,7 +28,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -192,12 +192,13 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.reserve_for_tears();
     world.gather();
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
-    let colliders = saved.colliders.into_owned();
+    let mut colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
-    for body in colliders.iter() {
-        body.check()?;
+    for body in colliders.iter_mut() {
+        body.revive()?;
     }
     world.colliders = colliders;
+    world.reserve_contacts();
     let events = saved.events.into_owned();
     must(events.len() <= MAX_EVENTS)?;
     world.events = events;

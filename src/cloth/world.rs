@@ -212,6 +212,7 @@ impl World {
             self.settings.max_tears_per_tick as usize,
         );
         self.reserve_packed(capacity);
+        self.reserve_contacts();
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
     }
 

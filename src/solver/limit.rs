@@ -8,9 +8,9 @@
 //! to: it gets more sweeps, a few ticks of them where it was pulled far out, and no velocity from
 //! them.
 
-use super::World;
 use super::links::{Order, shorten};
 use super::tethers;
+use super::{World, contacts};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::columns::Columns;
 use crate::state::events::{Event, EventKind};
@@ -67,6 +67,7 @@ pub(crate) fn enforce(world: &mut World) {
 
 fn draw_together(world: &mut World, most: f32) {
     world.scratch.predicted.copy_from(&world.particles.x);
+    world.scratch.way.fill(Vec3::ZERO);
     let aim = 1.0 + world.settings.max_stretch * AIM;
     let is_free_again = world.over_stretched > 0 && !is_held_apart(world, most);
     tethers::look(world);
@@ -83,6 +84,7 @@ fn draw_together(world: &mut World, most: f32) {
         } else {
             KINDS.into_iter().rev().for_each(|kind| shorten(world, kind, Order::Backward, aim));
         }
+        contacts::keep_out(world);
         if over(world, most).next().is_none() {
             break;
         }

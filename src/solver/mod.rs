@@ -128,8 +128,7 @@ pub(crate) struct Scratch {
     pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
-    /// What touched in this substep.
-    pub touches: contacts::Touches,
+    pub contacts: contacts::Scratch,
     pub tear: tear::Scratch,
     pub opened: Vec<Opening>,
     pub pieces: tear::Pieces,
@@ -150,7 +149,7 @@ impl Scratch {
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),
-            touches: contacts::Touches::new(count, capacity),
+            contacts: contacts::Scratch::default(),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),
             pieces: tear::Pieces::new(triangles),
@@ -169,7 +168,6 @@ impl Scratch {
         self.air.push(Vec3::ZERO);
         self.way.push(Vec3::ZERO);
         self.predicted.push(Vec3::ZERO);
-        self.touches.grow();
     }
 }
 

@@ -23,6 +23,7 @@ pub(crate) fn tick(world: &mut World) {
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::begin(world));
     }
+    timed!(world, Colliders, contacts::begin(world));
     timed!(world, Forces, forces::gather(world));
     if world.settings.tethers {
         timed!(world, Tethers, tethers::measure_slack(world));
@@ -62,6 +63,7 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Limit, limit::draw_in(world));
     }
     timed!(world, Bend, packed::unpack(world));
+    timed!(world, Pairs, contacts::near::pair(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));
 }

@@ -13,6 +13,7 @@ pub enum Stage {
     Stretch,
     Shear,
     Bend,
+    Pairs,
     Contacts,
     Velocities,
     Tear,
@@ -23,7 +24,7 @@ pub enum Stage {
 
 impl Stage {
     /// How many there are.
-    pub const COUNT: usize = 14;
+    pub const COUNT: usize = 15;
 
     /// All of them, in order.
     pub const ALL: [Self; Self::COUNT] = [
@@ -35,6 +36,7 @@ impl Stage {
         Self::Stretch,
         Self::Shear,
         Self::Bend,
+        Self::Pairs,
         Self::Contacts,
         Self::Velocities,
         Self::Tear,
@@ -54,6 +56,7 @@ impl Stage {
             Self::Stretch => "stretch",
             Self::Shear => "shear",
             Self::Bend => "bend",
+            Self::Pairs => "pairs",
             Self::Contacts => "contacts",
             Self::Velocities => "velocities",
             Self::Tear => "tear",

@@ -3,12 +3,11 @@
 //! The other half of `Scheme`. Damping scales the velocity and its whole history alike, which makes a
 //! free particle slow down by exactly exp(-damping h).
 
+use super::contacts::touch::settle;
 use super::{PARTICLES, World};
-use crate::math::min;
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
 use crate::state::settings::Scheme;
-use glam::Vec3;
 
 /// Derives velocities and moves the history on.
 pub(crate) fn derive(world: &mut World) {
@@ -27,7 +26,7 @@ pub(crate) fn derive(world: &mut World) {
             renew(level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
         }
     });
-    bounce(world, scheme.h, keep);
+    settle(world, keep);
 }
 
 leveled! {
@@ -52,32 +51,5 @@ fn renew_column(
         *v_ahead = (v_new + (v_new - *v) * scheme.carry) * keep;
         *v = v_new * keep;
         *moved = step * keep;
-    }
-}
-
-/// What touching does to motion: Newton's law of restitution along the normal, what friction left
-/// along the surface.
-///
-/// A hit begins a new history, for the second-order scheme must not look back across it; resting
-/// and sliding keep theirs along the surface.
-fn bounce(world: &mut World, h: f32, keep: f32) {
-    let gravity = world.settings.gravity;
-    let p = &mut world.particles;
-    let rest_speed = 2.0 * h * gravity.length();
-    for (i, touch) in world.scratch.touches.iter() {
-        let (n, surface) = (touch.normal, touch.surface_velocity);
-        let along = |v: Vec3| (v - n * v.dot(n)) * touch.tangential_restitution;
-        let x = p.x.at(i);
-        let (way, predicted) = (world.scratch.way.at(i), world.scratch.predicted.at(i));
-        let step = way + (x - predicted) - surface * h;
-        let approach = min((touch.approach - surface).dot(n), 0.0);
-        if -approach > rest_speed {
-            let v = along(step * (1.0 / h)) - n * (approach * touch.restitution);
-            p.place(i, x, surface + v, gravity, h);
-        } else {
-            p.v.set(i, surface + along(p.v.at(i) - surface));
-            p.v_ahead.set(i, surface + along(p.v_ahead.at(i) - surface));
-            p.moved.set(i, surface * h + along(step * keep));
-        }
     }
 }

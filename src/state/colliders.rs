@@ -1,9 +1,14 @@
-//! Colliders: what a cloth falls on. A plane for now.
+//! Colliders: what a cloth falls on.
 
+use super::collider_desc::ColliderDesc;
+use super::pose::{Pose, check_pose};
 use crate::arena::Arena;
-use crate::error::{Error, Result, check, check_finite};
+use crate::error::{Result, check_finite};
+use crate::geom::shape::Form;
+use crate::math::max;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A handle to one collider of one cloth; stale once removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -21,120 +26,14 @@ impl Collider {
     }
 }
 
-/// The shapes of colliders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(u32)]
-#[non_exhaustive]
-pub enum Shape {
-    /// All that is below `position` along the turned y axis.
-    #[default]
-    Plane = 0,
-}
-
-/// A collider: its shape, where it is and how it feels.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ColliderDesc {
-    /// What it is; a plane.
-    pub shape: Shape,
-    /// Where it is [m]; the origin. A point of the surface of a plane.
-    pub position: Vec3,
-    /// How it is turned; not at all. A plane's normal is the turned y axis.
-    pub rotation: Quat,
-    /// Coulomb coefficient; −1 takes the material's.
-    pub friction: f32,
-    /// Share of the normal speed that a bounce gives back, 0 to 1; −1 takes the material's.
-    pub restitution: f32,
-    /// Share of the sliding speed that every substep of touching leaves, beside Coulomb friction;
-    /// 1 (all of it). The receipt's floor is 0.8, with `friction` 0 and `restitution` 0.2.
-    pub tangential_restitution: f32,
-}
-
-impl Default for ColliderDesc {
-    fn default() -> Self {
-        Self {
-            shape: Shape::Plane,
-            position: Vec3::ZERO,
-            rotation: Quat::IDENTITY,
-            friction: -1.0,
-            restitution: -1.0,
-            tangential_restitution: 1.0,
-        }
-    }
-}
-
-impl ColliderDesc {
-    /// Refuses a collider that cannot be.
-    pub(crate) fn check(&self) -> Result<()> {
-        check_pose(self.position, self.rotation)?;
-        check(
-            self.friction == -1.0 || (self.friction.is_finite() && self.friction >= 0.0),
-            "collider.friction",
-            "be at least 0 and finite, or -1",
-        )?;
-        let share = |v: f32| (0.0..=1.0).contains(&v);
-        check(
-            self.restitution == -1.0 || share(self.restitution),
-            "collider.restitution",
-            "be from 0 to 1, or -1",
-        )?;
-        check(
-            share(self.tangential_restitution),
-            "collider.tangential_restitution",
-            "be from 0 to 1",
-        )
-    }
-}
-
-fn check_pose(position: Vec3, rotation: Quat) -> Result<()> {
-    check_finite(position, "collider.position")?;
-    let length = rotation.length_squared();
-    check(
-        rotation.is_finite() && (length - 1.0).abs() < 1.0e-2,
-        "collider.rotation",
-        "be a unit quaternion",
-    )
-}
-
-/// Where a collider is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Pose {
-    pub position: Vec3,
-    pub rotation: Quat,
-}
-
-impl Pose {
-    fn new(position: Vec3, rotation: Quat) -> Self {
-        let [x, y, z, w] = rotation.to_array();
-        let scale = 1.0 / (x * x + y * y + z * z + w * w).sqrt();
-        Self { position, rotation: Quat::from_xyzw(x * scale, y * scale, z * scale, w * scale) }
-    }
-
-    /// `v` turned as the collider is. Written out, so that every target computes the same.
-    pub fn turn(&self, v: Vec3) -> Vec3 {
-        let [x, y, z, w] = self.rotation.to_array();
-        let axis = Vec3::new(x, y, z);
-        let twice = axis.cross(v) * 2.0;
-        v + twice * w + axis.cross(twice)
-    }
-
-    /// `v` turned back.
-    pub fn turn_back(&self, v: Vec3) -> Vec3 {
-        let [x, y, z, w] = self.rotation.to_array();
-        Self { position: self.position, rotation: Quat::from_xyzw(-x, -y, -z, w) }.turn(v)
-    }
-
-    /// The pose a `share` of the way to `next`.
-    pub fn toward(&self, next: &Self, share: f32) -> Self {
-        let (from, to) = (self.rotation.to_array(), next.rotation.to_array());
-        let dot: f32 = (0..4).map(|i| from[i] * to[i]).sum();
-        let sign = if dot < 0.0 { -1.0 } else { 1.0 };
-        let blend = |i: usize| from[i] + (to[i] * sign - from[i]) * share;
-        Self::new(
-            self.position + (next.position - self.position) * share,
-            Quat::from_xyzw(blend(0), blend(1), blend(2), blend(3)),
-        )
-    }
+/// What a cloth did to a collider in the last tick: divided by the tick's length, the force and the torque
+/// for an engine that moves what the cloth lies on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Impulse {
+    /// Momentum given [kg m/s].
+    pub linear: Vec3,
+    /// Angular momentum given, about the collider's position [kg m²/s].
+    pub angular: Vec3,
 }
 
 /// One collider of a cloth.
@@ -145,20 +44,48 @@ pub(crate) struct Body {
     pub last: Pose,
     /// Where it is at the end of the next tick.
     pub next: Pose,
+    /// What the last tick did to it.
+    pub impulse: Impulse,
+    /// Its shape, made from the descriptor.
+    #[serde(skip)]
+    form: Option<Arc<Form>>,
 }
 
 impl Body {
     pub fn new(desc: ColliderDesc) -> Result<Self> {
         desc.check()?;
         let pose = Pose::new(desc.position, desc.rotation);
-        Ok(Self { desc, last: pose, next: pose })
+        let form = Some(Arc::new(desc.form()?));
+        Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), form })
     }
 
-    /// Refuses a body that cannot be; for bytes from outside.
-    pub fn check(&self) -> Result<()> {
+    /// Refuses a body that cannot be, and sees to its shape; for bytes from outside.
+    pub fn revive(&mut self) -> Result<()> {
         self.desc.check()?;
+        check_finite(self.impulse.linear, "collider.impulse")?;
+        check_finite(self.impulse.angular, "collider.impulse")?;
         check_pose(self.last.position, self.last.rotation)?;
-        check_pose(self.next.position, self.next.rotation)
+        check_pose(self.next.position, self.next.rotation)?;
+        self.form = Some(Arc::new(self.desc.form()?));
+        Ok(())
+    }
+
+    /// Its shape; nothing before it was revived.
+    pub fn form(&self) -> Option<&Form> {
+        self.form.as_deref()
+    }
+
+    /// How far a point of it is at most from the straight way between where the tick finds it and where it leaves
+    /// it, because it turns [m].
+    pub fn turns_aside(&self, form: &Form) -> f32 {
+        let bounds = form.bounds();
+        let farthest = bounds.low.abs().max(bounds.high.abs()).length();
+        let dot: f32 = {
+            let (from, to) = (self.last.rotation.to_array(), self.next.rotation.to_array());
+            (0..4).map(|i| from[i] * to[i]).sum()
+        };
+        // 1 - cos of half the angle is no more than the square of its sine.
+        farthest * max(1.0 - dot * dot, 0.0)
     }
 
     /// Sends the collider on its way; it arrives at the end of the next tick.
@@ -167,23 +94,17 @@ impl Body {
         self.next = Pose::new(position, rotation);
         Ok(())
     }
+
+    /// The tick is over: it is where it was to be.
+    pub fn arrive(&mut self) {
+        self.last = self.next;
+        self.desc.position = self.next.position;
+        self.desc.rotation = self.next.rotation;
+    }
 }
 
 /// How many colliders a cloth may have.
 pub(crate) const MAX_COLLIDERS: u16 = 1024;
 
 /// All colliders of a cloth.
-pub(crate) type Colliders = Arena<Body>;
-
-impl Shape {
-    /// The shape that a face calls `number`.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] for a number that names no shape of this version.
-    pub fn from_number(number: u32) -> Result<Self> {
-        match number {
-            0 => Ok(Self::Plane),
-            _ => Err(Error::Unsupported { what: "a collider of this shape" }),
-        }
-    }
-}
+pub(crate) type Colliders = Arena<Box<Body>>;

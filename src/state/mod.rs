@@ -1,9 +1,11 @@
 //! What changes with time, one noun a file.
 
+pub(crate) mod collider_desc;
 pub(crate) mod colliders;
 pub(crate) mod events;
 pub(crate) mod grabs;
 pub(crate) mod particles;
 pub(crate) mod pins;
+pub(crate) mod pose;
 pub(crate) mod settings;
 pub(crate) mod wind;

@@ -392,12 +392,46 @@ static void colliders_are_refused_by_field(void) {
   desc.friction = -2;
   REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "friction`");
   desc.friction = -1;
+  desc.thickness = -2;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "thickness`");
+  desc.thickness = -1;
+  desc.shape = MUSLIN_SHAPE_SPHERE;
+  desc.radius = 0;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "radius`");
+  desc.shape = MUSLIN_SHAPE_BOX;
+  desc.half_extents.z = -1;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "half_extents`");
+  const float flat[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  desc.shape = MUSLIN_SHAPE_CONVEX;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "`vertex_count`");
+  desc.vertex_count = 4;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "`positions`");
+  desc.positions = flat;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "positions`");
+  const uint32_t indices[] = {0, 1, 4};
+  desc.shape = MUSLIN_SHAPE_MESH;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "`index_count`");
+  desc.index_count = 3;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "`indices`");
+  desc.indices = indices;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), MUSLIN_STATUS_BAD_INDEX, "indices`");
+  desc.shape = MUSLIN_SHAPE_HEIGHTFIELD;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "`columns`");
+  desc.columns = desc.rows = 2;
+  REFUSED(muslin_cloth_add_collider(cloth, &desc, &collider), BAD_VALUE, "`heights`");
+  desc.shape = MUSLIN_SHAPE_PLANE;
   desc.position.y = -50;
   CHECK(collider.id == 7);
   DONE(muslin_cloth_add_collider(cloth, &desc, &collider));
   REFUSED(muslin_cloth_move_collider(cloth, collider, with_nan(), straight), BAD_VALUE, "position`");
   REFUSED(muslin_cloth_move_collider(cloth, collider, zero, none), BAD_VALUE, "rotation`");
+  MuslinVec3 linear = with_nan(), angular = with_nan();
+  DONE(muslin_cloth_get_collider_impulse(cloth, collider, NULL, NULL));
+  DONE(muslin_cloth_get_collider_impulse(cloth, collider, &linear, &angular));
+  CHECK(linear.x == 0 && angular.y == 0);
   DONE(muslin_cloth_remove_collider(cloth, collider));
+  REFUSED(muslin_cloth_get_collider_impulse(cloth, collider, &linear, NULL), MUSLIN_STATUS_BAD_HANDLE,
+          "collider");
 }
 
 static void saves_are_refused(void) {

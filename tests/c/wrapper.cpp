@@ -41,7 +41,9 @@ void a_cloth_does_all_that_c_does() {
   CHECK(cloth.advance(1.0f / 30.0f).value() == 2);
   cloth.step(20).value();
   cloth.move_collider(collider, {0, -8, 0}, {0, 0, 0, 1}).value();
+  CHECK(cloth.collider_impulse(collider).value().linear.y == 0.0f);
   cloth.remove_collider(collider).value();
+  CHECK(cloth.collider_impulse(collider).status() == MUSLIN_STATUS_BAD_HANDLE);
 
   const MuslinVec3 eye{0.5f, -0.5f, 5.0f}, ahead{0, 0, -1}, away{0, 0, 1};
   CHECK(cloth.raycast(eye, ahead, 50.0f).value().has_value());

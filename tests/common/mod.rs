@@ -1,6 +1,8 @@
 //! What several tests need: cloths to test on, and the laws that no tear may break.
 #![allow(dead_code)]
 
+pub mod shapes;
+
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, MeshDesc, PinMode, Settings};
 use std::collections::HashMap;

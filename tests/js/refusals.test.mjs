@@ -186,7 +186,7 @@ refuses("particleB", [...NOT_PARTICLES, 0, 2], (value, { cloth }) => cloth.tearE
 
 // Colliders
 const collider = {
-  shape: [null, 0, "sphere", "Plane"],
+  shape: [null, 0, "ball", "Plane"],
   position: NOT_FINITE,
   rotation: [1, null, [0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 2], [0, 0, 0, NaN]],
   friction: [...NOT_NUMBERS, -0.5, Infinity],
@@ -194,6 +194,20 @@ const collider = {
   tangentialRestitution: [...NOT_NUMBERS, -1, 1.1],
   height: [1],
 };
+const shapes = {
+  radius: [{ shape: "sphere" }, [...NOT_NUMBERS, 0, -1, Infinity]],
+  topRadius: [{ shape: "capsule" }, [...NOT_NUMBERS, 0, -2, Infinity]],
+  halfHeight: [{ shape: "capsule" }, [...NOT_NUMBERS, -1, Infinity]],
+  halfExtents: [{ shape: "box" }, [...NOT_FINITE, [1, 0, 1], [1, -1, 1]]],
+  thickness: [{}, [...NOT_NUMBERS, -0.5, Infinity]],
+  columns: [{ shape: "heightfield", rows: 2 }, [...NOT_WHOLE, 0, 1, 5000]],
+  heights: [{ shape: "heightfield", columns: 2, rows: 2 }, [1, [0, 0, 0], [0, 0, 0, Infinity], new Float32Array(5)]],
+  positions: [{ shape: "convex" }, ["", [0, 0], [0, 0, 0], new Float32Array(12), [Infinity, 0, 0]]],
+  indices: [{ shape: "mesh", positions: [0, 0, 0, 1, 0, 0, 0, 1, 0] }, [[], [0, 1], [0, 1, 3], [0, 0, 0], [0, 1, -1]]],
+};
+for (const [key, [desc, values]] of Object.entries(shapes)) {
+  refuses(`collider.${key}`, values, (value, { cloth }) => cloth.addCollider({ ...desc, [key]: value }));
+}
 for (const [key, values] of Object.entries(collider)) {
   refuses(`collider.${key}`, values, (value, { cloth }) => cloth.addCollider({ [key]: value }));
 }

@@ -133,6 +133,8 @@ const tore: boolean = cloth.tearEdge(820, 860);
 
 const floor: ColliderDesc = { shape: "plane", position: [0, -2, 0], friction: 0.5 };
 const collider: Collider = cloth.addCollider(floor);
+const pushed: readonly number[] = collider.impulse.linear;
+cloth.addCollider({ shape: "mesh", positions: new Float32Array(9), indices: [0, 1, 2], thickness: 0.01 });
 collider.moveTo([0, -1, 0]);
 collider.moveTo([0, -1, 0], [0, 0, 0, 1]);
 collider.remove();

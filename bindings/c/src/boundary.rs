@@ -221,7 +221,8 @@ growing! {
     MuslinSettings from tearing[4] to max_tears_per_tick[4], "muslin_settings_init";
     MuslinMaterial from yield_creep[4] to yield_creep[4], "muslin_material_init";
     MuslinWind from seed[4] to seed[4], "muslin_wind_init";
-    MuslinColliderDesc from restitution[4] to tangential_restitution[4], "muslin_collider_desc_init";
+    MuslinColliderDesc from restitution[4] to heights[size_of::<*const f32>()],
+        "muslin_collider_desc_init";
     MuslinEvent from source[4] to count[4], "muslin_event_init";
     MuslinHit from normal[12] to normal[12], "muslin_hit_init";
     MuslinView from state_revision[4] to frayed[size_of::<*const u8>()], "muslin_view_init";

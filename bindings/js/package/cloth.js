@@ -10,6 +10,7 @@ import { writeIndices, writeVertices } from "./write.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
 const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
+const COLLIDER_KEYS = [...Object.keys(fields.COLLIDER), "positions", "indices", "heights"];
 const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "settings"];
 
 /** The material and the settings of a descriptor, as lists. */
@@ -289,9 +290,14 @@ export class Cloth {
 
   addCollider(collider = {}) {
     const live = this.#live;
-    const desc = fields.merge(fields.COLLIDER, raw.default_collider(), collider, "collider");
+    keys(collider, "collider", COLLIDER_KEYS);
+    const desc = fields.pack(fields.COLLIDER, raw.default_collider(), collider, "collider");
+    const positions = floats(collider.positions ?? [], "collider.positions", 3);
+    const indices = wholes(collider.indices ?? [], "collider.indices");
+    const heights = floats(collider.heights ?? [], "collider.heights", 1);
     const { rotation } = fields.unpack(fields.COLLIDER, desc);
-    return new Collider(OURS, () => this.#live, live.add_collider(desc), rotation);
+    const handle = live.add_collider(desc, positions, indices, heights);
+    return new Collider(OURS, () => this.#live, handle, rotation);
   }
 
   // What happened, and how it stands

@@ -147,10 +147,19 @@ export interface MeshDesc extends ClothDesc {
   weldDistance?: number;
 }
 
-/** A collider: its shape, where it is and how it feels. */
+/**
+ * What a collider is: a "plane", all that is below `position` along the turned y axis; a "sphere"; a
+ * "capsule", balls at both ends of a stretch of the turned y axis and all between them; a "box"; a "convex"
+ * body, the least that holds all of `positions`; a "mesh" of triangles, where cloth stays on the side where
+ * it is, so that it need not be closed nor wound one way; a "heightfield", all below a surface over heights
+ * along the turned x and z axes from `position` on.
+ */
+export type Shape = "plane" | "sphere" | "capsule" | "box" | "convex" | "mesh" | "heightfield";
+
+/** A collider: its shape, where it is and how it feels. Fields that its shape does not use are ignored. */
 export interface ColliderDesc {
-  /** What it is; "plane": all that is below `position` along the turned y axis. */
-  shape?: "plane";
+  /** What it is; "plane". */
+  shape?: Shape;
   /** Where it is [m]; [0, 0, 0]. */
   position?: Vec3Like;
   /** How it is turned, a unit quaternion; [0, 0, 0, 1]. */
@@ -161,4 +170,30 @@ export interface ColliderDesc {
   restitution?: number;
   /** Share of the sliding speed that every substep of touching leaves, beside friction; 1. */
   tangentialRestitution?: number;
+  /**
+   * Gap kept from its surface [m]; −1 takes the material's thickness. Where a surface is round or bends little,
+   * particles stay farther off by what is between them would sink in: at most a fifth of the mean edge from
+   * balls and capsules, a tenth from others.
+   */
+  thickness?: number;
+  /** Of a sphere or capsule [m]; 0.5. */
+  radius?: number;
+  /** Of the upper end of a capsule [m]; −1 is as `radius`. */
+  topRadius?: number;
+  /** Of a capsule: from its middle to the centres of its ends [m]; 0.5. */
+  halfHeight?: number;
+  /** Of a box: from its middle to its sides [m]; [0.5, 0.5, 0.5]. */
+  halfExtents?: Vec3Like;
+  /** Of a heightfield: from one height to the next [m]; 1. */
+  spacing?: number;
+  /** Of a heightfield: heights along x, 2 to 4096. */
+  columns?: number;
+  /** Of a heightfield: heights along z, 2 to 4096. */
+  rows?: number;
+  /** Of a convex body, at most 1024, or a mesh: its points [m], x y z x y z …. Copied. */
+  positions?: Float32Array | Float64Array | readonly number[];
+  /** Of a mesh: points of its triangles, three each. Copied. */
+  indices?: Uint32Array | Uint16Array | readonly number[];
+  /** Of a heightfield: `columns` × `rows` heights [m], row by row along x. Copied. */
+  heights?: Float32Array | Float64Array | readonly number[];
 }

@@ -83,12 +83,20 @@ export const GRID = {
 export const MESH = { weldDistance: NUMBER, extraParticles: WHOLE };
 
 export const COLLIDER = {
-  shape: CHOICE("plane"),
+  shape: CHOICE("plane", "sphere", "capsule", "box", "convex", "mesh", "heightfield"),
   position: VECTOR,
   rotation: ROTATION,
   friction: NUMBER,
   restitution: NUMBER,
   tangentialRestitution: NUMBER,
+  thickness: NUMBER,
+  radius: NUMBER,
+  topRadius: NUMBER,
+  halfHeight: NUMBER,
+  halfExtents: VECTOR,
+  spacing: NUMBER,
+  columns: WHOLE,
+  rows: WHOLE,
 };
 
 export const WRITE = {

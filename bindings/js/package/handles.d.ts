@@ -12,10 +12,20 @@ export interface Grab {
   release(): void;
 }
 
+/** What a cloth did to a collider in the last tick; over the tick's length, force and torque. */
+export interface Impulse {
+  /** Momentum given [kg m/s]. */
+  readonly linear: Vec3;
+  /** Angular momentum given, about the collider's position [kg m²/s]. */
+  readonly angular: Vec3;
+}
+
 /** A collider of a cloth. Stale once removed. */
 export interface Collider {
   /** Moves it; it gets there over the next tick. Without a rotation it keeps the last one. */
   moveTo(position: Vec3Like, rotation?: QuatLike): void;
+  /** What the cloth did to it in the last tick. Throws if it was removed. */
+  readonly impulse: Impulse;
   /** Removes it. Throws if it was removed before. */
   remove(): void;
 }

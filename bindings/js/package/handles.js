@@ -50,6 +50,12 @@ export class Collider {
     this.#rotation = turned;
   }
 
+  get impulse() {
+    const all = Array.from(this.#live().collider_impulse(this.#handle));
+    const part = (from) => Object.freeze(all.slice(from, from + 3));
+    return Object.freeze({ linear: part(0), angular: part(3) });
+  }
+
   remove() {
     this.#live().remove_collider(this.#handle);
   }

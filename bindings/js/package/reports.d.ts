@@ -78,6 +78,7 @@ export type Stage =
   | "stretch"
   | "shear"
   | "bend"
+  | "pairs"
   | "contacts"
   | "velocities"
   | "tear"

@@ -78,7 +78,13 @@ impl RawCloth {
     }
 
     /// Adds a collider; gives its number.
-    pub fn add_collider(&mut self, desc: &[f64]) -> Result<u32> {
+    pub fn add_collider(
+        &mut self,
+        desc: &[f64],
+        positions: &[f32],
+        indices: &[u32],
+        heights: &[f32],
+    ) -> Result<u32> {
         let mut list = Reader::new(desc);
         let desc = ColliderDesc {
             shape: Shape::from_number(list.count()).map_err(refusal)?,
@@ -87,6 +93,17 @@ impl RawCloth {
             friction: list.number(),
             restitution: list.number(),
             tangential_restitution: list.number(),
+            thickness: list.number(),
+            radius: list.number(),
+            top_radius: list.number(),
+            half_height: list.number(),
+            half_extents: list.vector(),
+            spacing: list.number(),
+            columns: list.count(),
+            rows: list.count(),
+            positions: numbers::vectors(positions),
+            indices: indices.to_vec(),
+            heights: heights.to_vec(),
         };
         self.cloth.add_collider(&desc).map(Collider::to_bits).map_err(refusal)
     }
@@ -102,6 +119,16 @@ impl RawCloth {
     /// Removes a collider.
     pub fn remove_collider(&mut self, collider: u32) -> Result<()> {
         self.cloth.remove_collider(Collider::from_bits(collider)).map_err(refusal)
+    }
+
+    /// What a collider got in the last tick: momentum, then angular momentum.
+    pub fn collider_impulse(&self, collider: u32) -> Result<Vec<f64>> {
+        let collider = Collider::from_bits(collider);
+        let impulse = self.cloth.collider_impulse(collider).map_err(refusal)?;
+        let mut list = Writer::default();
+        list.vector(impulse.linear);
+        list.vector(impulse.angular);
+        Ok(list.0)
     }
 
     /// Cuts with a blade: `blade` is where it is from, where to, and its sweep; says how many edges opened.

@@ -103,6 +103,10 @@ pub fn default_collider() -> Vec<f64> {
     list.count(desc.shape as u32);
     list.vector(desc.position);
     list.numbers(&desc.rotation.to_array());
-    list.numbers(&[desc.friction, desc.restitution, desc.tangential_restitution]);
+    list.numbers(&[desc.friction, desc.restitution, desc.tangential_restitution, desc.thickness]);
+    list.numbers(&[desc.radius, desc.top_radius, desc.half_height]);
+    list.vector(desc.half_extents);
+    list.number(desc.spacing);
+    list.counts(&[desc.columns, desc.rows]);
     list.0
 }

@@ -9,8 +9,9 @@ use muslin_core::Collider;
 
 /// Adds a collider to a cloth.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED for another
-/// shape than a plane; MUSLIN_STATUS_FULL if there are 1024 colliders already
+/// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field and the rule;
+/// MUSLIN_STATUS_UNSUPPORTED for a shape that this version does not know; MUSLIN_STATUS_FULL if there are
+/// 1024 colliders already
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_add_collider(
     cloth: MuslinCloth,
@@ -21,7 +22,8 @@ pub unsafe extern "C" fn muslin_cloth_add_collider(
     let (desc, out_collider) =
         unsafe { (boundary::read("desc", desc), Out::new("out_collider", out_collider)) };
     with_cloth(cloth, |cloth| {
-        let (desc, out_collider) = (desc?.try_into()?, out_collider?);
+        // SAFETY: the caller's promise above.
+        let (desc, out_collider) = (unsafe { desc?.read()? }, out_collider?);
         out_collider.write(MuslinCollider { id: cloth.add_collider(&desc)?.to_bits() });
         Ok(())
     })
@@ -53,4 +55,27 @@ pub extern "C" fn muslin_cloth_remove_collider(
     collider: MuslinCollider,
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| Ok(cloth.remove_collider(Collider::from_bits(collider.id))?))
+}
+
+/// Tells what the cloth did to a collider in the last tick: `out_linear` (may be NULL) gets the momentum
+/// [kg m/s], `out_angular` (may be NULL) the angular momentum about the collider's position [kg m2/s].
+/// Divided by the length of a tick they are the force and the torque, for an engine that moves what the
+/// cloth lies on.
+///
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_collider_impulse(
+    cloth: MuslinCloth,
+    collider: MuslinCollider,
+    out_linear: *mut MuslinVec3,
+    out_angular: *mut MuslinVec3,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    let (linear, angular) = unsafe { (Out::optional(out_linear), Out::optional(out_angular)) };
+    with_cloth(cloth, |cloth| {
+        let impulse = cloth.collider_impulse(Collider::from_bits(collider.id))?;
+        linear.into_iter().for_each(|out| out.write(impulse.linear.into()));
+        angular.into_iter().for_each(|out| out.write(impulse.angular.into()));
+        Ok(())
+    })
 }

@@ -54,6 +54,7 @@ pub extern "C" fn muslin_stage_name(stage: u32) -> *const c_char {
         c"stretch",
         c"shear",
         c"bend",
+        c"pairs",
         c"contacts",
         c"velocities",
         c"tear",

@@ -10,6 +10,7 @@ mod hands;
 mod mesh;
 mod tears;
 mod time;
+mod touch;
 
 use crate::Scene;
 use muslin::glam::Vec3;
@@ -26,6 +27,8 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "cut-by-blades", play: tears::cut_by_blades },
     Scene { name: "tears-and-cuts-at-random", play: tears::tears_and_cuts_at_random },
     Scene { name: "dropped-on-a-tilting-floor", play: floor::dropped_on_a_tilting_floor },
+    Scene { name: "draped-over-solids", play: touch::draped_over_solids },
+    Scene { name: "thrown-on-hills", play: touch::thrown_on_hills },
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },
     Scene { name: "first-order", play: time::first_order },

@@ -1,0 +1,58 @@
+//! Where something rigid is, and how it is turned.
+
+use crate::error::{Result, check, check_finite};
+use crate::geom::frame::Frame;
+use glam::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// Where a collider is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Pose {
+    pub position: Vec3,
+    pub rotation: Quat,
+}
+
+/// Refuses a pose that cannot be.
+pub(crate) fn check_pose(position: Vec3, rotation: Quat) -> Result<()> {
+    check_finite(position, "collider.position")?;
+    let length = rotation.length_squared();
+    check(
+        rotation.is_finite() && (length - 1.0).abs() < 1.0e-2,
+        "collider.rotation",
+        "be a unit quaternion",
+    )
+}
+
+impl Pose {
+    /// With the rotation made a unit quaternion, which it is but for a hundredth.
+    pub fn new(position: Vec3, rotation: Quat) -> Self {
+        let [x, y, z, w] = rotation.to_array();
+        let scale = 1.0 / (x * x + y * y + z * z + w * w).sqrt();
+        Self { position, rotation: Quat::from_xyzw(x * scale, y * scale, z * scale, w * scale) }
+    }
+
+    /// `v` turned as the collider is. Written out, so that every target computes the same.
+    fn turn(&self, v: Vec3) -> Vec3 {
+        let [x, y, z, w] = self.rotation.to_array();
+        let axis = Vec3::new(x, y, z);
+        let twice = axis.cross(v) * 2.0;
+        v + twice * w + axis.cross(twice)
+    }
+
+    /// The pose a `share` of the way to `next`.
+    pub fn toward(&self, next: &Self, share: f32) -> Self {
+        let (from, to) = (self.rotation.to_array(), next.rotation.to_array());
+        let dot: f32 = (0..4).map(|i| from[i] * to[i]).sum();
+        let sign = if dot < 0.0 { -1.0 } else { 1.0 };
+        let blend = |i: usize| from[i] + (to[i] * sign - from[i]) * share;
+        Self::new(
+            self.position + (next.position - self.position) * share,
+            Quat::from_xyzw(blend(0), blend(1), blend(2), blend(3)),
+        )
+    }
+
+    /// Ready to be used on many points.
+    pub fn frame(&self) -> Frame {
+        Frame { origin: self.position, axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.turn(v)) }
+    }
+}

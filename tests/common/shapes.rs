@@ -1,0 +1,197 @@
+//! Colliders to fall on, measured without the library's own geometry.
+#![allow(dead_code)]
+
+use super::bare_grid;
+use muslin::glam::Vec3;
+use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Shape};
+
+/// A free sheet of this width that lies flat above the origin.
+pub fn sheet(nodes: u32, width: f32, height: f32) -> GridDesc {
+    let spacing = width / (nodes - 1) as f32;
+    let mut desc = bare_grid(nodes, nodes, spacing, PinMode::None);
+    desc.down = Vec3::Z;
+    desc.origin = Vec3::new(-0.5 * width, height, -0.5 * width);
+    // A person would feel that it is cloth: the air brakes it, and so does its weave.
+    desc.settings.damping = 0.5;
+    desc
+}
+
+/// The signed distance of a point from a shape at its place.
+pub fn distance(desc: &ColliderDesc, x: Vec3) -> f32 {
+    let p = desc.rotation.inverse() * (x - desc.position);
+    match desc.shape {
+        Shape::Plane => p.y,
+        Shape::Sphere => p.length() - desc.radius,
+        Shape::Capsule => {
+            let top = if desc.top_radius < 0.0 { desc.radius } else { desc.top_radius };
+            let balls = (0..=400).map(|k| k as f32 / 400.0).map(|t| {
+                let center = Vec3::Y * (desc.half_height * (2.0 * t - 1.0));
+                (p - center).length() - (desc.radius + (top - desc.radius) * t)
+            });
+            balls.fold(f32::INFINITY, f32::min)
+        }
+        Shape::Box => {
+            let q = p.abs() - desc.half_extents;
+            q.max(Vec3::ZERO).length() + q.max_element().min(0.0)
+        }
+        Shape::Convex => hull_distance(&desc.positions, p),
+        Shape::Mesh => surface_distance(desc, p),
+        Shape::Heightfield => ground_distance(desc, p),
+        other => panic!("no distance from {other:?}"),
+    }
+}
+
+/// The deepest vertex and the deepest point of any triangle [m]; above 0 is outside.
+pub fn clearance(cloth: &Cloth, desc: &ColliderDesc) -> (f32, f32) {
+    let x = cloth.positions();
+    let vertices = x.iter().map(|x| distance(desc, *x)).fold(f32::INFINITY, f32::min);
+    let mut faces = vertices;
+    for t in cloth.indices().chunks_exact(3) {
+        let [a, b, c] = [t[0], t[1], t[2]].map(|i| x[i as usize]);
+        if distance(desc, (a + b + c) / 3.0) > (b - a).length().max((c - a).length()) {
+            continue;
+        }
+        for i in 0..=8 {
+            for j in 0..=8 - i {
+                let (v, w) = (i as f32 / 8.0, j as f32 / 8.0);
+                faces = faces.min(distance(desc, a + (b - a) * v + (c - a) * w));
+            }
+        }
+    }
+    (vertices, faces)
+}
+
+/// Steps until the cloth is at rest, which it is if it was slow for two seconds, and says after how many ticks.
+pub fn settle(cloth: &mut Cloth, most: u32) -> u32 {
+    let mut calm = 0;
+    for tick in 1..=most {
+        cloth.step(1);
+        calm = if rms_speed(cloth) < 1.0e-3 { calm + 1 } else { 0 };
+        if calm == 120 {
+            return tick;
+        }
+    }
+    panic!("after {most} ticks it still moves at {} m/s", rms_speed(cloth));
+}
+
+pub fn rms_speed(cloth: &Cloth) -> f32 {
+    let count = cloth.positions().len();
+    let speed2 = (0..count).map(|i| cloth.velocity(i as u32).unwrap().length_squared());
+    (speed2.sum::<f32>() / count as f32).sqrt()
+}
+
+/// The noise at rest over ten seconds: the most rms speed [m/s], and how far any particle drifts [m].
+pub fn noise(cloth: &mut Cloth) -> (f32, f32) {
+    let start = cloth.positions().to_vec();
+    let mut most = 0.0_f32;
+    for _ in 0..600 {
+        cloth.step(1);
+        most = most.max(rms_speed(cloth));
+    }
+    let drift = cloth.positions().iter().zip(start).map(|(now, then)| (*now - then).length());
+    (most, drift.fold(0.0, f32::max))
+}
+
+/// From the hull of some points: the most that a plane through three of them, with none beyond, is below.
+fn hull_distance(points: &[Vec3], p: Vec3) -> f32 {
+    let mut most = f32::NEG_INFINITY;
+    for (i, a) in points.iter().enumerate() {
+        for (j, b) in points.iter().enumerate().skip(i + 1) {
+            for c in points.iter().skip(j + 1) {
+                let normal = (*b - *a).cross(*c - *a).normalize();
+                for normal in [normal, -normal] {
+                    if points.iter().all(|x| (*x - *a).dot(normal) < 1.0e-5) {
+                        most = most.max((p - *a).dot(normal));
+                    }
+                }
+            }
+        }
+    }
+    most
+}
+
+/// From a closed mesh around the origin that is star-shaped: by the triangle that a ray from there leaves
+/// through. The distance is that from its plane.
+fn surface_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
+    let mut found = f32::INFINITY;
+    for t in desc.indices.chunks_exact(3) {
+        let [a, b, c] = [t[0], t[1], t[2]].map(|i| desc.positions[i as usize]);
+        let is_within = |u: Vec3, v: Vec3, w: Vec3| {
+            let n = u.cross(v);
+            n.dot(p) * n.dot(w) >= -1.0e-9
+        };
+        let normal = (b - a).cross(c - a).normalize();
+        let normal = if normal.dot(a) > 0.0 { normal } else { -normal };
+        if normal.dot(p) > 0.0 && is_within(a, b, c) && is_within(b, c, a) && is_within(c, a, b) {
+            found = found.min((p - a).dot(normal));
+        }
+    }
+    found
+}
+
+/// From ground: straight down, over cells that are divided from their first to their last corner.
+fn ground_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
+    let at = |c: u32, r: u32| desc.heights[(r * desc.columns + c) as usize];
+    let (x, z) = (p.x / desc.spacing, p.z / desc.spacing);
+    let is_over = |x: f32, count: u32| x >= 0.0 && x <= (count - 1) as f32;
+    if !is_over(x, desc.columns) || !is_over(z, desc.rows) {
+        return f32::INFINITY;
+    }
+    let (c, r) = ((x as u32).min(desc.columns - 2), (z as u32).min(desc.rows - 2));
+    let (u, v) = (x - c as f32, z - r as f32);
+    let (first, last) = (at(c, r), at(c + 1, r + 1));
+    let height = if u > v {
+        first + u * (at(c + 1, r) - first) + v * (last - at(c + 1, r))
+    } else {
+        first + v * (at(c, r + 1) - first) + u * (last - at(c, r + 1))
+    };
+    p.y - height
+}
+
+/// A ball of triangles, `rings` from pole to pole.
+pub fn ball_of_triangles(radius: f32, rings: u32) -> ColliderDesc {
+    let around = 2 * rings;
+    let mut positions = Vec::new();
+    for ring in 0..=rings {
+        let (sin, cos) = (ring as f32 * std::f32::consts::PI / rings as f32).sin_cos();
+        // Both poles are points.
+        let sin = if ring == rings { 0.0 } else { sin };
+        for k in 0..around {
+            let (s, c) = (k as f32 * std::f32::consts::TAU / around as f32).sin_cos();
+            positions.push(Vec3::new(sin * c, cos, sin * s) * radius);
+        }
+    }
+    let mut indices = Vec::new();
+    for ring in 0..rings {
+        for k in 0..around {
+            let (a, b) = (ring * around + k, ring * around + (k + 1) % around);
+            indices.extend([a, b, a + around, b, b + around, a + around]);
+        }
+    }
+    ColliderDesc { shape: Shape::Mesh, positions, indices, ..Default::default() }
+}
+
+/// Hills in a square around the origin.
+pub fn hills(cells: u32, width: f32) -> ColliderDesc {
+    let count = cells + 1;
+    let heights = (0..count * count).map(|i| {
+        let (x, z) = ((i % count) as f32 / cells as f32, (i / count) as f32 / cells as f32);
+        0.08 * ((x * 13.0).sin() + (z * 11.0 + 1.0).sin())
+    });
+    ColliderDesc {
+        shape: Shape::Heightfield,
+        position: Vec3::new(-0.5 * width, 0.0, -0.5 * width),
+        columns: count,
+        rows: count,
+        spacing: width / cells as f32,
+        heights: heights.collect(),
+        ..Default::default()
+    }
+}
+
+/// Eight faces around the origin.
+pub fn octahedron(size: f32) -> ColliderDesc {
+    let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+    let positions = axes.into_iter().flat_map(|axis| [axis * size, -axis * size]).collect();
+    ColliderDesc { shape: Shape::Convex, positions, ..Default::default() }
+}
