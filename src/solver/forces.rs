@@ -3,7 +3,7 @@
 //! The air pushes each triangle along its normal by the square of the relative speed,
 //! p = ½ ρ C |u·n| (u·n), and across the wind by ½ ρ C_L sin α cos α |u|². Gathered once a tick.
 
-use super::surface::{Band, Give, Surface, V, in_bands, sum, sum_apart};
+use super::surface::{self, Band, Give, Surface, V, in_bands};
 use super::{PARTICLES, World};
 use crate::math::simd::{Number, Simd, leveled, vectored};
 use crate::math::{TINY, max};
@@ -101,12 +101,12 @@ fn face_air_lanes(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], mut air: [&mu
 
 vectored! {
     fn push(surface: Surface<'_>, pressure: Pressure, band: Band, force: [&mut [f32]; 3])
-        = sum, Avx2, sum_apart
+        = surface::sum, Avx2, surface::sum_apart
 }
 
 vectored! {
     fn push_and_lift(surface: Surface<'_>, pressure: WithLift, band: Band, force: [&mut [f32]; 3])
-        = sum, Avx2, sum_apart
+        = surface::sum, Avx2, surface::sum_apart
 }
 
 leveled! {

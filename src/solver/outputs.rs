@@ -1,6 +1,6 @@
 //! Stage `Outputs`: what a renderer reads, from what the solver keeps.
 
-use super::surface::{Band, Give, Surface, V, in_bands, sum, sum_apart};
+use super::surface::{self, Band, Give, Surface, V, in_bands};
 use super::{PARTICLES, World};
 use crate::fabric::links::LinkKind;
 use crate::math::columns::Columns;
@@ -54,7 +54,7 @@ fn blend_lanes(x: &mut [f32], last: &[f32], share: f32) {
 
 vectored! {
     fn sum_normals(surface: Surface<'_>, give: Doubled, band: Band, sums: [&mut [f32]; 3])
-        = sum, Avx2, sum_apart
+        = surface::sum, Avx2, surface::sum_apart
 }
 
 leveled! {

@@ -9,7 +9,7 @@
 //! to n, and w is 1.
 
 use super::World;
-use super::surface::{Band, Give, Surface, V, in_bands, sum, sum_apart};
+use super::surface::{self, Band, Give, Surface, V, in_bands};
 use crate::math::columns::Columns;
 use crate::math::simd::{Simd, vectored};
 use glam::{Vec2, Vec3};
@@ -103,7 +103,7 @@ impl Tangents {
 
 vectored! {
     fn sum_tangents(surface: Surface<'_>, give: Along, band: Band, sums: [&mut [f32]; 3])
-        = sum, Avx2, sum_apart
+        = surface::sum, Avx2, surface::sum_apart
 }
 
 /// The direction in which u grows on a triangle, as long as it is large in the texture. What is `air` of
