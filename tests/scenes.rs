@@ -1,6 +1,6 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
-use muslin_scenes::{Flag, HangingSheet, Scene, play};
+use muslin_scenes::{Flag, HangingSheet, Scene, SheetOnBall, play};
 
 fn keeps_its_promise<S: Scene>() {
     for seconds in [1, 5, 20] {
@@ -19,4 +19,9 @@ fn the_hanging_sheet_hangs() {
 #[test]
 fn the_flag_streams_and_waves() {
     keeps_its_promise::<Flag>();
+}
+
+#[test]
+fn the_sheet_lies_on_its_ball() {
+    keeps_its_promise::<SheetOnBall>();
 }

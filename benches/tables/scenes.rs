@@ -4,7 +4,7 @@ use crate::Effort;
 use crate::measure::{in_turn, seconds};
 use crate::table::{Table, number};
 use muslin::Cloth;
-use muslin_scenes::{Flag, HangingSheet, Scene};
+use muslin_scenes::{Flag, HangingSheet, Scene, SheetOnBall};
 use std::hint::black_box;
 
 /// Ticks until a scene is itself.
@@ -17,6 +17,7 @@ pub fn print(effort: Effort) {
     let mut table = Table::new(&["scene"], &["particles", "constraints", "ms a tick", "median"]);
     table.push(row::<HangingSheet>(effort));
     table.push(row::<Flag>(effort));
+    table.push(row::<SheetOnBall>(effort));
     println!(
         "\nScenes: ms of one thread for a whole tick with normals, after {SETTLED} ticks; least and \
          median of {ROUNDS} rounds of {TICKS} ticks.\n"

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, PinMode, Result, Wind};
-use muslin_scenes::{Flag, HangingSheet};
+use muslin_scenes::{Flag, HangingSheet, SheetOnBall};
 use serde::{Deserialize, Serialize};
 
 use crate::fabric::Fabric;
@@ -17,8 +17,12 @@ use crate::settings::{Pinning, Settings};
 const BREEZE: f32 = 1.3;
 /// And where a flag flies.
 const STIFF_BREEZE: f32 = 7.0;
+/// And where a sheet only lies.
+const BREATH: f32 = 0.6;
 /// What the cloth is kept over the floor, so that it never flickers through [m].
 const CLEARANCE: f32 = 0.006;
+/// What the ball is drawn smaller than it is felt, since triangles cut its corners [m].
+const SKIN: f32 = 0.009;
 /// Radius of the flag's pole [m].
 const POLE: f32 = 0.016;
 
@@ -31,19 +35,22 @@ pub enum Show {
     Sheet,
     /// The flag that streams from its pole.
     Flag,
+    /// The sheet that falls on a ball.
+    Ball,
 }
 
 impl Show {
     /// All of them, in the order of the panel.
-    pub const ALL: [Self; 2] = [Self::Sheet, Self::Flag];
+    pub const ALL: [Self; 3] = [Self::Sheet, Self::Flag, Self::Ball];
     /// What the panel calls them.
-    pub const NAMES: [&'static str; 2] = ["Sheet", "Flag"];
+    pub const NAMES: [&'static str; 3] = ["Sheet", "Flag", "Ball"];
 
     /// What its cloth is of when it opens.
     pub fn fabric(self) -> Fabric {
         match self {
             Self::Sheet => Fabric::Silk,
             Self::Flag => Fabric::Flag,
+            Self::Ball => Fabric::Cotton,
         }
     }
 }
@@ -51,7 +58,7 @@ impl Show {
 /// Particles across and down.
 pub fn weave(settings: &Settings) -> [u32; 2] {
     match settings.scene {
-        Show::Sheet => [settings.resolution; 2],
+        Show::Sheet | Show::Ball => [settings.resolution; 2],
         Show::Flag => Flag::weave(settings.resolution),
     }
 }
@@ -61,6 +68,7 @@ pub fn spacing(settings: &Settings) -> f32 {
     let across = match settings.scene {
         Show::Sheet => HangingSheet::SIZE,
         Show::Flag => Flag::SIZE.x,
+        Show::Ball => SheetOnBall::SIZE,
     };
     across / (settings.resolution - 1) as f32
 }
@@ -74,6 +82,15 @@ pub fn span(settings: &Settings) -> Vec2 {
 pub fn solids(settings: &Settings) -> Vec<Solid> {
     match settings.scene {
         Show::Sheet => Vec::new(),
+        Show::Ball => {
+            let centre = SheetOnBall::CENTRE;
+            let radius = SheetOnBall::RADIUS - SKIN;
+            let foot = centre.with_y(FLOOR);
+            vec![
+                Solid { from: centre, to: centre, radius, colour: 0x6f7f9c },
+                Solid { from: foot, to: centre, radius: 0.09, colour: 0x4a5264 },
+            ]
+        }
         Show::Flag => {
             let foot = Vec3::new(Flag::HOIST.x - POLE, FLOOR, 0.0);
             let top = foot.with_y(Flag::HOIST.y + 0.09);
@@ -92,19 +109,24 @@ pub fn build(settings: &Settings, calm: bool) -> Result<Cloth> {
     let mut desc = match settings.scene {
         Show::Sheet => HangingSheet::desc(settings.resolution, pin_mode(settings.pinning)),
         Show::Flag => Flag::desc(settings.resolution),
+        Show::Ball => SheetOnBall::desc(settings.resolution),
     };
     desc.material = settings.fabric.material();
     // The stiffness slider multiplies them by up to twelve sweeps: four are smooth, and cheap.
     desc.settings.substeps = 4;
     let mut cloth = match settings.scene {
-        Show::Sheet => Cloth::grid(&desc)?,
+        Show::Sheet | Show::Ball => Cloth::grid(&desc)?,
         Show::Flag => Flag::hoisted(&desc, settings.pinning != Pinning::TopEdge)?,
     };
     cloth.add_collider(&ColliderDesc {
         position: Vec3::Y * (FLOOR + CLEARANCE),
         ..ColliderDesc::default()
     })?;
-    drape(&mut cloth, settings)?;
+    if settings.scene == Show::Ball {
+        SheetOnBall::put_ball(&mut cloth)?;
+    } else {
+        drape(&mut cloth, settings)?;
+    }
     tune(&mut cloth, settings, calm)?;
     Ok(cloth)
 }
@@ -128,7 +150,7 @@ fn drape(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
         (Show::Sheet, Pinning::TopEdge) => {
             0.78 * (TAU * (4.5 * u + 0.10 * (TAU * u).sin() + 0.07 * (2.3 * TAU * u).cos())).sin()
         }
-        (Show::Sheet, _) => 0.75 * (1.0 - 2.0 * u),
+        (Show::Sheet | Show::Ball, _) => 0.75 * (1.0 - 2.0 * u),
         (Show::Flag, _) => 0.7 * u.sqrt() * (TAU * 1.6 * u).sin(),
     };
     let mut curve = vec![Vec2::ZERO];
@@ -137,7 +159,7 @@ fn drape(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
         curve.push(curve[i as usize - 1] + Vec2::from_angle(turn) * step);
     }
     let start = match settings.scene {
-        Show::Sheet => -0.5 * (curve[0] + curve[columns as usize - 1]),
+        Show::Sheet | Show::Ball => -0.5 * (curve[0] + curve[columns as usize - 1]),
         Show::Flag => Vec2::new(Flag::HOIST.x, Flag::HOIST.z),
     };
     for row in 0..rows {
@@ -166,6 +188,7 @@ pub fn tune(cloth: &mut Cloth, settings: &Settings, calm: bool) -> Result<()> {
     let wind = match settings.scene {
         Show::Sheet => HangingSheet::wind(BREEZE * settings.wind),
         Show::Flag => Flag::wind(STIFF_BREEZE * settings.wind),
+        Show::Ball => SheetOnBall::wind(BREATH * settings.wind),
     };
     cloth.set_wind(Wind {
         gust: wind.gust * restless,

@@ -1,8 +1,10 @@
 //! Scenes of cloth: the demo shows them, `tests/scenes.rs` plays them, the benchmarks time them.
 
+mod ball;
 mod flag;
 mod hanging_sheet;
 
+pub use ball::SheetOnBall;
 pub use flag::Flag;
 pub use hanging_sheet::HangingSheet;
 use muslin::Cloth;
