@@ -95,6 +95,23 @@ impl Abreast {
         }
     }
 
+    /// Takes over lengths at rest that changed.
+    pub fn measure(&mut self, links: &Links) {
+        self.lay(links);
+        for block in &self.blocks {
+            for group in &self.groups[block.first_group..block.first_group + block.groups] {
+                let own = group.first as usize..(group.first + group.count) as usize;
+                for step in &mut self.steps[own] {
+                    for (link, rest) in step.links.iter().zip(&mut step.rest) {
+                        if *link != NONE {
+                            *rest = links.rest[*link as usize];
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     /// Lays anew what changed.
     pub fn lay(&mut self, links: &Links) {
         if core::mem::take(&mut self.is_stale) {

@@ -101,15 +101,15 @@ const material = {
   preset: [null, 0, "wool", "Denim"],
   colour: ["red"],
 };
-for (const key of ["restitution", "tearVariation"]) material[key] = [...NOT_NUMBERS, -0.1, 1.1];
+for (const key of ["restitution", "tearVariation", "yieldCreep"]) material[key] = [...NOT_NUMBERS, -0.1, 1.1];
 for (const key of ["thickness", "stretchStiffnessWarp", "stretchStiffnessWeft", "shearStiffness"]) {
   material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
 for (const key of ["bendStiffness", "friction", "drag", "lift"]) {
   material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
-for (const key of ["bendDamping", "stretchDamping", "yieldAngle", "yieldCreep"]) {
-  material[key] = [...NOT_NUMBERS, -1, 0.5];
+for (const key of ["bendDamping", "stretchDamping", "yieldAngle", "foldLength"]) {
+  material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
 for (const [key, values] of Object.entries(material)) {
   refuses(`material.${key}`, values, (value, { cloth }) => {
