@@ -99,15 +99,17 @@ impl Abreast {
     pub fn measure(&mut self, links: &Links) {
         self.lay(links);
         for block in &self.blocks {
-            for group in &self.groups[block.first_group..block.first_group + block.groups] {
-                let own = group.first as usize..(group.first + group.count) as usize;
-                for step in &mut self.steps[own] {
-                    for (link, rest) in step.links.iter().zip(&mut step.rest) {
-                        if *link != NONE {
-                            *rest = links.rest[*link as usize];
-                        }
+            let mut next = [0.0; LANES];
+            for step in self.steps[block.first_step..][..block.steps].iter_mut().rev() {
+                for lane in 0..LANES {
+                    let (link, begins) = (step.links[lane], step.to[lane] != NOBODY);
+                    if link != NONE {
+                        step.rest[lane] = links.rest[link as usize];
+                    } else if begins {
+                        step.rest[lane] = -next[lane];
                     }
                 }
+                next = step.rest;
             }
         }
     }
