@@ -211,12 +211,12 @@ impl Cells<'_> {
                 *twist -= was * seen.before;
             }
         }
-        if let Some((rest, normal)) = seen.rest {
-            if rest[i] != 0.0 {
-                let share = rest[i] * (1.0 - seen.before);
-                let n = normal.at(i).to_array();
-                twist.iter_mut().zip(n).for_each(|(twist, n)| *twist -= n * share);
-            }
+        if let Some((rest, normal)) = seen.rest
+            && rest[i] != 0.0
+        {
+            let share = rest[i] * (1.0 - seen.before);
+            let n = normal.at(i).to_array();
+            twist.iter_mut().zip(n).for_each(|(twist, n)| *twist -= n * share);
         }
         twist
     }
