@@ -12,12 +12,22 @@
 //! it is the explicit one. The root of the bound is about as many steps as it takes.
 
 /// As many steps as one descent has at most.
-const MOST: usize = 6;
+const MOST: usize = 10;
 
 /// The square of the tangent of a quarter of a half turn over the number of steps: what the first root of
 /// that Chebyshev polynomial is away from one end over what it is from the other.
-const TO_FIRST_ROOT: [f32; MOST] =
-    [1.0, 0.171_572_88, 0.071_796_77, 0.039_566_13, 0.025_085_3, 0.017_332_38];
+const TO_FIRST_ROOT: [f32; MOST] = [
+    1.0,
+    0.171_572_88,
+    0.071_796_77,
+    0.039_566_13,
+    0.025_085_63,
+    0.017_332_38,
+    0.012_695_19,
+    0.009_700_557,
+    0.007_654_266,
+    0.006_193_959,
+];
 
 /// The share of an implicit step that may be left out, and what one step alone may.
 const LEFT_OUT: f32 = 0.2;
@@ -87,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_descent_is_an_implicit_step_but_for_a_fifth() {
-        for bound in [0.01, 0.3, 0.5, 1.5, 3.0, 8.0, 15.0] {
+        for bound in [0.01, 0.3, 0.5, 1.5, 3.0, 8.0, 15.0, 24.0, 40.0] {
             let descent = Descent::new(bound).unwrap();
             for at in 0..=100 {
                 let lambda = bound * at as f32 / 100.0;
