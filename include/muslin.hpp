@@ -271,6 +271,9 @@ class Cloth {
     if (status == MUSLIN_STATUS_NOT_TORN) return {MUSLIN_STATUS_OK, false};
     return {status, true};
   }
+  Done crease(MuslinVec3 from, MuslinVec3 to, float angle) noexcept {
+    return muslin_cloth_crease(cloth_, from, to, angle);
+  }
   /** Nothing if all were read. */
   Result<std::optional<MuslinEvent>> next_event() noexcept {
     MuslinEvent event;

@@ -104,7 +104,11 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         ("material.restitution", |m| m.restitution = 1.5),
         ("material.tear_stretch", |m| m.tear_stretch = 0.9),
         ("material.tear_variation", |m| m.tear_variation = 2.0),
-        ("material.yield_angle", |m| m.yield_angle = 1.0),
+        ("material.yield_angle", |m| m.yield_angle = -1.0),
+        ("material.yield_creep", |m| m.yield_creep = 1.5),
+        ("material.fold_length", |m| m.fold_length = f32::NAN),
+        ("material.bend_damping", |m| m.bend_damping = -0.1),
+        ("material.stretch_damping", |m| m.stretch_damping = f32::INFINITY),
     ];
     for (field, spoil) in material {
         let mut changed = cloth.material().clone();

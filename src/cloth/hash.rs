@@ -5,7 +5,7 @@ use crate::math::mix::Mixer;
 
 impl Cloth {
     /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, pins, grabs, colliders, tethers and time.
+    /// triangles, folds, pins, grabs, colliders, tethers and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
@@ -21,6 +21,9 @@ impl Cloth {
         for crossing in &world.crossings {
             mixer.words(&crossing.ends);
             mixer.floats(&[crossing.share]);
+        }
+        if world.folds.are_any {
+            world.folds.angle.iter().for_each(|angle| mixer.floats(angle));
         }
         for pin in world.pins.iter() {
             mixer.word(pin.particle);

@@ -1,6 +1,7 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
 pub(crate) mod changes;
+mod crease;
 mod cut;
 pub(crate) mod desc;
 mod drawn;

@@ -10,6 +10,7 @@ use super::world::Origin;
 use crate::error::{Error, Result};
 use crate::fabric::extra::Changes;
 use crate::fabric::material::Material;
+use crate::fabric::plates::Each;
 use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
@@ -45,6 +46,7 @@ struct Saved<'a> {
     links: Changes,
     /// What tears made of tethers; none where measuring gives the same.
     tethers: Vec<TetherSet>,
+    folds: Each<Vec<f32>>,
     particles: Owned<'a, Particles>,
     pins: Owned<'a, Pins>,
     grabs: Owned<'a, Grabs>,
@@ -81,6 +83,7 @@ impl Cloth {
             hems: Owned::Borrowed(&world.mesh.hems),
             links: world.weave.changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
+            folds: world.folds.kept(),
             particles: Owned::Borrowed(&world.particles),
             pins: Owned::Borrowed(&world.pins),
             grabs: Owned::Borrowed(&world.grabs),
@@ -189,6 +192,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(world.weave.change(&world.mesh, &saved.links, &world.material))?;
     world.weave.stiffen(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
+    must(world.take_folds(saved.folds))?;
     world.reserve_for_tears();
     world.gather();
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;

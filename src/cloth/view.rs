@@ -300,6 +300,7 @@ impl Cloth {
             + world.triangle_capacity * triangle
             + world.weave.bytes()
             + world.cells.as_ref().map_or(0, Cells::bytes)
+            + world.plates.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
             + self.outputs.drawn.bytes();
         bytes as u64

@@ -4,9 +4,12 @@ use super::desc::{GridDesc, MeshDesc};
 use crate::arena::Arena;
 use crate::error::Result;
 use crate::fabric::cells::Cells;
+use crate::fabric::folds::Folds;
+use crate::fabric::hinges::Hinges;
 use crate::fabric::lines::Lines;
 use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
+use crate::fabric::plates::Plates;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::weave::Weave;
 use crate::geom::triangle::corner_areas;
@@ -14,9 +17,9 @@ use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::{self, Frame};
 use crate::mesh::{Mesh, NONE, after, intake};
-use crate::solver::lines;
 use crate::solver::profile::Profile;
 use crate::solver::{Scratch, World};
+use crate::solver::{bend, brake, lines};
 use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
 use crate::state::grabs::MAX_GRABS;
@@ -81,7 +84,8 @@ fn grid_world(desc: &GridDesc) -> World {
         cells.reserve();
     }
     let cells = Some(cells);
-    let fabric = Fabric { mesh, weave, rest, areas, cells };
+    let plates = Some(Plates::new(desc.columns, desc.rows, desc.spacing, &mesh, &weave.links));
+    let fabric = Fabric { mesh, weave, rest, areas, cells, plates };
     build(fabric, &desc.pinned(), capacity, &desc.material, &desc.settings)
 }
 
@@ -89,11 +93,12 @@ fn mesh_world(desc: &MeshDesc) -> Result<World> {
     let (triples, _) = desc.indices.as_chunks::<3>();
     let capacity = desc.capacity();
     let mesh = intake::mesh(triples.to_vec(), &desc.positions, capacity)?;
-    let weave = Weave::mesh(&mesh, &desc.positions, opening_capacity(&mesh, capacity));
+    let mut weave = Weave::mesh(&mesh, &desc.positions, opening_capacity(&mesh, capacity));
     let rest = desc.positions.clone();
+    weave.hinges = Hinges::find(&mesh, &weave.links, &rest);
     let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
     let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
-    let fabric = Fabric { mesh, weave, rest, areas, cells: None };
+    let fabric = Fabric { mesh, weave, rest, areas, cells: None, plates: None };
     Ok(build(fabric, &desc.pinned, capacity, &desc.material, &desc.settings))
 }
 
@@ -104,6 +109,7 @@ struct Fabric {
     rest: Vec<Vec3>,
     areas: Vec<[f32; 3]>,
     cells: Option<Cells>,
+    plates: Option<Plates>,
 }
 
 fn build(
@@ -113,9 +119,13 @@ fn build(
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, mut weave, rest, areas, cells } = fabric;
+    let Fabric { mesh, mut weave, rest, areas, cells, plates } = fabric;
     weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
     let max_tears = settings.max_tears_per_tick as usize;
+    let folds = match &plates {
+        Some(plates) => Folds::of_plates(plates),
+        None => Folds::of_hinges(&weave.hinges.all),
+    };
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, capacity),
@@ -149,6 +159,8 @@ fn build(
         tips: Vec::with_capacity(capacity),
         corner_area: areas,
         cells,
+        plates,
+        folds,
     };
     world.pins.reserve(capacity);
     world.tethers.reserve(capacity, world.mesh.triangles.len());
@@ -203,6 +215,9 @@ impl World {
         if let Some(cells) = &mut self.cells {
             cells.reserve();
         }
+        if let Some(plates) = &mut self.plates {
+            plates.reserve();
+        }
         self.tethers.reserve(capacity, self.mesh.triangles.len());
         self.outward.reserve(capacity, self.weave.links.len());
         self.scratch = Scratch::new(
@@ -232,5 +247,8 @@ impl World {
             self.scratch.packed.reserve(capacity);
         }
         self.scratch.lines = lines::Scratch::new(self.weave.lines.abreast.most_steps(), capacity);
+        self.scratch.bend = bend::Scratch::new(self, capacity);
+        let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
+        self.scratch.brake = brake::Scratch::new(self.weave.links.len(), extra);
     }
 }

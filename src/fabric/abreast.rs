@@ -95,6 +95,25 @@ impl Abreast {
         }
     }
 
+    /// Takes over lengths at rest that changed.
+    pub fn measure(&mut self, links: &Links) {
+        self.lay(links);
+        for block in &self.blocks {
+            let mut next = [0.0; LANES];
+            for step in self.steps[block.first_step..][..block.steps].iter_mut().rev() {
+                for lane in 0..LANES {
+                    let (link, begins) = (step.links[lane], step.to[lane] != NOBODY);
+                    if link != NONE {
+                        step.rest[lane] = links.rest[link as usize];
+                    } else if begins {
+                        step.rest[lane] = -next[lane];
+                    }
+                }
+                next = step.rest;
+            }
+        }
+    }
+
     /// Lays anew what changed.
     pub fn lay(&mut self, links: &Links) {
         if core::mem::take(&mut self.is_stale) {

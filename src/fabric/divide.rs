@@ -260,6 +260,7 @@ impl Weave {
         let spec = links.spec[at];
         links.spec[at].support = Support::Gone;
         links.active[at] = false;
+        self.hinges.revision = self.hinges.revision.wrapping_add(1);
         let slot = edge_of(spec.anchors) as usize;
         if spec.support == Support::Edge && self.link_of_edge[slot] == number {
             self.link_of_edge[slot] = NONE;

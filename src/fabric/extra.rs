@@ -106,6 +106,7 @@ impl Weave {
             let link = self.involved[at] as usize;
             self.links.follow(mesh, link);
             self.lines.abreast.forget(link);
+            self.hinges.follow_link(mesh, &self.links, link);
             if let Some(rows) = &mut self.rows {
                 let ends = (self.links.a[link], self.links.b[link]);
                 rows.follow(link, ends, self.links.active[link]);

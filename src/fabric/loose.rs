@@ -68,6 +68,13 @@ impl Loose {
         }
     }
 
+    /// Takes over lengths at rest that changed.
+    pub fn measure(&mut self, links: &Links) {
+        for (rest, link) in self.rest.iter_mut().zip(&self.link) {
+            *rest = links.rest[*link as usize];
+        }
+    }
+
     /// Whether no two links of a batch share a particle.
     pub fn is_colored(&self, batch: usize) -> bool {
         self.are_colored.get(batch).is_some_and(|colored| *colored)

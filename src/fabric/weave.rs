@@ -1,6 +1,7 @@
 //! The weave: from a mesh to all its links, and how they follow when it splits.
 
 use crate::fabric::color;
+use crate::fabric::hinges::Hinges;
 use crate::fabric::lines::Lines;
 use crate::fabric::links::{Batch, LinkKind, Links, Spec, Support, Thread};
 use crate::fabric::loose::{Loose, Palette};
@@ -20,6 +21,8 @@ pub(crate) struct Weave {
     pub rows: Option<Rows>,
     /// The stretch links as lines.
     pub lines: Lines,
+    /// What resists bending on any mesh.
+    pub hinges: Hinges,
     /// Whether a link that it was woven with is anchored or as strong as it was no longer.
     pub(super) is_changed: Vec<bool>,
     /// The second sides of opened edges and what cuts made, in the order they came, see `extra`.
@@ -216,6 +219,7 @@ impl Weave {
             batches,
             rows: None,
             lines: Lines::default(),
+            hinges: Hinges::none(),
             is_changed,
             extra,
             loose,
@@ -239,6 +243,7 @@ impl Weave {
             + self.lines.abreast.bytes()
             + self.loose.bytes()
             + self.palette.bytes()
+            + self.hinges.bytes()
             + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
             + size_of::<[u32; 8]>() * self.extra_next.capacity()
     }

@@ -18,6 +18,12 @@ impl Columns {
         Self { x: column(), y: column(), z: column() }
     }
 
+    /// So many zeros.
+    pub fn filled(count: usize) -> Self {
+        let column = || vec![0.0; count];
+        Self { x: column(), y: column(), z: column() }
+    }
+
     /// Makes room for `capacity` vectors in all.
     pub fn reserve(&mut self, capacity: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {

@@ -49,6 +49,24 @@ pub(crate) fn wave(x: f32) -> f32 {
     sine * (1.0 - 2.0 * min(odd * odd, 1.0))
 }
 
+/// Arcsine [rad] to about 1e-7, of `x` from -1 to 1 (Abramowitz and Stegun, 4.4.46).
+pub(crate) fn arcsine(x: f32) -> f32 {
+    const SERIES: [f64; 8] = [
+        1.570_796_305_0,
+        -0.214_598_801_6,
+        0.088_978_987_4,
+        -0.050_174_304_6,
+        0.030_891_881_0,
+        -0.017_088_125_6,
+        0.006_670_090_1,
+        -0.001_262_491_1,
+    ];
+    let size = f64::from(min(x.abs(), 1.0));
+    let sum = SERIES.iter().rev().fold(0.0, |sum, term| sum * size + term);
+    let angle = (FRAC_PI_2 - (1.0 - size).sqrt() * sum) as f32;
+    if x < 0.0 { -angle } else { angle }
+}
+
 /// e to the power of `x`, for `x` in -80..=0; clamped outside.
 pub(crate) fn exp_decay(x: f64) -> f32 {
     let x = if x < -80.0 {
@@ -97,6 +115,15 @@ fn cos_series(r: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn arcsine_undoes_sine() {
+        for i in -200..=200 {
+            let x = i as f32 / 200.0;
+            let exact = f64::from(x).asin() as f32;
+            assert!((arcsine(x) - exact).abs() < 3.0e-7, "{x}: {} {exact}", arcsine(x));
+        }
+    }
 
     #[test]
     fn sine_and_cosine_stay_within_one_ulp_of_exact() {

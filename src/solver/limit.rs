@@ -32,9 +32,6 @@ const AIM: f32 = 0.5;
 /// Every so many sweeps one goes from the pins outward.
 const HANG_EVERY: u32 = 8;
 
-/// The share of its speed that a particle keeps that the bound sends back.
-const KEPT: f32 = 0.1;
-
 const KINDS: [LinkKind; 2] = [LinkKind::Stretch, LinkKind::Shear];
 
 /// A tick begins.
@@ -190,7 +187,7 @@ fn shift_of_holds(world: &World) -> Vec3 {
 /// Links that cannot all have their lengths push each other out, and the bound puts them back: that
 /// gets nowhere, and there must be no velocity left. So none differs from the mean over the tick by
 /// more than that itself, for what gets on from rest by an even push ends at twice its mean. And
-/// what came back from where it was going keeps half of its mean, or it would go to and fro for
+/// what came back from where it was going keeps none, or it would go to and fro for
 /// ever.
 fn follow(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
@@ -203,7 +200,7 @@ fn follow(world: &mut World) {
         // What tore off in this tick has no velocity from before.
         let came_back = i < scratch.begun.x.len() && scratch.begun.at(i).dot(mean) < 0.0;
         let v = if came_back {
-            mean * KEPT
+            Vec3::ZERO
         } else if own2 > mean2 {
             mean + own * (mean2 / own2).sqrt()
         } else {

@@ -2,12 +2,17 @@
 
 #[cfg(feature = "parallel")]
 mod bands;
+pub(crate) mod bend;
+pub(crate) mod brake;
 pub(crate) mod cells;
 mod chunk;
 pub(crate) mod contacts;
 pub(crate) mod cut;
+pub(crate) mod descent;
+pub(crate) mod flaps;
 pub(crate) mod forces;
 pub(crate) mod guard;
+pub(crate) mod hinges;
 pub(crate) mod hold;
 pub(crate) mod limit;
 pub(crate) mod lines;
@@ -15,8 +20,10 @@ pub(crate) mod links;
 pub(crate) mod loose;
 pub(crate) mod outputs;
 pub(crate) mod packed;
+pub(crate) mod pentads;
 pub(crate) mod pipeline;
 pub(crate) mod places;
+pub(crate) mod plates;
 pub(crate) mod predict;
 pub(crate) mod profile;
 pub(crate) mod rows;
@@ -26,13 +33,16 @@ pub(crate) mod surface;
 pub(crate) mod tangents;
 pub(crate) mod tear;
 pub(crate) mod tethers;
+pub(crate) mod twist;
 pub(crate) mod velocities;
 pub(crate) mod vertices;
 pub(crate) mod weights;
 
 use crate::fabric::cells::Cells;
+use crate::fabric::folds::Folds;
 use crate::fabric::material::Material;
 use crate::fabric::outward::Outward;
+use crate::fabric::plates::Plates;
 use crate::fabric::tethers::Tethers;
 use crate::fabric::tips;
 use crate::fabric::weave::Weave;
@@ -77,6 +87,10 @@ pub(crate) struct World {
     pub corner_area: Vec<[f32; 3]>,
     /// Where the triangles of a grid lie in cells.
     pub cells: Option<Cells>,
+    /// What resists bending on a grid.
+    pub plates: Option<Plates>,
+    /// Folds that stay.
+    pub folds: Folds,
     /// Whether each vertex is the tip of a slit.
     pub tips: Vec<bool>,
     /// Mean length of the edges at rest [m].
@@ -128,6 +142,8 @@ pub(crate) struct Scratch {
     pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
+    pub bend: bend::Scratch,
+    pub brake: brake::Scratch,
     pub contacts: contacts::Scratch,
     pub tear: tear::Scratch,
     pub opened: Vec<Opening>,
@@ -149,6 +165,8 @@ impl Scratch {
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),
+            bend: bend::Scratch::default(),
+            brake: brake::Scratch::default(),
             contacts: contacts::Scratch::default(),
             tear: tear::Scratch::with_capacity(max_tears),
             opened: Vec::with_capacity(2),
@@ -188,6 +206,11 @@ impl World {
         self.weave.follow(&self.mesh, site);
         if let Some(cells) = &mut self.cells {
             cells.follow(&self.mesh, site);
+        }
+        if let Some(plates) = &mut self.plates {
+            plates.follow_cells(&self.mesh, site);
+            let of_site = self.weave.of_vertex(site);
+            of_site.for_each(|(links, link)| plates.follow_link(&self.mesh, links, link));
         }
     }
 

@@ -2,8 +2,8 @@
 
 use super::stage::Stage;
 use super::{
-    World, contacts, forces, guard, hold, limit, lines, links, packed, predict, tear, tethers,
-    velocities,
+    World, bend, brake, contacts, forces, guard, hold, limit, lines, links, packed, predict, tear,
+    tethers, velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -33,6 +33,7 @@ pub(crate) fn tick(world: &mut World) {
     for substep in 0..world.settings.substeps {
         run_substep(world, substep);
     }
+    timed!(world, Bend, bend::yield_folds(world));
     world.pins.arrive();
     timed!(world, Colliders, contacts::arrive(world));
     world.time += f64::from(world.settings.tick);
@@ -55,10 +56,13 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Tethers, tethers::look(world));
     }
     links::restart(world);
+    timed!(world, Bend, bend::begin(world));
+    timed!(world, Stretch, brake::begin(world));
     timed!(world, Stretch, packed::pack(world));
     for iteration in 0..world.settings.iterations {
         run_iteration(world, iteration);
     }
+    timed!(world, Stretch, brake::end(world));
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::draw_in(world));
     }
@@ -72,7 +76,7 @@ fn run_substep(world: &mut World, number: u32) {
 fn run_iteration(world: &mut World, iteration: u32) {
     let is_back = !iteration.is_multiple_of(2);
     if is_back {
-        timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Backward));
+        timed!(world, Bend, bend::go_on(world, Order::Backward, iteration));
         timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Backward));
         timed!(world, Stretch, links::solve(world, LinkKind::Stretch, Order::Backward));
     } else if iteration == 0 && lines::are_used(world) {
@@ -86,6 +90,6 @@ fn run_iteration(world: &mut World, iteration: u32) {
     }
     if !is_back {
         timed!(world, Shear, links::solve(world, LinkKind::Shear, Order::Forward));
-        timed!(world, Bend, links::solve(world, LinkKind::Bend, Order::Forward));
+        timed!(world, Bend, bend::go_on(world, Order::Forward, iteration));
     }
 }

@@ -90,6 +90,9 @@ void a_cloth_does_all_that_c_does() {
   const std::vector<unsigned char> saved = cloth.save().value();
   muslin::Cloth same = muslin::Cloth::restore(saved.data(), saved.size()).value();
   CHECK(same.state_hash().value() == cloth.state_hash().value());
+  cloth.crease({0, -2, 0}, {1, 2, 0}, 0.5f).value();
+  CHECK(same.state_hash().value() != cloth.state_hash().value());
+  CHECK(cloth.crease({0, 0, 0}, {0, 0, 0}, 0.5f).status() == MUSLIN_STATUS_BAD_VALUE);
   cloth.unpin_all().value();
   cloth.reset().value();
   CHECK(cloth.stats().value().particles == 400);

@@ -1,7 +1,9 @@
 //! What several tests need: cloths to test on, and the laws that no tear may break.
 #![allow(dead_code)]
 
+pub mod elastica;
 pub mod shapes;
+pub mod strip;
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, MeshDesc, PinMode, Settings};

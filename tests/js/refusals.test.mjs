@@ -101,15 +101,15 @@ const material = {
   preset: [null, 0, "wool", "Denim"],
   colour: ["red"],
 };
-for (const key of ["restitution", "tearVariation"]) material[key] = [...NOT_NUMBERS, -0.1, 1.1];
+for (const key of ["restitution", "tearVariation", "yieldCreep"]) material[key] = [...NOT_NUMBERS, -0.1, 1.1];
 for (const key of ["thickness", "stretchStiffnessWarp", "stretchStiffnessWeft", "shearStiffness"]) {
   material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
 for (const key of ["bendStiffness", "friction", "drag", "lift"]) {
   material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
-for (const key of ["bendDamping", "stretchDamping", "yieldAngle", "yieldCreep"]) {
-  material[key] = [...NOT_NUMBERS, -1, 0.5];
+for (const key of ["bendDamping", "stretchDamping", "yieldAngle", "foldLength"]) {
+  material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
 for (const [key, values] of Object.entries(material)) {
   refuses(`material.${key}`, values, (value, { cloth }) => {
@@ -181,6 +181,9 @@ refuses("sinceTopologyRevision", NOT_WHOLE, (value, { cloth }) => cloth.changes(
 refuses("from", NOT_FINITE, (value, { cloth }) => cloth.cut(value, [1, 0, 0], [0, 0, 1]));
 refuses("to", [...NOT_FINITE, [0, 0, 0]], (value, { cloth }) => cloth.cut([0, 0, 0], value, [0, 0, 1]));
 refuses("sweep", [...NOT_FINITE, [0, 0, 0], [2, 0, 0]], (value, { cloth }) => cloth.cut([0, 0, 0], [1, 0, 0], value));
+refuses("from", NOT_FINITE, (value, { cloth }) => cloth.crease(value, [1, 0, 0], 1));
+refuses("to", [...NOT_FINITE, [0, 0, 0]], (value, { cloth }) => cloth.crease([0, 0, 0], value, 1));
+refuses("angle", [...NOT_NUMBERS, Infinity, 4, -4], (value, { cloth }) => cloth.crease([0, 0, 0], [1, 0, 0], value));
 refuses("particleA", NOT_PARTICLES, (value, { cloth }) => cloth.tearEdge(value, 1));
 refuses("particleB", [...NOT_PARTICLES, 0, 2], (value, { cloth }) => cloth.tearEdge(0, value));
 

@@ -153,6 +153,27 @@ test("a cut divides triangles and tells where its vertices are from", () => {
   assert.equal(cloth.cut([-1, -0.51, -1], [3, -0.83, -1], [0, 0, 2]), 0, "cut already");
 });
 
+test("a crease lifts what is beside it", () => {
+  const cloth = Cloth.grid({
+    columns: 12,
+    rows: 12,
+    spacing: 0.02,
+    pinMode: "none",
+    material: { bendStiffness: 1e-3 },
+    settings: { gravity: [0, 0, 0] },
+  });
+  const depth = () => {
+    const z = cloth.positions.filter((_, i) => i % 3 === 2);
+    return Math.max(...z) - Math.min(...z);
+  };
+  cloth.step(30);
+  assert.ok(depth() < 1e-6);
+  cloth.crease([0.11, 1, 0], [0.11, -1, 0], 1);
+  cloth.step(60);
+  assert.ok(depth() > 0.02, `folded by ${depth()} m`);
+  cloth.free();
+});
+
 test("a mesh may be made from another cloth's views, though they move meanwhile", () => {
   const grid = Cloth.grid({ columns: 150, rows: 150 });
   for (let i = 0; i < 20; i++) {

@@ -177,6 +177,18 @@ export class Cloth {
    */
   cut(from: Vec3Like, to: Vec3Like, sweep: Vec3Like): number;
   /**
+   * Gives the cloth a fold of `angle` [rad] along a line, from `from` to `to` [m], both where they are in the
+   * cloth as it was made. From then on the cloth rests folded by so much more along it: towards its front,
+   * where the triangles are counter-clockwise, if `angle` is above 0, and else away from it.
+   *
+   * The line need not follow the mesh: the fold is shared out over the cells beside it. It bends no more than
+   * `bendStiffness` can make it, and stays until `reset`; folding by −`angle` along the same line takes it
+   * away. Where the line is not on the cloth nothing is folded.
+   *
+   * @throws if `to` equals `from`, or unless `angle` is from −3 to 3
+   */
+  crease(from: Vec3Like, to: Vec3Like, angle: number): void;
+  /**
    * Tears between two neighbouring particles, as over-stretching would. Says whether it tore: an end
    * that is pinned or grabbed does not give way, nor does an edge that is a border already.
    *

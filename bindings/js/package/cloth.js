@@ -281,6 +281,12 @@ export class Cloth {
     return live.cut(Float64Array.from(blade.flat()));
   }
 
+  crease(from, to, angle) {
+    const live = this.#live;
+    const line = [vector(from, "from"), vector(to, "to")];
+    live.crease(Float64Array.from(line.flat()), number(angle, "angle"));
+  }
+
   tearEdge(particleA, particleB) {
     const live = this.#live;
     return live.tear_edge(whole(particleA, "particleA"), whole(particleB, "particleB"));

@@ -50,11 +50,18 @@ export interface Material {
   stretchStiffnessWeft: number;
   /** Stiffness against shear [N/m]; 0 is as the stretch stiffness. */
   shearStiffness: number;
-  /** Bending rigidity per width [N·m]; 2.5e-5. 0 is limp, 1 or more as rigid as the sweeps allow. */
+  /**
+   * Bending rigidity per width [N·m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however fine
+   * the mesh, the tick and the sweeps are. Grids have it in all directions, other meshes on average over
+   * them. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+   */
   bendStiffness: number;
-  /** Damping of bending [s]; 0. No other value is supported yet. */
+  /**
+   * Damping of bending [s]; 0. Bending by some angle a second is resisted as that angle times this would be; a few
+   * hundredths calm a flutter. At least 0.
+   */
   bendDamping: number;
-  /** Damping of stretching [s]; 0. No other value is supported yet. */
+  /** Damping of stretching [s]; 0. In the same way, for links that give way. At least 0. */
   stretchDamping: number;
   /** Coulomb coefficient against colliders; 0.4. At least 0. */
   friction: number;
@@ -72,10 +79,18 @@ export interface Material {
   tearStretch: number;
   /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
   tearVariation: number;
-  /** Angle at which a fold stays [rad]; 0: never. No other value is supported yet. */
+  /**
+   * Angle up to which a fold opens again [rad]; of one that was folded further, the rest stays. 0: all opens. At
+   * least 0. Paper is near 0.8.
+   */
   yieldAngle: number;
-  /** Share of a fold beyond `yieldAngle` that stays; 0. No other value is supported yet. */
+  /** Share of a fold beyond `yieldAngle` that stays; 1. From 0 to 1. */
   yieldCreep: number;
+  /**
+   * Length of the sheet over which folding counts as one fold [m]; 0.01. The same angle over more than that is only
+   * bent, and stays bent beyond a curvature of `yieldAngle` over this. Three cells count at least. At least 0.
+   */
+  foldLength: number;
 }
 
 /** The fabrics that come with Muslin. */

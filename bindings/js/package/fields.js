@@ -57,6 +57,7 @@ export const MATERIAL = {
   tearVariation: NUMBER,
   yieldAngle: NUMBER,
   yieldCreep: NUMBER,
+  foldLength: NUMBER,
 };
 
 export const WIND = {

@@ -138,6 +138,12 @@ impl RawCloth {
         self.cloth.cut(from, to, sweep).map_err(refusal)
     }
 
+    /// Folds along a line: `line` is where it is from and where to.
+    pub fn crease(&mut self, line: &[f64], angle: f32) -> Result<()> {
+        let mut line = Reader::new(line);
+        self.cloth.crease(line.vector(), line.vector(), angle).map_err(refusal)
+    }
+
     /// Tears between two neighbouring particles; says whether it tore.
     pub fn tear_edge(&mut self, particle_a: u32, particle_b: u32) -> Result<bool> {
         self.cloth.tear_edge(particle_a, particle_b).map_err(refusal)

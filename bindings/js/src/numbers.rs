@@ -121,6 +121,7 @@ pub(crate) fn read_material(list: &[f64]) -> Material {
         tear_variation: list.number(),
         yield_angle: list.number(),
         yield_creep: list.number(),
+        fold_length: list.number(),
     }
 }
 
@@ -143,6 +144,7 @@ pub(crate) fn write_material(material: &Material) -> Vec<f64> {
         material.tear_variation,
         material.yield_angle,
         material.yield_creep,
+        material.fold_length,
     ]);
     list.0
 }

@@ -28,6 +28,26 @@ pub extern "C" fn muslin_cloth_tear_edge(
     })
 }
 
+/// Gives the cloth a fold of `angle` [rad] along a line, from `from` to `to` [m], both where they are in the
+/// cloth as it was made. From then on the cloth rests folded by so much more along it: towards its front,
+/// where the triangles are counter-clockwise, if `angle` is above 0, and else away from it.
+///
+/// The line need not follow the mesh: the fold is shared out over the cells beside it. It bends no more than
+/// `bend_stiffness` can make it, and stays until muslin_cloth_reset; folding by -`angle` along the same line
+/// takes it away. Where the line is not on the cloth nothing is folded.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE for a number that is not finite, for `to` equal to `from`, and unless
+/// `angle` is from -3 to 3; the cloth is untouched then
+#[unsafe(no_mangle)]
+pub extern "C" fn muslin_cloth_crease(
+    cloth: MuslinCloth,
+    from: MuslinVec3,
+    to: MuslinVec3,
+    angle: f32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| Ok(cloth.crease(from.into(), to.into(), angle)?))
+}
+
 /// Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. `out_edges`
 /// (may be NULL) gets how many edges opened; 0 leaves the cloth as it was.
 ///

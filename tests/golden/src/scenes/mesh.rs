@@ -7,7 +7,7 @@ use muslin::{Cloth, EventKind, Material, MeshDesc, Preset, Result, Settings, Win
 
 /// A sheet of `columns` × `rows` vertices in disorder: nothing in line, diagonals this way and that,
 /// a third of the triangles seen from behind, and a hole with four vertices in it that have no triangle.
-fn disorder(columns: u32, rows: u32) -> MeshDesc {
+pub(super) fn disorder(columns: u32, rows: u32) -> MeshDesc {
     let mut random = 0x2545_f491_u32;
     // Xorshift (Marsaglia, 2003): integers, so the same on any host.
     let mut next = move |below: u32| {

@@ -6,6 +6,7 @@
 
 mod air;
 mod floor;
+mod folds;
 mod hands;
 mod mesh;
 mod tears;
@@ -22,6 +23,8 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "cotton-in-a-storm", play: air::cotton_in_a_storm },
     Scene { name: "tube-of-leather", play: mesh::tube_of_leather },
     Scene { name: "patch-torn-by-a-grab", play: mesh::patch_torn_by_a_grab },
+    Scene { name: "paper-folded-and-creased", play: folds::paper_folded_and_creased },
+    Scene { name: "patch-creased", play: folds::patch_creased },
     Scene { name: "sheet-torn-to-pieces", play: tears::sheet_torn_to_pieces },
     Scene { name: "tears-use-up-their-room", play: tears::tears_use_up_their_room },
     Scene { name: "cut-by-blades", play: tears::cut_by_blades },

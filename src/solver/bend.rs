@@ -1,0 +1,228 @@
+//! Stage `Bend`: what is bent straightens, by the bending rigidity of the material.
+//!
+//! Grids bend as plates (see `plates`), other meshes at their hinges (see `hinges`), and so does what
+//! left a plate when the cloth was torn or cut. With a rigidity of 1 or more all of it is links over two
+//! cells, as rigid as the sweeps allow, see `links`.
+//!
+//! The first round comes before the links, so that they bear the load that bending leaves them as they bear
+//! the weight; the second comes on the way back.
+
+use super::flaps::Flaps;
+use super::links::Order;
+use super::{World, flaps, hinges, links, packed, plates};
+use crate::fabric::folds::{Lengths, Line2};
+use crate::fabric::hinges::Hinge;
+use crate::fabric::links::{LinkKind, Support, Thread};
+use crate::fabric::plates::{Each, Plates};
+use crate::math::TINY;
+use crate::math::columns::Columns;
+use glam::Vec3;
+
+/// Room to work in.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    pub plates: plates::Scratch,
+    /// The normals of a grid, current while folds are looked at.
+    normal: Columns,
+    flaps: flaps::Scratch,
+}
+
+impl Scratch {
+    /// Room for so many particles.
+    pub fn new(world: &World, capacity: usize) -> Self {
+        let is_grid = world.plates.is_some();
+        let hinges = world.weave.hinges.all.len();
+        let plates = world.plates.as_ref().map(plates::Scratch::new);
+        Self {
+            plates: plates.unwrap_or_default(),
+            normal: Columns::filled(world.plates.as_ref().map_or(0, Plates::count)),
+            flaps: flaps::Scratch::new(hinges, if is_grid { 0 } else { capacity }),
+        }
+    }
+}
+
+/// Whether bending is a matter of plates and hinges.
+fn is_elastic(world: &World) -> bool {
+    world.material.bend_stiffness > 0.0 && world.material.bend_stiffness < 1.0
+}
+
+/// The first round of a substep.
+pub(crate) fn begin(world: &mut World) {
+    if is_elastic(world) {
+        bend(world, Order::Forward);
+    }
+}
+
+/// Once in a sweep, as far as bending is a matter of links, or on the way back of the first one.
+pub(crate) fn go_on(world: &mut World, order: Order, iteration: u32) {
+    if !is_elastic(world) {
+        links::solve(world, LinkKind::Bend, order);
+    } else if iteration == 1 {
+        // Plates are in columns, whatever the links are in.
+        let is_packed = world.plates.is_some() && world.scratch.packed.is_current;
+        if is_packed {
+            packed::unpack(world);
+        }
+        bend(world, Order::Backward);
+        if is_packed {
+            packed::pack(world);
+        }
+    }
+}
+
+fn bend(world: &mut World, order: Order) {
+    let scheme = world.settings.scheme();
+    // Damping acts against how much more or less something is bent than when the substep began.
+    let lag = world.material.bend_damping / scheme.h;
+    let stiffness = world.material.bend_stiffness * scheme.step * scheme.step * (1.0 + lag);
+    let step = hinges::Step { stiffness, before: lag / (1.0 + lag) };
+    if world.plates.is_some() {
+        bend_plates(world, step, order);
+        if order == Order::Forward {
+            bend_strays(world, step);
+        }
+    } else {
+        bend_hinges(world, step, order);
+    }
+    if order == Order::Forward {
+        bend_late(world, step);
+    }
+}
+
+fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
+    let Some(plates) = &world.plates else { return };
+    let area = plates.spacing * plates.spacing;
+    let (p, scratch) = (&mut world.particles, &mut world.scratch);
+    let rest = if world.folds.are_any {
+        find_normals(plates, &p.x, &mut scratch.bend.normal);
+        Some((&world.folds.offset, &scratch.bend.normal))
+    } else {
+        None
+    };
+    let step = plates::Step {
+        level: world.level,
+        stiffness: step.stiffness / area,
+        mass: world.material.density * area,
+        before: step.before,
+        is_first: order == Order::Forward,
+        predicted: &scratch.predicted,
+        way: &scratch.way,
+        rest,
+    };
+    plates::bend(plates, &mut scratch.bend.plates, step, &mut p.x, &p.w, &p.mass);
+}
+
+/// After a tick: folds stay where the cloth is bent beyond what its material bears.
+pub(crate) fn yield_folds(world: &mut World) {
+    if world.material.yield_angle == 0.0 || world.material.yield_creep == 0.0 || !is_elastic(world)
+    {
+        return;
+    }
+    let (material, x) = (&world.material, &world.particles.x);
+    if let Some(plates) = &world.plates {
+        find_normals(plates, x, &mut world.scratch.bend.normal);
+        world.folds.yield_plates(plates, material, x, &world.scratch.bend.normal);
+    } else {
+        world.folds.yield_hinges(&world.weave.hinges.all, material, world.spacing, x);
+    }
+}
+
+impl World {
+    /// Takes over folds from elsewhere; false if they do not fit.
+    pub fn take_folds(&mut self, angle: Each<Vec<f32>>) -> bool {
+        let lengths = match &self.plates {
+            Some(plates) => Lengths::Grid(plates.spacing),
+            None => Lengths::Hinges(&self.weave.hinges.all),
+        };
+        self.folds.take_over(angle, &lengths)
+    }
+
+    /// Folds a grid along a line in its plane [m].
+    pub fn crease_flat(&mut self, from: [f32; 2], to: [f32; 2], angle: f32) {
+        if let (Some(plates), true) = (&self.plates, from != to) {
+            self.folds.crease_plates(plates, Line2::new(from, to), angle);
+        }
+    }
+
+    /// Folds any mesh along a line [m].
+    pub fn crease_across(&mut self, line: [Vec3; 2], angle: f32) {
+        let (mesh, rest) = (&self.mesh, &self.rest);
+        let at = |hinge: &Hinge| hinge.at.map(|v| rest[mesh.source[v as usize] as usize]);
+        self.folds.crease_hinges(&self.weave.hinges.all, at, line, self.spacing, angle);
+    }
+}
+
+/// The unit normals of a grid: square to the ways from neighbour to neighbour, along and across.
+fn find_normals(plates: &Plates, x: &Columns, normal: &mut Columns) {
+    let (columns, rows) = (plates.columns, plates.rows);
+    for row in 0..rows {
+        let (above, below) = (row.saturating_sub(1), (row + 1).min(rows - 1));
+        for column in 0..columns {
+            let (left, right) = (column.saturating_sub(1), (column + 1).min(columns - 1));
+            let across = x.at(row * columns + right) - x.at(row * columns + left);
+            let down = x.at(below * columns + column) - x.at(above * columns + column);
+            let n = down.cross(across);
+            let length = n.length();
+            let n = if length > TINY { n * (1.0 / length) } else { Vec3::ZERO };
+            normal.set(row * columns + column, n);
+        }
+    }
+}
+
+/// What left its place in a grid.
+fn bend_strays(world: &mut World, step: hinges::Step) {
+    let Some(plates) = &world.plates else { return };
+    let (links, scratch) = (&world.weave.links, &world.scratch);
+    for link in &plates.strays {
+        let spec = &links.spec[*link as usize];
+        let Support::Pair([left, _]) = spec.support else { continue };
+        let middle = world.mesh.vertex(left);
+        let (a, b) = (links.a[*link as usize], links.b[*link as usize]);
+        let w = |vertex: u32| world.particles.w[vertex as usize];
+        let clamped = if w(middle) == 0.0 { plates::clamped(w(a), w(b)) } else { 1.0 };
+        let share = plates.share_of_stray(*link, spec.thread) * clamped;
+        let shape = share / (plates.spacing * plates.spacing);
+        let mut hinge = Hinge::straight(a, middle, b, shape);
+        let kind = if spec.thread == Thread::Weft { 0 } else { 1 };
+        hinge.rest = world.folds.offset[kind][plates.middle_of(*link)].abs();
+        let start = |i: usize| scratch.predicted.at(i) - scratch.way.at(i);
+        hinges::project(&hinge, step, start, &mut world.particles);
+    }
+}
+
+/// What cuts folded anew.
+fn bend_late(world: &mut World, step: hinges::Step) {
+    let links = &world.weave.extra;
+    for link in 0..links.len() {
+        if links.kind(link) != LinkKind::Bend || !links.active[link] {
+            continue;
+        }
+        let hinge = world.weave.hinges.late(&world.mesh, links, link, &world.rest);
+        if let Some(hinge) = hinge {
+            let scratch = &world.scratch;
+            let start = |i: usize| scratch.predicted.at(i) - scratch.way.at(i);
+            hinges::project(&hinge, step, start, &mut world.particles);
+        }
+    }
+}
+
+fn bend_hinges(world: &mut World, step: hinges::Step, order: Order) {
+    let (count, scratch) = (world.particles.len(), &mut world.scratch);
+    let (predicted, way) = (&scratch.predicted, &scratch.way);
+    let cell = world.spacing * world.spacing;
+    let flaps = Flaps {
+        hinges: &world.weave.hinges,
+        active: &world.weave.links.active,
+        folds: world.folds.are_any.then_some(&world.folds.offset[0][..]),
+        step,
+        over_mass: step.stiffness / (world.material.density * cell * cell),
+        is_first: order == Order::Forward,
+    };
+    let start = |i: usize| predicted.at(i) - way.at(i);
+    let room = &mut scratch.bend.flaps;
+    if scratch.packed.is_current {
+        flaps.bend(room, count, start, &mut scratch.packed);
+    } else {
+        flaps.bend(room, count, start, &mut world.particles);
+    }
+}

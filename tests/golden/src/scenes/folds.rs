@@ -1,0 +1,79 @@
+//! Cloths that are folded, and stay so.
+
+use super::{along, mesh};
+use crate::Trace;
+use muslin::glam::Vec3;
+use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Preset, Result, Settings};
+
+const COLUMNS: u32 = 24;
+const ROWS: u32 = 11;
+
+/// Paper in the air is bent over between two hands, let go, creased, torn, and in the end no stiffer than
+/// cotton.
+pub fn paper_folded_and_creased(trace: &mut Trace) -> Result<()> {
+    let paper = Material { yield_angle: 0.25, drag: 0.25, ..Material::preset(Preset::Paper) };
+    let mut cloth = Cloth::grid(&GridDesc {
+        columns: COLUMNS,
+        rows: ROWS,
+        spacing: 0.015625,
+        down: Vec3::Z,
+        pin_mode: PinMode::None,
+        material: paper.clone(),
+        settings: Settings { gravity: Vec3::ZERO, damping: 2.0, ..Settings::default() },
+        ..GridDesc::default()
+    })?;
+    for row in 0..ROWS {
+        for column in [0, 1, COLUMNS - 2, COLUMNS - 1] {
+            cloth.pin(row * COLUMNS + column, None)?;
+        }
+    }
+    let right: Vec<(u32, Vec3)> = (0..ROWS)
+        .flat_map(|row| [COLUMNS - 2, COLUMNS - 1].map(|column| row * COLUMNS + column))
+        .map(|i| (i, cloth.positions()[i as usize]))
+        .collect();
+    for tick in 1..=64 {
+        for (i, from) in &right {
+            let to = along(*from, Vec3::new(-0.00390625, 0.001953125, 0.0), tick);
+            cloth.set_pin_targets(&[*i], &[to])?;
+        }
+        trace.run(&mut cloth, 1);
+    }
+    cloth.unpin_all();
+    trace.run(&mut cloth, 40);
+    let ends = [0, COLUMNS as usize - 1].map(|i| cloth.positions()[i]);
+    let flat = 0.015625 * (COLUMNS - 1) as f32;
+    assert!(ends[0].distance(ends[1]) < 0.9 * flat, "the paper is to stay bent");
+
+    cloth.crease(Vec3::new(0.0625, 0.0, -0.125), Vec3::new(0.1875, 0.0, 0.25), 1.0)?;
+    cloth.set_material(Material { bend_damping: 0.015625, ..paper.clone() })?;
+    trace.run(&mut cloth, 30);
+    cloth.tear_edge(2 * COLUMNS + 12, 3 * COLUMNS + 12)?;
+    cloth.tear_edge(3 * COLUMNS + 12, 4 * COLUMNS + 12)?;
+    trace.run(&mut cloth, 20);
+    let cotton = Material::preset(Preset::Cotton);
+    cloth.set_material(Material { stretch_damping: 0.0078125, ..cotton })?;
+    trace.run(&mut cloth, 30);
+    trace.look(&mut cloth);
+    assert!(trace.count_of(EventKind::EdgeTorn) >= 2, "the paper is to tear");
+    Ok(())
+}
+
+/// Leather in disorder, bent as it was made, is creased, bears it, is cut, and goes on softer.
+pub fn patch_creased(trace: &mut Trace) -> Result<()> {
+    let mut desc = mesh::disorder(13, 12);
+    desc.settings.damping = 1.0;
+    let leather = Material { yield_angle: 0.5, ..Material::preset(Preset::Leather) };
+    desc.material = Material { bend_stiffness: 0.25, ..leather.clone() };
+    let mut cloth = Cloth::mesh(&desc)?;
+    trace.run(&mut cloth, 30);
+    cloth.crease(Vec3::new(-0.125, -0.25, 0.0), Vec3::new(1.0, -0.375, 0.0), -1.25)?;
+    trace.run(&mut cloth, 40);
+    let (from, to) = (Vec3::new(0.25, -0.5, -1.0), Vec3::new(0.5625, -0.5, -1.0));
+    let edges = cloth.cut(from, to, Vec3::Z * 2.0)?;
+    assert!(edges > 0, "the blade is to cut");
+    trace.run(&mut cloth, 30);
+    cloth.set_material(Material { bend_damping: 0.03125, ..leather })?;
+    trace.run(&mut cloth, 40);
+    trace.look(&mut cloth);
+    Ok(())
+}
