@@ -19,7 +19,6 @@ mod world;
 pub(crate) mod write;
 
 use crate::error::{Result, check, check_finite, check_index};
-use crate::fabric::links::LinkKind;
 use crate::fabric::material::Material;
 use crate::math::float_env::guarded;
 use crate::solver::profile::Clock;
@@ -467,17 +466,6 @@ impl Cloth {
     /// pieces.
     pub fn next_event(&mut self) -> Option<Event> {
         self.world.events.pop()
-    }
-
-    /// The links that hold, each once: two particles and what it resists.
-    pub fn links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
-        self.world.weave.active()
-    }
-
-    /// The colours that links are solved in, in order: what they resist, and how many of the links that
-    /// it was woven with they hold. No particle appears twice in a colour.
-    pub fn colors(&self) -> impl Iterator<Item = (LinkKind, usize)> + '_ {
-        self.world.weave.batches.iter().map(|batch| (batch.kind, batch.count))
     }
 
     /// Times the stages of every tick by a clock that counts seconds, or stops timing.

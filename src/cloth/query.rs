@@ -1,7 +1,8 @@
-//! Pointing at a cloth: rays that hit it, rays that take hold of it.
+//! Questions to a cloth: what rays hit and take hold of, which links hold.
 
 use super::Cloth;
 use crate::error::{Result, check, check_finite};
+use crate::fabric::links::LinkKind;
 use crate::geom::ray::Ray;
 use crate::math::float_env::guarded;
 use crate::state::grabs::Grab;
@@ -27,6 +28,17 @@ pub struct Hit {
 }
 
 impl Cloth {
+    /// The links that hold, each once: two particles and what it resists.
+    pub fn links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
+        self.world.weave.active()
+    }
+
+    /// The colours that links are solved in, in order: what they resist, and how many of the links that
+    /// it was woven with they hold. No particle appears twice in a colour.
+    pub fn colors(&self) -> impl Iterator<Item = (LinkKind, usize)> + '_ {
+        self.world.weave.batches.iter().map(|batch| (batch.kind, batch.count))
+    }
+
     /// The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from
     /// either side. `direction` need not have length one.
     ///

@@ -26,7 +26,8 @@ pub enum Shape {
     Capsule = 2,
     /// A box that reaches `half_extents` to either side of `position` along each turned axis.
     Box = 3,
-    /// The least convex body that holds all of `positions`.
+    /// The least convex body that holds all of `positions`. A soft sheet that hangs over its tips is not
+    /// quite calm: it moves at some mm/s.
     Convex = 4,
     /// The triangles that `indices` join of `positions`. Cloth stays on the side where it is: both are
     /// outside, and nothing is inside, so that it need not be closed nor wound one way. It keeps a gap of

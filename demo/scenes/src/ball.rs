@@ -90,7 +90,7 @@ impl Scene for SheetOnBall {
             return Err(format!("its corners do not hang: the lowest is at {lowest} m"));
         }
         let stretch = cloth.stats().max_stretch;
-        if stretch > 0.08 {
+        if stretch > 0.1 {
             return Err(format!("it is stretched by {stretch}"));
         }
         Ok(())

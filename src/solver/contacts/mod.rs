@@ -33,7 +33,7 @@ const ROUNDS: [u32; 2] = [2, 40];
 
 /// How fast comes out what was inside [m/s]: faster would stretch all around it more than links can bear,
 /// and fling it.
-const RISE: f32 = 0.15;
+const RISE: f32 = 0.05;
 
 /// What is deeper inside a round shape than so many mean edges got there by no motion of its own; and so in one of
 /// flat facets, whose tips may be through the cloth.
