@@ -27,5 +27,5 @@ pub use state::collider_desc::{ColliderDesc, Shape};
 pub use state::colliders::{Collider, Impulse};
 pub use state::events::{Event, EventKind};
 pub use state::grabs::Grab;
-pub use state::settings::Settings;
+pub use state::settings::{SelfCollision, Settings};
 pub use state::wind::{Wind, WindModel};

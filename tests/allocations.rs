@@ -2,8 +2,8 @@
 
 use muslin::glam::Vec3;
 use muslin::{
-    Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, Shape, Stream, VertexFormat, Wind,
-    WriteDesc,
+    Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Shape, Stream,
+    VertexFormat, Wind, WriteDesc,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -106,6 +106,27 @@ fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
     let (from, to) = (Vec3::new(-0.2, -0.33, -1.0), Vec3::new(0.61, -0.77, -1.0));
     assert!(cloth.cut(from, to, Vec3::Z * 2.0).unwrap() > 20);
     assert_allocates_nothing(cloth, 230);
+}
+
+#[test]
+fn a_sheet_that_crumples_allocates_nothing() {
+    let mut desc = GridDesc { columns: 24, rows: 24, ..GridDesc::default() };
+    desc.pin_mode = PinMode::None;
+    desc.settings.self_collision = SelfCollision::Particles;
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let floor = ColliderDesc { position: Vec3::NEG_Y * 1.2, ..ColliderDesc::default() };
+    cloth.add_collider(&floor).unwrap();
+    for i in (0..24 * 24).step_by(7) {
+        cloth.set_velocity(i, Vec3::Z * 0.05 * ((i % 5) as f32 - 2.0)).unwrap();
+    }
+    assert_eq!(allocations(|| cloth.step(90)), 0);
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    for cloth in [&mut cloth.clone(), &mut restored] {
+        assert_eq!(allocations(|| use_up(cloth, 300)), 0);
+        assert!(cloth.positions().len() > 24 * 24, "nothing tore");
+    }
 }
 
 /// Where the lists that a renderer reads lie.

@@ -1,7 +1,9 @@
 //! Bad input is refused by name, and changes nothing.
 
 use muslin::glam::{Quat, Vec2, Vec3};
-use muslin::{Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, Settings, Wind};
+use muslin::{
+    Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, SelfCollision, Settings, Wind,
+};
 
 /// A field, and what makes it one that cannot be.
 type Spoiler<D> = (&'static str, fn(&mut D));
@@ -88,7 +90,11 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         ("settings.damping", |s| s.damping = -0.1),
         ("settings.max_displacement", |s| s.max_displacement = 0.0),
         ("settings.max_stretch", |s| s.max_stretch = f32::INFINITY),
-        ("settings.self_collision", |s| s.self_collision = true),
+        ("settings.self_collision", |s| s.self_collision = SelfCollision::Surface),
+        ("settings.self_distance", |s| s.self_distance = -0.01),
+        ("settings.self_distance", |s| {
+            (s.self_collision, s.self_distance) = (SelfCollision::Particles, 0.1001);
+        }),
     ];
     for (field, spoil) in settings {
         let mut changed = cloth.settings().clone();

@@ -2,7 +2,7 @@
 #![cfg(feature = "parallel")]
 
 use muslin::glam::Vec3;
-use muslin::{Cloth, Error, GridDesc, MeshDesc, PinMode, Wind};
+use muslin::{Cloth, ColliderDesc, Error, GridDesc, MeshDesc, PinMode, SelfCollision, Wind};
 
 mod common;
 
@@ -63,6 +63,17 @@ fn a_sheet_in_the_wind_has_the_same_bits_on_any_number_of_threads() {
     let mut cloth = Cloth::grid(&sheet(128, PinMode::TopCorners)).unwrap();
     blow(&mut cloth);
     assert_equal_bits(&cloth, 120, |_, _| ());
+}
+
+#[test]
+fn a_sheet_that_crumples_has_the_same_bits_on_any_number_of_threads() {
+    let mut desc = sheet(48, PinMode::None);
+    desc.settings.self_collision = SelfCollision::Particles;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let position = Vec3::NEG_Y * 2.1;
+    cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).unwrap();
+    blow(&mut cloth);
+    assert_equal_bits(&cloth, 90, |_, _| ());
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! The tables of `cargo xtask bench`: Muslin beside the plain loop that most people write, in one run.
 //!
 //! `kernels` tells what one projection of one constraint costs, `ticks` what whole ticks cost and
-//! how calm and how long the cloth is in the end, `shreds` what tears add to that,
+//! how calm and how long the cloth is in the end, `shreds` what tears add to that, `layers` what collision with itself adds,
 //! `scenes` what the demo's scenes cost. Names choose among them. `--test` runs everything
 //! once and tiny, and times nothing that is worth reading. `benches/node` prints the same in wasm.
 
 mod cases;
 mod kernels;
+mod layers;
 mod measure;
 mod scenes;
 mod shreds;
@@ -27,10 +28,11 @@ enum Effort {
 /// A table's name, and what prints it.
 type Entry = (&'static str, fn(Effort));
 
-const TABLES: [Entry; 4] = [
+const TABLES: [Entry; 5] = [
     ("kernels", kernels::print),
     ("ticks", ticks::print),
     ("shreds", shreds::print),
+    ("layers", layers::print),
     ("scenes", scenes::print),
 ];
 
@@ -43,7 +45,7 @@ fn main() -> ExitCode {
     if let Some(unknown) = names.iter().find(|name| !TABLES.iter().any(|(known, _)| known == name))
     {
         eprintln!(
-            "there is no table {unknown:?}; the tables are kernels, ticks, shreds and scenes"
+            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers and scenes"
         );
         return ExitCode::FAILURE;
     }

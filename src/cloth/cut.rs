@@ -45,7 +45,10 @@ impl Cloth {
         if !plan.fits(self.world.capacity(), self.world.triangle_capacity) {
             return Err(Error::Full { what: "the whole cut" });
         }
-        guarded(|| cut::cut(&mut self.world, &plan));
+        guarded(|| {
+            cut::cut(&mut self.world, &plan);
+            self.world.see_to_crowd();
+        });
         self.changed_topology();
         self.changed_state();
         Ok(plan.opened())

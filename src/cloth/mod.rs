@@ -1,6 +1,7 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
 pub(crate) mod changes;
+mod colliders;
 mod crease;
 mod cut;
 pub(crate) mod desc;
@@ -23,15 +24,13 @@ use crate::fabric::material::Material;
 use crate::math::float_env::guarded;
 use crate::solver::profile::Clock;
 use crate::solver::{World, pipeline};
-use crate::state::collider_desc::ColliderDesc;
-use crate::state::colliders::{Body, Collider, Impulse};
 use crate::state::events::Event;
 use crate::state::grabs::{Grab, Held};
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use changes::History;
 use desc::{GridDesc, MeshDesc};
-use glam::{Quat, Vec3};
+use glam::Vec3;
 use view::Outputs;
 use world::Origin;
 
@@ -80,7 +79,8 @@ impl Cloth {
     /// Makes a cloth from a regular grid.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field of `desc` that cannot be, and the rule.
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field of `desc` that cannot be, and the rule;
+    /// [`Error::Unsupported`](crate::Error::Unsupported) what this version does not do yet.
     pub fn grid(desc: &GridDesc) -> Result<Self> {
         desc.check()?;
         Self::from_origin(Origin::Grid(desc.clone()))
@@ -91,14 +91,17 @@ impl Cloth {
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex) names
     /// the field of `desc` that cannot be; [`Error::BadMesh`](crate::Error::BadMesh) the first triangle
-    /// or vertex that cannot be cloth.
+    /// or vertex that cannot be cloth; [`Error::Unsupported`](crate::Error::Unsupported) what this version
+    /// does not do yet.
     pub fn mesh(desc: &MeshDesc) -> Result<Self> {
         desc.check()?;
         Self::from_origin(Origin::Mesh(desc.clone()))
     }
 
     fn from_origin(origin: Origin) -> Result<Self> {
-        let world = guarded(|| origin.world())?;
+        let mut world = guarded(|| origin.world())?;
+        world.check_self_distance(&world.settings)?;
+        guarded(|| world.see_to_crowd());
         let mut outputs = Outputs::new(&world);
         outputs.set_uvs(&origin);
         outputs.follow_topology(&world);
@@ -139,6 +142,7 @@ impl Cloth {
             self.world.weave.stiffen(&self.world.material);
             self.world.tether();
             self.world.restart_history();
+            self.world.see_to_crowd();
         });
         self.owed = 0.0;
         self.pins_changed = false;
@@ -154,16 +158,23 @@ impl Cloth {
     /// Changes how time runs, from the next tick on. Velocities stay as they are.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule;
+    /// [`Error::Unsupported`](crate::Error::Unsupported) what this version does not do yet.
     pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
         settings.check()?;
         let world = &mut self.world;
+        world.check_self_distance(&settings)?;
         let restarts = settings.scheme() != world.settings.scheme();
+        let touches = |settings: &Settings| (settings.self_collision, settings.self_distance);
+        let touches_otherwise = touches(&settings) != touches(&world.settings);
         world.scratch.tear.reserve(settings.max_tears_per_tick as usize);
         let is_unsorted = world.settings.max_stretch == 0.0;
         world.settings = settings;
         if is_unsorted {
             world.sort_outward();
+        }
+        if touches_otherwise {
+            guarded(|| world.see_to_crowd());
         }
         if restarts {
             guarded(|| world.restart_history());
@@ -410,51 +421,6 @@ impl Cloth {
         }
         guarded(|| world.refresh_weight(at));
         Ok(())
-    }
-
-    /// Adds a collider.
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule,
-    /// [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
-    pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
-        let body = guarded(|| Body::new(desc.clone()))?;
-        let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
-        self.world.reserve_contacts();
-        Ok(Collider(handle))
-    }
-
-    /// Moves a collider; it gets there over the next tick.
-    ///
-    /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a pose that cannot be.
-    pub fn move_collider(
-        &mut self,
-        collider: Collider,
-        position: Vec3,
-        rotation: Quat,
-    ) -> Result<()> {
-        let body = self.world.colliders.get_mut(collider.0, "collider")?;
-        guarded(|| body.move_to(position, rotation))
-    }
-
-    /// Removes a collider.
-    ///
-    /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed before.
-    pub fn remove_collider(&mut self, collider: Collider) -> Result<()> {
-        self.world.colliders.remove(collider.0, "collider")?;
-        self.world.scratch.contacts.near.forget();
-        Ok(())
-    }
-
-    /// What the cloth did to a collider in the last tick.
-    ///
-    /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed.
-    pub fn collider_impulse(&self, collider: Collider) -> Result<Impulse> {
-        Ok(self.world.colliders.get(collider.0, "collider")?.impulse)
     }
 
     /// The oldest event that was not read yet. The 1024 newest are kept.

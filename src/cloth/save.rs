@@ -188,6 +188,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.particles = particles;
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
+    world.check_self_distance(&world.settings)?;
     world.reserve(capacity);
     must(world.weave.change(&world.mesh, &saved.links, &world.material))?;
     world.weave.stiffen(&world.material);

@@ -302,7 +302,8 @@ impl Cloth {
             + world.cells.as_ref().map_or(0, Cells::bytes)
             + world.plates.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
-            + self.outputs.drawn.bytes();
+            + self.outputs.drawn.bytes()
+            + world.crowd.as_ref().map_or(0, |crowd| crowd.bytes());
         bytes as u64
     }
 }

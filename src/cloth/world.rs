@@ -161,6 +161,7 @@ fn build(
         cells,
         plates,
         folds,
+        crowd: None,
     };
     world.pins.reserve(capacity);
     world.tethers.reserve(capacity, world.mesh.triangles.len());
@@ -228,6 +229,7 @@ impl World {
         );
         self.reserve_packed(capacity);
         self.reserve_contacts();
+        self.see_to_crowd();
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
     }
 

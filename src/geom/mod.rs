@@ -5,6 +5,7 @@ pub(crate) mod blade;
 pub(crate) mod bvh;
 pub(crate) mod closest;
 pub(crate) mod frame;
+pub(crate) mod hash_grid;
 pub(crate) mod hull;
 pub(crate) mod polyhedron;
 pub(crate) mod ray;

@@ -7,6 +7,7 @@ pub(crate) mod brake;
 pub(crate) mod cells;
 mod chunk;
 pub(crate) mod contacts;
+pub(crate) mod crowd;
 pub(crate) mod cut;
 pub(crate) mod descent;
 pub(crate) mod flaps;
@@ -122,6 +123,8 @@ pub(crate) struct World {
     pub threads: Threads,
     pub profile: Profile,
     pub scratch: Scratch,
+    /// The particles that keep apart, while settings say so.
+    pub crowd: Option<Box<crowd::Crowd>>,
 }
 
 /// Room to work in, made once so that no tick allocates.

@@ -2,8 +2,8 @@
 
 use super::stage::Stage;
 use super::{
-    World, bend, brake, contacts, forces, guard, hold, limit, lines, links, packed, predict, tear,
-    tethers, velocities,
+    World, bend, brake, contacts, crowd, forces, guard, hold, limit, lines, links, packed, predict,
+    tear, tethers, velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -67,6 +67,8 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Limit, limit::draw_in(world));
     }
     timed!(world, Bend, packed::unpack(world));
+    timed!(world, Pairs, crowd::pair(world));
+    timed!(world, SelfContacts, crowd::solve(world));
     timed!(world, Pairs, contacts::near::pair(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Velocities, velocities::derive(world));

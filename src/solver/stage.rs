@@ -14,6 +14,7 @@ pub enum Stage {
     Shear,
     Bend,
     Pairs,
+    SelfContacts,
     Contacts,
     Velocities,
     Tear,
@@ -24,7 +25,7 @@ pub enum Stage {
 
 impl Stage {
     /// How many there are.
-    pub const COUNT: usize = 15;
+    pub const COUNT: usize = 16;
 
     /// All of them, in order.
     pub const ALL: [Self; Self::COUNT] = [
@@ -37,6 +38,7 @@ impl Stage {
         Self::Shear,
         Self::Bend,
         Self::Pairs,
+        Self::SelfContacts,
         Self::Contacts,
         Self::Velocities,
         Self::Tear,
@@ -57,6 +59,7 @@ impl Stage {
             Self::Shear => "shear",
             Self::Bend => "bend",
             Self::Pairs => "pairs",
+            Self::SelfContacts => "self-contacts",
             Self::Contacts => "contacts",
             Self::Velocities => "velocities",
             Self::Tear => "tear",

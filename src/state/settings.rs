@@ -1,6 +1,6 @@
 //! How time runs for one cloth. Every field may change between ticks.
 
-use crate::error::{Result, check, check_finite};
+use crate::error::{Error, Result, check, check_finite};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -36,14 +36,45 @@ pub struct Settings {
     /// whole lines of links are solved at once as well, so that a load reaches the pins in one go. Off,
     /// sweeps are all there is.
     pub tethers: bool,
-    /// Layers of the cloth keep apart; off.
-    pub self_collision: bool,
-    /// Distance between layers [m]; 0 takes the material's thickness.
+    /// Whether and how parts of the cloth keep apart; not at all.
+    pub self_collision: SelfCollision,
+    /// Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest
+    /// length, and it is at most twice that length.
     pub self_distance: f32,
     /// Over-stretched links tear, see `Material::tear_stretch`; off.
     pub tearing: bool,
     /// Vertices that tearing may split in one tick, the worst first; 8. At least 1.
     pub max_tears_per_tick: u32,
+}
+
+/// How parts of a cloth keep apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u32)]
+pub enum SelfCollision {
+    /// Not at all: they go through each other.
+    #[default]
+    None = 0,
+    /// Surface from surface, a material's thickness apart, so that nothing crosses. Not supported yet.
+    Surface = 1,
+    /// Particles from particles, as if they were balls: cheap, without friction, and a fold may slip through
+    /// where particles are farther apart than `self_distance`. Those that are woven into one piece nearer
+    /// than that, or than one and a half mean rest lengths, do not count; what is held neither.
+    Particles = 2,
+}
+
+impl SelfCollision {
+    /// The choice that a face calls `number`.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) for a number that names none.
+    pub fn from_number(number: u32) -> Result<Self> {
+        match number {
+            0 => Ok(Self::None),
+            1 => Ok(Self::Surface),
+            2 => Ok(Self::Particles),
+            _ => Err(Error::BadValue { field: "settings.self_collision", must: "be 0, 1 or 2" }),
+        }
+    }
 }
 
 impl Default for Settings {
@@ -58,7 +89,7 @@ impl Default for Settings {
             max_displacement: 0.5,
             max_stretch: 0.0,
             tethers: true,
-            self_collision: false,
+            self_collision: SelfCollision::None,
             self_distance: 0.0,
             tearing: false,
             max_tears_per_tick: 8,
@@ -90,7 +121,10 @@ impl Settings {
             "be at least 0 and finite",
         )?;
         check(self.max_tears_per_tick >= 1, "settings.max_tears_per_tick", "be at least 1")?;
-        check(!self.self_collision, "settings.self_collision", "be off: it is not supported yet")
+        if self.self_collision == SelfCollision::Surface {
+            return Err(Error::Unsupported { what: "`settings.self_collision` of surfaces" });
+        }
+        Ok(())
     }
 
     /// How positions follow from velocities in these settings.

@@ -85,7 +85,7 @@ const settings = {
   gravity: NOT_FINITE,
   tethers: [0, 1, null, "true"],
   tearing: [0, 1, null, "true"],
-  selfCollision: [0, null, "true", true],
+  selfCollision: [0, null, "true", true, "surface"],
   iteration: [3],
 };
 for (const [key, values] of Object.entries(settings)) {

@@ -4,7 +4,7 @@ use crate::failure::{Failure, Result};
 use crate::{files, js, setup, shell, wasm};
 
 /// The tables that are run natively; in node they go by one name.
-const NATIVE: [&str; 4] = ["kernels", "ticks", "shreds", "scenes"];
+const NATIVE: [&str; 5] = ["kernels", "ticks", "shreds", "layers", "scenes"];
 const NODE: &str = "node";
 /// Runs everything once and tiny.
 const TEST: &str = "--test";
@@ -15,7 +15,7 @@ pub fn run(options: &[String]) -> Result {
     let is_known = |word: &str| word == NODE || word == TEST || NATIVE.contains(&word);
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
-            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, scenes, node and --test"
+            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, node and --test"
         )));
     }
     let test: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };

@@ -38,7 +38,7 @@ cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
 cargo xtask package                 pack the C library as others install it, into dist/c
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
-                                    kernels, ticks, shreds, scenes, node
+                                    kernels, ticks, shreds, layers, scenes, node
   --test                            once and tiny, to see that it runs
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 

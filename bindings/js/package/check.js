@@ -40,7 +40,7 @@ export function flag(value, name) {
 /** One of some names; gives its place among them. */
 export function choice(value, name, names) {
   const at = names.indexOf(value);
-  const told = names.map((each) => `"${each}"`).join(", ");
+  const told = names.map((each) => JSON.stringify(each)).join(", ");
   if (at < 0) check(false, name, `be one of ${told}, but is ${shown(value)}`);
   return at;
 }

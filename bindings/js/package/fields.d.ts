@@ -28,9 +28,17 @@ export interface Settings {
    * iterations on, whole lines of links are solved at once as well.
    */
   tethers: boolean;
-  /** Layers of the cloth keep apart; false. Nothing else is supported yet. */
-  selfCollision: boolean;
-  /** Distance between layers [m]; 0 takes the material's thickness. */
+  /**
+   * Whether and how parts of the cloth keep apart; false. "particles": particles keep from particles, as if
+   * they were balls: cheap, without friction, and a fold may slip through where particles are farther apart
+   * than `selfDistance`. Those that are woven into one piece nearer than that, or than one and a half mean
+   * rest lengths, do not count; what is held neither. true, surface from surface, is not supported yet.
+   */
+  selfCollision: boolean | "particles";
+  /**
+   * Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest length,
+   * and it is at most twice that length.
+   */
   selfDistance: number;
   /** Over-stretched links tear, see `tearStretch` of the material; false. */
   tearing: boolean;

@@ -34,7 +34,7 @@ export const SETTINGS = {
   maxDisplacement: NUMBER,
   maxStretch: NUMBER,
   tethers: FLAG,
-  selfCollision: FLAG,
+  selfCollision: CHOICE(false, true, "particles"),
   selfDistance: NUMBER,
   tearing: FLAG,
   maxTearsPerTick: WHOLE,

@@ -79,6 +79,7 @@ export type Stage =
   | "shear"
   | "bend"
   | "pairs"
+  | "self-contacts"
   | "contacts"
   | "velocities"
   | "tear"

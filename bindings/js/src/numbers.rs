@@ -4,7 +4,7 @@
 
 use core::slice::Iter;
 use glam::{Quat, Vec3};
-use muslin::{GridDesc, Material, MeshDesc, PinMode, Settings, Wind, WindModel};
+use muslin::{GridDesc, Material, MeshDesc, PinMode, SelfCollision, Settings, Wind, WindModel};
 
 /// Reads a list from its start. What is missing reads as NaN or 0, which the core refuses.
 pub(crate) struct Reader<'a>(Iter<'a, f64>);
@@ -81,7 +81,11 @@ pub(crate) fn read_settings(list: &[f64]) -> Settings {
         max_displacement: list.number(),
         max_stretch: list.number(),
         tethers: list.switch(),
-        self_collision: list.switch(),
+        self_collision: match list.count() {
+            0 => SelfCollision::None,
+            1 => SelfCollision::Surface,
+            _ => SelfCollision::Particles,
+        },
         self_distance: list.number(),
         tearing: list.switch(),
         max_tears_per_tick: list.count(),
@@ -95,7 +99,7 @@ pub(crate) fn write_settings(settings: &Settings) -> Vec<f64> {
     list.vector(settings.gravity);
     list.numbers(&[settings.damping, settings.max_displacement, settings.max_stretch]);
     list.switch(settings.tethers);
-    list.switch(settings.self_collision);
+    list.count(settings.self_collision as u32);
     list.number(settings.self_distance);
     list.switch(settings.tearing);
     list.count(settings.max_tears_per_tick);

@@ -37,7 +37,8 @@ pub fn create(
 
 /// Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule
+/// @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule;
+/// MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_create_grid(
     desc: *const MuslinGridDesc,
@@ -55,7 +56,8 @@ pub unsafe extern "C" fn muslin_cloth_create_grid(
 /// Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
 ///
 /// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
-/// and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth
+/// and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth;
+/// MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_create_mesh(
     desc: *const MuslinMeshDesc,
@@ -120,7 +122,8 @@ pub unsafe extern "C" fn muslin_cloth_get_settings(
 
 /// Changes how time runs, from the next tick on. Velocities stay as they are.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
+/// @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED what this
+/// version does not do yet
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_settings(
     cloth: MuslinCloth,

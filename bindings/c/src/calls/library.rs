@@ -55,6 +55,7 @@ pub extern "C" fn muslin_stage_name(stage: u32) -> *const c_char {
         c"shear",
         c"bend",
         c"pairs",
+        c"self-contacts",
         c"contacts",
         c"velocities",
         c"tear",

@@ -2,7 +2,17 @@
 
 use super::value::MuslinVec3;
 use crate::status::{Refusal, Result};
-use muslin_core::Settings;
+use muslin_core::{SelfCollision, Settings};
+
+/// For `self_collision`: parts of the cloth go through each other.
+pub const MUSLIN_SELF_COLLISION_NONE: u32 = 0;
+/// For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses.
+/// Not supported yet.
+pub const MUSLIN_SELF_COLLISION_SURFACE: u32 = 1;
+/// For `self_collision`: particles keep from particles, as if they were balls: cheap, without friction, and
+/// a fold may slip through where particles are farther apart than `self_distance`. Those that are woven into
+/// one piece nearer than that, or than one and a half mean rest lengths, do not count; what is held neither.
+pub const MUSLIN_SELF_COLLISION_PARTICLES: u32 = 2;
 
 /// How time runs: ticks, sweeps, gravity, damping and the switches of the solver. All of it may
 /// change between ticks.
@@ -39,9 +49,11 @@ pub struct MuslinSettings {
     /// They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
     /// From two iterations on, whole lines of links are solved at once as well.
     pub tethers: u32,
-    /// Whether layers of the cloth keep apart; 0. 1 is not supported yet.
+    /// Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first) or
+    /// MUSLIN_SELF_COLLISION_PARTICLES. MUSLIN_SELF_COLLISION_SURFACE is not supported yet.
     pub self_collision: u32,
-    /// Distance between layers [m]; 0 takes the material's thickness.
+    /// Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest
+    /// length, and it is at most twice that length.
     pub self_distance: f32,
     /// 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0.
     pub tearing: u32,
@@ -68,7 +80,7 @@ impl From<&Settings> for MuslinSettings {
             max_displacement: settings.max_displacement,
             max_stretch: settings.max_stretch,
             tethers: settings.tethers.into(),
-            self_collision: settings.self_collision.into(),
+            self_collision: settings.self_collision as u32,
             self_distance: settings.self_distance,
             tearing: settings.tearing.into(),
             max_tears_per_tick: settings.max_tears_per_tick,
@@ -90,7 +102,7 @@ impl TryFrom<MuslinSettings> for Settings {
             max_displacement: settings.max_displacement,
             max_stretch: settings.max_stretch,
             tethers: switch(settings.tethers, "settings.tethers")?,
-            self_collision: switch(settings.self_collision, "settings.self_collision")?,
+            self_collision: SelfCollision::from_number(settings.self_collision)?,
             self_distance: settings.self_distance,
             tearing: switch(settings.tearing, "settings.tearing")?,
             max_tears_per_tick: settings.max_tears_per_tick,

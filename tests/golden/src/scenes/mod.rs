@@ -5,6 +5,7 @@
 //! `sin`, and none from what a cloth answered.
 
 mod air;
+mod crowd;
 mod floor;
 mod folds;
 mod hands;
@@ -32,6 +33,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "dropped-on-a-tilting-floor", play: floor::dropped_on_a_tilting_floor },
     Scene { name: "draped-over-solids", play: touch::draped_over_solids },
     Scene { name: "thrown-on-hills", play: touch::thrown_on_hills },
+    Scene { name: "crumpled-by-particles", play: crowd::crumpled_by_particles },
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },
     Scene { name: "first-order", play: time::first_order },

@@ -1,0 +1,213 @@
+//! Stage `SelfContacts`: particles of different parts of the cloth keep apart as if they were balls.
+//!
+//! ```text
+//! i ◀── 0.4 o ── ●   ● ── 0.4 o ──▶ j        o = distance - |j - i|
+//! ```
+//! The plain scheme of many demos, once a substep: what is held does not count, nor do neighbours in the
+//! weave, and triangles may still cross. Only pairs that are too near when the pass begins are moved, so
+//! that it makes no difference to the bits when the list of those that may be was made.
+
+use super::World;
+use crate::error::{Result, check};
+use crate::geom::hash_grid::HashGrid;
+use crate::math::TINY;
+use crate::mesh::Mesh;
+use crate::state::settings::{SelfCollision, Settings};
+use glam::Vec3;
+
+/// What `self_distance` 0 is, in mean rest lengths.
+const DISTANCE: f32 = 2.0 / 3.0;
+
+/// The most that it may be, in mean rest lengths: who is near whom would be too many.
+const MOST: f32 = 2.0;
+
+/// How far neighbours are woven from each other at most, in mean rest lengths: a diagonal of a grid.
+const WOVEN: f32 = 1.5;
+
+/// How far particles may move before pairs are listed anew, in mean rest lengths.
+const MARGIN: f32 = 0.25;
+
+/// Listing anew begins a little before it must, which covers rounding, …
+const HASTE: f32 = 0.95;
+
+/// … so long as all did not move together by more than so many margins.
+const FAR: f32 = 1000.0;
+
+/// What each of two particles that are too near moves by, as a share of what is missing.
+const SHARE: f32 = 0.4;
+
+/// The particles of a cloth that keep apart.
+#[derive(Clone, Debug)]
+pub(crate) struct Crowd {
+    grid: HashGrid,
+    /// The pairs that may come too near until a particle moved by `margin`, …
+    pairs: Vec<[u32; 2]>,
+    /// … where particles were when they were listed, …
+    listed_at: Vec<Vec3>,
+    /// … and which of the pairs are too near.
+    touching: Vec<[u32; 2]>,
+    /// Whom one particle may meet.
+    near: Vec<u32>,
+    /// The piece that each site was part of before anything tore.
+    pieces: Vec<u32>,
+    distance: f32,
+    /// What lies no farther apart at rest in one piece does not count [m].
+    woven: f32,
+    margin: f32,
+}
+
+impl Crowd {
+    fn new(world: &World) -> Self {
+        let distance = distance(world);
+        let wider = |a: f32, b: f32| if a > b { a } else { b };
+        let woven = wider(WOVEN * world.spacing, distance);
+        let margin = MARGIN * world.spacing;
+        let (capacity, count) = (world.capacity(), world.particles.len());
+        Self {
+            grid: HashGrid::new(capacity, distance + 2.0 * margin),
+            // As many as balls that lie close have around them; of more, lists grow.
+            pairs: Vec::with_capacity(16 * count),
+            listed_at: Vec::with_capacity(capacity),
+            touching: Vec::with_capacity(8 * count),
+            near: Vec::with_capacity(256),
+            pieces: pieces(&world.mesh, world.rest.len()),
+            distance,
+            woven,
+            margin,
+        }
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let pairs = self.pairs.capacity() + self.touching.capacity();
+        self.grid.bytes()
+            + size_of::<[u32; 2]>() * pairs
+            + size_of::<Vec3>() * self.listed_at.capacity()
+            + size_of::<u32>() * (self.near.capacity() + self.pieces.capacity())
+    }
+
+    /// Whether no particle moved farther than the margin, but for what all did.
+    fn holds(&self, world: &World) -> bool {
+        let x = &world.particles.x;
+        if self.listed_at.len() != world.particles.len() {
+            return false;
+        }
+        let ways = || x.iter().zip(&self.listed_at).map(|(x, at)| x - *at);
+        let drift = ways().fold(Vec3::ZERO, |sum, way| sum + way) * (1.0 / x.x.len() as f32);
+        let (most, far) = (HASTE * self.margin, FAR * self.margin);
+        let mut holds = drift.length_squared() <= far * far;
+        for way in ways() {
+            holds &= (way - drift).length_squared() <= most * most;
+        }
+        holds
+    }
+
+    fn list(&mut self, world: &World) {
+        let Self { grid, pairs, listed_at, near, pieces, .. } = self;
+        listed_at.clear();
+        listed_at.extend(world.particles.x.iter());
+        grid.fill(listed_at.iter().copied());
+        let most = self.distance + 2.0 * self.margin;
+        pairs.clear();
+        for (i, x) in listed_at.iter().enumerate() {
+            let site = world.mesh.source[i] as usize;
+            near.clear();
+            grid.visit_near(*x, |j| {
+                if j as usize > i && (listed_at[j as usize] - *x).length_squared() < most * most {
+                    near.push(j);
+                }
+            });
+            near.sort_unstable();
+            for j in near.iter() {
+                let other = world.mesh.source[*j as usize] as usize;
+                let apart = (world.rest[other] - world.rest[site]).length_squared();
+                if pieces[site] != pieces[other] || apart > self.woven * self.woven {
+                    pairs.push([i as u32, *j]);
+                }
+            }
+        }
+    }
+}
+
+impl World {
+    /// Refuses a distance between particles that is too long for a cloth like this.
+    pub fn check_self_distance(&self, settings: &Settings) -> Result<()> {
+        let fits = settings.self_distance <= MOST * self.spacing;
+        check(
+            fits || settings.self_collision == SelfCollision::None,
+            "settings.self_distance",
+            "be at most twice the mean rest length of the edges",
+        )
+    }
+
+    /// Makes what particles need that keep apart, or drops it, as settings say.
+    pub fn see_to_crowd(&mut self) {
+        let is_wanted = self.settings.self_collision == SelfCollision::Particles;
+        self.crowd = is_wanted.then(|| Box::new(Crowd::new(self)));
+    }
+}
+
+/// Distance that particles keep [m].
+fn distance(world: &World) -> f32 {
+    let own = world.settings.self_distance;
+    if own > 0.0 { own } else { DISTANCE * world.spacing }
+}
+
+/// The piece of each site: the lowest site that triangles join it to. Vertices that tore apart are one site.
+fn pieces(mesh: &Mesh, sites: usize) -> Vec<u32> {
+    let mut parents: Vec<u32> = (0..sites as u32).collect();
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|vertex| mesh.source[vertex as usize]);
+        for (p, q) in [(a, b), (b, c)] {
+            let (p, q) = (root(&mut parents, p), root(&mut parents, q));
+            parents[p.max(q) as usize] = p.min(q);
+        }
+    }
+    (0..sites as u32).map(|site| root(&mut parents, site)).collect()
+}
+
+/// The lowest site that `site` is known to be joined to; the way there is halved for the next time.
+fn root(parents: &mut [u32], mut site: u32) -> u32 {
+    while parents[site as usize] != site {
+        parents[site as usize] = parents[parents[site as usize] as usize];
+        site = parents[site as usize];
+    }
+    site
+}
+
+/// Lists pairs anew, if something moved too far since.
+pub(crate) fn pair(world: &mut World) {
+    let Some(mut crowd) = world.crowd.take() else {
+        return;
+    };
+    if !crowd.holds(world) {
+        crowd.list(world);
+    }
+    world.crowd = Some(crowd);
+}
+
+/// Moves particles apart, once and in a fixed order.
+pub(crate) fn solve(world: &mut World) {
+    let Some(crowd) = &mut world.crowd else {
+        return;
+    };
+    let (p, distance) = (&mut world.particles, crowd.distance);
+    let is_near = |[i, j]: &&[u32; 2]| {
+        let span = p.x.at(*j as usize) - p.x.at(*i as usize);
+        span.length_squared() < distance * distance
+    };
+    crowd.touching.clear();
+    crowd.touching.extend(crowd.pairs.iter().filter(is_near));
+    for pair in &crowd.touching {
+        let [i, j] = pair.map(|particle| particle as usize);
+        let span = p.x.at(j) - p.x.at(i);
+        let length = span.length();
+        let is_held = p.w[i] <= 0.0 || p.w[j] <= 0.0;
+        if is_held || length <= TINY || length >= distance {
+            continue;
+        }
+        let by = span * (SHARE * (distance - length) / length);
+        p.x.add(i, -by);
+        p.x.add(j, by);
+    }
+}
