@@ -52,6 +52,22 @@
 /** Flag nylon 200 denier, 105 g/m^2. */
 #define MUSLIN_PRESET_FLAG_NYLON 5
 
+/** For `self_collision`: parts of the cloth go through each other. */
+#define MUSLIN_SELF_COLLISION_NONE 0
+
+/**
+ * For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses.
+ * Not supported yet.
+ */
+#define MUSLIN_SELF_COLLISION_SURFACE 1
+
+/**
+ * For `self_collision`: particles keep from particles, as if they were balls: cheap, without friction, and
+ * a fold may slip through where particles are farther apart than `self_distance`. Those that are woven into
+ * one piece nearer than that, or than one and a half mean rest lengths, do not count; what is held neither.
+ */
+#define MUSLIN_SELF_COLLISION_PARTICLES 2
+
 /** Nothing is pinned: it falls. */
 #define MUSLIN_PIN_NONE 0
 
@@ -353,9 +369,15 @@ typedef struct MuslinSettings {
    * From two iterations on, whole lines of links are solved at once as well.
    */
   uint32_t tethers;
-  /** Whether layers of the cloth keep apart; 0. 1 is not supported yet. */
+  /**
+   * Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first) or
+   * MUSLIN_SELF_COLLISION_PARTICLES. MUSLIN_SELF_COLLISION_SURFACE is not supported yet.
+   */
   uint32_t self_collision;
-  /** Distance between layers [m]; 0 takes the material's thickness. */
+  /**
+   * Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest
+   * length, and it is at most twice that length.
+   */
   float self_distance;
   /** 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0. */
   uint32_t tearing;
@@ -802,7 +824,8 @@ MuslinStatus muslin_set_log(MuslinLogFn log,
 /**
  * Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule
+ * @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule;
+ * MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
  */
 MuslinStatus muslin_cloth_create_grid(const MuslinGridDesc *desc,
                                       MuslinCloth *out_cloth);
@@ -811,7 +834,8 @@ MuslinStatus muslin_cloth_create_grid(const MuslinGridDesc *desc,
  * Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
  *
  * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
- * and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth
+ * and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth;
+ * MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
  */
 MuslinStatus muslin_cloth_create_mesh(const MuslinMeshDesc *desc,
                                       MuslinCloth *out_cloth);
@@ -843,7 +867,8 @@ MuslinStatus muslin_cloth_get_settings(MuslinCloth cloth,
 /**
  * Changes how time runs, from the next tick on. Velocities stay as they are.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
+ * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED what this
+ * version does not do yet
  */
 MuslinStatus muslin_cloth_set_settings(MuslinCloth cloth,
                                        const MuslinSettings *settings);

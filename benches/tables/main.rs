@@ -1,9 +1,10 @@
 //! The tables of `cargo xtask bench`: Muslin beside the plain loop that most people write, in one run.
 //!
 //! `kernels` tells what one projection of one constraint costs, `ticks` what whole ticks cost and
-//! how calm and how long the cloth is in the end, `shreds` what tears add to that, `layers` what collision with itself adds,
-//! `scenes` what the demo's scenes cost. Names choose among them. `--test` runs everything
-//! once and tiny, and times nothing that is worth reading. `benches/node` prints the same in wasm.
+//! how calm and how long the cloth is in the end, `shreds` what tears add to that, `layers` what
+//! collision with itself adds, `scenes` what the demo's scenes cost. Names choose among them. `--test`
+//! runs everything once and tiny, and times nothing that is worth reading. `benches/node` prints the
+//! same in wasm.
 
 mod cases;
 mod kernels;

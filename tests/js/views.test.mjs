@@ -184,6 +184,15 @@ test("a mesh may be made from another cloth's views, though they move meanwhile"
   }
 });
 
+test("what keeps parts apart reads as it was told", () => {
+  const cloth = Cloth.grid({ settings: { selfCollision: "particles", selfDistance: 0.03125 } });
+  const told = ({ settings }) => [settings.selfCollision, settings.selfDistance];
+  assert.deepEqual(told(cloth), ["particles", 0.03125]);
+  assert.deepEqual(told(Cloth.restore(cloth.save())), ["particles", 0.03125]);
+  cloth.settings = { selfCollision: false };
+  assert.deepEqual(told(cloth), [false, 0.03125]);
+});
+
 test("what is read is a copy of its own and cannot be changed by mistake", () => {
   const cloth = Cloth.grid({ material: "denim" });
   const { settings, material, wind, stats } = cloth;
