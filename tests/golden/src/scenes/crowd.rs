@@ -31,7 +31,6 @@ pub fn crumpled_by_particles(trace: &mut Trace) -> Result<()> {
     assert!(low > 300, "only {low} particles lie low");
     cloth.tear_edge(200, 201)?;
     let grab = cloth.grab_particle(0)?;
-    let start = cloth.positions()[0];
     cloth.set_settings(Settings { self_distance: 0.0625, ..apart.clone() })?;
     for i in 1..=20 {
         cloth.move_grab(grab, along(Vec3::Y * -1.25, Vec3::Y * 0.03125, i))?;
