@@ -62,21 +62,6 @@ pub enum SelfCollision {
     Particles = 2,
 }
 
-impl SelfCollision {
-    /// The choice that a face calls `number`.
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for a number that names none.
-    pub fn from_number(number: u32) -> Result<Self> {
-        match number {
-            0 => Ok(Self::None),
-            1 => Ok(Self::Surface),
-            2 => Ok(Self::Particles),
-            _ => Err(Error::BadValue { field: "settings.self_collision", must: "be 0, 1 or 2" }),
-        }
-    }
-}
-
 impl Default for Settings {
     fn default() -> Self {
         Self {

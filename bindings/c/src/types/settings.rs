@@ -102,11 +102,20 @@ impl TryFrom<MuslinSettings> for Settings {
             max_displacement: settings.max_displacement,
             max_stretch: settings.max_stretch,
             tethers: switch(settings.tethers, "settings.tethers")?,
-            self_collision: SelfCollision::from_number(settings.self_collision)?,
+            self_collision: self_collision(settings.self_collision)?,
             self_distance: settings.self_distance,
             tearing: switch(settings.tearing, "settings.tearing")?,
             max_tears_per_tick: settings.max_tears_per_tick,
         })
+    }
+}
+
+fn self_collision(number: u32) -> Result<SelfCollision> {
+    match number {
+        MUSLIN_SELF_COLLISION_NONE => Ok(SelfCollision::None),
+        MUSLIN_SELF_COLLISION_SURFACE => Ok(SelfCollision::Surface),
+        MUSLIN_SELF_COLLISION_PARTICLES => Ok(SelfCollision::Particles),
+        _ => Err(Refusal::bad_value("settings.self_collision", "be 0, 1 or 2")),
     }
 }
 
