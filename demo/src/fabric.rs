@@ -58,7 +58,7 @@ impl Fabric {
     pub fn material(self) -> Material {
         // Four times its length, as the brief has it, is rubber: these rip as cloth does.
         let (preset, tear_stretch) = match self {
-            Self::Silk => (Preset::Silk, 1.6),
+            Self::Silk => (Preset::Silk, 1.75),
             Self::Cotton => (Preset::Cotton, 1.65),
             Self::Denim => (Preset::Denim, 1.9),
             Self::Flag => (Preset::FlagNylon, 1.75),
