@@ -34,7 +34,8 @@ async function compile(source) {
   if (source instanceof WebAssembly.Module) return source;
   if (isBytes(source)) return WebAssembly.compile(source);
   const isHere = source instanceof URL || typeof source === "string";
-  if (isHere && String(source).startsWith("file:")) return WebAssembly.compile(await file(source));
+  // At once: what awaits node 20's compiler may wait for ever, when V8 must collect garbage just then.
+  if (isHere && String(source).startsWith("file:")) return new WebAssembly.Module(await file(source));
   if (source instanceof Response) return receive(source);
   check(isHere || source instanceof Request, "source", SOURCES);
   return receive(await fetch(source));
