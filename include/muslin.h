@@ -129,7 +129,10 @@
 /** The edge between `particle_a` and `particle_b` tore. */
 #define MUSLIN_EVENT_EDGE_TORN 0
 
-/** `vertex` was split off from `source`. */
+/**
+ * `vertex` was split off from `source`. Where a particle with several vertices was split between them, so that
+ * none had to be: both are the lowest vertex that went to the new particle.
+ */
 #define MUSLIN_EVENT_VERTEX_SPLIT 1
 
 /** A piece of `count` triangles, one of them at `vertex`, came off. */
@@ -147,7 +150,10 @@
  */
 #define MUSLIN_EVENT_HELD_APART 5
 
-/** A cut made `vertex` on the edge between `particle_a` and `particle_b`. */
+/**
+ * A cut made `vertex` on the edge between `particle_a` and `particle_b`; and, if they are different vertices on
+ * either side of that edge, the one after it for the other side.
+ */
 #define MUSLIN_EVENT_EDGE_DIVIDED 6
 
 /** Where a vertex is [m]: x y z, and 1 in 16 bits. */
@@ -383,6 +389,12 @@ typedef struct MuslinSettings {
   uint32_t tearing;
   /** Vertices that tearing may split in one tick, the worst first; 8. At least 1. */
   uint32_t max_tears_per_tick;
+  /**
+   * A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at
+   * next to no cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the
+   * sine field keep a cloth awake. See `asleep` of MuslinStats.
+   */
+  float sleep_speed;
 } MuslinSettings;
 
 /**
@@ -428,8 +440,17 @@ typedef struct MuslinCloth {
 } MuslinCloth;
 
 /**
- * Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point.
- * Begin with muslin_mesh_desc_init, then give it positions and indices.
+ * Any triangle mesh, as artists export them. Begin with muslin_mesh_desc_init, then give it positions and
+ * indices.
+ *
+ * What cannot be cloth in it is repaired, and muslin_cloth_get_mesh_report tells what was: doubled vertices are
+ * welded, triangles without an area and repeated ones dropped; where more than two triangles share an edge the
+ * flattest two stay joined and the others get an edge of their own; sheets that meet at a mere point are parted;
+ * the triangles of a piece are turned to face as most of them do. Vertices that no triangle uses stay where they
+ * are.
+ *
+ * A mesh that is a regular grid, its vertices and triangles in the order that muslin_cloth_create_grid has them,
+ * is woven as that grid is: it moves in the same bits.
  *
  * All lists are copied while the cloth is made. `material` and `settings` carry sizes of their own:
  * replace them by structs that began with muslin_material_init and muslin_settings_init in the same
@@ -438,7 +459,10 @@ typedef struct MuslinCloth {
 typedef struct MuslinMeshDesc {
   /** Set by muslin_mesh_desc_init. */
   uint32_t struct_size;
-  /** Where the vertices are at rest [m], 3 numbers a vertex; particle = vertex. */
+  /**
+   * Where the vertices are at rest [m], 3 numbers a vertex. Each is the particle of its number if nothing is
+   * welded or split, see MuslinView's `particles`.
+   */
   const float *positions;
   /** Bytes from one position to the next; 0, which is 12. A multiple of 4. */
   uint32_t position_stride;
@@ -450,13 +474,15 @@ typedef struct MuslinMeshDesc {
   uint32_t index_count;
   /** Texture coordinates, 2 numbers a vertex; or NULL: none. */
   const float *uvs;
-  /** Vertices that are pinned from the start; or NULL: none. */
+  /** Vertices whose particles are pinned from the start; or NULL: none. */
   const uint32_t *pinned;
   /** How many `pinned` there are; 0. At most `vertex_count`. */
   uint32_t pinned_count;
   /**
-   * Vertices nearer to each other than this are one [m]; -1 leaves all apart. Nothing from 0 on is
-   * supported yet.
+   * Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, -1 (or
+   * anything below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one before
+   * it that stayed apart; but the corners of a triangle stay apart, however small it is. Keep it well below
+   * the shortest edge.
    */
   float weld_distance;
   /** Particles that tears may add; MUSLIN_AS_MANY_AGAIN. */
@@ -520,7 +546,8 @@ typedef struct MuslinGrab {
 } MuslinGrab;
 
 /**
- * Something that happened in a tick. Fields that its kind does not mention are 0. Begin with
+ * Something that happened in a tick. Fields that its kind does not mention are 0. `particle_a` and `particle_b`
+ * are particles, `vertex` and `source` are vertices, see MuslinView's `particles`. Begin with
  * muslin_event_init.
  */
 typedef struct MuslinEvent {
@@ -638,7 +665,8 @@ typedef struct MuslinView {
   /** Positions [m], 3 numbers a vertex. */
   const float *positions;
   /**
-   * Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses.
+   * Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses. Vertices that
+   * share a particle share its normal.
    */
   const float *normals;
   /** Texture coordinates, 2 numbers a vertex. */
@@ -667,6 +695,15 @@ typedef struct MuslinView {
    * those at the borders that the cloth was made with among them. 1 byte a vertex.
    */
   const uint8_t *frayed;
+  /**
+   * The particle of each vertex, 1 a vertex. A mesh that was welded or had sheets to be parted has several
+   * vertices to a particle; else each vertex is the particle of its number.
+   *
+   * Calls that touch the cloth (pins, grabs, tears by hand, positions and velocities) take particles, and
+   * what a ray hits tells one. Of an event, `particle_a` and `particle_b` are particles, `vertex` and `source`
+   * are vertices. Triangles have the same numbers in both.
+   */
+  const uint32_t *particles;
 } MuslinView;
 
 /**
@@ -687,11 +724,59 @@ typedef struct MuslinChanges {
   uint32_t index_count;
 } MuslinChanges;
 
+/**
+ * What had to be repaired of a mesh before it could be cloth, and what it is now. Begin with
+ * muslin_mesh_report_init.
+ *
+ * Repairs come in this order: vertices are welded, triangles without an area and repeated ones are dropped,
+ * edges and vertices where more than one sheet meets are split, triangles that face the other way are turned.
+ */
+typedef struct MuslinMeshReport {
+  /** Set by muslin_mesh_report_init. */
+  uint32_t struct_size;
+  /** Vertices that were given. */
+  uint32_t vertices;
+  /** Triangles that were given. */
+  uint32_t triangles;
+  /** Particles that came of it. */
+  uint32_t particles;
+  /** Triangles that were kept. */
+  uint32_t kept_triangles;
+  /** Vertices that joined another one's particle. */
+  uint32_t welded_vertices;
+  /** Triangles that were dropped: they had no area, or named a vertex twice. */
+  uint32_t dropped_degenerate;
+  /** Triangles that were dropped: an earlier one has the same corners. */
+  uint32_t dropped_duplicates;
+  /** Triangles that were turned round, so that they face as their neighbours do. */
+  uint32_t turned_triangles;
+  /** Edges that had more than two triangles. */
+  uint32_t split_edges;
+  /**
+   * Particles that came to be where sheets were parted that met at such an edge or at a mere point.
+   */
+  uint32_t split_vertices;
+  /**
+   * Vertices that no triangle uses. They are particles without mass that stay where they are, unless they
+   * were welded.
+   */
+  uint32_t unused_vertices;
+  /** Pieces: sets of triangles joined by edges. */
+  uint32_t pieces;
+  /**
+   * Pieces that have no two sides, such as a Moebius strip: a line across them is left where neighbours face
+   * opposite ways.
+   */
+  uint32_t one_sided_pieces;
+  /** 1 if it is woven as the regular grid that it was found to be; 0. */
+  uint32_t is_grid;
+} MuslinMeshReport;
+
 /** Numbers about a cloth. Begin with muslin_stats_init. */
 typedef struct MuslinStats {
   /** Set by muslin_stats_init. */
   uint32_t struct_size;
-  /** How many particles (vertices) there are. */
+  /** How many particles there are. */
   uint32_t particles;
   /** How many triangles there are. */
   uint32_t triangles;
@@ -727,6 +812,10 @@ typedef struct MuslinStats {
    * How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
    */
   uint32_t over_stretched;
+  /** 1 if it sleeps, see `sleep_speed` of MuslinSettings. */
+  uint32_t asleep;
+  /** The speed of its fastest particle [m/s]. */
+  float max_speed;
 } MuslinStats;
 
 /**
@@ -831,11 +920,12 @@ MuslinStatus muslin_cloth_create_grid(const MuslinGridDesc *desc,
                                       MuslinCloth *out_cloth);
 
 /**
- * Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
+ * Makes a cloth from any triangle mesh; its lists are copied. What cannot be cloth in it is repaired, see
+ * muslin_cloth_get_mesh_report. Destroy it with muslin_cloth_destroy.
  *
  * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
- * and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth;
- * MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
+ * and the rule; MUSLIN_STATUS_BAD_MESH what is beyond repair: a triangle whose area is not finite, or that none
+ * has an area; MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
  */
 MuslinStatus muslin_cloth_create_mesh(const MuslinMeshDesc *desc,
                                       MuslinCloth *out_cloth);
@@ -1146,6 +1236,13 @@ MuslinStatus muslin_cloth_changes(MuslinCloth cloth,
                                   uint32_t since_topology_revision,
                                   MuslinChanges *out_changes);
 
+/**
+ * What had to be repaired of the mesh that the cloth was made of; nothing of a grid. `out_report` has begun with
+ * muslin_mesh_report_init.
+ */
+MuslinStatus muslin_cloth_get_mesh_report(MuslinCloth cloth,
+                                          MuslinMeshReport *out_report);
+
 /** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
 MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
 
@@ -1306,6 +1403,10 @@ static inline MuslinStream muslin_stream(uint32_t attribute, uint32_t format, vo
 
 static inline void muslin_view_init(MuslinView *view) {
   view->struct_size = (uint32_t)sizeof(MuslinView);
+}
+
+static inline void muslin_mesh_report_init(MuslinMeshReport *report) {
+  report->struct_size = (uint32_t)sizeof(MuslinMeshReport);
 }
 
 static inline void muslin_changes_init(MuslinChanges *changes) {

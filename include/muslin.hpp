@@ -327,6 +327,13 @@ class Cloth {
                      std::uint32_t base_vertex = 0) const noexcept {
     return muslin_cloth_write_indices(cloth_, buffer, size, index_format, flip ? 1 : 0, base_vertex);
   }
+  /** What had to be repaired of the mesh that it was made of. */
+  Result<MuslinMeshReport> mesh_report() const noexcept {
+    MuslinMeshReport report;
+    muslin_mesh_report_init(&report);
+    const MuslinStatus status = muslin_cloth_get_mesh_report(cloth_, &report);
+    return {status, report};
+  }
   Result<MuslinStats> stats() const noexcept {
     MuslinStats stats;
     muslin_stats_init(&stats);

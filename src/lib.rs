@@ -21,6 +21,7 @@ pub use error::{Error, Result};
 pub use fabric::links::LinkKind;
 pub use fabric::material::{Material, Preset};
 pub use glam;
+pub use mesh::report::MeshReport;
 pub use solver::profile::Clock;
 pub use solver::stage::Stage;
 pub use state::collider_desc::{ColliderDesc, Shape};

@@ -1,6 +1,6 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
-use muslin_scenes::{Flag, HangingSheet, Scene, SheetOnBall, play};
+use muslin_scenes::{Flag, HangingSheet, Receipt, Scene, SheetOnBall, play};
 
 fn keeps_its_promise<S: Scene>() {
     for seconds in [1, 5, 20] {
@@ -24,4 +24,9 @@ fn the_flag_streams_and_waves() {
 #[test]
 fn the_sheet_lies_on_its_ball() {
     keeps_its_promise::<SheetOnBall>();
+}
+
+#[test]
+fn the_receipt_hangs_from_its_pins() {
+    keeps_its_promise::<Receipt>();
 }

@@ -194,3 +194,37 @@ fn a_heap_on_the_floor_comes_to_rest_within_the_bound() {
         }
     }
 }
+
+/// A bound that cannot be had at once takes the cloth back, but not out of its flight.
+#[test]
+fn a_cloth_that_nothing_holds_flies_on_within_the_bound() {
+    for (max_stretch, ticks) in [(0.005, 40), (0.02, 60)] {
+        let material = Material { drag: 0.0, lift: 0.0, ..Material::preset(Preset::Paper) };
+        let mut desc = bounded(20, PinMode::None, material, max_stretch);
+        (desc.settings.tethers, desc.settings.damping) = (false, 0.0);
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let center = |cloth: &Cloth| {
+            let count = cloth.positions().len() as u32;
+            let each = |i: u32| (cloth.mass(i).unwrap(), cloth.positions()[i as usize]);
+            let (mass, sum) = (0..count)
+                .map(each)
+                .fold((0.0, Vec3::ZERO), |(mass, sum), (m, x)| (mass + m, sum + x * m));
+            sum * (1.0 / mass)
+        };
+        let start = center(&cloth);
+        // Crumpled by a push to and fro, so that links can only have the bound if much goes back.
+        for (i, x) in cloth.positions().to_vec().into_iter().enumerate() {
+            let push = Vec3::new(-4.0 * (x.x - start.x), 0.0, 6.0 * (9.0 * x.x).sin());
+            cloth.set_velocity(i as u32, push).unwrap();
+        }
+        let thrown = center(&cloth) - start;
+        assert_eq!(thrown, Vec3::ZERO);
+        for tick in 1..=ticks {
+            cloth.step(1);
+            assert!(cloth.stats().max_stretch <= max_stretch * 1.0001, "at tick {tick}");
+        }
+        let time = ticks as f32 / 60.0;
+        let fallen = (center(&cloth) - start).y / (-0.5 * 9.81 * time * time);
+        assert!((0.95..1.03).contains(&fallen), "{fallen} of its fall with {max_stretch}");
+    }
+}

@@ -68,8 +68,20 @@ fn vectors(numbers: &[f32], each: usize) -> Vec<Vec3> {
     numbers.chunks_exact(each).map(Vec3::from_slice).collect()
 }
 
-/// Normals and tangents of a surface, by the book.
+/// A shirt in the middle of a tear across a seam, moving.
+fn worn() -> Cloth {
+    let mut cloth = Cloth::mesh(&common::garments::shirt()).unwrap();
+    cloth.step(20);
+    cloth.cut(Vec3::new(0.1, -0.4, -9.0), Vec3::new(0.5, -0.5, -9.0), Vec3::Z * 18.0).unwrap();
+    cloth.step(3);
+    let report = cloth.mesh_report();
+    assert!(report.welded_vertices > 0 && cloth.positions().len() > report.vertices as usize);
+    cloth
+}
+
+/// Normals and tangents of a surface, by the book: normals of what shares a particle are one.
 fn frames(cloth: &Cloth, at: &[Vec3]) -> (Vec<Vec3>, Vec<Vec3>, Vec<f32>) {
+    let particle = |v: usize| cloth.vertex_particles()[v] as usize;
     let (mut normals, mut along, mut areas) =
         (vec![Vec3::ZERO; at.len()], vec![Vec3::ZERO; at.len()], vec![0.0_f32; at.len()]);
     for corners in triangles(cloth).iter().map(|t| t.map(|v| v as usize)) {
@@ -78,12 +90,13 @@ fn frames(cloth: &Cloth, at: &[Vec3]) -> (Vec<Vec3>, Vec<Vec3>, Vec<f32>) {
         let (p, q, up, uq) = (b - a, c - a, ub - ua, uc - ua);
         let area = up.perp_dot(uq);
         for v in corners {
-            normals[v] += p.cross(q);
+            normals[particle(v)] += p.cross(q);
             along[v] += (p * uq.y - q * up.y) * area.signum();
             areas[v] += area;
         }
     }
-    let normals: Vec<Vec3> = normals.into_iter().map(Vec3::normalize_or_zero).collect();
+    let normals: Vec<Vec3> =
+        (0..at.len()).map(|v| normals[particle(v)].normalize_or_zero()).collect();
     let square = |(t, n): (&Vec3, &Vec3)| (*t - *n * n.dot(*t)).normalize_or_zero();
     let along = along.iter().zip(&normals).map(square).collect();
     (normals, along, areas.into_iter().map(f32::signum).collect())
@@ -98,19 +111,20 @@ fn assert_near(one: &[Vec3], other: &[Vec3], most: f32) {
 
 #[test]
 fn plain_floats_are_the_very_numbers_of_the_view() {
-    let mut cloth = lively();
-    let (desc, view) = (WriteDesc::default(), cloth.view());
-    let (positions, normals) = (view.positions.to_vec(), view.normals.to_vec());
-    let (uvs, frayed) = (view.uvs.to_vec(), view.frayed.to_vec());
-    let numbers = written(&mut cloth, Attribute::Position, Format::F32, &desc);
-    assert_eq!(vectors(&numbers, 3), positions);
-    let numbers = written(&mut cloth, Attribute::Normal, Format::F32, &desc);
-    assert_eq!(vectors(&numbers, 3), normals);
-    let numbers = written(&mut cloth, Attribute::Uv, Format::F32, &desc);
-    assert!(numbers.chunks_exact(2).map(Vec2::from_slice).eq(uvs));
-    let numbers = written(&mut cloth, Attribute::Frayed, Format::F32, &desc);
-    assert!(numbers.iter().map(|number| *number == 1.0).eq(frayed.iter().copied()));
-    assert!(numbers.contains(&0.0) && numbers.contains(&1.0));
+    for mut cloth in [lively(), worn()] {
+        let (desc, view) = (WriteDesc::default(), cloth.view());
+        let (positions, normals) = (view.positions.to_vec(), view.normals.to_vec());
+        let (uvs, frayed) = (view.uvs.to_vec(), view.frayed.to_vec());
+        let numbers = written(&mut cloth, Attribute::Position, Format::F32, &desc);
+        assert_eq!(vectors(&numbers, 3), positions);
+        let numbers = written(&mut cloth, Attribute::Normal, Format::F32, &desc);
+        assert_eq!(vectors(&numbers, 3), normals);
+        let numbers = written(&mut cloth, Attribute::Uv, Format::F32, &desc);
+        assert!(numbers.chunks_exact(2).map(Vec2::from_slice).eq(uvs));
+        let numbers = written(&mut cloth, Attribute::Frayed, Format::F32, &desc);
+        assert!(numbers.iter().map(|number| *number == 1.0).eq(frayed.iter().copied()));
+        assert!(numbers.contains(&0.0) && numbers.contains(&1.0));
+    }
 }
 
 #[test]
@@ -188,26 +202,27 @@ fn separate_interleaved_and_block_layouts_hold_the_same_and_gaps_stay() {
 
 #[test]
 fn blending_goes_from_the_last_tick_to_this_one() {
-    let mut cloth = lively();
-    let before = cloth.positions().to_vec();
-    cloth.step(1);
-    let now = cloth.positions().to_vec();
-    for blend in [0.0, 0.25, 0.5, 1.0] {
-        let desc = WriteDesc { blend, ..WriteDesc::default() };
-        let at = vectors(&written(&mut cloth, Attribute::Position, Format::F32, &desc), 3);
-        let mix: Vec<Vec3> = before.iter().zip(&now).map(|(a, b)| a.lerp(*b, blend)).collect();
-        assert_near(&at, &mix, 1e-6);
-        assert!(blend > 0.0 || at == before);
-        let (normals, tangents, hands) = frames(&cloth, &at);
-        let told = written(&mut cloth, Attribute::Normal, Format::F32, &desc);
-        assert_near(&vectors(&told, 3), &normals, 1e-4);
-        let told = written(&mut cloth, Attribute::Tangent, Format::F32, &desc);
-        assert_near(&vectors(&told, 4), &tangents, 1e-3);
-        assert!(told.chunks_exact(4).map(|t| t[3]).eq(hands));
-        // The view is of this tick, whatever was drawn in between.
-        assert_eq!(cloth.positions(), now);
-        let normals = frames(&cloth, &now).0;
-        assert_near(cloth.normals(), &normals, 1e-4);
+    for mut cloth in [lively(), worn()] {
+        let before = cloth.positions().to_vec();
+        cloth.step(1);
+        let now = cloth.positions().to_vec();
+        for blend in [0.0, 0.25, 0.5, 1.0] {
+            let desc = WriteDesc { blend, ..WriteDesc::default() };
+            let at = vectors(&written(&mut cloth, Attribute::Position, Format::F32, &desc), 3);
+            let mix: Vec<Vec3> = before.iter().zip(&now).map(|(a, b)| a.lerp(*b, blend)).collect();
+            assert_near(&at, &mix, 1e-6);
+            assert!(blend > 0.0 || at == before);
+            let (normals, tangents, hands) = frames(&cloth, &at);
+            let told = written(&mut cloth, Attribute::Normal, Format::F32, &desc);
+            assert_near(&vectors(&told, 3), &normals, 1e-4);
+            let told = written(&mut cloth, Attribute::Tangent, Format::F32, &desc);
+            assert_near(&vectors(&told, 4), &tangents, 1e-3);
+            assert!(told.chunks_exact(4).map(|t| t[3]).eq(hands));
+            // The view is of this tick, whatever was drawn in between.
+            assert_eq!(cloth.positions(), now);
+            let normals = frames(&cloth, &now).0;
+            assert_near(cloth.normals(), &normals, 1e-4);
+        }
     }
 }
 

@@ -17,6 +17,7 @@ impl Cloth {
         let body = guarded(|| Body::new(desc.clone()))?;
         let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
         self.world.reserve_contacts();
+        self.world.wake();
         Ok(Collider(handle))
     }
 
@@ -42,6 +43,7 @@ impl Cloth {
     pub fn remove_collider(&mut self, collider: Collider) -> Result<()> {
         self.world.colliders.remove(collider.0, "collider")?;
         self.world.scratch.contacts.near.forget();
+        self.world.wake();
         Ok(())
     }
 

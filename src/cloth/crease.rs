@@ -1,9 +1,9 @@
 //! Folding along a line.
 
 use super::Cloth;
-use super::world::Origin;
 use crate::error::{Result, check, check_finite};
 use crate::math::float_env::guarded;
+use crate::mesh::grid::Frame;
 use glam::Vec3;
 
 impl Cloth {
@@ -23,12 +23,9 @@ impl Cloth {
         check_finite(to, "to")?;
         check(from != to, "to", "be apart from `from`")?;
         check((-3.0..=3.0).contains(&angle), "angle", "be from -3 to 3")?;
-        let plane = match &self.origin {
-            Origin::Grid(desc) => Some((desc.origin, desc.right, desc.down)),
-            Origin::Mesh(_) => None,
-        };
-        guarded(|| match plane {
-            Some((origin, right, down)) => {
+        self.world.wake();
+        guarded(|| match self.world.frame {
+            Some(Frame { origin, right, down, .. }) => {
                 let flat = |p: Vec3| [(p - origin).dot(right), (p - origin).dot(down)];
                 self.world.crease_flat(flat(from), flat(to), angle);
             }

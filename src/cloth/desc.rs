@@ -1,6 +1,6 @@
 //! What a cloth is made from: a grid, or any triangle mesh.
 
-use crate::error::{Error, Result, check, check_finite, check_index};
+use crate::error::{Result, check, check_finite, check_index};
 use crate::fabric::material::Material;
 use crate::state::settings::Settings;
 use glam::{Vec2, Vec3};
@@ -103,20 +103,30 @@ impl GridDesc {
     }
 }
 
-/// Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point.
+/// Any triangle mesh, as artists export them. What cannot be cloth in it is repaired, see
+/// [`MeshReport`](crate::MeshReport): doubled vertices are welded, triangles without an area and repeated
+/// ones dropped; where more than two triangles share an edge the flattest two stay joined and the others get
+/// an edge of their own; sheets that meet at a mere point are parted; the triangles of a piece are turned to
+/// face as most of them do. Vertices that no triangle uses stay where they are.
+///
+/// A mesh that is a regular grid, its vertices and triangles in the order that [`GridDesc`] has them, is
+/// woven as that grid is: it moves in the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MeshDesc {
-    /// Where the vertices are at rest [m]; particle = vertex.
+    /// Where the vertices are at rest [m]. Each is the particle of its number if nothing is welded or split,
+    /// see [`Cloth::vertex_particles`](crate::Cloth::vertex_particles).
     pub positions: Vec<Vec3>,
     /// Three vertices a triangle, counter-clockwise seen from its front.
     pub indices: Vec<u32>,
     /// Texture coordinates, one a vertex; or none at all.
     pub uvs: Vec<Vec2>,
-    /// Vertices that are pinned from the start.
+    /// Vertices whose particles are pinned from the start.
     pub pinned: Vec<u32>,
-    /// Vertices nearer to each other than this are one [m]; −1 leaves all apart. Nothing else is
-    /// supported yet.
+    /// Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, −1 (or
+    /// anything below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one
+    /// before it that stayed apart; but the corners of a triangle stay apart, however small it is. Keep it
+    /// well below the shortest edge.
     pub weld_distance: f32,
     /// Particles that tears may add; [`AS_MANY_AGAIN`].
     pub extra_particles: u32,
@@ -159,16 +169,17 @@ impl MeshDesc {
         for vertex in &self.pinned {
             check_index(*vertex, self.positions.len(), "pinned")?;
         }
-        if self.weld_distance.is_nan() || self.weld_distance >= 0.0 {
-            return Err(Error::Unsupported { what: "a `weld_distance` of 0 or more" });
-        }
+        check(self.weld_distance.is_finite(), "weld_distance", "be finite")?;
         check_extra(self.extra_particles, count)?;
         self.material.check()?;
         self.settings.check()
     }
 
-    pub(crate) fn capacity(&self) -> usize {
-        capacity(self.positions.len(), self.extra_particles)
+    /// How many particles there may ever be, if it comes to so many.
+    pub(crate) fn capacity(&self, particles: usize) -> Result<usize> {
+        let fits = particles as u64 <= MAX_PARTICLES;
+        check(fits, "indices", "make at most 4194304 particles")?;
+        Ok(capacity(particles, self.extra_particles))
     }
 }
 

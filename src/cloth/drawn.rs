@@ -8,18 +8,20 @@ use glam::Vec2;
 /// What was last found of the surface, kept until it moves.
 #[derive(Debug)]
 pub(crate) struct Drawn {
+    /// Of particles, …
     capacity: usize,
+    /// … one for each; …
     pub normals: Columns,
     /// The share that `normals` are of.
     share: Option<f32>,
-    /// Where the vertices are between two ticks, once somebody asked.
+    /// Where the particles are between two ticks, once somebody asked.
     between: Columns,
-    /// Once somebody asked.
+    /// … and of vertices, which have their own; once somebody asked.
     pub tangents: Option<Box<Tangents>>,
 }
 
 impl Drawn {
-    /// Room for the normals of `capacity` vertices.
+    /// Room for the normals of `capacity` particles.
     pub fn with_capacity(capacity: usize) -> Self {
         let normals = Columns::with_capacity(capacity);
         Self { capacity, normals, share: None, between: Columns::default(), tangents: None }
@@ -28,8 +30,7 @@ impl Drawn {
     /// Bytes of what somebody asked for.
     pub fn bytes(&self) -> usize {
         let between = if self.between.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
-        let tangents = if self.tangents.is_none() { 0 } else { Tangents::BYTES_EACH };
-        self.capacity * (between + tangents)
+        self.capacity * between + self.tangents.as_ref().map_or(0, |tangents| tangents.bytes())
     }
 
     /// Tells of a change of positions.
@@ -64,7 +65,7 @@ impl Drawn {
             self.share = Some(share);
         }
         if let Some(uvs) = uvs {
-            let make = || Box::new(Tangents::with_capacity(self.capacity));
+            let make = || Box::new(Tangents::with_capacity(world.vertex_capacity()));
             self.tangents.get_or_insert_with(make).follow(world, uvs, x, share);
         }
     }

@@ -22,6 +22,7 @@ pub(crate) mod write;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::fabric::material::Material;
 use crate::math::float_env::guarded;
+use crate::mesh::report::MeshReport;
 use crate::solver::profile::Clock;
 use crate::solver::{World, pipeline};
 use crate::state::events::Event;
@@ -43,6 +44,7 @@ pub struct Cloth {
     origin: Origin,
     world: World,
     outputs: Outputs,
+    report: MeshReport,
     /// Time that `advance` was given and has not run yet [s].
     owed: f64,
     /// Whether pins changed since the tethers were measured.
@@ -59,6 +61,7 @@ impl Clone for Cloth {
             origin: self.origin.clone(),
             world: self.world.clone(),
             outputs: Outputs::new(&self.world),
+            report: self.report,
             owed: self.owed,
             pins_changed: self.pins_changed,
             topology_revision: self.topology_revision,
@@ -86,20 +89,21 @@ impl Cloth {
         Self::from_origin(Origin::Grid(desc.clone()))
     }
 
-    /// Makes a cloth from any triangle mesh.
+    /// Makes a cloth from any triangle mesh. What cannot be cloth in it is repaired, and
+    /// [`Cloth::mesh_report`] tells what was.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex) names
-    /// the field of `desc` that cannot be; [`Error::BadMesh`](crate::Error::BadMesh) the first triangle
-    /// or vertex that cannot be cloth; [`Error::Unsupported`](crate::Error::Unsupported) what this version
-    /// does not do yet.
+    /// the field of `desc` that cannot be; [`Error::BadMesh`](crate::Error::BadMesh) what is beyond repair: a
+    /// triangle whose area is not finite, or that none has an area;
+    /// [`Error::Unsupported`](crate::Error::Unsupported) what this version does not do yet.
     pub fn mesh(desc: &MeshDesc) -> Result<Self> {
         desc.check()?;
         Self::from_origin(Origin::Mesh(desc.clone()))
     }
 
     fn from_origin(origin: Origin) -> Result<Self> {
-        let mut world = guarded(|| origin.world())?;
+        let (mut world, report) = guarded(|| origin.world())?;
         world.check_self_distance(&world.settings)?;
         guarded(|| world.see_to_crowd());
         let mut outputs = Outputs::new(&world);
@@ -110,6 +114,7 @@ impl Cloth {
             origin,
             world,
             outputs,
+            report,
             owed: 0.0,
             pins_changed: false,
             topology_revision: 1,
@@ -122,7 +127,7 @@ impl Cloth {
     /// and no events. Settings, material, wind and colliders stay as they are.
     pub fn reset(&mut self) {
         // The descriptor was good enough once, so it is again.
-        let Ok(mut fresh) = guarded(|| self.origin.world()) else {
+        let Ok((mut fresh, _)) = guarded(|| self.origin.world()) else {
             return;
         };
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
@@ -169,6 +174,9 @@ impl Cloth {
         let touches_otherwise = touches(&settings) != touches(&world.settings);
         world.scratch.tear.reserve(settings.max_tears_per_tick as usize);
         let is_unsorted = world.settings.max_stretch == 0.0;
+        if settings != world.settings {
+            world.wake();
+        }
         world.settings = settings;
         if is_unsorted {
             world.sort_outward();
@@ -194,6 +202,9 @@ impl Cloth {
     pub fn set_material(&mut self, material: Material) -> Result<()> {
         material.check()?;
         let world = &mut self.world;
+        if material != world.material {
+            world.wake();
+        }
         let reweigh = material.density != world.material.density;
         world.scratch.contacts.near.forget();
         world.material = material;
@@ -217,6 +228,9 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
     pub fn set_wind(&mut self, wind: Wind) -> Result<()> {
         wind.check()?;
+        if wind != self.world.wind {
+            self.world.wake();
+        }
         self.world.wind = wind;
         Ok(())
     }
@@ -251,18 +265,20 @@ impl Cloth {
         }
         let vertices = self.world.mesh.vertex_count();
         let (pins_changed, world) = (core::mem::take(&mut self.pins_changed), &mut self.world);
-        world.threads.enter(world.particles.len(), || {
+        let has_moved = world.threads.enter(world.particles.len(), || {
             guarded(|| {
                 if pins_changed {
                     world.tether();
                 }
-                (0..ticks).for_each(|_| pipeline::tick(world));
-            });
+                (0..ticks).fold(false, |has_moved, _| pipeline::tick(world) || has_moved)
+            })
         });
         if self.world.mesh.vertex_count() != vertices {
             self.changed_topology();
         }
-        self.changed_state();
+        if has_moved {
+            self.changed_state();
+        }
     }
 
     /// The share of a tick that `advance` still owes, 0 to 1: how far to blend from the last tick's
@@ -440,6 +456,7 @@ impl Cloth {
     }
 
     fn changed_topology(&mut self) {
+        self.world.wake();
         self.topology_revision = self.topology_revision.wrapping_add(1);
         let change = self.outputs.follow_topology(&self.world);
         self.history.push(change);

@@ -16,8 +16,10 @@ use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
 use crate::math::mix::Mixer;
 use crate::mesh::divide::Crossing;
-use crate::mesh::{NONE, intake};
+use crate::mesh::seams::Seams;
+use crate::mesh::{NONE, sound};
 use crate::solver::World;
+use crate::solver::sleep::Sleep;
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
@@ -29,7 +31,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -43,6 +45,7 @@ struct Saved<'a> {
     sources: Owned<'a, Vec<u32>>,
     crossings: Owned<'a, Vec<Crossing>>,
     hems: Owned<'a, Vec<u8>>,
+    seams: Owned<'a, Option<Seams>>,
     links: Changes,
     /// What tears made of tethers; none where measuring gives the same.
     tethers: Vec<TetherSet>,
@@ -58,6 +61,7 @@ struct Saved<'a> {
     tether_slack: f32,
     over_stretched: u32,
     over_stretch_told: bool,
+    sleep: Sleep,
     owed: f64,
     topology_revision: u32,
     state_revision: u32,
@@ -81,6 +85,7 @@ impl Cloth {
             sources: Owned::Borrowed(&world.mesh.source),
             crossings: Owned::Borrowed(&world.crossings),
             hems: Owned::Borrowed(&world.mesh.hems),
+            seams: Owned::Borrowed(&world.seams),
             links: world.weave.changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.kept(),
@@ -95,6 +100,7 @@ impl Cloth {
             tether_slack: world.tether_slack,
             over_stretched: world.over_stretched,
             over_stretch_told: world.over_stretch_told,
+            sleep: world.sleep,
             owed: self.owed,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
@@ -152,7 +158,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     saved.material.check()?;
     saved.wind.check()?;
     let origin = saved.origin.into_owned();
-    let mut world = origin.world()?;
+    let (mut world, report) = origin.world()?;
     let capacity = world.capacity();
     let sources = saved.sources.into_owned();
     let triangles = saved.triangles.into_owned();
@@ -177,13 +183,22 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
 
     let rest: Vec<Vec3> = sources.iter().map(|site| world.rest[*site as usize]).collect();
     let original_count = world.mesh.original_count;
-    let mesh = intake::mesh(triangles, &rest, capacity).map_err(|_| bad())?;
+    let mesh = sound::mesh(triangles, &rest, capacity).map_err(|_| bad())?;
     must(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
     let fresh = core::mem::replace(&mut world.mesh, mesh);
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
     must(saved.hems.len() == world.mesh.triangles.len())?;
     world.mesh.hems = saved.hems.into_owned();
+    must(match (saved.seams.into_owned(), &mut world.seams) {
+        (Some(mut seams), Some(fresh)) => {
+            let fits = seams.is_restored(fresh, &world.mesh);
+            *fresh = seams;
+            fits
+        }
+        (None, None) => true,
+        _ => false,
+    })?;
     world.measure_divided(&fresh);
     world.particles = particles;
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
@@ -221,6 +236,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(is_measured || world.tethers.restore(&saved.tethers, particles, triangles))?;
     world.sort_outward();
     world.tether_slack = saved.tether_slack;
+    world.sleep = saved.sleep;
     let mut outputs = Outputs::new(&world);
     outputs.set_uvs(&origin);
     outputs.follow_topology(&world);
@@ -229,6 +245,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
         origin,
         world,
         outputs,
+        report,
         owed: saved.owed,
         pins_changed: false,
         topology_revision: saved.topology_revision,

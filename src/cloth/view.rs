@@ -6,17 +6,24 @@ use super::drawn::Drawn;
 use super::world::Origin;
 use crate::fabric::cells::Cells;
 use crate::math::float_env::guarded;
+use crate::mesh::divide::Crossing;
+use crate::mesh::report::MeshReport;
 use crate::solver::stage::Stage;
 use crate::solver::{World, outputs};
 use core::ops::Range;
 use glam::{Vec2, Vec3};
 
 /// A cloth as its renderer sees it. All lists have one entry a vertex, but for the indices.
+///
+/// Vertices are what is drawn, particles what moves. Each vertex is the particle of its number, unless the
+/// cloth was made of a mesh of which vertices were welded or split, see [`Cloth::vertex_particles`]. The
+/// triangles of both are the same, in the same order.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// Positions [m].
     pub positions: &'a [Vec3],
-    /// Unit normals, area-weighted; zero for a vertex that no triangle uses.
+    /// Unit normals, area-weighted; zero for a vertex that no triangle uses. Vertices that share a particle
+    /// share its normal.
     pub normals: &'a [Vec3],
     /// Texture coordinates.
     pub uvs: &'a [Vec2],
@@ -34,12 +41,14 @@ pub struct View<'a> {
     pub topology_revision: u32,
     /// Changes when positions do.
     pub state_revision: u32,
+    /// The particle of each vertex.
+    pub particles: &'a [u32],
 }
 
 /// Numbers about a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stats {
-    /// How many particles (vertices) there are.
+    /// How many particles there are.
     pub particles: u32,
     /// How many triangles there are.
     pub triangles: u32,
@@ -61,6 +70,10 @@ pub struct Stats {
     pub over_stretched: u32,
     /// Energy of motion [J].
     pub kinetic_energy: f32,
+    /// The speed of its fastest particle [m/s].
+    pub max_speed: f32,
+    /// Whether it sleeps, see [`Settings::sleep_speed`](crate::Settings).
+    pub asleep: bool,
     /// Memory that it holds [B], about.
     pub bytes: u64,
     /// Time that each stage took in the last call that ran ticks [s]; zeros without a clock.
@@ -80,30 +93,45 @@ pub(crate) struct Outputs {
     site_sources: Vec<u32>,
     sources: Vec<u32>,
     frayed: Vec<bool>,
+    particles: Vec<u32>,
     /// Room to find the next ones in.
-    next: (Vec<Vec2>, Vec<u32>, Vec<bool>),
+    next: Next,
     indices: Vec<u32>,
+}
+
+/// What follows a change of triangles, as it is found.
+#[derive(Debug)]
+struct Next {
+    uvs: Vec<Vec2>,
+    sources: Vec<u32>,
+    frayed: Vec<bool>,
+    particles: Vec<u32>,
+    /// Whether each particle is frayed.
+    frayed_particles: Vec<bool>,
 }
 
 impl Outputs {
     /// Room for all that the cloth may become.
     pub fn new(world: &World) -> Self {
-        let capacity = world.capacity();
+        let (particles, capacity) = (world.capacity(), world.vertex_capacity());
         Self {
             positions: Vec::with_capacity(capacity),
             normals: Vec::with_capacity(capacity),
             normals_current: false,
-            drawn: Drawn::with_capacity(capacity),
+            drawn: Drawn::with_capacity(particles),
             uvs: Vec::with_capacity(capacity),
             site_uvs: Vec::new(),
             site_sources: Vec::new(),
             sources: Vec::with_capacity(capacity),
             frayed: Vec::with_capacity(capacity),
-            next: (
-                Vec::with_capacity(capacity),
-                Vec::with_capacity(capacity),
-                Vec::with_capacity(capacity),
-            ),
+            particles: Vec::with_capacity(capacity),
+            next: Next {
+                uvs: Vec::with_capacity(capacity),
+                sources: Vec::with_capacity(capacity),
+                frayed: Vec::with_capacity(capacity),
+                particles: Vec::with_capacity(capacity),
+                frayed_particles: Vec::with_capacity(particles),
+            },
             indices: Vec::with_capacity(3 * world.triangle_capacity),
         }
     }
@@ -124,22 +152,38 @@ impl Outputs {
     /// Follows a change of triangles, and says which entries are not as they were.
     pub fn follow_topology(&mut self, world: &World) -> Change {
         guarded(|| self.follow_sites(world));
-        let (uvs, sources, frayed) = &mut self.next;
-        uvs.clear();
-        uvs.extend(world.mesh.source.iter().map(|site| self.site_uvs[*site as usize]));
-        sources.clear();
-        sources.extend(world.mesh.source.iter().map(|site| self.site_sources[*site as usize]));
-        world.mesh.find_frayed(frayed);
-        let indices = world.mesh.triangles.as_flattened();
+        let sites = Sites::of(world);
+        let next = &mut self.next;
+        next.uvs.clear();
+        next.uvs.extend(sites.of_vertices.iter().map(|site| self.site_uvs[*site as usize]));
+        next.sources.clear();
+        next.sources.extend(sites.of_vertices.iter().map(|site| self.site_sources[*site as usize]));
+        next.particles.clear();
+        next.frayed.clear();
+        world.mesh.find_frayed(&mut next.frayed_particles);
+        let frayed = &next.frayed_particles;
+        match &world.seams {
+            Some(seams) => {
+                next.particles.extend_from_slice(&seams.particles);
+                next.frayed.extend(seams.particles.iter().map(|at| frayed[*at as usize]));
+            }
+            None => {
+                next.particles.extend(0..frayed.len() as u32);
+                next.frayed.extend_from_slice(frayed);
+            }
+        }
+        let indices = world.faces().as_flattened();
         let change = Change { indices: differing(&self.indices, indices), ..Change::default() }
-            .and_vertices(differing(&self.uvs, uvs))
-            .and_vertices(differing(&self.sources, sources))
-            .and_vertices(differing(&self.frayed, frayed));
+            .and_vertices(differing(&self.uvs, &next.uvs))
+            .and_vertices(differing(&self.sources, &next.sources))
+            .and_vertices(differing(&self.frayed, &next.frayed))
+            .and_vertices(differing(&self.particles, &next.particles));
         self.drawn.retied();
         // Copied, since lists that were handed out stay where they are.
-        self.uvs.clone_from(uvs);
-        self.sources.clone_from(sources);
-        self.frayed.clone_from(frayed);
+        self.uvs.clone_from(&next.uvs);
+        self.sources.clone_from(&next.sources);
+        self.frayed.clone_from(&next.frayed);
+        self.particles.clone_from(&next.particles);
         self.indices.clear();
         self.indices.extend_from_slice(indices);
         change
@@ -155,10 +199,11 @@ impl Outputs {
     }
 
     fn follow_sites(&mut self, world: &World) {
-        let original = world.mesh.original_count as usize;
-        self.site_uvs.truncate(world.rest.len());
-        self.site_sources.truncate(world.rest.len());
-        for crossing in &world.crossings[self.site_uvs.len() - original..] {
+        let Sites { original, crossings, .. } = Sites::of(world);
+        let known = original + crossings.len();
+        self.site_uvs.truncate(known);
+        self.site_sources.truncate(known);
+        for crossing in &crossings[self.site_uvs.len() - original..] {
             self.site_uvs.push(crossing.between(|end| self.site_uvs[end as usize]));
             self.site_sources.push(self.site_sources[crossing.nearer() as usize]);
         }
@@ -167,9 +212,33 @@ impl Outputs {
     fn follow_normals(&mut self, world: &World) {
         if !self.normals_current {
             self.drawn.follow(world, 1.0, None);
-            self.normals.clear();
-            self.normals.extend(self.drawn.normals.iter());
+            outputs::hand_out(world, &self.drawn.normals, &mut self.normals);
             self.normals_current = true;
+        }
+    }
+}
+
+/// Where vertices come from.
+struct Sites<'a> {
+    /// Vertices that were given: the first sites.
+    original: usize,
+    crossings: &'a [Crossing],
+    of_vertices: &'a [u32],
+}
+
+impl<'a> Sites<'a> {
+    fn of(world: &'a World) -> Self {
+        match &world.seams {
+            Some(seams) => Self {
+                original: seams.original_count as usize,
+                crossings: &seams.crossings,
+                of_vertices: &seams.sites,
+            },
+            None => Self {
+                original: world.mesh.original_count as usize,
+                crossings: &world.crossings,
+                of_vertices: &world.mesh.source,
+            },
         }
     }
 }
@@ -185,14 +254,31 @@ impl Cloth {
             indices: &self.outputs.indices,
             source_vertices: &self.outputs.sources,
             frayed: &self.outputs.frayed,
-            vertex_capacity: self.world.capacity() as u32,
+            vertex_capacity: self.world.vertex_capacity() as u32,
             index_capacity: 3 * self.world.triangle_capacity as u32,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
+            particles: &self.outputs.particles,
         }
     }
 
-    /// Positions of the particles [m].
+    /// The particle of each vertex. A mesh that was welded or had sheets to be parted has several vertices to
+    /// a particle; else each vertex is the particle of its number.
+    ///
+    /// Positions, normals, texture coordinates, source vertices, frayed borders and indices are those of
+    /// vertices. Calls that touch the cloth (pins, grabs, tears by hand, positions and velocities) take
+    /// particles, and what a ray hits tells one. Of an event, `particle_a` and `particle_b` are particles,
+    /// `vertex` and `source` are vertices. Triangles have the same numbers in both.
+    pub fn vertex_particles(&self) -> &[u32] {
+        &self.outputs.particles
+    }
+
+    /// What had to be repaired of the mesh that it was made of; nothing of a grid.
+    pub fn mesh_report(&self) -> &MeshReport {
+        &self.report
+    }
+
+    /// Positions of the vertices [m].
     pub fn positions(&self) -> &[Vec3] {
         &self.outputs.positions
     }
@@ -222,6 +308,17 @@ impl Cloth {
     /// borders that the cloth was made with are hems.
     pub fn frayed(&self) -> &[bool] {
         &self.outputs.frayed
+    }
+
+    /// How many particles there are.
+    pub fn particle_count(&self) -> u32 {
+        self.world.particles.len() as u32
+    }
+
+    /// Where a particle is [m]; `None` if there is no such particle.
+    pub fn position(&self, particle: u32) -> Option<Vec3> {
+        let at = particle as usize;
+        (at < self.world.particles.len()).then(|| self.world.particles.x.at(at))
     }
 
     /// Velocity of a particle [m/s]; `None` if there is no such particle.
@@ -276,6 +373,8 @@ impl Cloth {
             mean_stretch,
             over_stretched: world.over_stretched,
             kinetic_energy,
+            max_speed: guarded(|| outputs::max_speed(world)),
+            asleep: world.is_asleep(),
             bytes: self.bytes(),
             seconds: world.profile.seconds(),
         }
@@ -293,10 +392,13 @@ impl Cloth {
 
     fn bytes(&self) -> u64 {
         let world = &self.world;
-        let outputs = size_of::<[Vec3; 2]>() + 2 * (size_of::<Vec2>() + size_of::<u32>() + 1);
-        let particle = world.particles.bytes_each() + outputs;
+        // Texture coordinates, sources, frayed borders and particles are there twice.
+        let told = size_of::<Vec2>() + 2 * size_of::<u32>() + 1;
+        let vertex = size_of::<[Vec3; 2]>() + 2 * told;
+        let particle = world.particles.bytes_each();
         let triangle = size_of::<[u32; 3]>() * 3 + size_of::<[f32; 3]>();
         let bytes = world.capacity() * particle
+            + world.vertex_capacity() * vertex
             + world.triangle_capacity * triangle
             + world.weave.bytes()
             + world.cells.as_ref().map_or(0, Cells::bytes)

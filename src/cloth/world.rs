@@ -16,8 +16,12 @@ use crate::geom::triangle::corner_areas;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::{self, Frame};
-use crate::mesh::{Mesh, NONE, after, intake};
+use crate::mesh::intake::{self, Intake};
+use crate::mesh::lattice::Lattice;
+use crate::mesh::report::MeshReport;
+use crate::mesh::{Mesh, NONE, after};
 use crate::solver::profile::Profile;
+use crate::solver::sleep::Sleep;
 use crate::solver::{Scratch, World};
 use crate::solver::{bend, brake, lines};
 use crate::state::colliders::MAX_COLLIDERS;
@@ -38,8 +42,8 @@ pub(crate) enum Origin {
 }
 
 impl Origin {
-    /// The cloth as it was when it was new. The descriptor has been checked.
-    pub fn world(&self) -> Result<World> {
+    /// The cloth as it was when it was new, and what had to be repaired. The descriptor has been checked.
+    pub fn world(&self) -> Result<(World, MeshReport)> {
         match self {
             Self::Grid(desc) => Ok(grid_world(desc)),
             Self::Mesh(desc) => mesh_world(desc),
@@ -54,7 +58,7 @@ impl Origin {
         }
     }
 
-    /// Texture coordinates of the original vertices.
+    /// Texture coordinates of the vertices that were given.
     pub fn uvs(&self) -> Vec<Vec2> {
         match self {
             Self::Grid(desc) => grid::uvs(desc.columns, desc.rows),
@@ -64,7 +68,7 @@ impl Origin {
     }
 }
 
-fn grid_world(desc: &GridDesc) -> World {
+fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
     let unit = |v: Vec3| v * (1.0 / v.length());
     let frame = Frame {
         origin: desc.origin,
@@ -72,34 +76,49 @@ fn grid_world(desc: &GridDesc) -> World {
         down: unit(desc.down),
         spacing: desc.spacing,
     };
+    let lattice = Lattice { columns: desc.columns, rows: desc.rows, frame };
     let rest = grid::positions(desc.columns, desc.rows, &frame);
     let capacity = desc.capacity();
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
-    let openings = opening_capacity(&mesh, capacity);
-    let mut weave = Weave::grid(desc.columns, desc.rows, desc.spacing, &mesh, openings);
-    weave.run_along([frame.right, frame.down]);
-    let areas = grid::corner_areas(desc.columns, desc.rows, desc.spacing);
-    let mut cells = Cells::new(desc.columns, desc.rows, desc.spacing);
-    if capacity > rest.len() {
-        cells.reserve();
-    }
-    let cells = Some(cells);
-    let plates = Some(Plates::new(desc.columns, desc.rows, desc.spacing, &mesh, &weave.links));
-    let fabric = Fabric { mesh, weave, rest, areas, cells, plates };
-    build(fabric, &desc.pinned(), capacity, &desc.material, &desc.settings)
+    let (count, triangles) = (rest.len() as u32, mesh.triangles.len() as u32);
+    let report = MeshReport {
+        vertices: count,
+        triangles,
+        particles: count,
+        kept_triangles: triangles,
+        pieces: 1,
+        is_grid: true,
+        ..MeshReport::default()
+    };
+    let fabric = Fabric::sheet(&lattice, mesh, rest, capacity);
+    (build(fabric, desc.pinned(), capacity, &desc.material, &desc.settings), report)
 }
 
-fn mesh_world(desc: &MeshDesc) -> Result<World> {
-    let (triples, _) = desc.indices.as_chunks::<3>();
-    let capacity = desc.capacity();
-    let mesh = intake::mesh(triples.to_vec(), &desc.positions, capacity)?;
-    let mut weave = Weave::mesh(&mesh, &desc.positions, opening_capacity(&mesh, capacity));
-    let rest = desc.positions.clone();
-    weave.hinges = Hinges::find(&mesh, &weave.links, &rest);
-    let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
-    let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
-    let fabric = Fabric { mesh, weave, rest, areas, cells: None, plates: None };
-    Ok(build(fabric, &desc.pinned, capacity, &desc.material, &desc.settings))
+fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
+    let (positions, indices) = (&desc.positions, &desc.indices);
+    let most = |particles: usize| desc.capacity(particles);
+    let Intake { mesh, places, seams, mut report } =
+        intake::repair(positions, indices, desc.weld_distance, most)?;
+    let rest: Vec<Vec3> = places.iter().map(|vertex| positions[*vertex as usize]).collect();
+    let capacity = desc.capacity(rest.len())?;
+    let fabric = match Lattice::find(&mesh.triangles, &rest) {
+        Some(lattice) => {
+            report.is_grid = true;
+            Fabric::sheet(&lattice, mesh, rest, capacity)
+        }
+        None => Fabric::any(mesh, rest, capacity),
+    };
+    let pinned = match &seams {
+        Some(seams) => seams.particles_of(&desc.pinned),
+        None => desc.pinned.clone(),
+    };
+    let mut world = build(fabric, pinned, capacity, &desc.material, &desc.settings);
+    world.seams = seams;
+    let extra = capacity - world.particles.len();
+    if let Some(seams) = &mut world.seams {
+        seams.make_room(extra, world.triangle_capacity);
+    }
+    Ok((world, report))
 }
 
 /// What a world is made of that does not move.
@@ -107,19 +126,48 @@ struct Fabric {
     mesh: Mesh,
     weave: Weave,
     rest: Vec<Vec3>,
+    frame: Option<Frame>,
     areas: Vec<[f32; 3]>,
     cells: Option<Cells>,
     plates: Option<Plates>,
 }
 
+impl Fabric {
+    /// A regular grid.
+    fn sheet(lattice: &Lattice, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+        let Lattice { columns, rows, frame } = *lattice;
+        let openings = opening_capacity(&mesh, capacity);
+        let mut weave = Weave::grid(columns, rows, frame.spacing, &mesh, openings);
+        weave.run_along([frame.right, frame.down]);
+        let areas = grid::corner_areas(columns, rows, frame.spacing);
+        let mut cells = Cells::new(columns, rows, frame.spacing);
+        let mut plates = Plates::new(columns, rows, frame.spacing, &mesh, &weave.links);
+        if capacity > rest.len() {
+            cells.reserve();
+            plates.reserve(capacity);
+        }
+        let (frame, cells, plates) = (Some(frame), Some(cells), Some(plates));
+        Self { mesh, weave, rest, frame, areas, cells, plates }
+    }
+
+    /// Any sound mesh.
+    fn any(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+        let mut weave = Weave::mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
+        weave.hinges = Hinges::find(&mesh, &weave.links, &rest);
+        let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
+        let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
+        Self { mesh, weave, rest, frame: None, areas, cells: None, plates: None }
+    }
+}
+
 fn build(
     fabric: Fabric,
-    pinned: &[u32],
+    pinned: Vec<u32>,
     capacity: usize,
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, mut weave, rest, areas, cells, plates } = fabric;
+    let Fabric { mesh, mut weave, rest, frame, areas, cells, plates } = fabric;
     weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
     let max_tears = settings.max_tears_per_tick as usize;
     let folds = match &plates {
@@ -152,12 +200,15 @@ fn build(
         level: Level::best(),
         threads: Threads::ONE,
         profile: Profile::default(),
+        sleep: Sleep::default(),
         mesh,
+        seams: None,
         weave,
         rest,
         crossings: Vec::new(),
         tips: Vec::with_capacity(capacity),
         corner_area: areas,
+        frame,
         cells,
         plates,
         folds,
@@ -168,8 +219,8 @@ fn build(
     world.reserve_packed(capacity);
     world.outward.reserve(capacity, world.weave.links.len());
     for particle in pinned {
-        let x = world.rest[*particle as usize];
-        world.pins.insert(*particle, x, x);
+        let x = world.rest[particle as usize];
+        world.pins.insert(particle, x, x);
     }
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
     world.find_tips();
@@ -207,6 +258,9 @@ impl World {
         let reserve = |list: &mut Vec<u32>| list.reserve_exact(capacity.saturating_sub(list.len()));
         reserve(&mut self.mesh.source);
         reserve(&mut self.mesh.corner_of);
+        if let Some(seams) = &mut self.seams {
+            seams.reserve();
+        }
         self.particles.reserve(capacity);
         self.tips.reserve_exact(capacity.saturating_sub(self.tips.len()));
         self.pins.reserve(capacity);
@@ -217,7 +271,7 @@ impl World {
             cells.reserve();
         }
         if let Some(plates) = &mut self.plates {
-            plates.reserve();
+            plates.reserve(capacity);
         }
         self.tethers.reserve(capacity, self.mesh.triangles.len());
         self.outward.reserve(capacity, self.weave.links.len());
@@ -241,6 +295,7 @@ impl World {
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
         scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
         scratch.pieces.reserve();
+        scratch.home.reserve(triangles);
     }
 
     fn reserve_packed(&mut self, capacity: usize) {

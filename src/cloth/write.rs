@@ -96,12 +96,14 @@ impl Cloth {
             });
         }
         let (uvs, frayed) = (self.uvs(), self.frayed());
+        let particles = world.seams.as_ref().map(|_| self.vertex_particles());
         let writer = Writer {
             level: world.level,
             placing,
             x: world.particles.x.all(),
             last: world.particles.x_last.all(),
             drawn: &self.outputs.drawn,
+            particles,
             uvs,
             frayed,
         };
@@ -132,6 +134,8 @@ struct Writer<'a> {
     x: [&'a [f32]; 3],
     last: [&'a [f32]; 3],
     drawn: &'a Drawn,
+    /// The particle of each vertex, unless that has its number.
+    particles: Option<&'a [u32]>,
     uvs: &'a [Vec2],
     frayed: &'a [bool],
 }
@@ -151,28 +155,34 @@ impl Writer<'_> {
 
     /// Finds an attribute of a block of vertices.
     fn find(&self, attribute: Attribute, block: Range<usize>, room: &mut Room) {
-        let Room { vector, fourth: last, normals, .. } = room;
+        let Room { vector, fourth: last, normals, from, .. } = room;
         let load = |to: &mut [Numbers], columns: &[&[f32]]| {
             vertices::load(to, columns, block.start, block.len());
+        };
+        // What particles have.
+        let load_of = |to: &mut [Numbers], columns: &[&[f32]]| match self.particles {
+            Some(particles) => vertices::gather(to, columns, &particles[block.clone()]),
+            None => load(to, columns),
         };
         let needs_normals = match attribute {
             Attribute::Position => self.placing.is_offset(),
             attribute => attribute == Attribute::Tangent,
         };
         if needs_normals {
-            load(normals, &self.drawn.normals.all());
+            load_of(normals, &self.drawn.normals.all());
         }
         match attribute {
             Attribute::Position => {
-                load(vector, &self.x);
+                load_of(vector, &self.x);
                 if self.placing.share != 1.0 {
-                    self.blend(vector, &block);
+                    load_of(from, &self.last);
+                    blend(self.level, vector, from, block.len(), self.placing.share);
                 }
                 self.placing.positions(self.level, vector, normals);
                 last.fill(1.0);
             }
             Attribute::Normal => {
-                load(vector, &self.drawn.normals.all());
+                load_of(vector, &self.drawn.normals.all());
                 self.placing.normals(self.level, vector);
                 last.fill(0.0);
             }
@@ -198,13 +208,12 @@ impl Writer<'_> {
             }
         }
     }
+}
 
-    /// Goes back towards the last tick.
-    fn blend(&self, x: &mut Vectors, block: &Range<usize>) {
-        for (x, last) in x.iter_mut().zip(self.last) {
-            let x = &mut x[..block.len()];
-            outputs::blend(self.level, x, &last[block.clone()], self.placing.share);
-        }
+/// Goes back towards the last tick.
+fn blend(level: Level, x: &mut Vectors, last: &Vectors, count: usize, share: f32) {
+    for (x, last) in x.iter_mut().zip(last) {
+        outputs::blend(level, &mut x[..count], &last[..count], share);
     }
 }
 
@@ -216,12 +225,14 @@ struct Room {
     /// What they are packed into.
     halves: [Halves; 4],
     normals: Vectors,
+    /// Where they were a tick ago.
+    from: Vectors,
 }
 
 impl Default for Room {
     fn default() -> Self {
-        let (vector, normals) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-        Self { vector, fourth: [0.0; BLOCK], halves: [[0; BLOCK]; 4], normals }
+        let [vector, normals, from] = [[[0.0; BLOCK]; 3]; 3];
+        Self { vector, fourth: [0.0; BLOCK], halves: [[0; BLOCK]; 4], normals, from }
     }
 }
 

@@ -66,6 +66,11 @@ impl Cells {
         self.torn_ends.extend(self.torn_triangles.iter().map(|at| mesh.triangles[*at as usize]));
     }
 
+    /// Whether any triangle has a corner that was split off.
+    pub fn is_torn(&self) -> bool {
+        !self.torn_triangles.is_empty()
+    }
+
     /// The triangles of a row of cells with a corner that was split off, and their corners.
     pub fn torn_triangles(&self, row: usize) -> (&[u32], &[[u32; 3]]) {
         let own = self.torn_rows[row] as usize..self.torn_rows[row + 1] as usize;
@@ -81,16 +86,6 @@ impl Cells {
     /// The area of a triangle that no cut divided, at rest [m²].
     pub fn rest_area(&self) -> f32 {
         self.quarter + 2.0 * self.quarter + self.quarter
-    }
-
-    /// What of it falls to a corner, see `grid::corner_areas`.
-    #[inline(always)]
-    pub fn corner_area(&self, triangle: usize, corner: usize) -> f32 {
-        let across = self.columns - 1;
-        let (cell, half) = (triangle / 2, triangle % 2);
-        let right =
-            [[0, 1], [1, 2]][usize::from((cell / across + cell % across).is_multiple_of(2))][half];
-        if corner == right { 2.0 * self.quarter } else { self.quarter }
     }
 
     /// Bytes that it holds.

@@ -122,7 +122,7 @@ impl Weave {
     /// Gathers the links that sweeps find in no row, after some changed. `particles` is how many there
     /// are.
     pub fn gather(&mut self, particles: usize) {
-        self.palette.color(&self.extra, particles, &mut self.loose);
+        self.loose.color(&self.extra, particles, &mut self.palette);
         if let Some(rows) = &mut self.rows {
             rows.gather(&self.links, &self.batches);
         }

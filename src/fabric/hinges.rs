@@ -38,12 +38,6 @@ pub(crate) struct Hinge {
 }
 
 impl Hinge {
-    /// A hinge over two threads in a row.
-    pub fn straight(a: u32, middle: u32, b: u32, shape: f32) -> Self {
-        let weight = [-2.0, 0.0, 1.0, 1.0];
-        Self { at: [middle, middle, a, b], weight, shape, ..Self::default() }
-    }
-
     /// Its curvature, for where its particles are [m].
     pub fn curve(&self, x: [Vec3; 4]) -> Vec3 {
         let [p, q, a, b] = self.weight;

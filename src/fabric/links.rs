@@ -4,6 +4,7 @@
 //! follows the triangle that it lies on, and one whose triangles have parted is gone.
 
 use crate::fabric::material::Material;
+use crate::math::column::Column;
 use crate::mesh::{Corner, Mesh, NONE, after};
 use serde::{Deserialize, Serialize};
 
@@ -68,11 +69,11 @@ pub(crate) struct Links {
     pub a: Vec<u32>,
     pub b: Vec<u32>,
     /// Length at rest [m].
-    pub rest: Vec<f32>,
+    pub rest: Column,
     /// Inverse spring constant [m/N]; 0 is rigid.
-    pub compliance: Vec<f32>,
+    pub compliance: Column,
     /// Accumulated multiplier of this substep.
-    pub lambda: Vec<f32>,
+    pub lambda: Column,
     /// False once torn.
     pub active: Vec<bool>,
     pub spec: Vec<Spec>,
@@ -88,11 +89,12 @@ impl Links {
     }
 
     pub fn reserve(&mut self, capacity: usize) {
+        let in_all = self.len() + capacity;
         self.a.reserve_exact(capacity);
         self.b.reserve_exact(capacity);
-        self.rest.reserve_exact(capacity);
-        self.compliance.reserve_exact(capacity);
-        self.lambda.reserve_exact(capacity);
+        self.rest.reserve(in_all);
+        self.compliance.reserve(in_all);
+        self.lambda.reserve(in_all);
         self.active.reserve_exact(capacity);
         self.spec.reserve_exact(capacity);
     }

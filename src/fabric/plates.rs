@@ -11,9 +11,11 @@
 //! Their energy is quadratic, so that its matrix is always the same (Bergou et al., "A quadratic bending
 //! model for inextensible surfaces", SGP 2006). Borders have the part of an element's area that is theirs,
 //! and no element reaches over them: a free border bears no moment. What has left its place after a tear
-//! is a stray, see `solver::bend`.
+//! is an elbow, see `elbows`.
 
+use crate::fabric::elbows::Elbows;
 use crate::fabric::links::{LinkKind, Links, Support, Thread};
+use crate::fabric::strays::Strays;
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
 
@@ -32,8 +34,10 @@ pub(crate) struct Plates {
     pub spacing: f32,
     /// What there is of each element, over one that lies inside; 0 where there is none any more.
     pub share: Each<Vec<f32>>,
-    /// Bend links that left their elements and still hold.
-    pub strays: Vec<u32>,
+    /// What left its element and still holds, as of the last time it was gathered.
+    pub elbows: Elbows,
+    /// The bend links of these.
+    strays: Strays,
     /// How often elements came or went.
     pub revision: u32,
     /// The first bend link, and the element of each from there on: the particle in its middle.
@@ -78,7 +82,8 @@ impl Plates {
             rows,
             spacing,
             share: woven.clone(),
-            strays: Vec::with_capacity(bends.len()),
+            elbows: Elbows::default(),
+            strays: Strays::default(),
             revision: 0,
             first: bends.first().copied().unwrap_or(links.len()),
             middle: middle.collect(),
@@ -112,14 +117,7 @@ impl Plates {
         let holds = links.active[link];
         let share = if is_in_place && holds { self.woven[kind][middle] } else { 0.0 };
         self.change(kind, middle, share);
-        let found = self.strays.binary_search(&(link as u32));
-        match (found, holds && !is_in_place) {
-            (Err(at), true) => self.strays.insert(at, link as u32),
-            (Ok(at), false) => {
-                self.strays.remove(at);
-            }
-            _ => {}
-        }
+        self.strays.follow(link, holds && !is_in_place);
     }
 
     /// Takes note of which cells around a site are torn.
@@ -143,23 +141,23 @@ impl Plates {
         }
     }
 
-    /// The particle in the middle of the element that a bend link was woven as.
-    pub fn middle_of(&self, link: u32) -> usize {
-        self.middle[link as usize - self.first] as usize
+    /// Gathers what left its element, after links changed.
+    pub fn gather(&mut self, mesh: &Mesh, links: &Links) {
+        let Self { elbows, strays, first, middle, woven, .. } = self;
+        elbows.gather(mesh, links, strays.all(), |link, kind| {
+            let middle = middle[link as usize - *first];
+            (middle, woven[kind][middle as usize])
+        });
     }
 
-    /// What there was of the element that a stray was.
-    pub fn share_of_stray(&self, link: u32, thread: Thread) -> f32 {
-        self.woven[if thread == Thread::Weft { 0 } else { 1 }][self.middle_of(link)]
-    }
-
-    /// Makes room for every element to stray.
-    pub fn reserve(&mut self) {
-        self.strays.reserve_exact(self.middle.len() - self.strays.len());
+    /// Makes room for every element to stray, and for so many particles.
+    pub fn reserve(&mut self, particles: usize) {
+        self.strays.reserve(self.middle.len());
+        self.elbows.reserve(self.middle.len(), particles);
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of::<f32>() * (6 * self.count() + 2 * self.middle.len())
+        size_of::<f32>() * (6 * self.count() + 2 * self.middle.len()) + self.elbows.bytes()
     }
 }

@@ -6,6 +6,7 @@
 
 use crate::fabric::links::{Batch, Links};
 use crate::fabric::loose::Loose;
+use crate::fabric::strays::Strays;
 use core::ops::Range;
 
 /// How the particles of a row's links lie in memory. Link `k` of a row joins …
@@ -39,8 +40,8 @@ pub(crate) struct Rows {
     pub rows: Vec<Row>,
     /// 1 for a link in its row, 0 for one that left it.
     pub mask: Vec<f32>,
-    /// Links that left their row and still hold, lowest first.
-    strays: Vec<u32>,
+    /// Links that left their row and still hold.
+    strays: Strays,
     /// The same as sweeps want them, batch by batch; as of the last time they were gathered.
     pub loose: Loose,
     /// The row of each link.
@@ -64,9 +65,7 @@ impl Rows {
             row_of.push(rows.len() as u32 - 1);
         }
         let mask = vec![1.0; a.len()];
-        let mut found = Self { rows, mask, row_of, ..Self::default() };
-        found.reserve();
-        found
+        Self { rows, mask, row_of, ..Self::default() }
     }
 
     /// The rows that hold the links `range`, which are a batch.
@@ -78,8 +77,7 @@ impl Rows {
     /// The strays among the links `range`.
     #[cfg(feature = "parallel")]
     pub fn strays(&self, range: Range<usize>) -> &[u32] {
-        let at = |link: usize| self.strays.partition_point(|stray| (*stray as usize) < link);
-        &self.strays[at(range.start)..at(range.end)]
+        self.strays.among(range)
     }
 
     /// Takes note of what became of a link.
@@ -90,31 +88,21 @@ impl Rows {
         if self.mask[link] == 0.0 {
             self.rows[self.row_of[link] as usize].is_torn = true;
         }
-        let found = self.strays.binary_search(&(link as u32));
-        match (found, holds && !is_in_place) {
-            (Err(at), true) => self.strays.insert(at, link as u32),
-            (Ok(at), false) => {
-                self.strays.remove(at);
-            }
-            _ => {}
-        }
+        self.strays.follow(link, holds && !is_in_place);
     }
 
     /// Gathers the strays, after links changed.
     pub fn gather(&mut self, links: &Links, batches: &[Batch]) {
         self.loose.clear();
-        let mut left = &self.strays[..];
         for batch in batches {
-            let end = batch.first + batch.count;
-            let (own, beyond) = left.split_at(left.partition_point(|link| (*link as usize) < end));
+            let own = self.strays.among(batch.first..batch.first + batch.count);
             self.loose.add(batch.kind, links, own);
-            left = beyond;
         }
     }
 
     /// Makes room for every link to stray.
     pub fn reserve(&mut self) {
-        self.strays.reserve_exact(self.mask.len() - self.strays.len());
+        self.strays.reserve(self.mask.len());
         self.loose.reserve(self.mask.len());
     }
 

@@ -4,8 +4,9 @@ use crate::fabric::color;
 use crate::fabric::hinges::Hinges;
 use crate::fabric::lines::Lines;
 use crate::fabric::links::{Batch, LinkKind, Links, Spec, Support, Thread};
-use crate::fabric::loose::{Loose, Palette};
+use crate::fabric::loose::Loose;
 use crate::fabric::material::Material;
+use crate::fabric::palette::Palette;
 use crate::fabric::rows::Rows;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
 use core::ops::Range;
@@ -132,7 +133,11 @@ impl Weave {
         }
         let mut weave = Self::from_drafts(mesh, drafts, opening_capacity);
         let starts: Vec<usize> = weave.batches.iter().map(|batch| batch.first).collect();
-        weave.rows = Some(Rows::find(&weave.links.a, &weave.links.b, &starts));
+        let mut rows = Rows::find(&weave.links.a, &weave.links.b, &starts);
+        if opening_capacity > 0 {
+            rows.reserve();
+        }
+        weave.rows = Some(rows);
         weave
     }
 

@@ -1,33 +1,34 @@
 //! Vectors stored as three columns x, y, z: what straight SIMD loads want.
 
+use super::column::Column;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A list of vectors, one column a component.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Columns {
-    pub x: Vec<f32>,
-    pub y: Vec<f32>,
-    pub z: Vec<f32>,
+    pub x: Column,
+    pub y: Column,
+    pub z: Column,
 }
 
 impl Columns {
     /// An empty list that holds `capacity` vectors without allocating again.
     pub fn with_capacity(capacity: usize) -> Self {
-        let column = || Vec::with_capacity(capacity);
+        let column = || Column::with_capacity(capacity);
         Self { x: column(), y: column(), z: column() }
     }
 
     /// So many zeros.
     pub fn filled(count: usize) -> Self {
-        let column = || vec![0.0; count];
+        let column = || Column::filled(count);
         Self { x: column(), y: column(), z: column() }
     }
 
     /// Makes room for `capacity` vectors in all.
     pub fn reserve(&mut self, capacity: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {
-            column.reserve_exact(capacity.saturating_sub(column.len()));
+            column.reserve(capacity);
         }
     }
 
@@ -57,7 +58,7 @@ impl Columns {
 
     /// Makes it the list of these vectors.
     pub fn set_all(&mut self, vectors: impl Iterator<Item = Vec3>) {
-        [&mut self.x, &mut self.y, &mut self.z].into_iter().for_each(Vec::clear);
+        [&mut self.x, &mut self.y, &mut self.z].into_iter().for_each(Column::clear);
         vectors.for_each(|v| self.push(v));
     }
 
@@ -87,7 +88,7 @@ impl Columns {
     }
 
     pub fn iter(&self) -> impl Iterator<Item = Vec3> + '_ {
-        let xy = self.x.iter().zip(&self.y);
-        xy.zip(&self.z).map(|((x, y), z)| Vec3::new(*x, *y, *z))
+        let xy = self.x.iter().zip(&*self.y);
+        xy.zip(&*self.z).map(|((x, y), z)| Vec3::new(*x, *y, *z))
     }
 }

@@ -1,5 +1,6 @@
 //! Arithmetic that gives the same bits on every machine: only `+ - * / sqrt` and comparisons.
 
+pub(crate) mod column;
 pub(crate) mod columns;
 pub(crate) mod float_env;
 pub(crate) mod mix;

@@ -1,63 +1,126 @@
-//! From the caller's triangles to a mesh that can be cloth, or a clear no.
+//! From the triangles that artists export to a mesh that can be cloth: one repair after the other.
+//!
+//! ```text
+//! weld ─▶ sift ─▶ part ─▶ turn
+//! ```
+//! Each is told in `MeshReport`. What is left is sound: an edge has at most two triangles, the triangles
+//! of a particle form one fan, every triangle has an area.
 
-use super::{Fan, Mesh, NONE};
+mod orient;
+mod part;
+mod sift;
+mod weld;
+
+use super::report::MeshReport;
+use super::seams::Seams;
+use super::{Corner, Mesh};
 use crate::error::{Error, Result};
 use glam::Vec3;
 
-/// Refuses triangles that cannot be cloth: indices out of range, no area, a third triangle at an
-/// edge, fans that meet at a point only.
-pub(crate) fn mesh(triangles: Vec<[u32; 3]>, positions: &[Vec3], capacity: usize) -> Result<Mesh> {
-    for (at, triangle) in triangles.iter().enumerate() {
-        let refuse = |must| Err(Error::BadMesh { at: at as u32, must });
-        if let Some(index) = triangle.iter().find(|v| **v as usize >= positions.len()) {
-            let count = positions.len() as u32;
-            return Err(Error::BadIndex { field: "indices", index: *index, count });
-        }
-        let [a, b, c] = *triangle;
-        if a == b || b == c || c == a {
-            return refuse("name three different vertices in every triangle");
-        }
-        let [a, b, c] = triangle.map(|v| positions[v as usize]);
-        let area = (b - a).cross(c - a).length();
-        if !(area.is_finite() && area > 0.0) {
-            return refuse("give every triangle an area");
-        }
-    }
-    refuse_crowded_edges(&triangles)?;
-    let mesh = Mesh::new(triangles, positions.len(), capacity);
-    refuse_points_between_fans(&mesh)?;
-    Ok(mesh)
+/// A mesh that can be cloth.
+#[derive(Clone, Debug)]
+pub(crate) struct Intake {
+    /// Triangles over particles.
+    pub mesh: Mesh,
+    /// The given vertex at which each particle lies.
+    pub places: Vec<u32>,
+    /// The vertices, unless each is the particle of its number.
+    pub seams: Option<Seams>,
+    pub report: MeshReport,
 }
 
-fn refuse_crowded_edges(triangles: &[[u32; 3]]) -> Result<()> {
-    let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
-    for (at, [a, b, c]) in triangles.iter().enumerate() {
-        for (a, b) in [(a, b), (b, c), (c, a)] {
-            edges.push(([*a.min(b), *a.max(b)], at as u32));
-        }
+/// Repairs a mesh. `positions` are finite, `indices` are of whole triangles; `capacity` says how many
+/// particles there may ever be, if there are so many.
+///
+/// Particles are numbered as the lowest of their vertices; those that splits made follow.
+///
+/// # Errors
+/// `BadIndex` for an index out of range, `BadMesh` for a triangle without bounds or if none is left,
+/// `BadValue` if more particles than there may be came of it.
+pub(crate) fn repair(
+    positions: &[Vec3],
+    indices: &[u32],
+    weld_distance: f32,
+    capacity: impl Fn(usize) -> Result<usize>,
+) -> Result<Intake> {
+    let (given, _) = indices.as_chunks::<3>();
+    let count = positions.len() as u32;
+    if let Some(index) = indices.iter().find(|index| **index >= count) {
+        return Err(Error::BadIndex { field: "indices", index: *index, count });
     }
-    edges.sort_unstable();
-    match edges.windows(3).find(|three| three[0].0 == three[2].0) {
-        Some(three) => {
-            Err(Error::BadMesh { at: three[2].1, must: "give no edge more than two triangles" })
+    let welded = weld::weld(positions, given, weld_distance);
+    let sifted = sift::sift(positions, given, &welded)?;
+    let (mut places, particles) = number(&welded);
+    let woven = places.len();
+    let mut vertices: Vec<[u32; 3]> = sifted.kept.iter().map(|at| given[*at as usize]).collect();
+    let mut triangles: Vec<[u32; 3]> =
+        vertices.iter().map(|corners| corners.map(|v| particles[v as usize])).collect();
+    let place = |particle: u32| positions[places[particle as usize] as usize];
+    let parted = part::part(&mut triangles, woven, place);
+    let copied: Vec<u32> = parted.copies.iter().map(|(old, _)| places[*old as usize]).collect();
+    places.extend(copied);
+    let mut mesh = Mesh::new(triangles, places.len(), capacity(places.len())?);
+    let facing = orient::orient(&mesh);
+    mesh.turn(&facing.turned);
+    let report = MeshReport {
+        vertices: count,
+        triangles: given.len() as u32,
+        particles: places.len() as u32,
+        kept_triangles: sifted.kept.len() as u32,
+        welded_vertices: count - woven as u32,
+        dropped_degenerate: sifted.degenerate,
+        dropped_duplicates: sifted.duplicates,
+        turned_triangles: facing.turned.iter().filter(|turned| **turned).count() as u32,
+        split_edges: parted.split_edges,
+        split_vertices: parted.copies.len() as u32,
+        unused_vertices: unused(&vertices, positions.len()),
+        pieces: facing.pieces,
+        one_sided_pieces: facing.one_sided,
+        is_grid: false,
+    };
+    let is_plain = places.len() == positions.len() && parted.copies.is_empty();
+    let seams = (!is_plain).then(|| {
+        for (corners, _) in vertices.iter_mut().zip(&facing.turned).filter(|(_, turned)| **turned) {
+            corners.swap(1, 2);
         }
-        None => Ok(()),
+        let mut seams = Seams::new(vertices, particles);
+        for (at, (_, corners)) in parted.copies.iter().enumerate() {
+            let corners: Vec<Corner> =
+                corners.iter().map(|corner| after_turning(*corner, &facing.turned)).collect();
+            seams.part((woven + at) as u32, &corners, |_, _| {});
+        }
+        seams
+    });
+    Ok(Intake { mesh, places, seams, report })
+}
+
+/// Where a corner is after its triangle was turned, if it was.
+fn after_turning(corner: Corner, turned: &[bool]) -> Corner {
+    match (turned[corner as usize / 3], corner % 3) {
+        (true, 1) => corner + 1,
+        (true, 2) => corner - 1,
+        _ => corner,
     }
 }
 
-fn refuse_points_between_fans(mesh: &Mesh) -> Result<()> {
-    let mut uses = vec![0usize; mesh.vertex_count()];
-    mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);
-    let mut fan = Fan::default();
-    for (vertex, corner) in mesh.corner_of.iter().enumerate() {
-        if *corner == NONE {
-            continue;
-        }
-        mesh.fan(*corner, &mut fan);
-        if fan.corners.len() != uses[vertex] {
-            let at = vertex as u32;
-            return Err(Error::BadMesh { at, must: "join triangles by edges, not by one vertex" });
+/// Numbers the vertices that others were welded to: the vertex of each, and the number for each vertex.
+fn number(welded: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let (mut places, mut particles) = (Vec::with_capacity(welded.len()), Vec::new());
+    particles.resize(welded.len(), 0);
+    for (vertex, to) in welded.iter().enumerate() {
+        // The vertex that stayed is never a later one.
+        if *to == vertex as u32 {
+            particles[vertex] = places.len() as u32;
+            places.push(*to);
+        } else {
+            particles[vertex] = particles[*to as usize];
         }
     }
-    Ok(())
+    (places, particles)
+}
+
+fn unused(triangles: &[[u32; 3]], count: usize) -> u32 {
+    let mut is_used = vec![false; count];
+    triangles.iter().flatten().for_each(|v| is_used[*v as usize] = true);
+    is_used.iter().filter(|used| !**used).count() as u32
 }

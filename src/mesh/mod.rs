@@ -3,6 +3,10 @@
 pub(crate) mod divide;
 pub(crate) mod grid;
 pub(crate) mod intake;
+pub(crate) mod lattice;
+pub(crate) mod report;
+pub(crate) mod seams;
+pub(crate) mod sound;
 pub(crate) mod split;
 
 use serde::{Deserialize, Serialize};
@@ -64,7 +68,7 @@ pub(crate) fn before(corner: Corner) -> Corner {
 }
 
 impl Mesh {
-    /// Connects triangles that are known to be sound; see `intake` for those that are not.
+    /// Connects triangles that are known to be sound; see `intake` for those that are not, and `sound`.
     pub fn new(triangles: Vec<[u32; 3]>, vertex_count: usize, capacity: usize) -> Self {
         let mut corner_of = Vec::with_capacity(capacity);
         corner_of.resize(vertex_count, NONE);
@@ -226,6 +230,18 @@ impl Mesh {
         }
     }
 
+    /// Turns triangles round that are marked: the second and the third corner change places.
+    pub fn turn(&mut self, turned: &[bool]) {
+        for at in (0..self.triangles.len()).filter(|at| turned[*at]) {
+            self.triangles[at].swap(1, 2);
+            // The edge between them stays, the other two change places with the corners they start at.
+            self.across[at].swap(0, 2);
+            let hems = self.hems[at];
+            self.hems[at] = hems & 2 | hems << 2 & 4 | hems >> 2;
+        }
+        self.find_corners();
+    }
+
     /// The number of pieces: sets of triangles joined by edges. `label` gets one entry a triangle.
     pub fn pieces(&self, label: &mut [u32], stack: &mut Vec<u32>) -> u32 {
         label.fill(NONE);
@@ -278,6 +294,15 @@ mod tests {
             let triangle = mesh.triangles[triangle_of(*corner)];
             assert!(triangle.contains(&a) && triangle.contains(&b), "{triangle:?} {a} {b}");
         }
+    }
+
+    #[test]
+    fn turning_keeps_up_to_date_what_connecting_finds() {
+        let mut mesh = hexagon();
+        mesh.turn(&[false, true, true, false, false, true]);
+        let (triangles, turned) = (mesh.triangles.clone(), mesh.clone());
+        assert_eq!(triangles[1], [3, 0, 2], "it was 3, 2, 0");
+        assert_eq!(turned, Mesh::new(triangles, 7, 7));
     }
 
     #[test]

@@ -1,18 +1,18 @@
 //! Stage `Bend`: what is bent straightens, by the bending rigidity of the material.
 //!
-//! Grids bend as plates (see `plates`), other meshes at their hinges (see `hinges`), and so does what
-//! left a plate when the cloth was torn or cut. With a rigidity of 1 or more all of it is links over two
-//! cells, as rigid as the sweeps allow, see `links`.
+//! Grids bend as plates (see `plates`), other meshes at their hinges (see `flaps`). What left a plate when the
+//! cloth was torn bends where its threads meet (see `elbows`), what a cut divided at hinges of its own. With a
+//! rigidity of 1 or more all of it is links over two cells, as rigid as the sweeps allow, see `links`.
 //!
 //! The first round comes before the links, so that they bear the load that bending leaves them as they bear
 //! the weight; the second comes on the way back.
 
 use super::flaps::Flaps;
 use super::links::Order;
-use super::{World, flaps, hinges, links, packed, plates};
+use super::{World, elbows, flaps, hinges, links, packed, plates};
 use crate::fabric::folds::{Lengths, Line2};
 use crate::fabric::hinges::Hinge;
-use crate::fabric::links::{LinkKind, Support, Thread};
+use crate::fabric::links::LinkKind;
 use crate::fabric::plates::{Each, Plates};
 use crate::math::TINY;
 use crate::math::columns::Columns;
@@ -79,7 +79,7 @@ fn bend(world: &mut World, order: Order) {
     if world.plates.is_some() {
         bend_plates(world, step, order);
         if order == Order::Forward {
-            bend_strays(world, step);
+            bend_elbows(world, step);
         }
     } else {
         bend_hinges(world, step, order);
@@ -170,29 +170,26 @@ fn find_normals(plates: &Plates, x: &Columns, normal: &mut Columns) {
 }
 
 /// What left its place in a grid.
-fn bend_strays(world: &mut World, step: hinges::Step) {
+fn bend_elbows(world: &mut World, step: hinges::Step) {
     let Some(plates) = &world.plates else { return };
-    let (links, scratch) = (&world.weave.links, &world.scratch);
-    for link in &plates.strays {
-        let spec = &links.spec[*link as usize];
-        let Support::Pair([left, _]) = spec.support else { continue };
-        let middle = world.mesh.vertex(left);
-        let (a, b) = (links.a[*link as usize], links.b[*link as usize]);
-        let w = |vertex: u32| world.particles.w[vertex as usize];
-        let clamped = if w(middle) == 0.0 { plates::clamped(w(a), w(b)) } else { 1.0 };
-        let share = plates.share_of_stray(*link, spec.thread) * clamped;
-        let shape = share / (plates.spacing * plates.spacing);
-        let mut hinge = Hinge::straight(a, middle, b, shape);
-        let kind = if spec.thread == Thread::Weft { 0 } else { 1 };
-        hinge.rest = world.folds.offset[kind][plates.middle_of(*link)].abs();
-        let start = |i: usize| scratch.predicted.at(i) - scratch.way.at(i);
-        hinges::project(&hinge, step, start, &mut world.particles);
-    }
+    let (scratch, [weft, warp, _]) = (&world.scratch, &world.folds.offset);
+    let step = elbows::Step {
+        elbows: &plates.elbows,
+        stiffness: step.stiffness / (plates.spacing * plates.spacing),
+        before: step.before,
+        predicted: &scratch.predicted,
+        way: &scratch.way,
+        rest: world.folds.are_any.then_some([weft, warp]),
+    };
+    elbows::bend(world.level, step, &mut world.particles);
 }
 
 /// What cuts folded anew.
 fn bend_late(world: &mut World, step: hinges::Step) {
     let links = &world.weave.extra;
+    if world.weave.loose.batches_of(LinkKind::Bend).is_empty() {
+        return;
+    }
     for link in 0..links.len() {
         if links.kind(link) != LinkKind::Bend || !links.active[link] {
             continue;

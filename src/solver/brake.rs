@@ -9,18 +9,19 @@ use super::World;
 use super::links::is_rigid;
 use crate::fabric::links::{LinkKind, Links};
 use crate::fabric::weave::Weave;
+use crate::math::column::Column;
 use glam::Vec3;
 
 /// What links are when no substep is solved: lengths at rest and compliances of the woven and the extra ones.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
-    kept: [[Vec<f32>; 2]; 2],
+    kept: [[Column; 2]; 2],
 }
 
 impl Scratch {
     /// Room for so many links.
     pub fn new(woven: usize, extra: usize) -> Self {
-        let room = |count: usize| [Vec::with_capacity(count), Vec::with_capacity(count)];
+        let room = |count: usize| [Column::with_capacity(count), Column::with_capacity(count)];
         Self { kept: [room(woven), room(extra)] }
     }
 }

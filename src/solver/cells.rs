@@ -19,32 +19,71 @@ use crate::mesh::grid::falls;
 /// Grids with more particles across are summed up triangle by triangle.
 pub(crate) const MOST_ACROSS: usize = 512;
 
-/// The cells of a row, one beyond each end, and what chunks read beyond that.
-const ROOM: usize = MOST_ACROSS + 1 + LANES;
+/// Columns of a row: what its first and its second triangles give, and …
+const GIVEN: usize = 6;
+/// … what is left of each of their corners.
+const CORNERS: usize = 6;
+
+/// What chunks read beyond the cells of a row, of which the first is none.
+const BEYOND: usize = 1 + LANES;
+
+/// Room for two rows, of the first size that will do: it is cleared each time.
+const SIZES: [usize; 3] = [1024, 4096, 2 * (GIVEN + CORNERS) * (MOST_ACROSS + BEYOND)];
 
 /// What the cells of a row give; the first is none.
-struct Given {
-    /// Of their first and of their second triangles.
-    by: [[[f32; ROOM]; 3]; 2],
-    /// See `Cells`; …
-    torn: [u8; ROOM],
-    /// … where any is torn, 1 for corners that are as they were made and 0 for others.
-    kept: [[f32; ROOM]; 6],
+struct Given<'a> {
+    /// Three numbers of the first triangles, then three of the second.
+    by: [&'a mut [f32]; GIVEN],
+    /// While anything of the grid is torn, 1 for corners that are as they were made and 0 for others.
+    kept: [&'a mut [f32]; CORNERS],
+    /// See `Cells`.
+    torn: [u8; MOST_ACROSS + BEYOND],
     is_torn: bool,
     is_divided: bool,
 }
 
-impl Given {
-    fn nothing() -> Self {
-        let by = [[[0.0; ROOM]; 3]; 2];
-        let kept = [[0.0; ROOM]; 6];
-        Self { by, torn: [0; ROOM], kept, is_torn: false, is_divided: false }
+/// The same to take from.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    by: [&'a [f32]; GIVEN],
+    kept: [&'a [f32]; CORNERS],
+    is_torn: bool,
+}
+
+impl<'a> Given<'a> {
+    /// Nothing, in room that is clear: columns of such a length, with those for corners or without.
+    fn new(room: &'a mut [f32], length: usize) -> Self {
+        let mut columns = room.chunks_exact_mut(length);
+        let mut next = || columns.next().unwrap_or_default();
+        Self {
+            by: core::array::from_fn(|_| next()),
+            kept: core::array::from_fn(|_| next()),
+            torn: [0; MOST_ACROSS + BEYOND],
+            is_torn: false,
+            is_divided: false,
+        }
     }
 
-    /// Leaves nothing in a row of so many cells.
-    fn clear(&mut self, across: usize) {
-        self.by.as_flattened_mut().iter_mut().for_each(|column| column[..=across].fill(0.0));
-        self.torn[..=across].fill(0);
+    /// All columns are as long as each other, so that one check does for all.
+    #[inline(always)]
+    fn seen(&self) -> Seen<'_> {
+        let length = self.by[0].len();
+        let mut seen = Seen { by: [&[]; GIVEN], kept: [&[]; CORNERS], is_torn: self.is_torn };
+        for (seen, by) in seen.by.iter_mut().zip(&self.by) {
+            *seen = &by[..length];
+        }
+        if self.is_torn {
+            for (seen, kept) in seen.kept.iter_mut().zip(&self.kept) {
+                *seen = &kept[..length];
+            }
+        }
+        seen
+    }
+
+    /// Leaves nothing in a row.
+    fn clear(&mut self) {
+        self.by.iter_mut().for_each(|column| column.fill(0.0));
+        self.torn.fill(0);
         (self.is_torn, self.is_divided) = (false, false);
     }
 
@@ -56,14 +95,13 @@ impl Given {
         self.is_divided = self.is_torn && row.cells.divided[own.clone()].contains(&true);
         self.torn[1..=row.across()].copy_from_slice(&row.cells.torn[own]);
         if self.is_torn {
-            self.kept.iter_mut().for_each(|kept| kept[..=row.across() + 1].fill(1.0));
+            self.kept.iter_mut().for_each(|column| column.fill(1.0));
         }
         for at in triangles {
             let (cell, half) = row.place(*at as usize);
-            let mut torn = row.cells.torn_corners(*at as usize);
-            while torn != 0 {
-                self.kept[3 * half + torn.trailing_zeros() as usize][cell + 1] = 0.0;
-                torn &= torn - 1;
+            let torn = row.cells.torn_corners(*at as usize);
+            for corner in 0..3 {
+                self.kept[3 * half + corner][cell + 1] = f32::from(!torn >> corner & 1);
             }
         }
     }
@@ -95,6 +133,14 @@ impl Row<'_> {
         2 * (self.number * self.across() + cell)
     }
 
+    /// What falls to the corners of half a cell that no cut divided, see `grid::corner_areas`.
+    #[inline(always)]
+    fn corner_areas(&self, cell: usize, half: usize) -> [f32; 3] {
+        let mut areas = [self.cells.quarter; 3];
+        areas[half + usize::from(falls(self.number as u32, cell as u32))] *= 2.0;
+        areas
+    }
+
     /// The cell of a triangle, and which half of it that is.
     #[inline(always)]
     fn place(&self, triangle: usize) -> (usize, usize) {
@@ -112,8 +158,23 @@ pub(crate) fn sum<S: Simd, G: Give>(
     band: Band,
     out: &mut [&mut [f32]; 3],
 ) {
-    let (columns, across) = (cells.columns, cells.columns - 1);
-    let (mut above, mut below) = (&mut Given::nothing(), &mut Given::nothing());
+    let columns = cells.columns;
+    let length = columns - 1 + BEYOND;
+    let size = (GIVEN + if cells.is_torn() { CORNERS } else { 0 }) * length;
+    let (mut little, mut some, mut much);
+    let room: &mut [f32] = if 2 * size <= SIZES[0] {
+        little = [0.0; SIZES[0]];
+        &mut little
+    } else if 2 * size <= SIZES[1] {
+        some = [0.0; SIZES[1]];
+        &mut some
+    } else {
+        much = [0.0; SIZES[2]];
+        &mut much
+    };
+    let (upper, lower) = room.split_at_mut(size);
+    let (mut above, mut below) =
+        (&mut Given::new(upper, length), &mut Given::new(&mut lower[..size], length));
     let rows = band.first..band.end.min(cells.rows);
     if let Some(number) = rows.start.checked_sub(1) {
         fill(s, surface, Row { cells, number }, give, above, out);
@@ -123,16 +184,17 @@ pub(crate) fn sum<S: Simd, G: Give>(
         if number + 1 < cells.rows {
             fill(s, surface, row, give, below, out);
         } else {
-            below.clear(across);
+            below.clear();
         }
+        let seen = [above.seen(), below.seen()];
         for start in (0..columns).step_by(S::LANES) {
             // The last chunk reaches back over particles that are done, and gives them the same.
             let first = start.min(columns - S::LANES);
             let at = (number - band.first) * columns + first;
             if !(above.is_torn_at(first) || below.is_torn_at(first)) {
-                take::<S, G, false>(s, row, first, give, [above, below], at, out);
+                take::<S, G, false>(s, row, first, give, &seen, at, out);
             } else if !(above.is_divided || below.is_divided) {
-                take::<S, G, true>(s, row, first, give, [above, below], at, out);
+                take::<S, G, true>(s, row, first, give, &seen, at, out);
             } else {
                 (0..S::LANES).for_each(|lane| {
                     take_apart(surface, row, first + lane, give, [above, below], at + lane, out);
@@ -150,17 +212,21 @@ fn fill<S: Simd, G: Give>(
     surface: Surface<'_>,
     row: Row<'_>,
     give: G,
-    given: &mut Given,
+    given: &mut Given<'_>,
     out: &mut [&mut [f32]; 3],
 ) {
     let across = row.across();
+    let length = given.by[0].len();
+    let mut by: [&mut [f32]; GIVEN] = Default::default();
+    for (by, column) in by.iter_mut().zip(&mut given.by) {
+        *by = &mut column[..length];
+    }
     for start in (0..across).step_by(S::LANES) {
-        fill_chunk(s, surface, row, start.min(across - S::LANES), give, given);
+        fill_chunk(s, surface, row, start.min(across - S::LANES), give, &mut by);
     }
     given.tear(row);
     if given.is_torn {
-        fill_torn(s, surface, row, give, given);
-        add_split_off(surface, row, give, given, out);
+        fill_torn(s, surface, row, give, given, out);
     }
 }
 
@@ -175,7 +241,7 @@ fn fill_chunk<S: Simd, G: Give>(
     row: Row<'_>,
     first: usize,
     give: G,
-    given: &mut Given,
+    by: &mut [&mut [f32]; GIVEN],
 ) {
     let top = row.number * row.cells.columns + first;
     let bottom = top + row.cells.columns;
@@ -183,10 +249,10 @@ fn fill_chunk<S: Simd, G: Give>(
     let rest_area = s.splat(row.cells.rest_area());
     let x = corners(s, surface.x, [top, bottom], falling);
     let air = corners(s, surface.air, [top, bottom], falling);
-    for (number, by) in given.by.iter_mut().enumerate() {
-        let given = give.give(s, x[number], air[number], rest_area);
-        for (column, given) in by.iter_mut().zip(given) {
-            s.store(column, first + 1, given);
+    for half in 0..2 {
+        let gives = give.give(s, x[half], air[half], rest_area);
+        for axis in 0..3 {
+            s.store(by[3 * half + axis], first + 1, gives[axis]);
         }
     }
 }
@@ -215,14 +281,16 @@ fn load<S: Simd>(s: S, columns: &Columns, first: usize) -> V<S> {
     [s.load(&columns.x, first), s.load(&columns.y, first), s.load(&columns.z, first)]
 }
 
-/// The triangles of a row that are not as they were made, eight at a time.
+/// The triangles of a row that are not as they were made, eight at a time. They give to all their corners at
+/// once: what was split off lies beyond the grid's own particles, and these forget it when they take.
 #[inline(always)]
 fn fill_torn<S: Simd, G: Give>(
     s: S,
     surface: Surface<'_>,
     row: Row<'_>,
     give: G,
-    given: &mut Given,
+    given: &mut Given<'_>,
+    out: &mut [&mut [f32]; 3],
 ) {
     let (triangles, corners) = row.cells.torn_triangles(row.number);
     for (some, corners) in triangles.chunks(LANES).zip(corners.chunks(LANES)) {
@@ -231,42 +299,16 @@ fn fill_torn<S: Simd, G: Give>(
             rest_areas = rest_areas_of(surface, some);
         }
         let found = given_by(s, surface, corners, &rest_areas, give);
-        for (lane, at) in some.iter().enumerate() {
-            let (cell, half) = row.place(*at as usize);
-            for (column, found) in given.by[half].iter_mut().zip(&found) {
-                column[cell + 1] = found[lane];
-            }
-        }
-    }
-}
-
-/// Gives to what was split off the cells of a row, which lies beyond the grid's own particles.
-#[inline(always)]
-fn add_split_off<G: Give>(
-    surface: Surface<'_>,
-    row: Row<'_>,
-    give: G,
-    given: &Given,
-    out: &mut [&mut [f32]; 3],
-) {
-    let woven = row.cells.columns * row.cells.rows;
-    let (triangles, corners) = row.cells.torn_triangles(row.number);
-    for (at, corners) in triangles.iter().zip(corners) {
-        let at = *at as usize;
-        let ((cell, half), mut torn) = (row.place(at), row.cells.torn_corners(at));
-        while torn != 0 {
-            let corner = torn.trailing_zeros() as usize;
-            torn &= torn - 1;
-            let particle = corners[corner] as usize;
-            if particle >= woven {
-                let area = if given.is_divided {
-                    surface.areas[at][corner]
-                } else {
-                    row.cells.corner_area(at, corner)
-                };
-                let part = give.part(area);
-                for axis in 0..3 {
-                    out[axis][particle] += given.by[half][axis][cell + 1] * part;
+        for (lane, (at, corners)) in some.iter().zip(corners).enumerate() {
+            let at = *at as usize;
+            let (cell, half) = row.place(at);
+            let areas =
+                if given.is_divided { surface.areas[at] } else { row.corner_areas(cell, half) };
+            for axis in 0..3 {
+                let found = found[axis][lane];
+                given.by[3 * half + axis][cell + 1] = found;
+                for corner in 0..3 {
+                    out[axis][corners[corner] as usize] += found * give.part(areas[corner]);
                 }
             }
         }
@@ -280,7 +322,7 @@ fn take<S: Simd, G: Give, const TORN: bool>(
     row: Row<'_>,
     first: usize,
     give: G,
-    [above, below]: [&Given; 2],
+    seen: &[Seen<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
@@ -289,26 +331,35 @@ fn take<S: Simd, G: Give, const TORN: bool>(
     // Where the cell below falls, all diagonals around meet here.
     let meets = s.load(&BY_TURNS, usize::from(!falls(row.number as u32, first as u32)));
     let (shared, own) = (s.pick(meets, quarter, zero), s.pick(meets, quarter, half));
-    // Whose, from where on, and of the two triangles each: which part, and as which of the corners.
-    let around = [
-        (above, first, [(shared, 2), (own, 4)]),
-        (above, first + 1, [(own, 1), (shared, 3)]),
-        (below, first, [(shared, 2), (own, 5)]),
-        (below, first + 1, [(own, 0), (shared, 3)]),
-    ];
-    let mut sums = [zero; 3];
-    for (given, from, parts) in around {
-        for (by, (mut part, corner)) in given.by.iter().zip(parts) {
-            if TORN && given.is_torn {
-                part = s.pick(s.load(&given.kept[corner], from), part, zero);
-            }
-            for (sum, by) in sums.iter_mut().zip(by) {
-                *sum = *sum + s.load(by, from) * part;
-            }
-        }
+    let ([above, below], mut sums) = (seen, [zero; 3]);
+    add::<S, TORN>(s, above, first, 2, shared, &mut sums);
+    add::<S, TORN>(s, above, first, 4, own, &mut sums);
+    add::<S, TORN>(s, above, first + 1, 1, own, &mut sums);
+    add::<S, TORN>(s, above, first + 1, 3, shared, &mut sums);
+    add::<S, TORN>(s, below, first, 2, shared, &mut sums);
+    add::<S, TORN>(s, below, first, 5, own, &mut sums);
+    add::<S, TORN>(s, below, first + 1, 0, own, &mut sums);
+    add::<S, TORN>(s, below, first + 1, 3, shared, &mut sums);
+    for axis in 0..3 {
+        s.store(out[axis], at, sums[axis]);
     }
-    for (out, sum) in out.iter_mut().zip(sums) {
-        s.store(out, at, sum);
+}
+
+/// Adds what cells from some on give to one of the six corners of their triangles, as far as that is left.
+#[inline(always)]
+fn add<S: Simd, const TORN: bool>(
+    s: S,
+    seen: &Seen<'_>,
+    from: usize,
+    corner: usize,
+    mut part: S::F,
+    sums: &mut [S::F; 3],
+) {
+    if TORN && seen.is_torn {
+        part = s.pick(s.load(seen.kept[corner], from), part, s.splat(0.0));
+    }
+    for axis in 0..3 {
+        sums[axis] = sums[axis] + s.load(seen.by[corner / 3 * 3 + axis], from) * part;
     }
 }
 
@@ -318,7 +369,7 @@ fn take_apart<G: Give>(
     row: Row<'_>,
     column: usize,
     give: G,
-    [above, below]: [&Given; 2],
+    [above, below]: [&Given<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
@@ -330,12 +381,12 @@ fn take_apart<G: Give>(
                 continue;
             }
             let first = Row { number, ..row }.triangle(cell);
-            for (half, by) in given.by.iter().enumerate() {
+            for half in 0..2 {
                 let corners = surface.triangles[first + half].into_iter();
                 for (corner, area) in corners.zip(surface.areas[first + half]) {
                     let part = give.part(area);
                     for axis in 0..3 {
-                        let given = by[axis][cell + 1] * part;
+                        let given = given.by[3 * half + axis][cell + 1] * part;
                         sums[axis] += if corner == particle { given } else { 0.0 };
                     }
                 }

@@ -88,9 +88,35 @@ impl<F: Number> Chunk<F> {
         // SAFETY: the caller's promise.
         unsafe {
             let counts = s.load(&COUNTS, MOST - done);
-            let keep =
-                in_order::<_, PATTERN>(s, s.pick(counts, s.load_from(place.mask), s.splat(0.0)));
-            let mut lambda = self.lambda;
+            let keep = s.pick(counts, s.load_from(place.mask), s.splat(0.0));
+            self.only::<LAW, PATTERN>(s, place, keep)
+        }
+    }
+
+    /// Takes back what all but the first `count` links did.
+    #[inline(always)]
+    pub unsafe fn only_first<const LAW: u8, const PATTERN: u8>(
+        self,
+        s: impl Simd<F = F>,
+        place: Place,
+        count: usize,
+    ) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { self.only::<LAW, PATTERN>(s, place, s.load(&COUNTS, 2 * MOST - count)) }
+    }
+
+    /// Takes back what links did that are not to be kept, as they lie in memory.
+    #[inline(always)]
+    unsafe fn only<const LAW: u8, const PATTERN: u8>(
+        self,
+        s: impl Simd<F = F>,
+        place: Place,
+        keep: F,
+    ) -> Self {
+        let keep = in_order::<_, PATTERN>(s, keep);
+        let mut lambda = self.lambda;
+        // SAFETY: the caller's promise.
+        unsafe {
             if LAW == SOFT {
                 lambda = s.pick(keep, lambda, in_order::<_, PATTERN>(s, s.load_from(place.lambda)));
             }
@@ -116,7 +142,7 @@ impl<F: Number> Chunk<F> {
         }
     }
 
-    /// As `store`, the first `count` links.
+    /// As `store`, the first `count` links, of neighbours in one row.
     #[inline(always)]
     pub unsafe fn store_first<const LAW: u8, const PATTERN: u8>(
         self,
@@ -163,9 +189,9 @@ unsafe fn only<S: Simd, const PATTERN: u8>(
     [s.pick(keep, a, old.0), s.pick(keep, b, old.1)]
 }
 
-/// 0 as often as there may be lanes, then 1 as often.
-const COUNTS: [f32; 2 * MOST] = {
-    let mut counts = [0.0; 2 * MOST];
+/// 0 as often as there may be lanes, then 1 as often, then 0 again.
+const COUNTS: [f32; 3 * MOST] = {
+    let mut counts = [0.0; 3 * MOST];
     let mut at = MOST;
     while at < 2 * MOST {
         counts[at] = 1.0;
@@ -221,17 +247,12 @@ unsafe fn store<S: Simd, const PATTERN: u8>(s: S, [to_a, to_b]: [*mut f32; 2], [
 #[inline(always)]
 unsafe fn store_first<S: Simd, const PATTERN: u8>(
     s: S,
-    [to_a, to_b]: [*mut f32; 2],
+    [to_a, _]: [*mut f32; 2],
     count: usize,
     [a, b]: [S::F; 2],
 ) {
     // SAFETY: the caller's promise.
     unsafe {
-        if PATTERN == STRAIGHT {
-            s.store_first(to_a, count, a);
-            s.store_first(to_b, count, b);
-            return;
-        }
         let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
         if 2 * count < S::LANES {
             return s.store_first(to_a, 2 * count, low);

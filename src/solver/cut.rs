@@ -105,6 +105,10 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     world.rest.push(crossing.between(|end| world.rest[end as usize]));
     world.crossings.push(crossing);
     let division = world.mesh.divide(edge, site);
+    let vertex = match &mut world.seams {
+        Some(seams) => seams.divide(&division, [a, b], share),
+        None => division.vertex,
+    };
     let (mesh, rest) = (&world.mesh, &world.rest);
     let at = |triangle: u32| {
         mesh.triangles[triangle as usize].map(|v| rest[mesh.source[v as usize] as usize])
@@ -120,7 +124,7 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     let recipe = Recipe { mesh: &world.mesh, rest: &world.rest, material: &world.material };
     world.weave.divide(recipe, &division, touching);
     let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.at(new));
-    (event.particle_a, event.particle_b, event.vertex) = (a, b, division.vertex);
+    (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);
 }
 

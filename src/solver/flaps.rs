@@ -9,7 +9,7 @@
 
 use super::descent::Descent;
 use super::hinges::Step;
-use super::links::Spots;
+use super::spots::Spots;
 use crate::fabric::hinges::{Hinges, normal};
 use crate::math::TINY;
 use glam::{Vec3, Vec4};

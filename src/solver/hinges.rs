@@ -1,4 +1,4 @@
-//! Hinges one by one: those where a grid was torn, and those where anything was cut.
+//! Hinges one by one: those where anything was cut.
 //!
 //! ```text
 //! C = Σ cᵢ xᵢ − rest n,   λ = −C / (Σ cᵢ² wᵢ + α̃),   Δxᵢ = wᵢ cᵢ λ
@@ -6,7 +6,7 @@
 //! A vector with a vector for its multiplier: its gradient is always the same, so there is no root to
 //! take. Each gives way by its compliance as in Macklin, Müller, Chentanez, "XPBD", MIG 2016.
 
-use super::links::Spots;
+use super::spots::Spots;
 use crate::fabric::hinges::{Hinge, normal};
 use glam::Vec3;
 
@@ -40,11 +40,7 @@ pub(crate) fn project<S: Spots>(
         }
     }
     if hinge.rest != 0.0 {
-        let mut n = normal(seats.map(|(x, _)| x));
-        // Over two threads in a row there is no edge to be square to: then it is bent as it is bent.
-        if at[0] == at[1] {
-            n = curve.normalize_or_zero();
-        }
+        let n = normal(seats.map(|(x, _)| x));
         curve -= n * (hinge.rest * (1.0 - step.before));
     }
     let compliance = 1.0 / (hinge.shape * step.stiffness);

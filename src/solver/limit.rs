@@ -10,7 +10,7 @@
 
 use super::links::{Order, shorten};
 use super::tethers;
-use super::{World, contacts};
+use super::{World, contacts, home};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::columns::Columns;
 use crate::state::events::{Event, EventKind};
@@ -138,10 +138,10 @@ fn is_held_apart(world: &World, most: f32) -> bool {
     })
 }
 
-/// Takes the ends of every link that is too long back to where they were, and with them what that
-/// stretches, until nothing is too long that was not before.
+/// Takes the ends of every link that is too long back to where they were, see `home`, and with them what
+/// that stretches, until nothing is too long that was not before.
 fn go_back(world: &mut World, most: f32) {
-    let shift = shift_of_holds(world);
+    home::find(world);
     let woven = world.weave.links.len();
     let mut went = true;
     while core::mem::take(&mut went) {
@@ -155,31 +155,14 @@ fn go_back(world: &mut World, most: f32) {
                 continue;
             }
             for end in [links.a[at] as usize, links.b[at] as usize] {
-                let last = last(world, end, shift);
-                if world.particles.x.at(end) != last {
-                    world.particles.x.set(end, last);
+                let home = world.scratch.home.places.at(end);
+                if world.particles.x.at(end) != home {
+                    world.particles.x.set(end, home);
                     went = true;
                 }
             }
         }
     }
-}
-
-/// Where a particle was a tick ago, carried along with what holds the cloth; what is held stays.
-fn last(world: &World, i: usize, shift: Vec3) -> Vec3 {
-    let p = &world.particles;
-    if p.w[i] > 0.0 { p.x_last.at(i) + shift } else { p.x.at(i) }
-}
-
-/// How far pins and grabs moved in this tick, on average.
-fn shift_of_holds(world: &World) -> Vec3 {
-    let p = &world.particles;
-    let (mut sum, mut count) = (Vec3::ZERO, 0.0);
-    for i in (0..p.len()).filter(|i| p.w[*i] <= 0.0) {
-        sum += p.x.at(i) - p.x_last.at(i);
-        count += 1.0;
-    }
-    if count > 0.0 { sum * (1.0 / count) } else { Vec3::ZERO }
 }
 
 /// Velocities follow what happened since `scratch.predicted`, but not everywhere.

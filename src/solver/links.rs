@@ -10,12 +10,11 @@
 
 #[cfg(feature = "parallel")]
 use super::bands;
+use super::spots::Spots;
 use super::{World, loose, packed, rows, weights};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::{Arithmetic, Number, Scalar};
 use crate::math::{TINY, max};
-use crate::state::particles::Particles;
-use glam::Vec3;
 
 /// How a link resists, as a number that kernels can be compiled for: …
 /// by its compliance;
@@ -106,7 +105,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
         }
         // These are of a colour for sure, so that any order does.
         let (links, order) = (&mut weave.links, Order::Forward);
-        loose::solve::<LAW>(world.level, &grid.loose, (at, order), links, p, scale);
+        loose::solve::<LAW, _>(world.level, &grid.loose, (at, order), links, p, scale);
     } else if packed.is_current {
         let (links, weights) = (&mut weave.links, &world.scratch.weights);
         packed::solve::<LAW>(world.level, world.threads, range, links, weights, packed, scale);
@@ -116,33 +115,13 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
 }
 
 fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: Order, scale: f32) {
-    let (level, packed) = (world.level, &mut world.scratch.packed);
+    let (level, at) = (world.level, (at, order));
+    let (p, packed) = (&mut world.particles, &mut world.scratch.packed);
     let (loose, links) = (&world.weave.loose, &mut world.weave.extra);
     if packed.is_current {
-        loose::solve_packed::<LAW>(level, loose, (at, order), links, packed, scale);
+        loose::solve::<LAW, _>(level, loose, at, links, packed, scale);
     } else {
-        loose::solve::<LAW>(level, loose, (at, order), links, &mut world.particles, scale);
-    }
-}
-
-/// Where particles are while links are solved.
-pub(crate) trait Spots {
-    /// A particle's position and inverse mass.
-    fn spot(&self, i: usize) -> (Vec3, f32);
-
-    /// Moves a particle.
-    fn put(&mut self, i: usize, x: Vec3);
-}
-
-impl Spots for Particles {
-    #[inline(always)]
-    fn spot(&self, i: usize) -> (Vec3, f32) {
-        (self.x.at(i), self.w[i])
-    }
-
-    #[inline(always)]
-    fn put(&mut self, i: usize, x: Vec3) {
-        self.x.set(i, x);
+        loose::solve::<LAW, _>(level, loose, at, links, p, scale);
     }
 }
 

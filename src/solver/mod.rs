@@ -10,11 +10,13 @@ pub(crate) mod contacts;
 pub(crate) mod crowd;
 pub(crate) mod cut;
 pub(crate) mod descent;
+pub(crate) mod elbows;
 pub(crate) mod flaps;
 pub(crate) mod forces;
 pub(crate) mod guard;
 pub(crate) mod hinges;
 pub(crate) mod hold;
+mod home;
 pub(crate) mod limit;
 pub(crate) mod lines;
 pub(crate) mod links;
@@ -27,9 +29,13 @@ pub(crate) mod places;
 pub(crate) mod plates;
 pub(crate) mod predict;
 pub(crate) mod profile;
+mod rigid;
 pub(crate) mod rows;
 pub(crate) mod seats;
+pub(crate) mod sleep;
+pub(crate) mod spots;
 pub(crate) mod stage;
+pub(crate) mod stiffest;
 pub(crate) mod surface;
 pub(crate) mod tangents;
 pub(crate) mod tear;
@@ -52,8 +58,10 @@ use crate::math::columns::Columns;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::divide::Crossing;
+use crate::mesh::grid::Frame;
+use crate::mesh::seams::Seams;
 use crate::mesh::split::Opening;
-use crate::mesh::{Fan, Mesh};
+use crate::mesh::{Corner, Fan, Mesh, triangle_of};
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
 use crate::state::grabs::Grabs;
@@ -63,6 +71,7 @@ use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use profile::Profile;
+use sleep::Sleep;
 
 /// Particles that one thread does at least, where there is little to do for each.
 pub(crate) const PARTICLES: usize = 16_384;
@@ -71,6 +80,8 @@ pub(crate) const PARTICLES: usize = 16_384;
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     pub mesh: Mesh,
+    /// The vertices, if particles are not vertices.
+    pub seams: Option<Seams>,
     pub weave: Weave,
     pub tethers: Tethers,
     /// The order of the stretch bound; current only while there is one.
@@ -86,6 +97,8 @@ pub(crate) struct World {
     pub crossings: Vec<Crossing>,
     /// The share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
+    /// Where a grid is at rest.
+    pub frame: Option<Frame>,
     /// Where the triangles of a grid lie in cells.
     pub cells: Option<Cells>,
     /// What resists bending on a grid.
@@ -123,6 +136,7 @@ pub(crate) struct World {
     pub threads: Threads,
     pub profile: Profile,
     pub scratch: Scratch,
+    pub sleep: Sleep,
     /// The particles that keep apart, while settings say so.
     pub crowd: Option<Box<crowd::Crowd>>,
 }
@@ -149,6 +163,7 @@ pub(crate) struct Scratch {
     pub brake: brake::Scratch,
     pub contacts: contacts::Scratch,
     pub tear: tear::Scratch,
+    pub home: home::Home,
     pub opened: Vec<Opening>,
     pub pieces: tear::Pieces,
     pub stack: Vec<u32>,
@@ -172,6 +187,7 @@ impl Scratch {
             brake: brake::Scratch::default(),
             contacts: contacts::Scratch::default(),
             tear: tear::Scratch::with_capacity(max_tears),
+            home: home::Home::with_capacity(capacity, triangles),
             opened: Vec::with_capacity(2),
             pieces: tear::Pieces::new(triangles),
             stack: Vec::with_capacity(triangles),
@@ -196,6 +212,21 @@ impl World {
     /// How many particles there may be in all.
     pub fn capacity(&self) -> usize {
         self.mesh.source.capacity().min(self.particles.mass.capacity())
+    }
+
+    /// How many vertices there may be in all.
+    pub fn vertex_capacity(&self) -> usize {
+        self.seams.as_ref().map_or(self.capacity(), Seams::capacity)
+    }
+
+    /// The triangles over vertices, as a renderer has them.
+    pub fn faces(&self) -> &[[u32; 3]] {
+        self.seams.as_ref().map_or(&self.mesh.triangles, |seams| &seams.triangles)
+    }
+
+    /// The vertex at a corner.
+    pub fn vertex(&self, corner: Corner) -> u32 {
+        self.faces()[triangle_of(corner)][corner as usize % 3]
     }
 
     /// Whether the reserve cannot take the most that one tear may need: the vertex that splits, and
@@ -223,10 +254,14 @@ impl World {
         if let Some(cells) = &mut self.cells {
             cells.gather(&self.mesh);
         }
+        if let Some(plates) = &mut self.plates {
+            plates.gather(&self.mesh, &self.weave.links);
+        }
     }
 
     /// The inverse mass that the solver is to see: 0 while something holds the particle.
     pub fn refresh_weight(&mut self, particle: u32) {
+        self.wake();
         let at = particle as usize;
         let held = self.pins.find(particle).is_some()
             || self.grabs.iter().any(|held| held.particle == particle);
@@ -269,6 +304,7 @@ impl World {
 
     /// Puts a particle somewhere with a velocity.
     pub fn place(&mut self, particle: usize, x: Vec3, v: Vec3) {
+        self.wake();
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
         self.particles.place(particle, x, v, gravity, h);
         self.is_apart_current = false;

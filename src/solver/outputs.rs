@@ -4,17 +4,28 @@ use super::surface::{self, Band, Give, Surface, V, in_bands};
 use super::{PARTICLES, World};
 use crate::fabric::links::LinkKind;
 use crate::math::columns::Columns;
+use crate::math::max;
 use crate::math::simd::{Simd, leveled, vectored};
 use glam::Vec3;
 
-/// Positions, three numbers a vertex.
+/// Positions, one a vertex.
 pub(crate) fn positions(world: &World, out: &mut Vec<Vec3>) {
-    out.clear();
-    out.extend(world.particles.x.iter());
+    hand_out(world, &world.particles.x, out);
 }
 
-/// Vertex normals of the surface at `x`: the mean of the triangles around, weighted by area. Zero where
-/// there is none.
+/// What particles have, for each vertex.
+pub(crate) fn hand_out(world: &World, of_particles: &Columns, out: &mut Vec<Vec3>) {
+    out.clear();
+    match &world.seams {
+        Some(seams) => {
+            out.extend(seams.particles.iter().map(|particle| of_particles.at(*particle as usize)));
+        }
+        None => out.extend(of_particles.iter()),
+    }
+}
+
+/// Normals of the surface at `x`, one a particle, so that no seam shows: the mean of the triangles around,
+/// weighted by area. Zero where there is none.
 pub(crate) fn normals(world: &World, x: &Columns, sums: &mut Columns) {
     sums.copy_from(x);
     sums.fill(Vec3::ZERO);
@@ -104,6 +115,11 @@ pub(crate) fn stretch(world: &World) -> (f32, f32) {
         }
     }
     (most, if count == 0 { 0.0 } else { (sum / f64::from(count)) as f32 })
+}
+
+/// The speed of the fastest particle [m/s].
+pub(crate) fn max_speed(world: &World) -> f32 {
+    world.particles.v.iter().fold(0.0, |most, v| max(most, v.length_squared())).sqrt()
 }
 
 /// Energy of motion [J].

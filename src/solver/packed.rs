@@ -12,7 +12,8 @@
 )]
 
 use super::World;
-use super::links::{BOUND, RIGID, SOFT, Spots, correct, pull};
+use super::links::{BOUND, RIGID, SOFT, correct, pull};
+use super::spots::Spots;
 use super::weights::Weights;
 use crate::fabric::links::Links;
 use crate::math::shared::Points;
@@ -60,7 +61,7 @@ pub(crate) fn pack(world: &mut World) {
     }
     let (p, packed) = (&world.particles, &mut world.scratch.packed);
     packed.points.clear();
-    let particles = p.x.x.iter().zip(&p.x.y).zip(&p.x.z);
+    let particles = p.x.x.iter().zip(&*p.x.y).zip(&*p.x.z);
     packed.points.extend(particles.map(|((x, y), z)| [*x, *y, *z, 0.0]));
     packed.w.clone_from(&p.w);
     packed.is_current = true;
@@ -72,7 +73,7 @@ pub(crate) fn unpack(world: &mut World) {
         return;
     }
     let x = &mut world.particles.x;
-    let particles = x.x.iter_mut().zip(&mut x.y).zip(&mut x.z);
+    let particles = x.x.iter_mut().zip(&mut *x.y).zip(&mut *x.z);
     for (((x, y), z), point) in particles.zip(&world.scratch.packed.points) {
         [*x, *y, *z, _] = *point;
     }

@@ -3,7 +3,7 @@
 use super::stage::Stage;
 use super::{
     World, bend, brake, contacts, crowd, forces, guard, hold, limit, lines, links, packed, predict,
-    tear, tethers, velocities,
+    sleep, tear, tethers, velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -17,8 +17,12 @@ macro_rules! timed {
     }};
 }
 
-/// Runs one tick.
-pub(crate) fn tick(world: &mut World) {
+/// Runs one tick; false if the cloth sleeps through it.
+pub(crate) fn tick(world: &mut World) -> bool {
+    if sleep::goes_on(world) {
+        end(world);
+        return false;
+    }
     world.particles.x_last.copy_from(&world.particles.x);
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::begin(world));
@@ -36,8 +40,7 @@ pub(crate) fn tick(world: &mut World) {
     timed!(world, Bend, bend::yield_folds(world));
     world.pins.arrive();
     timed!(world, Colliders, contacts::arrive(world));
-    world.time += f64::from(world.settings.tick);
-    world.tick = world.tick.wrapping_add(1);
+    end(world);
     // What is no longer a number must not steer a tear.
     timed!(world, Guard, guard::mend(world));
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
@@ -46,6 +49,14 @@ pub(crate) fn tick(world: &mut World) {
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::enforce(world));
     }
+    sleep::look(world);
+    true
+}
+
+/// Time goes on.
+fn end(world: &mut World) {
+    world.time += f64::from(world.settings.tick);
+    world.tick = world.tick.wrapping_add(1);
 }
 
 /// Substep `number` of the tick.

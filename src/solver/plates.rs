@@ -15,6 +15,7 @@
 
 use super::descent::Descent;
 use super::pentads::{Factor, Line, Three};
+use super::stiffest;
 use super::twist::{Seen, Twist};
 use crate::fabric::plates::{Each, Plates};
 use crate::math::columns::Columns;
@@ -99,6 +100,7 @@ impl Scratch {
     /// Whether pins, masses or elements have changed; then takes them up.
     fn take_up(&mut self, plates: &Plates, w: &[f32], mass: &[f32]) -> bool {
         let count = plates.count();
+        let is_torn = w.len() > count;
         let (w, mass) = (&w[..count], &mass[..count]);
         let is_same = self.revision == plates.revision;
         if is_same && !(differ(&self.w, w) || differ(&self.mass, mass)) {
@@ -118,29 +120,13 @@ impl Scratch {
                 }
             }
         }
-        self.most = self.bound(plates.columns);
-        true
-    }
-
-    /// No shape has more stiffness over mass: that of an element is at most four times what the element adds
-    /// to its particles' own.
-    fn bound(&self, columns: usize) -> f32 {
-        let [weft, warp, twist] = &self.weight;
-        let before = |list: &[f32], at: usize, steps: usize| {
-            if at >= steps { list[at - steps] } else { 0.0 }
+        self.most = if is_torn {
+            let room = (&mut self.seen[..], &mut self.curve);
+            stiffest::of_torn(plates.columns, &self.weight, &self.w, room)
+        } else {
+            stiffest::of_whole(plates.columns, &self.weight, &self.w)
         };
-        let after =
-            |list: &[f32], at: usize, steps: usize| list.get(at + steps).copied().unwrap_or(0.0);
-        let mut most = 0.0_f32;
-        for at in 0..self.w.len() {
-            let along = 4.0 * weft[at] + (before(weft, at, 1) + after(weft, at, 1));
-            let down = 4.0 * warp[at] + (before(warp, at, columns) + after(warp, at, columns));
-            let turn = (twist[at] + before(twist, at, 1))
-                + (before(twist, at, columns) + before(twist, at, columns + 1));
-            let own = ((along + down) + turn) * self.w[at];
-            most = if own > most { own } else { most };
-        }
-        4.0 * most
+        true
     }
 
     /// Finds what pushes particles along an axis, times the square of the substep.

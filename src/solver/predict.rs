@@ -2,12 +2,12 @@
 //!
 //! By the formula of `Scheme`, with a limit on what a violent yank may do.
 
+use super::rigid::RigidMotion;
 use super::{PARTICLES, World};
-use crate::math::columns::Columns;
 use crate::math::simd::leveled;
 use crate::state::settings::Scheme;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glam::{Mat3, Vec3};
+use glam::Vec3;
 
 /// Moves every free particle; `scratch` keeps the way it went and where it came to.
 pub(crate) fn advance(world: &mut World) {
@@ -90,7 +90,8 @@ fn go_column(x: &mut [f32], way: &[f32], predicted: &mut [f32]) {
 fn clamp_displacement(world: &mut World, reach: f32) {
     let p = &world.particles;
     let way = &mut world.scratch.way;
-    let rigid = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
+    let free = || (0..p.len()).filter(|i| p.w[*i] > 0.0);
+    let rigid = RigidMotion::fit(free, &p.x, |i| way.at(i), &p.mass);
     let particles = (way.all_mut(), p.x.all(), &p.w[..]);
     let is_clamped = AtomicBool::new(false);
     world.threads.over(particles, PARTICLES, |(way, x, w)| {
@@ -99,7 +100,7 @@ fn clamp_displacement(world: &mut World, reach: f32) {
         }
     });
     if is_clamped.into_inner() && p.w.iter().all(|w| *w > 0.0) {
-        let left = RigidMotion::fit(&p.x, way, &p.mass, &p.w);
+        let left = RigidMotion::fit(free, &p.x, |i| way.at(i), &p.mass);
         for i in 0..p.len() {
             let x = p.x.at(i);
             way.add(i, rigid.at(x) - left.at(x));
@@ -132,61 +133,4 @@ fn clamp(
         }
     }
     is_clamped
-}
-
-/// The motion of a solid body: a shift and a small turn about the centre.
-#[derive(Clone, Copy)]
-struct RigidMotion {
-    center: Vec3,
-    shift: Vec3,
-    turn: Vec3,
-}
-
-impl RigidMotion {
-    /// The rigid motion with the momentum and angular momentum of all ways.
-    fn fit(x: &Columns, way: &Columns, mass: &[f32], w: &[f32]) -> Self {
-        let free = || (0..mass.len()).filter(|i| w[*i] > 0.0);
-        let (mut total, mut center, mut shift) = (0.0, Vec3::ZERO, Vec3::ZERO);
-        for i in free() {
-            total += mass[i];
-            center += x.at(i) * mass[i];
-            shift += way.at(i) * mass[i];
-        }
-        if total <= 0.0 {
-            return Self { center, shift: Vec3::ZERO, turn: Vec3::ZERO };
-        }
-        (center, shift) = (center * (1.0 / total), shift * (1.0 / total));
-        let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
-        for i in free() {
-            let r = x.at(i) - center;
-            spin += r.cross(way.at(i) - shift) * mass[i];
-            let r2 = r.length_squared();
-            let columns = [r * r.x, r * r.y, r * r.z];
-            let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-            let solid = |axis: usize| (axes[axis] * r2 - columns[axis]) * mass[i];
-            inertia.x_axis += solid(0);
-            inertia.y_axis += solid(1);
-            inertia.z_axis += solid(2);
-        }
-        Self { center, shift, turn: solve(&inertia, spin) }
-    }
-
-    /// How far a point moves with the body.
-    fn at(&self, point: Vec3) -> Vec3 {
-        self.shift + self.turn.cross(point - self.center)
-    }
-}
-
-/// Cramer's rule; nothing if the matrix has no inverse to speak of.
-fn solve(m: &Mat3, v: Vec3) -> Vec3 {
-    let det = m.x_axis.dot(m.y_axis.cross(m.z_axis));
-    let size = m.x_axis.x + m.y_axis.y + m.z_axis.z;
-    if det <= 1.0e-6 * size * size * size {
-        return Vec3::ZERO;
-    }
-    Vec3::new(
-        v.dot(m.y_axis.cross(m.z_axis)),
-        m.x_axis.dot(v.cross(m.z_axis)),
-        m.x_axis.dot(m.y_axis.cross(v)),
-    ) * (1.0 / det)
 }

@@ -3,7 +3,9 @@
 //! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
 //! left of a row after whole chunks is one more chunk that reaches over its end, of which only the
-//! row's links count; at the end of all lists one that reaches back.
+//! row's links count; at the end of all lists one that reaches back. Between two rows of the grid it
+//! writes what is beyond anew as it was, and what follows would have to wait for that: so those
+//! ends come after the whole chunks of all rows. In one row nothing beyond is written to.
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -12,10 +14,12 @@
 )]
 
 use super::chunk::Chunk;
-use super::links::{BOUND, RIGID, SOFT, Spots, pull};
+use super::links::{BOUND, RIGID, SOFT, pull};
 use super::places::{Lists, Place, Spot, in_chunks, in_chunks_of};
+use super::spots::Spots;
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
+use crate::math::column::Column;
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, Simd, vectored};
 use crate::state::particles::Particles;
@@ -33,7 +37,7 @@ pub(crate) fn solve<const LAW: u8>(
     grid: &Rows,
     range: Range<usize>,
     links: &mut Links,
-    ends: &[Vec<f32>; 2],
+    ends: &[Column; 2],
     p: &mut Particles,
     scale: f32,
 ) {
@@ -65,8 +69,9 @@ pub(crate) fn solve_rows<const LAW: u8>(
     if level == Level::Scalar {
         return rows.iter().for_each(|row| solve_apart::<LAW>(row, 0, sheet, scale));
     }
-    for rows in rows.chunk_by(|one, next| one.pattern == next.pattern) {
-        let [solve_whole, solve_torn] = match (LAW, rows[0].pattern) {
+    let mut left = rows;
+    while let Some(first) = left.first() {
+        let [solve_whole, solve_torn] = match (LAW, first.pattern) {
             (SOFT, Pattern::Straight) => [soft_straight, torn_soft_straight],
             (SOFT, Pattern::Pairs) => [soft_pairs, torn_soft_pairs],
             (SOFT, Pattern::Quads) => [soft_quads, torn_soft_quads],
@@ -77,14 +82,30 @@ pub(crate) fn solve_rows<const LAW: u8>(
             (_, Pattern::Pairs) => [bound_pairs, torn_bound_pairs],
             (_, Pattern::Quads) => [bound_quads, torn_bound_quads],
         };
-        solve_whole(level, rows, sheet, scale);
-        if rows.iter().any(|row| row.is_torn) {
-            solve_torn(level, rows, sheet, scale);
+        let mut pass = Pass { rows: left.len(), ..Pass::default() };
+        solve_whole(level, left, sheet, scale, &mut pass);
+        let rows;
+        (rows, left) = left.split_at(pass.rows);
+        if pass.has_torn {
+            solve_torn(level, rows, sheet, scale, &mut pass);
         }
-        for row in rows.iter().filter(|row| in_chunks(row) < row.count as usize) {
-            solve_apart::<LAW>(row, in_chunks(row), sheet, scale);
+        if pass.has_apart {
+            for row in rows.iter().filter(|row| in_chunks(row) < row.count as usize) {
+                solve_apart::<LAW>(row, in_chunks(row), sheet, scale);
+            }
         }
     }
+}
+
+/// What a kernel went through, and what it left to others.
+#[derive(Default)]
+struct Pass {
+    /// How many rows, all of its pattern.
+    rows: usize,
+    /// Whether some of them are torn.
+    has_torn: bool,
+    /// Whether some have links that go one by one.
+    has_apart: bool,
 }
 
 /// Functions for each law and pattern: together they would be too long for engines to compile well.
@@ -92,7 +113,7 @@ macro_rules! kernels {
     ($($name:ident: $solve:ident $law:ident $pattern:ident;)*) => {$(
         vectored! {
             #[inline(never)]
-            fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32)
+            fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
                 = $solve::<_, $law, $pattern>, Avx512, none
         }
     )*};
@@ -120,19 +141,31 @@ kernels! {
 }
 
 /// Without vectors there are no chunks.
-fn none(_: &[Row], _: &mut Sheet<'_>, _: f32) {}
+fn none(_: &[Row], _: &mut Sheet<'_>, _: f32, _: &mut Pass) {}
 
-/// The rows that no link has left.
+/// The rows that no link has left, as far as all are of the pattern.
 #[inline(always)]
 fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     rows: &[Row],
     sheet: &mut Sheet<'_>,
     scale: f32,
+    pass: &mut Pass,
 ) {
     let lists = Lists::of(sheet);
-    for row in rows.iter().filter(|row| !row.is_torn) {
+    let mut have_ends = false;
+    for (number, row) in rows.iter().enumerate() {
+        if row.pattern as u8 != PATTERN {
+            pass.rows = number;
+            break;
+        }
         let count = in_chunks_of::<PATTERN>(row);
+        pass.has_apart |= count < row.count as usize;
+        if row.is_torn {
+            pass.has_torn = true;
+            continue;
+        }
+        have_ends |= !count.is_multiple_of(S::LANES);
         let start = lists.spot::<PATTERN>(row, count);
         let (mut spot, end) = (start, start.link + count);
         let even = row.even.map(|link| (link.max(row.first) - row.first) as usize);
@@ -145,8 +178,13 @@ fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
                 solve_run::<S, LAW, PATTERN, true>(s, &lists, &mut spot, even[1], scale);
             }
             solve_run::<S, LAW, PATTERN, false>(s, &lists, &mut spot, end, scale);
-            solve_end::<S, LAW, PATTERN, false>(s, &lists, [start, spot], count, scale);
+            if PATTERN != STRAIGHT {
+                solve_end::<S, LAW, PATTERN, false>(s, &lists, [start, spot], count, scale);
+            }
         }
+    }
+    if PATTERN == STRAIGHT && have_ends {
+        solve_ends::<S, LAW, false>(s, &rows[..pass.rows], &lists, scale);
     }
 }
 
@@ -157,6 +195,7 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     rows: &[Row],
     sheet: &mut Sheet<'_>,
     scale: f32,
+    _: &mut Pass,
 ) {
     let lists = Lists::of(sheet);
     for row in rows.iter().filter(|row| row.is_torn) {
@@ -170,8 +209,30 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
                 solve_chunk::<S, LAW, PATTERN, true, false>(s, place, 0, scale);
                 spot = spot.after::<PATTERN>(S::LANES);
             }
-            solve_end::<S, LAW, PATTERN, true>(s, &lists, [start, spot], count, scale);
+            if PATTERN != STRAIGHT {
+                solve_end::<S, LAW, PATTERN, true>(s, &lists, [start, spot], count, scale);
+            }
         }
+    }
+    if PATTERN == STRAIGHT {
+        solve_ends::<S, LAW, true>(s, rows, &lists, scale);
+    }
+}
+
+/// The ends of rows that are straight: torn ones or whole ones.
+#[inline(always)]
+fn solve_ends<S: Simd, const LAW: u8, const ARE_TORN: bool>(
+    s: S,
+    rows: &[Row],
+    lists: &Lists,
+    scale: f32,
+) {
+    for row in rows.iter().filter(|row| row.is_torn == ARE_TORN) {
+        let count = in_chunks_of::<STRAIGHT>(row);
+        let start = lists.spot::<STRAIGHT>(row, count);
+        let spot = start.after::<STRAIGHT>(count - count % S::LANES);
+        // SAFETY: the row was just found to lie within the lists.
+        unsafe { solve_end::<S, LAW, STRAIGHT, ARE_TORN>(s, lists, [start, spot], count, scale) };
     }
 }
 
@@ -285,7 +346,7 @@ unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: boo
     unsafe {
         if lists.have_room::<PATTERN>(spot, S::LANES) {
             let place = lists.place(spot);
-            solve_start::<S, LAW, PATTERN, CHOOSY>(s, place, count - done, scale);
+            solve_first::<S, LAW, PATTERN, CHOOSY>(s, place, count - done, scale);
         } else {
             solve_rest::<S, LAW, PATTERN>(s, lists.place(start), done, count, scale);
         }
@@ -293,13 +354,12 @@ unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: boo
 }
 
 /// Solves the `left` first links of a chunk that reaches over the end of its row, with no more
-/// lanes than it takes. Nothing beyond is written to, not even what it was: what follows would have
-/// to wait for that.
+/// lanes than it takes, and leaves what is beyond as it is.
 ///
 /// # Safety
-/// There is as much in the lists; nobody writes to what is beyond the row.
+/// There is as much in the lists; nobody else reads or writes what is beyond the row.
 #[inline(always)]
-unsafe fn solve_start<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+unsafe fn solve_first<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
     s: S,
     place: Place,
     left: usize,
@@ -310,14 +370,19 @@ unsafe fn solve_start<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: b
     unsafe {
         if few < S::LANES && left <= few {
             let half = s.half();
-            return solve_start::<S::Half, LAW, PATTERN, CHOOSY>(half, place, left, scale);
+            return solve_first::<S::Half, LAW, PATTERN, CHOOSY>(half, place, left, scale);
         }
         if left == S::LANES {
             return solve_chunk::<S, LAW, PATTERN, CHOOSY, false>(s, place, 0, scale);
         }
         let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, scale);
         let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, 0) } else { chunk };
-        chunk.store_first::<LAW, PATTERN>(s, place, left);
+        if PATTERN == STRAIGHT {
+            // The lower ends are stored first: the upper ones may be among what is beyond.
+            chunk.only_first::<LAW, PATTERN>(s, place, left).store::<LAW, PATTERN>(s, place);
+        } else {
+            chunk.store_first::<LAW, PATTERN>(s, place, left);
+        }
     }
 }
 

@@ -143,18 +143,8 @@ pub(crate) fn given_by<S: Simd, G: Give>(
     rest_areas: &Lanes,
     give: G,
 ) -> [Lanes; 3] {
-    let nothing = [[0.0; LANES]; 3];
-    let (mut x, mut air) = ([nothing; 3], [nothing; 3]);
-    for (lane, corners) in triangles.iter().take(LANES).enumerate() {
-        for (corner, v) in corners.iter().enumerate() {
-            let (at, wind) = (surface.x.at(*v as usize), surface.air.at(*v as usize));
-            for axis in 0..3 {
-                x[corner][axis][lane] = at[axis];
-                air[corner][axis][lane] = wind[axis];
-            }
-        }
-    }
-    let mut given = nothing;
+    let (x, air) = (gather(surface.x, triangles), gather(surface.air, triangles));
+    let mut given = [[0.0; LANES]; 3];
     for first in (0..LANES).step_by(S::LANES) {
         let (x, air) = (corners(s, &x, first), corners(s, &air, first));
         let some = give.give(s, x, air, s.load(rest_areas, first));
@@ -163,6 +153,25 @@ pub(crate) fn given_by<S: Simd, G: Give>(
         }
     }
     given
+}
+
+/// What is known of the corners of up to eight triangles.
+#[inline(always)]
+fn gather(of: &Columns, triangles: &[[u32; 3]]) -> [[Lanes; 3]; 3] {
+    // All as long as each other, so that one check does for all.
+    let count = of.x.len();
+    let of = [&of.x[..count], &of.y[..count], &of.z[..count]];
+    let mut found = [[[0.0; LANES]; 3]; 3];
+    for corner in 0..3 {
+        for lane in 0..LANES {
+            // Where there are fewer, the last one fills up.
+            let v = triangles[lane.min(triangles.len() - 1)][corner] as usize;
+            for axis in 0..3 {
+                found[corner][axis][lane] = of[axis][v];
+            }
+        }
+    }
+    found
 }
 
 #[inline(always)]

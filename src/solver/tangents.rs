@@ -17,7 +17,10 @@ use glam::{Vec2, Vec3};
 /// The sums over triangles, each vertex's direction still to be made square to its normal.
 #[derive(Debug)]
 pub(crate) struct Tangents {
+    capacity: usize,
     uvs: Columns,
+    /// Where the vertices are, if there are seams.
+    x: Columns,
     sums: Columns,
     /// Of each vertex, 1 or -1.
     hands: Vec<f32>,
@@ -31,7 +34,9 @@ impl Tangents {
     /// Room for `capacity` vertices.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
+            capacity,
             uvs: Columns::with_capacity(capacity),
+            x: Columns::default(),
             sums: Columns::with_capacity(capacity),
             hands: Vec::with_capacity(capacity),
             follows: false,
@@ -39,8 +44,11 @@ impl Tangents {
         }
     }
 
-    /// Bytes that one vertex takes.
-    pub const BYTES_EACH: usize = size_of::<[f32; 7]>();
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let of_seams = if self.x.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
+        self.capacity * (size_of::<[f32; 7]>() + of_seams)
+    }
 
     /// Tells of a change of positions.
     pub fn moved(&mut self) {
@@ -58,19 +66,28 @@ impl Tangents {
         self.share == Some(share)
     }
 
-    /// Sums up the surface at `x`, which is at a share between two ticks.
+    /// Sums up the surface whose particles are at `x`, which is at a share between two ticks.
     pub fn follow(&mut self, world: &World, uvs: &[Vec2], x: &Columns, share: f32) {
         if !self.follows {
-            self.take(&world.mesh.triangles, uvs);
+            self.take(world.faces(), uvs);
             self.follows = true;
         }
         self.share = Some(share);
+        // Vertices that share a particle lie elsewhere in the texture, so they are summed up by themselves.
+        let (x, cells) = match &world.seams {
+            Some(seams) => {
+                self.x.reserve(self.capacity);
+                self.x.set_all(seams.particles.iter().map(|particle| x.at(*particle as usize)));
+                (&self.x, None)
+            }
+            None => (x, world.cells.as_ref()),
+        };
         self.sums.copy_from(x);
         self.sums.fill(Vec3::ZERO);
         let surface = Surface {
-            triangles: &world.mesh.triangles,
+            triangles: world.faces(),
             areas: &world.corner_area,
-            cells: world.cells.as_ref(),
+            cells,
             x,
             air: &self.uvs,
         };

@@ -353,8 +353,16 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
         world.refresh_weight(vertex);
     }
     let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.at(at));
-    (event.vertex, event.source) = (new, from);
-    world.events.push(event);
+    let events = &mut world.events;
+    let mut tell = |vertex, source| {
+        (event.vertex, event.source) = (vertex, source);
+        events.push(event);
+    };
+    match &mut world.seams {
+        // The last fan that was weighed is the new one.
+        Some(seams) => seams.part(new, &fan.corners, tell),
+        None => tell(new, from),
+    }
 }
 
 /// The mass of a vertex from the triangles it has left, added up in their order.
@@ -422,10 +430,9 @@ fn tell_pieces(world: &mut World, pieces: &mut Pieces, count: u32) {
         if pieces.stays[*old as usize] == *label {
             continue;
         }
-        let vertex = world.mesh.triangles[at][0];
-        let place = world.particles.x.at(vertex as usize);
+        let place = world.particles.x.at(world.mesh.triangles[at][0] as usize);
         let mut event = Event::new(EventKind::PieceDetached, world.tick, place);
-        (event.vertex, event.count) = (vertex, size(*label));
+        (event.vertex, event.count) = (world.vertex(3 * at as u32), size(*label));
         world.events.push(event);
     }
 }

@@ -115,6 +115,15 @@ pub(crate) fn load(to: &mut [Numbers], columns: &[&[f32]], first: usize, count: 
     }
 }
 
+/// As `load`, from the entries `at`.
+pub(crate) fn gather(to: &mut [Numbers], columns: &[&[f32]], at: &[u32]) {
+    for (numbers, column) in to.iter_mut().zip(columns) {
+        for (number, at) in numbers.iter_mut().zip(at) {
+            *number = column[*at as usize];
+        }
+    }
+}
+
 leveled! {
     fn add(x: &mut Vectors, along: &Vectors, distance: f32) = add_lanes
 }

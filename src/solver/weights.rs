@@ -8,6 +8,7 @@ use super::World;
 use super::links::{is_rigid, over_mean};
 use crate::fabric::links::{LinkKind, Links};
 use crate::fabric::rows::Rows;
+use crate::math::column::Column;
 use core::ops::Range;
 
 /// The weights at the ends of links.
@@ -17,7 +18,7 @@ pub(crate) struct Weights {
     w: Vec<f32>,
     /// … and which kinds were rigid then.
     rigid: [bool; 3],
-    pub ends: [Vec<f32>; 2],
+    pub ends: [Column; 2],
     /// Whether both ends of a link weigh the same, and not nothing.
     pub is_even: Vec<bool>,
 }
@@ -27,26 +28,28 @@ impl Weights {
     pub fn reserve(&mut self, particles: usize, links: usize) {
         self.w.reserve_exact(particles.saturating_sub(self.w.len()));
         for list in &mut self.ends {
-            list.reserve_exact(links.saturating_sub(list.len()));
+            list.reserve(links);
         }
         self.is_even.reserve_exact(links.saturating_sub(self.is_even.len()));
     }
 }
 
-/// Weighs all ends anew if any particle's inverse mass changed, or a vertex split.
+/// Weighs all ends anew if any particle's inverse mass changed, or loose links were gathered.
 pub(crate) fn weigh(world: &mut World) {
     let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
     let rigid = kinds.map(|kind| is_rigid(world, kind));
     let (weave, weights) = (&mut world.weave, &mut world.scratch.weights);
     let w = &world.particles.w;
-    if weights.w == *w && weights.rigid == rigid {
+    let rows_are_weighed = weave.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
+    let are_weighed = weave.loose.is_weighed() && rows_are_weighed;
+    if weights.w == *w && weights.rigid == rigid && are_weighed {
         return;
     }
     weights.w.clear();
     weights.w.extend_from_slice(w);
     weights.rigid = rigid;
     let count = weave.links.len();
-    weights.ends.iter_mut().for_each(|list| list.resize(count, 0.0));
+    weights.ends.iter_mut().for_each(|list| list.resize(count));
     weights.is_even.resize(count, false);
     for batch in &weave.batches {
         let range = batch.first..batch.first + batch.count;
@@ -54,17 +57,23 @@ pub(crate) fn weigh(world: &mut World) {
     }
     if let Some(rows) = &mut weave.rows {
         find_even(rows, &weights.is_even);
+        rows.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
     }
+    weave.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
 }
 
 impl Weights {
     fn fill(&mut self, links: &Links, range: Range<usize>, is_rigid: bool) {
         for link in range {
-            let ends = [links.a[link], links.b[link]].map(|end| self.w[end as usize]);
-            let [a, b] = if is_rigid { over_mean(ends) } else { ends };
+            let [a, b] = self.of([links.a[link], links.b[link]], is_rigid);
             (self.ends[0][link], self.ends[1][link]) = (a, b);
             self.is_even[link] = a == b && a > 0.0;
         }
+    }
+
+    fn of(&self, ends: [u32; 2], is_rigid: bool) -> [f32; 2] {
+        let ends = ends.map(|end| self.w[end as usize]);
+        if is_rigid { over_mean(ends) } else { ends }
     }
 }
 

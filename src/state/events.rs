@@ -10,7 +10,8 @@ use std::collections::VecDeque;
 pub enum EventKind {
     /// The edge between `particle_a` and `particle_b` tore.
     EdgeTorn = 0,
-    /// `vertex` was split off from `source`.
+    /// `vertex` was split off from `source`. Where a particle with several vertices was split between them,
+    /// so that none had to be: both are the lowest vertex that went to the new particle.
     VertexSplit = 1,
     /// A piece of `count` triangles, one of them at `vertex`, came off.
     PieceDetached = 2,
@@ -21,11 +22,13 @@ pub enum EventKind {
     /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
     /// `particle_a` and `particle_b`. Told once, until the bound holds again.
     HeldApart = 5,
-    /// A cut made `vertex` on the edge between `particle_a` and `particle_b`.
+    /// A cut made `vertex` on the edge between `particle_a` and `particle_b`; and, if they are different
+    /// vertices on either side of that edge, the one after it for the other side.
     EdgeDivided = 6,
 }
 
-/// Something that happened in a tick. Fields that its kind does not mention are 0.
+/// Something that happened in a tick. Fields that its kind does not mention are 0. `particle_a` and
+/// `particle_b` are particles, `vertex` and `source` are vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
     /// What happened.

@@ -45,6 +45,10 @@ pub struct Settings {
     pub tearing: bool,
     /// Vertices that tearing may split in one tick, the worst first; 8. At least 1.
     pub max_tears_per_tick: u32,
+    /// A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at
+    /// next to no cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the
+    /// sine field keep a cloth awake. See [`Stats::asleep`](crate::Stats).
+    pub sleep_speed: f32,
 }
 
 /// How parts of a cloth keep apart.
@@ -78,6 +82,7 @@ impl Default for Settings {
             self_distance: 0.0,
             tearing: false,
             max_tears_per_tick: 8,
+            sleep_speed: 0.0,
         }
     }
 }
@@ -106,6 +111,7 @@ impl Settings {
             "be at least 0 and finite",
         )?;
         check(self.max_tears_per_tick >= 1, "settings.max_tears_per_tick", "be at least 1")?;
+        check(not_negative(self.sleep_speed), "settings.sleep_speed", "be at least 0 and finite")?;
         if self.self_collision == SelfCollision::Surface {
             return Err(Error::Unsupported { what: "`settings.self_collision` of surfaces" });
         }

@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod elastica;
+pub mod garments;
 pub mod shapes;
 pub mod strip;
 

@@ -13,6 +13,7 @@ import init, {
   type Hit,
   type Material,
   type MeshDesc,
+  type MeshReport,
   type Preset,
   type Settings,
   type Stage,
@@ -100,7 +101,11 @@ cloth.advance("1");
 const clocks: number = cloth.time + cloth.blend + ticks;
 
 const floats: Float32Array[] = [cloth.positions, cloth.normals, cloth.uvs];
-const wholes: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.pinned];
+const wholes: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.vertexParticles, cloth.pinned];
+const report: Readonly<MeshReport> = other.meshReport;
+const repaired: number = report.weldedVertices + report.turnedTriangles + Number(report.isGrid);
+// @ts-expect-error: what was read does not change the mesh
+report.pieces = 2;
 // @ts-expect-error: a view is asked for, not given
 cloth.positions = new Float32Array(3);
 const sizes: number = cloth.vertexCapacity + cloth.indexCapacity;
@@ -114,6 +119,7 @@ cloth.setPinTargets([0, 1], new Float32Array(6));
 cloth.setPosition(5, [0, 0, 0]);
 cloth.setVelocity(5, new Float64Array(3));
 const velocity: Vec3 = cloth.velocity(5);
+const place: Vec3 = cloth.position(5);
 const mass: number = cloth.mass(5);
 // @ts-expect-error: a place has three numbers
 cloth.pin(0, "here");
@@ -191,5 +197,5 @@ cloth.writeVertices([{ attribute: "uv", buffer: [0, 0] }]);
 cloth.writeIndices(new Float32Array(3));
 
 export { clocks, floats, geometry, hash, held, isFreed, kept, loaded, mass, material, moved, other };
-export { revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };
+export { place, repaired, revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };
 export { writtenIndices, writtenVertices };

@@ -7,7 +7,7 @@ import init, { Cloth } from "muslin";
 
 await init();
 
-const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices", "frayed"];
+const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices", "vertexParticles", "frayed"];
 
 /** Makes cloths until the memory has grown under a view that is held. */
 function growMemory(view) {
@@ -215,6 +215,7 @@ test("what is read is a copy of its own and cannot be changed by mistake", () =>
   });
   assert.deepEqual([stats.particles, stats.triangles, stats.pieces, stats.ticks], [1600, 3042, 1, 0]);
   assert.equal(stats.constraints, stats.activeConstraints);
+  assert.equal(stats.asleep, false);
   assert.ok(stats.bytes > 100_000);
 });
 
@@ -245,6 +246,18 @@ test("stages are timed when asked for", () => {
   assert.equal(cloth.timing, true);
   assert.ok(total() > 0 && total() <= wall * 1.01, `${total()} s of ${wall} s`);
   assert.ok(cloth.stats.seconds.stretch > 0);
+});
+
+test("a cloth at rest sleeps, and wakes by a touch", () => {
+  const cloth = Cloth.grid({ columns: 10, rows: 10, settings: { sleepSpeed: 0.01 } });
+  cloth.step(600);
+  assert.equal(cloth.stats.asleep, true);
+  const { stateRevision } = cloth;
+  cloth.step(10);
+  assert.equal(cloth.stateRevision, stateRevision);
+  cloth.setVelocity(55, [0, 0, 1]);
+  cloth.step(1);
+  assert.equal(cloth.stats.asleep, false);
 });
 
 test("rays hit what they point at and grabs hold it", () => {

@@ -18,11 +18,11 @@ after(() => browser?.close());
  * A page that runs, with the help out of the way; `prepare(page)` comes before it loads. A busy machine
  * without a graphics card draws slowly, so the page is small and patience long.
  */
-export async function visit(options, prepare) {
+export async function visit({ path = "", ...options } = {}, prepare) {
   const visit = await open(browser, { viewport: { width: 700, height: 394 }, ...options });
   visit.page.setDefaultTimeout(180_000);
   await prepare?.(visit.page);
-  await visit.page.goto(url);
+  await visit.page.goto(new URL(path, url).href);
   return visit;
 }
 
@@ -34,12 +34,17 @@ export async function visitRunning({ uncovered, ...options } = {}, prepare) {
   return visited;
 }
 
-export async function running({ page, complaints }) {
+export async function running(visited) {
+  await started(visited);
+  await visited.page.locator("#dismiss").click();
+}
+
+/** Waits until a page draws, and fails with what it says if it does not. */
+export async function started({ page, complaints }) {
   const state = () => document.documentElement.dataset.state;
   await page.waitForFunction(state, null, { timeout: 180_000 }).catch(() => {});
   const reason = await page.locator("#reason").textContent();
   assert.equal(await page.evaluate(state), "running", `${reason} ${complaints.join("; ")}`);
-  await page.locator("#dismiss").click();
 }
 
 export const stats = (page) => page.evaluate(() => window.muslinDemo.stats());

@@ -7,6 +7,7 @@ import { test } from "node:test";
 import { variable } from "./browser.mjs";
 import "./demo-panel.test.mjs";
 import "./demo-robust.test.mjs";
+import "./tender.test.mjs";
 import { MIDDLE, apart, becomes, eye, fingers, frames, hash, particle, running, settings, stats, visitRunning } from "./demo-visit.mjs";
 
 const shots = variable("MUSLIN_SHOTS");

@@ -11,6 +11,7 @@ use crate::types::grid::MuslinGridDesc;
 use crate::types::hit::MuslinHit;
 use crate::types::material::MuslinMaterial;
 use crate::types::mesh::MuslinMeshDesc;
+use crate::types::mesh_report::MuslinMeshReport;
 use crate::types::settings::MuslinSettings;
 use crate::types::stats::{MUSLIN_STAGE_SLOTS, MuslinStats};
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
@@ -218,18 +219,19 @@ macro_rules! growing {
 }
 
 growing! {
-    MuslinSettings from tearing[4] to max_tears_per_tick[4], "muslin_settings_init";
+    MuslinSettings from tearing[4] to sleep_speed[4], "muslin_settings_init";
     MuslinMaterial from yield_creep[4] to fold_length[4], "muslin_material_init";
     MuslinWind from seed[4] to seed[4], "muslin_wind_init";
     MuslinColliderDesc from restitution[4] to heights[size_of::<*const f32>()],
         "muslin_collider_desc_init";
     MuslinEvent from source[4] to count[4], "muslin_event_init";
     MuslinHit from normal[12] to normal[12], "muslin_hit_init";
-    MuslinView from state_revision[4] to frayed[size_of::<*const u8>()], "muslin_view_init";
+    MuslinView from state_revision[4] to particles[size_of::<*const u32>()], "muslin_view_init";
+    MuslinMeshReport from is_grid[4] to is_grid[4], "muslin_mesh_report_init";
     MuslinChanges from index_count[4] to index_count[4], "muslin_changes_init";
     MuslinStream from size[size_of::<usize>()] to size[size_of::<usize>()], "muslin_stream_init";
     MuslinWriteDesc from offset[4] to offset[4], "muslin_write_desc_init";
-    MuslinStats from seconds[4 * MUSLIN_STAGE_SLOTS] to over_stretched[4], "muslin_stats_init";
+    MuslinStats from seconds[4 * MUSLIN_STAGE_SLOTS] to max_speed[4], "muslin_stats_init";
 }
 
 /// No struct ever grows beyond this [B]: whatever says so was never begun.

@@ -8,7 +8,7 @@ const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
 /// The files with items of the header, in its order: types that others hold first, then functions by
 /// theme.
-const FILES: [&str; 26] = [
+const FILES: [&str; 27] = [
     "status.rs",
     "log.rs",
     "types/value.rs",
@@ -16,6 +16,7 @@ const FILES: [&str; 26] = [
     "types/settings.rs",
     "types/grid.rs",
     "types/mesh.rs",
+    "types/mesh_report.rs",
     "types/wind.rs",
     "types/collider.rs",
     "types/hit.rs",

@@ -3,7 +3,7 @@
 import type { Vec3, Vec3Like } from "./check.js";
 import type { ColliderDesc, GridDesc, Material, MaterialLike, MeshDesc, Settings, Wind } from "./fields.js";
 import type { Collider, Grab } from "./handles.js";
-import type { Changes, ClothEvent, Hit, Stats } from "./reports.js";
+import type { Changes, ClothEvent, Hit, MeshReport, Stats } from "./reports.js";
 import type { Stream, WriteDesc } from "./write.js";
 
 /** A piece of cloth. */
@@ -18,9 +18,9 @@ export class Cloth {
   static grid(desc?: GridDesc): Cloth;
 
   /**
-   * Makes a cloth from any triangle mesh.
+   * Makes a cloth from any triangle mesh. What cannot be cloth in it is repaired, see `meshReport`.
    *
-   * @throws if a field cannot be, or the mesh cannot be cloth; says where
+   * @throws if a field cannot be, or the mesh is beyond repair: an area is not finite, or no triangle has any
    */
   static mesh(desc: MeshDesc): Cloth;
 
@@ -67,7 +67,7 @@ export class Cloth {
   set wind(wind: Partial<Wind>);
 
   /**
-   * Positions of the particles, x y z x y z … [m].
+   * Positions of the vertices, x y z x y z … [m].
    *
    * This and the other lists are views of the module's own memory: read them, and do not write to them.
    * Ask anew each frame, which is cheap: what you are given is live. One that you keep follows the cloth
@@ -88,6 +88,15 @@ export class Cloth {
    * at the borders that the cloth was made with among them.
    */
   readonly frayed: Uint8Array;
+  /**
+   * The particle of each vertex. A mesh that was welded or had sheets to be parted has several vertices to a
+   * particle; else each vertex is the particle of its number. Positions, normals, uvs, source vertices, frayed
+   * borders and indices are those of vertices. Calls that touch the cloth (pins, grabs, tears by hand, positions and
+   * velocities) take particles, and what a ray hits tells one. Triangles have the same numbers in both.
+   */
+  readonly vertexParticles: Uint32Array;
+  /** What had to be repaired of the mesh that it was made of; nothing of a grid. */
+  readonly meshReport: Readonly<MeshReport>;
   /** How many vertices there may ever be. */
   readonly vertexCapacity: number;
   /** How many indices there may ever be. */
@@ -125,6 +134,8 @@ export class Cloth {
     options?: { flip?: boolean; baseVertex?: number },
   ): number;
 
+  /** Where a particle is [m]. */
+  position(particle: number): Vec3;
   /** Velocity of a particle [m/s]. */
   velocity(particle: number): Vec3;
   /** Mass of a particle [kg]. */

@@ -5,7 +5,7 @@ import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from 
 import { ready } from "./memory.js";
 import * as fields from "./fields.js";
 import { Collider, Grab, OURS, onlyOurs } from "./handles.js";
-import { readChanges, readEvents, readHit, readStats } from "./reports.js";
+import { readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
 import { writeIndices, writeVertices } from "./write.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
@@ -172,6 +172,15 @@ export class Cloth {
     return this.#view("frayed", Uint8Array, live.frayed_ptr(), live.vertex_count());
   }
 
+  get vertexParticles() {
+    const live = this.#live;
+    return this.#view("particles", Uint32Array, live.vertex_particles_ptr(), live.vertex_count());
+  }
+
+  get meshReport() {
+    return readMeshReport(this.#live.mesh_report());
+  }
+
   changes(sinceTopologyRevision) {
     const since = whole(sinceTopologyRevision, "sinceTopologyRevision");
     return readChanges(this.#live.changes(since));
@@ -212,6 +221,10 @@ export class Cloth {
   }
 
   // Particles
+
+  position(particle) {
+    return Array.from(this.#live.position(whole(particle, "particle")));
+  }
 
   velocity(particle) {
     return Array.from(this.#live.velocity(whole(particle, "particle")));

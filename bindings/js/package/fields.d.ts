@@ -44,6 +44,12 @@ export interface Settings {
   tearing: boolean;
   /** Vertices that tearing may split in one tick, the worst first; 8. At least 1. */
   maxTearsPerTick: number;
+  /**
+   * A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at next to no
+   * cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the sine field keep a
+   * cloth awake. See `asleep` of the stats.
+   */
+  sleepSpeed: number;
 }
 
 /** What a cloth is made of, in SI units. */
@@ -156,17 +162,33 @@ export interface GridDesc extends ClothDesc {
   pinMode?: "none" | "top-edge" | "top-corners" | "corners";
 }
 
-/** Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point. */
+/**
+ * Any triangle mesh, as artists export them. What cannot be cloth in it is repaired, and `meshReport` tells what
+ * was: doubled vertices are welded, triangles without an area and repeated ones dropped; where more than two
+ * triangles share an edge the flattest two stay joined and the others get an edge of their own; sheets that meet at
+ * a mere point are parted; the triangles of a piece are turned to face as most of them do. Vertices that no
+ * triangle uses stay where they are.
+ *
+ * A mesh that is a regular grid, its vertices and triangles in the order that `Cloth.grid` has them, is woven as
+ * that grid is: it moves in the same bits.
+ */
 export interface MeshDesc extends ClothDesc {
-  /** Where the vertices are at rest, x y z x y z … [m]; particle = vertex. */
+  /**
+   * Where the vertices are at rest, x y z x y z … [m]. Each is the particle of its number if nothing is welded or
+   * split, see `vertexParticles`.
+   */
   positions: Float32Array | Float64Array | readonly number[];
   /** Three vertices a triangle, counter-clockwise seen from its front. */
   indices: Uint32Array | Uint16Array | readonly number[];
   /** Texture coordinates, u v u v …, one pair a vertex; or none at all. */
   uvs?: Float32Array | Float64Array | readonly number[];
-  /** Vertices that are pinned from the start; none. */
+  /** Vertices whose particles are pinned from the start; none. */
   pinned?: Uint32Array | Uint16Array | readonly number[];
-  /** Vertices nearer to each other than this are one [m]; −1 leaves all apart. No other yet. */
+  /**
+   * Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, −1 (or anything
+   * below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one before it that stayed
+   * apart; but the corners of a triangle stay apart, however small it is. Keep it well below the shortest edge.
+   */
   weldDistance?: number;
 }
 

@@ -38,6 +38,7 @@ export const SETTINGS = {
   selfDistance: NUMBER,
   tearing: FLAG,
   maxTearsPerTick: WHOLE,
+  sleepSpeed: NUMBER,
 };
 
 export const MATERIAL = {

@@ -20,7 +20,10 @@ export interface Hit {
   normal: Vec3;
 }
 
-/** Something that happened in a tick, counted from creation or reset, at a place [m]. */
+/**
+ * Something that happened in a tick, counted from creation or reset, at a place [m]. `particleA` and `particleB`
+ * are particles, `vertex` and `source` are vertices, see `vertexParticles`.
+ */
 export type ClothEvent = { tick: number; position: Vec3 } & (
   | {
       /** The edge between the two tore. */
@@ -29,7 +32,10 @@ export type ClothEvent = { tick: number; position: Vec3 } & (
       particleB: number;
     }
   | {
-      /** `vertex` was split off from `source`. */
+      /**
+       * `vertex` was split off from `source`. Where a particle with several vertices was split between them, so
+       * that none had to be: both are the lowest vertex that went to the new particle.
+       */
       kind: "vertex-split";
       vertex: number;
       source: number;
@@ -60,7 +66,10 @@ export type ClothEvent = { tick: number; position: Vec3 } & (
       count: number;
     }
   | {
-      /** A cut made `vertex` on the edge between the two. */
+      /**
+       * A cut made `vertex` on the edge between the two; and, if they are different vertices on either side of
+       * that edge, the one after it for the other side.
+       */
       kind: "edge-divided";
       particleA: number;
       particleB: number;
@@ -89,7 +98,7 @@ export type Stage =
 
 /** Numbers about a cloth. */
 export interface Stats {
-  /** How many particles (vertices) there are. */
+  /** How many particles there are. */
   particles: number;
   /** How many triangles there are. */
   triangles: number;
@@ -111,6 +120,10 @@ export interface Stats {
   kineticEnergy: number;
   /** How many links are past `maxStretch`, if there is such a bound: pins or grabs hold them apart. */
   overStretched: number;
+  /** The speed of its fastest particle [m/s]. */
+  maxSpeed: number;
+  /** Whether it sleeps, see `sleepSpeed` of the settings. */
+  asleep: boolean;
   /** Memory that it holds [B], about. */
   bytes: number;
   /** Time that each stage took in the last call that ran ticks [s]; zeros unless `timing` is on. */
@@ -130,4 +143,40 @@ export interface Changes {
   firstIndex: number;
   /** How many indices from there on. */
   indexCount: number;
+}
+
+/**
+ * What had to be repaired of a mesh before it could be cloth, and what it is now. Repairs come in this order:
+ * vertices are welded, triangles without an area and repeated ones are dropped, edges and vertices where more than
+ * one sheet meets are split, triangles that face the other way are turned.
+ */
+export interface MeshReport {
+  /** Vertices that were given. */
+  vertices: number;
+  /** Triangles that were given. */
+  triangles: number;
+  /** Particles that came of it. */
+  particles: number;
+  /** Triangles that were kept. */
+  keptTriangles: number;
+  /** Vertices that joined another one's particle. */
+  weldedVertices: number;
+  /** Triangles that were dropped: they had no area, or named a vertex twice. */
+  droppedDegenerate: number;
+  /** Triangles that were dropped: an earlier one has the same corners. */
+  droppedDuplicates: number;
+  /** Triangles that were turned round, so that they face as their neighbours do. */
+  turnedTriangles: number;
+  /** Edges that had more than two triangles. */
+  splitEdges: number;
+  /** Particles that came to be where sheets were parted that met at such an edge or at a mere point. */
+  splitVertices: number;
+  /** Vertices that no triangle uses: particles without mass that stay where they are, unless welded. */
+  unusedVertices: number;
+  /** Pieces: sets of triangles joined by edges. */
+  pieces: number;
+  /** Pieces that have no two sides; a line is left across them where neighbours face opposite ways. */
+  oneSidedPieces: number;
+  /** Whether it is woven as the regular grid that it was found to be. */
+  isGrid: boolean;
 }

@@ -36,6 +36,8 @@ const STATS = [
   "meanStretch",
   "kineticEnergy",
   "overStretched",
+  "asleep",
+  "maxSpeed",
   "bytes",
 ];
 
@@ -48,6 +50,27 @@ export function readEvents(list) {
     events.push(event);
   }
   return events;
+}
+
+const REPORT = [
+  "vertices",
+  "triangles",
+  "particles",
+  "keptTriangles",
+  "weldedVertices",
+  "droppedDegenerate",
+  "droppedDuplicates",
+  "turnedTriangles",
+  "splitEdges",
+  "splitVertices",
+  "unusedVertices",
+  "pieces",
+  "oneSidedPieces",
+];
+
+export function readMeshReport(list) {
+  const report = Object.fromEntries(REPORT.map((name, at) => [name, list[at]]));
+  return Object.freeze({ ...report, isGrid: list[REPORT.length] !== 0 });
 }
 
 export function readChanges([firstVertex, vertexCount, firstIndex, indexCount]) {
@@ -63,5 +86,5 @@ export function readHit(list) {
 export function readStats(list, stageNames) {
   const stats = Object.fromEntries(STATS.map((name, at) => [name, list[at]]));
   const seconds = stageNames.split(" ").map((name, at) => [name, list[STATS.length + at]]);
-  return { ...stats, seconds: Object.fromEntries(seconds) };
+  return { ...stats, asleep: stats.asleep === 1, seconds: Object.fromEntries(seconds) };
 }

@@ -89,6 +89,7 @@ pub(crate) fn read_settings(list: &[f64]) -> Settings {
         self_distance: list.number(),
         tearing: list.switch(),
         max_tears_per_tick: list.count(),
+        sleep_speed: list.number(),
     }
 }
 
@@ -103,6 +104,7 @@ pub(crate) fn write_settings(settings: &Settings) -> Vec<f64> {
     list.number(settings.self_distance);
     list.switch(settings.tearing);
     list.count(settings.max_tears_per_tick);
+    list.number(settings.sleep_speed);
     list.0
 }
 

@@ -58,6 +58,32 @@ impl RawCloth {
         self.cloth.frayed().as_ptr().cast()
     }
 
+    /// Where the particles of the vertices are: u32.
+    pub fn vertex_particles_ptr(&self) -> *const u32 {
+        self.cloth.vertex_particles().as_ptr()
+    }
+
+    /// What had to be repaired of the mesh, in the order of the package's REPORT.
+    pub fn mesh_report(&self) -> Vec<u32> {
+        let report = self.cloth.mesh_report();
+        vec![
+            report.vertices,
+            report.triangles,
+            report.particles,
+            report.kept_triangles,
+            report.welded_vertices,
+            report.dropped_degenerate,
+            report.dropped_duplicates,
+            report.turned_triangles,
+            report.split_edges,
+            report.split_vertices,
+            report.unused_vertices,
+            report.pieces,
+            report.one_sided_pieces,
+            u32::from(report.is_grid),
+        ]
+    }
+
     /// What changed with the triangles since a revision: first vertex, how many, first index, how many.
     pub fn changes(&self, since_topology_revision: u32) -> Vec<u32> {
         let changes = self.cloth.changes(since_topology_revision);
@@ -82,6 +108,14 @@ impl RawCloth {
     /// Time since it was made or reset [s].
     pub fn time(&self) -> f64 {
         self.cloth.time()
+    }
+
+    /// Where a particle is.
+    pub fn position(&self, particle: u32) -> Result<Vec<f64>> {
+        let position = self.cloth.position(particle);
+        let mut list = Writer::default();
+        list.vector(position.ok_or_else(|| refusal(self.no_such(particle)))?);
+        Ok(list.0)
     }
 
     /// Velocity of a particle.
@@ -132,14 +166,15 @@ impl RawCloth {
         list.counts(&[stats.particles, stats.triangles, stats.constraints]);
         list.counts(&[stats.active_constraints, stats.pieces, stats.ticks]);
         list.numbers(&[stats.blend, stats.max_stretch, stats.mean_stretch, stats.kinetic_energy]);
-        list.counts(&[stats.over_stretched]);
+        list.counts(&[stats.over_stretched, u32::from(stats.asleep)]);
+        list.numbers(&[stats.max_speed]);
         list.0.push(stats.bytes as f64);
         list.numbers(&stats.seconds);
         list.0
     }
 
     fn no_such(&self, particle: u32) -> Error {
-        Error::BadIndex { field: "particle", index: particle, count: self.vertex_count() }
+        Error::BadIndex { field: "particle", index: particle, count: self.cloth.particle_count() }
     }
 }
 

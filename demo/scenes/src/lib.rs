@@ -3,11 +3,13 @@
 mod ball;
 mod flag;
 mod hanging_sheet;
+pub mod receipt;
 
 pub use ball::SheetOnBall;
 pub use flag::Flag;
 pub use hanging_sheet::HangingSheet;
 use muslin::Cloth;
+pub use receipt::{Receipt, Sheet};
 
 /// A cloth in a situation, and what must be seen there.
 pub trait Scene {

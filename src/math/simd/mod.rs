@@ -265,8 +265,9 @@ impl Level {
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512vl")
-            {
+            let is_widest = std::is_x86_feature_detected!("avx512f")
+                && std::is_x86_feature_detected!("avx512vl");
+            if is_widest && cfg!(not(muslin_at_most_avx2)) {
                 return Self::Avx512;
             }
             if std::is_x86_feature_detected!("avx2") {

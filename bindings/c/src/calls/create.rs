@@ -21,7 +21,7 @@ pub fn create(
     let status = guard(|| {
         let out_cloth = out_cloth?;
         let cloth = make()?;
-        let (particles, bytes) = (cloth.positions().len(), cloth.stats().bytes);
+        let (particles, bytes) = (cloth.particle_count(), cloth.stats().bytes);
         let handle = registry::insert(cloth)?;
         out_cloth.write(handle);
         made = Some((handle, particles, bytes));
@@ -53,11 +53,12 @@ pub unsafe extern "C" fn muslin_cloth_create_grid(
     })
 }
 
-/// Makes a cloth from any triangle mesh; its lists are copied. Destroy it with muslin_cloth_destroy.
+/// Makes a cloth from any triangle mesh; its lists are copied. What cannot be cloth in it is repaired, see
+/// muslin_cloth_get_mesh_report. Destroy it with muslin_cloth_destroy.
 ///
 /// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
-/// and the rule; MUSLIN_STATUS_BAD_MESH the first triangle or vertex that cannot be cloth;
-/// MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
+/// and the rule; MUSLIN_STATUS_BAD_MESH what is beyond repair: a triangle whose area is not finite, or that none
+/// has an area; MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_create_mesh(
     desc: *const MuslinMeshDesc,

@@ -4,6 +4,7 @@ use crate::boundary::{Out, Report};
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::changes::MuslinChanges;
+use crate::types::mesh_report::MuslinMeshReport;
 use crate::types::stats::MuslinStats;
 use crate::types::value::MuslinCloth;
 use crate::types::view::MuslinView;
@@ -39,6 +40,21 @@ pub unsafe extern "C" fn muslin_cloth_changes(
     let out = unsafe { Report::new("out_changes", out_changes) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.changes(since_topology_revision).into());
+        Ok(())
+    })
+}
+
+/// What had to be repaired of the mesh that the cloth was made of; nothing of a grid. `out_report` has begun with
+/// muslin_mesh_report_init.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_mesh_report(
+    cloth: MuslinCloth,
+    out_report: *mut MuslinMeshReport,
+) -> MuslinStatus {
+    // SAFETY: the caller's promise above.
+    let out = unsafe { Report::new("out_report", out_report) };
+    with_cloth(cloth, |cloth| {
+        out?.write(&cloth.mesh_report().into());
         Ok(())
     })
 }

@@ -5,7 +5,8 @@ use muslin_core::{Event, EventKind};
 
 /// The edge between `particle_a` and `particle_b` tore.
 pub const MUSLIN_EVENT_EDGE_TORN: u32 = 0;
-/// `vertex` was split off from `source`.
+/// `vertex` was split off from `source`. Where a particle with several vertices was split between them, so that
+/// none had to be: both are the lowest vertex that went to the new particle.
 pub const MUSLIN_EVENT_VERTEX_SPLIT: u32 = 1;
 /// A piece of `count` triangles, one of them at `vertex`, came off.
 pub const MUSLIN_EVENT_PIECE_DETACHED: u32 = 2;
@@ -16,10 +17,12 @@ pub const MUSLIN_EVENT_RESERVE_USED_UP: u32 = 4;
 /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
 /// `particle_a` and `particle_b`. Told once, until the bound holds again.
 pub const MUSLIN_EVENT_HELD_APART: u32 = 5;
-/// A cut made `vertex` on the edge between `particle_a` and `particle_b`.
+/// A cut made `vertex` on the edge between `particle_a` and `particle_b`; and, if they are different vertices on
+/// either side of that edge, the one after it for the other side.
 pub const MUSLIN_EVENT_EDGE_DIVIDED: u32 = 6;
 
-/// Something that happened in a tick. Fields that its kind does not mention are 0. Begin with
+/// Something that happened in a tick. Fields that its kind does not mention are 0. `particle_a` and `particle_b`
+/// are particles, `vertex` and `source` are vertices, see MuslinView's `particles`. Begin with
 /// muslin_event_init.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]

@@ -8,8 +8,17 @@ use crate::status::{Refusal, Result};
 use core::ptr;
 use muslin_core::MeshDesc;
 
-/// Any triangle mesh: every edge with one or two triangles, no two parts joined by a mere point.
-/// Begin with muslin_mesh_desc_init, then give it positions and indices.
+/// Any triangle mesh, as artists export them. Begin with muslin_mesh_desc_init, then give it positions and
+/// indices.
+///
+/// What cannot be cloth in it is repaired, and muslin_cloth_get_mesh_report tells what was: doubled vertices are
+/// welded, triangles without an area and repeated ones dropped; where more than two triangles share an edge the
+/// flattest two stay joined and the others get an edge of their own; sheets that meet at a mere point are parted;
+/// the triangles of a piece are turned to face as most of them do. Vertices that no triangle uses stay where they
+/// are.
+///
+/// A mesh that is a regular grid, its vertices and triangles in the order that muslin_cloth_create_grid has them,
+/// is woven as that grid is: it moves in the same bits.
 ///
 /// All lists are copied while the cloth is made. `material` and `settings` carry sizes of their own:
 /// replace them by structs that began with muslin_material_init and muslin_settings_init in the same
@@ -19,7 +28,8 @@ use muslin_core::MeshDesc;
 pub struct MuslinMeshDesc {
     /// Set by muslin_mesh_desc_init.
     pub struct_size: u32,
-    /// Where the vertices are at rest [m], 3 numbers a vertex; particle = vertex.
+    /// Where the vertices are at rest [m], 3 numbers a vertex. Each is the particle of its number if nothing is
+    /// welded or split, see MuslinView's `particles`.
     pub positions: *const f32,
     /// Bytes from one position to the next; 0, which is 12. A multiple of 4.
     pub position_stride: u32,
@@ -31,12 +41,14 @@ pub struct MuslinMeshDesc {
     pub index_count: u32,
     /// Texture coordinates, 2 numbers a vertex; or NULL: none.
     pub uvs: *const f32,
-    /// Vertices that are pinned from the start; or NULL: none.
+    /// Vertices whose particles are pinned from the start; or NULL: none.
     pub pinned: *const u32,
     /// How many `pinned` there are; 0. At most `vertex_count`.
     pub pinned_count: u32,
-    /// Vertices nearer to each other than this are one [m]; -1 leaves all apart. Nothing from 0 on is
-    /// supported yet.
+    /// Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, -1 (or
+    /// anything below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one before
+    /// it that stayed apart; but the corners of a triangle stay apart, however small it is. Keep it well below
+    /// the shortest edge.
     pub weld_distance: f32,
     /// Particles that tears may add; MUSLIN_AS_MANY_AGAIN.
     pub extra_particles: u32,

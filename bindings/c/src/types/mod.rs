@@ -7,6 +7,7 @@ pub mod grid;
 pub mod hit;
 pub mod material;
 pub mod mesh;
+pub mod mesh_report;
 pub mod settings;
 pub mod stats;
 pub mod stream;

@@ -59,6 +59,10 @@ pub struct MuslinSettings {
     pub tearing: u32,
     /// Vertices that tearing may split in one tick, the worst first; 8. At least 1.
     pub max_tears_per_tick: u32,
+    /// A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at
+    /// next to no cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the
+    /// sine field keep a cloth awake. See `asleep` of MuslinStats.
+    pub sleep_speed: f32,
 }
 
 impl Default for MuslinSettings {
@@ -84,6 +88,7 @@ impl From<&Settings> for MuslinSettings {
             self_distance: settings.self_distance,
             tearing: settings.tearing.into(),
             max_tears_per_tick: settings.max_tears_per_tick,
+            sleep_speed: settings.sleep_speed,
         }
     }
 }
@@ -106,6 +111,7 @@ impl TryFrom<MuslinSettings> for Settings {
             self_distance: settings.self_distance,
             tearing: switch(settings.tearing, "settings.tearing")?,
             max_tears_per_tick: settings.max_tears_per_tick,
+            sleep_speed: settings.sleep_speed,
         })
     }
 }

@@ -11,7 +11,7 @@ pub const MUSLIN_STAGE_SLOTS: usize = 31;
 pub struct MuslinStats {
     /// Set by muslin_stats_init.
     pub struct_size: u32,
-    /// How many particles (vertices) there are.
+    /// How many particles there are.
     pub particles: u32,
     /// How many triangles there are.
     pub triangles: u32,
@@ -41,6 +41,10 @@ pub struct MuslinStats {
     pub seconds: [f32; MUSLIN_STAGE_SLOTS],
     /// How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
     pub over_stretched: u32,
+    /// 1 if it sleeps, see `sleep_speed` of MuslinSettings.
+    pub asleep: u32,
+    /// The speed of its fastest particle [m/s].
+    pub max_speed: f32,
 }
 
 const _: () = assert!(Stage::COUNT <= MUSLIN_STAGE_SLOTS);
@@ -65,6 +69,8 @@ impl From<Stats> for MuslinStats {
             bytes: stats.bytes,
             seconds,
             over_stretched: stats.over_stretched,
+            asleep: stats.asleep.into(),
+            max_speed: stats.max_speed,
         }
     }
 }

@@ -15,7 +15,8 @@ pub struct MuslinView {
     pub struct_size: u32,
     /// Positions [m], 3 numbers a vertex.
     pub positions: *const f32,
-    /// Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses.
+    /// Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses. Vertices that
+    /// share a particle share its normal.
     pub normals: *const f32,
     /// Texture coordinates, 2 numbers a vertex.
     pub uvs: *const f32,
@@ -39,6 +40,13 @@ pub struct MuslinView {
     /// 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others,
     /// those at the borders that the cloth was made with among them. 1 byte a vertex.
     pub frayed: *const u8,
+    /// The particle of each vertex, 1 a vertex. A mesh that was welded or had sheets to be parted has several
+    /// vertices to a particle; else each vertex is the particle of its number.
+    ///
+    /// Calls that touch the cloth (pins, grabs, tears by hand, positions and velocities) take particles, and
+    /// what a ray hits tells one. Of an event, `particle_a` and `particle_b` are particles, `vertex` and `source`
+    /// are vertices. Triangles have the same numbers in both.
+    pub particles: *const u32,
 }
 
 impl Default for MuslinView {
@@ -57,6 +65,7 @@ impl Default for MuslinView {
             topology_revision: 0,
             state_revision: 0,
             frayed: ptr::null(),
+            particles: ptr::null(),
         }
     }
 }
@@ -77,6 +86,7 @@ impl From<View<'_>> for MuslinView {
             topology_revision: view.topology_revision,
             state_revision: view.state_revision,
             frayed: view.frayed.as_ptr().cast(),
+            particles: view.particles.as_ptr(),
         }
     }
 }

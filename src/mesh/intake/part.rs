@@ -1,0 +1,277 @@
+//! Parting: where more than two triangles share an edge, or sheets meet at a mere point, each sheet gets
+//! particles of its own.
+//!
+//! ```text
+//!   \ │ /          \   │   /
+//!    \│/     ─▶     \ ┌┘  /        an edge seen from its end
+//! ────●────      ────● ● ●────
+//! ```
+//! Of the triangles at such an edge the two that lie flattest stay joined, then the flattest two of the
+//! others, and so on; of equally flat ones the first. The sheet with the first triangle keeps the particle.
+
+use crate::mesh::{Corner, after, before, triangle_of};
+use glam::{DVec3, Vec3};
+
+/// So many triangles at an edge are looked at for such that lie flat; others stand alone.
+const MOST: usize = 32;
+
+/// What parting did.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parted {
+    /// The particles that came to be: the one that each is a copy of, and its corners, lowest first.
+    pub copies: Vec<Copied>,
+    /// How many edges had more than two triangles.
+    pub split_edges: u32,
+}
+
+/// Parts triangles that have an area and are there once, over `count` particles. `place` is where each is.
+pub(super) fn part(
+    triangles: &mut Vec<[u32; 3]>,
+    count: usize,
+    place: impl Fn(u32) -> Vec3,
+) -> Parted {
+    let edges = Edges::new(triangles);
+    let split_edges = edges.runs().filter(|run| run.len() > 2).count() as u32;
+    let mut is_alone = vec![false; triangles.len()];
+    loop {
+        let pairs = edges.pairs(triangles, &is_alone, &place);
+        let (corners, copies) = fans(triangles, &pairs, count);
+        let offenders = if split_edges > 0 { offenders(&corners, &pairs) } else { Vec::new() };
+        if offenders.is_empty() {
+            *triangles = corners;
+            return Parted { copies, split_edges };
+        }
+        // A sheet that folds back onto one of its own edges: what is too much there stands alone.
+        offenders.into_iter().for_each(|triangle| is_alone[triangle] = true);
+    }
+}
+
+/// Edges by their ends, lower first, each with where it starts in a triangle.
+struct Edges {
+    sorted: Vec<([u32; 2], Corner)>,
+}
+
+impl Edges {
+    fn new(triangles: &[[u32; 3]]) -> Self {
+        let vertex = |corner: Corner| triangles[triangle_of(corner)][corner as usize % 3];
+        let mut sorted: Vec<([u32; 2], Corner)> = (0..3 * triangles.len() as u32)
+            .map(|edge| {
+                let (a, b) = (vertex(edge), vertex(after(edge)));
+                ([a.min(b), a.max(b)], edge)
+            })
+            .collect();
+        sorted.sort_unstable();
+        Self { sorted }
+    }
+
+    /// The triangles' sides of each edge.
+    fn runs(&self) -> impl Iterator<Item = &[([u32; 2], Corner)]> {
+        self.sorted.chunk_by(|one, other| one.0 == other.0)
+    }
+
+    /// The pairs of sides that stay joined.
+    fn pairs(
+        &self,
+        triangles: &[[u32; 3]],
+        is_alone: &[bool],
+        place: &impl Fn(u32) -> Vec3,
+    ) -> Vec<[Corner; 2]> {
+        let mut pairs = Vec::with_capacity(self.sorted.len() / 2);
+        for run in self.runs() {
+            if let [(_, one), (_, other)] = run {
+                if !is_alone[triangle_of(*one)] && !is_alone[triangle_of(*other)] {
+                    pairs.push([*one, *other]);
+                }
+            } else if run.len() > 2 {
+                let free = run.iter().map(|(_, edge)| *edge);
+                let free = free.filter(|edge| !is_alone[triangle_of(*edge)]).take(MOST);
+                flattest(triangles, free.collect(), place, &mut pairs);
+            }
+        }
+        pairs
+    }
+}
+
+/// Pairs the sides of an edge, the flattest first.
+fn flattest(
+    triangles: &[[u32; 3]],
+    sides: Vec<Corner>,
+    place: &impl Fn(u32) -> Vec3,
+    pairs: &mut Vec<[Corner; 2]>,
+) {
+    let at = |corner: Corner| place(triangles[triangle_of(corner)][corner as usize % 3]).as_dvec3();
+    // The way from the edge into each triangle, square to the edge.
+    let away = |edge: &Corner| -> DVec3 {
+        let (from, to) = (at(*edge), at(after(*edge)));
+        let along = (to - from).normalize_or_zero();
+        let way = at(before(*edge)) - from;
+        (way - along * way.dot(along)).normalize_or_zero()
+    };
+    let ways: Vec<DVec3> = sides.iter().map(away).collect();
+    let mut folds: Vec<(f64, usize, usize)> = Vec::new();
+    for one in 0..sides.len() {
+        folds.extend((one + 1..sides.len()).map(|other| (ways[one].dot(ways[other]), one, other)));
+    }
+    folds.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+    let mut is_free = vec![true; sides.len()];
+    for (_, one, other) in folds {
+        if is_free[one] && is_free[other] {
+            (is_free[one], is_free[other]) = (false, false);
+            pairs.push([sides[one], sides[other]]);
+        }
+    }
+}
+
+/// A particle whose fan got one of its own, and the corners of that fan.
+type Copied = (u32, Vec<Corner>);
+
+/// Gives every fan but the first of a particle one of its own, from number `count` on.
+fn fans(
+    triangles: &[[u32; 3]],
+    pairs: &[[Corner; 2]],
+    count: usize,
+) -> (Vec<[u32; 3]>, Vec<Copied>) {
+    let vertex = |corner: Corner| triangles[triangle_of(corner)][corner as usize % 3];
+    let mut fan: Vec<Corner> = (0..3 * triangles.len() as u32).collect();
+    for [one, other] in pairs {
+        let ends = [*one, after(*one)];
+        let there = [*other, after(*other)];
+        let turned = usize::from(vertex(ends[0]) != vertex(there[0]));
+        join(&mut fan, ends[0], there[turned]);
+        join(&mut fan, ends[1], there[1 - turned]);
+    }
+    let mut out = triangles.to_vec();
+    let mut copies: Vec<Copied> = Vec::new();
+    // The first fan of each particle, and the copy that each later one got, by its lowest corner.
+    let mut keeps = vec![u32::MAX; count];
+    let mut copy = vec![u32::MAX; fan.len()];
+    for corner in 0..fan.len() as u32 {
+        let (root, old) = (lowest(&mut fan, corner), vertex(corner));
+        let keeper = &mut keeps[old as usize];
+        if *keeper == u32::MAX {
+            *keeper = root;
+        }
+        if *keeper == root {
+            continue;
+        }
+        let at = &mut copy[root as usize];
+        if *at == u32::MAX {
+            *at = copies.len() as u32;
+            copies.push((old, Vec::new()));
+        }
+        copies[*at as usize].1.push(corner);
+        out[triangle_of(corner)][corner as usize % 3] = count as u32 + *at;
+    }
+    (out, copies)
+}
+
+/// The lowest corner of a fan; on the way there every second step is halved.
+fn lowest(fan: &mut [Corner], mut corner: Corner) -> Corner {
+    while fan[corner as usize] != corner {
+        fan[corner as usize] = fan[fan[corner as usize] as usize];
+        corner = fan[corner as usize];
+    }
+    corner
+}
+
+fn join(fan: &mut [Corner], one: Corner, other: Corner) {
+    let (one, other) = (lowest(fan, one), lowest(fan, other));
+    fan[one.max(other) as usize] = one.min(other);
+}
+
+/// The triangles that are too much at an edge even now: all there but the first pair that is joined.
+fn offenders(triangles: &[[u32; 3]], pairs: &[[Corner; 2]]) -> Vec<usize> {
+    let edges = Edges::new(triangles);
+    let mut offenders = Vec::new();
+    for run in edges.runs().filter(|run| run.len() > 2) {
+        let sides: Vec<Corner> = run.iter().map(|(_, edge)| *edge).collect();
+        let joined = pairs.iter().find(|pair| pair.iter().all(|edge| sides.contains(edge)));
+        let stays = joined.map_or([sides[0], sides[1]], |pair| *pair);
+        offenders.extend(
+            sides.iter().filter(|edge| !stays.contains(edge)).map(|edge| triangle_of(*edge)),
+        );
+    }
+    offenders
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Fan, Mesh};
+
+    /// Parts what lies at these places, and checks that what is left is sound.
+    fn parted(places: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<[u32; 3]>, Parted) {
+        let mut out = triangles.to_vec();
+        let parted = part(&mut out, places.len(), |particle| places[particle as usize]);
+        let count = places.len() + parted.copies.len();
+        let mesh = Mesh::new(out.clone(), count, count);
+        let mut uses = vec![0; count];
+        out.iter().flatten().for_each(|v| uses[*v as usize] += 1);
+        let mut fan = Fan::default();
+        for (particle, uses) in uses.iter().enumerate().filter(|(_, uses)| **uses > 0) {
+            mesh.fan(mesh.corner_of[particle], &mut fan);
+            assert_eq!(fan.corners.len(), *uses, "particle {particle} of {out:?}");
+        }
+        let edges = Edges::new(&out);
+        assert!(edges.runs().all(|run| run.len() < 3), "{out:?}");
+        (out, parted)
+    }
+
+    const SPINE: [Vec3; 2] = [Vec3::ZERO, Vec3::Y];
+
+    /// A place off the spine at so many sixteenths of a turn.
+    fn page(sixteenths: f32) -> Vec3 {
+        let (sine, cosine) = (sixteenths * core::f32::consts::TAU / 16.0).sin_cos();
+        Vec3::new(cosine, 0.5, sine)
+    }
+
+    #[test]
+    fn the_flattest_two_of_three_triangles_at_an_edge_stay_joined() {
+        let places = [SPINE[0], SPINE[1], page(0.0), page(3.0), page(7.0)];
+        let (out, parted) = parted(&places, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]);
+        assert_eq!(out, [[0, 1, 2], [5, 6, 3], [0, 1, 4]]);
+        assert_eq!(parted.split_edges, 1);
+        assert_eq!(parted.copies, [(0, vec![3]), (1, vec![4])]);
+    }
+
+    #[test]
+    fn sheets_that_cross_stay_whole() {
+        let places = [SPINE[0], SPINE[1], page(0.0), page(4.0), page(8.0), page(12.0)];
+        let (out, _) = parted(&places, &[[0, 1, 2], [1, 0, 3], [1, 0, 4], [0, 1, 5]]);
+        assert_eq!(out, [[0, 1, 2], [6, 7, 3], [1, 0, 4], [7, 6, 5]]);
+    }
+
+    #[test]
+    fn a_mere_point_between_two_fans_is_parted() {
+        let places = [0.0, 1.0, 2.0, 3.0, 4.0].map(|x: f32| Vec3::new(x, x * x, 0.0));
+        let (out, parted) = parted(&places, &[[0, 1, 2], [2, 3, 4]]);
+        assert_eq!(out, [[0, 1, 2], [5, 3, 4]]);
+        assert_eq!((parted.split_edges, parted.copies), (0, vec![(2, vec![3])]));
+    }
+
+    #[test]
+    fn a_sheet_that_meets_its_own_edge_again_is_parted_there() {
+        // Around the spine and back to it: the last page lies on the first edge, joined to it all around.
+        let mut places = SPINE.to_vec();
+        places.extend((0..5).map(|at| page(3.0 * at as f32)));
+        let mut triangles = vec![[0, 1, 2], [0, 1, 4], [0, 1, 6]];
+        for at in 2..6 {
+            triangles.extend([[0, at, at + 1], [1, at, at + 1]]);
+        }
+        parted(&places, &triangles);
+    }
+
+    #[test]
+    fn every_triangle_between_seven_points_is_parted_soundly() {
+        let places: Vec<Vec3> =
+            (0..7).map(|at| page(2.3 * at as f32) * (1.0 + at as f32)).collect();
+        let mut triangles = Vec::new();
+        for a in 0..7 {
+            for b in a + 1..7 {
+                triangles.extend((b + 1..7).map(|c| [a, b, c]));
+            }
+        }
+        let (_, parted) = parted(&places, &triangles);
+        assert_eq!(parted.split_edges, 21);
+    }
+}

@@ -1,0 +1,174 @@
+//! Welding: vertices that lie together become one.
+//!
+//! Vertices are taken in order. Each joins the nearest of those before it that stayed apart and are at
+//! most the distance away, of equally near ones the lowest; or else it stays apart. So all that join
+//! a vertex are near it: a chain of small steps does not run away. A vertex does not join one with which
+//! it shares a triangle that has an area, or with which a vertex that joined it before does.
+
+use super::sift::is_degenerate;
+use crate::mesh::NONE;
+use glam::{DVec3, Vec3};
+use std::collections::HashMap;
+
+/// For each vertex the one that it joins, which may be itself. Below a distance of 0 that is all.
+pub(super) fn weld(positions: &[Vec3], triangles: &[[u32; 3]], distance: f32) -> Vec<u32> {
+    let mut joined: Vec<u32> = (0..positions.len() as u32).collect();
+    if distance < 0.0 {
+        return joined;
+    }
+    let around = Around::new(positions, triangles);
+    let mut apart = Apart::new(f64::from(distance), positions.len());
+    for (vertex, place) in positions.iter().enumerate() {
+        let at = place.as_dvec3();
+        let mut nearest: Option<(f64, u32)> = None;
+        for other in apart.near(at) {
+            let far = (positions[other as usize].as_dvec3() - at).length_squared();
+            let is_nearer = nearest
+                .is_none_or(|(least, lowest)| far < least || (far == least && other < lowest));
+            if far <= apart.distance * apart.distance
+                && is_nearer
+                && !around.share_a_triangle(vertex as u32, other, &joined)
+            {
+                nearest = Some((far, other));
+            }
+        }
+        match nearest {
+            Some((_, other)) => joined[vertex] = other,
+            None => apart.add(vertex as u32, at),
+        }
+    }
+    joined
+}
+
+/// The triangles with an area around each vertex: `corners[first[v]..first[v + 1]]`, two others each.
+struct Around {
+    first: Vec<u32>,
+    others: Vec<[u32; 2]>,
+}
+
+impl Around {
+    fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+        let has_area = |corners: &&[u32; 3]| !is_degenerate(positions, corners);
+        let mut first = vec![0u32; positions.len() + 1];
+        for v in triangles.iter().filter(has_area).flatten() {
+            first[*v as usize + 1] += 1;
+        }
+        for v in 1..first.len() {
+            first[v] += first[v - 1];
+        }
+        let mut next = first.clone();
+        let mut others = vec![[0; 2]; first.last().map_or(0, |all| *all as usize)];
+        for [a, b, c] in triangles.iter().filter(has_area) {
+            for [v, p, q] in [[a, b, c], [b, c, a], [c, a, b]] {
+                let at = &mut next[*v as usize];
+                others[*at as usize] = [*p, *q];
+                *at += 1;
+            }
+        }
+        Self { first, others }
+    }
+
+    /// Whether a vertex has a triangle with `other`, or with one before it that joined `other`.
+    fn share_a_triangle(&self, vertex: u32, other: u32, joined: &[u32]) -> bool {
+        let range = self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize;
+        self.others[range].as_flattened().iter().any(|v| joined[*v as usize] == other)
+    }
+}
+
+/// The vertices that stayed apart, by cells twice as wide as the distance, as chains.
+struct Apart {
+    distance: f64,
+    head: HashMap<[i64; 3], u32>,
+    next: Vec<u32>,
+}
+
+impl Apart {
+    fn new(distance: f64, count: usize) -> Self {
+        Self { distance, head: HashMap::with_capacity(count), next: vec![NONE; count] }
+    }
+
+    /// In cells; without a distance every place is a cell.
+    fn scaled(&self, at: DVec3) -> [f64; 3] {
+        at.to_array().map(|x| if self.distance > 0.0 { x / (2.0 * self.distance) } else { x })
+    }
+
+    fn cell(&self, at: DVec3) -> [i64; 3] {
+        if self.distance > 0.0 {
+            self.scaled(at).map(|x| x.floor() as i64)
+        } else {
+            // Zero has two signs.
+            at.to_array().map(|x| (x + 0.0).to_bits() as i64)
+        }
+    }
+
+    fn add(&mut self, vertex: u32, at: DVec3) {
+        let head = self.head.entry(self.cell(at)).or_insert(NONE);
+        self.next[vertex as usize] = *head;
+        *head = vertex;
+    }
+
+    /// All that may be near a place: those of its cell, and of the neighbours on the sides it is nearer to.
+    fn near(&self, at: DVec3) -> impl Iterator<Item = u32> {
+        let cell = self.cell(at);
+        let steps = self.scaled(at).map(|x| if x - x.floor() < 0.5 { -1 } else { 1 });
+        let ways = if self.distance > 0.0 { 8 } else { 1 };
+        (0..ways).flat_map(move |way: usize| {
+            let mut other = cell;
+            for axis in 0..3 {
+                if way >> axis & 1 == 1 {
+                    other[axis] = other[axis].saturating_add(steps[axis]);
+                }
+            }
+            let some = |at: u32| (at != NONE).then_some(at);
+            let head = self.head.get(&other).copied().unwrap_or(NONE);
+            core::iter::successors(some(head), move |at| some(self.next[*at as usize]))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(xs: &[f32]) -> Vec<Vec3> {
+        xs.iter().map(|x| Vec3::X * *x).collect()
+    }
+
+    #[test]
+    fn a_vertex_joins_the_nearest_that_stayed_apart() {
+        assert_eq!(weld(&along(&[0.0, 1.0, 0.45, 0.55, 0.5]), &[], 0.5), [0, 1, 0, 1, 0]);
+    }
+
+    #[test]
+    fn a_chain_does_not_run_away() {
+        assert_eq!(weld(&along(&[0.0, 0.4, 0.8, 1.2]), &[], 0.5), [0, 0, 2, 2]);
+    }
+
+    #[test]
+    fn distance_zero_joins_equal_places_and_less_joins_nothing() {
+        let places = along(&[0.0, -0.0, 1.0, 1.0, 1.0 + f32::EPSILON]);
+        assert_eq!(weld(&places, &[], 0.0), [0, 0, 2, 2, 4]);
+        assert_eq!(weld(&places, &[], -1.0), [0, 1, 2, 3, 4]);
+    }
+
+    #[test]
+    fn a_triangle_keeps_its_corners_apart() {
+        let places = [Vec3::ZERO, Vec3::X * 0.1, Vec3::Y, Vec3::X * 0.12, Vec3::X * 0.04];
+        // 1 may not join 0; 3 joins 1, and 4 the nearer of both.
+        assert_eq!(weld(&places, &[[0, 1, 2]], 0.2), [0, 1, 2, 1, 0]);
+        // 3 may not join 1, to which it is nearest.
+        assert_eq!(weld(&places, &[[0, 1, 2], [1, 3, 2]], 0.2), [0, 1, 2, 0, 0]);
+    }
+
+    #[test]
+    fn places_across_the_borders_of_cells_are_found() {
+        let mut places = Vec::new();
+        for at in 0..64 {
+            places.push(Vec3::new((at % 4) as f32, (at / 4 % 4) as f32, (at / 16) as f32) * 0.25);
+        }
+        let moved: Vec<Vec3> = places.iter().map(|p| *p + Vec3::new(0.06, -0.06, 0.06)).collect();
+        places.extend(moved);
+        let joined = weld(&places, &[], 0.11);
+        assert!((0..64).all(|v| joined[v] == v as u32 && joined[v + 64] == v as u32), "{joined:?}");
+    }
+}

@@ -1,0 +1,195 @@
+//! Seams: where vertices share a particle, each with texture coordinates of its own.
+//!
+//! A mesh of particles moves, tears and is cut; a renderer draws vertices. Where nothing was welded each
+//! particle is a vertex and there are no seams. Else both have the same triangles, and this is the other
+//! list of their corners. When a particle is split, a vertex with triangles on both sides is split too;
+//! one with all of them on one side goes there.
+
+use super::divide::{Crossing, Division};
+use super::{Corner, Mesh, after, before, triangle_of};
+use serde::{Deserialize, Serialize};
+
+/// The vertices of a mesh whose particles are shared.
+///
+/// Invariant: `particles[triangles[t][k]]` is the particle at that corner.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Seams {
+    /// Vertex of each corner.
+    pub triangles: Vec<[u32; 3]>,
+    /// The particle of each vertex.
+    pub particles: Vec<u32>,
+    /// The site of each vertex: the given vertex that it came from, or a crossing, which follow those.
+    pub sites: Vec<u32>,
+    /// Where cuts made vertices, between two sites.
+    pub crossings: Vec<Crossing>,
+    /// Vertices that were given.
+    pub original_count: u32,
+    /// How many corners each vertex has.
+    #[serde(skip)]
+    uses: Vec<u32>,
+    /// How many vertices there may be in all.
+    #[serde(skip)]
+    capacity: usize,
+}
+
+impl Seams {
+    /// `triangles` are of vertices, `particles` has the particle of each.
+    pub fn new(triangles: Vec<[u32; 3]>, particles: Vec<u32>) -> Self {
+        let original_count = particles.len() as u32;
+        let mut seams = Self {
+            triangles,
+            particles,
+            sites: (0..original_count).collect(),
+            crossings: Vec::new(),
+            original_count,
+            uses: Vec::new(),
+            capacity: original_count as usize,
+        };
+        seams.count_uses();
+        seams
+    }
+
+    fn count_uses(&mut self) {
+        self.uses.clear();
+        self.uses.resize(self.particles.len(), 0);
+        for vertex in self.triangles.as_flattened() {
+            self.uses[*vertex as usize] += 1;
+        }
+    }
+
+    /// How many vertices there may be in all.
+    pub fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// Makes room for `extra` more particles, in a mesh that has at most `triangles`.
+    ///
+    /// A particle that is split gives at most all of its vertices to the new one as copies, so the most
+    /// vertices that any has is enough for each; and no corner needs more than a vertex of its own.
+    pub fn make_room(&mut self, extra: usize, triangles: usize) {
+        let mut used: Vec<u32> = (0..self.particles.len())
+            .filter(|vertex| self.uses[*vertex] > 0)
+            .map(|vertex| self.particles[vertex])
+            .collect();
+        used.sort_unstable();
+        let most = used.chunk_by(|a, b| a == b).map(<[u32]>::len).max().unwrap_or(1);
+        let unused = self.particles.len() - used.len();
+        let count = self.particles.len();
+        self.capacity = (count + most * extra).min(unused + 3 * triangles).max(count);
+        self.reserve();
+    }
+
+    /// Makes the room that there was in the list that this is a clone of.
+    pub fn reserve(&mut self) {
+        for list in [&mut self.particles, &mut self.sites, &mut self.uses] {
+            list.reserve_exact(self.capacity.saturating_sub(list.len()));
+        }
+    }
+
+    /// Follows a split: `corners` are those of the new particle. Tells each new vertex and the one that it
+    /// was; or, if there is none, the lowest vertex that went to the new particle, twice.
+    pub fn part(&mut self, particle: u32, corners: &[Corner], mut tell: impl FnMut(u32, u32)) {
+        let first = self.particles.len() as u32;
+        let mut lowest = u32::MAX;
+        for (at, corner) in corners.iter().enumerate() {
+            let old = self.vertex(*corner);
+            if self.particles[old as usize] == particle {
+                continue;
+            }
+            let leaves = |other: &&Corner| self.vertex(**other) == old;
+            let leaving = corners[at..].iter().filter(leaves).count() as u32;
+            if leaving == self.uses[old as usize] {
+                self.particles[old as usize] = particle;
+                lowest = lowest.min(old);
+                continue;
+            }
+            let new = self.particles.len() as u32;
+            for other in &corners[at..] {
+                if self.vertex(*other) == old {
+                    self.triangles[triangle_of(*other)][*other as usize % 3] = new;
+                }
+            }
+            self.particles.push(particle);
+            self.sites.push(self.sites[old as usize]);
+            self.uses.push(leaving);
+            self.uses[old as usize] -= leaving;
+            tell(new, old);
+        }
+        if self.particles.len() as u32 == first && lowest != u32::MAX {
+            tell(lowest, lowest);
+        }
+    }
+
+    /// Follows the division of the edge between two particles, `share` of it from the first. Gives the
+    /// vertex that came to be on the first side; where the edge is a seam, there is another one beyond.
+    pub fn divide(&mut self, division: &Division, ends: [u32; 2], share: f32) -> u32 {
+        let first = self.particles.len() as u32;
+        for side in division.sides() {
+            let edge = side.edge;
+            let [near, far, opposite] = [edge, after(edge), before(edge)].map(|c| self.vertex(c));
+            let [near_site, far_site] = [near, far].map(|vertex| self.sites[vertex as usize]);
+            let is_turned = self.particles[near as usize] != ends[0];
+            let ends = if is_turned { [far_site, near_site] } else { [near_site, far_site] };
+            let crossing = Crossing { ends, share };
+            // The other side has the same vertices, unless the edge is a seam.
+            let is_met =
+                self.particles.len() as u32 > first && self.crossings.last() == Some(&crossing);
+            let new = self.particles.len() as u32 - u32::from(is_met);
+            if !is_met {
+                self.particles.push(division.vertex);
+                self.sites.push(self.original_count + self.crossings.len() as u32);
+                self.crossings.push(crossing);
+                self.uses.push(0);
+            }
+            self.uses[new as usize] += 2;
+            self.uses[opposite as usize] += 1;
+            self.triangles[edge as usize / 3][after(edge) as usize % 3] = new;
+            self.triangles.push([new, far, opposite]);
+        }
+        first
+    }
+
+    /// The particles of given vertices, all that they have become.
+    pub fn particles_of(&self, vertices: &[u32]) -> Vec<u32> {
+        let mut is_meant = vec![false; self.original_count as usize];
+        vertices.iter().for_each(|vertex| is_meant[*vertex as usize] = true);
+        let meant = self.sites.iter().zip(&self.particles);
+        meant.filter(|(site, _)| is_meant[**site as usize]).map(|(_, at)| *at).collect()
+    }
+
+    fn vertex(&self, corner: Corner) -> u32 {
+        self.triangles[triangle_of(corner)][corner as usize % 3]
+    }
+
+    /// Takes on what bytes from outside say of the seams of a mesh that was made with `fresh` ones; false
+    /// if that does not fit.
+    pub fn is_restored(&mut self, fresh: &Self, mesh: &Mesh) -> bool {
+        let count = self.particles.len();
+        let original = fresh.original_count as usize;
+        let sites = original + self.crossings.len();
+        let are_known = self.crossings.iter().enumerate().all(|(at, crossing)| {
+            crossing.ends.iter().all(|end| (*end as usize) < original + at)
+                && crossing.share > 0.0
+                && crossing.share < 1.0
+        });
+        let fits = self.original_count == fresh.original_count
+            && are_known
+            && self.triangles.len() == mesh.triangles.len()
+            && self.sites.len() == count
+            && count >= fresh.sites.len()
+            && count <= fresh.capacity
+            && self.sites[..fresh.sites.len()] == fresh.sites
+            && self.sites.iter().all(|site| (*site as usize) < sites)
+            && self.particles.iter().all(|at| (*at as usize) < mesh.vertex_count());
+        let mut corners = self.triangles.as_flattened().iter().zip(mesh.triangles.as_flattened());
+        let fits = fits
+            && corners
+                .all(|(vertex, particle)| self.particles.get(*vertex as usize) == Some(particle));
+        if fits {
+            self.capacity = fresh.capacity;
+            self.count_uses();
+            self.reserve();
+        }
+        fits
+    }
+}

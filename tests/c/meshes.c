@@ -1,0 +1,137 @@
+/* Meshes with doubled vertices and defects: what is told of them, and which vertex is which particle. */
+#include "check.h"
+
+enum { COLUMNS = 5, ROWS = 6, HALF = COLUMNS * ROWS, CELLS = (COLUMNS - 1) * (ROWS - 1) };
+
+/* Two sheets side by side; the last column of the first lies on the first column of the second. */
+static float positions[3 * (2 * HALF + 1)];
+static float uvs[2 * (2 * HALF + 1)];
+static uint32_t indices[2 * 6 * CELLS + 9];
+
+static MuslinMeshDesc seamed_sheet(void) {
+  uint32_t n = 0;
+  for (uint32_t half = 0; half < 2; half++) {
+    for (uint32_t i = 0; i < HALF; i++) {
+      uint32_t v = half * HALF + i;
+      positions[3 * v] = 0.125f * (float)(i % COLUMNS + half * (COLUMNS - 1));
+      positions[3 * v + 1] = -0.125f * (float)(i / COLUMNS);
+      uvs[2 * v] = (float)half + 0.125f * (float)(i % COLUMNS);
+      uvs[2 * v + 1] = 0.125f * (float)(i / COLUMNS);
+    }
+    for (uint32_t cell = 0; cell < CELLS; cell++) {
+      uint32_t a = half * HALF + cell / (COLUMNS - 1) * COLUMNS + cell % (COLUMNS - 1);
+      uint32_t quad[6] = {a, a + COLUMNS, a + 1, a + COLUMNS, a + COLUMNS + 1, a + 1};
+      memcpy(indices + n, quad, sizeof quad);
+      n += 6;
+    }
+  }
+  /* One that is there already, one that is flat, and one that faces the other way. */
+  uint32_t defects[9] = {1, 0, COLUMNS, 7, 7, 8, 0, 1, 2};
+  memcpy(indices + n, defects, sizeof defects);
+  uint32_t first = indices[6];
+  indices[6] = indices[7];
+  indices[7] = first;
+  MuslinMeshDesc desc;
+  muslin_mesh_desc_init(&desc);
+  desc.positions = positions;
+  desc.vertex_count = 2 * HALF + 1; /* the last one is in no triangle */
+  desc.indices = indices;
+  desc.index_count = sizeof indices / sizeof indices[0];
+  desc.uvs = uvs;
+  desc.weld_distance = 0.0f;
+  positions[6 * HALF] = 9.0f;
+  return desc;
+}
+
+static void what_was_repaired_is_told(void) {
+  MuslinMeshDesc desc = seamed_sheet();
+  MuslinCloth cloth = {0};
+  DONE(muslin_cloth_create_mesh(&desc, &cloth));
+  MuslinMeshReport report;
+  muslin_mesh_report_init(&report);
+  DONE(muslin_cloth_get_mesh_report(cloth, &report));
+  CHECK(report.vertices == 2 * HALF + 1 && report.particles == 2 * HALF + 1 - ROWS);
+  CHECK(report.triangles == 4 * CELLS + 3 && report.kept_triangles == 4 * CELLS);
+  CHECK(report.welded_vertices == ROWS && report.unused_vertices == 1);
+  CHECK(report.dropped_duplicates == 1 && report.dropped_degenerate == 2);
+  CHECK(report.turned_triangles == 1 && report.split_edges == 0 && report.split_vertices == 0);
+  CHECK(report.pieces == 1 && report.one_sided_pieces == 0 && report.is_grid == 0);
+  MuslinMeshReport never_begun;
+  memset(&never_begun, 0xee, sizeof never_begun);
+  REFUSED(muslin_cloth_get_mesh_report(cloth, &never_begun), MUSLIN_STATUS_BAD_VALUE,
+          "muslin_mesh_report_init");
+  REFUSED(muslin_cloth_get_mesh_report(cloth, NULL), MUSLIN_STATUS_BAD_VALUE, "`out_report`");
+  DONE(muslin_cloth_destroy(cloth));
+}
+
+static void vertices_of_a_seam_share_their_particle_until_it_is_cut(void) {
+  MuslinMeshDesc desc = seamed_sheet();
+  uint32_t pinned[2] = {COLUMNS - 1, HALF};
+  desc.pinned = pinned;
+  desc.pinned_count = 2;
+  MuslinCloth cloth = {0};
+  DONE(muslin_cloth_create_mesh(&desc, &cloth));
+  MuslinView view;
+  muslin_view_init(&view);
+  DONE(muslin_cloth_view(cloth, &view));
+  CHECK(view.vertex_count == desc.vertex_count);
+  for (uint32_t row = 0; row < ROWS; row++) {
+    uint32_t one = row * COLUMNS + COLUMNS - 1, other = HALF + row * COLUMNS;
+    CHECK(view.particles[one] == view.particles[other]);
+    CHECK(view.uvs[2 * one] == 0.5f && view.uvs[2 * other] == 1.0f);
+    CHECK(memcmp(view.normals + 3 * one, view.normals + 3 * other, 12) == 0);
+  }
+  MuslinVec3 from = {0.5f, -0.3f, -1.0f}, to = {0.5f, -9.0f, -1.0f}, sweep = {0.0f, 0.0f, 2.0f};
+  uint32_t edges = 0, revision = view.topology_revision;
+  DONE(muslin_cloth_cut(cloth, from, to, sweep, &edges));
+  CHECK(edges == 2); /* row 3 is where the slit ends */
+  DONE(muslin_cloth_view(cloth, &view));
+  CHECK(view.vertex_count == desc.vertex_count);
+  CHECK(view.topology_revision != revision);
+  for (uint32_t row = 0; row < ROWS; row++) {
+    uint32_t one = row * COLUMNS + COLUMNS - 1, other = HALF + row * COLUMNS;
+    CHECK((view.particles[one] == view.particles[other]) == (row < 4));
+  }
+  DONE(muslin_cloth_step(cloth, 30));
+  DONE(muslin_cloth_destroy(cloth));
+}
+
+static void a_grid_as_a_mesh_gives_the_bits_of_the_grid(void) {
+  MuslinGridDesc grid;
+  MuslinCloth cloths[2] = {{0}, {0}};
+  muslin_grid_desc_init(&grid);
+  DONE(muslin_cloth_create_grid(&grid, &cloths[0]));
+  MuslinView view;
+  muslin_view_init(&view);
+  DONE(muslin_cloth_view(cloths[0], &view));
+  MuslinMeshDesc desc;
+  muslin_mesh_desc_init(&desc);
+  desc.positions = view.positions;
+  desc.vertex_count = view.vertex_count;
+  desc.indices = view.indices;
+  desc.index_count = view.index_count;
+  desc.uvs = view.uvs;
+  uint32_t pinned[40];
+  for (uint32_t i = 0; i < 40; i++) pinned[i] = i;
+  desc.pinned = pinned;
+  desc.pinned_count = 40;
+  DONE(muslin_cloth_create_mesh(&desc, &cloths[1]));
+  MuslinMeshReport report;
+  muslin_mesh_report_init(&report);
+  DONE(muslin_cloth_get_mesh_report(cloths[1], &report));
+  CHECK(report.is_grid == 1);
+  uint64_t hashes[2] = {0, 1};
+  for (int i = 0; i < 2; i++) {
+    DONE(muslin_cloth_step(cloths[i], 60));
+    DONE(muslin_cloth_state_hash(cloths[i], &hashes[i]));
+    DONE(muslin_cloth_destroy(cloths[i]));
+  }
+  CHECK(hashes[0] == hashes[1]);
+}
+
+int main(void) {
+  TEST(what_was_repaired_is_told);
+  TEST(vertices_of_a_seam_share_their_particle_until_it_is_cut);
+  TEST(a_grid_as_a_mesh_gives_the_bits_of_the_grid);
+  return failures != 0;
+}

@@ -1,0 +1,97 @@
+// Meshes as artists export them: what is repaired is told, and each vertex has a particle.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import init, { Cloth } from "muslin";
+
+await init();
+
+/** Two sheets of 5 × 6 vertices side by side; the last column of one lies on the first of the other. */
+function seamedSheet() {
+  const desc = { positions: [], uvs: [], indices: [], weldDistance: 0 };
+  for (const half of [0, 1]) {
+    for (let i = 0; i < 30; i++) {
+      desc.positions.push(((i % 5) + 4 * half) / 8, -Math.floor(i / 5) / 8, 0);
+      desc.uvs.push(half + (i % 5) / 8, Math.floor(i / 5) / 8);
+    }
+    for (let cell = 0; cell < 20; cell++) {
+      const a = 30 * half + Math.floor(cell / 4) * 5 + (cell % 4);
+      desc.indices.push(a, a + 5, a + 1, a + 5, a + 6, a + 1);
+    }
+  }
+  return desc;
+}
+
+test("a clean mesh is its own particles", () => {
+  const cloth = Cloth.mesh({ ...seamedSheet(), weldDistance: -1 });
+  assert.deepEqual([...cloth.vertexParticles], [...Array(60).keys()]);
+  const { vertices, particles, pieces, weldedVertices, isGrid } = cloth.meshReport;
+  assert.deepEqual({ vertices, particles, pieces, weldedVertices, isGrid }, {
+    vertices: 60,
+    particles: 60,
+    pieces: 2,
+    weldedVertices: 0,
+    isGrid: false,
+  });
+  assert.equal(Cloth.grid().meshReport.isGrid, true);
+});
+
+test("what is repaired is told", () => {
+  const desc = seamedSheet();
+  desc.indices.push(1, 0, 5, 7, 7, 8, 0, 1, 2);
+  [desc.indices[6], desc.indices[7]] = [desc.indices[7], desc.indices[6]];
+  const cloth = Cloth.mesh(desc);
+  assert.deepEqual(cloth.meshReport, {
+    vertices: 60,
+    triangles: 83,
+    particles: 54,
+    keptTriangles: 80,
+    weldedVertices: 6,
+    droppedDegenerate: 2,
+    droppedDuplicates: 1,
+    turnedTriangles: 1,
+    splitEdges: 0,
+    splitVertices: 0,
+    unusedVertices: 0,
+    pieces: 1,
+    oneSidedPieces: 0,
+    isGrid: false,
+  });
+  assert.throws(() => (cloth.meshReport.pieces = 7), TypeError);
+});
+
+test("vertices of a seam share their particle and keep their texture, until it is cut", () => {
+  const desc = seamedSheet();
+  const cloth = Cloth.mesh({ ...desc, pinned: [4, 30] });
+  assert.deepEqual([...cloth.pinned], [4]);
+  const pairs = Array.from({ length: 6 }, (_, row) => [5 * row + 4, 30 + 5 * row]);
+  const isShared = ([a, b]) => cloth.vertexParticles[a] === cloth.vertexParticles[b];
+  assert.ok(pairs.every(isShared));
+  cloth.step(10);
+  for (const [a, b] of pairs) {
+    const at = cloth.position(cloth.vertexParticles[a]);
+    assert.deepEqual(at, [...cloth.positions.subarray(3 * a, 3 * a + 3)]);
+    assert.deepEqual(at, [...cloth.positions.subarray(3 * b, 3 * b + 3)]);
+  }
+  cloth.reset();
+  const since = cloth.topologyRevision;
+  assert.equal(cloth.cut([0.5, -0.3, -1], [0.5, -9, -1], [0, 0, 2]), 2);
+  // Row 3 is where the slit ends.
+  assert.deepEqual(pairs.map(isShared), [true, true, true, true, false, false]);
+  assert.deepEqual([...cloth.uvs], desc.uvs);
+  assert.deepEqual([...cloth.indices], desc.indices);
+  assert.ok(cloth.changes(since).vertexCount > 0);
+  const splits = cloth.events().filter(({ kind }) => kind === "vertex-split");
+  assert.deepEqual(splits.map(({ vertex, source }) => [vertex, source]), [[50, 50], [55, 55]]);
+  assert.throws(() => cloth.position(56), /`particle` must be below 56/);
+});
+
+test("a grid as a mesh goes in the bits of the grid", () => {
+  const grid = Cloth.grid();
+  const { positions, indices, uvs, pinned } = grid;
+  const mesh = Cloth.mesh({ positions, indices, uvs, pinned });
+  assert.equal(mesh.meshReport.isGrid, true);
+  for (const cloth of [grid, mesh]) cloth.step(60);
+  assert.equal(mesh.stateHash(), grid.stateHash());
+});

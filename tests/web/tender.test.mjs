@@ -1,0 +1,134 @@
+// The receipt's page, used as a visitor uses it.
+
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { test } from "node:test";
+
+import { variable } from "./browser.mjs";
+import { apart, becomes, eye, fingers, frames, hash, particle, started, stats, visit } from "./demo-visit.mjs";
+
+const shots = variable("MUSLIN_SHOTS");
+/** A particle in the middle of the last row, of the larger sheet and of the smaller one. */
+const LOW = { 2400: 59 * 40 + 20, 864: 35 * 24 + 12 };
+
+async function visitReceipt(options, prepare) {
+  const visited = await visit({ path: "tender.html", ...options }, prepare);
+  await started(visited);
+  return visited;
+}
+
+const low = async (page) => LOW[(await stats(page)).particles];
+const isOn = (page, name) => page.evaluate((name) => window.muslinDemo.isOn(name), name);
+
+test("the receipt has its own page, and its picture fits a wide and a tall screen", async () => {
+  for (const [width, height, hasTouch] of [[1280, 720, false], [390, 844, true]]) {
+    const { context, page, complaints } = await visitReceipt({ viewport: { width, height }, hasTouch });
+    assert.equal(await page.title(), "Tender — Receipt Paper Physics");
+    assert.equal((await stats(page)).particles, hasTouch ? 24 * 36 : 40 * 60);
+    for (const [at, name] of [["name", "description"], ["property", "og:title"], ["name", "twitter:card"]]) {
+      const content = await page.locator(`meta[${at}="${name}"]`).getAttribute("content");
+      assert.ok(content.length > 5, `${name} is ${content}`);
+    }
+    assert.match(await page.locator("link[rel=icon]").getAttribute("href"), /^data:image\/svg/);
+    const instructions = page.locator("#instructions");
+    assert.match(await instructions.textContent(), /Click and drag to grab the paper/);
+    await page.waitForFunction(() => getComputedStyle(document.getElementById("instructions")).opacity === "0");
+    const box = await page.locator("#stage").boundingBox();
+    assert.deepEqual([box.x, box.y, box.width, box.height], [0, 0, width, height]);
+    for (const pill of await page.locator("#pills button").all()) {
+      const { x, y, width: wide, height: high } = await pill.boundingBox();
+      assert.ok(x >= 0 && x + wide <= width && y + high <= height && high >= (hasTouch ? 44 : 36));
+    }
+    const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wider <= 0, `the page is ${wider} pixels wider than the screen`);
+    await page.screenshot({ path: join(shots, `tender-${width}x${height}.png`) });
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
+});
+
+test("a drag moves the receipt, R resets it, and the right button turns the camera", async () => {
+  const { context, page, complaints } = await visitReceipt();
+  const at = await low(page);
+  const from = await particle(page, at);
+  const before = await eye(page);
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  const to = [from[0] + 70, from[1] - 60];
+  await page.mouse.move(...to, { steps: 6 });
+  await becomes(page, () => particle(page, at), (now) => apart(now, to) < 25, `it did not come to ${to}`);
+  assert.ok(apart(await eye(page), before) < 0.02, "the camera turned with the drag");
+  await page.mouse.up();
+  await page.keyboard.press("r");
+  const home = (now) => apart(now, from) < 8;
+  await becomes(page, () => particle(page, at), home, "it did not come back");
+  await page.mouse.move(350, 200);
+  await page.mouse.down({ button: "right" });
+  await page.mouse.move(430, 200, { steps: 4 });
+  await page.mouse.up({ button: "right" });
+  await becomes(page, () => eye(page), (now) => apart(now, before) > 1, "the camera did not turn");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("space pauses with its overlay, I shows the counter, W and the pills do what they say", async () => {
+  const { context, page, complaints } = await visitReceipt();
+  const paused = page.locator("#paused");
+  assert.equal(await paused.isVisible(), false);
+  await page.keyboard.press(" ");
+  await paused.waitFor({ state: "visible" });
+  assert.equal(await paused.textContent(), "PAUSED — press Space");
+  await frames(page, 2);
+  const still = await hash(page);
+  await frames(page, 4);
+  assert.equal(await hash(page), still, "time goes on");
+  await page.keyboard.press(" ");
+  await paused.waitFor({ state: "hidden" });
+  const counter = page.locator("#counter");
+  assert.equal(await counter.isVisible(), false);
+  await page.keyboard.press("i");
+  await counter.waitFor({ state: "visible" });
+  await page.waitForFunction(() => /^864/.test(document.getElementById("stat-particles").textContent));
+  await page.keyboard.press("w");
+  assert.equal(await isOn(page, "wind"), true);
+  const wind = page.locator("#control-wind");
+  assert.equal(await wind.getAttribute("aria-pressed"), "true");
+  // By the keyboard alone: Tab goes from pill to pill, each with a ring, and Enter presses it.
+  await wind.focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await isOn(page, "wind"), false);
+  const reached = [];
+  for (let i = 0; i < 4; i++) {
+    await page.keyboard.press("Tab");
+    reached.push(await page.evaluate(() => {
+      const focused = document.activeElement;
+      return [focused.id, getComputedStyle(focused).outlineStyle];
+    }));
+  }
+  assert.deepEqual(reached.map(([id]) => id), ["drop", "crumple", "sheet", "reset"].map((name) => `control-${name}`));
+  for (const [id, ring] of reached) assert.notEqual(ring, "none", `${id} has no ring`);
+  await page.locator("#control-sheet").click();
+  assert.equal(await isOn(page, "sheet"), false);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("two fingers are two hands, and with reduced motion nothing blows", async () => {
+  const { context, page, complaints } = await visitReceipt({ hasTouch: true, reducedMotion: "reduce" });
+  assert.equal((await stats(page)).particles, 24 * 36);
+  await page.locator("#control-wind").click();
+  const corners = [35 * 24 + 1, 35 * 24 + 22];
+  const from = await Promise.all(corners.map((i) => particle(page, i)));
+  const touch = await fingers(page);
+  await touch("touchStart", from[0]);
+  await touch("touchStart", ...from);
+  const to = from.map(([x, y], i) => [x + (i ? 12 : -4), y - 50]);
+  await touch("touchMove", ...to);
+  for (const i of [0, 1]) {
+    const near = (now) => apart(now, to[i]) < 25;
+    await becomes(page, () => particle(page, corners[i]), near, `finger ${i} holds nothing`);
+  }
+  await touch("touchEnd");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
