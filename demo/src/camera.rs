@@ -8,10 +8,33 @@ use glam::{Mat4, Vec2, Vec3};
 
 use crate::render::light::STAGE_CENTRE;
 
-/// Angle from straight up [rad].
-pub const POLAR: RangeInclusive<f32> = 0.15..=1.5;
-/// Distance from the cloth's middle [m].
-pub const RADIUS: RangeInclusive<f32> = 3.0..=14.0;
+/// What a rig turns around and how far it goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// What the camera looks at [m].
+    pub target: Vec3,
+    /// Angle from straight up [rad].
+    pub polar: RangeInclusive<f32>,
+    /// Distance from the target [m].
+    pub radius: RangeInclusive<f32>,
+    /// Angle around the target and from straight up [rad], and distance [m], to start from.
+    pub start: [f32; 3],
+    /// Half of what must fit across the screen at the target's distance [m].
+    pub half_width: f32,
+}
+
+impl Default for Rig {
+    /// The rig around the hanging sheet.
+    fn default() -> Self {
+        Self {
+            target: STAGE_CENTRE,
+            polar: 0.15..=1.5,
+            radius: 3.0..=14.0,
+            start: [0.42, 1.38, 4.7],
+            half_width: 1.34,
+        }
+    }
+}
 
 /// Vertical field of view [rad].
 const FIELD: f32 = 0.60;
@@ -33,6 +56,7 @@ struct Place {
 /// The rig: where it is, and where it is easing to.
 #[derive(Clone, Debug)]
 pub struct Camera {
+    rig: Rig,
     now: Place,
     goal: Place,
     idle: f32,
@@ -50,12 +74,18 @@ pub struct Sight {
 
 impl Default for Camera {
     fn default() -> Self {
-        let place = Place { azimuth: 0.42, polar: 1.38, radius: 4.7 };
-        Self { now: place, goal: place, idle: 0.0, drift: true }
+        Self::new(Rig::default())
     }
 }
 
 impl Camera {
+    /// A camera at the start of its rig.
+    pub fn new(rig: Rig) -> Self {
+        let [azimuth, polar, radius] = rig.start;
+        let place = Place { azimuth, polar, radius };
+        Self { rig, now: place, goal: place, idle: 0.0, drift: true }
+    }
+
     /// Turns the rig by a drag, given in heights of the screen: right and down are positive.
     pub fn orbit(&mut self, drag: Vec2) {
         if drag.is_finite() {
@@ -73,11 +103,11 @@ impl Camera {
         }
     }
 
-    /// Steps back until a sheet fits across a screen of this width over height.
+    /// Steps back until the cloth fits across a screen of this width over height.
     pub fn frame(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
-            let across = 1.34 / ((FIELD * 0.5).tan() * aspect);
-            self.goal.radius = across.max(Self::default().goal.radius);
+            let across = self.rig.half_width / ((FIELD * 0.5).tan() * aspect);
+            self.goal.radius = across.max(self.rig.start[2]);
             self.keep_in_range();
             self.now.radius = self.goal.radius;
         }
@@ -106,19 +136,23 @@ impl Camera {
     pub fn sight(&self) -> Sight {
         let Place { azimuth, polar, radius } = self.now;
         let around = Vec3::new(azimuth.sin(), 0.0, azimuth.cos()) * polar.sin();
-        Sight {
-            eye: STAGE_CENTRE + (around + Vec3::Y * polar.cos()) * radius,
-            target: STAGE_CENTRE,
-        }
+        let target = self.rig.target;
+        Sight { eye: target + (around + Vec3::Y * polar.cos()) * radius, target }
     }
 
     fn keep_in_range(&mut self) {
-        self.goal.polar = self.goal.polar.clamp(*POLAR.start(), *POLAR.end());
-        self.goal.radius = self.goal.radius.clamp(*RADIUS.start(), *RADIUS.end());
+        let Rig { polar, radius, .. } = &self.rig;
+        self.goal.polar = self.goal.polar.clamp(*polar.start(), *polar.end());
+        self.goal.radius = self.goal.radius.clamp(*radius.start(), *radius.end());
     }
 }
 
 impl Sight {
+    /// The same sight of a world whose lengths are `unit` times as long.
+    pub fn scaled(self, unit: f32) -> Self {
+        Self { eye: self.eye * unit, target: self.target * unit }
+    }
+
     /// Pixels that a metre covers at a distance of a metre, on a screen so many pixels high.
     pub fn lens(&self, height: f32) -> f32 {
         0.5 * height / (FIELD * 0.5).tan()
@@ -175,16 +209,17 @@ mod tests {
     #[test]
     fn orbit_and_zoom_stop_at_their_limits() {
         let mut camera = Camera::default();
+        let Rig { polar: polars, radius: radii, .. } = Rig::default();
         camera.orbit(Vec2::new(0.3, 100.0));
         camera.zoom(1.0e6);
         let (radius, polar) = settle(&mut camera);
-        assert!((radius - RADIUS.end()).abs() < 1.0e-3, "radius {radius}");
-        assert!((polar - POLAR.start()).abs() < 1.0e-3, "polar {polar}");
+        assert!((radius - radii.end()).abs() < 1.0e-3, "radius {radius}");
+        assert!((polar - polars.start()).abs() < 1.0e-3, "polar {polar}");
         camera.orbit(Vec2::new(0.3, -100.0));
         camera.zoom(1.0e-6);
         let (radius, polar) = settle(&mut camera);
-        assert!((radius - RADIUS.start()).abs() < 1.0e-3, "radius {radius}");
-        assert!((polar - POLAR.end()).abs() < 1.0e-3, "polar {polar}");
+        assert!((radius - radii.start()).abs() < 1.0e-3, "radius {radius}");
+        assert!((polar - polars.end()).abs() < 1.0e-3, "polar {polar}");
     }
 
     #[test]

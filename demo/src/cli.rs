@@ -5,21 +5,28 @@ use std::path::PathBuf;
 use crate::controls::{self, Kind};
 use crate::gesture::Gesture;
 use crate::settings::Settings;
-use crate::shot::Shot;
+use crate::shot::{Receipt, Shot};
+use crate::stage::Show;
+use crate::tender;
 
 /// What `--help` prints.
 pub const USAGE: &str = "\
-The demo of Muslin: a hanging sheet to pull, blow at and tear.
+The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to fold, crumple and toss.
 
   (no option)         a window; settings are kept from run to run
   --shot FILE.png     draw a picture without a window and stop
     --size WxH        its size in pixels (1280x720)
-    --frames N        ticks of 1/60 s that the scene plays first (240)
-    --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear
+    --frames N        ticks of 1/60 s that the scene plays first (240); tender's are 1/120 s
+    --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear;
+                      with tender: fold, crumple or toss
     --strip N         a film strip: N pictures of that size side by side (1)
     --times           draw every tick, and say what the stages of a frame take
     --orbit X,Y       drag the camera, in heights of the screen (0,0)
     --zoom F          multiply the camera's distance (1)
+  --scene NAME        sheet, flag, ball or tender, or their numbers from 0; with tender:
+    --wind            it blows
+    --brief           links as the brief lays them, not real paper
+    --small           24 x 36 particles, as on small screens
   --NAME VALUE        give a control a value: wind, gravity, stiffness, damping,
                       fabric (0 silk, 1 cotton, 2 denim, 3 flag), pinning (0 top edge,
                       1 top corners, 2 corners), resolution (0 to 4: 24, 40, 56, 96, 128)
@@ -35,6 +42,8 @@ pub enum Task {
     Help,
     /// A window, with the controls that were given on top of the kept ones.
     Window(Vec<(&'static str, f32)>),
+    /// A window with the receipt.
+    Receipt(Receipt),
     /// A picture.
     Shot(PathBuf, Box<Shot>),
     /// A page, which another command builds and serves.
@@ -51,7 +60,11 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
         Some((name, value)) if name.starts_with("--") => vec![name.into(), value.into()],
         _ => vec![arg],
     });
-    let mut shot = Shot::default();
+    let args: Vec<String> = args.by_ref().collect();
+    let of_receipt = args.windows(2).any(|two| two[0] == "--scene" && is_receipt(&two[1]));
+    let mut args = args.into_iter();
+    let mut shot = Shot { receipt: of_receipt.then(Receipt::default), ..Shot::default() };
+    let mut ticks = None;
     let mut file = None;
     let mut values = Vec::new();
     let mut only_for_shots = None;
@@ -62,7 +75,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             "--web" => return Ok(Task::Web),
             "--shot" => file = Some(PathBuf::from(value()?)),
             "--size" => shot.size = size(&value()?)?,
-            "--frames" => shot.ticks = number(&arg, &value()?)?,
+            "--frames" => ticks = Some(number(&arg, &value()?)?),
             "--orbit" => {
                 let text = value()?;
                 let (x, y) = text.split_once(',').ok_or("--orbit must look like 0.3,-0.1")?;
@@ -70,9 +83,30 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             }
             "--zoom" => shot.zoom = finite(&arg, &value()?)?,
             "--tear" => shot.play = Some(Gesture::Tear),
-            "--play" => shot.play = Some(gesture(&value()?)?),
+            "--play" => match &mut shot.receipt {
+                None => shot.play = Some(named("--play", &Gesture::ALL, &value()?)?),
+                Some(receipt) => {
+                    let all = tender::play::Gesture::ALL;
+                    receipt.play = Some(named("--play", &all, &value()?)?);
+                }
+            },
+            "--scene" => {
+                let place = scene(&value()?)?;
+                values.push(("scene", place as f32));
+                continue;
+            }
             "--times" => shot.times = true,
             "--strip" => shot.strip = frames(&value()?)?,
+            other if shot.receipt.is_some() => {
+                let Some(receipt) = &mut shot.receipt else { continue };
+                match other {
+                    "--wind" => receipt.settings.wind = true,
+                    "--brief" => receipt.settings.sheet = muslin_scenes::Sheet::Brief,
+                    "--small" => receipt.small = true,
+                    _ => return Err(format!("{other} does not go with --scene tender")),
+                }
+                continue;
+            }
             other => {
                 let control = other
                     .strip_prefix("--")
@@ -90,13 +124,17 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             only_for_shots = Some(arg);
         }
     }
+    let gesture = shot.receipt.as_ref().and_then(|receipt| receipt.play);
+    // The receipt's gestures last longer than the usual picture waits.
+    let usual = gesture.map_or(shot.ticks, |gesture| 60 + gesture.ticks());
+    shot.ticks = ticks.unwrap_or(usual);
     match (file, only_for_shots) {
         (Some(file), _) => {
             apply(&values, &mut shot.settings);
             Ok(Task::Shot(file, Box::new(shot)))
         }
         (None, Some(option)) => Err(format!("{option} needs --shot FILE.png")),
-        (None, None) => Ok(Task::Window(values)),
+        (None, None) => Ok(shot.receipt.map_or(Task::Window(values), Task::Receipt)),
     }
 }
 
@@ -120,10 +158,29 @@ fn finite(option: &str, text: &str) -> Result<f32, String> {
         .ok_or_else(|| format!("{option} must be a number, not {text:?}"))
 }
 
-fn gesture(name: &str) -> Result<Gesture, String> {
-    let known = Gesture::ALL.iter().find(|(known, _)| *known == name);
-    let names = Gesture::ALL.map(|(name, _)| name).join(", ");
-    known.map(|(_, g)| *g).ok_or_else(|| format!("--play must be one of {names}, not {name:?}"))
+/// What has this name.
+fn named<T: Copy>(option: &str, all: &[(&'static str, T)], name: &str) -> Result<T, String> {
+    let known = all.iter().find(|(known, _)| *known == name);
+    let names: Vec<_> = all.iter().map(|(name, _)| *name).collect();
+    let names = names.join(", ");
+    known.map(|(_, it)| *it).ok_or_else(|| format!("{option} must be one of {names}, not {name:?}"))
+}
+
+/// The name of the receipt among scenes; its number comes after those of the others.
+const RECEIPT: &str = "tender";
+
+/// A scene's place among all, by its name or number.
+fn scene(text: &str) -> Result<usize, String> {
+    let names = Show::NAMES.map(str::to_lowercase);
+    let names: Vec<&str> = names.iter().map(String::as_str).chain([RECEIPT]).collect();
+    let number = text.parse().ok().filter(|number| *number < names.len());
+    number.or_else(|| names.iter().position(|name| *name == text)).ok_or_else(|| {
+        format!("--scene must be one of {} or their numbers from 0, not {text:?}", names.join(", "))
+    })
+}
+
+fn is_receipt(text: &str) -> bool {
+    scene(text) == Ok(Show::ALL.len())
 }
 
 fn frames(text: &str) -> Result<u32, String> {
@@ -163,6 +220,23 @@ mod tests {
     }
 
     #[test]
+    fn scenes_have_names_and_numbers_and_the_receipt_its_own_options() {
+        for (line, place) in [("--scene flag", 1.0), ("--scene 2", 2.0), ("--scene=sheet", 0.0)] {
+            assert_eq!(parsed(line), Ok(Task::Window(vec![("scene", place)])));
+        }
+        for line in ["--scene tender --wind --small", "--wind --scene=3 --small"] {
+            let Ok(Task::Receipt(receipt)) = parsed(line) else { panic!("{line}") };
+            assert!(receipt.settings.wind && receipt.small);
+        }
+        let task = parsed("--scene tender --shot a.png --play fold --brief");
+        let Ok(Task::Shot(_, shot)) = task else { panic!("{task:?}") };
+        let receipt = shot.receipt.unwrap();
+        assert_eq!(receipt.play, Some(tender::play::Gesture::Fold));
+        assert_eq!(receipt.settings.sheet, muslin_scenes::Sheet::Brief);
+        assert_eq!(shot.ticks, 60 + tender::play::Gesture::Fold.ticks());
+    }
+
+    #[test]
     fn a_wrong_argument_is_named() {
         for (line, named) in [
             ("--shot", "--shot"),
@@ -174,6 +248,10 @@ mod tests {
             ("--shot a.png --play dead", "--play"),
             ("--shot a.png --strip 0", "--strip"),
             ("--sail", "--sail"),
+            ("--scene rug", "--scene"),
+            ("--scene 4", "--scene"),
+            ("--scene tender --gravity 3", "--gravity"),
+            ("--scene tender --shot a.png --play tear", "--play"),
             ("--reset", "--reset"),
         ] {
             let error = parsed(line).unwrap_err();

@@ -1,7 +1,8 @@
-//! The demo of Muslin: a sheet that hangs, is grabbed, blows and tears, drawn with three-d.
+//! The demo of Muslin, drawn with three-d: a sheet that hangs, is grabbed, blows and tears, and a receipt
+//! to fold, crumple and toss.
 //!
-//! [`app`] is the demo; [`native`] puts it into a window, `web` onto a page, [`headless`] into a
-//! picture. [`controls`] is the one table behind both panels.
+//! [`app`] is the sheet and [`tender`] the receipt; [`native`] puts them into a window, `web` onto pages,
+//! [`headless`] into pictures. [`controls`] is the one table behind both panels.
 
 pub mod app;
 pub mod blade;
@@ -15,6 +16,7 @@ pub mod pointer;
 pub mod render;
 pub mod settings;
 pub mod stage;
+pub mod tender;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;

@@ -5,6 +5,9 @@ fn main() -> std::process::ExitCode {
     use muslin_demo::app::App;
     use muslin_demo::cli::{self, Task};
     use muslin_demo::native;
+    use muslin_demo::native::desk::OnDesk;
+    use muslin_demo::native::show::Sheet;
+    use muslin_demo::tender::Tender;
     use std::process::ExitCode;
 
     let run = || -> Result<(), Box<dyn std::error::Error>> {
@@ -21,7 +24,11 @@ fn main() -> std::process::ExitCode {
             Task::Window(values) => {
                 let mut settings = native::store::read();
                 cli::apply(&values, &mut settings);
-                native::run(App::new(settings, native::clock)?)?;
+                native::run(Sheet::new(App::new(settings, native::clock)?))?;
+            }
+            Task::Receipt(receipt) => {
+                let tender = Tender::new(receipt.settings, receipt.small, native::clock)?;
+                native::run(OnDesk::new(tender))?;
             }
         }
         Ok(())

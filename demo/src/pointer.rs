@@ -145,15 +145,7 @@ impl Pointers {
                 .filter(|p| p.id != id && matches!(p.hold, Hold::Camera))
                 .map(|p| p.at)
                 .collect();
-            let height = scene.screen.size.y.max(1.0);
-            // Both fingers of a pinch turn the camera by half, so that their middle leads it.
-            scene.camera.orbit((to - from) / (height * (others.len() + 1) as f32));
-            if let [other] = others[..] {
-                let (before, after) = (from.distance(other), to.distance(other));
-                if before > 1.0 && after > 1.0 {
-                    scene.camera.zoom(before / after);
-                }
-            }
+            turn(scene.camera, scene.screen, [from, to], &others);
         }
         self.follow(scene)
     }
@@ -231,6 +223,20 @@ impl Pointers {
                 Ok(if hit.is_some() { Cursor::Grab } else { Cursor::Default })
             }
             _ => Ok(Cursor::Default),
+        }
+    }
+}
+
+/// Turns the camera by a pointer's way from one pixel to another while `others` hold it too; two of them
+/// pinch.
+pub fn turn(camera: &mut Camera, screen: Screen, [from, to]: [Vec2; 2], others: &[Vec2]) {
+    let height = screen.size.y.max(1.0);
+    // Both fingers of a pinch turn the camera by half, so that their middle leads it.
+    camera.orbit((to - from) / (height * (others.len() + 1) as f32));
+    if let [other] = others {
+        let (before, after) = (from.distance(*other), to.distance(*other));
+        if before > 1.0 && after > 1.0 {
+            camera.zoom(before / after);
         }
     }
 }

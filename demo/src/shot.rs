@@ -10,8 +10,10 @@ use crate::camera::Camera;
 use crate::gesture::{Gesture, Play};
 use crate::headless::Headless;
 use crate::native;
+use crate::render::desk::Desk;
 use crate::render::{Canvas, Renderer};
 use crate::settings::Settings;
+use crate::tender::{self, Tender};
 
 /// What to draw.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +34,19 @@ pub struct Shot {
     pub orbit: Vec2,
     /// What the camera's distance is multiplied by.
     pub zoom: f32,
+    /// The receipt, in place of the cloth that the controls tell of.
+    pub receipt: Option<Receipt>,
+}
+
+/// The receipt in a picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Receipt {
+    /// Its controls.
+    pub settings: tender::Settings,
+    /// Whether it has fewer particles.
+    pub small: bool,
+    /// What hands do in the last ticks.
+    pub play: Option<tender::play::Gesture>,
 }
 
 impl Default for Shot {
@@ -45,6 +60,7 @@ impl Default for Shot {
             settings: Settings::default(),
             orbit: Vec2::ZERO,
             zoom: 1.0,
+            receipt: None,
         }
     }
 }
@@ -68,39 +84,38 @@ impl Shot {
     /// [`crate::headless::NoContext`] if nothing can draw here, or what the cloth or driver refuses.
     pub fn take(&self) -> Result<Picture, Failure> {
         let headless = Headless::new()?;
-        let mut renderer = Renderer::new(&headless.context)?;
+        let mut act: Box<dyn Act> = match &self.receipt {
+            None => Box::new(self.begin(Renderer::new(&headless.context)?)?),
+            Some(receipt) => Box::new(self.begin_receipt(receipt, Desk::new(&headless.context)?)?),
+        };
         let [width, height] = self.size;
         let canvas = Canvas::new(&headless.context, width, height);
         let mut strip = Picture::black([width * self.strip, height]);
         // The hands work before the usual camera, whatever the picture: the same gesture in each.
-        let (mut app, mut play) = self.begin()?;
-        let hands_view = app.camera().clone();
+        let hands_view = act.camera().clone();
         let mut ticks = 0;
         for i in 0..self.strip {
             let until = self.moment(i);
             while ticks < until {
-                match &mut play {
-                    Some(play) => play.step(&mut app)?,
-                    None => app.play(1),
-                }
+                act.tick()?;
                 ticks += 1;
                 if self.times {
-                    app.draw(&mut renderer, &canvas.target())?;
+                    act.draw(&canvas)?;
                 }
             }
-            *app.camera() = self.view(&hands_view);
-            app.draw(&mut renderer, &canvas.target())?;
-            *app.camera() = hands_view.clone();
+            *act.camera() = self.view(&hands_view);
+            act.draw(&canvas)?;
+            *act.camera() = hands_view.clone();
             strip.put(i * width, self.size, &canvas.pixels());
         }
         if self.times {
-            strip.times = app.stage_times();
+            strip.times = act.times();
         }
         Ok(strip)
     }
 
     /// The scene after as many ticks as come before the gesture, and the gesture.
-    fn begin(&self) -> Result<(App, Option<Play>), Failure> {
+    fn begin(&self, renderer: Renderer) -> Result<OnStage, Failure> {
         let mut settings = self.settings.clone();
         settings.tearing |= matches!(self.play, Some(Gesture::Tear | Gesture::Yank));
         let mut app = App::new(settings, native::clock)?;
@@ -108,12 +123,24 @@ impl Shot {
         app.play(self.ticks - self.played());
         app.time_stages(self.times);
         let play = self.play.map(|gesture| Play::new(gesture, &mut app));
-        Ok((app, play))
+        Ok(OnStage { app, play, renderer })
+    }
+
+    /// The same of the receipt.
+    fn begin_receipt(&self, receipt: &Receipt, desk: Desk) -> Result<OnDesk, Failure> {
+        let mut tender = Tender::new(receipt.settings.clone(), receipt.small, native::clock)?;
+        tender.play(self.ticks - self.played())?;
+        tender.time_stages(self.times);
+        let play = receipt.play.map(tender::play::Play::new);
+        Ok(OnDesk { tender, play, desk })
     }
 
     /// Ticks that are played with hands, or from the first picture of a strip to the last.
     fn played(&self) -> u32 {
-        let gesture = self.play.map_or(0, Gesture::ticks);
+        let gesture = match &self.receipt {
+            None => self.play.map(Gesture::ticks),
+            Some(receipt) => receipt.play.map(tender::play::Gesture::ticks),
+        };
         let still = if self.times {
             self.ticks
         } else if self.strip > 1 {
@@ -121,7 +148,7 @@ impl Shot {
         } else {
             0
         };
-        if self.play.is_some() { gesture } else { still }.min(self.ticks)
+        gesture.unwrap_or(still).min(self.ticks)
     }
 
     /// After how many of these the picture of this number is taken.
@@ -140,6 +167,72 @@ impl Shot {
             camera.advance(1.0 / 60.0, true);
         }
         camera
+    }
+}
+
+/// What a picture is taken of.
+trait Act {
+    fn tick(&mut self) -> Result<(), Failure>;
+    fn draw(&mut self, canvas: &Canvas) -> Result<(), Failure>;
+    fn camera(&mut self) -> &mut Camera;
+    fn times(&self) -> Vec<StageTime>;
+}
+
+/// The cloth of the controls, and who plays with it.
+struct OnStage {
+    app: App,
+    play: Option<Play>,
+    renderer: Renderer,
+}
+
+impl Act for OnStage {
+    fn tick(&mut self) -> Result<(), Failure> {
+        match &mut self.play {
+            Some(play) => play.step(&mut self.app)?,
+            None => self.app.play(1),
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self, canvas: &Canvas) -> Result<(), Failure> {
+        Ok(self.app.draw(&mut self.renderer, &canvas.target())?)
+    }
+
+    fn camera(&mut self) -> &mut Camera {
+        self.app.camera()
+    }
+
+    fn times(&self) -> Vec<StageTime> {
+        self.app.stage_times()
+    }
+}
+
+/// The receipt, and who plays with it.
+struct OnDesk {
+    tender: Tender,
+    play: Option<tender::play::Play>,
+    desk: Desk,
+}
+
+impl Act for OnDesk {
+    fn tick(&mut self) -> Result<(), Failure> {
+        match &mut self.play {
+            Some(play) => play.step(&mut self.tender)?,
+            None => self.tender.play(1)?,
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self, canvas: &Canvas) -> Result<(), Failure> {
+        Ok(self.tender.draw(&mut self.desk, &canvas.target())?)
+    }
+
+    fn camera(&mut self) -> &mut Camera {
+        self.tender.camera()
+    }
+
+    fn times(&self) -> Vec<StageTime> {
+        self.tender.stage_times()
     }
 }
 

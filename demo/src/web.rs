@@ -17,7 +17,7 @@ use crate::settings::Settings;
 #[wasm_bindgen]
 extern "C" {
     #[wasm_bindgen(js_namespace = performance, js_name = now)]
-    fn now() -> f64;
+    pub(crate) fn now() -> f64;
 }
 
 /// The running demo, and what it has on the graphics card.
@@ -27,8 +27,16 @@ pub struct Demo {
     renderer: Option<Renderer>,
 }
 
-fn told(error: impl std::fmt::Display) -> JsError {
+pub(crate) fn told(error: impl std::fmt::Display) -> JsError {
     JsError::new(&error.to_string())
+}
+
+/// three-d's context around the page's.
+pub(crate) fn around(gl: web_sys::WebGl2RenderingContext) -> Result<Context, JsError> {
+    let gl = three_d::context::Context::from_webgl2_context(gl);
+    #[expect(clippy::arc_with_non_send_sync, reason = "three-d asks for an Arc everywhere")]
+    let gl = Arc::new(gl);
+    Context::from_gl_context(gl).map_err(told)
 }
 
 #[wasm_bindgen]
@@ -45,11 +53,7 @@ impl Demo {
     /// Takes a WebGL 2 context; again after one was lost.
     pub fn attach(&mut self, gl: web_sys::WebGl2RenderingContext) -> Result<(), JsError> {
         self.renderer = None;
-        let gl = three_d::context::Context::from_webgl2_context(gl);
-        #[expect(clippy::arc_with_non_send_sync, reason = "three-d asks for an Arc everywhere")]
-        let gl = Arc::new(gl);
-        let context = Context::from_gl_context(gl).map_err(told)?;
-        self.renderer = Some(Renderer::new(&context).map_err(told)?);
+        self.renderer = Some(Renderer::new(&around(gl)?).map_err(told)?);
         Ok(())
     }
 

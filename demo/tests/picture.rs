@@ -3,7 +3,8 @@
 
 use muslin_demo::gesture::Gesture;
 use muslin_demo::settings::Settings;
-use muslin_demo::shot::{Picture, Shot};
+use muslin_demo::shot::{Picture, Receipt, Shot};
+use muslin_demo::tender;
 
 fn take(shot: &Shot) -> Picture {
     shot.take().unwrap_or_else(|error| panic!("{error}"))
@@ -95,6 +96,44 @@ fn a_film_strip_shows_the_gesture_go_on() {
         for two in frames.windows(2) {
             let differ = difference(&two[0], &two[1]);
             assert!(differ > 0.02, "{gesture:?}: two frames differ by {differ}");
+        }
+    }
+}
+
+fn receipt(play: Option<tender::play::Gesture>, strip: u32) -> Picture {
+    let receipt = Receipt { play, small: true, ..Receipt::default() };
+    let ticks = 60 + play.map_or(0, tender::play::Gesture::ticks);
+    take(&Shot { size: [240, 240], ticks, strip, receipt: Some(receipt), ..Shot::default() })
+}
+
+#[test]
+fn the_receipt_is_printed_paper_over_a_light_ground() {
+    let picture = receipt(None, 1);
+    // The backdrop is the brief's, to a step of dither.
+    for x in [0, 239] {
+        for channel in &picture.rgb[3 * x..3 * x + 3] {
+            assert!(channel.abs_diff(0xe8) <= 1, "the backdrop is {channel}");
+        }
+    }
+    let paper = brightness(&picture, [0.42, 0.58], [0.08, 0.10]);
+    let text = brightness(&picture, [0.42, 0.58], [0.11, 0.15]);
+    assert!(paper > 215.0 && text < paper - 15.0, "paper {paper}, print {text}");
+    let open = brightness(&picture, [0.85, 0.98], [0.80, 0.90]);
+    let shade = brightness(&picture, [0.40, 0.50], [0.76, 0.78]);
+    assert!(shade < 0.85 * open, "open ground {open}, its shadow {shade}");
+}
+
+#[test]
+fn the_receipts_gestures_can_be_seen() {
+    let still = receipt(None, 1);
+    for (name, gesture) in tender::play::Gesture::ALL {
+        let strip = receipt(Some(gesture), 3);
+        for i in 0..3 {
+            let rows = strip.rgb.chunks_exact(3 * 720);
+            let rgb = rows.flat_map(|row| &row[720 * i..720 * (i + 1)]).copied().collect();
+            let frame = Picture { times: Vec::new(), size: [240, 240], rgb };
+            let differ = difference(&still, &frame);
+            assert!(differ > 0.03, "frame {i} of {name} differs by {differ}");
         }
     }
 }

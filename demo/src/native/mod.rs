@@ -1,6 +1,8 @@
-//! The demo in a window: three-d's context, winit's events, an egui panel.
+//! The demo in a window: three-d's context, winit's events, and egui over the picture.
 
+pub mod desk;
 pub mod panel;
+pub mod show;
 pub mod store;
 
 use std::fmt;
@@ -14,13 +16,16 @@ use winit::event::{ElementState, Event, MouseButton, MouseScrollDelta, TouchPhas
 use winit::event_loop::{ControlFlow, EventLoop};
 use winit::window::{CursorIcon, Window, WindowBuilder};
 
-use crate::app::App;
 use crate::pointer::Cursor;
-use crate::render::Renderer;
-use panel::{Panel, Wish};
+use crate::tender::hands::Button;
+use show::Show;
 
 /// The mouse, among the pointers; fingers count from one.
 const MOUSE: u32 = 0;
+/// The same mouse by its right button.
+const RIGHT: u32 = u32::MAX;
+/// The longest time between the two of a double press [s].
+const DOUBLE: f64 = 0.35;
 /// Pixels that one notch of a wheel is worth.
 const NOTCH: f32 = 100.0;
 
@@ -46,15 +51,15 @@ pub fn clock() -> f64 {
     START.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
 
-/// Opens the window and runs until it is closed.
+/// Opens a window for a show and runs until it is closed.
 ///
 /// # Errors
 /// [`NoWindow`] if there is no display or it has no OpenGL 3.3.
-pub fn run(app: App) -> Result<(), NoWindow> {
+pub fn run(mut show: impl Show + 'static) -> Result<(), NoWindow> {
     let event_loop = event_loop()?;
     let told = |e: &dyn fmt::Display| NoWindow(e.to_string());
     let window = WindowBuilder::new()
-        .with_title("Muslin")
+        .with_title(show.title())
         .with_inner_size(LogicalSize::new(1280.0, 720.0))
         .with_min_inner_size(LogicalSize::new(320.0, 320.0))
         .build(&event_loop)
@@ -62,16 +67,14 @@ pub fn run(app: App) -> Result<(), NoWindow> {
     // The scene is drawn into a multisampled target of its own.
     let surface = SurfaceSettings { multisamples: 0, ..SurfaceSettings::default() };
     let context = WindowedContext::from_winit_window(&window, surface).map_err(|e| told(&e))?;
-    let renderer = Renderer::new(&context).map_err(|e| told(&e))?;
+    show.attach(&context).map_err(|e| told(&e))?;
     let mut stage = Stage {
         input: FrameInputGenerator::from_winit_window(&window),
         gui: GUI::new(&context),
-        panel: Panel::default(),
         mouse: Vec2::ZERO,
+        pressed: (f64::NEG_INFINITY, Vec2::ZERO),
         last: clock(),
-        kept: app.settings().to_json(),
-        app,
-        renderer,
+        show,
         context,
         window,
     };
@@ -86,7 +89,7 @@ pub fn run(app: App) -> Result<(), NoWindow> {
                 *flow = ControlFlow::ExitWithCode(1);
             }
         }
-        Event::LoopDestroyed => stage.keep(),
+        Event::LoopDestroyed => stage.show.keep(),
         _ => {}
     })
 }
@@ -104,25 +107,24 @@ fn event_loop() -> Result<EventLoop<()>, NoWindow> {
     made.map_err(|_| NoWindow("the display cannot be opened".into()))
 }
 
-/// Window, context and demo.
-struct Stage {
-    app: App,
-    renderer: Renderer,
+/// Window, context and what is shown.
+struct Stage<S> {
+    show: S,
     gui: GUI,
-    panel: Panel,
     input: FrameInputGenerator,
     context: WindowedContext,
     mouse: Vec2,
+    /// When and where a pointer came down last.
+    pressed: (f64, Vec2),
     last: f64,
-    kept: String,
     window: Window,
 }
 
-impl Stage {
+impl<S: Show> Stage<S> {
     /// The size of the window in logical pixels, the ones that pointers count in.
     fn fit(&mut self) {
         let size = self.window.inner_size().to_logical(self.window.scale_factor());
-        self.app.resize(Vec2::new(size.width, size.height));
+        self.show.resize(Vec2::new(size.width, size.height));
     }
 
     fn take(&mut self, event: &WindowEvent<'_>, flow: &mut ControlFlow) {
@@ -146,53 +148,52 @@ impl Stage {
             WindowEvent::CursorMoved { position, .. } => {
                 let at = position.to_logical::<f32>(scale);
                 self.mouse = Vec2::new(at.x, at.y);
-                self.app.drag(MOUSE, self.mouse)
+                let dragged = self.show.drag(MOUSE, self.mouse);
+                dragged.and_then(|()| self.show.drag(RIGHT, self.mouse))
             }
             WindowEvent::CursorLeft { .. } => {
-                self.app.leave();
+                self.show.leave();
                 Ok(())
             }
-            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => match state {
-                ElementState::Pressed if self.panel.covers(self.mouse) => Ok(()),
-                ElementState::Pressed => {
-                    self.panel.hide_help();
-                    self.app.press(MOUSE, self.mouse)
+            WindowEvent::MouseInput { state, button, .. } => {
+                let (id, button) = match button {
+                    MouseButton::Left => (MOUSE, Button::Main),
+                    MouseButton::Right => (RIGHT, Button::Turn),
+                    _ => return,
+                };
+                match state {
+                    ElementState::Pressed if self.show.covers(self.mouse) => Ok(()),
+                    ElementState::Pressed => self.press(id, self.mouse, button),
+                    ElementState::Released => self.show.lift(id),
                 }
-                ElementState::Released => self.app.lift(MOUSE),
-            },
-            WindowEvent::MouseWheel { delta, .. } if !self.panel.covers(self.mouse) => {
+            }
+            WindowEvent::MouseWheel { delta, .. } if !self.show.covers(self.mouse) => {
                 let pixels = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => lines * NOTCH,
                     MouseScrollDelta::PixelDelta(by) => by.to_logical::<f32>(scale).y,
                 };
-                self.app.wheel(-pixels);
+                self.show.wheel(-pixels);
                 Ok(())
             }
             WindowEvent::TouchpadMagnify { delta, .. } => {
-                self.app.pinch((*delta as f32).exp());
+                self.show.pinch((*delta as f32).exp());
                 Ok(())
             }
             WindowEvent::Touch(touch) => {
                 let at = touch.location.to_logical::<f32>(scale);
                 let at = Vec2::new(at.x, at.y);
-                let finger = (touch.id as u32).wrapping_add(1).max(1);
+                let finger = (touch.id as u32 % (RIGHT - 1)) + 1;
                 match touch.phase {
-                    TouchPhase::Started if self.panel.covers(at) => Ok(()),
-                    TouchPhase::Started => {
-                        self.panel.hide_help();
-                        self.app.press(finger, at)
-                    }
-                    TouchPhase::Moved => self.app.drag(finger, at),
-                    TouchPhase::Ended | TouchPhase::Cancelled => self.app.lift(finger),
+                    TouchPhase::Started if self.show.covers(at) => Ok(()),
+                    TouchPhase::Started => self.press(finger, at, Button::Main),
+                    TouchPhase::Moved => self.show.drag(finger, at),
+                    TouchPhase::Ended | TouchPhase::Cancelled => self.show.lift(finger),
                 }
             }
-            WindowEvent::ModifiersChanged(keys) => {
-                self.app.hold_blade(keys.shift());
-                Ok(())
-            }
+            WindowEvent::ModifiersChanged(keys) => self.show.shift(keys.shift()),
             WindowEvent::Focused(false) => {
-                self.app.hold_blade(false);
-                self.app.lift(MOUSE)
+                let let_go = self.show.shift(false).and_then(|()| self.show.lift(MOUSE));
+                let_go.and_then(|()| self.show.lift(RIGHT))
             }
             WindowEvent::ReceivedCharacter(key) => self.key(*key),
             _ => Ok(()),
@@ -207,43 +208,40 @@ impl Stage {
         if self.gui.context().egui_wants_keyboard_input() {
             return Ok(());
         }
-        match key {
-            '?' | 'h' | 'H' => self.panel.toggle_help(),
-            'c' | 'C' => self.panel.toggle(),
-            _ => {
-                self.app.key(key, key.is_uppercase())?;
-            }
+        self.show.key(key)
+    }
+
+    /// A pointer comes down; soon after the one before and near it, it is a double press.
+    fn press(&mut self, id: u32, at: Vec2, button: Button) -> muslin::Result<()> {
+        let now = clock();
+        let (then, there) = std::mem::replace(&mut self.pressed, (now, at));
+        if button == Button::Main && now - then < DOUBLE && at.distance(there) < 12.0 {
+            self.show.press_twice(at)?;
         }
-        Ok(())
+        self.show.press(id, at, button)
     }
 
     fn frame(&mut self) -> Result<(), Box<dyn std::error::Error>> {
         let now = clock();
         let seconds = (now - self.last) as f32;
         if now.floor() > self.last.floor() {
-            self.keep();
+            self.show.keep();
         }
         self.last = now;
-        self.app.frame(seconds)?;
+        self.show.frame(seconds)?;
 
         let mut input = self.input.generate(&self.context);
-        let mut wishes = Vec::new();
+        let show = &mut self.show;
         self.gui.update(
             &mut input.events,
             input.accumulated_time,
             input.viewport,
             input.device_pixel_ratio,
-            |ui| self.panel.draw(ui.ctx(), &self.app, &mut wishes),
+            |ui| show.overlay(ui.ctx()),
         );
-        for wish in wishes {
-            match wish {
-                Wish::Set(name, value) => self.app.set(name, value)?,
-                Wish::Act(action) => self.app.act(action)?,
-                Wish::TimeStages(on) => self.app.time_stages(on),
-            }
-        }
-        let cursor = match self.app.cursor()? {
-            _ if self.panel.covers(self.mouse) => CursorIcon::Default,
+        self.show.obey()?;
+        let cursor = match self.show.cursor()? {
+            _ if self.show.covers(self.mouse) => CursorIcon::Default,
             Cursor::Default => CursorIcon::Default,
             Cursor::Grab => CursorIcon::Grab,
             Cursor::Grabbing => CursorIcon::Grabbing,
@@ -252,18 +250,9 @@ impl Stage {
         self.window.set_cursor_icon(cursor);
 
         let screen = input.screen();
-        self.app.draw(&mut self.renderer, &screen)?;
+        self.show.draw(&screen)?;
         screen.write::<CoreError>(|| self.gui.render())?;
         self.context.swap_buffers()?;
         Ok(())
-    }
-
-    /// Writes the settings down if they are others than before; asked once a second and at the end.
-    fn keep(&mut self) {
-        let now = self.app.settings().to_json();
-        if now != self.kept {
-            store::write(&now);
-            self.kept = now;
-        }
     }
 }

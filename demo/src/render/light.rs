@@ -1,5 +1,7 @@
 //! The lights of the scene, and the colours of the brief made ready for a linear, tone-mapped picture.
 
+use std::ops::Range;
+
 use glam::camera::rh::{proj, view};
 use glam::{Mat4, Vec3};
 
@@ -43,16 +45,24 @@ impl Default for Lights {
 }
 
 impl Light {
-    fn new(towards: Vec3, colour: u32, intensity: f32) -> Self {
+    /// A light from a direction, of a colour `0xrrggbb` and so intense.
+    pub fn new(towards: Vec3, colour: u32, intensity: f32) -> Self {
         Self { towards: towards.normalize(), colour: linear(colour) * intensity }
     }
 
     /// Maps the stage into the clip space of an orthographic camera that looks along the light.
     pub fn clip_from_world(&self) -> Mat4 {
-        let eye = STAGE_CENTRE + self.towards * (2.0 * STAGE_RADIUS);
-        let view = view::look_at_mat4(eye, STAGE_CENTRE, Vec3::Y);
         let r = STAGE_RADIUS;
-        proj::opengl::orthographic(-r, r, -r, r, 0.5 * r, 4.0 * r) * view
+        self.clip_around(STAGE_CENTRE, r, 2.0 * r, 0.5 * r..4.0 * r)
+    }
+
+    /// The same for what is within `radius` of a place, seen from so far `away` [m].
+    pub fn clip_around(&self, centre: Vec3, radius: f32, away: f32, depth: Range<f32>) -> Mat4 {
+        let eye = centre + self.towards * away;
+        let up = if self.towards.y.abs() > 0.99 { Vec3::Z } else { Vec3::Y };
+        let view = view::look_at_mat4(eye, centre, up);
+        let r = radius;
+        proj::opengl::orthographic(-r, r, -r, r, depth.start, depth.end) * view
     }
 }
 

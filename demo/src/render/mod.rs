@@ -4,6 +4,7 @@
 //! picture. Every shader is written for both desktop GL 3.3 and WebGL 2.
 
 pub mod cloth_material;
+pub mod desk;
 pub mod fringe;
 pub mod glow;
 pub mod ground;
@@ -12,6 +13,7 @@ pub mod mesh;
 pub mod post;
 pub mod shadow;
 pub mod sky;
+pub mod sky_light;
 pub mod solid;
 pub mod trail;
 pub mod wireframe;
@@ -117,9 +119,10 @@ impl Renderer {
     pub fn draw(&mut self, frame: &Frame<'_>, output: &RenderTarget<'_>) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * frame.share).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
-        self.fit(width, height);
+        Target::fit(&mut self.target, &self.context, width, height);
+        let clip = self.lights.key.clip_from_world();
         for shadow in [&self.shadow, &self.floor_shadow] {
-            shadow.draw(&self.mesh, &self.lights, &self.solids, frame.solids)?;
+            shadow.draw(&self.mesh, clip, &self.solids, frame.solids)?;
         }
 
         let Some(target) = &self.target else {
@@ -162,18 +165,20 @@ impl Renderer {
     pub fn context(&self) -> &Context {
         &self.context
     }
+}
 
-    fn fit(&mut self, width: u32, height: u32) {
-        let fits = self
-            .target
+impl Target {
+    /// Makes another target if the old one is of another size.
+    fn fit(target: &mut Option<Self>, context: &Context, width: u32, height: u32) {
+        let fits = target
             .as_ref()
             .is_some_and(|t| t.resolved.width() == width && t.resolved.height() == height);
         if !fits {
             // The old one goes first, so that two never share the card's memory.
-            self.target = None;
-            self.target = Some(Target {
-                samples: RenderTargetMultisample::new(&self.context, width, height, SAMPLES),
-                resolved: post::linear_texture(&self.context, width, height),
+            *target = None;
+            *target = Some(Self {
+                samples: RenderTargetMultisample::new(context, width, height, SAMPLES),
+                resolved: post::linear_texture(context, width, height),
             });
         }
     }

@@ -2,13 +2,14 @@
 //!
 //! The map never moves, so that still shadows stay still.
 
+use glam::Mat4;
 use three_d::context::{self, HasContext};
 use three_d::{
     ClearState, Context, CoreError, DepthTexture2D, Program, RenderStates, Viewport, Wrapping,
     WriteMask,
 };
 
-use super::light::Lights;
+use super::light::{Light, Lights};
 use super::mesh::Mesh;
 use super::solid::{Solid, Solids};
 use super::{matrix, vector};
@@ -50,12 +51,11 @@ impl Shadow {
     pub(super) fn draw(
         &self,
         mesh: &Mesh,
-        lights: &Lights,
+        clip: Mat4,
         shapes: &Solids,
         solids: &[Solid],
     ) -> Result<(), CoreError> {
         self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
-            let clip = lights.key.clip_from_world();
             self.program.use_uniform("shadowFromWorld", matrix(clip));
             self.program.use_vertex_attribute("position", &mesh.positions);
             let viewport = Viewport::new_at_origo(self.map.width(), self.map.height());
@@ -72,24 +72,38 @@ impl Shadow {
 
     /// Hands map and key light to a program that includes `light.glsl`.
     pub(super) fn use_in(&self, program: &Program, lights: &Lights) {
-        let clip = lights.key.clip_from_world();
+        self.use_with(program, &lights.key, lights.key.clip_from_world());
+    }
+
+    /// The same for any light, and the clip space that the map was drawn in.
+    pub(super) fn use_with(&self, program: &Program, key: &Light, clip: Mat4) {
         program.use_uniform("shadowFromWorld", matrix(clip));
-        program.use_uniform("keyTowards", vector(lights.key.towards));
-        program.use_uniform("keyColour", vector(lights.key.colour));
+        program.use_uniform("keyTowards", vector(key.towards));
+        program.use_uniform("keyColour", vector(key.colour));
         program.use_depth_texture("shadowMap", &self.map);
-        // three-d binds the map for plain reads; a shadow sampler compares and blends instead.
-        let parameters = [
-            (context::TEXTURE_COMPARE_MODE, context::COMPARE_REF_TO_TEXTURE),
-            (context::TEXTURE_COMPARE_FUNC, context::LEQUAL),
-            (context::TEXTURE_MIN_FILTER, context::LINEAR),
-            (context::TEXTURE_MAG_FILTER, context::LINEAR),
-        ];
-        for (name, value) in parameters {
-            // SAFETY: plain GL state of the texture that `use_depth_texture` has just bound; the
-            // context is current wherever a frame is drawn.
-            unsafe {
-                self.context.tex_parameter_i32(context::TEXTURE_2D, name, value as i32);
-            }
+        compare(&self.context);
+    }
+
+    /// Hands the bare depths to a program.
+    pub(super) fn use_depths(&self, program: &Program, name: &str) {
+        program.use_depth_texture(name, &self.map);
+    }
+}
+
+/// Has the depth texture that was just bound compare and blend what a shadow sampler asks of it.
+pub(super) fn compare(context: &Context) {
+    // three-d binds the map for plain reads; a shadow sampler compares and blends instead.
+    let parameters = [
+        (context::TEXTURE_COMPARE_MODE, context::COMPARE_REF_TO_TEXTURE),
+        (context::TEXTURE_COMPARE_FUNC, context::LEQUAL),
+        (context::TEXTURE_MIN_FILTER, context::LINEAR),
+        (context::TEXTURE_MAG_FILTER, context::LINEAR),
+    ];
+    for (name, value) in parameters {
+        // SAFETY: plain GL state of the texture that `use_depth_texture` has just bound; the
+        // context is current wherever a frame is drawn.
+        unsafe {
+            context.tex_parameter_i32(context::TEXTURE_2D, name, value as i32);
         }
     }
 }

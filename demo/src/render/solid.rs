@@ -60,6 +60,18 @@ impl Solids {
     }
 
     pub(super) fn draw(&self, pass: &Pass, shadow: &Shadow, solids: &[Solid], dim: f32) {
+        self.draw_with(pass, shadow, pass.lights.key.clip_from_world(), solids, dim);
+    }
+
+    /// The same where the shadow map was drawn in another clip space.
+    pub(super) fn draw_with(
+        &self,
+        pass: &Pass,
+        shadow: &Shadow,
+        clip: Mat4,
+        solids: &[Solid],
+        dim: f32,
+    ) {
         let p = &self.program;
         for solid in solids {
             self.place(p, pass.clip_from_world, solid);
@@ -70,7 +82,7 @@ impl Solids {
             p.use_uniform("fillColour", vector(pass.lights.fill.colour));
             p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
             p.use_uniform("rimColour", vector(pass.lights.rim.colour));
-            shadow.use_in(p, &pass.lights);
+            shadow.use_with(p, &pass.lights.key, clip);
             p.draw_elements(RenderStates::default(), pass.viewport, &self.triangles);
         }
     }

@@ -1,0 +1,178 @@
+//! The receipt in a window: its title, instructions, pills, counter and pause over the picture.
+
+use glam::Vec2;
+use muslin::Result;
+use three_d::egui::{
+    Align2, Area, Button as Pill, Color32, Context as Egui, CornerRadius, FontId, Id, Rect,
+    RichText, Stroke, Visuals, pos2, vec2,
+};
+use three_d::{Context, CoreError, RenderTarget};
+
+use super::show::Show;
+use crate::pointer::Cursor;
+use crate::render::desk::Desk;
+use crate::tender::Tender;
+use crate::tender::hands::Button;
+use crate::tender::settings::{Action, CONTROLS};
+
+const TEXT: Color32 = Color32::from_rgb(0x2c, 0x30, 0x36);
+const MUTED: Color32 = Color32::from_rgb(0x5a, 0x61, 0x6b);
+const PILL: Color32 = Color32::from_rgba_premultiplied(140, 142, 144, 140);
+const HAIRLINE: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 26);
+
+/// How long the instructions stay [s], and how long they take to fade.
+const STAY: f32 = 3.0;
+const FADE: f32 = 0.8;
+
+/// What people may do, beyond what the pills say.
+const INSTRUCTIONS: &str = "Click and drag to grab the paper";
+const MORE: &str = "Right-drag to orbit  ·  hold Shift to leave a hand in place  ·  double-click a bend to crease it";
+
+/// The receipt with its overlay.
+pub struct OnDesk {
+    tender: Tender,
+    desk: Option<Desk>,
+    wishes: Vec<Action>,
+    pills: Vec<Rect>,
+    age: f32,
+}
+
+impl OnDesk {
+    /// Around the receipt.
+    pub fn new(tender: Tender) -> Self {
+        Self { tender, desk: None, wishes: Vec::new(), pills: Vec::new(), age: 0.0 }
+    }
+
+    fn pills(&mut self, ctx: &Egui) {
+        self.pills.clear();
+        let area = Area::new(Id::new("pills")).anchor(Align2::LEFT_BOTTOM, vec2(20.0, -20.0));
+        area.show(ctx, |ui| {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().button_padding = vec2(16.0, 8.0);
+                for control in CONTROLS.iter().filter(|control| control.is_pill) {
+                    let on = control.is_on(self.tender.settings()) == Some(true);
+                    let [fill, text] = if on { [TEXT, Color32::WHITE] } else { [PILL, TEXT] };
+                    let pill = Pill::new(RichText::new(control.label).size(14.0).color(text))
+                        .fill(fill)
+                        .stroke(Stroke::new(1.0, HAIRLINE))
+                        .corner_radius(CornerRadius::same(18))
+                        .min_size(vec2(0.0, 36.0));
+                    let hint = format!("{} ({})", control.about, control.key_name());
+                    let response = ui.add(pill).on_hover_text(hint);
+                    self.pills.push(response.rect);
+                    if response.clicked() {
+                        self.wishes.push(control.action);
+                    }
+                }
+            });
+        });
+    }
+}
+
+impl Show for OnDesk {
+    fn title(&self) -> &'static str {
+        "Tender — Receipt Paper Physics"
+    }
+
+    fn attach(&mut self, context: &Context) -> std::result::Result<(), CoreError> {
+        self.desk = Some(Desk::new(context)?);
+        Ok(())
+    }
+
+    fn resize(&mut self, size: Vec2) {
+        self.tender.resize(size);
+    }
+
+    fn covers(&self, at: Vec2) -> bool {
+        self.pills.iter().any(|rect| rect.contains(pos2(at.x, at.y)))
+    }
+
+    fn press(&mut self, id: u32, at: Vec2, button: Button) -> Result<()> {
+        self.tender.press(id, at, button)
+    }
+
+    fn press_twice(&mut self, at: Vec2) -> Result<()> {
+        self.tender.crease(at).map(|_| ())
+    }
+
+    fn drag(&mut self, id: u32, to: Vec2) -> Result<()> {
+        self.tender.drag(id, to);
+        Ok(())
+    }
+
+    fn lift(&mut self, id: u32) -> Result<()> {
+        self.tender.lift(id)
+    }
+
+    fn leave(&mut self) {
+        self.tender.leave();
+    }
+
+    fn wheel(&mut self, pixels: f32) {
+        self.tender.wheel(pixels);
+    }
+
+    fn pinch(&mut self, factor: f32) {
+        self.tender.pinch(factor);
+    }
+
+    fn shift(&mut self, held: bool) -> Result<()> {
+        self.tender.stay(held)
+    }
+
+    fn key(&mut self, key: char) -> Result<()> {
+        self.tender.key(key).map(|_| ())
+    }
+
+    fn cursor(&mut self) -> Result<Cursor> {
+        self.tender.cursor()
+    }
+
+    fn frame(&mut self, seconds: f32) -> Result<()> {
+        self.age += seconds;
+        self.tender.frame(seconds)
+    }
+
+    fn overlay(&mut self, ctx: &Egui) {
+        ctx.set_visuals(Visuals::light());
+        let screen = ctx.content_rect();
+        let painter = ctx.debug_painter();
+        let write = |at, anchor, text: &str, size, colour| {
+            painter.text(at, anchor, text, FontId::proportional(size), colour);
+        };
+        // Small capitals: a large one first.
+        write(pos2(24.0, 18.0), Align2::LEFT_TOP, "T", 25.0, TEXT);
+        write(pos2(40.0, 24.5), Align2::LEFT_TOP, "E N D E R", 17.0, TEXT);
+        let left = 1.0 - ((self.age - STAY) / FADE).clamp(0.0, 1.0);
+        write(pos2(24.0, 54.0), Align2::LEFT_TOP, INSTRUCTIONS, 15.0, MUTED.gamma_multiply(left));
+        write(pos2(24.0, 76.0), Align2::LEFT_TOP, MORE, 13.0, MUTED.gamma_multiply(left));
+        if self.tender.settings().counter {
+            let r = self.tender.readout();
+            let text = format!(
+                "{:.0} fps\n{} particles\n{} constraints\n{:.2} ms simulation",
+                r.fps, r.particles, r.constraints, r.milliseconds
+            );
+            write(screen.right_top() + vec2(-24.0, 22.0), Align2::RIGHT_TOP, &text, 13.0, MUTED);
+        }
+        if self.tender.settings().paused {
+            let text = "PAUSED — press Space";
+            write(screen.center(), Align2::CENTER_CENTER, text, 38.0, TEXT.gamma_multiply(0.75));
+        }
+        self.pills(ctx);
+    }
+
+    fn obey(&mut self) -> Result<()> {
+        let wishes = std::mem::take(&mut self.wishes);
+        wishes.into_iter().try_for_each(|action| self.tender.act(action))
+    }
+
+    fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError> {
+        match &mut self.desk {
+            Some(desk) => self.tender.draw(desk, screen),
+            None => Ok(()),
+        }
+    }
+
+    /// Every visit starts with a fresh receipt.
+    fn keep(&mut self) {}
+}

@@ -1,0 +1,266 @@
+//! The receipt's picture: paper over a plain ground in daylight, in the brief's units and colours.
+
+use glam::{Mat4, Vec3};
+use muslin_scenes::receipt;
+use three_d::context::{self, HasContext};
+use three_d::{
+    ClearState, Context, CoreError, DepthTest, Interpolation, Mipmap, Program, RenderStates,
+    RenderTarget, Texture2D, Viewport, Wrapping, WriteMask,
+};
+
+use super::light::{Light, Lights, linear};
+use super::mesh::{Mesh, Surface};
+use super::shadow::Shadow;
+use super::sky_light::SkyLight;
+use super::solid::{Solid, Solids};
+use super::{Corners, Pass, Target, matrix, vector};
+use crate::camera::Sight;
+use crate::tender::print::Print;
+
+/// What fills the picture where nothing is.
+const BACKDROP: u32 = 0xe8e8e8;
+/// Height of the ground: a little under the floor, in units.
+pub const GROUND: f32 = receipt::FLOOR - 0.02;
+/// Half a side of the ground, in units.
+const REACH: f32 = 50.0;
+/// Light of one that comes out as one: the brief's lights together are brighter than a screen.
+const EXPOSURE: f32 = 1.0 / 1.4;
+/// Texels along a side of the key light's shadow map, and of the one that tells how far shadows fall.
+const SHARP: u32 = 2048;
+const COARSE: u32 = 256;
+/// What the shadow maps show around the middle of the paper, at least, in units; and how deep they are.
+const RADIUS: f32 = 5.0;
+const DEPTH: f32 = 60.0;
+
+/// What a frame shows besides the paper.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// From where, in units.
+    pub sight: Sight,
+    /// Where pins are, in units.
+    pub pins: &'a [Vec3],
+    /// The share of the output's pixels that are drawn along each side.
+    pub share: f32,
+}
+
+/// Everything on the graphics card; dropped and made anew when a context is lost.
+pub struct Desk {
+    context: Context,
+    lights: Lights,
+    mesh: Mesh,
+    shadow: Shadow,
+    depths: Shadow,
+    sky: SkyLight,
+    ink: Texture2D,
+    paper: Program,
+    ground: Program,
+    solids: Solids,
+    daylight: Program,
+    corners: Corners,
+    target: Option<Target>,
+    /// The middle of the paper, and how far it reaches from there, in units.
+    middle: Vec3,
+    radius: f32,
+}
+
+impl Desk {
+    /// Compiles the shaders, prints the receipt and makes the textures.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses a shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        let lit = concat!(
+            include_str!("shaders/light.glsl"),
+            include_str!("shaders/sky_light.glsl"),
+            include_str!("shaders/paper.frag")
+        );
+        let ground = concat!(
+            include_str!("shaders/light.glsl"),
+            include_str!("shaders/sky_light.glsl"),
+            include_str!("shaders/table.frag")
+        );
+        Ok(Self {
+            context: context.clone(),
+            lights: lights(),
+            mesh: Mesh::new(context),
+            shadow: Shadow::new(context, SHARP)?,
+            depths: Shadow::new(context, COARSE)?,
+            sky: SkyLight::new(context)?,
+            ink: ink(context),
+            paper: Program::from_source(context, include_str!("shaders/cloth.vert"), lit)?,
+            ground: Program::from_source(context, include_str!("shaders/ground.vert"), ground)?,
+            solids: Solids::new(context)?,
+            daylight: Program::from_source(
+                context,
+                include_str!("shaders/screen.vert"),
+                include_str!("shaders/daylight.frag"),
+            )?,
+            corners: Corners::new(context),
+            target: None,
+            middle: Vec3::ZERO,
+            radius: RADIUS,
+        })
+    }
+
+    /// Takes the paper as it is now.
+    pub fn take(&mut self, surface: &Surface<'_>) {
+        self.mesh.update(surface);
+        let count = surface.positions.len().max(1) as f32;
+        self.middle = surface.positions.iter().sum::<Vec3>() / count;
+        let far = surface.positions.iter().map(|at| at.distance(self.middle));
+        self.radius = far.fold(RADIUS, f32::max);
+    }
+
+    /// Draws one picture of it into `output`, filling it.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses.
+    pub fn draw(&mut self, view: &View<'_>, output: &RenderTarget<'_>) -> Result<(), CoreError> {
+        let side = |pixels: u32| (pixels as f32 * view.share).round().max(1.0) as u32;
+        let (width, height) = (side(output.width()), side(output.height()));
+        Target::fit(&mut self.target, &self.context, width, height);
+        let pins: Vec<Solid> = view.pins.iter().map(|at| pin(*at)).collect();
+        let key = self.lights.key;
+        let clip = key.clip_around(self.middle, self.radius, 0.5 * DEPTH, 0.0..DEPTH);
+        for shadow in [&self.shadow, &self.depths] {
+            shadow.draw(&self.mesh, clip, &self.solids, &pins)?;
+        }
+        self.sky.draw(&self.mesh, self.middle, self.radius)?;
+        let Some(target) = &self.target else {
+            return Ok(());
+        };
+        let pass = Pass {
+            viewport: Viewport::new_at_origo(width, height),
+            clip_from_world: view.sight.clip_from_world(width as f32 / height as f32),
+            sight: view.sight,
+            lights: self.lights,
+        };
+        let backdrop = before_daylight(BACKDROP);
+        target
+            .samples
+            .clear(ClearState::color_and_depth(backdrop.x, backdrop.y, backdrop.z, 1.0, 1.0))
+            .write::<CoreError>(|| {
+                self.draw_ground(&pass, clip, backdrop);
+                self.solids.draw_with(&pass, &self.shadow, clip, &pins, 1.0);
+                self.draw_paper(&pass, clip);
+                Ok(())
+            })?;
+        target.samples.resolve_color_to(&target.resolved.as_color_target(None));
+        output.write::<CoreError>(|| {
+            self.daylight.use_texture("scene", &target.resolved);
+            self.daylight.use_uniform("exposure", EXPOSURE);
+            let states = RenderStates {
+                depth_test: DepthTest::Always,
+                write_mask: WriteMask::COLOR,
+                ..RenderStates::default()
+            };
+            self.corners.draw(&self.daylight, states, output.viewport());
+            Ok(())
+        })?;
+        Ok(())
+    }
+
+    /// The context that everything here lives in.
+    pub fn context(&self) -> &Context {
+        &self.context
+    }
+
+    fn draw_ground(&self, pass: &Pass, clip: Mat4, backdrop: Vec3) {
+        let p = &self.ground;
+        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("reach", REACH);
+        p.use_uniform("floorHeight", GROUND);
+        p.use_uniform("backdrop", vector(backdrop));
+        p.use_uniform("depthRange", DEPTH);
+        p.use_uniform("radius", self.radius);
+        p.use_uniform("middle", vector(self.middle));
+        self.depths.use_depths(p, "depths");
+        self.shadow.use_with(p, &self.lights.key, clip);
+        self.sky.use_in(p);
+        self.corners.draw(p, RenderStates::default(), pass.viewport);
+    }
+
+    fn draw_paper(&self, pass: &Pass, clip: Mat4) {
+        let p = &self.paper;
+        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("eye", vector(pass.sight.eye));
+        p.use_uniform("mirrored", 0.0_f32);
+        p.use_uniform("floorHeight", GROUND);
+        p.use_uniform("span", three_d::Vec2::new(self.mesh.span.x, self.mesh.span.y));
+        p.use_texture("ink", &self.ink);
+        self.shadow.use_with(p, &self.lights.key, clip);
+        self.sky.use_in(p);
+        p.use_vertex_attribute("position", &self.mesh.positions);
+        p.use_vertex_attribute("normal", &self.mesh.normals);
+        p.use_vertex_attribute("texcoord", &self.mesh.uvs);
+        p.use_vertex_attribute("frayed", &self.mesh.frayed);
+        // SAFETY: plain GL state, set back right after the one draw call that it is for: the saw of the
+        // paper's ends is cut out of a pixel's samples.
+        unsafe { self.context.enable(context::SAMPLE_ALPHA_TO_COVERAGE) };
+        p.draw_elements(RenderStates::default(), pass.viewport, &self.mesh.triangles);
+        // SAFETY: as above.
+        unsafe { self.context.disable(context::SAMPLE_ALPHA_TO_COVERAGE) };
+    }
+}
+
+/// The brief's lights; what comes from around is in `sky_light.glsl`.
+fn lights() -> Lights {
+    Lights {
+        key: Light::new(Vec3::new(6.0, 12.0, 8.0), 0xfff8ee, 1.2),
+        fill: Light::new(Vec3::new(-6.0, 3.0, 8.0), 0xe0e8f0, 0.5),
+        rim: Light::new(Vec3::new(-4.0, 6.0, -8.0), 0xffffff, 0.4),
+    }
+}
+
+/// A push pin through the paper at a place.
+fn pin(at: Vec3) -> Solid {
+    let [from, to] = [0.02, 0.10].map(|out| at + Vec3::Z * out);
+    Solid { from, to, radius: 0.075, colour: 0xc8402f }
+}
+
+/// The print as a texture that stays sharp when seen askew.
+fn ink(context: &Context) -> Texture2D {
+    let print = Print::new();
+    let texture = Texture2D::new_empty::<u8>(
+        context,
+        print.size[0],
+        print.size[1],
+        Interpolation::Linear,
+        Interpolation::Linear,
+        Some(Mipmap { max_ratio: 16, ..Mipmap::default() }),
+        Wrapping::ClampToEdge,
+        Wrapping::ClampToEdge,
+    );
+    texture.fill(&print.ink);
+    texture
+}
+
+/// The light that `daylight.frag` makes the colour `0xrrggbb` of.
+fn before_daylight(srgb: u32) -> Vec3 {
+    let unbent = |y: f32| if y < 0.7 { y } else { 0.7 - 0.3 * (1.0 - (y - 0.7) / 0.3).ln() };
+    Vec3::from_array(linear(srgb).to_array().map(unbent)) / EXPOSURE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_backdrop_comes_out_as_the_brief_has_it() {
+        let shoulder = |x: f32| x.min(0.7) + 0.3 * (1.0 - (-(x - 0.7).max(0.0) / 0.3).exp());
+        for colour in [BACKDROP, 0x808080] {
+            let wanted = linear(colour).to_array();
+            for (light, wanted) in before_daylight(colour).to_array().into_iter().zip(wanted) {
+                assert!((shoulder(light * EXPOSURE) - wanted).abs() < 1.0e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn the_key_light_is_the_briefs() {
+        let key = lights().key;
+        assert!(key.towards.distance(Vec3::new(6.0, 12.0, 8.0).normalize()) < 1.0e-6);
+        assert!(key.colour.distance(linear(0xfff8ee) * 1.2) < 1.0e-6);
+        assert_eq!((SHARP, GROUND), (2048, -4.02));
+    }
+}

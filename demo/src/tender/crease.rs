@@ -1,0 +1,220 @@
+//! Creasing: a finger that runs along a bend and presses it flat. Paper that is only bent springs back.
+//!
+//! ```text
+//!   bend    ╭─╮        crease   ╱╲        the line goes on as far as the bend does
+//!          ╱   ╲               ╱  ╲
+//! ```
+
+use glam::{Vec2, Vec3};
+use muslin::{Cloth, GridDesc, Result};
+
+/// Cells to either side of a particle over which it is felt how the sheet bends.
+const FEEL: f32 = 3.0;
+/// Cells to either side over which all of the bending becomes one crease.
+const GATHER: f32 = 9.0;
+/// A bend by less than this is no bend [rad].
+const LEAST: f32 = 0.6;
+/// The sharpest crease [rad]: pressed flat, paper opens again by the rest.
+const MOST: f32 = 2.75;
+/// A bend by more than this is pressed flat [rad].
+const FLAT: f32 = 1.6;
+/// Bends that are nearer to a crease than this belong to it [cells].
+const NEAR: f32 = 4.0;
+
+/// A crease in cells of the sheet.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    middle: Vec2,
+    along: Vec2,
+    /// By how much it was creased [rad], towards the front if above 0.
+    angle: f32,
+}
+
+/// The creases so far.
+#[derive(Clone, Debug, Default)]
+pub struct Creases {
+    lines: Vec<Line>,
+}
+
+/// A cloth read as the grid that it was woven as: what tears have split off is not looked at.
+struct Sheet<'a> {
+    positions: &'a [Vec3],
+    columns: usize,
+    rows: usize,
+}
+
+impl Creases {
+    /// Creases the bend at a particle and says whether there is one.
+    ///
+    /// # Errors
+    /// As [`Cloth::crease`].
+    pub fn press(&mut self, cloth: &mut Cloth, desc: &GridDesc, particle: u32) -> Result<bool> {
+        let sheet = Sheet {
+            positions: cloth.positions(),
+            columns: desc.columns as usize,
+            rows: desc.rows as usize,
+        };
+        let source = cloth.source_vertices()[particle as usize];
+        let at = Vec2::new((source % desc.columns) as f32, (source / desc.columns) as f32);
+        let Some((middle, along)) = sheet.bend_near(at) else {
+            return Ok(false);
+        };
+        let bend = sheet.turn(middle, along.perp(), GATHER);
+        // A finger presses what is bent so far that both sides meet under it.
+        let angle = if bend.abs() > FLAT { MOST.copysign(bend) } else { bend };
+        let [from, to] = [-1.0, 1.0].map(|way| sheet.end(middle, along * way));
+        let is_known = |line: &&mut Line| {
+            let off = (middle - line.middle).perp_dot(line.along).abs();
+            off < NEAR && line.along.dot(along).abs() > 0.9
+        };
+        let more = match self.lines.iter_mut().find(is_known) {
+            // What is creased already is only pressed once more.
+            Some(line) if line.angle.abs() >= angle.abs() - 0.3 => return Ok(true),
+            Some(line) => {
+                let more = angle - line.angle;
+                line.angle = angle;
+                more
+            }
+            None => {
+                self.lines.push(Line { middle, along, angle });
+                angle
+            }
+        };
+        let place =
+            |cell: Vec2| desc.origin + (desc.right * cell.x + desc.down * cell.y) * desc.spacing;
+        cloth.crease(place(from), place(to), more.clamp(-3.0, 3.0))?;
+        Ok(true)
+    }
+}
+
+impl Sheet<'_> {
+    /// Where a place of the sheet is, given in cells; what is past its border is as at the border.
+    fn place(&self, cell: Vec2) -> Vec3 {
+        let most = Vec2::new((self.columns - 1) as f32, (self.rows - 1) as f32);
+        let cell = cell.clamp(Vec2::ZERO, most);
+        let low = cell.floor().min(most - 1.0);
+        let share = cell - low;
+        let at = |x: usize, y: usize| {
+            self.positions[(low.y as usize + y) * self.columns + low.x as usize + x]
+        };
+        at(0, 0).lerp(at(1, 0), share.x).lerp(at(0, 1).lerp(at(1, 1), share.x), share.y)
+    }
+
+    /// The front's unit normal around a place.
+    fn normal(&self, cell: Vec2) -> Vec3 {
+        let most = Vec2::new((self.columns - 1) as f32, (self.rows - 1) as f32);
+        let cell = cell.clamp(Vec2::ONE, most - 1.0);
+        let across = self.place(cell + Vec2::X) - self.place(cell - Vec2::X);
+        let down = self.place(cell + Vec2::Y) - self.place(cell - Vec2::Y);
+        down.cross(across).normalize_or_zero()
+    }
+
+    /// By how much the sheet turns from `reach` cells before a place to as many after it, towards its front
+    /// if above 0.
+    fn turn(&self, cell: Vec2, way: Vec2, reach: f32) -> f32 {
+        let mut turned = 0.0;
+        let steps = (2.0 * reach).ceil() as i32;
+        let step = 2.0 * reach / steps as f32;
+        for i in 0..steps {
+            let from = cell + way * (-reach + i as f32 * step);
+            let to = from + way * step;
+            let (a, b) = (self.normal(from), self.normal(to));
+            let ahead = self.place(to) - self.place(from);
+            let towards_front = (b - a).dot(ahead) < 0.0;
+            turned += if towards_front { a.angle_between(b) } else { -a.angle_between(b) };
+        }
+        turned
+    }
+
+    /// The middle of the sharpest bend near a place and the direction that it runs in; `None` where the
+    /// sheet is flat.
+    fn bend_near(&self, cell: Vec2) -> Option<(Vec2, Vec2)> {
+        let directions = (0..24).map(|i| Vec2::from_angle(i as f32 * core::f32::consts::PI / 24.0));
+        // Along the line of a fold nothing bends, across it all.
+        let across = directions.max_by(|a, b| {
+            let bend = |way: &Vec2| {
+                self.turn(cell, *way, FEEL).abs() - self.turn(cell, way.perp(), GATHER).abs()
+            };
+            bend(a).total_cmp(&bend(b))
+        })?;
+        let places = (-6..=6).map(|i| cell + across * i as f32);
+        let middle = places.max_by(|a, b| {
+            let bend = |at: &Vec2| self.turn(*at, across, FEEL).abs();
+            bend(a).total_cmp(&bend(b))
+        })?;
+        let bends = self.turn(middle, across, GATHER).abs() > LEAST;
+        bends.then_some((middle, across.perp()))
+    }
+
+    /// How far from a place the bend goes on in a direction.
+    fn end(&self, middle: Vec2, way: Vec2) -> Vec2 {
+        let across = way.perp();
+        let bends = |at: Vec2| self.turn(at, across, GATHER).abs() > LEAST;
+        let mut far = 0.0;
+        let longest = (self.columns + self.rows) as f32;
+        while far < longest && bends(middle + way * far) {
+            far += 1.0;
+        }
+        middle + way * far
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use muslin_scenes::Sheet as Receipt;
+
+    /// Bends a sheet over its middle row around an arc of so many cells, forward if `front`.
+    fn bent(front: bool) -> (Cloth, GridDesc) {
+        let desc = Receipt::Paper.desc(true);
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let side = if front { 1.0 } else { -1.0 };
+        let (mut at, mut angle) = (desc.origin, 0.0_f32);
+        for row in 0..desc.rows {
+            for column in 0..desc.columns {
+                let x = desc.right * (column as f32 * desc.spacing);
+                cloth.set_position(row * desc.columns + column, at + x).unwrap();
+            }
+            angle += if row.abs_diff(18) < 4 { 1.4 / 7.0 } else { 0.0 };
+            at += Vec3::new(0.0, -angle.cos(), side * angle.sin()) * desc.spacing;
+        }
+        (cloth, desc)
+    }
+
+    #[test]
+    fn a_bend_becomes_a_crease_that_stays_and_points_the_same_way() {
+        for front in [true, false] {
+            let (mut cloth, desc) = bent(front);
+            let mut creases = Creases::default();
+            assert!(creases.press(&mut cloth, &desc, 17 * 24 + 11).unwrap());
+            let line = creases.lines[0];
+            assert!((line.middle.y - 18.0).abs() < 2.0 && line.along.x.abs() > 0.99, "{line:?}");
+            assert!(
+                (line.angle.abs() - 1.4).abs() < 0.2 && (line.angle > 0.0) == front,
+                "{line:?}"
+            );
+            // Weightless and alone, it keeps about that angle.
+            cloth.unpin_all();
+            let mut settings = cloth.settings().clone();
+            (settings.gravity, settings.damping) = (Vec3::ZERO, 5.0);
+            cloth.set_settings(settings).unwrap();
+            cloth.step(600);
+            let row = |row: u32| cloth.positions()[(row * desc.columns + 11) as usize];
+            let (up, down) = (row(8) - row(2), row(34) - row(28));
+            let turned = up.angle_between(down);
+            assert!((turned - 1.4).abs() < 0.3, "it is folded by {turned} rad");
+        }
+    }
+
+    #[test]
+    fn pressing_twice_is_pressing_once_and_flat_paper_has_nothing_to_press() {
+        let (mut cloth, desc) = bent(true);
+        let mut creases = Creases::default();
+        creases.press(&mut cloth, &desc, 17 * 24 + 11).unwrap();
+        let hash = cloth.state_hash();
+        assert!(creases.press(&mut cloth, &desc, 18 * 24 + 5).unwrap());
+        assert_eq!(cloth.state_hash(), hash);
+        assert!(!creases.press(&mut cloth, &desc, 5 * 24 + 11).unwrap());
+        assert_eq!(creases.lines.len(), 1);
+    }
+}

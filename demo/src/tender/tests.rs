@@ -1,0 +1,273 @@
+//! Tests: what hands, gestures and time do to the receipt.
+
+use super::play::{Gesture, Play};
+use super::*;
+use muslin_scenes::receipt::FLOOR;
+
+const FRAME: f32 = 1.0 / 60.0;
+
+fn tender(sheet: Sheet) -> Tender {
+    Tender::new(Settings { sheet, ..Settings::default() }, true, || 0.0).unwrap()
+}
+
+fn played(gesture: Gesture, sheet: Sheet) -> Tender {
+    played_for(gesture, sheet, gesture.ticks())
+}
+
+fn played_for(gesture: Gesture, sheet: Sheet, ticks: u32) -> Tender {
+    let mut tender = tender(sheet);
+    tender.play(60).unwrap();
+    let mut play = Play::new(gesture);
+    for _ in 0..ticks {
+        play.step(&mut tender).unwrap();
+    }
+    tender
+}
+
+/// The mean speed of all particles, in units a second.
+fn speed(tender: &Tender) -> f32 {
+    let count = tender.cloth().positions().len() as u32;
+    let speeds = (0..count).filter_map(|i| tender.cloth().velocity(i)).map(|v| v.length());
+    speeds.sum::<f32>() / count as f32 / tender.settings().sheet.unit()
+}
+
+/// Lowest and highest of all particles, in units.
+fn heights(tender: &Tender) -> [f32; 2] {
+    let unit = tender.settings().sheet.unit();
+    let y = tender.cloth().positions().iter().map(|at| at.y / unit);
+    y.fold([f32::MAX, f32::MIN], |[low, high], y| [low.min(y), high.max(y)])
+}
+
+/// How far from its pins' plane, as woven, any particle is, in units.
+fn off(tender: &Tender) -> f32 {
+    let desc = tender.settings().sheet.desc(true);
+    let places = PutBack::new(tender.cloth(), &desc);
+    places.farthest(tender.cloth()) / tender.settings().sheet.unit()
+}
+
+#[test]
+fn a_hand_takes_what_is_within_half_a_unit_of_its_ray_and_nothing_farther() {
+    for sheet in Sheet::ALL {
+        let mut tender = tender(sheet);
+        let edge = 0.5 * tender.span().x;
+        for (beside, holds) in [(0.42, true), (0.7, false)] {
+            let at = tender.on_screen(Vec3::new(edge + beside, 0.0, 0.0)).unwrap();
+            tender.press(1, at, Button::Main).unwrap();
+            assert_eq!(tender.hands.holds_paper(), holds, "{sheet:?}, {beside} units beside it");
+            tender.lift(1).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_grabbed_particle_comes_along_on_the_plane_that_faces_the_camera() {
+    for sheet in Sheet::ALL {
+        let mut tender = tender(sheet);
+        let [columns, rows] = tender.weave();
+        let particle = (rows - 1) * columns + columns / 2;
+        let from = tender.particle(particle).unwrap();
+        let sight = tender.camera().sight();
+        let at = tender.on_screen(from).unwrap();
+        tender.press(7, at, Button::Main).unwrap();
+        let to = at + Vec2::new(40.0, -10.0);
+        tender.drag(7, to);
+        for _ in 0..60 {
+            tender.frame(FRAME).unwrap();
+        }
+        let held = tender.particle(particle).unwrap();
+        let now = tender.on_screen(held).unwrap();
+        assert!(now.distance(to) < 2.0, "{sheet:?}: held at {now}, pointer at {to}");
+        let depth = (held - from).dot(sight.forward());
+        assert!(depth.abs() < 0.01, "{sheet:?}: it came {depth} units nearer or farther");
+        tender.lift(7).unwrap();
+        assert!(!tender.hands.any());
+    }
+}
+
+#[test]
+fn the_right_button_and_two_fingers_beside_the_paper_turn_the_camera() {
+    let mut tender = tender(Sheet::Paper);
+    let settled = |tender: &mut Tender| {
+        for _ in 0..300 {
+            tender.camera.advance(FRAME, true);
+        }
+        tender.camera.sight().eye
+    };
+    let middle = tender.on_screen(Vec3::ZERO).unwrap();
+    let before = settled(&mut tender);
+    tender.press(1, middle, Button::Turn).unwrap();
+    tender.drag(1, middle + Vec2::X * 150.0);
+    tender.lift(1).unwrap();
+    let turned = settled(&mut tender);
+    assert!(turned.distance(before) > 2.0);
+    assert!((turned.distance(TARGET) - before.distance(TARGET)).abs() < 1.0e-3);
+    tender.press(1, Vec2::new(60.0, 600.0), Button::Main).unwrap();
+    tender.press(2, Vec2::new(1200.0, 600.0), Button::Main).unwrap();
+    tender.drag(2, Vec2::new(800.0, 600.0));
+    let pinched = settled(&mut tender);
+    assert!(pinched.distance(TARGET) > 1.2 * turned.distance(TARGET));
+}
+
+#[test]
+fn two_fingers_on_the_paper_are_two_hands_and_a_key_leaves_a_hand_in_place() {
+    let mut tender = tender(Sheet::Paper);
+    let half = 0.5 * tender.span();
+    let low = |x: f32| Vec3::new(x * half.x, -half.y, 0.0);
+    let [left, right] = [-0.9, 0.9].map(|x| tender.on_screen(low(x)).unwrap());
+    tender.press(1, left, Button::Main).unwrap();
+    tender.press(2, right, Button::Main).unwrap();
+    assert_eq!(tender.hands.grips().count(), 2);
+    tender.lift(2).unwrap();
+    tender.stay(true).unwrap();
+    tender.lift(1).unwrap();
+    assert_eq!(tender.hands.grips().count(), 1);
+    let kept = tender.hands.grips().next().unwrap();
+    tender.press(1, right, Button::Main).unwrap();
+    tender.drag(1, right - Vec2::Y * 60.0);
+    for _ in 0..30 {
+        tender.frame(FRAME).unwrap();
+    }
+    assert_eq!(tender.hands.grips().count(), 2);
+    assert!(tender.hands.grips().any(|grip| grip.1.distance(kept.1) < 1.0e-4));
+    tender.lift(1).unwrap();
+    tender.stay(false).unwrap();
+    assert!(!tender.hands.holds_paper());
+}
+
+#[test]
+fn pause_stops_the_paper_and_wind_moves_it_unless_people_ask_for_calm() {
+    for sheet in Sheet::ALL {
+        let mut tender = tender(sheet);
+        tender.act(Action::Pause).unwrap();
+        let hash = tender.cloth().state_hash();
+        tender.frame(0.03).unwrap();
+        assert_eq!(tender.cloth().state_hash(), hash);
+        tender.act(Action::Pause).unwrap();
+        let swing = |tender: &mut Tender| {
+            tender.play(240).unwrap();
+            speed(tender)
+        };
+        let still = swing(&mut tender);
+        tender.key('w').unwrap();
+        let blown = swing(&mut tender);
+        assert!(blown > 2.0 * still && blown > 0.05, "{sheet:?}: {still}, then {blown} units/s");
+        tender.set_calm(true).unwrap();
+        assert_eq!(tender.cloth().wind().velocity, Vec3::ZERO);
+    }
+}
+
+#[test]
+fn less_motion_means_fewer_particles() {
+    let mut tender = Tender::new(Settings::default(), false, || 0.0).unwrap();
+    assert_eq!(tender.readout().particles, 40 * 60);
+    tender.set_calm(true).unwrap();
+    assert_eq!(tender.readout().particles, 24 * 36);
+}
+
+#[test]
+fn a_long_frame_runs_no_more_than_its_cap() {
+    let mut tender = tender(Sheet::Paper);
+    let before = tender.cloth().time();
+    tender.frame(5.0).unwrap();
+    let ran = tender.cloth().time() - before;
+    assert!(ran < 0.034, "{ran} s ran");
+}
+
+/// By how much the lower half of the sheet is turned against the upper one [rad].
+fn turned(tender: &Tender) -> f32 {
+    let [columns, rows] = tender.weave();
+    let row = |row: u32| {
+        let places = (0..columns).map(|column| tender.particle(row * columns + column).unwrap());
+        places.sum::<Vec3>() / columns as f32
+    };
+    (row(10) - row(4)).angle_between(row(rows - 5) - row(rows - 11))
+}
+
+#[test]
+fn folded_in_half_and_released_the_crease_stays() {
+    let flat = turned(&tender(Sheet::Paper));
+    let mut tender = played(Gesture::Fold, Sheet::Paper);
+    assert!(tender.cloth().pinned().count() == 2, "it fell");
+    let folded = turned(&tender);
+    // Its own weight opens it, but not all the way.
+    assert!(folded > flat + 0.35, "it is folded by {folded} rad");
+    tender.play(360).unwrap();
+    let later = turned(&tender);
+    assert!((later - folded).abs() < 0.1, "three seconds later it is folded by {later} rad");
+    assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
+}
+
+#[test]
+fn a_toss_flies_lands_and_comes_to_rest_on_the_floor() {
+    for sheet in Sheet::ALL {
+        let mut tender = played(Gesture::Toss, sheet);
+        let middle = |tender: &Tender| {
+            let x = tender.cloth().positions();
+            x.iter().sum::<Vec3>() / x.len() as f32 / tender.settings().sheet.unit()
+        };
+        let flown = middle(&tender).x;
+        let wanted = if sheet == Sheet::Paper { 1.0 } else { 0.5 };
+        assert!(flown > wanted, "{sheet:?} came {flown} units far");
+        tender.play(120).unwrap();
+        let [low, high] = heights(&tender);
+        assert!(low > FLOOR - 1.0e-3, "{sheet:?} is {} units under the floor", FLOOR - low);
+        assert!(high < FLOOR + 4.0, "{sheet:?} stands {} units high", high - FLOOR);
+        assert!(speed(&tender) < 0.3, "{sheet:?} still moves at {} units/s", speed(&tender));
+    }
+}
+
+#[test]
+fn crumpled_paper_is_a_ball_and_stays_one() {
+    let mut tender = played(Gesture::Crumple, Sheet::Paper);
+    tender.play(120).unwrap();
+    let unit = Sheet::Paper.unit();
+    let x = tender.cloth().positions();
+    let middle = x.iter().sum::<Vec3>() / x.len() as f32;
+    let widest = x.iter().map(|at| at.distance(middle) / unit).fold(0.0, f32::max);
+    assert!(widest < 2.4, "it is {widest} units wide");
+    assert!(heights(&tender)[0] > FLOOR - 1.0e-3);
+    assert!(speed(&tender) < 0.5, "it still moves at {} units/s", speed(&tender));
+}
+
+#[test]
+fn reset_brings_everything_back_in_half_a_second_and_the_last_of_it_slowly() {
+    for sheet in Sheet::ALL {
+        // Folded and held, crumpled and on the floor, in the air.
+        for (gesture, ticks) in
+            [(Gesture::Fold, 180), (Gesture::Crumple, 240), (Gesture::Toss, 170)]
+        {
+            comes_back(&mut played_for(gesture, sheet, ticks));
+        }
+        let mut torn = tender(sheet);
+        let cut = Vec3::new(-3.0, 0.4, -1.0) * sheet.unit();
+        torn.cloth.cut(cut, cut.with_x(-cut.x), Vec3::Z * (2.0 * sheet.unit())).unwrap();
+        torn.play(60).unwrap();
+        assert!(torn.readout().particles > 24 * 36 && torn.readout().pieces > 1);
+        comes_back(&mut torn);
+    }
+}
+
+fn comes_back(tender: &mut Tender) {
+    // Also while time stands still.
+    tender.act(Action::Pause).unwrap();
+    tender.act(Action::Reset).unwrap();
+    let mut ways = vec![off(tender)];
+    while tender.is_put_back() {
+        tender.frame(FRAME).unwrap();
+        ways.push(off(tender));
+        assert!(ways.len() < 40, "it does not arrive: {ways:?}");
+    }
+    assert_eq!(ways.len(), 31, "it took {} frames", ways.len() - 1);
+    let steps: Vec<f32> = ways.windows(2).map(|two| two[0] - two[1]).collect();
+    assert!(steps.windows(2).all(|two| two[1] <= two[0] + 1.0e-3), "no ease-out: {steps:?}");
+    assert!(ways[30] < 1.0e-3, "it is {} units off", ways[30]);
+    let fresh = {
+        let mut fresh = Tender::new(tender.settings().clone(), true, || 0.0).unwrap();
+        fresh.act(Action::Pause).unwrap();
+        fresh.play(30).unwrap();
+        fresh.cloth().positions().to_vec()
+    };
+    tender.play(30).unwrap();
+    assert_eq!(tender.readout().pieces, 1);
+    assert_eq!(tender.cloth().positions(), fresh, "it is not as new");
+}

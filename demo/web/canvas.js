@@ -1,0 +1,149 @@
+// What every page of the demo does with its canvas: a context, frames, pointers. The demo itself is in the wasm.
+
+export const by = (id) => document.getElementById(id);
+
+/** What the page is doing, for its style sheet and its tests: running, lost or failed. */
+export function enter(state) {
+  document.documentElement.dataset.state = state;
+}
+
+export function fail(reason) {
+  by("reason").textContent = reason;
+  by("failure").hidden = false;
+  enter("failed");
+}
+
+/** The canvas's context; nothing where it cannot draw what the demo draws. */
+export function context(canvas) {
+  const gl = canvas.getContext("webgl2", {
+    alpha: false,
+    antialias: false,
+    depth: false,
+    powerPreference: "high-performance",
+  });
+  return gl?.getExtension("EXT_color_buffer_float") ? gl : null;
+}
+
+/** Draws frame after frame while the page is seen; `tell` is called four times a second. */
+export function loop(canvas, demo, tell) {
+  const gl = canvas.getContext("webgl2");
+  let last = 0;
+  let told = 0;
+  let request = 0;
+
+  function frame(now) {
+    request = requestAnimationFrame(frame);
+    if (gl.isContextLost()) return;
+    const seconds = last ? Math.max(0, now - last) / 1000 : 0;
+    last = now;
+    const scale = Math.min(devicePixelRatio || 1, 2);
+    const [wide, high] = [canvas.clientWidth, canvas.clientHeight];
+    if (!wide || !high) return;
+    const [width, height] = [Math.round(wide * scale), Math.round(high * scale)];
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    demo.resize(wide, high);
+    demo.frame(seconds, width, height);
+    if (now - told > 250) {
+      told = now;
+      tell();
+    }
+  }
+
+  function start() {
+    if (!request && !document.hidden && !gl.isContextLost()) {
+      last = 0;
+      request = requestAnimationFrame(frame);
+    }
+  }
+
+  function stop() {
+    cancelAnimationFrame(request);
+    request = 0;
+  }
+
+  document.addEventListener("visibilitychange", () => (document.hidden ? stop() : start()));
+  canvas.addEventListener("webglcontextlost", (event) => {
+    event.preventDefault();
+    stop();
+    demo.detach();
+    enter("lost");
+  });
+  canvas.addEventListener("webglcontextrestored", () => {
+    demo.attach(context(canvas));
+    enter("running");
+    start();
+  });
+  start();
+}
+
+/** Hands pointers and wheel to the demo; `press(event, x, y)` says what a pointer that comes down does. */
+export function followPointers(canvas, demo, press) {
+  const at = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  const cursor = () => {
+    canvas.style.cursor = demo.cursor();
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    if (press(event, ...at(event))) {
+      canvas.setPointerCapture(event.pointerId);
+      cursor();
+    }
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    // The last of the moves since the frame before is where the pointer is.
+    demo.drag(event.pointerId, ...at(event));
+    cursor();
+  });
+  for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) {
+    canvas.addEventListener(name, (event) => {
+      demo.lift(event.pointerId);
+      cursor();
+    });
+  }
+  canvas.addEventListener("pointerleave", () => demo.leave());
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const unit = [1, 33, canvas.clientHeight][event.deltaMode];
+      // A trackpad's pinch arrives as a wheel with Ctrl held, in much smaller steps.
+      demo.wheel(event.deltaY * unit * (event.ctrlKey ? 6 : 1));
+    },
+    { passive: false },
+  );
+  for (const name of ["touchstart", "touchmove", "gesturestart"]) {
+    // A scroll that is under way cannot be stopped, and the browser complains of attempts.
+    const stop = (event) => event.cancelable && event.preventDefault();
+    canvas.addEventListener(name, stop, { passive: false });
+  }
+}
+
+const ARROWS = {
+  ArrowLeft: [-0.04, 0],
+  ArrowRight: [0.04, 0],
+  ArrowUp: [0, -0.04],
+  ArrowDown: [0, 0.04],
+};
+
+/** Arrows orbit while the canvas or nothing has the focus, plus and minus zoom; says whether it was one. */
+export function moveCamera(event, canvas, demo) {
+  if (isFree(event, canvas) && ARROWS[event.key]) {
+    demo.orbit(...ARROWS[event.key]);
+    event.preventDefault();
+    return true;
+  }
+  if (event.key === "+" || event.key === "-") {
+    demo.wheel(event.key === "+" ? -120 : 120);
+    return true;
+  }
+  return false;
+}
+
+/** Whether no control has the focus, which would take keys like the space bar for itself. */
+export const isFree = (event, canvas) => event.target === canvas || event.target === document.body;

@@ -1,0 +1,120 @@
+// The receipt's page: canvas, events and pills. What any of it means is decided in the wasm.
+
+import { by, context, enter, fail, followPointers, isFree, loop, moveCamera } from "./canvas.js";
+import init, { Receipt } from "./muslin_demo.js";
+
+const CALM = matchMedia("(prefers-reduced-motion: reduce)");
+/** Fewer particles do on small and touch screens, and where people ask for less motion. */
+const SMALL = navigator.maxTouchPoints > 0 || innerWidth < 768 || CALM.matches;
+/** The instructions stay so long, and two presses are one double press within so much [ms]. */
+const STAY = 3000;
+const DOUBLE = 350;
+const canvas = by("stage");
+
+function run(receipt) {
+  const refresh = drawPills(receipt);
+  const calm = () => receipt.setCalm(CALM.matches);
+  CALM.addEventListener("change", calm);
+  calm();
+  loop(canvas, receipt, () => show(JSON.parse(receipt.readout())));
+  followPointers(canvas, receipt, presses(receipt));
+  followKeys(receipt, refresh);
+  by("loading").hidden = true;
+  by("pills").hidden = false;
+  setTimeout(() => by("instructions").classList.add("gone"), STAY);
+
+  window.muslinDemo = {
+    stateHash: () => receipt.stateHash(),
+    stats: () => JSON.parse(receipt.readout()),
+    isOn: (name) => receipt.isOn(name),
+    play: (ticks) => receipt.play(ticks),
+    particleScreen: (i) => {
+      const at = receipt.particleScreen(i);
+      return at && Array.from(at);
+    },
+    eye: () => Array.from(receipt.eye()),
+  };
+  enter("running");
+}
+
+/** The pills of the table; returns what shows everything as it is now. */
+function drawPills(receipt) {
+  const table = JSON.parse(Receipt.controls());
+  const pills = table.filter(({ pill }) => pill).map((control) => {
+    const made = document.createElement("button");
+    made.type = "button";
+    made.id = `control-${control.name}`;
+    made.textContent = control.label;
+    made.title = `${control.about} (${control.key})`;
+    made.setAttribute("aria-keyshortcuts", control.key);
+    made.addEventListener("click", () => {
+      receipt.act(control.name);
+      refresh();
+    });
+    return [made, control];
+  });
+  by("pills").append(...pills.map(([made]) => made));
+  const refresh = () => {
+    for (const [made, { name, switch: holds }] of pills) {
+      if (holds) made.setAttribute("aria-pressed", String(receipt.isOn(name)));
+    }
+    by("paused").hidden = !receipt.isOn("paused");
+    by("counter").hidden = !receipt.isOn("counter");
+  };
+  refresh();
+  return refresh;
+}
+
+function presses(receipt) {
+  let last = { time: -DOUBLE, x: 0, y: 0 };
+  return (event, x, y) => {
+    const turns = event.pointerType === "mouse" && event.button === 2;
+    if (event.button !== 0 && !turns) return false;
+    const before = last;
+    last = { time: event.timeStamp, x, y };
+    const twice = last.time - before.time < DOUBLE && Math.hypot(x - before.x, y - before.y) < 12;
+    if (twice && !turns) receipt.crease(x, y);
+    receipt.press(event.pointerId, x, y, turns);
+    return true;
+  };
+}
+
+function followKeys(receipt, changed) {
+  const stay = (event) => receipt.stay(event.shiftKey === true);
+  addEventListener("keyup", stay);
+  addEventListener("blur", stay);
+  addEventListener("keydown", (event) => {
+    if (event.key === "Shift") stay(event);
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (moveCamera(event, canvas, receipt)) return;
+    if (!event.repeat && event.key.length === 1 && (event.key !== " " || isFree(event, canvas))) {
+      if (receipt.key(event.key)) {
+        event.preventDefault();
+        changed();
+      }
+    }
+  });
+}
+
+function show(stats) {
+  by("stat-fps").textContent = stats.fps.toFixed(0);
+  by("stat-particles").textContent = stats.particles.toLocaleString("en");
+  by("stat-constraints").textContent = stats.constraints.toLocaleString("en");
+  by("stat-milliseconds").textContent = `${stats.milliseconds.toFixed(2)} ms`;
+}
+
+try {
+  const gl = context(canvas);
+  if (gl) {
+    await init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
+    const receipt = new Receipt(SMALL);
+    receipt.attach(gl);
+    run(receipt);
+  } else {
+    by("loading").hidden = true;
+    fail("This scene needs WebGL 2: try a current browser.");
+  }
+} catch (error) {
+  by("loading").hidden = true;
+  fail(`The scene could not start: ${error.message}`);
+}
