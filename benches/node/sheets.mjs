@@ -24,14 +24,17 @@ export function grid(desc, isWindy) {
 /** The same sheet as a mesh of the same triangles, in the same air. */
 export function mesh({ material, settings }, like) {
   const { positions, indices, pinned, wind } = like;
-  const cloth = Cloth.mesh({ positions, indices, pinned, material, settings });
+  // In another order, or it would be found to be the grid.
+  const turned = [...indices.subarray(3), ...indices.subarray(0, 3)];
+  const cloth = Cloth.mesh({ positions, indices: turned, pinned, material, settings });
   cloth.wind = wind;
   return cloth;
 }
 
 /** Reads the module of the plain loop; gives what makes sheets, each in an instance of its own. */
 export async function plainSheets(file) {
-  const module = await WebAssembly.compile(await readFile(file));
+  // At once: what awaits node 20's compiler may wait for ever, when V8 must collect garbage just then.
+  const module = new WebAssembly.Module(await readFile(file));
   return ({ columns, rows, spacing, pinMode }, isByKind = false) => {
     const sheet = new WebAssembly.Instance(module).exports;
     sheet.hang(columns, rows, spacing, pinMode === "top-corners", isByKind);

@@ -59,7 +59,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The processor's kind and its vector instructions.
+/// The processor's kind and its vector instructions, as far as kernels may use them.
 fn machine() -> String {
     let mut vectors: Vec<&str> = Vec::new();
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -67,7 +67,10 @@ fn machine() -> String {
         let offers = [
             ("SSE2", std::is_x86_feature_detected!("sse2")),
             ("AVX2", std::is_x86_feature_detected!("avx2")),
-            ("AVX-512F", std::is_x86_feature_detected!("avx512f")),
+            (
+                "AVX-512F",
+                std::is_x86_feature_detected!("avx512f") && cfg!(not(muslin_at_most_avx2)),
+            ),
         ];
         vectors.extend(offers.iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name));
     }

@@ -135,9 +135,12 @@ fn measure_threads(
 /// The same triangles as any mesh.
 #[cfg(feature = "parallel")]
 fn as_mesh(desc: &GridDesc, grid: &Cloth) -> Cloth {
+    // In another order, or it would be found to be the grid.
+    let mut indices = grid.indices().to_vec();
+    indices.rotate_left(3);
     let mesh = Cloth::mesh(&MeshDesc {
         positions: grid.positions().to_vec(),
-        indices: grid.indices().to_vec(),
+        indices,
         pinned: grid.pinned().collect(),
         material: desc.material.clone(),
         settings: desc.settings.clone(),

@@ -6,28 +6,35 @@ use crate::{files, js, setup, shell, wasm};
 /// The tables that are run natively; in node they go by one name.
 const NATIVE: [&str; 5] = ["kernels", "ticks", "shreds", "layers", "scenes"];
 const NODE: &str = "node";
+/// Leaves vectors wider than those of AVX2 unused, as on machines that have no others.
+const AVX2: &str = "avx2";
 /// Runs everything once and tiny.
 const TEST: &str = "--test";
 
 /// Prints the tables that are named, or all.
 pub fn run(options: &[String]) -> Result {
     let words: Vec<_> = options.iter().map(String::as_str).filter(|word| *word != "--").collect();
-    let is_known = |word: &str| word == NODE || word == TEST || NATIVE.contains(&word);
+    let is_known = |word: &str| [NODE, AVX2, TEST].contains(&word) || NATIVE.contains(&word);
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
-            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, node and --test"
+            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, node, avx2 and --test"
         )));
     }
     let test: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };
-    let all = words.iter().all(|word| *word == TEST);
+    let all = words.iter().all(|word| [AVX2, TEST].contains(word));
     let wanted = NATIVE.iter().copied().filter(|name| all || words.contains(name));
     let wanted: Vec<_> = wanted.collect();
     if !wanted.is_empty() {
         // One thread costs the same with the feature as without.
         let tables = ["bench", "--package=muslin", "--features=parallel", "--bench=tables", "--"];
-        shell::run(shell::cargo(&tables).args(wanted).args(test))?;
+        let mut cargo = shell::cargo(&tables);
+        if words.contains(&AVX2) {
+            cargo.env("RUSTFLAGS", "--cfg muslin_at_most_avx2");
+            cargo.env("CARGO_TARGET_DIR", files::root().join("target/avx2"));
+        }
+        shell::run(cargo.args(wanted).args(test))?;
     }
-    if all || words.contains(&NODE) {
+    if words.contains(&NODE) || all && !words.contains(&AVX2) {
         in_node(test)?;
     }
     Ok(())

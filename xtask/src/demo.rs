@@ -79,10 +79,14 @@ pub fn test_shot() -> Result {
     let shots = files::target().join("shots");
     files::make(&shots)?;
     shoot(&shots.join("shot.png"), &[])?;
-    // Film strips: how a sheet rips, and how it is cut.
+    // Film strips: how a sheet rips and is cut, and what hands do with the receipt.
     for gesture in ["yank", "cut"] {
         let options = ["--play", gesture, "--strip", "5", "--size", "400x400"];
         shoot(&shots.join(gesture).with_extension("png"), &options)?;
+    }
+    for gesture in ["fold", "crumple", "toss"] {
+        let options = ["--scene", "tender", "--play", gesture, "--strip", "5", "--size", "400x400"];
+        shoot(&shots.join(format!("tender-{gesture}.png")), &options)?;
     }
     refuse_without_a_display()
 }

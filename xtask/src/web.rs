@@ -15,6 +15,9 @@ pub fn dir() -> PathBuf {
 pub fn build() -> Result {
     files::make_empty(&dir())?;
     files::copy_all(&files::root().join("demo/web"), &dir())?;
+    // The receipt's font is in the wasm; its licence goes with it.
+    let licence = files::read(&files::root().join("demo/fonts/OFL.txt"))?;
+    files::write(&dir().join("OFL.txt"), &licence)?;
     wasm::build("muslin-demo", &dir(), "muslin_demo", false)?;
     println!("the page is in dist/web; it needs a server, such as `cargo xtask demo --web`");
     Ok(())
@@ -25,7 +28,9 @@ pub fn test() -> Result {
     let served = Served::by(&["demo", "--web", "--no-open", "--port", "0"])?;
     let shots = files::target().join("shots");
     files::make(&shots)?;
-    let pictures = ["web-1280x720.png", "web-390x844.png"].map(|name| shots.join(name));
+    let pictures =
+        ["web-1280x720.png", "web-390x844.png", "tender-1280x720.png", "tender-390x844.png"];
+    let pictures = pictures.map(|name| shots.join(name));
     for stale in pictures.iter().filter(|picture| picture.exists()) {
         std::fs::remove_file(stale).ok();
     }
