@@ -3,6 +3,7 @@
 //! A link is anchored to corners of triangles, not to particles: when a vertex splits, the link
 //! follows the triangle that it lies on, and one whose triangles have parted is gone.
 
+use crate::fabric::ends::Ends;
 use crate::fabric::material::Material;
 use crate::math::column::Column;
 use crate::mesh::{Corner, Mesh, NONE, after};
@@ -66,8 +67,8 @@ impl Spec {
 /// Links as columns, one entry a link.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Links {
-    pub a: Vec<u32>,
-    pub b: Vec<u32>,
+    pub a: Ends,
+    pub b: Ends,
     /// Length at rest [m].
     pub rest: Column,
     /// Inverse spring constant [m/N]; 0 is rigid.
@@ -90,8 +91,8 @@ impl Links {
 
     pub fn reserve(&mut self, capacity: usize) {
         let in_all = self.len() + capacity;
-        self.a.reserve_exact(capacity);
-        self.b.reserve_exact(capacity);
+        self.a.reserve(capacity);
+        self.b.reserve(capacity);
         self.rest.reserve(in_all);
         self.compliance.reserve(in_all);
         self.lambda.reserve(in_all);
@@ -117,8 +118,8 @@ impl Links {
             self.active[link] = false;
             return;
         }
-        self.a[link] = mesh.vertex(spec.anchors[0]);
-        self.b[link] = mesh.vertex(spec.anchors[1]);
+        self.a.set(link, mesh.vertex(spec.anchors[0]));
+        self.b.set(link, mesh.vertex(spec.anchors[1]));
         self.active[link] = match spec.support {
             Support::Edge => true,
             Support::Flap(edge) => mesh.across(edge) != NONE,

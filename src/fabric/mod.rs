@@ -5,6 +5,7 @@ pub(crate) mod cells;
 pub(crate) mod color;
 pub(crate) mod divide;
 pub(crate) mod elbows;
+pub(crate) mod ends;
 pub(crate) mod extra;
 pub(crate) mod folds;
 pub(crate) mod hinges;

@@ -94,6 +94,8 @@ pub(crate) fn solve<const LAW: u8>(
 ) {
     let Packed { points, w, .. } = packed;
     let [wa, wb] = &weights.ends;
+    let most = links.a.most().max(links.b.most());
+    assert!((most as usize) < points.len(), "links end at particles");
     let (points, w) = (Points::new(points), &w[..]);
     let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);
     let weights = ((&wa[range.clone()], &wb[range.clone()]), &weights.is_even[range.clone()]);
@@ -110,7 +112,8 @@ pub(crate) fn solve<const LAW: u8>(
     });
 }
 
-/// Links of one colour, and the particles at their ends: of no other link at the same time.
+/// Links of one colour, and the particles at their ends, which there are: of no other link at the same
+/// time. Only `solve` makes them, which looks at that.
 struct Color<'a> {
     a: &'a [u32],
     b: &'a [u32],
@@ -161,13 +164,6 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
         lambda: &mut color.lambda[..count],
         ..color
     };
-    let mut most = 0;
-    for ends in [color.a, color.b] {
-        for end in ends {
-            most = if *end > most { *end } else { most };
-        }
-    }
-    assert!((most as usize) < color.points.len(), "links end at particles");
     let mut is_whole = true;
     for is_active in color.active {
         is_whole &= is_active;
@@ -176,7 +172,7 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
         LAW != BOUND && color.is_even[link..link + S::LANES] == EVEN[..S::LANES]
     };
     let mut link = 0;
-    // SAFETY: all ends were just found to be particles, and this thread has them to itself.
+    // SAFETY: all ends are particles, as `solve` found, and this thread has them to itself.
     unsafe {
         while is_whole && link + S::LANES <= count {
             // Loops of their own, which need less room.

@@ -1,0 +1,58 @@
+//! Which particles links end at, and up to which one: kernels look at that once, and not at each link.
+
+use core::ops::Deref;
+
+/// A list of particles, read as a slice.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ends {
+    list: Vec<u32>,
+    /// None of them is above it, nor was any before.
+    most: u32,
+}
+
+impl Ends {
+    /// A number that none of them is above.
+    pub fn most(&self) -> u32 {
+        self.most
+    }
+
+    /// Makes room for `additional` more.
+    pub fn reserve(&mut self, additional: usize) {
+        self.list.reserve_exact(additional);
+    }
+
+    pub fn push(&mut self, particle: u32) {
+        self.most = self.most.max(particle);
+        self.list.push(particle);
+    }
+
+    pub fn set(&mut self, at: usize, particle: u32) {
+        self.most = self.most.max(particle);
+        self.list[at] = particle;
+    }
+}
+
+impl Deref for Ends {
+    type Target = [u32];
+
+    #[inline(always)]
+    fn deref(&self) -> &[u32] {
+        &self.list
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn none_is_above_the_most() {
+        let mut ends = Ends::default();
+        [3, 7, 5].into_iter().for_each(|particle| ends.push(particle));
+        assert_eq!((&*ends, ends.most()), (&[3, 7, 5][..], 7));
+        ends.set(0, 9);
+        ends.set(0, 1);
+        assert_eq!(&*ends, [1, 7, 5]);
+        assert!(ends.iter().all(|particle| *particle <= ends.most()));
+    }
+}
