@@ -1,11 +1,11 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
-use muslin_scenes::{Flag, HangingSheet, Receipt, Scene, SheetOnBall, play};
+use muslin_scenes::{Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SheetOnBall, play};
 
 fn keeps_its_promise<S: Scene>() {
     for seconds in [1, 5, 20] {
-        let cloth = play::<S>(60 * seconds);
-        if let Err(what) = S::check(&cloth) {
+        let cast = play::<S>(60 * seconds);
+        if let Err(what) = S::check(&cast) {
             panic!("{}, after {seconds} s: {what}", S::NAME);
         }
     }
@@ -29,4 +29,41 @@ fn the_sheet_lies_on_its_ball() {
 #[test]
 fn the_receipt_hangs_from_its_pins() {
     keeps_its_promise::<Receipt>();
+}
+
+#[test]
+fn three_discs_drape_on_their_pedestals_and_come_to_rest() {
+    keeps_its_promise::<Drapes>();
+    for cloth in play::<Drapes>(900).cloths {
+        let fastest = (0..cloth.particle_count()).filter_map(|i| cloth.velocity(i));
+        let fastest = fastest.map(|v| v.length()).fold(0.0, f32::max);
+        assert!(fastest < 2.0e-3, "after 15 s a particle moves at {fastest} m/s");
+    }
+}
+
+#[test]
+fn the_curtain_lets_its_ball_through() {
+    keeps_its_promise::<Curtain>();
+    // Sooner or later the ball has been on both sides, and has taken the fabric along to both.
+    let mut cast = Curtain::build();
+    let (mut front, mut back) = (0.0_f32, 0.0_f32);
+    for second in 0..14 {
+        cast.step(60);
+        Curtain::check(&cast).unwrap_or_else(|what| panic!("after {second} s: {what}"));
+        for x in cast.cloths[0].positions() {
+            (front, back) = (front.max(x.z), back.min(x.z));
+        }
+    }
+    assert!(front > 0.3 && back < -0.3, "it swings from {back} m to {front} m only");
+}
+
+#[test]
+fn late_frames_roll_the_ball_as_others_do() {
+    let mut even = Curtain::build();
+    even.step(12);
+    let mut late = Curtain::build();
+    for ticks in [1, 4, 2, 5] {
+        late.advance(ticks as f32 / 60.0 + 1.0e-5).unwrap();
+    }
+    assert_eq!(late.cloths[0].positions(), even.cloths[0].positions());
 }

@@ -4,7 +4,7 @@ use crate::Effort;
 use crate::measure::{in_turn, seconds};
 use crate::table::{Table, number};
 use muslin::Cloth;
-use muslin_scenes::{Flag, HangingSheet, Scene, SheetOnBall};
+use muslin_scenes::{Cast, Curtain, Drapes, Flag, HangingSheet, Scene, SheetOnBall};
 use std::hint::black_box;
 
 /// Ticks until a scene is itself.
@@ -18,6 +18,8 @@ pub fn print(effort: Effort) {
     table.push(row::<HangingSheet>(effort));
     table.push(row::<Flag>(effort));
     table.push(row::<SheetOnBall>(effort));
+    table.push(row::<Drapes>(effort));
+    table.push(row::<Curtain>(effort));
     println!(
         "\nScenes: ms of one thread for a whole tick with normals, after {SETTLED} ticks; least and \
          median of {ROUNDS} rounds of {TICKS} ticks.\n"
@@ -30,26 +32,31 @@ fn row<S: Scene>(effort: Effort) -> Vec<String> {
         Effort::Timed => (SETTLED, TICKS, ROUNDS),
         Effort::Once => (2, 1, 1),
     };
-    let mut cloth = S::build();
-    cloth.step(settled);
-    let stats = cloth.stats();
-    let mut round = || round(&mut cloth, ticks);
+    let mut cast = S::build();
+    cast.step(settled);
+    let stats = cast.cloths.iter().map(Cloth::stats);
+    let count = stats.map(|stats| [stats.particles, stats.active_constraints]);
+    let [particles, constraints] =
+        count.fold([0, 0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+    let mut round = || round(&mut cast, ticks);
     let [times] = in_turn(rounds, [&mut round]);
     vec![
         S::NAME.into(),
-        stats.particles.to_string(),
-        stats.active_constraints.to_string(),
+        particles.to_string(),
+        constraints.to_string(),
         number(times.min(), 3),
         number(times.median(), 3),
     ]
 }
 
 /// Milliseconds of a tick.
-fn round(cloth: &mut Cloth, ticks: u32) -> f64 {
+fn round(cast: &mut Cast, ticks: u32) -> f64 {
     let spent = seconds(|| {
         for _ in 0..ticks {
-            cloth.step(1);
-            black_box(cloth.view());
+            cast.step(1);
+            for cloth in &mut cast.cloths {
+                black_box(cloth.view());
+            }
         }
     });
     1.0e3 * spent / f64::from(ticks)

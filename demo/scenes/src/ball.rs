@@ -1,6 +1,6 @@
 //! A sheet that falls on a ball: it lands, slides into folds and lies.
 
-use crate::Scene;
+use crate::{Cast, Scene};
 use glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Shape, Wind};
 
@@ -64,18 +64,19 @@ impl Scene for SheetOnBall {
     const NAME: &'static str = "sheet on a ball";
     const ABOUT: &'static str = "It falls, takes the shape of the ball, and its corners fold.";
 
-    fn build() -> Cloth {
+    fn build() -> Cast {
         let made = Cloth::grid(&Self::desc(40)).and_then(|mut cloth| {
             Self::put_ball(&mut cloth)?;
             Ok(cloth)
         });
         match made {
-            Ok(cloth) => cloth,
+            Ok(cloth) => cloth.into(),
             Err(error) => unreachable!("the scene's own descriptor: {error}"),
         }
     }
 
-    fn check(cloth: &Cloth) -> core::result::Result<(), String> {
+    fn check(cast: &Cast) -> core::result::Result<(), String> {
+        let cloth = &cast.cloths[0];
         let away = |at: &Vec3| at.distance(Self::CENTRE) - Self::RADIUS;
         let nearest = cloth.positions().iter().map(away).fold(f32::MAX, f32::min);
         if nearest < -2.0e-3 {

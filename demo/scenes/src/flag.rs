@@ -1,6 +1,6 @@
 //! The flag: nylon on a pole, in a wind that comes and goes.
 
-use crate::Scene;
+use crate::{Cast, Scene};
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, GridDesc, Material, PinMode, Preset, Result, Settings, Wind};
 
@@ -66,18 +66,19 @@ impl Scene for Flag {
     const NAME: &'static str = "flag in the wind";
     const ABOUT: &'static str = "Held by its hoist; waves run along it to the fly.";
 
-    fn build() -> Cloth {
+    fn build() -> Cast {
         let made = Self::hoisted(&Self::desc(40), false).and_then(|mut cloth| {
             cloth.set_wind(Self::wind(7.0))?;
             Ok(cloth)
         });
         match made {
-            Ok(cloth) => cloth,
+            Ok(cloth) => cloth.into(),
             Err(error) => unreachable!("the scene's own descriptor: {error}"),
         }
     }
 
-    fn check(cloth: &Cloth) -> core::result::Result<(), String> {
+    fn check(cast: &Cast) -> core::result::Result<(), String> {
+        let cloth = &cast.cloths[0];
         let [columns, rows] = Self::weave(40).map(|n| n as usize);
         let x = cloth.positions();
         let hoist = (0..rows).map(|row| x[row * columns]);

@@ -1,6 +1,6 @@
 //! The hanging sheet: pinned along its top edge, in a light wind that comes and goes.
 
-use crate::Scene;
+use crate::{Cast, Scene};
 use glam::Vec3;
 use muslin::{Cloth, GridDesc, PinMode, Result, Wind};
 
@@ -53,14 +53,15 @@ impl Scene for HangingSheet {
     const ABOUT: &'static str =
         "Pinned along its top edge; the wind swells and lifts it, and it falls back.";
 
-    fn build() -> Cloth {
+    fn build() -> Cast {
         match Self::with(40, PinMode::TopEdge) {
-            Ok(cloth) => cloth,
+            Ok(cloth) => cloth.into(),
             Err(error) => unreachable!("the scene's own descriptor: {error}"),
         }
     }
 
-    fn check(cloth: &Cloth) -> core::result::Result<(), String> {
+    fn check(cast: &Cast) -> core::result::Result<(), String> {
+        let cloth = &cast.cloths[0];
         let half = Self::SIZE / 2.0;
         let top = &cloth.positions()[..40];
         if top.iter().any(|x| (x.y - half).abs() > 1.0e-4) {

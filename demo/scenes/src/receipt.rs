@@ -4,7 +4,7 @@
 //! metres wide. [`Sheet::Paper`] is real paper as large as a sheet of A4, and drawn as large as the
 //! other one: a [`Sheet::unit`] is what the brief calls a unit.
 
-use crate::Scene;
+use crate::{Cast, Scene};
 use glam::{Vec2, Vec3};
 use muslin::{
     Cloth, ColliderDesc, GridDesc, Material, PinMode, Preset, Result, SelfCollision, Settings,
@@ -231,14 +231,15 @@ impl Scene for Receipt {
     const NAME: &'static str = "receipt";
     const ABOUT: &'static str = "Paper on two pins: it hangs almost flat and curls at its end.";
 
-    fn build() -> Cloth {
+    fn build() -> Cast {
         match Sheet::Paper.hang(false) {
-            Ok(cloth) => cloth,
+            Ok(cloth) => cloth.into(),
             Err(error) => unreachable!("the scene's own descriptor: {error}"),
         }
     }
 
-    fn check(cloth: &Cloth) -> core::result::Result<(), String> {
+    fn check(cast: &Cast) -> core::result::Result<(), String> {
+        let cloth = &cast.cloths[0];
         let unit = Sheet::Paper.unit();
         let [columns, _] = FULL;
         let x = cloth.positions();
