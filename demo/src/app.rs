@@ -2,7 +2,8 @@
 //! controls. It knows no platform; those bring events and time, and take pictures.
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, Result};
+use muslin::{Cloth, LinkKind, Result, Stage};
+use muslin_scenes::Cast;
 use serde::Serialize;
 use three_d::{CoreError, RenderTarget};
 
@@ -14,7 +15,7 @@ use crate::pointer::{Cursor, Pointers, Scene, Screen};
 use crate::render::trail::Spark;
 use crate::render::{Frame, Renderer, Surface};
 use crate::settings::Settings;
-use crate::stage;
+use crate::stage::{self, Show};
 
 /// The longest frame that the camera eases through [s].
 const LONGEST_FRAME: f32 = 0.1;
@@ -22,7 +23,7 @@ const LONGEST_FRAME: f32 = 0.1;
 /// The running demo.
 pub struct App {
     settings: Settings,
-    cloth: Cloth,
+    cast: Cast,
     camera: Camera,
     hands: Pointers,
     /// The blade is out for as long as a key is held.
@@ -35,10 +36,16 @@ pub struct App {
     governor: Governor,
     clock: fn() -> f64,
     times_stages: bool,
-    lines: Vec<u32>,
-    /// Which cloth this is: a new one may count its topology from the start again.
+    lines: Vec<Lines>,
+    /// Which cloths these are: new ones may count their topology from the start again.
     generation: u32,
-    lines_of: Option<u64>,
+}
+
+/// The links of a cloth, as the wireframe shows them.
+#[derive(Debug, Default)]
+struct Lines {
+    ends: Vec<u32>,
+    revision: Option<u64>,
 }
 
 /// The numbers that the panel shows.
@@ -73,9 +80,9 @@ impl App {
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
         Ok(Self {
-            cloth: stage::build(&settings, false)?,
+            cast: stage::build(&settings, false)?,
+            camera: Camera::new(stage::rig(settings.scene)),
             settings,
-            camera: Camera::default(),
             hands: Pointers::default(),
             blade: false,
             afterglow: Afterglow::default(),
@@ -88,7 +95,6 @@ impl App {
             times_stages: false,
             lines: Vec::new(),
             generation: 0,
-            lines_of: None,
         })
     }
 
@@ -110,7 +116,7 @@ impl App {
         if rebuild {
             self.hang(&settings)?;
         } else {
-            stage::tune(&mut self.cloth, &settings, self.calm)?;
+            stage::tune(&mut self.cast, &settings, self.calm)?;
         }
         self.settings = settings;
         Ok(())
@@ -159,7 +165,7 @@ impl App {
                 self.hang(&settings)
             }
             Action::DropPins => {
-                self.cloth.unpin_all();
+                self.cast.cloths.iter_mut().for_each(Cloth::unpin_all);
                 Ok(())
             }
         }
@@ -172,7 +178,7 @@ impl App {
     pub fn set_calm(&mut self, calm: bool) -> Result<()> {
         self.calm = calm;
         self.camera.set_drift(!calm);
-        stage::tune(&mut self.cloth, &self.settings, calm)
+        stage::tune(&mut self.cast, &self.settings, calm)
     }
 
     /// The screen has this size, in the pixels that pointers count in.
@@ -242,7 +248,7 @@ impl App {
     /// Lets `seconds` pass.
     ///
     /// # Errors
-    /// As [`Cloth::advance`].
+    /// As [`Cast::advance`].
     pub fn frame(&mut self, seconds: f32) -> Result<()> {
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
         self.camera.advance(seconds.min(LONGEST_FRAME), self.hands.any());
@@ -250,7 +256,7 @@ impl App {
         hands.follow(&mut scene)?;
         if !self.settings.paused {
             let start = (self.clock)();
-            self.cloth.advance(seconds)?;
+            self.cast.advance(seconds)?;
             self.meter.simulated((self.clock)() - start);
         }
         self.afterglow.fade(seconds);
@@ -262,7 +268,7 @@ impl App {
     /// Times every stage of a frame from now on, or no longer.
     pub fn time_stages(&mut self, on: bool) {
         self.times_stages = on;
-        self.cloth.set_clock(on.then_some(self.clock));
+        self.set_clocks();
     }
 
     /// How long each stage takes, while [`App::time_stages`] is on.
@@ -274,7 +280,7 @@ impl App {
     /// Runs exactly so many ticks, whatever the clock says.
     pub fn play(&mut self, ticks: u32) {
         let start = (self.clock)();
-        self.cloth.step(ticks);
+        self.cast.step(ticks);
         self.meter.simulated((self.clock)() - start);
         self.afterglow.fade(ticks as f32 / 60.0);
     }
@@ -288,44 +294,50 @@ impl App {
         renderer: &mut Renderer,
         output: &RenderTarget<'_>,
     ) -> std::result::Result<(), CoreError> {
-        let revision =
-            (u64::from(self.generation) << 32) | u64::from(self.cloth.topology_revision());
-        if self.lines_of != Some(revision) {
-            self.lines_of = Some(revision);
-            self.lines.clear();
-            let woven = self.cloth.links().filter(|link| link.2 == muslin::LinkKind::Stretch);
-            self.lines.extend(woven.flat_map(|(a, b, _)| [a, b]));
+        self.lines.resize_with(self.cast.cloths.len(), Lines::default);
+        let mut seconds = [0.0; Stage::COUNT];
+        for (cloth, lines) in self.cast.cloths.iter_mut().zip(&mut self.lines) {
+            lines.follow(cloth, self.generation);
+            // Asking for normals makes them, which belongs to the stages.
+            cloth.normals();
+            for (sum, spent) in seconds.iter_mut().zip(cloth.stats().seconds) {
+                *sum += spent;
+            }
         }
-        // Asking for normals makes them, which belongs to the stages.
-        self.cloth.normals();
         if self.times_stages {
-            self.meter.simulated_in(&self.cloth.stats().seconds);
+            self.meter.simulated_in(&seconds);
         }
-        let view = self.cloth.view();
-        let surface = Surface {
-            positions: view.positions,
-            normals: view.normals,
-            uvs: view.uvs,
-            frayed: view.frayed,
-            indices: view.indices,
-            lines: &self.lines,
-            span: stage::span(&self.settings),
-            revision,
-        };
         self.sparks.clear();
         self.sparks.extend(self.afterglow.sparks());
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
-        let solids = stage::solids(&self.settings);
+        let (solids, looks) =
+            (stage::solids(&self.settings, &self.cast), stage::looks(&self.settings));
         let frame = Frame {
             solids: &solids,
             sight: self.camera.sight(),
-            look: self.settings.fabric.look(),
+            looks: &looks,
             trail: &self.sparks,
             wireframe: self.settings.wireframe,
             share: self.governor.share(density),
         };
         let start = (self.clock)();
-        renderer.take(&surface);
+        renderer.expect(self.cast.cloths.len());
+        for (i, (cloth, lines)) in self.cast.cloths.iter_mut().zip(&self.lines).enumerate() {
+            let view = cloth.view();
+            let surface = Surface {
+                positions: view.positions,
+                unit: stage::unit(self.settings.scene),
+                normals: view.normals,
+                uvs: view.uvs,
+                frayed: view.frayed,
+                indices: view.indices,
+                lines: &lines.ends,
+                span: stage::span(&self.settings),
+                is_round: self.settings.scene == Show::Discs,
+                revision: lines.revision.unwrap_or_default(),
+            };
+            renderer.take(i, &surface);
+        }
         let taken = (self.clock)();
         renderer.draw(&frame, output)?;
         self.meter.drawn(taken - start, (self.clock)() - taken);
@@ -334,14 +346,17 @@ impl App {
 
     /// The numbers of the panel.
     pub fn readout(&self) -> Readout {
-        let stats = self.cloth.stats();
-        Readout {
-            particles: stats.particles,
-            constraints: stats.active_constraints,
-            pieces: stats.pieces,
+        let mut readout = Readout {
             fps: self.meter.fps(),
             milliseconds: self.meter.milliseconds(),
+            ..Readout::default()
+        };
+        for stats in self.cast.cloths.iter().map(Cloth::stats) {
+            readout.particles += stats.particles;
+            readout.constraints += stats.active_constraints;
+            readout.pieces += stats.pieces;
         }
+        readout
     }
 
     /// The screen, in the pixels that pointers count in.
@@ -354,17 +369,18 @@ impl App {
         &mut self.camera
     }
 
-    /// Particles across and down the sheet, as it was woven.
-    pub fn weave(&self) -> [u32; 2] {
+    /// Particles across and down the sheet, as it was woven; of discs there is no such thing.
+    pub fn weave(&self) -> Option<[u32; 2]> {
         stage::weave(&self.settings)
     }
 
-    /// Where a particle is [m].
+    /// Where a particle of the first cloth is, as it is drawn [m].
     pub fn particle(&self, particle: u32) -> Option<Vec3> {
-        self.cloth.positions().get(particle as usize).copied()
+        let at = self.cast.cloths.first()?.positions().get(particle as usize)?;
+        Some(*at / stage::unit(self.settings.scene))
     }
 
-    /// Where on the screen a particle appears, in the pixels that pointers count in.
+    /// Where on the screen a particle of the first cloth appears, in the pixels that pointers count in.
     pub fn particle_on_screen(&self, particle: u32) -> Option<Vec2> {
         let at = self.particle(particle)?;
         let sight = self.camera.sight();
@@ -372,32 +388,55 @@ impl App {
         Some(self.screen.pixels(normal))
     }
 
-    /// The hash of the cloth's state.
+    /// The hash of the cloths' states; one cloth's own if there is one.
     pub fn state_hash(&self) -> u64 {
-        self.cloth.state_hash()
+        let hashes = self.cast.cloths.iter().map(Cloth::state_hash);
+        hashes.fold(0, |all, hash| all.rotate_left(1) ^ hash)
     }
 
     fn hang(&mut self, settings: &Settings) -> Result<()> {
-        self.cloth = stage::build(settings, self.calm)?;
-        self.cloth.set_clock(self.times_stages.then_some(self.clock));
+        self.cast = stage::build(settings, self.calm)?;
+        self.set_clocks();
+        if settings.scene != self.settings.scene {
+            self.camera.go_to(stage::rig(settings.scene), self.screen.aspect());
+        }
         self.hands.forget();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
     }
 
+    fn set_clocks(&mut self) {
+        let clock = self.times_stages.then_some(self.clock);
+        self.cast.cloths.iter_mut().for_each(|cloth| cloth.set_clock(clock));
+    }
+
     fn hands(&mut self) -> (&mut Pointers, Scene<'_>) {
+        let unit = stage::unit(self.settings.scene);
         let scene = Scene {
-            sight: self.camera.sight(),
+            unit,
+            sight: self.camera.sight().scaled(unit),
             spacing: stage::spacing(&self.settings),
             span: stage::span(&self.settings),
-            grab_radius: 0.6 * stage::spacing(&self.settings),
             blade: self.blade || self.settings.blade,
             afterglow: &mut self.afterglow,
             screen: self.screen,
-            cloth: &mut self.cloth,
+            cloths: &mut self.cast.cloths,
             camera: &mut self.camera,
         };
         (&mut self.hands, scene)
+    }
+}
+
+impl Lines {
+    /// Finds the links anew if others hold than before.
+    fn follow(&mut self, cloth: &Cloth, generation: u32) {
+        let revision = (u64::from(generation) << 32) | u64::from(cloth.topology_revision());
+        if self.revision != Some(revision) {
+            self.revision = Some(revision);
+            self.ends.clear();
+            let woven = cloth.links().filter(|link| link.2 == LinkKind::Stretch);
+            self.ends.extend(woven.flat_map(|(a, b, _)| [a, b]));
+        }
     }
 }
 

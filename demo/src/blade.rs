@@ -9,20 +9,27 @@ use muslin::{Error, EventKind, Result};
 use crate::pointer::Scene;
 use crate::render::trail::Spark;
 
-/// How far before and behind the cloth that it meets the blade reaches [m].
+/// How far before and behind the cloth that it meets the blade reaches, as it is drawn [m].
 const DEPTH: f32 = 0.4;
 /// Places along a piece of a swipe where it is felt how far away the cloth is.
 const FEELERS: u32 = 12;
 /// A piece shorter than so many edges waits for more.
 const LEAST: f32 = 1.6;
 
+/// A particle of a cloth.
+#[derive(Clone, Copy, Debug)]
+struct Tip {
+    cloth: usize,
+    particle: u32,
+}
+
 /// A swipe of one pointer.
 #[derive(Clone, Copy, Debug)]
 pub struct Swipe {
     /// Where the next piece starts, in pixels, if no slit goes on from there.
     from: Vec2,
-    /// The particle at the end of the slit so far.
-    end: Option<u32>,
+    /// The end of the slit so far.
+    end: Option<Tip>,
 }
 
 impl Swipe {
@@ -56,14 +63,15 @@ impl Swipe {
     }
 
     fn from(&self, scene: &Scene<'_>) -> Vec2 {
-        let positions = scene.cloth.positions();
-        let end = self.end.and_then(|end| positions.get(end as usize));
+        let end = self
+            .end
+            .and_then(|end| scene.cloths.get(end.cloth)?.positions().get(end.particle as usize));
         end.and_then(|at| scene.pixels(*at)).unwrap_or(self.from)
     }
 }
 
 /// Cuts along a straight piece of a swipe and says where the slit ends, if there is one.
-fn cut(from: Vec2, to: Vec2, scene: &mut Scene<'_>) -> Result<Option<u32>> {
+fn cut(from: Vec2, to: Vec2, scene: &mut Scene<'_>) -> Result<Option<Tip>> {
     let mut felt = Vec::new();
     for i in 0..=FEELERS {
         let share = i as f32 / FEELERS as f32;
@@ -75,32 +83,36 @@ fn cut(from: Vec2, to: Vec2, scene: &mut Scene<'_>) -> Result<Option<u32>> {
     // A plane through the eye, as deep at both ends as the cloth that is nearest to them.
     let (a, b) = (scene.at_depth(from, first.1), scene.at_depth(to, last.1));
     let into = ((a + b) * 0.5 - scene.sight.eye).normalize_or_zero();
-    while scene.cloth.next_event().is_some() {}
-    match scene.cloth.cut(a - into * DEPTH, b - into * DEPTH, into * (2.0 * DEPTH)) {
-        // A piece too short to have a direction, or no room for more.
-        Ok(0) | Err(Error::Full { .. } | Error::BadValue { .. }) => return Ok(None),
-        Ok(_) => {}
-        Err(error) => return Err(error),
-    }
+    let depth = into * (DEPTH * scene.unit);
     let way = to - from;
-    let mut end: Option<(f32, u32)> = None;
-    while let Some(event) = scene.cloth.next_event() {
-        let touched = match event.kind {
-            EventKind::EdgeDivided => [event.vertex; 2],
-            EventKind::EdgeTorn => [event.particle_a, event.particle_b],
-            _ => continue,
-        };
-        for particle in touched {
-            let at = scene.cloth.positions().get(particle as usize).copied();
-            if let Some(at) = at.and_then(|at| scene.pixels(at)) {
-                let far = (at - from).dot(way);
-                if end.is_none_or(|(farthest, _)| far > farthest) {
-                    end = Some((far, particle));
+    let mut end: Option<(f32, Tip)> = None;
+    for cloth in 0..scene.cloths.len() {
+        let cut = &mut scene.cloths[cloth];
+        while cut.next_event().is_some() {}
+        match cut.cut(a - depth, b - depth, depth * 2.0) {
+            // A piece too short to have a direction, or no room for more.
+            Ok(0) | Err(Error::Full { .. } | Error::BadValue { .. }) => continue,
+            Ok(_) => {}
+            Err(error) => return Err(error),
+        }
+        while let Some(event) = scene.cloths[cloth].next_event() {
+            let touched = match event.kind {
+                EventKind::EdgeDivided => [event.vertex; 2],
+                EventKind::EdgeTorn => [event.particle_a, event.particle_b],
+                _ => continue,
+            };
+            for particle in touched {
+                let at = scene.cloths[cloth].positions().get(particle as usize).copied();
+                if let Some(at) = at.and_then(|at| scene.pixels(at)) {
+                    let far = (at - from).dot(way);
+                    if end.is_none_or(|(farthest, _)| far > farthest) {
+                        end = Some((far, Tip { cloth, particle }));
+                    }
                 }
             }
         }
     }
-    Ok(end.map(|(_, particle)| particle))
+    Ok(end.map(|(_, tip)| tip))
 }
 
 /// How long the path of the blade glows [s].

@@ -113,6 +113,12 @@ impl Camera {
         }
     }
 
+    /// Goes to the start of another rig.
+    pub fn go_to(&mut self, rig: Rig, aspect: f32) {
+        *self = Self { drift: self.drift, ..Self::new(rig) };
+        self.frame(aspect);
+    }
+
     /// Lets the rig sway gently once it has not been touched for a while, or forbids it.
     pub fn set_drift(&mut self, drift: bool) {
         self.drift = drift;

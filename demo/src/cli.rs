@@ -23,7 +23,8 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
     --times           draw every tick, and say what the stages of a frame take
     --orbit X,Y       drag the camera, in heights of the screen (0,0)
     --zoom F          multiply the camera's distance (1)
-  --scene NAME        sheet, flag, ball or tender, or their numbers from 0; with tender:
+  --scene NAME        sheet, flag, ball, discs, curtain or tender, or their numbers from 0; with
+                      tender:
     --wind            it blows
     --brief           links as the brief lays them, not real paper
     --small           24 x 36 particles, as on small screens
@@ -221,10 +222,15 @@ mod tests {
 
     #[test]
     fn scenes_have_names_and_numbers_and_the_receipt_its_own_options() {
-        for (line, place) in [("--scene flag", 1.0), ("--scene 2", 2.0), ("--scene=sheet", 0.0)] {
+        for (line, place) in [
+            ("--scene flag", 1.0),
+            ("--scene 2", 2.0),
+            ("--scene=sheet", 0.0),
+            ("--scene curtain", 4.0),
+        ] {
             assert_eq!(parsed(line), Ok(Task::Window(vec![("scene", place)])));
         }
-        for line in ["--scene tender --wind --small", "--wind --scene=3 --small"] {
+        for line in ["--scene tender --wind --small", "--wind --scene=5 --small"] {
             let Ok(Task::Receipt(receipt)) = parsed(line) else { panic!("{line}") };
             assert!(receipt.settings.wind && receipt.small);
         }
@@ -249,7 +255,7 @@ mod tests {
             ("--shot a.png --strip 0", "--strip"),
             ("--sail", "--sail"),
             ("--scene rug", "--scene"),
-            ("--scene 4", "--scene"),
+            ("--scene 6", "--scene"),
             ("--scene tender --gravity 3", "--gravity"),
             ("--scene tender --shot a.png --play tear", "--play"),
             ("--reset", "--reset"),

@@ -57,17 +57,26 @@ impl Fabric {
     /// is felt.
     pub fn material(self) -> Material {
         // Four times its length, as the brief has it, is rubber: these rip as cloth does.
-        let (preset, tear_stretch) = match self {
-            Self::Silk => (Preset::Silk, 1.75),
-            Self::Cotton => (Preset::Cotton, 1.65),
-            Self::Denim => (Preset::Denim, 1.9),
-            Self::Flag => (Preset::FlagNylon, 1.75),
+        let tear_stretch = match self {
+            Self::Silk | Self::Flag => 1.75,
+            Self::Cotton => 1.65,
+            Self::Denim => 1.9,
         };
         Material {
             stretch_stiffness_warp: 0.0,
             stretch_stiffness_weft: 0.0,
             tear_stretch,
-            ..Material::preset(preset)
+            ..Material::preset(self.preset())
+        }
+    }
+
+    /// The fabric of Muslin's that it is.
+    pub fn preset(self) -> Preset {
+        match self {
+            Self::Silk => Preset::Silk,
+            Self::Cotton => Preset::Cotton,
+            Self::Denim => Preset::Denim,
+            Self::Flag => Preset::FlagNylon,
         }
     }
 

@@ -70,13 +70,23 @@ pub struct Play {
 impl Play {
     /// Begins on the sheet as it hangs now.
     pub fn new(gesture: Gesture, app: &mut App) -> Self {
-        let [columns, rows] = app.weave();
+        let Some([columns, rows]) = app.weave() else {
+            return Self::over(gesture, app);
+        };
         let place = |app: &mut App, particle| app.particle_on_screen(particle).unwrap_or_default();
         let corner = place(app, 0);
         let right = place(app, columns - 1);
         let bottom = place(app, (rows - 1) * columns);
         let size = Vec2::new(right.x - corner.x, bottom.y - corner.y);
         Self { gesture, tick: 0, corner, size }
+    }
+
+    /// Begins on the first of several cloths.
+    fn over(gesture: Gesture, app: &App) -> Self {
+        let places: Vec<_> = (0..).map_while(|i| app.particle_on_screen(i)).collect();
+        let low = places.iter().copied().reduce(Vec2::min).unwrap_or_default();
+        let high = places.into_iter().reduce(Vec2::max).unwrap_or_default();
+        Self { gesture, tick: 0, corner: low, size: high - low }
     }
 
     /// Plays one tick.

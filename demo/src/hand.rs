@@ -4,8 +4,8 @@
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, Error, Grab, LinkKind, Result};
 
-/// How far a fingertip reaches along the cloth [m]; one edge at least.
-const TIP: f32 = 0.055;
+/// How far a fingertip reaches along the cloth, as it is drawn [m]; one edge at least.
+pub const TIP: f32 = 0.055;
 /// So many particles at most: the cloth has a few dozen grabs for all fingers together.
 const MOST: usize = 9;
 
@@ -20,7 +20,7 @@ pub struct Hand {
 
 impl Hand {
     /// Takes what a ray hits, or what is within `radius` [m] of it; `span` is what the weave's
-    /// coordinates cover [m].
+    /// coordinates cover, and `tip` how far the fingertip reaches [m].
     ///
     /// # Errors
     /// As [`Cloth::grab_ray`].
@@ -29,6 +29,7 @@ impl Hand {
         [eye, direction]: [Vec3; 2],
         radius: f32,
         span: Vec2,
+        tip: f32,
     ) -> Result<Option<Self>> {
         let hit = cloth.raycast(eye, direction, f32::INFINITY)?;
         let Some((grab, at)) = cloth.grab_ray(eye, direction, radius)? else {
@@ -39,7 +40,7 @@ impl Hand {
             Some(found as u32)
         });
         let mut hand = Self { held: vec![(grab, Vec3::ZERO)], at };
-        for particle in first.map_or_else(Vec::new, |first| patch(cloth, first, span)) {
+        for particle in first.map_or_else(Vec::new, |first| patch(cloth, first, span, tip)) {
             let beside = cloth.positions()[particle as usize] - at;
             match cloth.grab_particle(particle) {
                 Ok(grab) => hand.held.push((grab, beside)),
@@ -76,12 +77,12 @@ impl Hand {
 
 /// The particles around `first` that threads lead to within a fingertip, nearest first, itself not
 /// included.
-fn patch(cloth: &Cloth, first: u32, span: Vec2) -> Vec<u32> {
+fn patch(cloth: &Cloth, first: u32, span: Vec2, tip: f32) -> Vec<u32> {
     let place = |particle: u32| cloth.uvs()[particle as usize] * span;
     let threads: Vec<_> = cloth.links().filter(|link| link.2 != LinkKind::Bend).collect();
     let edge = threads.iter().filter(|link| link.2 == LinkKind::Stretch);
     let edge = edge.map(|(a, b, _)| place(*a).distance(place(*b))).fold(f32::INFINITY, f32::min);
-    let reach = TIP.max(1.05 * edge);
+    let reach = tip.max(1.05 * edge);
     let near = |particle: u32| place(particle).distance(place(first)) <= reach;
     let mut patch = vec![first];
     let mut next = 0;
@@ -118,7 +119,7 @@ mod tests {
     fn a_hand_holds_a_particle_and_its_neighbours_and_lets_go_of_all() {
         let mut cloth = sheet();
         let eye = Vec3::new(0.5, -0.5, 1.0);
-        let mut hand = Hand::take(&mut cloth, [eye, AHEAD], 0.0, Vec2::ONE).unwrap().unwrap();
+        let mut hand = Hand::take(&mut cloth, [eye, AHEAD], 0.0, Vec2::ONE, TIP).unwrap().unwrap();
         assert_eq!(hand.held.len(), 5);
         let to = hand.at() + Vec3::new(0.1, 0.1, 0.3);
         hand.move_to(to, &mut cloth).unwrap();
@@ -137,7 +138,7 @@ mod tests {
         let (from, to) = (Vec3::new(0.475, 0.1, -0.2), Vec3::new(0.475, -0.9, -0.2));
         assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
         let left = 10 * 21 + 9;
-        for particle in patch(&cloth, left, Vec2::ONE) {
+        for particle in patch(&cloth, left, Vec2::ONE, TIP) {
             assert!(cloth.positions()[particle as usize].x < 0.476);
         }
     }
@@ -145,6 +146,6 @@ mod tests {
     #[test]
     fn past_the_cloth_there_is_nothing_to_hold() {
         let eye = Vec3::new(3.0, 3.0, 1.0);
-        assert!(Hand::take(&mut sheet(), [eye, AHEAD], 0.05, Vec2::ONE).unwrap().is_none());
+        assert!(Hand::take(&mut sheet(), [eye, AHEAD], 0.05, Vec2::ONE, TIP).unwrap().is_none());
     }
 }

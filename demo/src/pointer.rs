@@ -1,11 +1,11 @@
 //! Hands on the scene: each pointer holds a piece of cloth or the camera, or nothing.
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, Result};
+use muslin::{Cloth, Hit, Result};
 
 use crate::blade::{Afterglow, Swipe};
 use crate::camera::{Camera, Sight};
-use crate::hand::Hand;
+use crate::hand::{Hand, TIP};
 use crate::render::light::{FLOOR, STAGE_CENTRE};
 
 /// How far a held particle may be pulled from the middle of the stage [m].
@@ -41,7 +41,8 @@ impl Screen {
 /// What a pointer holds.
 #[derive(Debug)]
 enum Hold {
-    Cloth(Hand),
+    /// Of the cloth of this number.
+    Cloth(usize, Hand),
     Camera,
     Blade(Swipe),
 }
@@ -108,10 +109,8 @@ impl Pointers {
             self.down.push(Pointer { id, at, hold: Hold::Blade(Swipe::new(at)) });
             return Ok(());
         }
-        let direction = scene.ray(at);
-        let ray = [scene.sight.eye, direction];
-        let hold = match Hand::take(scene.cloth, ray, scene.grab_radius, scene.span)? {
-            Some(hand) => Hold::Cloth(hand),
+        let hold = match scene.take(at)? {
+            Some((cloth, hand)) => Hold::Cloth(cloth, hand),
             None => {
                 self.open_hands(scene)?;
                 Hold::Camera
@@ -160,7 +159,7 @@ impl Pointers {
         };
         let pointer = self.down.swap_remove(i);
         match pointer.hold {
-            Hold::Cloth(hand) => hand.release(scene.cloth),
+            Hold::Cloth(cloth, hand) => hand.release(&mut scene.cloths[cloth]),
             Hold::Blade(mut swipe) => swipe.reach(pointer.at, true, scene),
             Hold::Camera => Ok(()),
         }
@@ -178,10 +177,10 @@ impl Pointers {
     pub fn follow(&mut self, scene: &mut Scene<'_>) -> Result<()> {
         let forward = scene.sight.forward();
         for pointer in &mut self.down {
-            if let Hold::Cloth(hand) = &mut pointer.hold {
+            if let Hold::Cloth(cloth, hand) = &mut pointer.hold {
                 let depth = (hand.at() - scene.sight.eye).dot(forward);
-                let to = within_reach(scene.at_depth(pointer.at, depth));
-                hand.move_to(to, scene.cloth)?;
+                let to = within_reach(scene.at_depth(pointer.at, depth) / scene.unit) * scene.unit;
+                hand.move_to(to, &mut scene.cloths[*cloth])?;
             }
         }
         Ok(())
@@ -191,10 +190,10 @@ impl Pointers {
     /// pinch begins.
     fn open_hands(&mut self, scene: &mut Scene<'_>) -> Result<()> {
         for pointer in &mut self.down {
-            if matches!(pointer.hold, Hold::Cloth(_))
-                && let Hold::Cloth(hand) = std::mem::replace(&mut pointer.hold, Hold::Camera)
+            if matches!(pointer.hold, Hold::Cloth(..))
+                && let Hold::Cloth(cloth, hand) = std::mem::replace(&mut pointer.hold, Hold::Camera)
             {
-                hand.release(scene.cloth)?;
+                hand.release(&mut scene.cloths[cloth])?;
             }
         }
         Ok(())
@@ -210,7 +209,7 @@ impl Pointers {
     /// # Errors
     /// As [`Cloth::raycast`].
     pub fn cursor(&self, scene: &mut Scene<'_>) -> Result<Cursor> {
-        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth(_))) {
+        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth(..))) {
             return Ok(Cursor::Grabbing);
         }
         if scene.blade || self.down.iter().any(|p| matches!(p.hold, Hold::Blade(_))) {
@@ -218,8 +217,7 @@ impl Pointers {
         }
         match self.hover {
             Some(at) if self.down.is_empty() => {
-                let direction = scene.ray(at);
-                let hit = scene.cloth.raycast(scene.sight.eye, direction, 100.0)?;
+                let hit = scene.nearest(at)?;
                 Ok(if hit.is_some() { Cursor::Grab } else { Cursor::Default })
             }
             _ => Ok(Cursor::Default),
@@ -243,11 +241,13 @@ pub fn turn(camera: &mut Camera, screen: Screen, [from, to]: [Vec2; 2], others: 
 
 /// What pointers act on.
 pub struct Scene<'a> {
-    /// The cloth.
-    pub cloth: &'a mut Cloth,
+    /// The cloths.
+    pub cloths: &'a mut [Cloth],
     /// The camera rig.
     pub camera: &'a mut Camera,
-    /// Where the camera is in this frame.
+    /// Length of what is drawn as a metre [m].
+    pub unit: f32,
+    /// Where the camera is in this frame, among the cloths as large as they are.
     pub sight: Sight,
     /// The screen.
     pub screen: Screen,
@@ -257,10 +257,8 @@ pub struct Scene<'a> {
     pub afterglow: &'a mut Afterglow,
     /// Distance between neighbouring particles [m].
     pub spacing: f32,
-    /// What the weave's coordinates span [m].
+    /// What the weave's coordinates span, as it is drawn [m].
     pub span: Vec2,
-    /// How far beside the cloth a grab still takes hold [m].
-    pub grab_radius: f32,
 }
 
 impl Scene<'_> {
@@ -279,8 +277,37 @@ impl Scene<'_> {
     /// # Errors
     /// As [`Cloth::raycast`].
     pub fn depth(&self, at: Vec2) -> Result<Option<f32>> {
-        let hit = self.cloth.raycast(self.sight.eye, self.ray(at), 100.0)?;
-        Ok(hit.map(|hit| (hit.position - self.sight.eye).dot(self.sight.forward())))
+        let hit = self.nearest(at)?;
+        Ok(hit.map(|(_, hit)| (hit.position - self.sight.eye).dot(self.sight.forward())))
+    }
+
+    /// The cloth behind a pixel that is nearest to the eye, and where.
+    fn nearest(&self, at: Vec2) -> Result<Option<(usize, Hit)>> {
+        let direction = self.ray(at);
+        let mut nearest: Option<(usize, Hit)> = None;
+        for (i, cloth) in self.cloths.iter().enumerate() {
+            let within = nearest.as_ref().map_or(100.0, |(_, hit)| hit.distance);
+            if let Some(hit) = cloth.raycast(self.sight.eye, direction, within)? {
+                nearest = Some((i, hit));
+            }
+        }
+        Ok(nearest)
+    }
+
+    /// A hand on the cloth behind a pixel, or on one that is nearly there.
+    fn take(&mut self, at: Vec2) -> Result<Option<(usize, Hand)>> {
+        let ray = [self.sight.eye, self.ray(at)];
+        let (span, tip) = (self.span * self.unit, TIP * self.unit);
+        let radius = 0.6 * self.spacing;
+        let hit = self.nearest(at)?.map(|(cloth, _)| cloth);
+        let beside = (0..self.cloths.len()).filter(|_| hit.is_none());
+        for cloth in hit.into_iter().chain(beside) {
+            let taken = Hand::take(&mut self.cloths[cloth], ray, radius, span, tip)?;
+            if let Some(hand) = taken {
+                return Ok(Some((cloth, hand)));
+            }
+        }
+        Ok(None)
     }
 
     /// The point behind a pixel, so far in front of the eye [m].

@@ -4,11 +4,13 @@
 use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, ColliderDesc, PinMode, Result, Wind};
-use muslin_scenes::{Flag, HangingSheet, SheetOnBall};
+use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, Wind};
+use muslin_scenes::disc::Disc;
+use muslin_scenes::{Cast, Curtain, Drapes, Flag, HangingSheet, SheetOnBall};
 use serde::{Deserialize, Serialize};
 
-use crate::fabric::Fabric;
+use crate::camera::Rig;
+use crate::fabric::{Fabric, Look};
 use crate::render::light::FLOOR;
 use crate::render::solid::Solid;
 use crate::settings::{Pinning, Settings};
@@ -19,10 +21,16 @@ const BREEZE: f32 = 1.3;
 const STIFF_BREEZE: f32 = 7.0;
 /// And where a sheet only lies.
 const BREATH: f32 = 0.6;
+/// And where small discs show how they hang.
+const DRAUGHT: f32 = 0.25;
 /// What the cloth is kept over the floor, so that it never flickers through [m].
 const CLEARANCE: f32 = 0.006;
 /// What the ball is drawn smaller than it is felt, since triangles cut its corners [m].
 const SKIN: f32 = 0.009;
+/// The fabrics of the discs.
+const DISCS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
+/// Colour of knobs and rings.
+const BRASS: u32 = 0xd9a04a;
 /// Radius of the flag's pole [m].
 const POLE: f32 = 0.016;
 
@@ -37,29 +45,67 @@ pub enum Show {
     Flag,
     /// The sheet that falls on a ball.
     Ball,
+    /// Discs of three fabrics on pedestals.
+    Discs,
+    /// The curtain that a ball rolls through.
+    Curtain,
 }
 
 impl Show {
     /// All of them, in the order of the panel.
-    pub const ALL: [Self; 3] = [Self::Sheet, Self::Flag, Self::Ball];
+    pub const ALL: [Self; 5] = [Self::Sheet, Self::Flag, Self::Ball, Self::Discs, Self::Curtain];
     /// What the panel calls them.
-    pub const NAMES: [&'static str; 3] = ["Sheet", "Flag", "Ball"];
+    pub const NAMES: [&'static str; 5] = ["Sheet", "Flag", "Ball", "Discs", "Curtain"];
 
     /// What its cloth is of when it opens.
     pub fn fabric(self) -> Fabric {
         match self {
-            Self::Sheet => Fabric::Silk,
+            Self::Sheet | Self::Discs => Fabric::Silk,
             Self::Flag => Fabric::Flag,
-            Self::Ball => Fabric::Cotton,
+            Self::Ball | Self::Curtain => Fabric::Cotton,
         }
     }
 }
 
-/// Particles across and down.
-pub fn weave(settings: &Settings) -> [u32; 2] {
+/// Particles across and down, where they are woven in rows.
+pub fn weave(settings: &Settings) -> Option<[u32; 2]> {
     match settings.scene {
-        Show::Sheet | Show::Ball => [settings.resolution; 2],
-        Show::Flag => Flag::weave(settings.resolution),
+        Show::Sheet | Show::Ball => Some([settings.resolution; 2]),
+        Show::Flag => Some(Flag::weave(settings.resolution)),
+        Show::Curtain => Some(Curtain::weave(settings.resolution)),
+        Show::Discs => None,
+    }
+}
+
+/// Length of what is drawn as a metre [m].
+pub fn unit(scene: Show) -> f32 {
+    match scene {
+        Show::Discs => Drapes::UNIT,
+        _ => 1.0,
+    }
+}
+
+/// How each cloth takes the light.
+pub fn looks(settings: &Settings) -> Vec<Look> {
+    match settings.scene {
+        Show::Discs => DISCS.map(Fabric::look).to_vec(),
+        _ => vec![settings.fabric.look()],
+    }
+}
+
+/// Where the camera starts, and how far it goes.
+pub fn rig(scene: Show) -> Rig {
+    let usual = Rig::default();
+    match scene {
+        Show::Sheet | Show::Flag | Show::Ball => usual,
+        Show::Discs => Rig {
+            target: Vec3::new(0.0, -0.72, 0.0),
+            polar: 0.15..=1.5,
+            start: [0.0, 1.16, 3.9],
+            half_width: 1.42,
+            ..usual
+        },
+        Show::Curtain => Rig { start: [0.62, 1.34, 5.1], half_width: 1.3, ..usual },
     }
 }
 
@@ -69,66 +115,134 @@ pub fn spacing(settings: &Settings) -> f32 {
         Show::Sheet => HangingSheet::SIZE,
         Show::Flag => Flag::SIZE.x,
         Show::Ball => SheetOnBall::SIZE,
+        Show::Curtain => Curtain::SIZE.x,
+        Show::Discs => return Drapes::RADIUS / Disc::rings(across_disc(settings)) as f32,
     };
     across / (settings.resolution - 1) as f32
 }
 
-/// Width and height of the cloth [m].
+/// Width and height of a cloth, as it is drawn [m].
 pub fn span(settings: &Settings) -> Vec2 {
-    weave(settings).map(|n| (n - 1) as f32 * spacing(settings)).into()
+    let size = weave(settings).map(|weave| weave.map(|n| (n - 1) as f32 * spacing(settings)));
+    size.map_or(Vec2::splat(2.0 * Drapes::RADIUS), Vec2::from) / unit(settings.scene)
 }
 
-/// What the cloth hangs on.
-pub fn solids(settings: &Settings) -> Vec<Solid> {
+/// What the cloth hangs on and lies over, as it is drawn.
+pub fn solids(settings: &Settings, cast: &Cast) -> Vec<Solid> {
     match settings.scene {
         Show::Sheet => Vec::new(),
         Show::Ball => {
             let centre = SheetOnBall::CENTRE;
             let radius = SheetOnBall::RADIUS - SKIN;
             let foot = centre.with_y(FLOOR);
-            vec![
-                Solid { from: centre, to: centre, radius, colour: 0x6f7f9c },
-                Solid { from: foot, to: centre, radius: 0.09, colour: 0x4a5264 },
-            ]
+            vec![Solid::ball(centre, radius, 0x6f7f9c), Solid::rod(foot, centre, 0.09, 0x4a5264)]
         }
         Show::Flag => {
             let foot = Vec3::new(Flag::HOIST.x - POLE, FLOOR, 0.0);
             let top = foot.with_y(Flag::HOIST.y + 0.09);
-            let pole = Solid { from: foot, to: top, radius: POLE, colour: 0x8d93a3 };
-            let knob = top + Vec3::Y * 0.02;
-            vec![pole, Solid { from: knob, to: knob, radius: 0.034, colour: 0xd9a04a }]
+            let pole = Solid::rod(foot, top, POLE, 0x8d93a3);
+            vec![pole, Solid::ball(top + Vec3::Y * 0.02, 0.034, BRASS)]
+        }
+        Show::Discs => Drapes::PLACES.iter().flat_map(|place| pedestal(*place)).collect(),
+        Show::Curtain => {
+            let ball =
+                cast.ball().map(|(centre, radius)| Solid::ball(centre, radius - SKIN, 0xc9563f));
+            ball.into_iter().chain(rod()).collect()
         }
     }
 }
 
-/// A fresh cloth over the floor.
+/// A pedestal, a little lower and thinner than it is felt.
+fn pedestal(place: Vec3) -> [Solid; 2] {
+    let top = place / Drapes::UNIT - Vec3::Y * 0.004;
+    let radius = Drapes::PEDESTAL / Drapes::UNIT - 0.006;
+    let foot = top.with_y(FLOOR);
+    [
+        Solid::block(foot, top, radius, 0.012, 0x8b8f9c),
+        Solid::block(foot, foot + Vec3::Y * 0.05, radius + 0.04, 0.012, 0x5c6270),
+    ]
+}
+
+/// The curtain's rod on its knobs, with a ring and a clip for each place that is held.
+fn rod() -> Vec<Solid> {
+    let half = Vec3::X * (0.5 * Curtain::WIDTH + 0.13);
+    let (from, to) = (Curtain::ROD - half, Curtain::ROD + half);
+    let mut solids = vec![Solid::rod(from, to, 0.017, 0x8d93a3)];
+    solids.extend([from, to].map(|end| Solid::ball(end, 0.036, BRASS)));
+    for ring in Curtain::rings() {
+        let across = Vec3::X * 0.007;
+        let on_rod = ring.with_y(Curtain::ROD.y).with_z(0.0);
+        solids.push(Solid::block(on_rod - across, on_rod + across, 0.028, 0.006, BRASS));
+        solids.push(Solid::rod(on_rod - Vec3::Y * 0.026, ring, 0.006, BRASS));
+    }
+    solids
+}
+
+/// A fresh cloth over the floor, or several.
 ///
 /// # Errors
-/// As [`Cloth::grid`]; clamped settings give none.
-pub fn build(settings: &Settings, calm: bool) -> Result<Cloth> {
+/// As [`Cloth::grid`] and [`Cloth::mesh`]; clamped settings give none.
+pub fn build(settings: &Settings, calm: bool) -> Result<Cast> {
+    let mut cast = match settings.scene {
+        Show::Discs => discs(settings)?.into(),
+        Show::Curtain => {
+            let mut desc = Curtain::desc(settings.resolution);
+            desc.material = settings.fabric.material();
+            let mut curtain = Curtain::hung(&desc)?;
+            put_floor(&mut curtain)?;
+            Cast::with_ball(curtain, Curtain::BALL)?
+        }
+        _ => Cast::from(sheet(settings)?),
+    };
+    tune(&mut cast, settings, calm)?;
+    Ok(cast)
+}
+
+/// A sheet that hangs, flies or lies.
+fn sheet(settings: &Settings) -> Result<Cloth> {
     let mut desc = match settings.scene {
-        Show::Sheet => HangingSheet::desc(settings.resolution, pin_mode(settings.pinning)),
         Show::Flag => Flag::desc(settings.resolution),
         Show::Ball => SheetOnBall::desc(settings.resolution),
+        _ => HangingSheet::desc(settings.resolution, pin_mode(settings.pinning)),
     };
     desc.material = settings.fabric.material();
     // The stiffness slider multiplies them by up to twelve sweeps: four are smooth, and cheap.
     desc.settings.substeps = 4;
     let mut cloth = match settings.scene {
-        Show::Sheet | Show::Ball => Cloth::grid(&desc)?,
         Show::Flag => Flag::hoisted(&desc, settings.pinning != Pinning::TopEdge)?,
+        _ => Cloth::grid(&desc)?,
     };
-    cloth.add_collider(&ColliderDesc {
-        position: Vec3::Y * (FLOOR + CLEARANCE),
-        ..ColliderDesc::default()
-    })?;
+    put_floor(&mut cloth)?;
     if settings.scene == Show::Ball {
         SheetOnBall::put_ball(&mut cloth)?;
     } else {
         drape(&mut cloth, settings)?;
     }
-    tune(&mut cloth, settings, calm)?;
     Ok(cloth)
+}
+
+/// Discs on their pedestals. Drapes are told apart by shear and bending, so these give way as their fabrics do.
+fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
+    let rings = Disc::rings(across_disc(settings));
+    let disc = |(fabric, place): (Fabric, Vec3)| {
+        let preset = Material::preset(fabric.preset());
+        let material = Material { tear_stretch: fabric.material().tear_stretch, ..preset };
+        let mut cloth = Cloth::mesh(&Drapes::desc(rings, place, material))?;
+        Drapes::put_pedestal(&mut cloth, place)?;
+        Drapes::put_floor(&mut cloth, CLEARANCE)?;
+        Ok(cloth)
+    };
+    DISCS.into_iter().zip(Drapes::PLACES).map(disc).collect()
+}
+
+/// Particles across a disc: three of them have about as many as one sheet.
+fn across_disc(settings: &Settings) -> u32 {
+    (2 * settings.resolution).div_ceil(3)
+}
+
+fn put_floor(cloth: &mut Cloth) -> Result<()> {
+    let position = Vec3::Y * (FLOOR + CLEARANCE);
+    cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).map(|_| ())
 }
 
 fn pin_mode(pinning: Pinning) -> PinMode {
@@ -144,14 +258,16 @@ fn pin_mode(pinning: Pinning) -> PinMode {
 /// Every row follows one curve whose arc is as long as the row, so no thread is stretched: the
 /// direction of the curve is given along the arc, and the places are its running sum.
 fn drape(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
-    let ([columns, rows], step) = (weave(settings), spacing(settings));
+    let (Some([columns, rows]), step) = (weave(settings), spacing(settings)) else {
+        return Ok(());
+    };
     let direction = |u: f32| match (settings.scene, settings.pinning) {
         // Uneven folds: the phase runs ahead and falls behind.
         (Show::Sheet, Pinning::TopEdge) => {
             0.78 * (TAU * (4.5 * u + 0.10 * (TAU * u).sin() + 0.07 * (2.3 * TAU * u).cos())).sin()
         }
-        (Show::Sheet | Show::Ball, _) => 0.75 * (1.0 - 2.0 * u),
         (Show::Flag, _) => 0.7 * u.sqrt() * (TAU * 1.6 * u).sin(),
+        _ => 0.75 * (1.0 - 2.0 * u),
     };
     let mut curve = vec![Vec2::ZERO];
     for i in 1..columns {
@@ -159,8 +275,8 @@ fn drape(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
         curve.push(curve[i as usize - 1] + Vec2::from_angle(turn) * step);
     }
     let start = match settings.scene {
-        Show::Sheet | Show::Ball => -0.5 * (curve[0] + curve[columns as usize - 1]),
         Show::Flag => Vec2::new(Flag::HOIST.x, Flag::HOIST.z),
+        _ => -0.5 * (curve[0] + curve[columns as usize - 1]),
     };
     for row in 0..rows {
         for column in 0..columns {
@@ -173,11 +289,15 @@ fn drape(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
     Ok(())
 }
 
-/// Brings a cloth in line with the controls; `calm` takes most of the restlessness out of the wind.
+/// Brings cloths in line with the controls; `calm` takes most of the restlessness out of the wind.
 ///
 /// # Errors
 /// As [`Cloth::set_settings`] and [`Cloth::set_wind`]; clamped settings give none.
-pub fn tune(cloth: &mut Cloth, settings: &Settings, calm: bool) -> Result<()> {
+pub fn tune(cast: &mut Cast, settings: &Settings, calm: bool) -> Result<()> {
+    cast.cloths.iter_mut().try_for_each(|cloth| tune_one(cloth, settings, calm))
+}
+
+fn tune_one(cloth: &mut Cloth, settings: &Settings, calm: bool) -> Result<()> {
     let mut live = cloth.settings().clone();
     live.iterations = settings.stiffness;
     live.gravity = Vec3::NEG_Y * settings.gravity;
@@ -189,6 +309,8 @@ pub fn tune(cloth: &mut Cloth, settings: &Settings, calm: bool) -> Result<()> {
         Show::Sheet => HangingSheet::wind(BREEZE * settings.wind),
         Show::Flag => Flag::wind(STIFF_BREEZE * settings.wind),
         Show::Ball => SheetOnBall::wind(BREATH * settings.wind),
+        Show::Discs => SheetOnBall::wind(DRAUGHT * settings.wind),
+        Show::Curtain => HangingSheet::wind(BREATH * settings.wind),
     };
     cloth.set_wind(Wind {
         gust: wind.gust * restless,
@@ -207,16 +329,26 @@ mod tests {
         for scene in Show::ALL {
             for pinning in [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners] {
                 let settings = Settings { scene, pinning, ..Settings::default() };
-                let mut cloth = build(&settings, false).unwrap();
-                let [columns, rows] = weave(&settings);
-                assert_eq!(cloth.positions().len(), (columns * rows) as usize);
-                let stretch = cloth.stats().max_stretch;
-                assert!(stretch < 0.01, "{scene:?} opens stretched by {stretch}");
-                let start = cloth.positions().to_vec();
-                cloth.step(6);
-                let moved = start.iter().zip(cloth.positions()).map(|(a, b)| a.distance(*b));
-                let farthest = moved.fold(0.0, f32::max);
-                assert!(farthest > 0.004 && farthest < 0.6, "{scene:?} moved {farthest} m");
+                let mut cast = build(&settings, false).unwrap();
+                assert_eq!(cast.cloths.len(), looks(&settings).len());
+                let start: Vec<_> =
+                    cast.cloths.iter().map(|cloth| cloth.positions().to_vec()).collect();
+                for cloth in &cast.cloths {
+                    let stretch = cloth.stats().max_stretch;
+                    assert!(stretch < 0.01, "{scene:?} opens stretched by {stretch}");
+                }
+                cast.step(6);
+                for (start, cloth) in start.iter().zip(&cast.cloths) {
+                    let grid = weave(&settings).map(|[columns, rows]| columns * rows);
+                    let count = cloth.particle_count();
+                    assert_eq!(count, grid.unwrap_or(count));
+                    let moved = start.iter().zip(cloth.positions()).map(|(a, b)| a.distance(*b));
+                    let farthest = moved.fold(0.0, f32::max);
+                    assert!(farthest > 0.002 && farthest < 0.6, "{scene:?} moved {farthest} m");
+                    let place = |x: &Vec3| *x / unit(scene);
+                    let off = cloth.positions().iter().map(place).map(Vec3::length);
+                    assert!(off.fold(0.0, f32::max) < 2.0, "{scene:?} is off the stage");
+                }
             }
         }
     }
@@ -226,8 +358,8 @@ mod tests {
         for scene in Show::ALL {
             let settings = Settings { scene, ..Settings::default() };
             let [restless, calm] = [false, true].map(|calm| {
-                let cloth = build(&settings, calm).unwrap();
-                cloth.wind().gust
+                let cast = build(&settings, calm).unwrap();
+                cast.cloths[0].wind().gust
             });
             assert!(calm < 0.5 * restless);
         }

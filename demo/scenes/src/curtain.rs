@@ -1,6 +1,6 @@
 //! The curtain: it hangs on rings at a rod, gathered, and a ball rolls to and fro through it.
 
-use crate::{Cast, Roll, Scene};
+use crate::{Cast, FLOOR, Roll, Scene};
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings};
 use std::f32::consts::TAU;
@@ -20,15 +20,9 @@ impl Curtain {
     pub const RINGS: u32 = 11;
     /// How far below the middle of the rod the rings hold the fabric [m].
     pub const DROP: f32 = 0.06;
-    /// Height of the floor [m].
-    pub const FLOOR: f32 = -1.4;
     /// The ball, which rolls on the floor.
-    pub const BALL: Roll = Roll {
-        centre: Vec3::new(0.1, Self::FLOOR + 0.36, 0.0),
-        radius: 0.36,
-        reach: 1.15,
-        period: 8.0,
-    };
+    pub const BALL: Roll =
+        Roll { centre: Vec3::new(0.1, FLOOR + 0.36, 0.0), radius: 0.36, reach: 1.15, period: 8.0 };
 
     /// Particles across and down, for so many across.
     pub fn weave(particles_across: u32) -> [u32; 2] {
@@ -76,6 +70,14 @@ impl Curtain {
         Ok(cloth)
     }
 
+    /// Where the rings hold the fabric [m].
+    pub fn rings() -> impl Iterator<Item = Vec3> {
+        (0..Self::RINGS).map(|ring| {
+            let place = fold(ring as f32 / (Self::RINGS - 1) as f32);
+            Self::ROD + Vec3::new(place.x, -Self::DROP, place.y)
+        })
+    }
+
     /// The columns that rings hold.
     pub fn held(columns: u32) -> impl Iterator<Item = u32> {
         (0..Self::RINGS).map(move |ring| ring * (columns - 1) / (Self::RINGS - 1))
@@ -86,7 +88,7 @@ impl Curtain {
     /// # Errors
     /// As [`Cloth::add_collider`].
     pub fn put_floor(cloth: &mut Cloth) -> Result<()> {
-        let floor = ColliderDesc { position: Vec3::Y * Self::FLOOR, ..ColliderDesc::default() };
+        let floor = ColliderDesc { position: Vec3::Y * FLOOR, ..ColliderDesc::default() };
         cloth.add_collider(&floor).map(|_| ())
     }
 }
@@ -138,7 +140,7 @@ impl Scene for Curtain {
             return Err(format!("a particle is {nearest} m inside the ball"));
         }
         let lowest = x.iter().map(|x| x.y).fold(f32::MAX, f32::min);
-        if lowest < Self::FLOOR - 1.0e-3 {
+        if lowest < FLOOR - 1.0e-3 {
             return Err(format!("a particle is under the floor, at {lowest} m"));
         }
         let stretch = cast.cloths[0].stats().max_stretch;

@@ -3,7 +3,7 @@
 
 use crate::disc::Disc;
 use crate::shadow::{self, Outline};
-use crate::{Cast, Scene};
+use crate::{Cast, FLOOR, Scene};
 use glam::Vec3;
 use muslin::{Cloth, ColliderDesc, Material, MeshDesc, Preset, Result, Settings, Shape};
 use std::f32::consts::TAU;
@@ -18,14 +18,20 @@ impl Drapes {
     /// Radius of a pedestal [m].
     pub const PEDESTAL: f32 = 0.09;
     /// The middles of the discs, at the top of the pedestals [m].
-    pub const PLACES: [Vec3; 3] =
-        [Vec3::new(-0.36, 0.0, 0.0), Vec3::ZERO, Vec3::new(0.36, 0.0, 0.0)];
+    pub const PLACES: [Vec3; 3] = [
+        Vec3::new(-0.36, Self::TOP, 0.0),
+        Vec3::new(0.0, Self::TOP, 0.0),
+        Vec3::new(0.36, Self::TOP, 0.0),
+    ];
     /// What they are of.
     pub const FABRICS: [Preset; 3] = [Preset::Silk, Preset::Cotton, Preset::Denim];
     /// Sides of a pedestal, as the cloth feels it.
     const SIDES: u32 = 24;
-    /// How far down a pedestal reaches [m].
-    pub const HEIGHT: f32 = 0.24;
+    /// Height of a pedestal [m].
+    pub const HEIGHT: f32 = 0.33;
+    /// Discs are as large as on a drapemeter, so they are drawn larger: length of what is drawn as a metre [m].
+    pub const UNIT: f32 = 0.4;
+    const TOP: f32 = FLOOR * Self::UNIT + Self::HEIGHT;
 
     /// The descriptor of a flat disc at a place, with so many rings of particles around its middle.
     pub fn desc(rings: u32, place: Vec3, material: Material) -> MeshDesc {
@@ -68,6 +74,15 @@ impl Drapes {
             ..ColliderDesc::default()
         };
         cloth.add_collider(&pedestal).map(|_| ())
+    }
+
+    /// Lays the floor that pedestals stand on, so much higher than it is drawn [m].
+    ///
+    /// # Errors
+    /// As [`Cloth::add_collider`].
+    pub fn put_floor(cloth: &mut Cloth, clearance: f32) -> Result<()> {
+        let position = Vec3::Y * (FLOOR + clearance) * Self::UNIT;
+        cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).map(|_| ())
     }
 
     /// The share of the ring around the pedestal that the disc shades, seen from above: its drape coefficient.

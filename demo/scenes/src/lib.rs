@@ -18,6 +18,9 @@ pub use flag::Flag;
 pub use hanging_sheet::HangingSheet;
 pub use receipt::{Receipt, Sheet};
 
+/// Height of the floor [m]; where a scene is drawn larger than it is, in what it is drawn in.
+pub const FLOOR: f32 = -1.4;
+
 /// Cloth in a situation, and what must be seen there.
 pub trait Scene {
     /// What it is called.

@@ -110,6 +110,7 @@ impl ClothMaterial {
         p.use_uniform("rimColour", vector(pass.lights.rim.colour));
         shadow.use_in(p, &pass.lights);
         self.dye(dye, mesh.span);
+        p.use_uniform("roundHem", if mesh.is_round { 1.0_f32 } else { 0.0 });
         p.use_vertex_attribute("position", &mesh.positions);
         p.use_vertex_attribute("normal", &mesh.normals);
         p.use_vertex_attribute("texcoord", &mesh.uvs);

@@ -123,7 +123,7 @@ impl Desk {
         let key = self.lights.key;
         let clip = key.clip_around(self.middle, self.radius, 0.5 * DEPTH, 0.0..DEPTH);
         for shadow in [&self.shadow, &self.depths] {
-            shadow.draw(&self.mesh, clip, &self.solids, &pins)?;
+            shadow.draw(std::iter::once(&self.mesh), clip, &self.solids, &pins)?;
         }
         self.sky.draw(&self.mesh, self.middle, self.radius)?;
         let Some(target) = &self.target else {
@@ -215,7 +215,7 @@ fn lights() -> Lights {
 /// A push pin through the paper at a place.
 fn pin(at: Vec3) -> Solid {
     let [from, to] = [0.02, 0.10].map(|out| at + Vec3::Z * out);
-    Solid { from, to, radius: 0.075, colour: 0xc8402f }
+    Solid::rod(from, to, 0.075, 0xc8402f)
 }
 
 /// The print as a texture that stays sharp when seen askew.

@@ -46,13 +46,17 @@ struct Thread {
     traits: [f32; 4],
 }
 
-/// The threads, and the program that draws them.
-///
-/// They are told to it by a texture and not as instances: to a rasteriser in software each instance
-/// is a draw call of its own.
+/// The program that draws threads.
 pub struct Fringe {
-    context: Context,
     program: Program,
+}
+
+/// The threads of a cloth.
+///
+/// They are told to the program by a texture and not as instances: to a rasteriser in software each instance
+/// is a draw call of its own.
+pub struct Threads {
+    context: Context,
     /// Side, share of the way to the tip, which thread.
     ribbons: VertexBuffer<[f32; 3]>,
     told: Option<Texture2D>,
@@ -74,14 +78,58 @@ impl Fringe {
         let fragment =
             concat!(include_str!("shaders/light.glsl"), include_str!("shaders/fringe.frag"));
         Ok(Self {
-            context: context.clone(),
             program: Program::from_source(context, include_str!("shaders/fringe.vert"), fragment)?,
+        })
+    }
+
+    pub(super) fn draw(
+        &self,
+        pass: &Pass,
+        threads: &Threads,
+        shadow: &Shadow,
+        dye: &Dye,
+        dim: f32,
+    ) {
+        let Some(told) = &threads.told else {
+            return;
+        };
+        let p = &self.program;
+        let pixels = Vec2::new(pass.viewport.width as f32, pass.viewport.height as f32);
+        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("pixels", three_d::Vec2::new(pixels.x, pixels.y));
+        p.use_uniform("lens", pass.sight.lens(pixels.y));
+        p.use_uniform("eye", vector(pass.sight.eye));
+        p.use_uniform("dim", dim);
+        p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
+        p.use_uniform("fillColour", vector(pass.lights.fill.colour));
+        p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
+        p.use_uniform("rimColour", vector(pass.lights.rim.colour));
+        p.use_uniform("warp", vector(dye.warp));
+        p.use_uniform("weft", vector(dye.weft));
+        shadow.use_in(p, &pass.lights);
+        p.use_texture("threads", told);
+        p.use_vertex_attribute("corner", &threads.ribbons);
+        let states = RenderStates {
+            blend: Blend::TRANSPARENCY,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
+        let corners = CORNERS * threads.threads.len() as u32;
+        p.draw_arrays(states, pass.viewport, corners);
+    }
+}
+
+impl Threads {
+    /// Of a cloth that is whole.
+    pub fn new(context: &Context) -> Self {
+        Self {
+            context: context.clone(),
             ribbons: VertexBuffer::new(context),
             told: None,
             threads: Vec::new(),
             revision: None,
             staging: Vec::new(),
-        })
+        }
     }
 
     /// Follows the cloth.
@@ -94,9 +142,10 @@ impl Fringe {
         let Some(told) = &mut self.told else {
             return;
         };
+        let scale = surface.unit.recip();
         self.staging.clear();
         for thread in &self.threads {
-            let [a, b, c] = thread.corners.map(|corner| surface.positions[corner as usize]);
+            let [a, b, c] = thread.corners.map(|corner| surface.positions[corner as usize] * scale);
             let [na, nb] = [0, 1].map(|i| surface.normals[thread.corners[i] as usize]);
             let way = (b - a) * thread.way[0] + (c - a) * thread.way[1];
             let reach = way.normalize_or_zero() * thread.length;
@@ -134,35 +183,6 @@ impl Fringe {
             let ribbons: Vec<_> = (0..rows * ROW as u32).flat_map(ribbon).collect();
             self.ribbons.fill(&ribbons);
         }
-    }
-
-    pub(super) fn draw(&self, pass: &Pass, shadow: &Shadow, dye: &Dye, dim: f32) {
-        let Some(told) = &self.told else {
-            return;
-        };
-        let p = &self.program;
-        let pixels = Vec2::new(pass.viewport.width as f32, pass.viewport.height as f32);
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
-        p.use_uniform("pixels", three_d::Vec2::new(pixels.x, pixels.y));
-        p.use_uniform("lens", pass.sight.lens(pixels.y));
-        p.use_uniform("eye", vector(pass.sight.eye));
-        p.use_uniform("dim", dim);
-        p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
-        p.use_uniform("fillColour", vector(pass.lights.fill.colour));
-        p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
-        p.use_uniform("rimColour", vector(pass.lights.rim.colour));
-        p.use_uniform("warp", vector(dye.warp));
-        p.use_uniform("weft", vector(dye.weft));
-        shadow.use_in(p, &pass.lights);
-        p.use_texture("threads", told);
-        p.use_vertex_attribute("corner", &self.ribbons);
-        let states = RenderStates {
-            blend: Blend::TRANSPARENCY,
-            write_mask: WriteMask::COLOR,
-            ..RenderStates::default()
-        };
-        let corners = CORNERS * self.threads.len() as u32;
-        p.draw_arrays(states, pass.viewport, corners);
     }
 }
 
@@ -239,6 +259,9 @@ fn borders(surface: &Surface<'_>) -> Vec<[u32; 3]> {
     }
     let hem = |a: Vec2, b: Vec2| {
         let on = |side: f32, of: fn(Vec2) -> f32| of(a) == side && of(b) == side;
+        if surface.is_round {
+            return [a, b].iter().all(|uv| (*uv - 0.5).length() > 0.5 - 1.0e-4);
+        }
         [0.0, 1.0].iter().any(|side| on(*side, |uv| uv.x) || on(*side, |uv| uv.y))
     };
     let mut borders: Vec<_> = open
@@ -284,12 +307,14 @@ mod tests {
         let view = cloth.view();
         let surface = Surface {
             positions: view.positions,
+            unit: 1.0,
             normals: view.normals,
             uvs: view.uvs,
             frayed: view.frayed,
             indices: view.indices,
             lines: &[],
             span: Vec2::ONE,
+            is_round: false,
             revision: 1,
         };
         let mut threads = Vec::new();

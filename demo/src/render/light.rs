@@ -8,8 +8,7 @@ use glam::{Mat4, Vec3};
 /// Where the middle of the hanging sheet is, and where the camera looks [m].
 pub const STAGE_CENTRE: Vec3 = Vec3::new(0.0, -0.08, 0.0);
 
-/// Height of the floor [m].
-pub const FLOOR: f32 = -1.4;
+pub use muslin_scenes::FLOOR;
 
 /// How far from [`STAGE_CENTRE`] the shadow map reaches [m].
 pub const STAGE_RADIUS: f32 = 2.7;

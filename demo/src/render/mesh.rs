@@ -8,6 +8,8 @@ use three_d::{Context, ElementBuffer, VertexBuffer};
 pub struct Surface<'a> {
     /// Where the vertices are [m].
     pub positions: &'a [Vec3],
+    /// Length of what is drawn as a metre [m].
+    pub unit: f32,
     /// Unit normals of the front face.
     pub normals: &'a [Vec3],
     /// Where in the weave, 0 to 1 along each side.
@@ -18,8 +20,10 @@ pub struct Surface<'a> {
     pub indices: &'a [u32],
     /// Two a line of the wireframe.
     pub lines: &'a [u32],
-    /// What the weave's coordinates span [m].
+    /// What the weave's coordinates span, as it is drawn [m].
     pub span: Vec2,
+    /// Whether it is a disc: its hem runs around the middle of the weave's coordinates.
+    pub is_round: bool,
     /// Another number says that uvs, frayed borders, indices or lines are others.
     pub revision: u64,
 }
@@ -33,6 +37,7 @@ pub struct Mesh {
     pub(super) triangles: ElementBuffer<u32>,
     pub(super) lines: ElementBuffer<u32>,
     pub(super) span: Vec2,
+    pub(super) is_round: bool,
     revision: Option<u64>,
     staging: Vec<[f32; 3]>,
 }
@@ -48,6 +53,7 @@ impl Mesh {
             triangles: ElementBuffer::new(context),
             lines: ElementBuffer::new(context),
             span: Vec2::ONE,
+            is_round: false,
             revision: None,
             staging: Vec::new(),
         }
@@ -56,14 +62,15 @@ impl Mesh {
     /// Uploads what may have changed: positions and normals always, the rest with the revision.
     pub fn update(&mut self, surface: &Surface<'_>) {
         let staging = &mut self.staging;
-        let mut upload = |buffer: &mut VertexBuffer<[f32; 3]>, values: &[Vec3]| {
+        let mut upload = |buffer: &mut VertexBuffer<[f32; 3]>, values: &[Vec3], scale: f32| {
             staging.clear();
-            staging.extend(values.iter().map(|v| v.to_array()));
+            staging.extend(values.iter().map(|v| (*v * scale).to_array()));
             buffer.fill(staging);
         };
-        upload(&mut self.positions, surface.positions);
-        upload(&mut self.normals, surface.normals);
+        upload(&mut self.positions, surface.positions, surface.unit.recip());
+        upload(&mut self.normals, surface.normals, 1.0);
         self.span = surface.span;
+        self.is_round = surface.is_round;
         if self.revision != Some(surface.revision) {
             let uvs: Vec<_> = surface.uvs.iter().map(|uv| uv.to_array()).collect();
             self.uvs.fill(&uvs);

@@ -1,4 +1,4 @@
-//! The picture: a cloth, its shadow and its reflection on a dark stage, from positions to pixels.
+//! The picture: cloths, their shadows and their reflections on a dark stage, from positions to pixels.
 //!
 //! Light is gathered in a linear, multisampled half-float target; [`post`] turns it into the
 //! picture. Every shader is written for both desktop GL 3.3 and WebGL 2.
@@ -29,14 +29,14 @@ use crate::fabric::Look;
 use cloth_material::Dye;
 pub use mesh::Surface;
 
-/// What a frame shows besides the cloth itself.
+/// What a frame shows besides the cloths themselves.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
     /// From where, and how wide.
     pub sight: Sight,
-    /// How the cloth takes the light.
-    pub look: Look,
-    /// What the cloth hangs on.
+    /// How each of the cloths takes the light.
+    pub looks: &'a [Look],
+    /// What they hang on.
     pub solids: &'a [solid::Solid],
     /// The path of the blade.
     pub trail: &'a [trail::Spark],
@@ -50,7 +50,8 @@ pub struct Frame<'a> {
 pub struct Renderer {
     context: Context,
     lights: light::Lights,
-    mesh: mesh::Mesh,
+    /// Those that were taken, then room for others.
+    cloths: Vec<Taken>,
     shadow: shadow::Shadow,
     floor_shadow: shadow::Shadow,
     sky: sky::Sky,
@@ -64,6 +65,12 @@ pub struct Renderer {
     post: post::Post,
     corners: Corners,
     target: Option<Target>,
+}
+
+/// A cloth on the graphics card.
+struct Taken {
+    mesh: mesh::Mesh,
+    threads: fringe::Threads,
 }
 
 /// The linear picture while it is made: drawn multisampled, then resolved for [`post`].
@@ -89,7 +96,7 @@ impl Renderer {
         Ok(Self {
             context: context.clone(),
             lights: light::Lights::default(),
-            mesh: mesh::Mesh::new(context),
+            cloths: Vec::new(),
             shadow: shadow::Shadow::new(context, SHARP)?,
             floor_shadow: shadow::Shadow::new(context, SOFT)?,
             sky: sky::Sky::new(context)?,
@@ -106,10 +113,21 @@ impl Renderer {
         })
     }
 
-    /// Takes the cloth as it is now.
-    pub fn take(&mut self, surface: &Surface<'_>) {
-        self.mesh.update(surface);
-        self.fringe.update(surface);
+    /// There are so many cloths.
+    pub fn expect(&mut self, count: usize) {
+        let made = || Taken {
+            mesh: mesh::Mesh::new(&self.context),
+            threads: fringe::Threads::new(&self.context),
+        };
+        self.cloths.resize_with(count, made);
+    }
+
+    /// Takes the cloth of this number as it is now.
+    pub fn take(&mut self, cloth: usize, surface: &Surface<'_>) {
+        if let Some(taken) = self.cloths.get_mut(cloth) {
+            taken.mesh.update(surface);
+            taken.threads.update(surface);
+        }
     }
 
     /// Draws one picture of what it was given into `output`, filling it.
@@ -122,13 +140,15 @@ impl Renderer {
         Target::fit(&mut self.target, &self.context, width, height);
         let clip = self.lights.key.clip_from_world();
         for shadow in [&self.shadow, &self.floor_shadow] {
-            shadow.draw(&self.mesh, clip, &self.solids, frame.solids)?;
+            let meshes = self.cloths.iter().map(|cloth| &cloth.mesh);
+            shadow.draw(meshes, clip, &self.solids, frame.solids)?;
         }
 
         let Some(target) = &self.target else {
             return Ok(());
         };
-        let dye = Dye::new(frame.look);
+        let dyes: Vec<_> = frame.looks.iter().map(|look| Dye::new(*look)).collect();
+        let cloths = || self.cloths.iter().zip(&dyes);
         let pass = Pass {
             viewport: Viewport::new_at_origo(width, height),
             clip_from_world: frame.sight.clip_from_world(width as f32 / height as f32),
@@ -140,14 +160,20 @@ impl Renderer {
             .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
             .write::<CoreError>(|| {
                 self.sky.draw(&pass, &self.corners);
-                self.cloth.draw_reflection(&pass, &self.mesh, &self.shadow, &dye);
+                for (cloth, dye) in cloths() {
+                    self.cloth.draw_reflection(&pass, &cloth.mesh, &self.shadow, dye);
+                }
                 self.ground.draw(&pass, &self.corners, &self.floor_shadow);
                 let dim = if frame.wireframe { 0.16 } else { 1.0 };
                 self.solids.draw(&pass, &self.shadow, frame.solids, dim);
-                self.cloth.draw(&pass, &self.mesh, &self.shadow, &dye, dim);
-                self.fringe.draw(&pass, &self.shadow, &dye, dim);
-                if frame.wireframe {
-                    self.wireframe.draw(&pass, &self.mesh);
+                for (cloth, dye) in cloths() {
+                    self.cloth.draw(&pass, &cloth.mesh, &self.shadow, dye, dim);
+                }
+                for (cloth, dye) in cloths() {
+                    self.fringe.draw(&pass, &cloth.threads, &self.shadow, dye, dim);
+                    if frame.wireframe {
+                        self.wireframe.draw(&pass, &cloth.mesh);
+                    }
                 }
                 self.glow.draw(&pass, &self.corners);
                 self.trail.draw(&pass, frame.trail);

@@ -14,10 +14,10 @@ use super::mesh::Mesh;
 use super::solid::{Solid, Solids};
 use super::{matrix, vector};
 
-/// The map and the program that fills it.
+/// The map, and what fills it.
 pub struct Shadow {
     context: Context,
-    program: Program,
+    depths: Depths,
     map: DepthTexture2D,
 }
 
@@ -29,18 +29,8 @@ impl Shadow {
     pub fn new(context: &Context, size: u32) -> Result<Self, CoreError> {
         Ok(Self {
             context: context.clone(),
-            program: Program::from_source(
-                context,
-                include_str!("shaders/depth.vert"),
-                include_str!("shaders/depth.frag"),
-            )?,
-            map: DepthTexture2D::new::<f32>(
-                context,
-                size,
-                size,
-                Wrapping::ClampToEdge,
-                Wrapping::ClampToEdge,
-            ),
+            depths: Depths::new(context)?,
+            map: depth_map(context, size),
         })
     }
 
@@ -48,22 +38,18 @@ impl Shadow {
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
-    pub(super) fn draw(
+    pub(super) fn draw<'a>(
         &self,
-        mesh: &Mesh,
+        meshes: impl Iterator<Item = &'a Mesh>,
         clip: Mat4,
         shapes: &Solids,
         solids: &[Solid],
     ) -> Result<(), CoreError> {
         self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
-            self.program.use_uniform("shadowFromWorld", matrix(clip));
-            self.program.use_vertex_attribute("position", &mesh.positions);
             let viewport = Viewport::new_at_origo(self.map.width(), self.map.height());
-            self.program.draw_elements(
-                RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() },
-                viewport,
-                &mesh.triangles,
-            );
+            for mesh in meshes {
+                self.depths.draw(mesh, clip, viewport);
+            }
             shapes.draw_depth(clip, viewport, solids);
             Ok(())
         })?;
@@ -88,6 +74,35 @@ impl Shadow {
     pub(super) fn use_depths(&self, program: &Program, name: &str) {
         program.use_depth_texture(name, &self.map);
     }
+}
+
+/// The program that draws how far cloth is from a light.
+pub(super) struct Depths(Program);
+
+impl Depths {
+    /// Compiles it.
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub fn new(context: &Context) -> Result<Self, CoreError> {
+        let [vertex, fragment] =
+            [include_str!("shaders/depth.vert"), include_str!("shaders/depth.frag")];
+        Program::from_source(context, vertex, fragment).map(Self)
+    }
+
+    /// Draws a cloth into the part of a depth map that `viewport` is.
+    pub fn draw(&self, mesh: &Mesh, clip: Mat4, viewport: Viewport) {
+        self.0.use_uniform("shadowFromWorld", matrix(clip));
+        self.0.use_vertex_attribute("position", &mesh.positions);
+        let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
+        self.0.draw_elements(states, viewport, &mesh.triangles);
+    }
+}
+
+/// An empty depth map of `size` texels a side.
+pub(super) fn depth_map(context: &Context, size: u32) -> DepthTexture2D {
+    let edge = Wrapping::ClampToEdge;
+    DepthTexture2D::new::<f32>(context, size, size, edge, edge)
 }
 
 /// Has the depth texture that was just bound compare and blend what a shadow sampler asks of it.

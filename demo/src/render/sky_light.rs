@@ -2,13 +2,11 @@
 //! It darkens what is hollow, and grounds what lies on the floor.
 
 use glam::{Mat4, Vec3};
-use three_d::{
-    ClearState, Context, CoreError, DepthTexture2D, Program, RenderStates, Viewport, Wrapping,
-    WriteMask,
-};
+use three_d::{ClearState, Context, CoreError, DepthTexture2D, Program, Viewport};
 
 use super::light::Light;
 use super::mesh::Mesh;
+use super::shadow::{Depths, depth_map};
 use super::{matrix, shadow, vector};
 
 /// Directions, in a square of maps.
@@ -17,10 +15,10 @@ const COUNT: usize = (SIDE * SIDE) as usize;
 /// Texels along a side of a map.
 const TEXELS: u32 = 384;
 
-/// The maps and the program that fills them.
+/// The maps, and what fills them.
 pub struct SkyLight {
     context: Context,
-    program: Program,
+    depths: Depths,
     maps: DepthTexture2D,
     towards: [Vec3; COUNT],
     clips: [Mat4; COUNT],
@@ -36,18 +34,8 @@ impl SkyLight {
         let around = |turn: f32| Vec3::new(turn.sin(), 0.62, turn.cos()).normalize();
         Ok(Self {
             context: context.clone(),
-            program: Program::from_source(
-                context,
-                include_str!("shaders/depth.vert"),
-                include_str!("shaders/depth.frag"),
-            )?,
-            maps: DepthTexture2D::new::<f32>(
-                context,
-                SIDE * TEXELS,
-                SIDE * TEXELS,
-                Wrapping::ClampToEdge,
-                Wrapping::ClampToEdge,
-            ),
+            depths: Depths::new(context)?,
+            maps: depth_map(context, SIDE * TEXELS),
             towards: [Vec3::Y, around(-0.5), around(1.6), around(3.7)],
             clips: [Mat4::IDENTITY; COUNT],
         })
@@ -70,13 +58,7 @@ impl SkyLight {
                     width: TEXELS,
                     height: TEXELS,
                 };
-                self.program.use_uniform("shadowFromWorld", matrix(clip));
-                self.program.use_vertex_attribute("position", &mesh.positions);
-                self.program.draw_elements(
-                    RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() },
-                    viewport,
-                    &mesh.triangles,
-                );
+                self.depths.draw(mesh, clip, viewport);
             }
             Ok(())
         })?;

@@ -1,5 +1,5 @@
-//! What cloth hangs on and lies over: rods and balls, which are one shape. A ball is a rod without
-//! length.
+//! What cloth hangs on and lies over: rods, balls and pedestals, which are one shape. A ball is a rod without
+//! length, a pedestal a rod with flat ends.
 
 use std::f32::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ use super::light::linear;
 use super::shadow::Shadow;
 use super::{Pass, matrix, vector};
 
-/// A rod with round ends.
+/// A rod with round or flat ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid {
     /// The middle of one end [m].
@@ -21,8 +21,29 @@ pub struct Solid {
     pub to: Vec3,
     /// Its radius [m].
     pub radius: f32,
+    /// Flat ends, whose edges are round by this radius [m]; round ends if none.
+    pub bevel: Option<f32>,
     /// Its colour, `0xrrggbb`.
     pub colour: u32,
+}
+
+impl Solid {
+    /// A ball.
+    pub fn ball(centre: Vec3, radius: f32, colour: u32) -> Self {
+        Self::rod(centre, centre, radius, colour)
+    }
+
+    /// A rod with round ends.
+    pub fn rod(from: Vec3, to: Vec3, radius: f32, colour: u32) -> Self {
+        Self { from, to, radius, bevel: None, colour }
+    }
+
+    /// A rod with flat ends, whose edges are round by a radius of `bevel`.
+    pub fn block(from: Vec3, to: Vec3, radius: f32, bevel: f32, colour: u32) -> Self {
+        // What is round of the edges lies within its length.
+        let round = (to - from).normalize_or(Vec3::Y) * bevel;
+        Self { from: from + round, to: to - round, radius, bevel: Some(bevel), colour }
+    }
 }
 
 /// The shape, and the programs that draw it.
@@ -103,6 +124,7 @@ impl Solids {
         program.use_uniform("from", vector(solid.from));
         program.use_uniform("to", vector(solid.to));
         program.use_uniform("radius", solid.radius);
+        program.use_uniform("bevel", solid.bevel.unwrap_or(-1.0));
         program.use_uniform("across", vector(across));
         program.use_uniform("along", vector(along));
         program.use_vertex_attribute("place", &self.shell);

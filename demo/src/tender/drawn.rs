@@ -32,12 +32,14 @@ impl Tender {
         self.positions.extend(view.positions.iter().map(|at| *at / unit));
         let surface = Surface {
             positions: &self.positions,
+            unit: 1.0,
             normals: view.normals,
             uvs: view.uvs,
             frayed: view.frayed,
             indices: view.indices,
             lines: &[],
             span,
+            is_round: false,
             revision,
         };
         let density = output.width() as f32 / self.screen.size.x.max(1.0);

@@ -8,6 +8,7 @@ uniform vec3 backAlbedo;
 uniform vec3 seamAlbedo;
 uniform float seamCover;
 uniform float printed;
+uniform float roundHem; // 1.0: a disc, whose hem is a circle
 
 const float PI = 3.14159265;
 
@@ -102,6 +103,8 @@ vec3 dyed(bool front, vec2 uv, float footprint, out float hem) {
     // A hem: folded over twice, so a little deeper in colour and lighter-tight, with a seam.
     vec2 inside = min(m, span - m);
     float edge = min(inside.x, inside.y);
+    vec2 spoke = m - 0.5 * span;
+    if (roundHem > 0.5) edge = 0.5 * span.x - length(spoke);
     hem = 1.0 - smoothstep(0.025, 0.025 + max(footprint, 0.0008), edge);
     c *= 1.0 - 0.07 * hem;
     float seam = 1.0 - smoothstep(0.0, 0.0016 + 0.7 * footprint, abs(edge - 0.0225));
@@ -109,6 +112,7 @@ vec3 dyed(bool front, vec2 uv, float footprint, out float hem) {
         // Topstitching comes in pairs, stitch by stitch.
         seam = max(seam, 1.0 - smoothstep(0.0, 0.0016 + 0.7 * footprint, abs(edge - 0.0125)));
         float run = (inside.x < inside.y ? m.y : m.x) / 0.011;
+        if (roundHem > 0.5) run = atan(spoke.y, spoke.x) * 0.5 * span.x / 0.011;
         float gap = smoothstep(0.30, 0.42, abs(fract(run) - 0.5));
         seam *= 1.0 - gap * (1.0 - smoothstep(0.15, 0.6, footprint / 0.011));
     }
