@@ -4,13 +4,12 @@
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, LinkKind, Result, Stage};
 use muslin_scenes::Cast;
-use serde::Serialize;
 use three_d::{CoreError, RenderTarget};
 
 use crate::blade::Afterglow;
 use crate::camera::Camera;
 use crate::controls::{self, Action, Kind};
-use crate::meter::{Governor, Meter};
+use crate::meter::{Governor, Meter, Readout, StageTime};
 use crate::pointer::{Cursor, Pointers, Scene, Screen};
 use crate::render::trail::Spark;
 use crate::render::{Frame, Renderer, Surface};
@@ -46,30 +45,6 @@ pub struct App {
 struct Lines {
     ends: Vec<u32>,
     revision: Option<u64>,
-}
-
-/// The numbers that the panel shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Readout {
-    /// Particles, those that tears have added included.
-    pub particles: u32,
-    /// Constraints that still hold.
-    pub constraints: u32,
-    /// Pieces that the cloth is in.
-    pub pieces: u32,
-    /// Frames a second, smoothed.
-    pub fps: f32,
-    /// Simulation in a frame [ms], smoothed.
-    pub milliseconds: f32,
-}
-
-/// How long a stage takes in a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct StageTime {
-    /// What it is called.
-    pub name: &'static str,
-    /// How long it takes [ms], smoothed.
-    pub milliseconds: f32,
 }
 
 impl App {
@@ -273,8 +248,7 @@ impl App {
 
     /// How long each stage takes, while [`App::time_stages`] is on.
     pub fn stage_times(&self) -> Vec<StageTime> {
-        let time = |(name, milliseconds)| StageTime { name, milliseconds };
-        self.meter.stages().map(time).collect()
+        self.meter.stages()
     }
 
     /// Runs exactly so many ticks, whatever the clock says.
@@ -346,17 +320,7 @@ impl App {
 
     /// The numbers of the panel.
     pub fn readout(&self) -> Readout {
-        let mut readout = Readout {
-            fps: self.meter.fps(),
-            milliseconds: self.meter.milliseconds(),
-            ..Readout::default()
-        };
-        for stats in self.cast.cloths.iter().map(Cloth::stats) {
-            readout.particles += stats.particles;
-            readout.constraints += stats.active_constraints;
-            readout.pieces += stats.pieces;
-        }
-        readout
+        self.meter.readout(&self.cast.cloths)
     }
 
     /// The screen, in the pixels that pointers count in.

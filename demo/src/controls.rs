@@ -265,6 +265,16 @@ impl Control {
         }
     }
 
+    /// Whether it changes anything in the scene that is on.
+    pub fn suits(&self, settings: &Settings) -> bool {
+        match self.name {
+            "fabric" => settings.scene != Show::Discs,
+            "pinning" => matches!(settings.scene, Show::Sheet | Show::Flag),
+            "drop" => matches!(settings.scene, Show::Sheet | Show::Flag | Show::Curtain),
+            _ => true,
+        }
+    }
+
     /// Does what its key does: a slider moves by a tenth of its range, back with `shift`.
     pub fn press(&self, settings: &mut Settings, shift: bool) -> Option<Action> {
         let now = self.get(settings);
@@ -389,6 +399,19 @@ mod tests {
                 assert_eq!(settings, clamped, "{} took {wild}", control.name);
             }
         }
+    }
+
+    #[test]
+    fn controls_that_change_nothing_in_a_scene_say_so() {
+        let suits = |name: &str, scene| {
+            find(name).unwrap().suits(&Settings { scene, ..Settings::default() })
+        };
+        for scene in Show::ALL {
+            assert!(suits("wind", scene) && suits("scene", scene) && suits("reset", scene));
+        }
+        assert!(suits("fabric", Show::Curtain) && !suits("fabric", Show::Discs));
+        assert!(suits("pinning", Show::Flag) && !suits("pinning", Show::Ball));
+        assert!(suits("drop", Show::Curtain) && !suits("drop", Show::Discs));
     }
 
     #[test]

@@ -104,7 +104,7 @@ impl Fabric {
                 threads: [0xf2eadc, 0xe6dccb],
                 seam: (0xb9ab95, 0.55),
                 count: 130.0,
-                relief: [0.30, 0.16],
+                relief: [0.30, 0.10],
                 weave: 0.0,
                 gloss: [0.62, 0.70, 0.035, 0.10],
                 fuzz: 0.34,

@@ -1,12 +1,37 @@
 //! Smoothed figures of how fast it runs, and how finely it can be drawn at that speed.
 
-use muslin::Stage;
+use muslin::{Cloth, Stage};
+use serde::Serialize;
 
 /// How quickly a figure follows: the share that one frame has in it.
 const FOLLOW: f64 = 0.06;
 
 /// Stages of the simulation, and after them those of the picture.
 const STAGES: usize = Stage::COUNT + 2;
+
+/// The numbers that a panel shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Readout {
+    /// Particles, those that tears have added included.
+    pub particles: u32,
+    /// Constraints that still hold.
+    pub constraints: u32,
+    /// Pieces that the cloth is in.
+    pub pieces: u32,
+    /// Frames a second, smoothed.
+    pub fps: f32,
+    /// Simulation in a frame [ms], smoothed.
+    pub milliseconds: f32,
+}
+
+/// How long a stage takes in a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StageTime {
+    /// What it is called.
+    pub name: &'static str,
+    /// How long it takes [ms], smoothed.
+    pub milliseconds: f32,
+}
 
 /// Frame time, simulation time and what it is made of, smoothed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,14 +67,28 @@ impl Meter {
         blend(&mut self.stages[Stage::COUNT + 1], draw.max(0.0));
     }
 
-    /// What each stage is called and how long it takes in a frame [ms].
-    pub fn stages(&self) -> impl Iterator<Item = (&'static str, f32)> + '_ {
+    /// What each stage is called and how long it takes in a frame.
+    pub fn stages(&self) -> Vec<StageTime> {
         let names = Stage::ALL.iter().map(|stage| match stage {
             Stage::Outputs => "normals",
             stage => stage.name(),
         });
         let names = names.chain(["upload", "draw calls"]);
-        names.zip(self.stages.iter().map(|seconds| (1000.0 * seconds) as f32))
+        let milliseconds = self.stages.iter().map(|seconds| (1000.0 * seconds) as f32);
+        let times = names.zip(milliseconds);
+        times.map(|(name, milliseconds)| StageTime { name, milliseconds }).collect()
+    }
+
+    /// These figures beside those of the cloths that they are about.
+    pub fn readout(&self, cloths: &[Cloth]) -> Readout {
+        let mut readout =
+            Readout { fps: self.fps(), milliseconds: self.milliseconds(), ..Readout::default() };
+        for stats in cloths.iter().map(Cloth::stats) {
+            readout.particles += stats.particles;
+            readout.constraints += stats.active_constraints;
+            readout.pieces += stats.pieces;
+        }
+        readout
     }
 
     /// Frames a second.
@@ -143,12 +182,13 @@ mod tests {
         let seconds = std::array::from_fn(|i| 0.001 * i as f32);
         meter.simulated_in(&seconds);
         meter.drawn(0.020, 0.021);
-        let told: Vec<_> = meter.stages().collect();
+        let told = meter.stages();
         assert_eq!(told.len(), STAGES);
-        for (i, (name, milliseconds)) in told[..Stage::COUNT].iter().enumerate() {
+        for (i, StageTime { name, milliseconds }) in told[..Stage::COUNT].iter().enumerate() {
             assert!((milliseconds - i as f32).abs() < 1.0e-3, "{name}: {milliseconds} ms");
         }
-        let [.., (upload, a), (draw, b)] = told[..] else { panic!("{told:?}") };
-        assert_eq!((upload, a.round(), draw, b.round()), ("upload", 20.0, "draw calls", 21.0));
+        let [.., upload, draw] = told[..] else { panic!("{told:?}") };
+        assert_eq!((upload.name, upload.milliseconds.round()), ("upload", 20.0));
+        assert_eq!((draw.name, draw.milliseconds.round()), ("draw calls", 21.0));
     }
 }

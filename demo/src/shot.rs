@@ -5,10 +5,11 @@ use std::path::Path;
 
 use glam::Vec2;
 
-use crate::app::{App, StageTime};
+use crate::app::App;
 use crate::camera::Camera;
 use crate::gesture::{Gesture, Play};
 use crate::headless::Headless;
+use crate::meter::StageTime;
 use crate::native;
 use crate::render::desk::Desk;
 use crate::render::{Canvas, Renderer};

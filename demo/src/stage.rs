@@ -60,9 +60,9 @@ impl Show {
     /// What its cloth is of when it opens.
     pub fn fabric(self) -> Fabric {
         match self {
-            Self::Sheet | Self::Discs => Fabric::Silk,
+            Self::Sheet | Self::Discs | Self::Curtain => Fabric::Silk,
             Self::Flag => Fabric::Flag,
-            Self::Ball | Self::Curtain => Fabric::Cotton,
+            Self::Ball => Fabric::Cotton,
         }
     }
 }
@@ -99,13 +99,18 @@ pub fn rig(scene: Show) -> Rig {
     match scene {
         Show::Sheet | Show::Flag | Show::Ball => usual,
         Show::Discs => Rig {
-            target: Vec3::new(0.0, -0.72, 0.0),
-            polar: 0.15..=1.5,
-            start: [0.0, 1.16, 3.9],
-            half_width: 1.42,
+            target: Vec3::new(0.0, -0.78, 0.0),
+            radius: 1.5..=12.0,
+            start: [0.18, 1.14, 3.3],
+            half_width: 1.45,
             ..usual
         },
-        Show::Curtain => Rig { start: [0.62, 1.34, 5.1], half_width: 1.3, ..usual },
+        Show::Curtain => Rig {
+            target: Vec3::new(0.0, -0.2, 0.0),
+            start: [0.52, 1.30, 4.9],
+            half_width: 1.4,
+            ..usual
+        },
     }
 }
 
@@ -163,12 +168,17 @@ fn pedestal(place: Vec3) -> [Solid; 2] {
     ]
 }
 
-/// The curtain's rod on its knobs, with a ring and a clip for each place that is held.
+/// The curtain's rod on two stands, with a ring and a clip for each place that is held.
 fn rod() -> Vec<Solid> {
     let half = Vec3::X * (0.5 * Curtain::WIDTH + 0.13);
     let (from, to) = (Curtain::ROD - half, Curtain::ROD + half);
     let mut solids = vec![Solid::rod(from, to, 0.017, 0x8d93a3)];
-    solids.extend([from, to].map(|end| Solid::ball(end, 0.036, BRASS)));
+    for end in [from, to] {
+        let foot = end.with_y(FLOOR);
+        solids.push(Solid::ball(end, 0.036, BRASS));
+        solids.push(Solid::rod(foot, end, 0.015, 0x8d93a3));
+        solids.push(Solid::block(foot, foot + Vec3::Y * 0.03, 0.16, 0.01, 0x4a5264));
+    }
     for ring in Curtain::rings() {
         let across = Vec3::X * 0.007;
         let on_rod = ring.with_y(Curtain::ROD.y).with_z(0.0);
@@ -235,9 +245,9 @@ fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
     DISCS.into_iter().zip(Drapes::PLACES).map(disc).collect()
 }
 
-/// Particles across a disc: three of them have about as many as one sheet.
+/// Particles across a disc: a few less, since there are three.
 fn across_disc(settings: &Settings) -> u32 {
-    (2 * settings.resolution).div_ceil(3)
+    (3 * settings.resolution).div_ceil(4)
 }
 
 fn put_floor(cloth: &mut Cloth) -> Result<()> {
@@ -299,7 +309,11 @@ pub fn tune(cast: &mut Cast, settings: &Settings, calm: bool) -> Result<()> {
 
 fn tune_one(cloth: &mut Cloth, settings: &Settings, calm: bool) -> Result<()> {
     let mut live = cloth.settings().clone();
-    live.iterations = settings.stiffness;
+    // So small are discs that substeps do for them what sweeps do for others.
+    (live.substeps, live.iterations) = match settings.scene {
+        Show::Discs => ((4 * settings.stiffness).div_ceil(3), 2),
+        _ => (live.substeps, settings.stiffness),
+    };
     live.gravity = Vec3::NEG_Y * settings.gravity;
     live.damping = settings.damping_rate();
     live.tearing = settings.tearing;

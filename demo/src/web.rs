@@ -82,6 +82,11 @@ impl Demo {
         controls::find(name).map_or_else(String::new, |c| c.text(self.app.settings()))
     }
 
+    /// Whether a control changes anything in the scene that is on.
+    pub fn suits(&self, name: &str) -> bool {
+        controls::find(name).is_some_and(|c| c.suits(self.app.settings()))
+    }
+
     /// Gives a control a value, or presses it if it is a button.
     pub fn set(&mut self, name: &str, value: f32) -> Result<(), JsError> {
         self.app.set(name, value).map_err(told)

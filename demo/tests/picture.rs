@@ -4,6 +4,7 @@
 use muslin_demo::gesture::Gesture;
 use muslin_demo::settings::Settings;
 use muslin_demo::shot::{Picture, Receipt, Shot};
+use muslin_demo::stage::Show;
 use muslin_demo::tender;
 
 fn take(shot: &Shot) -> Picture {
@@ -98,6 +99,23 @@ fn a_film_strip_shows_the_gesture_go_on() {
             assert!(differ > 0.02, "{gesture:?}: two frames differ by {differ}");
         }
     }
+}
+
+#[test]
+fn discs_and_curtain_stand_out_against_the_stage() {
+    let scene = |scene| Settings { scene, fabric: scene.fabric(), ..Settings::default() };
+    let discs = take(&Shot { settings: scene(Show::Discs), ..small() });
+    let at = |x: f32, y: f32| brightness(&discs, [x - 0.03, x + 0.03], [y - 0.04, y + 0.04]);
+    let [silk, cotton, denim] = [at(0.26, 0.40), at(0.50, 0.44), at(0.76, 0.45)];
+    assert!(silk > 80.0 && cotton > silk && denim < 0.7 * silk, "{silk}, {cotton}, {denim}");
+    for x in [0.10, 0.39, 0.63, 0.92] {
+        assert!(at(x, 0.30) < 45.0, "between discs, at {x}, it is {}", at(x, 0.30));
+    }
+    let curtain = take(&Shot { settings: scene(Show::Curtain), ..small() });
+    let cloth = brightness(&curtain, [0.42, 0.58], [0.25, 0.55]);
+    assert!(cloth > 60.0, "the curtain's brightness is {cloth}");
+    let later = take(&Shot { ticks: 140, settings: scene(Show::Curtain), ..small() });
+    assert!(difference(&curtain, &later) > 0.02, "the ball does not roll");
 }
 
 fn receipt(play: Option<tender::play::Gesture>, strip: u32) -> Picture {

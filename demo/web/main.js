@@ -31,6 +31,7 @@ function run(demo) {
   const refresh = drawPanel(by("controls"), JSON.parse(Demo.controls()), {
     get: (name) => demo.get(name),
     text: (name) => demo.text(name),
+    suits: (name) => demo.suits(name),
     set: (name, value) => {
       demo.set(name, value);
       refresh();

@@ -38,6 +38,8 @@ test("every control changes its own setting and no other, by hand and by key", a
       await page.keyboard.press(keys[name]);
       assert.notEqual((await settings(page))[name], after[name], `${keys[name]} does nothing`);
     }
+    // Other scenes leave some of the controls without a use.
+    if (name === "scene") await control.locator("input").first().check();
   }
   await page.locator("#control-drop").click();
   await frames(page, 4);

@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { MIDDLE, apart, becomes, fingers, frames, hash, particle, state, stats, visit, visitRunning } from "./demo-visit.mjs";
 
 /** How long the abuse lasts [s]; the environment may ask for more. */
-const ABUSE = Number(process.env.MUSLIN_ABUSE ?? 12);
+const ABUSE = Number(process.env.MUSLIN_ABUSE ?? 20);
 
 test("without WebGL there is a message and no error", async () => {
   const { context, page, complaints } = await visit({}, (page) =>
@@ -117,7 +117,7 @@ test("with every slider at its end and wild hands nothing explodes and nobody co
     await touch("touchStart", place(), place());
     for (let i = 0; i < 5; i++) await touch("touchMove", place(), place());
     await touch(round % 2 ? "touchEnd" : "touchCancel");
-    if (round % 3 === 0) await page.keyboard.press("brnfl"[round % 5]);
+    if (round % 3 === 0) await page.keyboard.press("brnfle"[(round / 3) % 6]);
     if (round % 4 === 0) await page.setViewportSize({ width: round % 8 ? 700 : 660, height: 394 });
     await frames(page, 1);
     const at = await particle(page, MIDDLE);

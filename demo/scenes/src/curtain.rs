@@ -101,9 +101,11 @@ fn fold(share: f32) -> Vec2 {
     let step = Curtain::SIZE.x / STEPS as f32;
     let folds = (Curtain::RINGS - 1) as f32 / 2.0;
     let mut at = Vec2::new(-0.5 * Curtain::WIDTH, 0.0);
-    for i in 0..(share * STEPS as f32).round() as usize {
+    let steps = share * STEPS as f32;
+    for i in 0..steps.ceil() as usize {
         let along = (i as f32 + 0.5) / STEPS as f32;
-        at += Vec2::from_angle(SWING * (TAU * folds * along).cos()) * step;
+        at += Vec2::from_angle(SWING * (TAU * folds * along).cos())
+            * (step * (steps - i as f32).min(1.0));
     }
     at
 }

@@ -79,7 +79,7 @@ fn a_new_resolution_hangs_a_new_sheet_and_forgets_the_hands() {
 
 #[test]
 fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
-    for scene in 0..stage::Show::ALL.len() {
+    for scene in 0..Show::ALL.len() {
         let mut app = app();
         for (name, value) in [("wind", 3.0), ("gravity", 20.0), ("damping", 0.0)] {
             app.set(name, value).unwrap();
@@ -115,4 +115,66 @@ fn pause_stops_the_cloth_and_dropped_pins_let_it_fall() {
     app.play(15);
     let fallen = corner.y - app.particle(0).unwrap().y;
     assert!(fallen > 0.15, "fell {fallen} m");
+}
+
+/// Discs after a second, and where on the screen the middle of one appears.
+fn discs() -> (App, impl Fn(&App, usize) -> Vec2) {
+    let mut app = app();
+    app.camera().set_drift(false);
+    app.set("scene", 3.0).unwrap();
+    app.play(60);
+    let middle = |app: &App, disc: usize| {
+        let at = app.cast.cloths[disc].positions()[0] / stage::unit(Show::Discs);
+        let normal = app.camera.sight().project(at, app.screen.aspect()).unwrap();
+        app.screen.pixels(normal)
+    };
+    (app, middle)
+}
+
+#[test]
+fn a_hand_takes_the_disc_that_is_under_it_and_no_other() {
+    let (mut app, middle) = discs();
+    let from = [0, 1, 2].map(|disc| middle(&app, disc));
+    app.press(1, from[1]).unwrap();
+    let to = from[1] - Vec2::new(0.0, 60.0);
+    app.drag(1, to).unwrap();
+    for _ in 0..60 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    let now = [0, 1, 2].map(|disc| middle(&app, disc));
+    assert!(now[1].distance(to) < 12.0, "the disc is at {}, the hand at {to}", now[1]);
+    for other in [0, 2] {
+        assert!(now[other].distance(from[other]) < 4.0, "disc {other} moved to {}", now[other]);
+    }
+}
+
+#[test]
+fn the_blade_cuts_the_disc_that_it_crosses_and_no_other() {
+    let (mut app, middle) = discs();
+    let whole = app.cast.cloths.iter().map(|cloth| cloth.particle_count());
+    let whole: Vec<_> = whole.collect();
+    let centre = middle(&app, 1);
+    app.hold_blade(true);
+    app.press(1, centre - Vec2::new(170.0, 0.0)).unwrap();
+    for step in 1..=16 {
+        app.drag(1, centre + Vec2::new(20.0 * step as f32 - 170.0, 0.0)).unwrap();
+    }
+    app.lift(1).unwrap();
+    let grown = app.cast.cloths.iter().zip(whole).map(|(cloth, n)| cloth.particle_count() - n);
+    let grown: Vec<_> = grown.collect();
+    assert!(grown[0] == 0 && grown[1] > 10 && grown[2] == 0, "{grown:?} particles more");
+}
+
+#[test]
+fn another_scene_is_seen_from_where_its_own_camera_starts() {
+    let mut app = app();
+    let usual = app.camera.sight();
+    app.wheel(300.0);
+    app.set("fabric", 1.0).unwrap();
+    app.frame(1.0).unwrap();
+    assert!(app.camera.sight().eye.distance(usual.eye) > 0.1, "the same scene jumps back");
+    app.set("scene", 3.0).unwrap();
+    assert!(app.camera.sight().target.distance(usual.target) > 0.3);
+    app.set("scene", 0.0).unwrap();
+    assert_eq!(app.camera.sight().target, usual.target);
 }

@@ -139,7 +139,9 @@ fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
         }
         ui.add_space(8.0);
         let hint = format!("{} ({})", control.about, control.key_name());
-        ui.scope(|ui| row(ui, app, control, wishes)).response.on_hover_text(hint);
+        let suits = control.suits(app.settings());
+        let row = ui.add_enabled_ui(suits, |ui| row(ui, app, control, wishes));
+        row.response.on_hover_text(hint);
     }
     ui.add_space(12.0);
     ui.horizontal(|ui| {
@@ -148,7 +150,8 @@ fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
                 let size = vec2(0.5 * (WIDTH - 8.0), 30.0);
                 let hint = format!("{} ({})", control.about, control.key_name());
                 let button = Button::new(control.label).min_size(size);
-                if ui.add(button).on_hover_text(hint).clicked() {
+                let suits = control.suits(app.settings());
+                if ui.add_enabled(suits, button).on_hover_text(hint).clicked() {
                     wishes.push(Wish::Act(action));
                 }
             }

@@ -1,14 +1,12 @@
 //! The cloth's own material: woven, two-sided, glossy or dull, and a little translucent.
 
 use glam::{Vec2, Vec3};
-use three_d::{
-    Blend, BlendEquationType, BlendMultiplierType, Context, CoreError, Program, RenderStates,
-};
+use three_d::{Context, CoreError, Program, RenderStates};
 
 use super::light::{FLOOR, linear};
 use super::mesh::Mesh;
 use super::shadow::Shadow;
-use super::{Pass, matrix, vector};
+use super::{Pass, REFLECTION, matrix, vector};
 use crate::fabric::Look;
 
 /// A [`Look`] as light meets it: linear colours.
@@ -80,17 +78,7 @@ impl ClothMaterial {
     pub(super) fn draw_reflection(&self, pass: &Pass, mesh: &Mesh, shadow: &Shadow, dye: &Dye) {
         self.prepare(pass, mesh, shadow, dye, As::Reflection);
         self.program.use_uniform("dim", 1.0_f32);
-        let states = RenderStates {
-            blend: Blend::Enabled {
-                source_rgb_multiplier: BlendMultiplierType::SrcAlpha,
-                source_alpha_multiplier: BlendMultiplierType::Zero,
-                destination_rgb_multiplier: BlendMultiplierType::OneMinusSrcAlpha,
-                destination_alpha_multiplier: BlendMultiplierType::One,
-                rgb_equation: BlendEquationType::Add,
-                alpha_equation: BlendEquationType::Add,
-            },
-            ..RenderStates::default()
-        };
+        let states = RenderStates { blend: REFLECTION, ..RenderStates::default() };
         self.program.draw_elements(states, pass.viewport, &mesh.triangles);
     }
 

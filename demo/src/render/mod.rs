@@ -20,8 +20,8 @@ pub mod wireframe;
 
 use glam::{Mat4, Vec3};
 use three_d::{
-    ClearState, ColorTarget, Context, CoreError, Program, RenderTarget, RenderTargetMultisample,
-    VertexBuffer, Viewport, f16,
+    Blend, BlendEquationType, BlendMultiplierType, ClearState, ColorTarget, Context, CoreError,
+    Program, RenderTarget, RenderTargetMultisample, VertexBuffer, Viewport, f16,
 };
 
 use crate::camera::Sight;
@@ -83,6 +83,16 @@ struct Target {
 const SHARP: u32 = 1024;
 /// And of the one for the floor, whose shadows are far from what casts them and so softer.
 const SOFT: u32 = 320;
+
+/// How what the floor mirrors is blended over the backdrop.
+const REFLECTION: Blend = Blend::Enabled {
+    source_rgb_multiplier: BlendMultiplierType::SrcAlpha,
+    source_alpha_multiplier: BlendMultiplierType::Zero,
+    destination_rgb_multiplier: BlendMultiplierType::OneMinusSrcAlpha,
+    destination_alpha_multiplier: BlendMultiplierType::One,
+    rgb_equation: BlendEquationType::Add,
+    alpha_equation: BlendEquationType::Add,
+};
 
 /// Samples per pixel.
 const SAMPLES: u32 = 4;
@@ -160,6 +170,7 @@ impl Renderer {
             .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
             .write::<CoreError>(|| {
                 self.sky.draw(&pass, &self.corners);
+                self.solids.draw_reflection(&pass, &self.shadow, frame.solids);
                 for (cloth, dye) in cloths() {
                     self.cloth.draw_reflection(&pass, &cloth.mesh, &self.shadow, dye);
                 }

@@ -8,9 +8,9 @@ use three_d::{
     Context, CoreError, ElementBuffer, Program, RenderStates, VertexBuffer, Viewport, WriteMask,
 };
 
-use super::light::linear;
+use super::light::{FLOOR, linear};
 use super::shadow::Shadow;
-use super::{Pass, matrix, vector};
+use super::{Pass, REFLECTION, matrix, vector};
 
 /// A rod with round or flat ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +84,14 @@ impl Solids {
         self.draw_with(pass, shadow, pass.lights.key.clip_from_world(), solids, dim);
     }
 
+    /// Draws them upside down below the floor; the floor is blended over them afterwards.
+    pub(super) fn draw_reflection(&self, pass: &Pass, shadow: &Shadow, solids: &[Solid]) {
+        let states = RenderStates { blend: REFLECTION, ..RenderStates::default() };
+        let eye = pass.sight.eye.with_y(2.0 * FLOOR - pass.sight.eye.y);
+        let clip = pass.lights.key.clip_from_world();
+        self.draw_from(eye, pass, shadow, clip, solids, states, [0.45, 1.0]);
+    }
+
     /// The same where the shadow map was drawn in another clip space.
     pub(super) fn draw_with(
         &self,
@@ -93,18 +101,34 @@ impl Solids {
         solids: &[Solid],
         dim: f32,
     ) {
+        let states = RenderStates::default();
+        self.draw_from(pass.sight.eye, pass, shadow, clip, solids, states, [dim, 0.0]);
+    }
+
+    fn draw_from(
+        &self,
+        eye: Vec3,
+        pass: &Pass,
+        shadow: &Shadow,
+        clip: Mat4,
+        solids: &[Solid],
+        states: RenderStates,
+        [dim, mirrored]: [f32; 2],
+    ) {
         let p = &self.program;
         for solid in solids {
             self.place(p, pass.clip_from_world, solid);
-            p.use_uniform("eye", vector(pass.sight.eye));
+            p.use_uniform("eye", vector(eye));
             p.use_uniform("dim", dim);
+            p.use_uniform("mirrored", mirrored);
+            p.use_uniform("floorHeight", FLOOR);
             p.use_uniform("albedo", vector(linear(solid.colour)));
             p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
             p.use_uniform("fillColour", vector(pass.lights.fill.colour));
             p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
             p.use_uniform("rimColour", vector(pass.lights.rim.colour));
             shadow.use_with(p, &pass.lights.key, clip);
-            p.draw_elements(RenderStates::default(), pass.viewport, &self.triangles);
+            p.draw_elements(states, pass.viewport, &self.triangles);
         }
     }
 

@@ -19,9 +19,8 @@ use glam::{Vec2, Vec3};
 use muslin::{Cloth, Result};
 use muslin_scenes::receipt::Sheet;
 
-use crate::app::{Readout, StageTime};
 use crate::camera::{Camera, Rig};
-use crate::meter::{Governor, Meter};
+use crate::meter::{Governor, Meter, Readout, StageTime};
 use crate::pointer::{Cursor, Screen};
 use crease::Creases;
 use hands::{Button, Hands, Table};
@@ -294,20 +293,12 @@ impl Tender {
 
     /// How long each stage takes, while [`Tender::time_stages`] is on.
     pub fn stage_times(&self) -> Vec<StageTime> {
-        let time = |(name, milliseconds)| StageTime { name, milliseconds };
-        self.meter.stages().map(time).collect()
+        self.meter.stages()
     }
 
     /// The numbers of the counter.
     pub fn readout(&self) -> Readout {
-        let stats = self.cloth.stats();
-        Readout {
-            particles: stats.particles,
-            constraints: stats.active_constraints,
-            pieces: stats.pieces,
-            fps: self.meter.fps(),
-            milliseconds: self.meter.milliseconds(),
-        }
+        self.meter.readout(std::slice::from_ref(&self.cloth))
     }
 
     /// The receipt.

@@ -6,6 +6,8 @@ uniform vec3 fillColour;
 uniform vec3 rimTowards;
 uniform vec3 rimColour;
 uniform float dim;
+uniform float mirrored;
+uniform float floorHeight;
 
 in vec3 at;
 in vec3 facing;
@@ -27,5 +29,7 @@ void main() {
     light += rimColour * (albedo * max(dot(n, rimTowards), 0.0) * 0.18 + 0.5 * lobe(n, v, rimTowards, 40.0) + 0.35 * fresnel * max(dot(n, rimTowards) + 0.2, 0.0));
     vec3 dome = mix(vec3(0.030, 0.034, 0.054), vec3(0.145, 0.170, 0.255), 0.5 + 0.5 * n.y);
     light += dome * (albedo * 0.6 + fresnel * 0.5);
-    colour = vec4(light * dim, 1.0);
+    // The higher it is, the less of it the floor shows.
+    float cover = mirrored > 0.5 ? 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0)) : 1.0;
+    colour = vec4(light * dim, cover);
 }
