@@ -176,7 +176,7 @@ fn rod() -> Vec<Solid> {
     for end in [from, to] {
         let foot = end.with_y(FLOOR);
         solids.push(Solid::ball(end, 0.036, BRASS));
-        solids.push(Solid::rod(foot, end, 0.015, 0x8d93a3));
+        solids.push(Solid::rod(foot, end, 0.018, 0x8d93a3));
         solids.push(Solid::block(foot, foot + Vec3::Y * 0.03, 0.16, 0.01, 0x4a5264));
     }
     for ring in Curtain::rings() {
