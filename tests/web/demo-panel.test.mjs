@@ -47,6 +47,21 @@ test("every control changes its own setting and no other, by hand and by key", a
   await context.close();
 });
 
+test("what changes nothing in a scene is switched off there", async () => {
+  const { context, page, complaints } = await visitRunning();
+  const off = () => page.locator("#controls fieldset, #controls button").evaluateAll((found) =>
+    found.filter((one) => one.disabled).map((one) => one.id.replace("control-", "")),
+  );
+  const scenes = page.locator("#control-scene input");
+  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [0, []]]) {
+    await scenes.nth(scene).check();
+    assert.deepEqual(await off(), wanted);
+    await frames(page, 2);
+  }
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test("resolution, pieces and the times of stages are told", async () => {
   const { context, page, complaints } = await visitRunning();
   await page.locator("#control-resolution input").last().check();
