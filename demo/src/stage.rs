@@ -247,7 +247,7 @@ fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
 
 /// Particles across a disc: a few less, since there are three.
 fn across_disc(settings: &Settings) -> u32 {
-    (3 * settings.resolution).div_ceil(4)
+    (2 * settings.resolution).div_ceil(3)
 }
 
 fn put_floor(cloth: &mut Cloth) -> Result<()> {
