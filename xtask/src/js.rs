@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::failure::{Failure, Result};
+use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{browser, files, npm, shell, wasm};
+use crate::{browser, files, npm, shell, wasm, without_wasm};
 
 /// Where the package is built.
 pub fn dir() -> PathBuf {
@@ -21,18 +21,49 @@ pub fn build() -> Result {
     }
     files::make_empty(&dir())?;
     wasm::build("muslin-js", &dir(), "raw", true)?;
+    build_plain()?;
     files::copy_all(&hand_written, &dir())?;
     for license in ["LICENSE-MIT", "LICENSE-APACHE"] {
         let text = files::read(&files::root().join(license))?;
         files::write(&dir().join(license), &text)?;
     }
+    inline()?;
     println!("the package is in dist/js");
     Ok(())
 }
 
+/// Builds the package with all its variants.
+pub fn build_all() -> Result {
+    build()?;
+    without_wasm::build()
+}
+
+/// The module once more, for engines without vectors. What binds it is the same, so it goes without.
+fn build_plain() -> Result {
+    let plain = files::target().join("js-plain");
+    files::make_empty(&plain)?;
+    wasm::bind_module(&wasm::compile_plain("muslin-js")?, &plain, "raw")?;
+    let [ours, theirs] = [dir(), plain.clone()].map(|dir| files::read(&dir.join("raw.js")));
+    if ours? != theirs? {
+        return Err(Failure::new("the modules with and without vectors are bound differently"));
+    }
+    let to = dir().join("plain_bg.wasm");
+    std::fs::copy(plain.join("raw_bg.wasm"), &to).during(|| format!("writing {}", to.display()))?;
+    Ok(())
+}
+
+/// The module as text, for those who want no second file.
+fn inline() -> Result {
+    use base64::Engine;
+    let module = dir().join("raw_bg.wasm");
+    let bytes = std::fs::read(&module).during(|| format!("reading {}", module.display()))?;
+    let text = base64::engine::general_purpose::STANDARD.encode(bytes);
+    files::write(&dir().join("bytes.js"), &format!("export default \"{text}\";\n"))
+}
+
 /// Runs the tests in node, and has the compiler read the types.
 pub fn test() -> Result {
-    build()?;
+    build_all()?;
     npm::install()?;
     let tests = files::root().join("tests/js");
     let mut node = shell::command("node");
@@ -49,7 +80,7 @@ pub fn test() -> Result {
 
 /// Loads the package in a browser, from a page that is as strict as ours.
 pub fn test_page() -> Result {
-    build()?;
+    build_all()?;
     npm::install()?;
     let root = files::root();
     let mounts = vec![

@@ -21,9 +21,21 @@ pub fn build(package: &str, dir: &Path, name: &str, types: bool) -> Result {
     bind(&module, dir, name, types).during(|| format!("binding {}", module.display()))
 }
 
+/// As `build`, from a module that is there.
+pub fn bind_module(module: &Path, dir: &Path, name: &str) -> Result {
+    bind(module, dir, name, true).during(|| format!("binding {}", module.display()))
+}
+
 /// Compiles the library of `package` to a module that asks nothing of the engine, not even vectors.
 pub fn compile_plain(package: &str) -> Result<PathBuf> {
     compile(package, "-C target-feature=-simd128")
+}
+
+/// As `compile_plain`, of a module that is bound without references, which JavaScript has no table for,
+/// and turns numbers into whole ones by itself: what lowers the instruction for that rounds others.
+pub fn compile_oldest(package: &str) -> Result<PathBuf> {
+    let features = "-simd128,-reference-types,-multivalue,-nontrapping-fptoint";
+    compile(package, &format!("-C target-feature={features}"))
 }
 
 fn compile(package: &str, flags: &str) -> Result<PathBuf> {

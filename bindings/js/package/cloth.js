@@ -330,7 +330,8 @@ export class Cloth {
   }
 
   stateHash() {
-    return this.#live.state_hash();
+    const [low, high] = this.#live.state_hash();
+    return (BigInt(high) << 32n) | BigInt(low);
   }
 
   save() {

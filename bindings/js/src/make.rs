@@ -51,9 +51,10 @@ impl RawCloth {
         self.cloth.save()
     }
 
-    /// The state as one number.
-    pub fn state_hash(&self) -> u64 {
-        self.cloth.state_hash()
+    /// The state as one number of 64 bits: the lower 32, then the upper.
+    pub fn state_hash(&self) -> Vec<u32> {
+        let hash = self.cloth.state_hash();
+        vec![hash as u32, (hash >> 32) as u32]
     }
 }
 

@@ -1,0 +1,47 @@
+// Every build of the package ends the script in the same bits: with vectors, without them, with the module inside,
+// without WebAssembly.
+
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { readFile, stat } from "node:fs/promises";
+import { test } from "node:test";
+import { promisify } from "node:util";
+
+const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
+
+/** The size of a module of the package [B]. */
+async function sizeOf(name) {
+  return (await stat(new URL(import.meta.resolve(`muslin/${name}`)))).size;
+}
+
+/** Runs tests/js/build.mjs, and gives what it printed. */
+async function run(...words) {
+  const script = new URL("build.mjs", import.meta.url).pathname;
+  const { stdout } = await promisify(execFile)(process.execPath, [script, ...words]);
+  return JSON.parse(stdout);
+}
+
+const BUILDS = [
+  ["with vectors", ["muslin"], "raw_bg.wasm"],
+  ["in an engine without vectors", ["muslin", "no-vectors"], "plain_bg.wasm"],
+  ["with its module inside", ["muslin/inline"], undefined],
+  ["without WebAssembly", ["muslin/without-wasm", "no-wasm"], undefined],
+];
+
+for (const [name, words, module] of BUILDS) {
+  test(`the package ${name}`, async () => {
+    const found = await run(...words);
+    assert.equal(found.hash, golden);
+    assert.ok(found.isKept && found.isRestored);
+    assert.match(found.refusal, /columns/);
+    if (module) assert.deepEqual(found.compiled, [await sizeOf(module)]);
+  });
+}
+
+test("the build without WebAssembly takes no source", async () => {
+  const { default: init, initSync } = await import("muslin/without-wasm");
+  await assert.rejects(init("raw_bg.wasm"), /source/);
+  assert.throws(() => initSync(new Uint8Array(8)), /source/);
+  initSync();
+  await init();
+});

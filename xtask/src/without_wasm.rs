@@ -1,0 +1,115 @@
+//! The npm package once more, with the module as JavaScript: for pages that may not run WebAssembly.
+
+use std::path::{Path, PathBuf};
+
+use crate::failure::{During, Failure, Result};
+use crate::{files, js, npm, shell, wasm};
+
+/// What Rust's standard library uses beyond the first version of WebAssembly, …
+const HAS: [&str; 6] = [
+    "--enable-bulk-memory",
+    "--enable-sign-ext",
+    "--enable-nontrapping-float-to-int",
+    "--enable-reference-types",
+    "--enable-multivalue",
+    "--enable-mutable-globals",
+];
+
+/// … and what puts that into the terms of the first.
+const LOWER: [&str; 4] = [
+    "--signext-lowering",
+    "--llvm-nontrapping-fptoint-lowering",
+    "--llvm-memory-copy-fill-lowering",
+    "--strip-target-features",
+];
+
+/// What the JavaScript of a module begins and ends with, in place of which stand lines of ours.
+const IMPORTS: &str = "import * as $_raw_bg_js from './raw_bg.js';";
+const EXPORTS: &str = "var retasmFunc = asmFunc(";
+const TRAP: &str = "function wasm2js_trap() { throw new Error('abort'); }";
+
+/// How the binding finds that memory has moved: a buffer of JavaScript's own is never emptied.
+const MOVED: &str = ".byteLength === 0";
+const MOVED_HERE: &str = ".buffer !== wasm.memory.buffer";
+
+/// Builds it into the package, beside the rest.
+pub fn build() -> Result {
+    npm::install()?;
+    let work = files::target().join("js-without-wasm");
+    files::make_empty(&work)?;
+    let (low, bound) = (work.join("low.wasm"), work.join("bound"));
+    let module = wasm::compile_oldest("muslin-js")?;
+    binaryen("wasm-opt", &module, &low, &[&HAS[..], &LOWER, &["-g"]].concat())?;
+    wasm::bind_module(&low, &bound, "raw")?;
+    let (small, code) = (work.join("small.wasm"), work.join("code.js"));
+    binaryen("wasm-opt", &bound.join("raw_bg.wasm"), &small, &["--mvp-features", "-O3"])?;
+    binaryen("wasm2js", &small, &code, &["-O3"])?;
+    compose(&bound, &code)?;
+    minify(&code, &dir().join("code.js"))
+}
+
+fn dir() -> PathBuf {
+    js::dir().join("without-wasm")
+}
+
+/// The package's own files, with an engine of ours where they speak of WebAssembly.
+fn compose(bound: &Path, code: &Path) -> Result {
+    let ours = files::root().join("bindings/js");
+    files::make_empty(&dir())?;
+    for script in files::ending(&ours.join("package"), ".js")? {
+        let name = script.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        // The adapter is for the cloths of any build, and these bytes are those of the module.
+        if !["three.js", "inline.js"].contains(&name.as_str()) {
+            files::write(&dir().join(name), &on_our_engine(files::read(&script)?))?;
+        }
+    }
+    let raw = files::read(&bound.join("raw.js"))?;
+    let raw = replaced(&raw, MOVED, MOVED_HERE)?;
+    files::write(&dir().join("raw.js"), &on_our_engine(raw))?;
+    files::copy_all(&ours.join("without-wasm"), &dir())?;
+    let text = files::read(code)?;
+    let Some((body, _)) = text.split_once(EXPORTS) else {
+        return Err(changed(EXPORTS));
+    };
+    let Some((_, body)) = body.split_once(IMPORTS) else {
+        return Err(changed(IMPORTS));
+    };
+    let body = replaced(body, TRAP, "function wasm2js_trap() { trap(); }")?;
+    let whole = format!(
+        "import {{ trap }} from \"./trap.js\";\n{body}\nexport {{ asmFunc as instantiate }};\n"
+    );
+    files::write(code, &whole)
+}
+
+fn on_our_engine(script: String) -> String {
+    if script.contains("WebAssembly") {
+        return format!("import {{ WebAssembly }} from \"./engine.js\";\n{script}");
+    }
+    script
+}
+
+fn replaced(text: &str, old: &str, new: &str) -> Result<String> {
+    if !text.contains(old) {
+        return Err(changed(old));
+    }
+    Ok(text.replace(old, new))
+}
+
+fn changed(what: &str) -> Failure {
+    Failure::new(format!("what makes JavaScript of a module does not write `{what}` any more"))
+}
+
+fn binaryen(tool: &str, from: &Path, to: &Path, options: &[&str]) -> Result {
+    let mut node = shell::command("node");
+    node.arg(npm::modules().join("binaryen/bin").join(tool)).arg(from).arg("-o").arg(to);
+    shell::run(node.args(options))
+}
+
+fn minify(from: &Path, to: &Path) -> Result {
+    let mut node = shell::command("node");
+    node.arg(npm::modules().join("esbuild/bin/esbuild")).arg(from);
+    let mut outfile = std::ffi::OsString::from("--outfile=");
+    outfile.push(to);
+    shell::run(node.args(["--minify", "--log-level=warning"]).arg(outfile))
+        .during(|| format!("minifying {}", from.display()))
+}
