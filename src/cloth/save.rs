@@ -20,18 +20,20 @@ use crate::mesh::seams::Seams;
 use crate::mesh::{NONE, sound};
 use crate::solver::World;
 use crate::solver::sleep::Sleep;
+use crate::state::attachments::{Attachments, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
+use crate::state::pose::check_pose;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -52,6 +54,7 @@ struct Saved<'a> {
     folds: Each<Vec<f32>>,
     particles: Owned<'a, Particles>,
     pins: Owned<'a, Pins>,
+    attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
@@ -91,6 +94,7 @@ impl Cloth {
             folds: world.folds.kept(),
             particles: Owned::Borrowed(&world.particles),
             pins: Owned::Borrowed(&world.pins),
+            attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
@@ -211,6 +215,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(world.take_folds(saved.folds))?;
     world.reserve_for_tears();
     world.gather();
+    must(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
@@ -254,6 +259,18 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })
 }
 
+/// Whether they are such as a cloth can have.
+fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
+    let are_sound = attachments.iter().all(|carrier| {
+        [carrier.last, carrier.next]
+            .iter()
+            .all(|pose| check_pose(pose.position, pose.rotation, ["position", "rotation"]).is_ok())
+    });
+    let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
+    world.attachments = attachments;
+    fits
+}
+
 fn restore_holds(
     world: &mut World,
     pins: Pins,
@@ -261,16 +278,19 @@ fn restore_holds(
     bad: impl Fn() -> Error,
 ) -> Result<()> {
     let count = world.particles.len();
-    let held_well = |particle: u32, at: [Vec3; 2]| {
-        (particle as usize) < count && at.iter().all(|v| v.is_finite())
-    };
-    let pins_fit = pins.iter().all(|pin| held_well(pin.particle, [pin.from, pin.target]));
-    let grabs_fit = grabs.iter().all(|held| held_well(held.particle, [held.target; 2]));
+    let is_carried_well =
+        |carrier| carrier == 0 || world.attachments.get(carrier, "attachment").is_ok();
+    let pins_fit = pins.iter().all(|pin| {
+        (pin.particle as usize) < count && pin.is_sound() && is_carried_well(pin.carrier)
+    });
+    let grabs_fit =
+        grabs.iter().all(|held| (held.particle as usize) < count && held.target.is_finite());
     if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.capacity() == usize::from(MAX_GRABS)) {
         return Err(bad());
     }
     (world.pins, world.grabs) = (pins, grabs);
     world.pins.reserve(world.capacity());
+    world.reserve_inertia();
     Ok(())
 }
 

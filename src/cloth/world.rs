@@ -24,6 +24,7 @@ use crate::solver::profile::Profile;
 use crate::solver::sleep::Sleep;
 use crate::solver::{Scratch, World};
 use crate::solver::{bend, brake, lines};
+use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
 use crate::state::grabs::MAX_GRABS;
@@ -180,6 +181,7 @@ fn build(
         tethers: Tethers::with_capacity(capacity),
         scratch: Scratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
         pins: Pins::default(),
+        attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),
@@ -282,6 +284,7 @@ impl World {
             self.settings.max_tears_per_tick as usize,
         );
         self.reserve_packed(capacity);
+        self.reserve_inertia();
         self.reserve_contacts();
         self.see_to_crowd();
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);

@@ -1,11 +1,12 @@
 //! Where a cloth goes back to when the stretch bound cannot be had otherwise: to where it was a tick ago, but
 //! for what its pieces have moved as a whole.
 //!
-//! A piece that something holds goes with that; one that nothing holds flies, falls and spins on as a solid
+//! A piece that something holds goes with that, and turns with an attachment that holds it; one that nothing holds flies, falls and spins on as a solid
 //! body. Either way no link gets longer than it was then.
 
 use super::World;
 use super::rigid::RigidMotion;
+use crate::geom::frame::Frame;
 use crate::math::columns::Columns;
 use crate::mesh::{NONE, triangle_of};
 use glam::Vec3;
@@ -72,7 +73,12 @@ pub(crate) fn find(world: &mut World) {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             let free = particles().filter(|i| p.w[*i] > 0.0);
-            free.for_each(|i| places.set(i, p.x_last.at(i) + shift));
+            match carriage_of(world, particles()) {
+                Some([last, next]) => {
+                    free.for_each(|i| places.set(i, next.outward(last.inward(p.x_last.at(i)))));
+                }
+                None => free.for_each(|i| places.set(i, p.x_last.at(i) + shift)),
+            }
         } else {
             let way = |i: usize| p.x.at(i) - p.x_last.at(i);
             let motion = RigidMotion::fit(particles, &p.x_last, way, &p.mass);
@@ -80,6 +86,19 @@ pub(crate) fn find(world: &mut World) {
         }
     }
     world.scratch.home = home;
+}
+
+/// Where the attachment was and is that holds the first of some particles that one holds.
+fn carriage_of(world: &World, mut particles: impl Iterator<Item = usize>) -> Option<[Frame; 2]> {
+    if world.pins.iter().all(|pin| pin.carrier == 0) {
+        return None;
+    }
+    let pin = particles.find_map(|i| {
+        let pin = world.pins.find(i as u32)?;
+        (pin.carrier != 0 && !pin.is_soft()).then_some(pin)
+    })?;
+    let carrier = world.attachments.get(pin.carrier, "attachment").ok()?;
+    Some([carrier.last.frame(), carrier.next.frame()])
 }
 
 /// How far pins and grabs moved in this tick, on average.

@@ -62,6 +62,7 @@ use crate::mesh::grid::Frame;
 use crate::mesh::seams::Seams;
 use crate::mesh::split::Opening;
 use crate::mesh::{Corner, Fan, Mesh, triangle_of};
+use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
 use crate::state::grabs::Grabs;
@@ -111,6 +112,7 @@ pub(crate) struct World {
     pub spacing: f32,
     pub particles: Particles,
     pub pins: Pins,
+    pub attachments: Attachments,
     pub grabs: Grabs,
     pub colliders: Colliders,
     pub settings: Settings,
@@ -156,6 +158,8 @@ pub(crate) struct Scratch {
     pub begun: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub anchor: Columns,
+    /// What resists a push at each particle while there are soft pins [kg].
+    pub inertia: Vec<f32>,
     pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
@@ -180,6 +184,7 @@ impl Scratch {
             predicted: Columns::with_capacity(capacity),
             begun: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
+            inertia: Vec::new(),
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),
@@ -263,10 +268,17 @@ impl World {
     pub fn refresh_weight(&mut self, particle: u32) {
         self.wake();
         let at = particle as usize;
-        let held = self.pins.find(particle).is_some()
+        let pin = self.pins.find(particle);
+        let held = pin.is_some_and(|pin| !pin.is_soft())
             || self.grabs.iter().any(|held| held.particle == particle);
         let mass = self.particles.mass[at];
-        self.particles.w[at] = if held || mass <= 0.0 { 0.0 } else { 1.0 / mass };
+        self.particles.w[at] = if held || mass <= 0.0 {
+            0.0
+        } else if let Some(pin) = pin {
+            pin.weigh(mass, self.settings.scheme().step)
+        } else {
+            1.0 / mass
+        };
     }
 
     /// All masses from areas and density, and the inverse masses from them.
@@ -324,14 +336,13 @@ impl World {
 
     /// Measures the tethers anew, after pins or pieces changed.
     pub fn tether(&mut self) {
-        let pinned = self.pins.iter().map(|pin| pin.particle);
-        self.tethers.measure(&self.mesh, &self.rest, pinned);
+        self.tethers.measure(&self.mesh, &self.rest, self.pins.hard());
         self.tethers_changed();
     }
 
     /// Measures anew which tethers tears changed: around the particles that were touched.
     pub fn tether_around(&mut self, touched: &[u32]) {
-        if self.tethers.pin_count() != self.pins.iter().len() {
+        if self.tethers.pin_count() != self.pins.hard().count() {
             return self.tether();
         }
         self.tethers.follow(&self.mesh, &self.rest, touched);

@@ -20,6 +20,7 @@ macro_rules! timed {
 /// Runs one tick; false if the cloth sleeps through it.
 pub(crate) fn tick(world: &mut World) -> bool {
     if sleep::goes_on(world) {
+        hold::arrive(world);
         end(world);
         return false;
     }
@@ -49,6 +50,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::enforce(world));
     }
+    hold::arrive(world);
     sleep::look(world);
     true
 }

@@ -344,14 +344,17 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
     let at = world.particles.push_copy_of(from as usize);
     debug_assert_eq!(at, new as usize);
     world.scratch.grow();
-    // A pin holds all that it held before.
-    if let Some(pin) = world.pins.find(from).copied() {
-        world.pins.insert(new, pin.from, pin.target);
-    }
     for vertex in [from, new] {
         weigh_fan(world, vertex, fan);
-        world.refresh_weight(vertex);
     }
+    // A pin holds all that it held before, and a soft one no harder.
+    if let Some(pin) = world.pins.find(from).copied() {
+        world.pins.insert_copy(new, pin);
+        if pin.is_soft() {
+            share_stiffness(world, [from, new], pin.stiffness);
+        }
+    }
+    [from, new].into_iter().for_each(|vertex| world.refresh_weight(vertex));
     let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.at(at));
     let events = &mut world.events;
     let mut tell = |vertex, source| {
@@ -362,6 +365,19 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
         // The last fan that was weighed is the new one.
         Some(seams) => seams.part(new, &fan.corners, tell),
         None => tell(new, from),
+    }
+}
+
+/// Two vertices share the stiffness of a pin as they share the mass that it held.
+fn share_stiffness(world: &mut World, vertices: [u32; 2], stiffness: f32) {
+    let mass = vertices.map(|vertex| world.particles.mass[vertex as usize]);
+    if mass[0] + mass[1] <= 0.0 {
+        return;
+    }
+    for (vertex, own) in vertices.into_iter().zip(mass) {
+        if let Some(pin) = world.pins.find_mut(vertex) {
+            pin.stiffness = stiffness * (own / (mass[0] + mass[1]));
+        }
     }
 }
 

@@ -113,7 +113,7 @@ fn pins_apart(world: &World) -> f32 {
     };
     for set in world.tethers.sets() {
         if let Some(pin) = set.only {
-            let others = world.pins.iter().map(|other| other.particle).filter(|p| *p != pin);
+            let others = world.pins.hard().filter(|other| *other != pin);
             let joined = others.filter(|other| set.length[*other as usize].is_finite());
             joined.for_each(|other| compare(pin, other, set.length[other as usize]));
             continue;

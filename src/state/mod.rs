@@ -1,5 +1,6 @@
 //! What changes with time, one noun a file.
 
+pub(crate) mod attachments;
 pub(crate) mod collider_desc;
 pub(crate) mod colliders;
 pub(crate) mod events;
