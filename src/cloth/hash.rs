@@ -43,6 +43,13 @@ impl Cloth {
                 mixer.floats(&pose.rotation.to_array());
             }
         }
+        for leash in world.leashes.iter() {
+            mixer.word(leash.particle);
+            for v in [leash.from, leash.anchor, leash.normal_from, leash.normal] {
+                mixer.floats(&v.to_array());
+            }
+            mixer.floats(&[leash.max_distance, leash.backstop_distance, leash.backstop_radius]);
+        }
         for held in world.grabs.iter() {
             mixer.word(held.particle);
             mixer.floats(&held.target.to_array());

@@ -10,6 +10,7 @@ mod drawn;
 #[cfg(test)]
 mod equal_bits;
 mod hash;
+mod leashes;
 mod pins;
 pub(crate) mod query;
 mod save;
@@ -126,7 +127,7 @@ impl Cloth {
     }
 
     /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs,
-    /// no attachments and no events. Settings, material, wind and colliders stay as they are.
+    /// no attachments, no leashes and no events. Settings, material, wind and colliders stay as they are.
     pub fn reset(&mut self) {
         // The descriptor was good enough once, so it is again.
         let Ok((mut fresh, _)) = guarded(|| self.origin.world()) else {

@@ -24,6 +24,7 @@ use crate::state::attachments::{Attachments, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
+use crate::state::leashes::Leashes;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::check_pose;
@@ -56,6 +57,7 @@ struct Saved<'a> {
     pins: Owned<'a, Pins>,
     attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
+    leashes: Owned<'a, Leashes>,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
     time: f64,
@@ -96,6 +98,7 @@ impl Cloth {
             pins: Owned::Borrowed(&world.pins),
             attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
+            leashes: Owned::Borrowed(&world.leashes),
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
             time: world.time,
@@ -215,6 +218,9 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(world.take_folds(saved.folds))?;
     world.reserve_for_tears();
     world.gather();
+    must(saved.leashes.are_sound(count))?;
+    world.leashes = saved.leashes.into_owned();
+    world.reserve_leashes();
     must(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();

@@ -28,6 +28,7 @@ use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
 use crate::state::grabs::MAX_GRABS;
+use crate::state::leashes::Leashes;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::settings::Settings;
@@ -183,6 +184,7 @@ fn build(
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
+        leashes: Leashes::default(),
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),
         material: material.clone(),
@@ -285,6 +287,7 @@ impl World {
         );
         self.reserve_packed(capacity);
         self.reserve_inertia();
+        self.reserve_leashes();
         self.reserve_contacts();
         self.see_to_crowd();
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);

@@ -46,9 +46,10 @@ pub(crate) fn hold(world: &mut World, number: u32) {
     }
 }
 
-/// The tick is over: what carries pins is where it was to be.
+/// The tick is over: what carries pins is where it was to be, and so are anchors.
 pub(crate) fn arrive(world: &mut World) {
     world.attachments.iter_mut().for_each(|carrier| carrier.last = carrier.next);
+    world.leashes.arrive();
 }
 
 /// How one attachment stands: as the tick begins, and now. Pins of one mostly follow each other.

@@ -10,7 +10,7 @@
 
 use super::links::{Order, shorten};
 use super::tethers;
-use super::{World, contacts, home};
+use super::{World, contacts, home, leash};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::columns::Columns;
 use crate::state::events::{Event, EventKind};
@@ -46,7 +46,7 @@ pub(crate) fn draw_in(world: &mut World) {
     KINDS.into_iter().for_each(|kind| shorten(world, kind, Order::Forward, aim));
 }
 
-/// Makes the bound hold. Where pins or grabs hold a cloth apart it cannot; that is told once, until
+/// Makes the bound hold. Where pins, grabs or leashes hold a cloth apart it cannot; that is told once, until
 /// it holds again.
 pub(crate) fn enforce(world: &mut World) {
     let allowance = world.settings.max_stretch;
@@ -82,6 +82,7 @@ fn draw_together(world: &mut World, most: f32) {
             KINDS.into_iter().rev().for_each(|kind| shorten(world, kind, Order::Backward, aim));
         }
         contacts::keep_out(world);
+        leash::keep_in(world);
         if over(world, most).next().is_none() {
             break;
         }
@@ -91,6 +92,7 @@ fn draw_together(world: &mut World, most: f32) {
         stop(world);
     } else {
         go_back(world, most);
+        leash::keep_in(world);
         follow(world);
     }
 }

@@ -17,6 +17,7 @@ pub(crate) mod guard;
 pub(crate) mod hinges;
 pub(crate) mod hold;
 mod home;
+pub(crate) mod leash;
 pub(crate) mod limit;
 pub(crate) mod lines;
 pub(crate) mod links;
@@ -66,6 +67,7 @@ use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
 use crate::state::grabs::Grabs;
+use crate::state::leashes::Leashes;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::settings::Settings;
@@ -114,6 +116,7 @@ pub(crate) struct World {
     pub pins: Pins,
     pub attachments: Attachments,
     pub grabs: Grabs,
+    pub leashes: Leashes,
     pub colliders: Colliders,
     pub settings: Settings,
     pub material: Material,
@@ -160,6 +163,8 @@ pub(crate) struct Scratch {
     pub anchor: Columns,
     /// What resists a push at each particle while there are soft pins [kg].
     pub inertia: Vec<f32>,
+    /// What leashes pulled in this substep.
+    pub pulled: Vec<u32>,
     pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
@@ -185,6 +190,7 @@ impl Scratch {
             begun: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
             inertia: Vec::new(),
+            pulled: Vec::new(),
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),

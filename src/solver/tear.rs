@@ -10,6 +10,7 @@ use crate::math::mix::unit;
 use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::state::events::{Event, EventKind};
+use crate::state::leashes::Leash;
 
 /// Seed of the weave's unevenness.
 const WEAVE_SEED: u32 = 0x6d75_736c;
@@ -353,6 +354,9 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
         if pin.is_soft() {
             share_stiffness(world, [from, new], pin.stiffness);
         }
+    }
+    if let Some(leash) = world.leashes.find(from).copied() {
+        world.leashes.insert(Leash { particle: new, ..leash });
     }
     [from, new].into_iter().for_each(|vertex| world.refresh_weight(vertex));
     let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.at(at));

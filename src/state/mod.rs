@@ -5,6 +5,7 @@ pub(crate) mod collider_desc;
 pub(crate) mod colliders;
 pub(crate) mod events;
 pub(crate) mod grabs;
+pub(crate) mod leashes;
 pub(crate) mod particles;
 pub(crate) mod pins;
 pub(crate) mod pose;
