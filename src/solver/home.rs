@@ -2,13 +2,14 @@
 //! for what its pieces have moved as a whole.
 //!
 //! A piece that something holds goes with that, and turns with an attachment that holds it; one that nothing holds flies, falls and spins on as a solid
-//! body. Either way no link gets longer than it was then.
+//! body, or as the anchors of its leashes do. Either way no link gets longer than it was then.
 
 use super::World;
 use super::rigid::RigidMotion;
 use crate::geom::frame::Frame;
 use crate::math::columns::Columns;
 use crate::mesh::{NONE, triangle_of};
+use crate::state::leashes::Leash;
 use glam::Vec3;
 
 /// Where each particle goes back to, and room to find it.
@@ -81,7 +82,13 @@ pub(crate) fn find(world: &mut World) {
             }
         } else {
             let way = |i: usize| p.x.at(i) - p.x_last.at(i);
-            let motion = RigidMotion::fit(particles, &p.x_last, way, &p.mass);
+            let leashes = || particles().filter_map(|i| world.leashes.find(i as u32));
+            let motion = if leashes().next().is_some() {
+                let anchor = |leash: &Leash| (leash.from, leash.anchor - leash.from, 1.0);
+                RigidMotion::of_points(|| leashes().map(anchor))
+            } else {
+                RigidMotion::fit(particles, &p.x_last, way, &p.mass)
+            };
             particles().for_each(|i| places.set(i, motion.place(p.x_last.at(i))));
         }
     }
