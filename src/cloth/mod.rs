@@ -11,6 +11,7 @@ mod drawn;
 mod equal_bits;
 mod hash;
 mod leashes;
+mod masses;
 mod pins;
 pub(crate) mod query;
 mod save;
@@ -126,8 +127,8 @@ impl Cloth {
         })
     }
 
-    /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs,
-    /// no attachments, no leashes and no events. Settings, material, wind and colliders stay as they are.
+    /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, as heavy as its
+    /// material says, no grabs, no attachments, no leashes and no events. Settings, material, wind and colliders stay as they are.
     pub fn reset(&mut self) {
         // The descriptor was good enough once, so it is again.
         let Ok((mut fresh, _)) = guarded(|| self.origin.world()) else {

@@ -25,6 +25,7 @@ use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
 use crate::state::leashes::Leashes;
+use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::check_pose;
@@ -54,6 +55,7 @@ struct Saved<'a> {
     tethers: Vec<TetherSet>,
     folds: Each<Vec<f32>>,
     particles: Owned<'a, Particles>,
+    mass_scales: Owned<'a, MassScales>,
     pins: Owned<'a, Pins>,
     attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
@@ -95,6 +97,7 @@ impl Cloth {
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.kept(),
             particles: Owned::Borrowed(&world.particles),
+            mass_scales: Owned::Borrowed(&world.mass_scales),
             pins: Owned::Borrowed(&world.pins),
             attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
@@ -208,6 +211,8 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })?;
     world.measure_divided(&fresh);
     world.particles = particles;
+    must(saved.mass_scales.are_sound(count))?;
+    world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
     world.check_self_distance(&world.settings)?;

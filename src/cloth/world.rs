@@ -29,6 +29,7 @@ use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
 use crate::state::grabs::MAX_GRABS;
 use crate::state::leashes::Leashes;
+use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::settings::Settings;
@@ -179,6 +180,7 @@ fn build(
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, capacity),
+        mass_scales: MassScales::default(),
         tethers: Tethers::with_capacity(capacity),
         scratch: Scratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
         pins: Pins::default(),
@@ -266,6 +268,7 @@ impl World {
             seams.reserve();
         }
         self.particles.reserve(capacity);
+        self.mass_scales.reserve(capacity);
         self.tips.reserve_exact(capacity.saturating_sub(self.tips.len()));
         self.pins.reserve(capacity);
         self.events.reserve();

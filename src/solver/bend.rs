@@ -91,6 +91,7 @@ fn bend(world: &mut World, order: Order) {
 
 fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
     let inertia = world.inertia();
+    let [lightest, _] = world.mass_scales.range();
     let Some(plates) = &world.plates else { return };
     let area = plates.spacing * plates.spacing;
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
@@ -103,7 +104,7 @@ fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
     let step = plates::Step {
         level: world.level,
         stiffness: step.stiffness / area,
-        mass: world.material.density * area,
+        mass: world.material.density * area * lightest,
         before: step.before,
         is_first: order == Order::Forward,
         predicted: &scratch.predicted,

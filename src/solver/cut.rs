@@ -122,6 +122,8 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     }
     let new = world.particles.push_between(a as usize, b as usize, share);
     world.scratch.grow();
+    let scales = [a, b].map(|end| world.mass_scales.of(end as usize));
+    world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
     let leashes = [a, b].map(|end| world.leashes.find(end).copied());
     if let [Some(a), Some(b)] = leashes {
         world.leashes.insert(Leash::between(new as u32, &a, &b, share));

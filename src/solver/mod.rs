@@ -68,6 +68,7 @@ use crate::state::colliders::Colliders;
 use crate::state::events::Events;
 use crate::state::grabs::Grabs;
 use crate::state::leashes::Leashes;
+use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::settings::Settings;
@@ -113,6 +114,7 @@ pub(crate) struct World {
     /// Mean length of the edges at rest [m].
     pub spacing: f32,
     pub particles: Particles,
+    pub mass_scales: MassScales,
     pub pins: Pins,
     pub attachments: Attachments,
     pub grabs: Grabs,
@@ -287,7 +289,7 @@ impl World {
         };
     }
 
-    /// All masses from areas and density, and the inverse masses from them.
+    /// All masses from areas, density and scales, and the inverse masses from them.
     pub fn weigh(&mut self) {
         self.particles.mass.fill(0.0);
         for (triangle, areas) in self.mesh.triangles.iter().zip(&self.corner_area) {
@@ -295,6 +297,7 @@ impl World {
                 self.particles.mass[*vertex as usize] += area * self.material.density;
             }
         }
+        self.mass_scales.apply(&mut self.particles.mass);
         (0..self.particles.len() as u32).for_each(|particle| self.refresh_weight(particle));
     }
 

@@ -345,6 +345,7 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
     let at = world.particles.push_copy_of(from as usize);
     debug_assert_eq!(at, new as usize);
     world.scratch.grow();
+    world.mass_scales.push(world.mass_scales.of(from as usize));
     for vertex in [from, new] {
         weigh_fan(world, vertex, fan);
     }
@@ -392,7 +393,8 @@ fn weigh_fan(world: &mut World, vertex: u32, fan: &mut Fan) {
     let density = world.material.density;
     let share =
         |corner: &u32| world.corner_area[triangle_of(*corner)][*corner as usize % 3] * density;
-    world.particles.mass[vertex as usize] = fan.corners.iter().map(share).sum();
+    let scale = world.mass_scales.of(vertex as usize);
+    world.particles.mass[vertex as usize] = fan.corners.iter().map(share).sum::<f32>() * scale;
 }
 
 /// Links follow the mesh, and opened edges get links on both sides.
