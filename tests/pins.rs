@@ -4,7 +4,9 @@ mod common;
 
 use common::bare_grid;
 use muslin::glam::{Quat, Vec3};
-use muslin::{Attachment, Cloth, Error, EventKind, GridDesc, Material, PinMode, Preset};
+use muslin::{
+    Attachment, Cloth, ColliderDesc, Error, EventKind, GridDesc, Material, PinMode, Preset, Shape,
+};
 
 /// Columns and rows of the cape.
 const CAPE: (u32, u32) = (20, 30);
@@ -334,4 +336,59 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     let full = cloth.attach(&[0], Vec3::ZERO, Quat::IDENTITY);
     assert_eq!(full, Err(Error::Full { what: "another attachment" }));
     assert_eq!(cloth.pinned().count(), 0);
+}
+
+/// Positions of a cape on a body, as the body sees them.
+fn seen_from(cloth: &Cloth, position: Vec3, rotation: Quat) -> Vec<Vec3> {
+    let inward = rotation.inverse();
+    cloth.positions().iter().map(|x| inward * (*x - position)).collect()
+}
+
+#[test]
+fn a_cape_goes_along_with_a_body_that_jumps_and_does_not_feel_it() {
+    let mut cloth = cape(|desc| desc.settings.max_stretch = 0.05);
+    let shape = Shape::Sphere;
+    let back =
+        ColliderDesc { shape, radius: 0.1, position: Vec3::Y * 1.1, ..ColliderDesc::default() };
+    let back = cloth.add_collider(&back).unwrap();
+    let body = cloth.attach(&top_edge(), Vec3::ZERO, Quat::IDENTITY).unwrap();
+    cloth.set_max_distances(&[450, 451], &[0.2, 0.3]).unwrap();
+    let grab = cloth.grab_particle(599).unwrap();
+    cloth.set_velocity(300, Vec3::new(0.5, 0.0, 0.25)).unwrap();
+    cloth.step(30);
+    // About the vertical, so that gravity is the same; once by the body, once not at all.
+    let mut stays = cloth.clone();
+    let (position, rotation) = (Vec3::new(30.0, 2.0, -7.0), Quat::from_rotation_y(2.5));
+    cloth.set_frame(Vec3::ZERO, Quat::IDENTITY).unwrap();
+    cloth.teleport(position, rotation).unwrap();
+    let place = position + rotation * Vec3::Y * 1.1;
+    cloth.teleport_collider(back, place, rotation).unwrap();
+    cloth.move_attachment(body, position, rotation).unwrap();
+    let energy = [cloth.stats().kinetic_energy, stays.stats().kinetic_energy];
+    assert!((energy[0] / energy[1] - 1.0).abs() < 1e-3, "{energy:?}");
+    let mut worst = 0.0_f32;
+    for _ in 0..60 {
+        [&mut cloth, &mut stays].into_iter().for_each(|cloth| cloth.step(1));
+        let seen = seen_from(&cloth, position, rotation);
+        let off = seen.iter().zip(stays.positions()).map(|(a, b)| a.distance(*b));
+        worst = off.fold(worst, f32::max);
+    }
+    println!("off by {worst:.1e} m after a jump of 30 m");
+    assert!(worst < 5e-3, "the jump moved it by {worst} m against the body");
+    // And back again, from where the last jump ended.
+    let before = seen_from(&cloth, position, rotation);
+    cloth.teleport(Vec3::ZERO, Quat::IDENTITY).unwrap();
+    let after = cloth.positions();
+    assert!(before.iter().zip(after).all(|(a, b)| a.distance(*b) < 1e-5));
+    cloth.release(grab).unwrap();
+    let before = cloth.save();
+    assert!(cloth.teleport(Vec3::NAN, Quat::IDENTITY).is_err());
+    assert!(cloth.teleport(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 2.0)).is_err());
+    assert!(cloth.set_frame(Vec3::INFINITY, Quat::IDENTITY).is_err());
+    assert!(cloth.teleport_collider(back, Vec3::NAN, Quat::IDENTITY).is_err());
+    assert_eq!(cloth.save(), before);
+    // Where the body is, is saved.
+    let mut restored = Cloth::restore(&before).unwrap();
+    [&mut cloth, &mut restored].map(|cloth| cloth.teleport(Vec3::X, rotation).unwrap());
+    assert_eq!(restored.state_hash(), cloth.state_hash());
 }

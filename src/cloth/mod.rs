@@ -17,6 +17,7 @@ pub(crate) mod query;
 mod save;
 pub(crate) mod stream;
 mod tear;
+mod teleport;
 #[cfg(feature = "parallel")]
 mod threads;
 pub(crate) mod view;

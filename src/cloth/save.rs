@@ -20,7 +20,7 @@ use crate::mesh::seams::Seams;
 use crate::mesh::{NONE, sound};
 use crate::solver::World;
 use crate::solver::sleep::Sleep;
-use crate::state::attachments::{Attachments, MAX_ATTACHMENTS};
+use crate::state::attachments::{Attachments, Carrier, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
@@ -28,7 +28,7 @@ use crate::state::leashes::Leashes;
 use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
-use crate::state::pose::check_pose;
+use crate::state::pose::{Pose, check_pose};
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -60,6 +60,7 @@ struct Saved<'a> {
     attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
     leashes: Owned<'a, Leashes>,
+    reference: Pose,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
     time: f64,
@@ -102,6 +103,7 @@ impl Cloth {
             attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
             leashes: Owned::Borrowed(&world.leashes),
+            reference: world.reference,
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
             time: world.time,
@@ -226,6 +228,8 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(saved.leashes.are_sound(count))?;
     world.leashes = saved.leashes.into_owned();
     world.reserve_leashes();
+    must(is_pose(&saved.reference))?;
+    world.reference = saved.reference;
     must(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
@@ -270,13 +274,14 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })
 }
 
+fn is_pose(pose: &Pose) -> bool {
+    check_pose(pose.position, pose.rotation, ["position", "rotation"]).is_ok()
+}
+
 /// Whether they are such as a cloth can have.
 fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
-    let are_sound = attachments.iter().all(|carrier| {
-        [carrier.last, carrier.next]
-            .iter()
-            .all(|pose| check_pose(pose.position, pose.rotation, ["position", "rotation"]).is_ok())
-    });
+    let is_sound = |carrier: &Carrier| is_pose(&carrier.last) && is_pose(&carrier.next);
+    let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
     world.attachments = attachments;
     fits

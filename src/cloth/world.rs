@@ -32,6 +32,7 @@ use crate::state::leashes::Leashes;
 use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
+use crate::state::pose::Pose;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::{Vec2, Vec3};
@@ -187,6 +188,7 @@ fn build(
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
         leashes: Leashes::default(),
+        reference: Pose::ORIGIN,
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),
         material: material.clone(),

@@ -71,6 +71,7 @@ use crate::state::leashes::Leashes;
 use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
+use crate::state::pose::Pose;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -119,6 +120,8 @@ pub(crate) struct World {
     pub attachments: Attachments,
     pub grabs: Grabs,
     pub leashes: Leashes,
+    /// Where the body is that the cloth goes along with when that jumps.
+    pub reference: Pose,
     pub colliders: Colliders,
     pub settings: Settings,
     pub material: Material,

@@ -95,6 +95,13 @@ impl Body {
         Ok(())
     }
 
+    /// Puts the collider somewhere at once.
+    pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
+        self.move_to(position, rotation)?;
+        self.arrive();
+        Ok(())
+    }
+
     /// The tick is over: it is where it was to be.
     pub fn arrive(&mut self) {
         self.last = self.next;

@@ -164,6 +164,10 @@ impl Leashes {
         self.list.iter()
     }
 
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Leash> {
+        self.list.iter_mut()
+    }
+
     fn place_of(&self, particle: u32) -> Result<usize, usize> {
         self.list.binary_search_by_key(&particle, |leash| leash.particle)
     }

@@ -24,6 +24,9 @@ pub(crate) fn check_pose(position: Vec3, rotation: Quat, names: [&'static str; 2
 }
 
 impl Pose {
+    /// At the origin, turned by nothing.
+    pub const ORIGIN: Self = Self { position: Vec3::ZERO, rotation: Quat::IDENTITY };
+
     /// With the rotation made a unit quaternion, which it is but for a hundredth.
     pub fn new(position: Vec3, rotation: Quat) -> Self {
         let [x, y, z, w] = rotation.to_array();
@@ -60,8 +63,27 @@ impl Pose {
         }
     }
 
+    /// Where it gets to with a body that jumps from one pose to another.
+    pub fn jump(&self, from: &Self, to: &Self) -> Self {
+        let position = to.frame().outward(from.frame().inward(self.position));
+        let [x, y, z, w] = from.rotation.to_array();
+        let turn = product(to.rotation, Quat::from_xyzw(-x, -y, -z, w));
+        Self::new(position, product(turn, self.rotation))
+    }
+
     /// Ready to be used on many points.
     pub fn frame(&self) -> Frame {
         Frame { origin: self.position, axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.turn(v)) }
     }
+}
+
+/// First turned by `b`, then by `a`. Written out, so that every target computes the same.
+fn product(a: Quat, b: Quat) -> Quat {
+    let ([ax, ay, az, aw], [bx, by, bz, bw]) = (a.to_array(), b.to_array());
+    Quat::from_xyzw(
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 }
