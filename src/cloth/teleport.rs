@@ -55,8 +55,12 @@ impl World {
         let turn = |v: Vec3| new.turn(old.turn_inward(v));
         let p = &mut self.particles;
         for i in 0..p.len() {
-            [&mut p.x, &mut p.x_last].map(|places| places.set(i, point(places.at(i))));
-            [&mut p.v, &mut p.v_ahead, &mut p.moved].map(|ways| ways.set(i, turn(ways.at(i))));
+            for places in [&mut p.x, &mut p.x_last] {
+                places.set(i, point(places.at(i)));
+            }
+            for ways in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
+                ways.set(i, turn(ways.at(i)));
+            }
         }
         for carrier in self.attachments.iter_mut() {
             (carrier.last, carrier.next) =
