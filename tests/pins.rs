@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::bare_grid;
+use common::{bare_grid, irregular_mesh};
 use muslin::glam::{Quat, Vec3};
 use muslin::{
     Attachment, Cloth, ColliderDesc, Error, EventKind, GridDesc, Material, PinMode, Preset, Shape,
@@ -243,6 +243,23 @@ fn a_soft_pin_gives_way_by_load_over_stiffness() {
                 assert!((below / exact - 1.0).abs() < 0.03, "{at}: {below} m, not {exact} m");
             }
         }
+    }
+}
+
+#[test]
+fn soft_pins_of_a_mesh_bear_its_weight() {
+    for bend_stiffness in [0.0, 1e-3] {
+        let mut desc = irregular_mesh();
+        (desc.settings.damping, desc.material.bend_stiffness) = (3.0, bend_stiffness);
+        let mut cloth = Cloth::mesh(&desc).unwrap();
+        let start = cloth.positions().to_vec();
+        cloth.set_pin_stiffness(&[0, 2], 60.0).unwrap();
+        cloth.step(3600);
+        let below: f32 = [0, 2].iter().map(|p| start[*p].y - cloth.positions()[*p].y).sum();
+        let mass: f32 = (0..start.len() as u32).map(|i| cloth.mass(i).unwrap()).sum();
+        let exact = mass * 9.81 / 60.0;
+        println!("a mesh: {below:.6} m in all, exactly {exact:.6} m");
+        assert!((below / exact - 1.0).abs() < 0.03, "{below} m, not {exact} m");
     }
 }
 
