@@ -219,7 +219,7 @@ typedef enum MuslinStatus {
   MUSLIN_STATUS_BAD_VALUE = 1,
   /** An index points past the last particle or vertex. */
   MUSLIN_STATUS_BAD_INDEX = 2,
-  /** A handle of a cloth, grab or collider that is not there (any more). */
+  /** A handle of a cloth, grab, attachment or collider that is not there (any more). */
   MUSLIN_STATUS_BAD_HANDLE = 3,
   /** The triangles cannot be cloth. */
   MUSLIN_STATUS_BAD_MESH = 4,
@@ -1459,7 +1459,7 @@ MuslinStatus muslin_cloth_save(MuslinCloth cloth,
 
 /**
  * Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
- * any other: it goes on in the same bits. Handles of grabs and colliders hold for it too.
+ * any other: it goes on in the same bits. Handles of grabs, attachments and colliders hold for it too.
  *
  * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
  */

@@ -220,7 +220,7 @@ fn sag(desc: &GridDesc, stiffness: f32) -> (f32, f32) {
     let pins: Vec<u32> = cloth.pinned().collect();
     let start = cloth.positions().to_vec();
     cloth.set_pin_stiffness(&pins, stiffness).unwrap();
-    cloth.step(3000);
+    cloth.step(1800);
     let below: f32 =
         pins.iter().map(|p| start[*p as usize].y - cloth.positions()[*p as usize].y).sum();
     let weight = cloth.stats().particles;
@@ -231,7 +231,7 @@ fn sag(desc: &GridDesc, stiffness: f32) -> (f32, f32) {
 #[test]
 fn a_soft_pin_gives_way_by_load_over_stiffness() {
     for preset in [Preset::Cotton, Preset::Leather] {
-        for (columns, rows, iterations) in [(2, 2, 2), (12, 16, 2), (12, 16, 1), (24, 40, 3)] {
+        for (columns, rows, iterations) in [(2, 2, 2), (12, 16, 2), (12, 16, 1), (16, 24, 3)] {
             for stiffness in [2.0, 30.0, 2000.0] {
                 let mut desc = GridDesc { columns, rows, spacing: 0.03, ..GridDesc::default() };
                 desc.material = Material::preset(preset);

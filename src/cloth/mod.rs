@@ -60,7 +60,7 @@ pub struct Cloth {
 }
 
 impl Clone for Cloth {
-    /// Another cloth in the same state; handles of grabs and colliders hold for both.
+    /// Another cloth in the same state; handles of grabs, attachments and colliders hold for both.
     fn clone(&self) -> Self {
         let mut copy = Self {
             origin: self.origin.clone(),

@@ -80,7 +80,7 @@ type Owned<'a, T> = std::borrow::Cow<'a, T>;
 
 impl Cloth {
     /// The cloth as bytes: everything, so that [`Cloth::restore`] gives one that goes on in the same
-    /// bits. Handles of grabs and colliders hold for it too.
+    /// bits. Handles of grabs, attachments and colliders hold for it too.
     pub fn save(&self) -> Vec<u8> {
         let world = &self.world;
         let is_torn = world.mesh.vertex_count() > world.mesh.original_count as usize;
