@@ -54,6 +54,9 @@ pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
     }
     cloth.set_settings(Settings { substeps: 3, iterations: 1, ..cloth.settings().clone() })?;
     trace.run(&mut cloth, 20);
+    cloth.set_frame(along(Vec3::ZERO, way, 62), turn(3))?;
+    cloth.teleport(Vec3::new(-4.0, 1.0, 0.5), turn(2))?;
+    trace.run(&mut cloth, 20);
     cloth.detach(body)?;
     trace.run(&mut cloth, 20);
     trace.look(&mut cloth);
