@@ -189,7 +189,8 @@ refuses("normals", [[0, 0, 1], targets, targets.map(() => NaN)], (value, { cloth
 refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setFrame(value));
 refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.teleport(value));
 refuses("rotation", NOT_ROTATIONS, (value, { cloth }) => cloth.teleport([0, 0, 0], value));
-refuses("position", [...NOT_FINITE, undefined], (value, { collider }) => collider.teleport(value));
+refuses("position", [...NOT_VECTORS, undefined], (value, { collider }) => collider.teleport(value));
+refuses("collider.position", [[0, Infinity, 0]], (value, { collider }) => collider.teleport(value));
 refuses("particles", [...NOT_LISTS, undefined, [1, -1], [1, 0.5], [1, 1000]], (value, { cloth }) =>
   cloth.setPinTargets(value, targets),
 );
