@@ -49,6 +49,7 @@ void worn(muslin::Cloth &cloth) {
   cloth.teleport({0, 0, 0}, as_it_is).value();
   cloth.detach(body).value();
   CHECK(cloth.detach(body).status() == MUSLIN_STATUS_BAD_HANDLE);
+  for (const std::uint32_t particle : edge) cloth.pin(particle).value();
 }
 
 void a_cloth_does_all_that_c_does() {
