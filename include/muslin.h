@@ -219,7 +219,7 @@ typedef enum MuslinStatus {
   MUSLIN_STATUS_BAD_VALUE = 1,
   /** An index points past the last particle or vertex. */
   MUSLIN_STATUS_BAD_INDEX = 2,
-  /** A handle of a cloth, grab or collider that is not there (any more). */
+  /** A handle of a cloth, grab, attachment or collider that is not there (any more). */
   MUSLIN_STATUS_BAD_HANDLE = 3,
   /** The triangles cannot be cloth. */
   MUSLIN_STATUS_BAD_MESH = 4,
@@ -516,6 +516,27 @@ typedef struct MuslinWind {
   uint32_t seed;
 } MuslinWind;
 
+/** A rotation: a unit quaternion; { 0, 0, 0, 1 } turns nothing. */
+typedef struct MuslinQuat {
+  /** Axis along x times the sine of half the angle. */
+  float x;
+  /** Axis along y times the sine of half the angle. */
+  float y;
+  /** Axis along z times the sine of half the angle. */
+  float z;
+  /** Cosine of half the angle. */
+  float w;
+} MuslinQuat;
+
+/**
+ * A transform that particles of one cloth are attached to; { 0 } is none. It is of use with the cloth that
+ * gave it, and with those restored from it.
+ */
+typedef struct MuslinAttachment {
+  /** Says which; it means nothing to you. */
+  uint32_t id;
+} MuslinAttachment;
+
 /** Where a ray hits a cloth. Begin with muslin_hit_init. */
 typedef struct MuslinHit {
   /** Set by muslin_hit_init. */
@@ -570,18 +591,6 @@ typedef struct MuslinEvent {
   /** How many. */
   uint32_t count;
 } MuslinEvent;
-
-/** A rotation: a unit quaternion; { 0, 0, 0, 1 } turns nothing. */
-typedef struct MuslinQuat {
-  /** Axis along x times the sine of half the angle. */
-  float x;
-  /** Axis along y times the sine of half the angle. */
-  float y;
-  /** Axis along z times the sine of half the angle. */
-  float z;
-  /** Cosine of half the angle. */
-  float w;
-} MuslinQuat;
 
 /**
  * A collider: its shape, where it is and how it feels. Begin with muslin_collider_desc_init: a floor
@@ -999,7 +1008,8 @@ MuslinStatus muslin_cloth_step(MuslinCloth cloth, uint32_t ticks);
 
 /**
  * Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
- * next tick; a particle that is pinned already gets a new target.
+ * next tick; a particle that is pinned already gets a new target, which nothing carries, and keeps its
+ * stiffness.
  *
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
  * is not finite
@@ -1033,6 +1043,36 @@ MuslinStatus muslin_cloth_set_pin_targets(MuslinCloth cloth,
                                           uint32_t count);
 
 /**
+ * Says how hard `count` pins pull towards their targets [N/m]: as springs, or exactly if `stiffness` is 0,
+ * as they do at first. A soft pin holds a load of 1 N 1/`stiffness` from its target; the cloth counts as free
+ * there, for tears and for max_stretch, and is not tethered to it. 1e3 N/m feels firm, 10 N/m lets a sheet of
+ * cotton sag by a few centimetres. A tear through a soft pin shares its stiffness out by mass. With 0
+ * particles the pointer may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for one that is
+ * not pinned, a stiffness that is below 0 or not finite, or more than there are particles
+ */
+MuslinStatus muslin_cloth_set_pin_stiffness(MuslinCloth cloth,
+                                            const uint32_t *particles,
+                                            uint32_t count,
+                                            float stiffness);
+
+/**
+ * Makes `count` particles heavier or lighter than their material, by a factor each: 1, as at first, is what
+ * its density and the area about them give. A hem of 5 hangs straight; a coin sewn in may be 100. Factors
+ * stay when the density changes. Neighbours may well be a hundredfold apart; where it is thousands, what
+ * hangs by the light ones stretches them until there are more substeps. With 0 particles both pointers may
+ * be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a factor that is
+ * not from 0.001 to 1000, or more than there are particles
+ */
+MuslinStatus muslin_cloth_set_mass_scales(MuslinCloth cloth,
+                                          const uint32_t *particles,
+                                          const float *scales,
+                                          uint32_t count);
+
+/**
  * Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
  *
  * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position
@@ -1051,6 +1091,93 @@ MuslinStatus muslin_cloth_set_position(MuslinCloth cloth,
 MuslinStatus muslin_cloth_set_velocity(MuslinCloth cloth,
                                        uint32_t particle,
                                        MuslinVec3 velocity);
+
+/**
+ * Attaches `count` particles to a transform at `position` [m], turned by `rotation`: a bone, a pole, the body
+ * of a car. They are pinned where they are now, and from then on muslin_cloth_move_attachment carries them.
+ * Those that are pinned already, or attached to something else, keep their stiffness. One that gets a target
+ * of its own later, or is unpinned, leaves the attachment. Vertices that a tear or a cut makes of attached
+ * ones are attached too. With 0 particles the pointer may be NULL. No attachment outlives a reset.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position that is
+ * not finite, a rotation that is no unit quaternion, or more than there are particles; MUSLIN_STATUS_FULL if
+ * there are 64 attachments already
+ */
+MuslinStatus muslin_cloth_attach(MuslinCloth cloth,
+                                 const uint32_t *particles,
+                                 uint32_t count,
+                                 MuslinVec3 position,
+                                 MuslinQuat rotation,
+                                 MuslinAttachment *out_attachment);
+
+/**
+ * Moves a transform that particles are attached to: they get there over the next tick, turning on the way
+ * as it turns, and are exactly there when it ends.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE for a position that is not
+ * finite or a rotation that is no unit quaternion
+ */
+MuslinStatus muslin_cloth_move_attachment(MuslinCloth cloth,
+                                          MuslinAttachment attachment,
+                                          MuslinVec3 position,
+                                          MuslinQuat rotation);
+
+/**
+ * Lets all go that an attachment still carries, with the velocity that they have.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was detached before
+ */
+MuslinStatus muslin_cloth_detach(MuslinCloth cloth, MuslinAttachment attachment);
+
+/**
+ * Says how far `count` particles may be from their anchors [m]: after every tick none is farther, whatever
+ * pulls at it. Infinity, as at first, is as far as they like; 0 holds them there. The anchor of a particle is
+ * where muslin_cloth_set_anchors has it, and until that was called where the particle is now. A pinned or
+ * grabbed particle goes by that alone. What keeps a cloth apart so may stretch it past max_stretch, which is
+ * told as if pins did. With 0 particles both pointers may be NULL. None outlives a reset.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a distance that is
+ * not at least 0, or more than there are particles
+ */
+MuslinStatus muslin_cloth_set_max_distances(MuslinCloth cloth,
+                                            const uint32_t *particles,
+                                            const float *distances,
+                                            uint32_t count);
+
+/**
+ * Gives `count` particles backstops: spheres behind their anchors that they stay out of, so that a garment
+ * does not sink into the body that wears it. Each has a radius [m], 0 for none, and begins a distance [m]
+ * behind its anchor, against the normal that muslin_cloth_set_anchors gave: without one there is no
+ * backstop. With 0 particles the pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a distance or
+ * radius that is below 0 or not finite, or more than there are particles
+ */
+MuslinStatus muslin_cloth_set_backstops(MuslinCloth cloth,
+                                        const uint32_t *particles,
+                                        const float *distances,
+                                        const float *radii,
+                                        uint32_t count);
+
+/**
+ * Says where animation has `count` particles [m], and which way is out of the body there, for
+ * muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it each frame: anchors get there over
+ * the next tick, and those of particles that had none are there at once. Positions and normals are 3 floats
+ * each, and begin `stride` bytes apart in both: 0 is 12, else a multiple of 4. Normals need not be of length
+ * 1; with NULL those of before stay. With 0 particles all pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a number that is not
+ * finite, a normal of no length, more than there are particles, or a rule above
+ */
+MuslinStatus muslin_cloth_set_anchors(MuslinCloth cloth,
+                                      const uint32_t *particles,
+                                      const void *positions,
+                                      const void *normals,
+                                      uint32_t stride,
+                                      uint32_t count);
+
+/** Takes away all anchors, maximum distances and backstops. */
+MuslinStatus muslin_cloth_clear_leashes(MuslinCloth cloth);
 
 /**
  * The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
@@ -1221,6 +1348,39 @@ MuslinStatus muslin_cloth_get_collider_impulse(MuslinCloth cloth,
                                                MuslinVec3 *out_angular);
 
 /**
+ * Says where the body is that wears the cloth, and how it is turned: muslin_cloth_teleport goes from there. At
+ * first, and after a reset, that is the origin. It moves nothing.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion
+ */
+MuslinStatus muslin_cloth_set_frame(MuslinCloth cloth,
+                                    MuslinVec3 position,
+                                    MuslinQuat rotation);
+
+/**
+ * Takes the cloth along as the body that wears it jumps from where muslin_cloth_set_frame or the last teleport
+ * had it: at once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs
+ * and anchors go along; colliders do not, see muslin_cloth_teleport_collider. In a frame it comes before
+ * muslin_cloth_move_attachment and muslin_cloth_set_anchors.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion
+ */
+MuslinStatus muslin_cloth_teleport(MuslinCloth cloth,
+                                   MuslinVec3 position,
+                                   MuslinQuat rotation);
+
+/**
+ * Puts a collider somewhere at once: it does not sweep, and what lay on it does not feel it go.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
+ * finite or a rotation that is no unit quaternion
+ */
+MuslinStatus muslin_cloth_teleport_collider(MuslinCloth cloth,
+                                            MuslinCollider collider,
+                                            MuslinVec3 position,
+                                            MuslinQuat rotation);
+
+/**
  * All that a renderer reads, without a copy; see MuslinView for how long it is valid. Normals are
  * computed when first asked for after a change. `out_view` has begun with muslin_view_init.
  */
@@ -1299,7 +1459,7 @@ MuslinStatus muslin_cloth_save(MuslinCloth cloth,
 
 /**
  * Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
- * any other: it goes on in the same bits. Handles of grabs and colliders hold for it too.
+ * any other: it goes on in the same bits. Handles of grabs, attachments and colliders hold for it too.
  *
  * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
  */

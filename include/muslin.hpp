@@ -227,6 +227,42 @@ class Cloth {
                        std::uint32_t count) noexcept {
     return muslin_cloth_set_pin_targets(cloth_, particles, positions, stride, count);
   }
+  Done set_pin_stiffness(const std::uint32_t *particles, std::uint32_t count, float stiffness) noexcept {
+    return muslin_cloth_set_pin_stiffness(cloth_, particles, count, stiffness);
+  }
+  Done set_mass_scales(const std::uint32_t *particles, const float *scales, std::uint32_t count) noexcept {
+    return muslin_cloth_set_mass_scales(cloth_, particles, scales, count);
+  }
+  Result<MuslinAttachment> attach(const std::uint32_t *particles, std::uint32_t count,
+                                  MuslinVec3 position, MuslinQuat rotation) noexcept {
+    MuslinAttachment attachment{};
+    const MuslinStatus status =
+        muslin_cloth_attach(cloth_, particles, count, position, rotation, &attachment);
+    return {status, attachment};
+  }
+  Done move_attachment(MuslinAttachment attachment, MuslinVec3 position, MuslinQuat rotation) noexcept {
+    return muslin_cloth_move_attachment(cloth_, attachment, position, rotation);
+  }
+  Done detach(MuslinAttachment attachment) noexcept { return muslin_cloth_detach(cloth_, attachment); }
+  Done set_max_distances(const std::uint32_t *particles, const float *distances,
+                         std::uint32_t count) noexcept {
+    return muslin_cloth_set_max_distances(cloth_, particles, distances, count);
+  }
+  Done set_backstops(const std::uint32_t *particles, const float *distances, const float *radii,
+                     std::uint32_t count) noexcept {
+    return muslin_cloth_set_backstops(cloth_, particles, distances, radii, count);
+  }
+  Done set_anchors(const std::uint32_t *particles, const void *positions, const void *normals,
+                   std::uint32_t stride, std::uint32_t count) noexcept {
+    return muslin_cloth_set_anchors(cloth_, particles, positions, normals, stride, count);
+  }
+  Done clear_leashes() noexcept { return muslin_cloth_clear_leashes(cloth_); }
+  Done set_frame(MuslinVec3 position, MuslinQuat rotation) noexcept {
+    return muslin_cloth_set_frame(cloth_, position, rotation);
+  }
+  Done teleport(MuslinVec3 position, MuslinQuat rotation) noexcept {
+    return muslin_cloth_teleport(cloth_, position, rotation);
+  }
   Done set_position(std::uint32_t particle, MuslinVec3 position) noexcept {
     return muslin_cloth_set_position(cloth_, particle, position);
   }
@@ -290,6 +326,9 @@ class Cloth {
   }
   Done move_collider(MuslinCollider collider, MuslinVec3 position, MuslinQuat rotation) noexcept {
     return muslin_cloth_move_collider(cloth_, collider, position, rotation);
+  }
+  Done teleport_collider(MuslinCollider collider, MuslinVec3 position, MuslinQuat rotation) noexcept {
+    return muslin_cloth_teleport_collider(cloth_, collider, position, rotation);
   }
   Done remove_collider(MuslinCollider collider) noexcept {
     return muslin_cloth_remove_collider(cloth_, collider);

@@ -25,9 +25,9 @@ pub enum Error {
         /// How many there are.
         count: u32,
     },
-    /// A handle of a grab or collider that this cloth does not have (any more).
+    /// A handle of a grab, an attachment or a collider that this cloth does not have (any more).
     BadHandle {
-        /// The kind of handle: "grab" or "collider".
+        /// The kind of handle: "grab", "attachment" or "collider".
         what: &'static str,
     },
     /// The mesh cannot be cloth.

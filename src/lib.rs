@@ -24,6 +24,7 @@ pub use glam;
 pub use mesh::report::MeshReport;
 pub use solver::profile::Clock;
 pub use solver::stage::Stage;
+pub use state::attachments::Attachment;
 pub use state::collider_desc::{ColliderDesc, Shape};
 pub use state::colliders::{Collider, Impulse};
 pub use state::events::{Event, EventKind};

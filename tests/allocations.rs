@@ -1,6 +1,6 @@
 //! Once a cloth is made, moving, tearing within its reserve and reading allocate nothing.
 
-use muslin::glam::Vec3;
+use muslin::glam::{Quat, Vec3};
 use muslin::{
     Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Shape, Stream,
     VertexFormat, Wind, WriteDesc,
@@ -270,4 +270,43 @@ fn colliders_of_every_shape_are_touched_without_an_allocation() {
     assert_eq!(allocations(|| play(&mut cloth)), 0);
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
     assert_eq!(allocations(|| play(&mut restored)), 0);
+}
+
+#[test]
+fn what_is_worn_on_a_body_allocates_nothing_either() {
+    let mut desc =
+        GridDesc { columns: 16, rows: 16, pin_mode: PinMode::None, ..GridDesc::default() };
+    desc.material.tear_stretch = 1.3;
+    (desc.settings.tearing, desc.settings.max_stretch) = (true, 0.1);
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let (edge, led) = ((0..16).collect::<Vec<u32>>(), (16..256).collect::<Vec<u32>>());
+    let body = cloth.attach(&edge, Vec3::ZERO, Quat::IDENTITY).unwrap();
+    cloth.set_pin_stiffness(&edge[4..12], 50.0).unwrap();
+    cloth.set_max_distances(&led, &[0.9; 240]).unwrap();
+    cloth.set_backstops(&led, &[0.2; 240], &[1.0; 240]).unwrap();
+    let anchors: Vec<Vec3> = led.iter().map(|i| cloth.positions()[*i as usize]).collect();
+    cloth.set_anchors(&led, &anchors, &[Vec3::Z; 240]).unwrap();
+    cloth.set_mass_scales(&led[..16], &[3.0; 16]).unwrap();
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    let mut copy = cloth.clone();
+    for cloth in [&mut cloth, &mut copy, &mut restored] {
+        let before = cloth.positions().len();
+        let grab = cloth.grab_particle(136).unwrap();
+        let from = cloth.positions()[136];
+        let used = allocations(|| {
+            for tick in 1..=60 {
+                let to = Vec3::new(0.02, 0.0, 0.01) * tick as f32;
+                cloth.move_attachment(body, -to, Quat::IDENTITY).unwrap();
+                cloth.move_grab(grab, from + to).unwrap();
+                cloth.step(1);
+            }
+            cloth.release(grab).unwrap();
+            cloth.teleport(Vec3::X, Quat::IDENTITY).unwrap();
+            cloth.step(30);
+            cloth.detach(body).unwrap();
+            cloth.step(10);
+        });
+        assert_eq!(used, 0);
+        assert!(cloth.positions().len() > before, "nothing tore");
+    }
 }

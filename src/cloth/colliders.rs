@@ -36,6 +36,24 @@ impl Cloth {
         guarded(|| body.move_to(position, rotation))
     }
 
+    /// Puts a collider somewhere at once: it does not sweep, and what lay on it does not feel it go.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed,
+    /// [`Error::BadValue`](crate::Error::BadValue) for a pose that cannot be.
+    pub fn teleport_collider(
+        &mut self,
+        collider: Collider,
+        position: Vec3,
+        rotation: Quat,
+    ) -> Result<()> {
+        let body = self.world.colliders.get_mut(collider.0, "collider")?;
+        guarded(|| body.teleport(position, rotation))?;
+        self.world.scratch.contacts.near.forget();
+        self.world.wake();
+        Ok(())
+    }
+
     /// Removes a collider.
     ///
     /// # Errors

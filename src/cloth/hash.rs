@@ -29,6 +29,26 @@ impl Cloth {
             mixer.word(pin.particle);
             mixer.floats(&pin.from.to_array());
             mixer.floats(&pin.target.to_array());
+            if pin.is_soft() {
+                mixer.floats(&[pin.stiffness]);
+            }
+            if pin.carrier != 0 {
+                mixer.word(pin.carrier);
+                mixer.floats(&pin.local.to_array());
+            }
+        }
+        for carrier in world.attachments.iter() {
+            for pose in [&carrier.last, &carrier.next] {
+                mixer.floats(&pose.position.to_array());
+                mixer.floats(&pose.rotation.to_array());
+            }
+        }
+        for leash in world.leashes.iter() {
+            mixer.word(leash.particle);
+            for v in [leash.from, leash.anchor, leash.normal_from, leash.normal] {
+                mixer.floats(&v.to_array());
+            }
+            mixer.floats(&[leash.max_distance, leash.backstop_distance, leash.backstop_radius]);
         }
         for held in world.grabs.iter() {
             mixer.word(held.particle);

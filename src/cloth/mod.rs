@@ -1,5 +1,6 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
+mod attachments;
 pub(crate) mod changes;
 mod colliders;
 mod crease;
@@ -9,10 +10,14 @@ mod drawn;
 #[cfg(test)]
 mod equal_bits;
 mod hash;
+mod leashes;
+mod masses;
+mod pins;
 pub(crate) mod query;
 mod save;
 pub(crate) mod stream;
 mod tear;
+mod teleport;
 #[cfg(feature = "parallel")]
 mod threads;
 pub(crate) mod view;
@@ -55,7 +60,7 @@ pub struct Cloth {
 }
 
 impl Clone for Cloth {
-    /// Another cloth in the same state; handles of grabs and colliders hold for both.
+    /// Another cloth in the same state; handles of grabs, attachments and colliders hold for both.
     fn clone(&self) -> Self {
         let mut copy = Self {
             origin: self.origin.clone(),
@@ -123,8 +128,8 @@ impl Cloth {
         })
     }
 
-    /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs
-    /// and no events. Settings, material, wind and colliders stay as they are.
+    /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, as heavy as its
+    /// material says, no grabs, no attachments, no leashes and no events. Settings, material, wind and colliders stay as they are.
     pub fn reset(&mut self) {
         // The descriptor was good enough once, so it is again.
         let Ok((mut fresh, _)) = guarded(|| self.origin.world()) else {
@@ -136,9 +141,11 @@ impl Cloth {
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
         fresh.threads = self.world.threads;
-        // Grabs are let go, and their handles stay stale.
+        // Grabs and attachments are let go, and their handles stay stale.
         core::mem::swap(&mut fresh.grabs, &mut self.world.grabs);
         fresh.grabs.clear();
+        core::mem::swap(&mut fresh.attachments, &mut self.world.attachments);
+        fresh.attachments.clear();
         fresh.scratch.tear.reserve(fresh.settings.max_tears_per_tick as usize);
         self.world = fresh;
         self.world.reserve_contacts();
@@ -185,7 +192,10 @@ impl Cloth {
             guarded(|| world.see_to_crowd());
         }
         if restarts {
-            guarded(|| world.restart_history());
+            guarded(|| {
+                world.restart_history();
+                world.refresh_soft_pins();
+            });
         }
         Ok(())
     }
@@ -292,73 +302,6 @@ impl Cloth {
         self.world.time
     }
 
-    /// Holds a particle at `target` [m], or where it is. The target is reached over the next tick;
-    /// a particle that is pinned already gets a new target.
-    ///
-    /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a target that is not finite.
-    pub fn pin(&mut self, particle: u32, target: Option<Vec3>) -> Result<()> {
-        check_index(particle, self.world.particles.len(), "particle")?;
-        let x = self.world.particles.x.at(particle as usize);
-        let target = target.unwrap_or(x);
-        check_finite(target, "target")?;
-        self.put_pin(particle, target);
-        Ok(())
-    }
-
-    /// Lets a particle go. One that is not pinned stays as it is.
-    ///
-    /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
-    pub fn unpin(&mut self, particle: u32) -> Result<()> {
-        check_index(particle, self.world.particles.len(), "particle")?;
-        if self.world.pins.remove(particle) {
-            guarded(|| self.world.refresh_weight(particle));
-            self.changed_pins();
-        }
-        Ok(())
-    }
-
-    /// Lets every particle go.
-    pub fn unpin_all(&mut self) {
-        self.world.pins.clear();
-        guarded(|| {
-            (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_weight(i));
-        });
-        self.changed_pins();
-    }
-
-    /// Gives many pins their targets [m] at once; particles that are not pinned yet are from now on.
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless there are as many targets as particles, all
-    /// finite; [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
-    pub fn set_pin_targets(&mut self, particles: &[u32], targets: &[Vec3]) -> Result<()> {
-        check(particles.len() == targets.len(), "targets", "be as many as `particles`")?;
-        for (particle, target) in particles.iter().zip(targets) {
-            check_index(*particle, self.world.particles.len(), "particles")?;
-            check_finite(*target, "targets")?;
-        }
-        for (particle, target) in particles.iter().zip(targets) {
-            self.put_pin(*particle, *target);
-        }
-        Ok(())
-    }
-
-    fn put_pin(&mut self, particle: u32, target: Vec3) {
-        let x = self.world.particles.x.at(particle as usize);
-        if self.world.pins.insert(particle, x, target) {
-            guarded(|| self.world.refresh_weight(particle));
-            self.changed_pins();
-        }
-    }
-
-    /// The pinned particles, lowest first.
-    pub fn pinned(&self) -> impl Iterator<Item = u32> + '_ {
-        self.world.pins.iter().map(|pin| pin.particle)
-    }
-
     /// Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
     ///
     /// # Errors
@@ -372,9 +315,7 @@ impl Cloth {
             let v = world.particles.v.at(at);
             world.place(at, position, v);
             world.particles.x_last.set(at, position);
-            if world.pins.remove(particle) {
-                world.pins.insert(particle, position, position);
-            }
+            world.bring_pin(particle, position);
         });
         self.changed_state();
         Ok(())
@@ -430,10 +371,8 @@ impl Cloth {
     pub fn release(&mut self, grab: Grab) -> Result<()> {
         let held = self.world.grabs.remove(grab.0, "grab")?;
         let (at, world) = (held.particle, &mut self.world);
-        if let Some(pin) = world.pins.find(at).copied() {
-            let x = world.particles.x.at(at as usize);
-            world.pins.remove(at);
-            world.pins.insert(at, x, pin.target);
+        if let Some(pin) = world.pins.find_mut(at) {
+            pin.from = world.particles.x.at(at as usize);
         }
         guarded(|| world.refresh_weight(at));
         Ok(())
@@ -460,11 +399,6 @@ impl Cloth {
         self.topology_revision = self.topology_revision.wrapping_add(1);
         let change = self.outputs.follow_topology(&self.world);
         self.history.push(change);
-    }
-
-    fn changed_pins(&mut self) {
-        self.pins_changed = true;
-        self.world.tether_slack = f32::INFINITY;
     }
 
     fn changed_state(&mut self) {

@@ -20,18 +20,22 @@ use crate::mesh::seams::Seams;
 use crate::mesh::{NONE, sound};
 use crate::solver::World;
 use crate::solver::sleep::Sleep;
+use crate::state::attachments::{Attachments, Carrier, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
+use crate::state::leashes::Leashes;
+use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
+use crate::state::pose::{Pose, check_pose};
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -51,8 +55,12 @@ struct Saved<'a> {
     tethers: Vec<TetherSet>,
     folds: Each<Vec<f32>>,
     particles: Owned<'a, Particles>,
+    mass_scales: Owned<'a, MassScales>,
     pins: Owned<'a, Pins>,
+    attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
+    leashes: Owned<'a, Leashes>,
+    reference: Pose,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
     time: f64,
@@ -72,7 +80,7 @@ type Owned<'a, T> = std::borrow::Cow<'a, T>;
 
 impl Cloth {
     /// The cloth as bytes: everything, so that [`Cloth::restore`] gives one that goes on in the same
-    /// bits. Handles of grabs and colliders hold for it too.
+    /// bits. Handles of grabs, attachments and colliders hold for it too.
     pub fn save(&self) -> Vec<u8> {
         let world = &self.world;
         let is_torn = world.mesh.vertex_count() > world.mesh.original_count as usize;
@@ -90,8 +98,12 @@ impl Cloth {
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.kept(),
             particles: Owned::Borrowed(&world.particles),
+            mass_scales: Owned::Borrowed(&world.mass_scales),
             pins: Owned::Borrowed(&world.pins),
+            attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
+            leashes: Owned::Borrowed(&world.leashes),
+            reference: world.reference,
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
             time: world.time,
@@ -201,6 +213,8 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })?;
     world.measure_divided(&fresh);
     world.particles = particles;
+    must(saved.mass_scales.are_sound(count))?;
+    world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
     world.check_self_distance(&world.settings)?;
@@ -211,6 +225,12 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(world.take_folds(saved.folds))?;
     world.reserve_for_tears();
     world.gather();
+    must(saved.leashes.are_sound(count))?;
+    world.leashes = saved.leashes.into_owned();
+    world.reserve_leashes();
+    must(is_pose(&saved.reference))?;
+    world.reference = saved.reference;
+    must(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
@@ -254,6 +274,19 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })
 }
 
+fn is_pose(pose: &Pose) -> bool {
+    check_pose(pose.position, pose.rotation, ["position", "rotation"]).is_ok()
+}
+
+/// Whether they are such as a cloth can have.
+fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
+    let is_sound = |carrier: &Carrier| is_pose(&carrier.last) && is_pose(&carrier.next);
+    let are_sound = attachments.iter().all(is_sound);
+    let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
+    world.attachments = attachments;
+    fits
+}
+
 fn restore_holds(
     world: &mut World,
     pins: Pins,
@@ -261,16 +294,19 @@ fn restore_holds(
     bad: impl Fn() -> Error,
 ) -> Result<()> {
     let count = world.particles.len();
-    let held_well = |particle: u32, at: [Vec3; 2]| {
-        (particle as usize) < count && at.iter().all(|v| v.is_finite())
-    };
-    let pins_fit = pins.iter().all(|pin| held_well(pin.particle, [pin.from, pin.target]));
-    let grabs_fit = grabs.iter().all(|held| held_well(held.particle, [held.target; 2]));
+    let is_carried_well =
+        |carrier| carrier == 0 || world.attachments.get(carrier, "attachment").is_ok();
+    let pins_fit = pins.iter().all(|pin| {
+        (pin.particle as usize) < count && pin.is_sound() && is_carried_well(pin.carrier)
+    });
+    let grabs_fit =
+        grabs.iter().all(|held| (held.particle as usize) < count && held.target.is_finite());
     if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.capacity() == usize::from(MAX_GRABS)) {
         return Err(bad());
     }
     (world.pins, world.grabs) = (pins, grabs);
     world.pins.reserve(world.capacity());
+    world.reserve_inertia();
     Ok(())
 }
 

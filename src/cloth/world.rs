@@ -24,11 +24,15 @@ use crate::solver::profile::Profile;
 use crate::solver::sleep::Sleep;
 use crate::solver::{Scratch, World};
 use crate::solver::{bend, brake, lines};
+use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
 use crate::state::grabs::MAX_GRABS;
+use crate::state::leashes::Leashes;
+use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
+use crate::state::pose::Pose;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::{Vec2, Vec3};
@@ -177,10 +181,14 @@ fn build(
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, capacity),
+        mass_scales: MassScales::default(),
         tethers: Tethers::with_capacity(capacity),
         scratch: Scratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
         pins: Pins::default(),
+        attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
+        leashes: Leashes::default(),
+        reference: Pose::ORIGIN,
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),
         material: material.clone(),
@@ -262,6 +270,7 @@ impl World {
             seams.reserve();
         }
         self.particles.reserve(capacity);
+        self.mass_scales.reserve(capacity);
         self.tips.reserve_exact(capacity.saturating_sub(self.tips.len()));
         self.pins.reserve(capacity);
         self.events.reserve();
@@ -282,6 +291,8 @@ impl World {
             self.settings.max_tears_per_tick as usize,
         );
         self.reserve_packed(capacity);
+        self.reserve_inertia();
+        self.reserve_leashes();
         self.reserve_contacts();
         self.see_to_crowd();
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);

@@ -99,11 +99,11 @@ impl Tethers {
         &mut self,
         mesh: &Mesh,
         rest: &[Vec3],
-        pinned: impl ExactSizeIterator<Item = u32> + Clone,
+        pinned: impl Iterator<Item = u32> + Clone,
     ) {
-        let few = pinned.len() <= FEW_PINS;
-        self.pin_count = pinned.len();
-        self.used = if few { pinned.len() } else { 1 };
+        self.pin_count = pinned.clone().count();
+        let few = self.pin_count <= FEW_PINS;
+        self.used = if few { self.pin_count } else { 1 };
         for (at, set) in self.sets[..self.used].iter_mut().enumerate() {
             set.anchor.clear();
             set.anchor.resize(mesh.vertex_count(), NONE);

@@ -17,6 +17,12 @@ impl Frame {
         Vec3::new(r.dot(self.axes[0]), r.dot(self.axes[1]), r.dot(self.axes[2]))
     }
 
+    /// A direction of the world as the frame sees it.
+    #[inline(always)]
+    pub fn turn_inward(&self, v: Vec3) -> Vec3 {
+        Vec3::new(v.dot(self.axes[0]), v.dot(self.axes[1]), v.dot(self.axes[2]))
+    }
+
     /// A point of the frame as the world sees it.
     #[inline(always)]
     pub fn outward(&self, p: Vec3) -> Vec3 {

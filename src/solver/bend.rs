@@ -90,6 +90,8 @@ fn bend(world: &mut World, order: Order) {
 }
 
 fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
+    let inertia = world.inertia();
+    let [lightest, _] = world.mass_scales.range();
     let Some(plates) = &world.plates else { return };
     let area = plates.spacing * plates.spacing;
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
@@ -102,14 +104,18 @@ fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
     let step = plates::Step {
         level: world.level,
         stiffness: step.stiffness / area,
-        mass: world.material.density * area,
+        mass: world.material.density * area * lightest,
         before: step.before,
         is_first: order == Order::Forward,
         predicted: &scratch.predicted,
         way: &scratch.way,
         rest,
     };
-    plates::bend(plates, &mut scratch.bend.plates, step, &mut p.x, &p.w, &p.mass);
+    let mass = inertia.as_deref().unwrap_or(&p.mass);
+    plates::bend(plates, &mut scratch.bend.plates, step, &mut p.x, &p.w, mass);
+    if let Some(inertia) = inertia {
+        scratch.inertia = inertia;
+    }
 }
 
 /// After a tick: folds stay where the cloth is bent beyond what its material bears.

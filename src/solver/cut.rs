@@ -13,6 +13,7 @@ use crate::geom::triangle::corner_areas;
 use crate::mesh::divide::Crossing;
 use crate::mesh::{Corner, Fan, Mesh, NONE, after, before};
 use crate::state::events::{Event, EventKind};
+use crate::state::leashes::Leash;
 use glam::Vec3;
 
 /// A crossing nearer to an end of its edge than this share of it goes through the end.
@@ -121,6 +122,12 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     }
     let new = world.particles.push_between(a as usize, b as usize, share);
     world.scratch.grow();
+    let scales = [a, b].map(|end| world.mass_scales.of(end as usize));
+    world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
+    let leashes = [a, b].map(|end| world.leashes.find(end).copied());
+    if let [Some(a), Some(b)] = leashes {
+        world.leashes.insert(Leash::between(new as u32, &a, &b, share));
+    }
     let recipe = Recipe { mesh: &world.mesh, rest: &world.rest, material: &world.material };
     world.weave.divide(recipe, &division, touching);
     let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.at(new));

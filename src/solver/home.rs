@@ -1,13 +1,15 @@
 //! Where a cloth goes back to when the stretch bound cannot be had otherwise: to where it was a tick ago, but
 //! for what its pieces have moved as a whole.
 //!
-//! A piece that something holds goes with that; one that nothing holds flies, falls and spins on as a solid
-//! body. Either way no link gets longer than it was then.
+//! A piece that something holds goes with that, and turns with an attachment that holds it; one that nothing holds flies, falls and spins on as a solid
+//! body, or as the anchors of its leashes do. Either way no link gets longer than it was then.
 
 use super::World;
 use super::rigid::RigidMotion;
+use crate::geom::frame::Frame;
 use crate::math::columns::Columns;
 use crate::mesh::{NONE, triangle_of};
+use crate::state::leashes::Leash;
 use glam::Vec3;
 
 /// Where each particle goes back to, and room to find it.
@@ -72,14 +74,38 @@ pub(crate) fn find(world: &mut World) {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             let free = particles().filter(|i| p.w[*i] > 0.0);
-            free.for_each(|i| places.set(i, p.x_last.at(i) + shift));
+            match carriage_of(world, particles()) {
+                Some([last, next]) => {
+                    free.for_each(|i| places.set(i, next.outward(last.inward(p.x_last.at(i)))));
+                }
+                None => free.for_each(|i| places.set(i, p.x_last.at(i) + shift)),
+            }
         } else {
             let way = |i: usize| p.x.at(i) - p.x_last.at(i);
-            let motion = RigidMotion::fit(particles, &p.x_last, way, &p.mass);
+            let leashes = || particles().filter_map(|i| world.leashes.find(i as u32));
+            let motion = if leashes().next().is_some() {
+                let anchor = |leash: &Leash| (leash.from, leash.anchor - leash.from, 1.0);
+                RigidMotion::of_points(|| leashes().map(anchor))
+            } else {
+                RigidMotion::fit(particles, &p.x_last, way, &p.mass)
+            };
             particles().for_each(|i| places.set(i, motion.place(p.x_last.at(i))));
         }
     }
     world.scratch.home = home;
+}
+
+/// Where the attachment was and is that holds the first of some particles that one holds.
+fn carriage_of(world: &World, mut particles: impl Iterator<Item = usize>) -> Option<[Frame; 2]> {
+    if world.pins.iter().all(|pin| pin.carrier == 0) {
+        return None;
+    }
+    let pin = particles.find_map(|i| {
+        let pin = world.pins.find(i as u32)?;
+        (pin.carrier != 0 && !pin.is_soft()).then_some(pin)
+    })?;
+    let carrier = world.attachments.get(pin.carrier, "attachment").ok()?;
+    Some([carrier.last.frame(), carrier.next.frame()])
 }
 
 /// How far pins and grabs moved in this tick, on average.

@@ -10,7 +10,7 @@
 
 use super::links::{Order, shorten};
 use super::tethers;
-use super::{World, contacts, home};
+use super::{World, contacts, home, leash};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::columns::Columns;
 use crate::state::events::{Event, EventKind};
@@ -46,7 +46,7 @@ pub(crate) fn draw_in(world: &mut World) {
     KINDS.into_iter().for_each(|kind| shorten(world, kind, Order::Forward, aim));
 }
 
-/// Makes the bound hold. Where pins or grabs hold a cloth apart it cannot; that is told once, until
+/// Makes the bound hold. Where pins, grabs or leashes hold a cloth apart it cannot; that is told once, until
 /// it holds again.
 pub(crate) fn enforce(world: &mut World) {
     let allowance = world.settings.max_stretch;
@@ -66,7 +66,9 @@ fn draw_together(world: &mut World, most: f32) {
     world.scratch.predicted.copy_from(&world.particles.x);
     world.scratch.way.fill(Vec3::ZERO);
     let aim = 1.0 + world.settings.max_stretch * AIM;
-    let is_free_again = world.over_stretched > 0 && !is_held_apart(world, most);
+    let was_over = world.over_stretched > 0;
+    let is_led = !world.leashes.is_empty();
+    let is_free_again = was_over && !is_led && !is_held_apart(world, most);
     tethers::look(world);
     for number in 0..if is_free_again { MANY_SWEEPS } else { FEW_SWEEPS } {
         if is_free_again {
@@ -82,6 +84,7 @@ fn draw_together(world: &mut World, most: f32) {
             KINDS.into_iter().rev().for_each(|kind| shorten(world, kind, Order::Backward, aim));
         }
         contacts::keep_out(world);
+        leash::keep_in(world);
         if over(world, most).next().is_none() {
             break;
         }
@@ -90,7 +93,11 @@ fn draw_together(world: &mut World, most: f32) {
         // There is nothing to go back to; and what was held apart comes together, but is not flung.
         stop(world);
     } else {
-        go_back(world, most);
+        // What leashes hold apart finds its way together as they let it: that it was, is not to go back to.
+        if !(was_over && is_led) {
+            go_back(world, most);
+        }
+        leash::keep_in(world);
         follow(world);
     }
 }

@@ -17,6 +17,7 @@ pub(crate) mod guard;
 pub(crate) mod hinges;
 pub(crate) mod hold;
 mod home;
+pub(crate) mod leash;
 pub(crate) mod limit;
 pub(crate) mod lines;
 pub(crate) mod links;
@@ -62,11 +63,15 @@ use crate::mesh::grid::Frame;
 use crate::mesh::seams::Seams;
 use crate::mesh::split::Opening;
 use crate::mesh::{Corner, Fan, Mesh, triangle_of};
+use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
 use crate::state::grabs::Grabs;
+use crate::state::leashes::Leashes;
+use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
+use crate::state::pose::Pose;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -110,8 +115,13 @@ pub(crate) struct World {
     /// Mean length of the edges at rest [m].
     pub spacing: f32,
     pub particles: Particles,
+    pub mass_scales: MassScales,
     pub pins: Pins,
+    pub attachments: Attachments,
     pub grabs: Grabs,
+    pub leashes: Leashes,
+    /// Where the body is that the cloth goes along with when that jumps.
+    pub reference: Pose,
     pub colliders: Colliders,
     pub settings: Settings,
     pub material: Material,
@@ -156,6 +166,10 @@ pub(crate) struct Scratch {
     pub begun: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub anchor: Columns,
+    /// What resists a push at each particle while there are soft pins [kg].
+    pub inertia: Vec<f32>,
+    /// What leashes pulled in this substep.
+    pub pulled: Vec<u32>,
     pub weights: weights::Weights,
     pub packed: packed::Packed,
     pub lines: lines::Scratch,
@@ -180,6 +194,8 @@ impl Scratch {
             predicted: Columns::with_capacity(capacity),
             begun: Columns::with_capacity(capacity),
             anchor: Columns::with_capacity(capacity),
+            inertia: Vec::new(),
+            pulled: Vec::new(),
             weights: weights::Weights::default(),
             packed: packed::Packed::default(),
             lines: lines::Scratch::default(),
@@ -263,13 +279,20 @@ impl World {
     pub fn refresh_weight(&mut self, particle: u32) {
         self.wake();
         let at = particle as usize;
-        let held = self.pins.find(particle).is_some()
+        let pin = self.pins.find(particle);
+        let held = pin.is_some_and(|pin| !pin.is_soft())
             || self.grabs.iter().any(|held| held.particle == particle);
         let mass = self.particles.mass[at];
-        self.particles.w[at] = if held || mass <= 0.0 { 0.0 } else { 1.0 / mass };
+        self.particles.w[at] = if held || mass <= 0.0 {
+            0.0
+        } else if let Some(pin) = pin {
+            pin.weigh(mass, self.settings.scheme().step)
+        } else {
+            1.0 / mass
+        };
     }
 
-    /// All masses from areas and density, and the inverse masses from them.
+    /// All masses from areas, density and scales, and the inverse masses from them.
     pub fn weigh(&mut self) {
         self.particles.mass.fill(0.0);
         for (triangle, areas) in self.mesh.triangles.iter().zip(&self.corner_area) {
@@ -277,6 +300,7 @@ impl World {
                 self.particles.mass[*vertex as usize] += area * self.material.density;
             }
         }
+        self.mass_scales.apply(&mut self.particles.mass);
         (0..self.particles.len() as u32).for_each(|particle| self.refresh_weight(particle));
     }
 
@@ -324,14 +348,13 @@ impl World {
 
     /// Measures the tethers anew, after pins or pieces changed.
     pub fn tether(&mut self) {
-        let pinned = self.pins.iter().map(|pin| pin.particle);
-        self.tethers.measure(&self.mesh, &self.rest, pinned);
+        self.tethers.measure(&self.mesh, &self.rest, self.pins.hard());
         self.tethers_changed();
     }
 
     /// Measures anew which tethers tears changed: around the particles that were touched.
     pub fn tether_around(&mut self, touched: &[u32]) {
-        if self.tethers.pin_count() != self.pins.iter().len() {
+        if self.tethers.pin_count() != self.pins.hard().count() {
             return self.tether();
         }
         self.tethers.follow(&self.mesh, &self.rest, touched);

@@ -2,8 +2,8 @@
 
 use super::stage::Stage;
 use super::{
-    World, bend, brake, contacts, crowd, forces, guard, hold, limit, lines, links, packed, predict,
-    sleep, tear, tethers, velocities,
+    World, bend, brake, contacts, crowd, forces, guard, hold, leash, limit, lines, links, packed,
+    predict, sleep, tear, tethers, velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -20,6 +20,7 @@ macro_rules! timed {
 /// Runs one tick; false if the cloth sleeps through it.
 pub(crate) fn tick(world: &mut World) -> bool {
     if sleep::goes_on(world) {
+        hold::arrive(world);
         end(world);
         return false;
     }
@@ -49,6 +50,8 @@ pub(crate) fn tick(world: &mut World) -> bool {
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, limit::enforce(world));
     }
+    timed!(world, Hold, leash::keep_in(world));
+    hold::arrive(world);
     sleep::look(world);
     true
 }
@@ -82,6 +85,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, crowd::solve(world));
     timed!(world, Pairs, contacts::near::pair(world));
     timed!(world, Contacts, contacts::solve(world, number));
+    timed!(world, Hold, leash::keep(world, number));
     timed!(world, Velocities, velocities::derive(world));
 }
 

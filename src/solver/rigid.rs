@@ -20,24 +20,29 @@ impl RigidMotion {
         way: impl Fn(usize) -> Vec3,
         mass: &[f32],
     ) -> Self {
+        Self::of_points(|| particles().map(|i| (x.at(i), way(i), mass[i])))
+    }
+
+    /// The same of points, each where it is, its way, and its mass.
+    pub fn of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(points: impl Fn() -> I) -> Self {
         let (mut total, mut center, mut shift) = (0.0, Vec3::ZERO, Vec3::ZERO);
-        for i in particles() {
-            total += mass[i];
-            center += x.at(i) * mass[i];
-            shift += way(i) * mass[i];
+        for (x, way, mass) in points() {
+            total += mass;
+            center += x * mass;
+            shift += way * mass;
         }
         if total <= 0.0 {
             return Self { center, shift: Vec3::ZERO, turn: Vec3::ZERO };
         }
         (center, shift) = (center * (1.0 / total), shift * (1.0 / total));
         let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
-        for i in particles() {
-            let r = x.at(i) - center;
-            spin += r.cross(way(i) - shift) * mass[i];
+        for (x, way, mass) in points() {
+            let r = x - center;
+            spin += r.cross(way - shift) * mass;
             let r2 = r.length_squared();
             let columns = [r * r.x, r * r.y, r * r.z];
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-            let solid = |axis: usize| (axes[axis] * r2 - columns[axis]) * mass[i];
+            let solid = |axis: usize| (axes[axis] * r2 - columns[axis]) * mass;
             inertia.x_axis += solid(0);
             inertia.y_axis += solid(1);
             inertia.z_axis += solid(2);

@@ -1,6 +1,7 @@
 //! Sleep: a cloth that has been still for a while stays just as it is, until something touches it.
 
 use super::World;
+use crate::state::leashes::Leash;
 use crate::state::wind::WindModel;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -26,7 +27,7 @@ impl World {
         self.settings.sleep_speed > 0.0 && self.sleep.still as f32 * self.settings.tick >= WHILE
     }
 
-    /// Whether a pin, a grab or a collider is on its way, or the air is never the same.
+    /// Whether a pin, an anchor, a grab or a collider is on its way, or the air is never the same.
     fn is_stirred(&self) -> bool {
         let wind = &self.wind;
         let is_uneven = wind.model == WindModel::SineField
@@ -35,6 +36,7 @@ impl World {
             || wind.turbulence > 0.0;
         (is_uneven && wind.velocity != Vec3::ZERO)
             || self.pins.iter().any(|pin| pin.from != pin.target)
+            || self.leashes.iter().any(Leash::is_moving)
             || self.grabs.iter().any(|held| {
                 self.pins.find(held.particle).is_none()
                     && self.particles.x.at(held.particle as usize) != held.target

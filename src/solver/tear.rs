@@ -10,6 +10,7 @@ use crate::math::mix::unit;
 use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::state::events::{Event, EventKind};
+use crate::state::leashes::Leash;
 
 /// Seed of the weave's unevenness.
 const WEAVE_SEED: u32 = 0x6d75_736c;
@@ -344,14 +345,21 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
     let at = world.particles.push_copy_of(from as usize);
     debug_assert_eq!(at, new as usize);
     world.scratch.grow();
-    // A pin holds all that it held before.
-    if let Some(pin) = world.pins.find(from).copied() {
-        world.pins.insert(new, pin.from, pin.target);
-    }
+    world.mass_scales.push(world.mass_scales.of(from as usize));
     for vertex in [from, new] {
         weigh_fan(world, vertex, fan);
-        world.refresh_weight(vertex);
     }
+    // A pin holds all that it held before, and a soft one no harder.
+    if let Some(pin) = world.pins.find(from).copied() {
+        world.pins.insert_copy(new, pin);
+        if pin.is_soft() {
+            share_stiffness(world, [from, new], pin.stiffness);
+        }
+    }
+    if let Some(leash) = world.leashes.find(from).copied() {
+        world.leashes.insert(Leash { particle: new, ..leash });
+    }
+    [from, new].into_iter().for_each(|vertex| world.refresh_weight(vertex));
     let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.at(at));
     let events = &mut world.events;
     let mut tell = |vertex, source| {
@@ -365,6 +373,19 @@ pub(super) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
     }
 }
 
+/// Two vertices share the stiffness of a pin as they share the mass that it held.
+fn share_stiffness(world: &mut World, vertices: [u32; 2], stiffness: f32) {
+    let mass = vertices.map(|vertex| world.particles.mass[vertex as usize]);
+    if mass[0] + mass[1] <= 0.0 {
+        return;
+    }
+    for (vertex, own) in vertices.into_iter().zip(mass) {
+        if let Some(pin) = world.pins.find_mut(vertex) {
+            pin.stiffness = stiffness * (own / (mass[0] + mass[1]));
+        }
+    }
+}
+
 /// The mass of a vertex from the triangles it has left, added up in their order.
 fn weigh_fan(world: &mut World, vertex: u32, fan: &mut Fan) {
     world.mesh.fan(world.mesh.corner_of[vertex as usize], fan);
@@ -372,7 +393,8 @@ fn weigh_fan(world: &mut World, vertex: u32, fan: &mut Fan) {
     let density = world.material.density;
     let share =
         |corner: &u32| world.corner_area[triangle_of(*corner)][*corner as usize % 3] * density;
-    world.particles.mass[vertex as usize] = fan.corners.iter().map(share).sum();
+    let scale = world.mass_scales.of(vertex as usize);
+    world.particles.mass[vertex as usize] = fan.corners.iter().map(share).sum::<f32>() * scale;
 }
 
 /// Links follow the mesh, and opened edges get links on both sides.

@@ -75,7 +75,9 @@ fn stretch_of_own_weight(world: &World) -> f32 {
     }
     let sets = world.tethers.sets().iter().flat_map(|set| &set.length);
     let longest = sets.fold(0.0, |most: f32, l| if l.is_finite() { max(*l, most) } else { most });
-    let strain = material.density * world.settings.gravity.length() * longest / softest;
+    let [_, heaviest] = world.mass_scales.range();
+    let load = material.density * world.settings.gravity.length() * heaviest;
+    let strain = load * longest / softest;
     let own = LEAST_SLACK + SAFETY * strain;
     let bound = world.settings.max_stretch;
     if bound > 0.0 && bound * 0.5 < own { bound * 0.5 } else { own }
@@ -113,7 +115,7 @@ fn pins_apart(world: &World) -> f32 {
     };
     for set in world.tethers.sets() {
         if let Some(pin) = set.only {
-            let others = world.pins.iter().map(|other| other.particle).filter(|p| *p != pin);
+            let others = world.pins.hard().filter(|other| *other != pin);
             let joined = others.filter(|other| set.length[*other as usize].is_finite());
             joined.for_each(|other| compare(pin, other, set.length[other as usize]));
             continue;

@@ -4,7 +4,7 @@
 //! free particle slow down by exactly exp(-damping h).
 
 use super::contacts::touch::settle;
-use super::{PARTICLES, World};
+use super::{PARTICLES, World, leash};
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
 use crate::state::settings::Scheme;
@@ -27,6 +27,7 @@ pub(crate) fn derive(world: &mut World) {
         }
     });
     settle(world, keep);
+    leash::settle(world, keep);
 }
 
 leveled! {

@@ -1,6 +1,6 @@
 //! What a host says of a collider.
 
-use super::pose::check_pose;
+use super::pose::{OF_COLLIDER, check_pose};
 use crate::error::{Error, Result, check, check_index};
 use crate::geom::hull;
 use crate::geom::relief::Relief;
@@ -140,7 +140,7 @@ fn is_size(v: f32) -> bool {
 impl ColliderDesc {
     /// Refuses a collider that cannot be.
     pub(crate) fn check(&self) -> Result<()> {
-        check_pose(self.position, self.rotation)?;
+        check_pose(self.position, self.rotation, OF_COLLIDER)?;
         self.check_shape()?;
         let size = "be at least 0 and finite, or -1";
         let not_negative = |v: f32| v == -1.0 || (v.is_finite() && v >= 0.0);

@@ -1,7 +1,7 @@
 //! Colliders: what a cloth falls on.
 
 use super::collider_desc::ColliderDesc;
-use super::pose::{Pose, check_pose};
+use super::pose::{OF_COLLIDER, Pose, check_pose};
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
 use crate::geom::shape::Form;
@@ -64,8 +64,8 @@ impl Body {
         self.desc.check()?;
         check_finite(self.impulse.linear, "collider.impulse")?;
         check_finite(self.impulse.angular, "collider.impulse")?;
-        check_pose(self.last.position, self.last.rotation)?;
-        check_pose(self.next.position, self.next.rotation)?;
+        check_pose(self.last.position, self.last.rotation, OF_COLLIDER)?;
+        check_pose(self.next.position, self.next.rotation, OF_COLLIDER)?;
         self.form = Some(Arc::new(self.desc.form()?));
         Ok(())
     }
@@ -90,8 +90,15 @@ impl Body {
 
     /// Sends the collider on its way; it arrives at the end of the next tick.
     pub fn move_to(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
-        check_pose(position, rotation)?;
+        check_pose(position, rotation, OF_COLLIDER)?;
         self.next = Pose::new(position, rotation);
+        Ok(())
+    }
+
+    /// Puts the collider somewhere at once.
+    pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
+        self.move_to(position, rotation)?;
+        self.arrive();
         Ok(())
     }
 

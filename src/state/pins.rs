@@ -11,6 +11,35 @@ pub(crate) struct Pin {
     pub from: Vec3,
     /// Where it is held at the end of the next tick [m].
     pub target: Vec3,
+    /// How hard it pulls towards its target [N/m]; 0 if it holds the particle exactly there.
+    pub stiffness: f32,
+    /// The attachment that carries it, 0 if none does, …
+    pub carrier: u32,
+    /// … and where its target is as that sees it [m].
+    pub local: Vec3,
+}
+
+impl Pin {
+    /// A pin that holds a particle exactly, on its way between two places.
+    fn new(particle: u32, from: Vec3, target: Vec3) -> Self {
+        Self { particle, from, target, stiffness: 0.0, carrier: 0, local: Vec3::ZERO }
+    }
+
+    /// Whether it gives way to the cloth.
+    pub fn is_soft(&self) -> bool {
+        self.stiffness > 0.0
+    }
+
+    /// The inverse of a mass and of what a soft pin adds to it over a step [1/kg], see `solver::hold`.
+    pub fn weigh(&self, mass: f32, step: f32) -> f32 {
+        1.0 / (mass + self.stiffness * step * step)
+    }
+
+    /// Whether its numbers are such as a pin can have; for bytes from outside.
+    pub fn is_sound(&self) -> bool {
+        let places = [self.from, self.target, self.local];
+        places.iter().all(|v| v.is_finite()) && self.stiffness.is_finite() && self.stiffness >= 0.0
+    }
 }
 
 /// All pins, sorted by particle, so that order comes from the mesh.
@@ -29,29 +58,65 @@ impl Pins {
         self.list.iter()
     }
 
-    pub fn find(&self, particle: u32) -> Option<&Pin> {
-        let at = self.list.binary_search_by_key(&particle, |pin| pin.particle).ok()?;
-        Some(&self.list[at])
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Pin> {
+        self.list.iter_mut()
     }
 
-    /// Pins a particle that is at `x`, or gives an old pin a new target. True if it is a new pin.
+    /// The particles that are held exactly.
+    pub fn hard(&self) -> impl Iterator<Item = u32> + Clone {
+        self.list.iter().filter(|pin| !pin.is_soft()).map(|pin| pin.particle)
+    }
+
+    /// Whether any gives way to the cloth.
+    pub fn are_any_soft(&self) -> bool {
+        self.list.iter().any(Pin::is_soft)
+    }
+
+    fn place_of(&self, particle: u32) -> Result<usize, usize> {
+        self.list.binary_search_by_key(&particle, |pin| pin.particle)
+    }
+
+    pub fn find(&self, particle: u32) -> Option<&Pin> {
+        Some(&self.list[self.place_of(particle).ok()?])
+    }
+
+    pub fn find_mut(&mut self, particle: u32) -> Option<&mut Pin> {
+        let at = self.place_of(particle).ok()?;
+        Some(&mut self.list[at])
+    }
+
+    /// Pins a particle that is at `x`, or gives an old pin a new target, which nothing carries. True if it is
+    /// a new pin.
     pub fn insert(&mut self, particle: u32, x: Vec3, target: Vec3) -> bool {
-        match self.list.binary_search_by_key(&particle, |pin| pin.particle) {
+        match self.place_of(particle) {
             Ok(at) => {
-                self.list[at].target = target;
+                (self.list[at].target, self.list[at].carrier) = (target, 0);
                 false
             }
             Err(at) => {
-                self.list.insert(at, Pin { particle, from: x, target });
+                self.list.insert(at, Pin::new(particle, x, target));
                 true
             }
         }
     }
 
+    /// Pins a particle that was not pinned just as another one.
+    pub fn insert_copy(&mut self, particle: u32, pin: Pin) {
+        if let Err(at) = self.place_of(particle) {
+            self.list.insert(at, Pin { particle, ..pin });
+        }
+    }
+
     /// True if there was such a pin.
     pub fn remove(&mut self, particle: u32) -> bool {
-        let found = self.list.binary_search_by_key(&particle, |pin| pin.particle);
-        found.map(|at| self.list.remove(at)).is_ok()
+        self.place_of(particle).map(|at| self.list.remove(at)).is_ok()
+    }
+
+    /// Removes all that an attachment carries. True if there were any.
+    pub fn remove_carried(&mut self, carrier: u32) -> bool {
+        let before = self.list.len();
+        self.list.retain(|pin| pin.carrier != carrier);
+        self.list.len() < before
     }
 
     pub fn clear(&mut self) {

@@ -5,25 +5,28 @@ use crate::geom::frame::Frame;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a collider is.
+/// Where a collider or an attachment is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Pose {
     pub position: Vec3,
     pub rotation: Quat,
 }
 
-/// Refuses a pose that cannot be.
-pub(crate) fn check_pose(position: Vec3, rotation: Quat) -> Result<()> {
-    check_finite(position, "collider.position")?;
+/// What the numbers of a collider's pose are called.
+pub(crate) const OF_COLLIDER: [&str; 2] = ["collider.position", "collider.rotation"];
+
+/// Refuses a pose that cannot be; `names` is what its position and its rotation are called.
+pub(crate) fn check_pose(position: Vec3, rotation: Quat, names: [&'static str; 2]) -> Result<()> {
+    check_finite(position, names[0])?;
     let length = rotation.length_squared();
-    check(
-        rotation.is_finite() && (length - 1.0).abs() < 1.0e-2,
-        "collider.rotation",
-        "be a unit quaternion",
-    )
+    let is_unit = rotation.is_finite() && (length - 1.0).abs() < 1.0e-2;
+    check(is_unit, names[1], "be a unit quaternion")
 }
 
 impl Pose {
+    /// At the origin, turned by nothing.
+    pub const ORIGIN: Self = Self { position: Vec3::ZERO, rotation: Quat::IDENTITY };
+
     /// With the rotation made a unit quaternion, which it is but for a hundredth.
     pub fn new(position: Vec3, rotation: Quat) -> Self {
         let [x, y, z, w] = rotation.to_array();
@@ -31,7 +34,7 @@ impl Pose {
         Self { position, rotation: Quat::from_xyzw(x * scale, y * scale, z * scale, w * scale) }
     }
 
-    /// `v` turned as the collider is. Written out, so that every target computes the same.
+    /// `v` turned as it is. Written out, so that every target computes the same.
     fn turn(&self, v: Vec3) -> Vec3 {
         let [x, y, z, w] = self.rotation.to_array();
         let axis = Vec3::new(x, y, z);
@@ -51,8 +54,36 @@ impl Pose {
         )
     }
 
+    /// The pose after some of `count` even moments on the way to `next`: itself at first, that at last.
+    pub fn after(&self, next: &Self, moment: u32, count: u32) -> Self {
+        match moment {
+            0 => *self,
+            end if end == count => *next,
+            _ => self.toward(next, moment as f32 / count as f32),
+        }
+    }
+
+    /// Where it gets to with a body that jumps from one pose to another.
+    pub fn jump(&self, from: &Self, to: &Self) -> Self {
+        let position = to.frame().outward(from.frame().inward(self.position));
+        let [x, y, z, w] = from.rotation.to_array();
+        let turn = product(to.rotation, Quat::from_xyzw(-x, -y, -z, w));
+        Self::new(position, product(turn, self.rotation))
+    }
+
     /// Ready to be used on many points.
     pub fn frame(&self) -> Frame {
         Frame { origin: self.position, axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.turn(v)) }
     }
+}
+
+/// First turned by `b`, then by `a`. Written out, so that every target computes the same.
+fn product(a: Quat, b: Quat) -> Quat {
+    let ([ax, ay, az, aw], [bx, by, bz, bw]) = (a.to_array(), b.to_array());
+    Quat::from_xyzw(
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 }

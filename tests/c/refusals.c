@@ -323,6 +323,48 @@ static void settings_material_and_wind_are_refused_by_field(void) {
   CHECK(kept.substeps == 4 && kept.tearing == 0 && kept.gravity.x == 0);
 }
 
+/* What clothes on a body need: lists by name, poses by rule. */
+static void worn_is_refused_by_argument(void) {
+  uint32_t last = 399, beyond = 400, some[401] = {0};
+  const MuslinVec3 nan = with_nan();
+  const MuslinQuat as_it_is = {0, 0, 0, 1}, too_long = {0, 0, 0, 2};
+  const float one = 1, below = -1, none = 0;
+  const MuslinAttachment made_up = {7};
+  const MuslinCollider no_collider = {7};
+  MuslinAttachment body = {0};
+  REFUSED(muslin_cloth_attach(cloth, &beyond, 1, zero, as_it_is, &body), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_attach(cloth, NULL, 1, zero, as_it_is, &body), BAD_VALUE, "`particles`");
+  REFUSED(muslin_cloth_attach(cloth, some, 401, zero, as_it_is, &body), BAD_VALUE, "`count`");
+  REFUSED(muslin_cloth_attach(cloth, &last, 1, nan, as_it_is, &body), BAD_VALUE, "`position`");
+  REFUSED(muslin_cloth_attach(cloth, &last, 1, zero, too_long, &body), BAD_VALUE, "`rotation`");
+  REFUSED(muslin_cloth_attach(cloth, &last, 1, zero, as_it_is, NULL), BAD_VALUE, "`out_attachment`");
+  CHECK(body.id == 0);
+  REFUSED(muslin_cloth_move_attachment(cloth, made_up, zero, as_it_is), MUSLIN_STATUS_BAD_HANDLE,
+          "`attachment`");
+  REFUSED(muslin_cloth_detach(cloth, made_up), MUSLIN_STATUS_BAD_HANDLE, "`attachment`");
+  REFUSED(muslin_cloth_set_pin_stiffness(cloth, &last, 1, 1), BAD_VALUE, "`particles` must be pinned");
+  REFUSED(muslin_cloth_set_pin_stiffness(cloth, some, 1, -1), BAD_VALUE, "`stiffness`");
+  REFUSED(muslin_cloth_set_pin_stiffness(cloth, &beyond, 1, 1), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_set_mass_scales(cloth, &last, &none, 1), BAD_VALUE, "`scales`");
+  REFUSED(muslin_cloth_set_mass_scales(cloth, &last, NULL, 1), BAD_VALUE, "`scales`");
+  REFUSED(muslin_cloth_set_mass_scales(cloth, &beyond, &one, 1), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_set_max_distances(cloth, &last, &below, 1), BAD_VALUE, "`distances`");
+  REFUSED(muslin_cloth_set_max_distances(cloth, &last, NULL, 1), BAD_VALUE, "`distances`");
+  REFUSED(muslin_cloth_set_max_distances(cloth, &beyond, &one, 1), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_set_backstops(cloth, &last, &below, &one, 1), BAD_VALUE, "`distances`");
+  REFUSED(muslin_cloth_set_backstops(cloth, &last, &one, &below, 1), BAD_VALUE, "`radii`");
+  REFUSED(muslin_cloth_set_backstops(cloth, &last, &one, NULL, 1), BAD_VALUE, "`radii`");
+  REFUSED(muslin_cloth_set_anchors(cloth, &beyond, &zero, NULL, 0, 1), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_set_anchors(cloth, &last, NULL, NULL, 0, 1), BAD_VALUE, "`positions`");
+  REFUSED(muslin_cloth_set_anchors(cloth, &last, &nan, NULL, 0, 1), BAD_VALUE, "`positions`");
+  REFUSED(muslin_cloth_set_anchors(cloth, &last, &zero, &zero, 0, 1), BAD_VALUE, "`normals`");
+  REFUSED(muslin_cloth_set_anchors(cloth, &last, &zero, NULL, 10, 1), BAD_VALUE, "`stride`");
+  REFUSED(muslin_cloth_set_frame(cloth, nan, as_it_is), BAD_VALUE, "`position`");
+  REFUSED(muslin_cloth_teleport(cloth, zero, too_long), BAD_VALUE, "`rotation`");
+  REFUSED(muslin_cloth_teleport_collider(cloth, no_collider, zero, as_it_is),
+          MUSLIN_STATUS_BAD_HANDLE, "`collider`");
+}
+
 static void edits_are_refused_by_argument(void) {
   uint32_t ticks = 9, some[401] = {0};
   uint32_t last = 399, beyond = 400;
@@ -337,6 +379,7 @@ static void edits_are_refused_by_argument(void) {
   REFUSED(muslin_cloth_set_pin_targets(cloth, &beyond, &zero, 0, 1), BAD_INDEX, "`particles`");
   REFUSED(muslin_cloth_set_pin_targets(cloth, &last, &zero, 10, 1), BAD_VALUE, "`stride`");
   REFUSED(muslin_cloth_set_pin_targets(cloth, some, &zero, 0, 401), BAD_VALUE, "`count`");
+  worn_is_refused_by_argument();
   REFUSED(muslin_cloth_set_position(cloth, 400, zero), BAD_INDEX, "`particle`");
   REFUSED(muslin_cloth_set_position(cloth, 0, nan), BAD_VALUE, "`position`");
   REFUSED(muslin_cloth_set_velocity(cloth, 400, zero), BAD_INDEX, "`particle`");

@@ -1,6 +1,7 @@
 // muslin.hpp: every call, a cloth that goes by itself, refusals as results and as exceptions.
 #include <muslin.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <type_traits>
@@ -20,6 +21,36 @@ void check(bool holds, const char *claim) {
 static_assert(!std::is_copy_constructible<muslin::Cloth>::value, "a cloth is not copied");
 static_assert(std::is_nothrow_move_constructible<muslin::Cloth>::value, "it is moved");
 static_assert(sizeof(muslin::Cloth) == sizeof(MuslinCloth), "it is its handle");
+
+// All that clothes on a body need: carried exactly, led by anchors, taken along by a jump.
+void worn(muslin::Cloth &cloth) {
+  const MuslinQuat as_it_is{0, 0, 0, 1}, half_round{0, 1, 0, 0};
+  const std::uint32_t edge[] = {0, 1}, last[] = {379};
+  const auto before = cloth.view().value().positions[0];
+  const MuslinAttachment body = cloth.attach(edge, 2, {0, 0, 0}, as_it_is).value();
+  cloth.move_attachment(body, {0.01f, 0, 0}, as_it_is).value();
+  cloth.set_pin_stiffness(&edge[1], 1, 50.0f).value();
+  const float scale = 3, distance = 0.2f, behind = 0, radius = 1;
+  const MuslinVec3 anchor{1, -1, 0}, normal{0, 0, 2};
+  cloth.set_mass_scales(last, &scale, 1).value();
+  cloth.set_max_distances(last, &distance, 1).value();
+  cloth.set_backstops(last, &behind, &radius, 1).value();
+  cloth.set_anchors(last, &anchor, &normal, 0, 1).value();
+  cloth.step().value();
+  const float *x = cloth.view().value().positions;
+  CHECK(std::fabs(x[0] - before - 0.01f) < 1e-6f);
+  const float to[] = {x[3 * 379] - 1, x[3 * 379 + 1] + 1, x[3 * 379 + 2]};
+  CHECK(std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) < 0.2001f);
+  cloth.clear_leashes().value();
+  const float was = x[3 * 399];
+  cloth.set_frame({0, 0, 0}, as_it_is).value();
+  cloth.teleport({10, 0, 0}, half_round).value();
+  CHECK(std::fabs(cloth.view().value().positions[3 * 399] - (10 - was)) < 1e-5f);
+  cloth.teleport({0, 0, 0}, as_it_is).value();
+  cloth.detach(body).value();
+  CHECK(cloth.detach(body).status() == MUSLIN_STATUS_BAD_HANDLE);
+  for (const std::uint32_t particle : edge) cloth.pin(particle).value();
+}
 
 void a_cloth_does_all_that_c_does() {
   MuslinGridDesc desc = muslin::grid_desc();
@@ -42,6 +73,7 @@ void a_cloth_does_all_that_c_does() {
   cloth.step(20).value();
   cloth.move_collider(collider, {0, -8, 0}, {0, 0, 0, 1}).value();
   CHECK(cloth.collider_impulse(collider).value().linear.y == 0.0f);
+  cloth.teleport_collider(collider, {0, -9, 0}, {0, 0, 0, 1}).value();
   cloth.remove_collider(collider).value();
   CHECK(cloth.collider_impulse(collider).status() == MUSLIN_STATUS_BAD_HANDLE);
 
@@ -62,6 +94,7 @@ void a_cloth_does_all_that_c_does() {
   const float targets[] = {0, -1, 0.1f};
   cloth.set_pin_targets(pins, targets, 0, 1).value();
   cloth.unpin(399).value();
+  worn(cloth);
   cloth.set_position(200, {0, -0.5f, 0.1f}).value();
   cloth.set_velocity(200, {0, 0, 0}).value();
 

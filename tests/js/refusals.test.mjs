@@ -157,6 +157,40 @@ refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setP
 refuses("velocity", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setVelocity(1, value));
 refuses("target", NOT_FINITE, (value, { cloth }) => cloth.pin(1, value));
 const targets = new Float32Array(6);
+const NOT_ROTATIONS = [1, "x", null, [0, 0, 0], [0, 0, 0, 2], [0, 0, 0, NaN], [0, 0, 0, 0]];
+const NOT_PARTICLE_LISTS = [...NOT_LISTS, undefined, [1, -1], [1, 0.5], [1, 1000]];
+const PAIR = [0, 1];
+refuses("particles", NOT_PARTICLE_LISTS, (value, { cloth }) => cloth.attach(value, [0, 0, 0]));
+refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.attach(PAIR, value));
+refuses("rotation", NOT_ROTATIONS, (value, { cloth }) => cloth.attach(PAIR, [0, 0, 0], value));
+refuses("particles", [...NOT_PARTICLE_LISTS, [9]], (value, { cloth }) => cloth.setPinStiffness(value, 5));
+refuses("stiffness", [...NOT_NUMBERS, undefined, -1, Infinity], (value, { cloth }) =>
+  cloth.setPinStiffness(PAIR, value),
+);
+refuses("particles", NOT_PARTICLE_LISTS, (value, { cloth }) => cloth.setMassScales(value, PAIR));
+refuses("scales", [...NOT_LISTS, undefined, [1], [1, 0], [1, NaN]], (value, { cloth }) =>
+  cloth.setMassScales(PAIR, value),
+);
+refuses("distances", [...NOT_LISTS, undefined, [1], [1, -1], [1, NaN]], (value, { cloth }) =>
+  cloth.setMaxDistances(PAIR, value),
+);
+refuses("distances", [[1], [1, -1], [1, Infinity]], (value, { cloth }) =>
+  cloth.setBackstops(PAIR, value, [1, 1]),
+);
+refuses("radii", [undefined, [1], [1, -1], [1, Infinity]], (value, { cloth }) =>
+  cloth.setBackstops(PAIR, [1, 1], value),
+);
+refuses("positions", [undefined, [0, 0, 0], targets.map(() => NaN)], (value, { cloth }) =>
+  cloth.setAnchors(PAIR, value),
+);
+refuses("normals", [[0, 0, 1], targets, targets.map(() => NaN)], (value, { cloth }) =>
+  cloth.setAnchors(PAIR, targets, value),
+);
+refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setFrame(value));
+refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.teleport(value));
+refuses("rotation", NOT_ROTATIONS, (value, { cloth }) => cloth.teleport([0, 0, 0], value));
+refuses("position", [...NOT_VECTORS, undefined], (value, { collider }) => collider.teleport(value));
+refuses("collider.position", [[0, Infinity, 0]], (value, { collider }) => collider.teleport(value));
 refuses("particles", [...NOT_LISTS, undefined, [1, -1], [1, 0.5], [1, 1000]], (value, { cloth }) =>
   cloth.setPinTargets(value, targets),
 );

@@ -4,6 +4,7 @@ import init, {
   Cloth,
   initSync,
   version,
+  type Attachment,
   type Changes,
   type ClothEvent,
   type Collider,
@@ -116,6 +117,16 @@ cloth.pin(0, [0, 1, 0]);
 cloth.unpin(0);
 cloth.unpinAll();
 cloth.setPinTargets([0, 1], new Float32Array(6));
+const body: Attachment = cloth.attach([0, 1], [0, 1, 0], [0, 0, 0, 1]);
+body.moveTo([0, 1, 0]);
+body.detach();
+cloth.setPinStiffness([0, 1], 100);
+cloth.setMaxDistances(new Uint32Array([4]), [0.1]);
+cloth.setBackstops([4], [0], new Float32Array([1]));
+cloth.setAnchors([4], [0, 0, 0], [0, 0, 1]);
+cloth.setMassScales([4], [2]);
+cloth.setFrame([0, 0, 0]);
+cloth.teleport([1, 0, 0], [0, 0, 0, 1]);
 cloth.setPosition(5, [0, 0, 0]);
 cloth.setVelocity(5, new Float64Array(3));
 const velocity: Vec3 = cloth.velocity(5);

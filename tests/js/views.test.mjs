@@ -277,6 +277,37 @@ test("rays hit what they point at and grabs hold it", () => {
   grab.release();
 });
 
+test("what is attached is carried, and what is led stays near its anchor", () => {
+  const cloth = Cloth.grid({ columns: 4, rows: 4, spacing: 0.1, pinMode: "none" });
+  const body = cloth.attach([0, 1, 2, 3], [0, 0, 0]);
+  assert.deepEqual([...body.particles], [0, 1, 2, 3]);
+  cloth.setPinStiffness([1, 2], 20);
+  const led = [12, 13, 14, 15];
+  cloth.setMaxDistances(led, [0.05, 0.05, 0.05, Infinity]);
+  cloth.setBackstops(led, [0, 0, 0, 0], [1, 1, 1, 1]);
+  const mass = cloth.mass(15);
+  cloth.setMassScales([15], [4]);
+  assert.ok(Math.abs(cloth.mass(15) / mass - 4) < 1e-6);
+  const anchors = led.flatMap((i) => cloth.position(i));
+  for (let tick = 1; tick <= 60; tick++) {
+    body.moveTo([0.002 * tick, 0, 0]);
+    cloth.setAnchors(led, anchors.map((x, at) => x + (at % 3 === 0 ? 0.002 * tick : 0)), led.flatMap(() => [0, 0, 1]));
+    cloth.step();
+  }
+  assert.ok(Math.abs(cloth.position(0)[0] - 0.12) < 1e-6);
+  const off = cloth.position(13).map((x, axis) => x - anchors[3 + axis] - (axis === 0 ? 0.12 : 0));
+  assert.ok(Math.hypot(...off) < 0.0501);
+  const [x, y, z] = cloth.position(5);
+  cloth.setFrame([0, 0, 0]);
+  cloth.teleport([5, 0, 0], [0, 1, 0, 0]);
+  const there = cloth.position(5);
+  [5 - x, y, -z].forEach((each, axis) => assert.ok(Math.abs(there[axis] - each) < 1e-5));
+  cloth.clearLeashes();
+  body.detach();
+  assert.equal(cloth.pinned.length, 0);
+  assert.throws(() => body.moveTo([0, 0, 0]), /`attachment`/);
+});
+
 test("pins, places and velocities are what was asked for", () => {
   const cloth = Cloth.grid({ columns: 4, rows: 4, pinMode: "none" });
   cloth.setPinTargets([0, 3], [0, 1, 0, 0.5, 1, 0]);

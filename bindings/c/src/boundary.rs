@@ -100,6 +100,16 @@ pub unsafe fn list(name: &str, at: *const u32, count: u32) -> Result<Vec<u32>> {
     Ok((0..count as usize).map(|i| unsafe { at.add(i).read_unaligned() }).collect())
 }
 
+/// `count` numbers, copied. None may be at NULL.
+///
+/// # Safety
+/// `at` is NULL or points to `count` numbers.
+pub unsafe fn numbers(name: &str, at: *const f32, count: u32) -> Result<Vec<f32>> {
+    // SAFETY: the caller's promise above; any bits are a number of either kind.
+    let bits = unsafe { list(name, at.cast::<u32>(), count)? };
+    Ok(bits.into_iter().map(f32::from_bits).collect())
+}
+
 /// `count` pairs of numbers, copied; none at NULL.
 ///
 /// # Safety

@@ -17,7 +17,7 @@ pub enum MuslinStatus {
     BadValue = 1,
     /// An index points past the last particle or vertex.
     BadIndex = 2,
-    /// A handle of a cloth, grab or collider that is not there (any more).
+    /// A handle of a cloth, grab, attachment or collider that is not there (any more).
     BadHandle = 3,
     /// The triangles cannot be cloth.
     BadMesh = 4,

@@ -8,7 +8,7 @@ const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
 /// The files with items of the header, in its order: types that others hold first, then functions by
 /// theme.
-const FILES: [&str; 27] = [
+const FILES: [&str; 30] = [
     "status.rs",
     "log.rs",
     "types/value.rs",
@@ -29,9 +29,12 @@ const FILES: [&str; 27] = [
     "calls/create.rs",
     "calls/time.rs",
     "calls/pins.rs",
+    "calls/attachments.rs",
+    "calls/leashes.rs",
     "calls/point.rs",
     "calls/tear.rs",
     "calls/colliders.rs",
+    "calls/teleport.rs",
     "calls/read.rs",
     "calls/write.rs",
     "calls/save.rs",

@@ -1,8 +1,8 @@
 /// <reference lib="esnext.disposable" />
 
-import type { Vec3, Vec3Like } from "./check.js";
+import type { QuatLike, Vec3, Vec3Like } from "./check.js";
 import type { ColliderDesc, GridDesc, Material, MaterialLike, MeshDesc, Settings, Wind } from "./fields.js";
-import type { Collider, Grab } from "./handles.js";
+import type { Attachment, Collider, Grab } from "./handles.js";
 import type { Changes, ClothEvent, Hit, MeshReport, Stats } from "./reports.js";
 import type { Stream, WriteDesc } from "./write.js";
 
@@ -47,7 +47,10 @@ export class Cloth {
   advance(seconds: number): number;
   /** Runs exactly `ticks` ticks; 1. */
   step(ticks?: number): void;
-  /** Back to the start: rest shape, untorn, at rest, pinned as it was made. No grab outlives it. */
+  /**
+   * Back to the start: rest shape, untorn, at rest, pinned as it was made. No grab, attachment, leash or mass
+   * scale outlives it.
+   */
   reset(): void;
   /** Time since it was made or reset [s]. */
   readonly time: number;
@@ -158,6 +161,83 @@ export class Cloth {
     particles: Uint32Array | Uint16Array | readonly number[],
     targets: Float32Array | Float64Array | readonly number[],
   ): void;
+
+  /**
+   * Says how hard pins pull towards their targets [N/m]: as springs, or exactly if `stiffness` is 0, as they do
+   * at first. A soft pin holds a load of 1 N 1/`stiffness` from its target; the cloth counts as free there, for
+   * tears and for `maxStretch`, and is not tethered to it. 1e3 feels firm, 10 lets a sheet of cotton sag by a
+   * few centimetres. A tear through a soft pin shares its stiffness out by mass.
+   *
+   * @throws if one is not pinned, or unless `stiffness` is at least 0 and finite
+   */
+  setPinStiffness(particles: Uint32Array | Uint16Array | readonly number[], stiffness: number): void;
+  /**
+   * Makes particles heavier or lighter than their material, by a factor each, from 0.001 to 1000: 1, as at
+   * first, is what its density and the area about them give. A hem of 5 hangs straight; a coin sewn in may be
+   * 100. Factors stay when the density changes. Neighbours may well be a hundredfold apart; where it is
+   * thousands, what hangs by the light ones stretches them until there are more substeps.
+   */
+  setMassScales(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    scales: Float32Array | Float64Array | readonly number[],
+  ): void;
+
+  /**
+   * Attaches particles to a transform: a bone, a pole, the body of a car. They are pinned where they are now, and
+   * from then on `moveTo` of what this gives carries them. Those that are pinned already, or attached to
+   * something else, keep their stiffness. One that gets a target of its own later, or is unpinned, leaves the
+   * attachment. Vertices that a tear or a cut makes of attached ones are attached too.
+   *
+   * @throws if there are 64 attachments already
+   */
+  attach(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    position: Vec3Like,
+    rotation?: QuatLike,
+  ): Attachment;
+  /**
+   * Says how far particles may be from their anchors [m]: after every tick none is farther, whatever pulls at it.
+   * Infinity, as at first, is as far as they like; 0 holds them there. The anchor of a particle is where
+   * `setAnchors` has it, and until that was called where the particle is now. A pinned or grabbed particle goes by
+   * that alone. What keeps a cloth apart so may stretch it past `maxStretch`, which is told as if pins did.
+   */
+  setMaxDistances(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    distances: Float32Array | Float64Array | readonly number[],
+  ): void;
+  /**
+   * Gives particles backstops: spheres behind their anchors that they stay out of, so that a garment does not sink
+   * into the body that wears it. Each has a radius [m], 0 for none, and begins a distance [m] behind its anchor,
+   * against the normal that `setAnchors` gave: without one there is no backstop.
+   */
+  setBackstops(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    distances: Float32Array | Float64Array | readonly number[],
+    radii: Float32Array | Float64Array | readonly number[],
+  ): void;
+  /**
+   * Says where animation has particles, x y z x y z … [m], and which way is out of the body there, for
+   * `setMaxDistances` and `setBackstops`. Call it each frame: anchors get there over the next tick, and those of
+   * particles that had none are there at once. Normals need not be of length 1; without any those of before stay.
+   */
+  setAnchors(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    positions: Float32Array | Float64Array | readonly number[],
+    normals?: Float32Array | Float64Array | readonly number[],
+  ): void;
+  /** Takes away all anchors, maximum distances and backstops. */
+  clearLeashes(): void;
+  /**
+   * Says where the body is that wears the cloth, and how it is turned: `teleport` goes from there. At first, and
+   * after a reset, that is the origin. It moves nothing.
+   */
+  setFrame(position: Vec3Like, rotation?: QuatLike): void;
+  /**
+   * Takes the cloth along as the body that wears it jumps from where `setFrame` or the last `teleport` had it: at
+   * once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs and anchors
+   * go along; colliders do not, see their own `teleport`. In a frame it comes before `moveTo` and `setAnchors`.
+   */
+  teleport(position: Vec3Like, rotation?: QuatLike): void;
 
   /** The first triangle along a ray, within `maxDistance` [m], Infinity; hit from either side. */
   raycast(origin: Vec3Like, direction: Vec3Like, maxDistance?: number): Hit | undefined;

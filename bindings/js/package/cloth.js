@@ -4,7 +4,7 @@ import * as raw from "./raw.js";
 import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from "./check.js";
 import { ready } from "./memory.js";
 import * as fields from "./fields.js";
-import { Collider, Grab, OURS, onlyOurs } from "./handles.js";
+import { Attachment, Collider, Grab, OURS, onlyOurs } from "./handles.js";
 import { readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
 import { writeIndices, writeVertices } from "./write.js";
 
@@ -268,6 +268,52 @@ export class Cloth {
     live.set_pin_targets(wholes(particles, "particles"), floats(targets, "targets", 3));
   }
 
+  setPinStiffness(particles, stiffness) {
+    const live = this.#live;
+    live.set_pin_stiffness(wholes(particles, "particles"), number(stiffness, "stiffness"));
+  }
+
+  setMassScales(particles, scales) {
+    this.#live.set_mass_scales(wholes(particles, "particles"), floats(scales, "scales", 1));
+  }
+
+  // On a body
+
+  attach(particles, position, rotation = [0, 0, 0, 1]) {
+    const live = this.#live;
+    const handle = live.attach(wholes(particles, "particles"), pose(position, rotation));
+    return new Attachment(OURS, () => this.#live, handle, Array.from(rotation));
+  }
+
+  setMaxDistances(particles, distances) {
+    const live = this.#live;
+    live.set_max_distances(wholes(particles, "particles"), floats(distances, "distances", 1));
+  }
+
+  setBackstops(particles, distances, radii) {
+    const live = this.#live;
+    const lengths = [floats(distances, "distances", 1), floats(radii, "radii", 1)];
+    live.set_backstops(wholes(particles, "particles"), ...lengths);
+  }
+
+  setAnchors(particles, positions, normals = []) {
+    const live = this.#live;
+    const vectors = [floats(positions, "positions", 3), floats(normals, "normals", 3)];
+    live.set_anchors(wholes(particles, "particles"), ...vectors);
+  }
+
+  clearLeashes() {
+    this.#live.clear_leashes();
+  }
+
+  setFrame(position, rotation = [0, 0, 0, 1]) {
+    this.#live.set_frame(pose(position, rotation));
+  }
+
+  teleport(position, rotation = [0, 0, 0, 1]) {
+    this.#live.teleport(pose(position, rotation));
+  }
+
   // Pointing, grabbing, cutting and tearing
 
   raycast(origin, direction, maxDistance = Infinity) {
@@ -337,6 +383,11 @@ export class Cloth {
   save() {
     return this.#live.save();
   }
+}
+
+function pose(position, rotation) {
+  const turned = vector(rotation, "rotation", "x, y, z, w");
+  return Float64Array.of(...vector(position, "position"), ...turned);
 }
 
 function ray(origin, direction) {

@@ -1,8 +1,8 @@
-// Grabs and colliders: handles to what a cloth holds. `live` gives the cloth, or throws if it was freed.
+// Grabs, attachments and colliders: handles to what a cloth holds. `live` gives the cloth, or throws if it was freed.
 
 import { vector } from "./check.js";
 
-/** Cloths, grabs and colliders are made by this package only: from what the core gave. */
+/** Cloths, grabs, attachments and colliders are made by this package only: from what the core gave. */
 export const OURS = Symbol("made by muslin");
 
 /** Refuses a maker from outside. */
@@ -31,6 +31,34 @@ export class Grab {
   }
 }
 
+export class Attachment {
+  #live;
+  #handle;
+  #rotation;
+
+  constructor(key, live, handle, rotation) {
+    onlyOurs(key, "an attachment is made by cloth.attach()");
+    this.#live = live;
+    this.#handle = handle;
+    this.#rotation = rotation;
+  }
+
+  get particles() {
+    return this.#live().attached(this.#handle);
+  }
+
+  moveTo(position, rotation = this.#rotation) {
+    const live = this.#live();
+    const turned = vector(rotation, "rotation", "x, y, z, w");
+    live.move_attachment(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
+    this.#rotation = turned;
+  }
+
+  detach() {
+    this.#live().detach(this.#handle);
+  }
+}
+
 export class Collider {
   #live;
   #handle;
@@ -47,6 +75,13 @@ export class Collider {
     const live = this.#live();
     const turned = vector(rotation, "rotation", "x, y, z, w");
     live.move_collider(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
+    this.#rotation = turned;
+  }
+
+  teleport(position, rotation = this.#rotation) {
+    const live = this.#live();
+    const turned = vector(rotation, "rotation", "x, y, z, w");
+    live.teleport_collider(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
     this.#rotation = turned;
   }
 

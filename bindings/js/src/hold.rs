@@ -116,6 +116,14 @@ impl RawCloth {
         self.cloth.move_collider(collider, position, rotation).map_err(refusal)
     }
 
+    /// Puts a collider somewhere at once; `pose` is its position and rotation.
+    pub fn teleport_collider(&mut self, collider: u32, pose: &[f64]) -> Result<()> {
+        let mut pose = Reader::new(pose);
+        let (position, rotation): (Vec3, Quat) = (pose.vector(), pose.rotation());
+        let collider = Collider::from_bits(collider);
+        self.cloth.teleport_collider(collider, position, rotation).map_err(refusal)
+    }
+
     /// Removes a collider.
     pub fn remove_collider(&mut self, collider: u32) -> Result<()> {
         self.cloth.remove_collider(Collider::from_bits(collider)).map_err(refusal)

@@ -9,6 +9,7 @@ mod numbers;
 mod read;
 mod refusal;
 mod tune;
+mod wear;
 mod write;
 
 use muslin::Cloth;

@@ -212,11 +212,7 @@ fn frames(body: &Body, number: u32, substeps: u32) -> [Frame; 2] {
     if body.last == body.next {
         return [body.next.frame(); 2];
     }
-    [number, number + 1].map(|moment| match moment {
-        0 => body.last.frame(),
-        end if end == substeps => body.next.frame(),
-        _ => body.last.toward(&body.next, moment as f32 / substeps as f32).frame(),
-    })
+    [number, number + 1].map(|moment| body.last.after(&body.next, moment, substeps).frame())
 }
 
 /// How a collider and a material feel to each other.

@@ -1,14 +1,15 @@
-//! Particles are pinned, put and pushed.
+//! Particles are pinned, put, pushed and weighed.
 
 use crate::boundary;
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal};
+use crate::status::{MuslinStatus, Refusal, Result};
 use crate::types::value::{MuslinCloth, MuslinVec3};
 use core::ffi::c_void;
-use muslin_core::Error;
+use muslin_core::{Cloth, Error};
 
 /// Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
-/// next tick; a particle that is pinned already gets a new target.
+/// next tick; a particle that is pinned already gets a new target, which nothing carries, and keeps its
+/// stiffness.
 ///
 /// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
 /// is not finite
@@ -55,9 +56,7 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
     count: u32,
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
-        if count as usize > cloth.positions().len() {
-            return Err(Refusal::bad_value("count", "be at most the number of particles"));
-        }
+        check_count(cloth, count)?;
         // SAFETY: the caller's promise above.
         let (particles, targets) = unsafe {
             (
@@ -69,6 +68,57 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
             Error::BadValue { must, .. } => Refusal::bad_value("positions", must),
             error => error.into(),
         })
+    })
+}
+
+/// Says how hard `count` pins pull towards their targets [N/m]: as springs, or exactly if `stiffness` is 0,
+/// as they do at first. A soft pin holds a load of 1 N 1/`stiffness` from its target; the cloth counts as free
+/// there, for tears and for max_stretch, and is not tethered to it. 1e3 N/m feels firm, 10 N/m lets a sheet of
+/// cotton sag by a few centimetres. A tear through a soft pin shares its stiffness out by mass. With 0
+/// particles the pointer may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for one that is
+/// not pinned, a stiffness that is below 0 or not finite, or more than there are particles
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_set_pin_stiffness(
+    cloth: MuslinCloth,
+    particles: *const u32,
+    count: u32,
+    stiffness: f32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        check_count(cloth, count)?;
+        // SAFETY: the caller's promise above.
+        let particles = unsafe { boundary::list("particles", particles, count)? };
+        Ok(cloth.set_pin_stiffness(&particles, stiffness)?)
+    })
+}
+
+/// Makes `count` particles heavier or lighter than their material, by a factor each: 1, as at first, is what
+/// its density and the area about them give. A hem of 5 hangs straight; a coin sewn in may be 100. Factors
+/// stay when the density changes. Neighbours may well be a hundredfold apart; where it is thousands, what
+/// hangs by the light ones stretches them until there are more substeps. With 0 particles both pointers may
+/// be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a factor that is
+/// not from 0.001 to 1000, or more than there are particles
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_set_mass_scales(
+    cloth: MuslinCloth,
+    particles: *const u32,
+    scales: *const f32,
+    count: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        check_count(cloth, count)?;
+        // SAFETY: the caller's promise above.
+        let (particles, scales) = unsafe {
+            (
+                boundary::list("particles", particles, count)?,
+                boundary::numbers("scales", scales, count)?,
+            )
+        };
+        Ok(cloth.set_mass_scales(&particles, &scales)?)
     })
 }
 
@@ -96,4 +146,14 @@ pub extern "C" fn muslin_cloth_set_velocity(
     velocity: MuslinVec3,
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| Ok(cloth.set_velocity(particle, velocity.into())?))
+}
+
+/// Refuses a list of more particles than there are.
+pub(super) fn check_count(cloth: &Cloth, count: u32) -> Result {
+    let fits = count as usize <= cloth.positions().len();
+    if fits {
+        Ok(())
+    } else {
+        Err(Refusal::bad_value("count", "be at most the number of particles"))
+    }
 }

@@ -40,7 +40,7 @@ pub unsafe extern "C" fn muslin_cloth_save(
 }
 
 /// Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
-/// any other: it goes on in the same bits. Handles of grabs and colliders hold for it too.
+/// any other: it goes on in the same bits. Handles of grabs, attachments and colliders hold for it too.
 ///
 /// @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
 #[unsafe(no_mangle)]

@@ -54,6 +54,15 @@ pub struct MuslinCollider {
     pub id: u32,
 }
 
+/// A transform that particles of one cloth are attached to; { 0 } is none. It is of use with the cloth that
+/// gave it, and with those restored from it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MuslinAttachment {
+    /// Says which; it means nothing to you.
+    pub id: u32,
+}
+
 impl From<Vec3> for MuslinVec3 {
     fn from(v: Vec3) -> Self {
         Self { x: v.x, y: v.y, z: v.z }

@@ -14,6 +14,7 @@ mod mesh;
 mod tears;
 mod time;
 mod touch;
+mod worn;
 
 use crate::Scene;
 use muslin::glam::Vec3;
@@ -38,6 +39,8 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "crumpled-by-particles", play: crowd::crumpled_by_particles },
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },
+    Scene { name: "garment-on-a-moving-body", play: worn::garment_on_a_moving_body },
+    Scene { name: "skirt-on-leashes", play: worn::skirt_on_leashes },
     Scene { name: "first-order", play: time::first_order },
     Scene { name: "receipt", play: time::receipt },
     Scene { name: "saved-and-reset", play: time::saved_and_reset },

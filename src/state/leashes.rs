@@ -1,0 +1,267 @@
+//! Leashes: how far particles may get from where animation has them.
+//!
+//! ```text
+//!        normal
+//!          ▲   max_distance: the particle stays in the sphere about its anchor
+//!          ● anchor
+//!          ┊   backstop_distance
+//!       ╭──┴──╮
+//!       │     │  backstop: the particle stays out of the sphere behind its anchor
+//!       ╰─────╯  backstop_radius
+//! ```
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// One particle that is kept near its anchor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Leash {
+    pub particle: u32,
+    /// Where its anchor was at the end of the last tick [m], …
+    pub from: Vec3,
+    /// … and where it is at the end of the next [m].
+    pub anchor: Vec3,
+    /// Out of the body, at the end of the last tick; zero if nobody said, and then there is no backstop.
+    pub normal_from: Vec3,
+    /// The same at the end of the next.
+    pub normal: Vec3,
+    /// How far from its anchor the particle may be [m]; infinity if as far as it likes.
+    pub max_distance: f32,
+    /// How far behind the anchor the backstop begins [m].
+    pub backstop_distance: f32,
+    /// The radius of the backstop [m]; 0 if there is none.
+    pub backstop_radius: f32,
+}
+
+impl Leash {
+    /// A particle with an anchor, which may do as it likes.
+    pub fn new(particle: u32, anchor: Vec3) -> Self {
+        Self {
+            particle,
+            from: anchor,
+            anchor,
+            normal_from: Vec3::ZERO,
+            normal: Vec3::ZERO,
+            max_distance: f32::INFINITY,
+            backstop_distance: 0.0,
+            backstop_radius: 0.0,
+        }
+    }
+
+    /// The leash of a particle between two others, at a share of the way from one to the other.
+    pub fn between(particle: u32, a: &Self, b: &Self, share: f32) -> Self {
+        let point = |a: Vec3, b: Vec3| a + (b - a) * share;
+        // One that has no end makes no end: infinity takes part in no subtraction.
+        let number = |a: f32, b: f32| if a == b { a } else { a * (1.0 - share) + b * share };
+        Self {
+            particle,
+            from: point(a.from, b.from),
+            anchor: point(a.anchor, b.anchor),
+            normal_from: unit(point(a.normal_from, b.normal_from)),
+            normal: unit(point(a.normal, b.normal)),
+            max_distance: number(a.max_distance, b.max_distance),
+            backstop_distance: number(a.backstop_distance, b.backstop_distance),
+            backstop_radius: number(a.backstop_radius, b.backstop_radius),
+        }
+    }
+
+    /// Whether its anchor is on its way.
+    pub fn is_moving(&self) -> bool {
+        self.from != self.anchor || self.normal_from != self.normal
+    }
+
+    /// Whether its numbers are such as a leash can have; for bytes from outside.
+    pub fn is_sound(&self) -> bool {
+        let vectors = [self.from, self.anchor, self.normal_from, self.normal];
+        let is_length = |v: f32| v.is_finite() && v >= 0.0;
+        vectors.iter().all(|v| v.is_finite())
+            && self.max_distance >= 0.0
+            && is_length(self.backstop_distance)
+            && is_length(self.backstop_radius)
+    }
+
+    /// Where a particle at `x` may be at a `share` of the tick: there, or the nearest place that it may.
+    pub fn keep(&self, x: Vec3, share: f32) -> Vec3 {
+        let anchor =
+            if share < 1.0 { self.from + (self.anchor - self.from) * share } else { self.anchor };
+        let within = within(x, anchor, self.max_distance);
+        if self.backstop_radius == 0.0 {
+            return within;
+        }
+        let normal = if share < 1.0 {
+            unit(self.normal_from + (self.normal - self.normal_from) * share)
+        } else {
+            self.normal
+        };
+        if normal == Vec3::ZERO {
+            return within;
+        }
+        let center = anchor - normal * (self.backstop_distance + self.backstop_radius);
+        let r = within - center;
+        if r.length_squared() >= self.backstop_radius * self.backstop_radius {
+            return within;
+        }
+        self.out_of_backstop(x, center, normal, anchor)
+    }
+
+    /// Out of the backstop, and no farther from the anchor than may be: where both spheres meet if it must be.
+    fn out_of_backstop(&self, x: Vec3, center: Vec3, normal: Vec3, anchor: Vec3) -> Vec3 {
+        let (radius, most) = (self.backstop_radius, self.max_distance);
+        let r = x - center;
+        let out =
+            if r.length_squared() > 0.0 { r * (radius / r.length()) } else { normal * radius };
+        if (center + out - anchor).length_squared() <= most * most {
+            return center + out;
+        }
+        let apart = self.backstop_distance + radius;
+        // How far along the normal from the backstop's centre the spheres meet, and how far off it.
+        let along = (apart * apart + radius * radius - most * most) / (2.0 * apart);
+        let off = radius * radius - along * along;
+        let side = r - normal * r.dot(normal);
+        let side = if side.length_squared() > 0.0 { unit(side) } else { across(normal) };
+        center + normal * along + side * if off > 0.0 { off.sqrt() } else { 0.0 }
+    }
+}
+
+/// `x`, or if that is farther than `most` from a point, the nearest place that is not.
+fn within(x: Vec3, point: Vec3, most: f32) -> Vec3 {
+    let r = x - point;
+    let length2 = r.length_squared();
+    if length2 > most * most { point + r * (most / length2.sqrt()) } else { x }
+}
+
+/// The direction of a vector; nothing for nothing.
+pub(crate) fn unit(v: Vec3) -> Vec3 {
+    let length2 = v.length_squared();
+    if length2 > 0.0 { v * (1.0 / length2.sqrt()) } else { Vec3::ZERO }
+}
+
+/// Some direction across another one.
+fn across(normal: Vec3) -> Vec3 {
+    let axis = if normal.x * normal.x < 0.5 { Vec3::X } else { Vec3::Y };
+    unit(normal.cross(axis))
+}
+
+/// All leashes, sorted by particle, so that order comes from the mesh.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Leashes {
+    list: Vec<Leash>,
+}
+
+impl Leashes {
+    /// Makes room for `capacity` leashes in all, if there are any.
+    pub fn reserve(&mut self, capacity: usize) {
+        if !self.list.is_empty() {
+            self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Leash> {
+        self.list.iter()
+    }
+
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Leash> {
+        self.list.iter_mut()
+    }
+
+    fn place_of(&self, particle: u32) -> Result<usize, usize> {
+        self.list.binary_search_by_key(&particle, |leash| leash.particle)
+    }
+
+    pub fn find(&self, particle: u32) -> Option<&Leash> {
+        Some(&self.list[self.place_of(particle).ok()?])
+    }
+
+    /// The leash of a particle, which it gets now if it has none: with an anchor at `x`, and no end.
+    pub fn of(&mut self, particle: u32, x: Vec3) -> &mut Leash {
+        let at = match self.place_of(particle) {
+            Ok(at) => at,
+            Err(at) => {
+                self.list.insert(at, Leash::new(particle, x));
+                at
+            }
+        };
+        &mut self.list[at]
+    }
+
+    /// Adds the leash of a particle that has none.
+    pub fn insert(&mut self, leash: Leash) {
+        if let Err(at) = self.place_of(leash.particle) {
+            self.list.insert(at, leash);
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.list.clear();
+    }
+
+    /// Whether they are such as a cloth of `count` particles can have; for bytes from outside.
+    pub fn are_sound(&self, count: usize) -> bool {
+        let is_sound = |leash: &Leash| (leash.particle as usize) < count && leash.is_sound();
+        self.list.iter().all(is_sound) && self.list.is_sorted_by(|a, b| a.particle < b.particle)
+    }
+
+    /// The tick is over: every anchor is where it was to be.
+    pub fn arrive(&mut self) {
+        for leash in &mut self.list {
+            (leash.from, leash.normal_from) = (leash.anchor, leash.normal);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn leash(max_distance: f32, backstop_distance: f32, backstop_radius: f32) -> Leash {
+        let (normal, anchor) = (Vec3::Y, Vec3::new(0.5, 1.0, -2.0));
+        let free = Leash::new(0, anchor);
+        Leash {
+            normal,
+            normal_from: normal,
+            max_distance,
+            backstop_distance,
+            backstop_radius,
+            ..free
+        }
+    }
+
+    #[test]
+    fn wherever_a_particle_is_it_is_kept_where_it_may_be() {
+        for most in [0.0, 0.02, 0.3, 1.1, 2.5, f32::INFINITY] {
+            for (behind, radius) in [(0.0, 0.0), (0.0, 0.1), (0.0, 1.0), (0.05, 0.5), (0.3, 2.0)] {
+                let leash = leash(most, behind, radius);
+                let center = leash.anchor - Vec3::Y * (behind + radius);
+                for i in 0..1000 {
+                    let number = |k: i32| ((i * k % 101) - 50) as f32 / 25.0;
+                    let x = leash.anchor + Vec3::new(number(7), number(13), number(29));
+                    let kept = leash.keep(x, 1.0);
+                    let [far, near] = [kept.distance(leash.anchor), kept.distance(center)];
+                    assert!(far <= most + 1e-5, "{far} from the anchor, not {most}");
+                    assert!(
+                        near >= radius - 1e-5,
+                        "{near} from the backstop's centre, not {radius}"
+                    );
+                    let may = x.distance(leash.anchor) <= most && x.distance(center) >= radius;
+                    assert!(!may || kept == x, "{x} is moved to {kept}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_middle_of_a_backstop_and_the_line_through_it_lead_out_too() {
+        let leash = leash(0.2, 0.0, 0.5);
+        let center = leash.anchor - Vec3::Y * 0.5;
+        for x in [center, center - Vec3::Y * 0.1, center - Vec3::Y * 3.0, center + Vec3::Y * 0.1] {
+            let kept = leash.keep(x, 1.0);
+            assert!(
+                kept.distance(center) >= 0.5 - 1e-6 && kept.distance(leash.anchor) <= 0.2 + 1e-6
+            );
+        }
+    }
+}

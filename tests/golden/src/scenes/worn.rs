@@ -1,0 +1,102 @@
+//! Clothes on bodies: carried, led, and weighed down.
+
+use super::along;
+use crate::Trace;
+use muslin::glam::{Quat, Vec3};
+use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Preset, Result, Settings, Wind};
+
+/// Turns by exact numbers: all but unit quaternions, which a cloth makes whole.
+const TURNS: [[f32; 4]; 4] = [
+    [0.0, 0.0, 0.0, 1.0],
+    [0.0, 0.25, 0.0, 0.96875],
+    [0.125, 0.484375, 0.0, 0.8671875],
+    [0.0, 0.703125, 0.0625, 0.70703125],
+];
+
+fn turn(i: u32) -> Quat {
+    Quat::from_array(TURNS[i as usize % 4])
+}
+
+fn cape(pin_mode: PinMode, max_stretch: f32) -> GridDesc {
+    let mut desc =
+        GridDesc { columns: 12, rows: 18, spacing: 0.0625, pin_mode, ..GridDesc::default() };
+    desc.material = Material { tear_stretch: 1.5, ..Material::preset(Preset::Cotton) };
+    desc.settings = Settings { max_stretch, tearing: true, ..Settings::default() };
+    desc
+}
+
+/// A cape runs and turns with a body, by a seam of hard and soft pins, with coins in its hem; it is cut to
+/// its collar, saved, and let go.
+pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
+    let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0))?;
+    let collar: Vec<u32> = (0..12).collect();
+    let body = cloth.attach(&collar, Vec3::new(0.375, 0.0, -0.125), turn(0))?;
+    let arm = cloth.attach(&[36, 37], Vec3::ZERO, turn(1))?;
+    cloth.set_pin_stiffness(&[2, 3, 8, 9, 36], 24.0)?;
+    cloth.set_mass_scales(&[204, 207, 211, 215], &[16.0, 0.25, 8.0, 16.0])?;
+    let velocity = Vec3::new(0.5, 0.25, 3.0);
+    cloth.set_wind(Wind { velocity, gust: 0.5, turbulence: 0.5, ..Wind::default() })?;
+    let way = Vec3::new(0.125, 0.0078125, 0.03125);
+    for i in 1..=60 {
+        let to = along(Vec3::new(0.375, 0.0, -0.125), way, i);
+        cloth.move_attachment(body, to, turn(i / 8))?;
+        cloth.move_attachment(arm, along(Vec3::ZERO, way, i), turn(1 + i / 16))?;
+        trace.run(&mut cloth, 1);
+    }
+    let at = along(Vec3::new(0.375, 0.5, -8.0), way, 60);
+    trace.word(u64::from(cloth.cut(at, at - Vec3::Y * 1.5, Vec3::Z * 16.0)?));
+    cloth.attached(body)?.for_each(|particle| trace.word(u64::from(particle)));
+    let mut restored = Cloth::restore(&cloth.save())?;
+    for cloth in [&mut cloth, &mut restored] {
+        cloth.detach(arm)?;
+        cloth.move_attachment(body, along(Vec3::new(0.375, 0.0, -0.125), way, 62), turn(3))?;
+        trace.run(cloth, 20);
+    }
+    cloth.set_settings(Settings { substeps: 3, iterations: 1, ..cloth.settings().clone() })?;
+    trace.run(&mut cloth, 20);
+    cloth.set_frame(along(Vec3::ZERO, way, 62), turn(3))?;
+    cloth.teleport(Vec3::new(-4.0, 1.0, 0.5), turn(2))?;
+    trace.run(&mut cloth, 20);
+    cloth.detach(body)?;
+    trace.run(&mut cloth, 20);
+    trace.look(&mut cloth);
+    assert_eq!(trace.count_of(EventKind::Recovered), 0, "the cape ran away from its body");
+    Ok(())
+}
+
+/// A skirt on leashes about an animated body, with backstops and the stretch bound, that a grab pulls at.
+pub fn skirt_on_leashes(trace: &mut Trace) -> Result<()> {
+    let mut cloth = Cloth::grid(&cape(PinMode::TopEdge, 0.0625))?;
+    let led: Vec<u32> = (12..216).collect();
+    let rest: Vec<Vec3> =
+        led.iter().map(|i| Vec3::new((i % 12) as f32, -((i / 12) as f32), 0.0) * 0.0625).collect();
+    let distances: Vec<f32> = led.iter().map(|i| (i / 12) as f32 / 64.0).collect();
+    cloth.set_max_distances(&led, &distances)?;
+    cloth.set_backstops(&led[24..], &[0.015625; 180], &[0.5; 180])?;
+    let waist: Vec<u32> = (0..12).collect();
+    for i in 1..=80 {
+        let to = along(Vec3::ZERO, Vec3::new(0.03125, 0.0, 0.0625), if i < 50 { i } else { 50 });
+        let anchors: Vec<Vec3> = rest.iter().map(|x| *x + to).collect();
+        let normal = if i % 16 < 8 { Vec3::new(0.25, 0.0, -2.0) } else { -Vec3::Z };
+        let normals = vec![normal; if i % 4 == 0 { 0 } else { 204 }];
+        cloth.set_anchors(&led, &anchors, &normals)?;
+        let pins: Vec<Vec3> = waist.iter().map(|p| to + Vec3::X * (*p as f32 * 0.0625)).collect();
+        cloth.set_pin_targets(&waist, &pins)?;
+        if i == 40 {
+            let grab = cloth.grab_particle(150)?;
+            cloth.move_grab(grab, to + Vec3::new(0.5, -0.75, 0.75))?;
+            trace.run(&mut cloth, 10);
+            cloth.release(grab)?;
+        }
+        trace.run(&mut cloth, 1);
+    }
+    let from = along(Vec3::new(0.34375, -0.28125, -8.0), Vec3::new(0.03125, 0.0, 0.0625), 50);
+    trace.word(u64::from(cloth.cut(from, from - Vec3::Y * 2.0, Vec3::Z * 16.0)?));
+    let mut restored = Cloth::restore(&cloth.save())?;
+    trace.run(&mut cloth, 20);
+    trace.run(&mut restored, 20);
+    cloth.clear_leashes();
+    trace.run(&mut cloth, 20);
+    trace.look(&mut cloth);
+    Ok(())
+}
