@@ -23,6 +23,15 @@ const LOWER: [&str; 4] = [
     "--strip-target-features",
 ];
 
+/// How the bound module is made smaller. Engines leave functions uncompiled that are too long, so that
+/// few may take in others.
+const SMALL: [&str; 4] = [
+    "--mvp-features",
+    "-O2",
+    "--one-caller-inline-max-function-size=500",
+    "--flexible-inline-max-function-size=20",
+];
+
 /// What the JavaScript of a module begins and ends with, in place of which stand lines of ours.
 const IMPORTS: &str = "import * as $_raw_bg_js from './raw_bg.js';";
 const EXPORTS: &str = "var retasmFunc = asmFunc(";
@@ -42,8 +51,8 @@ pub fn build() -> Result {
     binaryen("wasm-opt", &module, &low, &[&HAS[..], &LOWER, &["-g"]].concat())?;
     wasm::bind_module(&low, &bound, "raw")?;
     let (small, code) = (work.join("small.wasm"), work.join("code.js"));
-    binaryen("wasm-opt", &bound.join("raw_bg.wasm"), &small, &["--mvp-features", "-O3"])?;
-    binaryen("wasm2js", &small, &code, &["-O3"])?;
+    binaryen("wasm-opt", &bound.join("raw_bg.wasm"), &small, &SMALL)?;
+    binaryen("wasm2js", &small, &code, &["-O"])?;
     compose(&bound, &code)?;
     minify(&code, &dir().join("code.js"))
 }
