@@ -56,8 +56,11 @@
 #define MUSLIN_SELF_COLLISION_NONE 0
 
 /**
- * For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses.
- * Not supported yet.
+ * For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses,
+ * with the material's friction. A thickness counts up to half of the mean rest length. What is nearer than
+ * two thicknesses in the weave keeps half of that distance. What pins or grabs hold may be forced through,
+ * and what crosses from the start, or where particles are placed, stays crossed. It costs several times the
+ * rest of a tick where much lies on each other.
  */
 #define MUSLIN_SELF_COLLISION_SURFACE 1
 
@@ -376,13 +379,14 @@ typedef struct MuslinSettings {
    */
   uint32_t tethers;
   /**
-   * Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first) or
-   * MUSLIN_SELF_COLLISION_PARTICLES. MUSLIN_SELF_COLLISION_SURFACE is not supported yet.
+   * Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first),
+   * MUSLIN_SELF_COLLISION_SURFACE or MUSLIN_SELF_COLLISION_PARTICLES.
    */
   uint32_t self_collision;
   /**
-   * Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest
-   * length, and it is at most twice that length.
+   * Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is
+   * at most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it
+   * is at most twice that length.
    */
   float self_distance;
   /** 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0. */

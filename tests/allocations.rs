@@ -110,9 +110,30 @@ fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
 
 #[test]
 fn a_sheet_that_crumples_allocates_nothing() {
+    let mut cloth = crumpling(SelfCollision::Particles);
+    assert_eq!(allocations(|| cloth.step(90)), 0);
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    for cloth in [&mut cloth.clone(), &mut restored] {
+        assert_eq!(allocations(|| use_up(cloth, 300)), 0);
+        assert!(cloth.positions().len() > 24 * 24, "nothing tore");
+    }
+}
+
+#[test]
+fn a_sheet_that_crumples_in_layers_allocates_nothing() {
+    let mut cloth = crumpling(SelfCollision::Surface);
+    assert_eq!(allocations(|| cloth.step(90)), 0);
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    for cloth in [&mut cloth.clone(), &mut restored] {
+        assert_eq!(allocations(|| cloth.step(20)), 0);
+    }
+}
+
+/// A sheet that stands on its edge over a floor and is about to crumple.
+fn crumpling(self_collision: SelfCollision) -> Cloth {
     let mut desc = GridDesc { columns: 24, rows: 24, ..GridDesc::default() };
     desc.pin_mode = PinMode::None;
-    desc.settings.self_collision = SelfCollision::Particles;
+    desc.settings.self_collision = self_collision;
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -121,12 +142,7 @@ fn a_sheet_that_crumples_allocates_nothing() {
     for i in (0..24 * 24).step_by(7) {
         cloth.set_velocity(i, Vec3::Z * 0.05 * ((i % 5) as f32 - 2.0)).unwrap();
     }
-    assert_eq!(allocations(|| cloth.step(90)), 0);
-    let mut restored = Cloth::restore(&cloth.save()).unwrap();
-    for cloth in [&mut cloth.clone(), &mut restored] {
-        assert_eq!(allocations(|| use_up(cloth, 300)), 0);
-        assert!(cloth.positions().len() > 24 * 24, "nothing tore");
-    }
+    cloth
 }
 
 /// Where the lists that a renderer reads lie.

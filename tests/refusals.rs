@@ -85,11 +85,13 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         ("settings.damping", |s| s.damping = -0.1),
         ("settings.max_displacement", |s| s.max_displacement = 0.0),
         ("settings.max_stretch", |s| s.max_stretch = f32::INFINITY),
-        ("settings.self_collision", |s| s.self_collision = SelfCollision::Surface),
         ("settings.self_distance", |s| s.self_distance = -0.01),
         ("settings.sleep_speed", |s| s.sleep_speed = -0.01),
         ("settings.self_distance", |s| {
             (s.self_collision, s.self_distance) = (SelfCollision::Particles, 0.1001);
+        }),
+        ("settings.self_distance", |s| {
+            (s.self_collision, s.self_distance) = (SelfCollision::Surface, 0.0251);
         }),
     ];
     for (field, spoil) in settings {

@@ -67,13 +67,15 @@ fn a_sheet_in_the_wind_has_the_same_bits_on_any_number_of_threads() {
 
 #[test]
 fn a_sheet_that_crumples_has_the_same_bits_on_any_number_of_threads() {
-    let mut desc = sheet(48, PinMode::None);
-    desc.settings.self_collision = SelfCollision::Particles;
-    let mut cloth = Cloth::grid(&desc).unwrap();
-    let position = Vec3::NEG_Y * 2.1;
-    cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).unwrap();
-    blow(&mut cloth);
-    assert_equal_bits(&cloth, 90, |_, _| ());
+    for self_collision in [SelfCollision::Particles, SelfCollision::Surface] {
+        let mut desc = sheet(48, PinMode::None);
+        desc.settings.self_collision = self_collision;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let position = Vec3::NEG_Y * 2.1;
+        cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).unwrap();
+        blow(&mut cloth);
+        assert_equal_bits(&cloth, 90, |_, _| ());
+    }
 }
 
 #[test]

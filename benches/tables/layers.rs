@@ -1,4 +1,4 @@
-//! What collision of a cloth with itself, by particles, adds to a tick.
+//! What collision of a cloth with itself, by particles and by its surface, adds to a tick.
 
 use crate::Effort;
 use crate::measure::seconds;
@@ -60,17 +60,24 @@ const FALLS: [Fall; 3] = [
 ];
 
 pub fn print(effort: Effort) {
-    let mut table = Table::new(&["sheet", "part"], &["without ms", "particles ms", "adds"]);
+    let mut table = Table::new(
+        &["sheet", "part"],
+        &["without ms", "particles ms", "adds", "surface ms", "adds"],
+    );
     for fall in FALLS {
-        let [without, with] =
-            [SelfCollision::None, SelfCollision::Particles].map(|way| fall.measure(way, effort));
-        for ((part, ..), (without, with)) in fall.parts.iter().zip(without.into_iter().zip(with)) {
+        let [without, particles, surface] =
+            [SelfCollision::None, SelfCollision::Particles, SelfCollision::Surface]
+                .map(|way| fall.measure(way, effort));
+        for (at, (part, ..)) in fall.parts.iter().enumerate() {
+            let adds = |with: f64| times((with - without[at]) / without[at]);
             table.push(vec![
                 fall.name.into(),
                 (*part).into(),
-                number(without, 3),
-                number(with, 3),
-                times((with - without) / without),
+                number(without[at], 3),
+                number(particles[at], 3),
+                adds(particles[at]),
+                number(surface[at], 3),
+                adds(surface[at]),
             ]);
         }
     }

@@ -48,6 +48,7 @@ impl Cloth {
         guarded(|| {
             cut::cut(&mut self.world, &plan);
             self.world.see_to_crowd();
+            self.world.see_to_layers();
         });
         self.changed_topology();
         self.changed_state();

@@ -110,7 +110,10 @@ impl Cloth {
     fn from_origin(origin: Origin) -> Result<Self> {
         let (mut world, report) = guarded(|| origin.world())?;
         world.check_self_distance(&world.settings)?;
-        guarded(|| world.see_to_crowd());
+        guarded(|| {
+            world.see_to_crowd();
+            world.see_to_layers();
+        });
         let mut outputs = Outputs::new(&world);
         outputs.set_uvs(&origin);
         outputs.follow_topology(&world);
@@ -155,6 +158,7 @@ impl Cloth {
             self.world.tether();
             self.world.restart_history();
             self.world.see_to_crowd();
+            self.world.see_to_layers();
         });
         self.owed = 0.0;
         self.pins_changed = false;
@@ -189,7 +193,10 @@ impl Cloth {
             world.sort_outward();
         }
         if touches_otherwise {
-            guarded(|| world.see_to_crowd());
+            guarded(|| {
+                world.see_to_crowd();
+                world.see_to_layers();
+            });
         }
         if restarts {
             guarded(|| {

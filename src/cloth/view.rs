@@ -405,7 +405,8 @@ impl Cloth {
             + world.plates.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
             + self.outputs.drawn.bytes()
-            + world.crowd.as_ref().map_or(0, |crowd| crowd.bytes());
+            + world.crowd.as_ref().map_or(0, |crowd| crowd.bytes())
+            + world.layers.as_ref().map_or(0, |layers| layers.bytes());
         bytes as u64
     }
 }

@@ -221,6 +221,7 @@ fn build(
         plates,
         folds,
         crowd: None,
+        layers: None,
     };
     world.pins.reserve(capacity);
     world.tethers.reserve(capacity, world.mesh.triangles.len());
@@ -295,6 +296,7 @@ impl World {
         self.reserve_leashes();
         self.reserve_contacts();
         self.see_to_crowd();
+        self.see_to_layers();
         self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
     }
 

@@ -7,7 +7,7 @@
 //! weave, and triangles may still cross. Only pairs that are too near when the pass begins are moved, so
 //! that it makes no difference to the bits when the list of those that may be was made.
 
-use super::World;
+use super::{World, layers};
 use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
@@ -130,14 +130,19 @@ impl Crowd {
 }
 
 impl World {
-    /// Refuses a distance between particles that is too long for a cloth like this.
+    /// Refuses a distance between parts of the cloth that is too long for one like this.
     pub fn check_self_distance(&self, settings: &Settings) -> Result<()> {
-        let fits = settings.self_distance <= MOST * self.spacing;
-        check(
-            fits || settings.self_collision == SelfCollision::None,
-            "settings.self_distance",
-            "be at most twice the mean rest length of the edges",
-        )
+        let own = settings.self_distance;
+        let (most, must) = match settings.self_collision {
+            SelfCollision::None => return Ok(()),
+            SelfCollision::Surface => {
+                (layers::THICK, "be at most half of the mean rest length of the edges")
+            }
+            SelfCollision::Particles => {
+                (MOST, "be at most twice the mean rest length of the edges")
+            }
+        };
+        check(own <= most * self.spacing, "settings.self_distance", must)
     }
 
     /// Makes what particles need that keep apart, or drops it, as settings say.
@@ -154,7 +159,7 @@ fn distance(world: &World) -> f32 {
 }
 
 /// The piece of each site: the lowest site that triangles join it to. Vertices that tore apart are one site.
-fn pieces(mesh: &Mesh, sites: usize) -> Vec<u32> {
+pub(super) fn pieces(mesh: &Mesh, sites: usize) -> Vec<u32> {
     let mut parents: Vec<u32> = (0..sites as u32).collect();
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|vertex| mesh.source[vertex as usize]);

@@ -17,6 +17,7 @@ pub(crate) mod guard;
 pub(crate) mod hinges;
 pub(crate) mod hold;
 mod home;
+pub(crate) mod layers;
 pub(crate) mod leash;
 pub(crate) mod limit;
 pub(crate) mod lines;
@@ -149,6 +150,8 @@ pub(crate) struct World {
     pub sleep: Sleep,
     /// The particles that keep apart, while settings say so.
     pub crowd: Option<Box<crowd::Crowd>>,
+    /// The layers that keep apart, while settings say so.
+    pub layers: Option<Box<layers::Layers>>,
 }
 
 /// Room to work in, made once so that no tick allocates.

@@ -2,8 +2,8 @@
 
 use super::stage::Stage;
 use super::{
-    World, bend, brake, contacts, crowd, forces, guard, hold, leash, limit, lines, links, packed,
-    predict, sleep, tear, tethers, velocities,
+    World, bend, brake, contacts, crowd, forces, guard, hold, layers, leash, limit, lines, links,
+    packed, predict, sleep, tear, tethers, velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -37,6 +37,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         timed!(world, Limit, limit::begin(world));
     }
     timed!(world, Colliders, contacts::begin(world));
+    timed!(world, Pairs, layers::begin(world));
     timed!(world, Forces, forces::gather(world));
     if world.settings.tethers {
         timed!(world, Tethers, tethers::measure_slack(world));
@@ -56,7 +57,9 @@ pub(crate) fn tick(world: &mut World) -> bool {
         timed!(world, Tear, tear::tear(world));
     }
     if world.settings.max_stretch > 0.0 {
+        timed!(world, Pairs, layers::begin(world));
         timed!(world, Limit, limit::enforce(world));
+        timed!(world, SelfContacts, layers::hold(world));
     }
     timed!(world, Hold, leash::keep_in(world));
     hold::arrive(world);
@@ -94,7 +97,11 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, contacts::near::pair(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Hold, leash::keep(world, number));
+    timed!(world, Pairs, layers::pair(world));
+    timed!(world, SelfContacts, layers::solve(world));
+    timed!(world, SelfContacts, layers::hold(world));
     timed!(world, Velocities, velocities::derive(world));
+    timed!(world, SelfContacts, layers::calm(world));
 }
 
 /// Sweep `iteration` of a substep: to and fro in turn.

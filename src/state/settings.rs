@@ -1,6 +1,6 @@
 //! How time runs for one cloth. Every field may change between ticks.
 
-use crate::error::{Error, Result, check, check_finite};
+use crate::error::{Result, check, check_finite};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -38,8 +38,9 @@ pub struct Settings {
     pub tethers: bool,
     /// Whether and how parts of the cloth keep apart; not at all.
     pub self_collision: SelfCollision,
-    /// Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest
-    /// length, and it is at most twice that length.
+    /// Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is
+    /// at most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it
+    /// is at most twice that length.
     pub self_distance: f32,
     /// Over-stretched links tear, see `Material::tear_stretch`; off.
     pub tearing: bool,
@@ -58,7 +59,11 @@ pub enum SelfCollision {
     /// Not at all: they go through each other.
     #[default]
     None = 0,
-    /// Surface from surface, a material's thickness apart, so that nothing crosses. Not supported yet.
+    /// Surface from surface, a material's thickness apart, so that nothing crosses, with the material's
+    /// friction. A thickness counts up to half of the mean rest length. What is nearer than two thicknesses in
+    /// the weave keeps half of that distance. What pins or grabs hold may be forced through, and what crosses
+    /// from the start, or where particles are placed, stays crossed. It costs several times the rest of a
+    /// tick where much lies on each other.
     Surface = 1,
     /// Particles from particles, as if they were balls: cheap, without friction, and a fold may slip through
     /// where particles are farther apart than `self_distance`. Those that are woven into one piece nearer
@@ -112,9 +117,6 @@ impl Settings {
         )?;
         check(self.max_tears_per_tick >= 1, "settings.max_tears_per_tick", "be at least 1")?;
         check(not_negative(self.sleep_speed), "settings.sleep_speed", "be at least 0 and finite")?;
-        if self.self_collision == SelfCollision::Surface {
-            return Err(Error::Unsupported { what: "`settings.self_collision` of surfaces" });
-        }
         Ok(())
     }
 

@@ -304,10 +304,10 @@ static void settings_material_and_wind_are_refused_by_field(void) {
   muslin_settings_init(&settings);
   settings.self_collision = 3;
   REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.self_collision`");
-  settings.self_collision = MUSLIN_SELF_COLLISION_SURFACE;
-  REFUSED(muslin_cloth_set_settings(cloth, &settings), MUSLIN_STATUS_UNSUPPORTED, "`settings.self_collision`");
-  settings.self_collision = MUSLIN_SELF_COLLISION_PARTICLES;
   settings.self_distance = 1;
+  settings.self_collision = MUSLIN_SELF_COLLISION_SURFACE;
+  REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.self_distance`");
+  settings.self_collision = MUSLIN_SELF_COLLISION_PARTICLES;
   REFUSED(muslin_cloth_set_settings(cloth, &settings), BAD_VALUE, "`settings.self_distance`");
   material.friction = -1;
   REFUSED(muslin_cloth_set_material(cloth, &material), BAD_VALUE, "`material.friction`");

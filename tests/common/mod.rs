@@ -1,6 +1,7 @@
 //! What several tests need: cloths to test on, and the laws that no tear may break.
 #![allow(dead_code)]
 
+pub mod crossings;
 pub mod elastica;
 pub mod garments;
 pub mod shapes;

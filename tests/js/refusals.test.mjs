@@ -86,7 +86,7 @@ const settings = {
   gravity: NOT_FINITE,
   tethers: [0, 1, null, "true"],
   tearing: [0, 1, null, "true"],
-  selfCollision: [0, null, "true", true, "surface"],
+  selfCollision: [0, null, "true", "surface"],
   iteration: [3],
 };
 for (const [key, values] of Object.entries(settings)) {

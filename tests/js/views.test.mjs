@@ -189,8 +189,12 @@ test("what keeps parts apart reads as it was told", () => {
   const told = ({ settings }) => [settings.selfCollision, settings.selfDistance];
   assert.deepEqual(told(cloth), ["particles", 0.03125]);
   assert.deepEqual(told(Cloth.restore(cloth.save())), ["particles", 0.03125]);
+  cloth.settings = { selfCollision: true, selfDistance: 0.0078125 };
+  assert.deepEqual(told(cloth), [true, 0.0078125]);
+  cloth.step(1);
+  assert.deepEqual(told(Cloth.restore(cloth.save())), [true, 0.0078125]);
   cloth.settings = { selfCollision: false };
-  assert.deepEqual(told(cloth), [false, 0.03125]);
+  assert.deepEqual(told(cloth), [false, 0.0078125]);
 });
 
 test("what is read is a copy of its own and cannot be changed by mistake", () => {

@@ -32,12 +32,17 @@ export interface Settings {
    * Whether and how parts of the cloth keep apart; false. "particles": particles keep from particles, as if
    * they were balls: cheap, without friction, and a fold may slip through where particles are farther apart
    * than `selfDistance`. Those that are woven into one piece nearer than that, or than one and a half mean
-   * rest lengths, do not count; what is held neither. true, surface from surface, is not supported yet.
+   * rest lengths, do not count; what is held neither. true: surface from surface, a material's thickness apart, so
+   * that nothing crosses, with the material's friction. A thickness counts up to half of the mean rest length.
+   * What is nearer than two thicknesses in the weave keeps half of that distance. What pins or grabs hold may be
+   * forced through, and what crosses from the start, or where particles are placed, stays crossed. It costs
+   * several times the rest of a tick where much lies on each other.
    */
   selfCollision: boolean | "particles";
   /**
-   * Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest length,
-   * and it is at most twice that length.
+   * Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is at
+   * most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it is at most
+   * twice that length.
    */
   selfDistance: number;
   /** Over-stretched links tear, see `tearStretch` of the material; false. */

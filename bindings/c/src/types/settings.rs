@@ -6,8 +6,11 @@ use muslin_core::{SelfCollision, Settings};
 
 /// For `self_collision`: parts of the cloth go through each other.
 pub const MUSLIN_SELF_COLLISION_NONE: u32 = 0;
-/// For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses.
-/// Not supported yet.
+/// For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses,
+/// with the material's friction. A thickness counts up to half of the mean rest length. What is nearer than
+/// two thicknesses in the weave keeps half of that distance. What pins or grabs hold may be forced through,
+/// and what crosses from the start, or where particles are placed, stays crossed. It costs several times the
+/// rest of a tick where much lies on each other.
 pub const MUSLIN_SELF_COLLISION_SURFACE: u32 = 1;
 /// For `self_collision`: particles keep from particles, as if they were balls: cheap, without friction, and
 /// a fold may slip through where particles are farther apart than `self_distance`. Those that are woven into
@@ -49,11 +52,12 @@ pub struct MuslinSettings {
     /// They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
     /// From two iterations on, whole lines of links are solved at once as well.
     pub tethers: u32,
-    /// Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first) or
-    /// MUSLIN_SELF_COLLISION_PARTICLES. MUSLIN_SELF_COLLISION_SURFACE is not supported yet.
+    /// Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first),
+    /// MUSLIN_SELF_COLLISION_SURFACE or MUSLIN_SELF_COLLISION_PARTICLES.
     pub self_collision: u32,
-    /// Distance that they keep [m]; 0. Where particles keep apart 0 takes two thirds of the mean rest
-    /// length, and it is at most twice that length.
+    /// Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is
+    /// at most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it
+    /// is at most twice that length.
     pub self_distance: f32,
     /// 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0.
     pub tearing: u32,

@@ -10,6 +10,7 @@ mod floor;
 mod folds;
 mod garment;
 mod hands;
+mod layers;
 mod mesh;
 mod tears;
 mod time;
@@ -37,6 +38,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "draped-over-solids", play: touch::draped_over_solids },
     Scene { name: "thrown-on-hills", play: touch::thrown_on_hills },
     Scene { name: "crumpled-by-particles", play: crowd::crumpled_by_particles },
+    Scene { name: "crumpled-in-layers", play: layers::crumpled_in_layers },
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },
     Scene { name: "garment-on-a-moving-body", play: worn::garment_on_a_moving_body },

@@ -1,0 +1,230 @@
+//! The pairs that may meet in a substep, each with a direction that tells its sides apart.
+//!
+//! ```text
+//!        A ●            ▲ n        Where a pair is closest, what leads from one side to the other
+//! ──────────┼───────────┼───       is normal to a plane with the sides wholly on either side of it.
+//!      B ───●────●      │          While they stay so along n they cannot have crossed, wherever
+//!                                  the plane went meanwhile.
+//! ```
+
+use super::list::Pair;
+use super::spots::{Spot, place};
+use crate::geom::closest;
+use crate::math::{max, min};
+use glam::Vec3;
+
+/// A fence leaves a share of their gap between two sides; if there was less, a little more than there was.
+const SLIT: f32 = 0.25;
+const MORE: f32 = 1.1;
+
+/// What it never gets below: so much of that, or of what there was.
+const LEAST: f32 = 0.998;
+
+/// Nearer than this no direction tells sides apart [m].
+const NOTHING: f32 = 1.0e-7;
+
+/// Two sides that may meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    pub ids: [u32; 4],
+    /// How many of them are the first side.
+    pub first: u32,
+    /// How far they were from each other when they were found [m].
+    pub distance: f32,
+    /// What each counts for in the closest points: above 0 on the first side, below 0 on the second.
+    pub share: [f32; 4],
+    /// From the second side to the first.
+    pub n: Vec3,
+    /// How far they keep apart [m], and at least so far at the end of the substep by their own motion.
+    pub gap: f32,
+    pub aim: f32,
+    /// All particles of the first side stay so far from all of the second along `n`; negative if
+    /// nothing keeps them [m].
+    pub slit: f32,
+    /// The least of it that is let be [m].
+    pub least: f32,
+    /// 1 over what all inverse masses make; 0 if nothing gives way.
+    pub give: f32,
+    /// How they were pushed apart in this substep, per inverse mass.
+    pub push: f32,
+    /// Whether they stick to each other.
+    pub sticks: bool,
+}
+
+/// A pair as it is closest: what each particle counts for, from where to where.
+#[derive(Clone, Copy)]
+struct Closest {
+    share: [f32; 4],
+    n: Vec3,
+    distance: f32,
+}
+
+/// A vertex and a triangle.
+#[inline(always)]
+fn vertex_closest([v, a, b, c]: [Vec3; 4]) -> Closest {
+    let corners = [a - v, b - v, c - v];
+    let weights = closest::of_triangle(corners);
+    let way = -closest::blend(corners, weights);
+    let distance = way.length();
+    let [wa, wb, wc] = weights;
+    let is_inside = wa > 0.0 && wb > 0.0 && wc > 0.0;
+    let normal = if is_inside { (b - a).cross(c - a) } else { Vec3::ZERO };
+    Closest { share: [1.0, -wa, -wb, -wc], n: direction(way, distance, normal), distance }
+}
+
+/// Two edges.
+#[inline(always)]
+fn edge_closest([p, q, r, s]: [Vec3; 4]) -> Closest {
+    let (t, u) = closest::of_segments([p, q], [r, s]);
+    let (along, across) = (q - p, s - r);
+    let way = p - r + along * t - across * u;
+    let distance = way.length();
+    let is_inside = t > 0.0 && t < 1.0 && u > 0.0 && u < 1.0;
+    let normal = if is_inside { along.cross(across) } else { Vec3::ZERO };
+    let share = [1.0 - t, t, u - 1.0, -u];
+    Closest { share, n: direction(way, distance, normal), distance }
+}
+
+/// The direction of a way, by the normal that it is along if there is one: of a short way that is more exact.
+#[inline(always)]
+fn direction(way: Vec3, distance: f32, normal: Vec3) -> Vec3 {
+    let along = way.dot(normal);
+    let length = normal.length();
+    if along * along > 0.98 * distance * distance * length * length {
+        normal * (if along > 0.0 { 1.0 } else { -1.0 } / length)
+    } else {
+        way * (1.0 / distance)
+    }
+}
+
+/// How far one side is from the other along a direction, at least.
+#[inline(always)]
+pub(super) fn between(x: [Vec3; 4], first: u32, n: Vec3) -> f32 {
+    let [a, b, c, d] = [n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])];
+    if first == 1 { a - max(b, max(c, d)) } else { min(a, b) - max(c, d) }
+}
+
+/// Where the particles of a pair are.
+#[inline(always)]
+pub(super) fn places(x: &[Spot], ids: [u32; 4]) -> [Vec3; 4] {
+    let [a, b, c, d] = ids;
+    [place(&x[a as usize]), place(&x[b as usize]), place(&x[c as usize]), place(&x[d as usize])]
+}
+
+/// What is known of a substep.
+#[derive(Clone, Copy)]
+pub(super) struct Span<'a> {
+    /// Where particles were as it began, all sides apart, and where they are.
+    pub start: &'a [Spot],
+    pub now: &'a [Spot],
+    /// How far each may move against the mean, and that from where it was listed [m].
+    pub reach: &'a [f32],
+    pub needs: &'a [f32],
+}
+
+/// Finds the pairs that may meet, in the order of the list.
+pub(super) fn find(pairs: &[Vec<Pair>; 2], span: Span<'_>, contacts: &mut Vec<Contact>) {
+    contacts.clear();
+    find_in(&pairs[0], 1, vertex_closest, span, contacts);
+    find_in(&pairs[1], 2, edge_closest, span, contacts);
+}
+
+#[inline(always)]
+fn find_in(
+    pairs: &[Pair],
+    first: u32,
+    closest: impl Fn([Vec3; 4]) -> Closest,
+    span: Span<'_>,
+    contacts: &mut Vec<Contact>,
+) {
+    for pair in pairs {
+        let reach = of_all(span.reach, pair.ids);
+        let needs = of_all(span.needs, pair.ids);
+        // A hair more, for rounding.
+        if pair.distance > (pair.gap + both(needs, first)) * 1.001 {
+            continue;
+        }
+        let start = places(span.start, pair.ids);
+        let then = closest(start);
+        if then.distance > pair.gap + both(reach, first) || then.distance <= NOTHING {
+            continue;
+        }
+        let mut contact = Contact {
+            ids: pair.ids,
+            first,
+            distance: then.distance,
+            share: then.share,
+            n: then.n,
+            gap: pair.gap,
+            aim: 0.0,
+            slit: -1.0,
+            least: -1.0,
+            give: 0.0,
+            push: 0.0,
+            sticks: false,
+        };
+        let now = places(span.now, pair.ids);
+        if along(now, &contact) < pair.gap {
+            contact.turn(closest(now), start);
+        }
+        contact.prepare(start);
+        contacts.push(contact);
+    }
+}
+
+#[inline(always)]
+pub(super) fn of_all(list: &[f32], [a, b, c, d]: [u32; 4]) -> [f32; 4] {
+    [list[a as usize], list[b as usize], list[c as usize], list[d as usize]]
+}
+
+/// The most that the two sides have, added.
+#[inline(always)]
+fn both([a, b, c, d]: [f32; 4], first: u32) -> f32 {
+    if first == 1 { a + max(b, max(c, d)) } else { max(a, b) + max(c, d) }
+}
+
+/// How far the closest points are from each other along `n`.
+#[inline(always)]
+pub(super) fn along(x: [Vec3; 4], contact: &Contact) -> f32 {
+    let [a, b, c, d] = contact.share;
+    contact.n.dot(x[0] * a + x[1] * b + x[2] * c + x[3] * d)
+}
+
+impl Contact {
+    /// Takes the direction of where sides are closest now, if it told them apart before.
+    #[inline(always)]
+    fn turn(&mut self, now: Closest, start: [Vec3; 4]) {
+        if now.distance > NOTHING && between(start, self.first, now.n) > NOTHING {
+            (self.share, self.n) = (now.share, now.n);
+        }
+    }
+
+    /// Finds another direction that tells sides apart, at the start and now.
+    pub(super) fn turn_to(&mut self, start: [Vec3; 4], x: &[Spot]) {
+        let now = places(x, self.ids);
+        let now = if self.first == 1 { vertex_closest(now) } else { edge_closest(now) };
+        self.turn(now, start);
+        self.prepare(start);
+    }
+
+    #[inline(always)]
+    fn prepare(&mut self, start: [Vec3; 4]) {
+        let apart = between(start, self.first, self.n);
+        let most = self.gap * SLIT;
+        (self.slit, self.least) = if apart > NOTHING {
+            (min(apart * MORE, most), min(apart, most) * LEAST)
+        } else {
+            (-1.0, -1.0)
+        };
+    }
+
+    /// Finds out how it gives way, which changes with what touches a collider.
+    #[inline(always)]
+    pub(super) fn weigh(&mut self, x: &[Spot]) {
+        let mut sum = 0.0;
+        for (id, share) in self.ids.iter().zip(self.share) {
+            sum += x[*id as usize][3] * share * share;
+        }
+        self.give = if sum > 0.0 { 1.0 / sum } else { 0.0 };
+    }
+}

@@ -1,0 +1,58 @@
+//! How often triangles of a cloth go through each other, in double precision.
+
+use muslin::Cloth;
+use muslin::glam::DVec3;
+
+/// Pairs of triangles without a common vertex that go through each other.
+pub fn crossings(cloth: &Cloth) -> usize {
+    crossing_pairs(cloth).len()
+}
+
+/// The triangles of those pairs.
+pub fn crossing_pairs(cloth: &Cloth) -> Vec<[u32; 2]> {
+    let x: Vec<DVec3> = cloth.positions().iter().map(|x| x.as_dvec3()).collect();
+    let triangles = super::triangles(cloth);
+    let corners = |t: usize| triangles[t].map(|v| x[v as usize]);
+    let bounds = |t: usize| {
+        let [a, b, c] = corners(t);
+        (a.min(b).min(c), a.max(b).max(c))
+    };
+    let boxes: Vec<(DVec3, DVec3)> = (0..triangles.len()).map(bounds).collect();
+    let mut order: Vec<usize> = (0..triangles.len()).collect();
+    order.sort_by(|a, b| boxes[*a].0.x.total_cmp(&boxes[*b].0.x));
+    let mut pairs = Vec::new();
+    for (at, one) in order.iter().enumerate() {
+        for other in &order[at + 1..] {
+            let ((low, high), (other_low, other_high)) = (boxes[*one], boxes[*other]);
+            if other_low.x > high.x {
+                break;
+            }
+            let is_near = low.cmple(other_high).all() && other_low.cmple(high).all();
+            let shares = triangles[*one].iter().any(|v| triangles[*other].contains(v));
+            if is_near && !shares && cross(corners(*one), corners(*other)) {
+                pairs.push([*one.min(other) as u32, *one.max(other) as u32]);
+            }
+        }
+    }
+    pairs
+}
+
+/// Whether an edge of either triangle goes through the other.
+fn cross(one: [DVec3; 3], other: [DVec3; 3]) -> bool {
+    (0..3).any(|k| {
+        let next = (k + 1) % 3;
+        pierces([one[k], one[next]], other) || pierces([other[k], other[next]], one)
+    })
+}
+
+fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+    let n = (b - a).cross(c - a);
+    let (over_p, over_q) = ((p - a).dot(n), (q - a).dot(n));
+    // What touches within a nanometre or so does not count.
+    let least = 1.0e-9 * n.length();
+    if over_p.abs() <= least || over_q.abs() <= least || (over_p > 0.0) == (over_q > 0.0) {
+        return false;
+    }
+    let at = p + (q - p) * (over_p / (over_p - over_q));
+    [(a, b), (b, c), (c, a)].into_iter().all(|(u, v)| (v - u).cross(at - u).dot(n) > 0.0)
+}

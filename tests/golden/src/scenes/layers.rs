@@ -1,0 +1,40 @@
+//! Cloths whose surfaces keep apart.
+
+use super::along;
+use crate::Trace;
+use muslin::glam::Vec3;
+use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, SelfCollision, Settings};
+
+/// A sheet falls on its lower edge and crumples into layers, is cut and torn there, lifted by a corner, and
+/// saved; what is restored falls again.
+pub fn crumpled_in_layers(trace: &mut Trace) -> Result<()> {
+    let (columns, rows) = (15, 19);
+    let mut desc = GridDesc { columns, rows, spacing: 0.0625, ..GridDesc::default() };
+    desc.pin_mode = PinMode::None;
+    desc.settings.self_collision = SelfCollision::Surface;
+    desc.material.thickness = 0.002;
+    let mut cloth = Cloth::grid(&desc)?;
+    cloth.add_collider(&ColliderDesc { position: Vec3::Y * -1.25, ..ColliderDesc::default() })?;
+    for particle in (0..columns * rows).step_by(7) {
+        let away = along(Vec3::Z * -0.125, Vec3::Z * 0.0625, particle % 5);
+        cloth.set_velocity(particle, away)?;
+    }
+    trace.run(&mut cloth, 15);
+    let from = Vec3::new(0.25, -0.75, -1.0);
+    cloth.cut(from, from + Vec3::X * 0.375, Vec3::Z * 2.0)?;
+    trace.run(&mut cloth, 45);
+    let low = cloth.positions().iter().filter(|x| x.y < -0.75).count();
+    assert!(low > 200, "only {low} particles lie low");
+    cloth.tear_edge(140, 141)?;
+    let grab = cloth.grab_particle(0)?;
+    cloth.set_settings(Settings { self_distance: 0.0078125, ..desc.settings })?;
+    for i in 1..=20 {
+        cloth.move_grab(grab, along(Vec3::Y * -1.0, Vec3::Y * 0.03125, i))?;
+        trace.run(&mut cloth, 1);
+    }
+    cloth.release(grab)?;
+    let mut copy = Cloth::restore(&cloth.save())?;
+    trace.run(&mut copy, 30);
+    trace.look(&mut copy);
+    Ok(())
+}

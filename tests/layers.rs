@@ -1,0 +1,325 @@
+//! Surfaces that keep apart: nothing crosses, layers rest on each other, and what moved them stays what it was.
+
+use muslin::glam::{Quat, Vec3};
+use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings, Shape};
+
+mod common;
+use common::crossings::crossings;
+
+fn surface() -> Settings {
+    Settings { self_collision: SelfCollision::Surface, ..Settings::default() }
+}
+
+/// A grid of `side` particles a side in the x–z plane, its middle over the origin at a height.
+fn lying(side: u32, size: f32, height: f32) -> GridDesc {
+    let origin = Vec3::new(-0.5 * size, height, -0.5 * size);
+    let spacing = size / (side - 1) as f32;
+    let down = Vec3::Z;
+    GridDesc {
+        columns: side,
+        rows: side,
+        spacing,
+        origin,
+        down,
+        pin_mode: PinMode::None,
+        settings: surface(),
+        ..GridDesc::default()
+    }
+}
+
+/// Sheets over each other as one mesh, of `side` particles a side each.
+fn sheets(count: u32, side: u32, size: f32, place: impl Fn(u32, Vec3) -> Vec3) -> MeshDesc {
+    let mut desc = MeshDesc { settings: surface(), ..MeshDesc::default() };
+    for sheet in 0..count {
+        let first = desc.positions.len() as u32;
+        let at = |k: u32| size * (k as f32 / (side - 1) as f32 - 0.5);
+        for row in 0..side {
+            desc.positions
+                .extend((0..side).map(|column| place(sheet, Vec3::new(at(column), 0.0, at(row)))));
+        }
+        for cell in 0..(side - 1) * (side - 1) {
+            let a = first + cell / (side - 1) * side + cell % (side - 1);
+            desc.indices.extend([a, a + side, a + 1, a + 1, a + side, a + side + 1]);
+        }
+    }
+    desc
+}
+
+fn floor(height: f32) -> ColliderDesc {
+    ColliderDesc { position: Vec3::Y * height, ..ColliderDesc::default() }
+}
+
+fn ball(radius: f32, position: Vec3) -> ColliderDesc {
+    ColliderDesc { shape: Shape::Sphere, radius, position, ..ColliderDesc::default() }
+}
+
+/// Plays, and tells the most crossings on the way and how many are left.
+fn watch(
+    name: &str,
+    cloth: &mut Cloth,
+    ticks: u32,
+    mut act: impl FnMut(&mut Cloth, u32),
+) -> (usize, usize) {
+    let (mut most, mut last) = (0, 0);
+    let mut spent = 0.0;
+    let mut worst = 0.0_f64;
+    for tick in 0..ticks {
+        act(cloth, tick);
+        let start = cpu_time::ThreadTime::now();
+        cloth.step(1);
+        let took = start.elapsed().as_secs_f64();
+        spent += took;
+        worst = worst.max(took);
+        if tick % 5 == 4 || tick + 1 == ticks {
+            last = crossings(cloth);
+            most = most.max(last);
+        }
+    }
+    println!(
+        "{name}: {most} at most, {last} at the end; rms {:.2} mm/s, {:.2} ms a tick, {:.2} at worst",
+        1.0e3 * speed(cloth),
+        1.0e3 * spent / f64::from(ticks),
+        1.0e3 * worst
+    );
+    (most, last)
+}
+
+/// Root of the mean square speed [m/s].
+fn speed(cloth: &Cloth) -> f32 {
+    let count = cloth.positions().len();
+    ((0..count as u32).map(|i| cloth.velocity(i).unwrap().length_squared()).sum::<f32>()
+        / count as f32)
+        .sqrt()
+}
+
+#[test]
+fn five_sheets_dropped_in_turn_lie_a_thickness_apart() {
+    let mut desc = sheets(5, 20, 0.5, |sheet, x| x + Vec3::Y * (0.02 + 0.05 * sheet as f32));
+    desc.material.thickness = 0.002;
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    cloth.add_collider(&floor(0.0)).unwrap();
+    let (most, _) = watch("stack", &mut cloth, 180, |_, _| ());
+    assert_eq!(most, 0);
+    let mean = |sheet: usize| {
+        let of = &cloth.positions()[400 * sheet..400 * (sheet + 1)];
+        of.iter().map(|x| x.y).sum::<f32>() / 400.0
+    };
+    let heights: Vec<f32> = (0..5).map(mean).collect();
+    println!("heights {heights:?}");
+    for pair in heights.windows(2) {
+        let gap = (pair[1] - pair[0]) / 0.002;
+        assert!((0.8..1.5).contains(&gap), "{gap} thicknesses");
+    }
+    assert!(speed(&cloth) < 6.0e-3, "{} m/s", speed(&cloth));
+}
+
+#[test]
+fn a_sheet_on_its_edge_crumples_without_a_crossing() {
+    let side = 32;
+    let spacing = 1.0 / side as f32;
+    let desc = GridDesc {
+        columns: side,
+        rows: side,
+        spacing,
+        pin_mode: PinMode::None,
+        settings: surface(),
+        ..GridDesc::default()
+    };
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.add_collider(&floor(-1.05)).unwrap();
+    for i in (0..side * side).step_by(7) {
+        cloth.set_velocity(i, Vec3::Z * 0.05 * ((i % 5) as f32 - 2.0)).unwrap();
+    }
+    let (most, last) = watch("edge", &mut cloth, 240, |_, _| ());
+    assert_eq!((most, last), (0, 0));
+}
+
+#[test]
+fn a_sheet_over_a_ball_and_the_floor() {
+    let mut cloth = Cloth::grid(&lying(64, 1.6, 0.5)).unwrap();
+    cloth.add_collider(&ball(0.3, Vec3::Y * 0.1)).unwrap();
+    cloth.add_collider(&floor(-0.3)).unwrap();
+    let (most, last) = watch("ball", &mut cloth, 120, |_, _| ());
+    assert_eq!((most, last), (0, 0));
+}
+
+#[test]
+fn a_sheet_on_a_turning_ball() {
+    let mut cloth = Cloth::grid(&lying(40, 1.4, 0.45)).unwrap();
+    let ball = cloth.add_collider(&ball(0.3, Vec3::Y * 0.1)).unwrap();
+    cloth.add_collider(&floor(-0.25)).unwrap();
+    let (most, last) = watch("turning", &mut cloth, 240, |cloth, tick| {
+        let turn = Quat::from_rotation_y((tick as f32 - 60.0).max(0.0) * 0.04);
+        cloth.move_collider(ball, Vec3::Y * 0.1, turn).unwrap();
+    });
+    assert_eq!((most, last), (0, 0));
+}
+
+#[test]
+fn a_curtain_falls_over_a_ball() {
+    let desc = GridDesc {
+        columns: 40,
+        rows: 40,
+        spacing: 0.03,
+        origin: Vec3::new(-0.6, 1.6, 0.0),
+        settings: surface(),
+        pin_mode: PinMode::TopEdge,
+        ..GridDesc::default()
+    };
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.add_collider(&ball(0.25, Vec3::new(0.0, 0.3, 0.05))).unwrap();
+    cloth.add_collider(&floor(0.0)).unwrap();
+    let (most, last) = watch("curtain", &mut cloth, 150, |cloth, tick| {
+        if tick == 40 {
+            cloth.unpin_all();
+        }
+    });
+    assert_eq!((most, last), (0, 0));
+}
+
+#[test]
+fn a_sheet_is_folded_and_let_go() {
+    let side = 33;
+    let mut cloth = Cloth::grid(&lying(side, 0.8, 0.001)).unwrap();
+    cloth.add_collider(&floor(0.0)).unwrap();
+    let left: Vec<u32> = (0..side).map(|k| k * side).collect();
+    let (most, last) = watch("fold", &mut cloth, 200, |cloth, tick| {
+        let mut carry = |edge: &[u32], from: u32, to: u32, axis: Vec3, lift: f32| {
+            if tick == from {
+                edge.iter().for_each(|i| cloth.pin(*i, None).unwrap());
+            }
+            if (from..to).contains(&tick) {
+                let turn =
+                    |tick: u32| core::f32::consts::PI * (tick - from) as f32 / (to - from) as f32;
+                let by = Quat::from_axis_angle(axis, turn(tick + 1))
+                    * Quat::from_axis_angle(axis, turn(tick)).inverse();
+                let targets: Vec<Vec3> = edge
+                    .iter()
+                    .map(|i| by * cloth.positions()[*i as usize] + Vec3::Y * lift)
+                    .collect();
+                cloth.set_pin_targets(edge, &targets).unwrap();
+            }
+            if tick == to {
+                edge.iter().for_each(|i| cloth.unpin(*i).unwrap());
+            }
+        };
+        carry(&left, 10, 100, Vec3::NEG_Z, 0.0001);
+    });
+    assert_eq!((most, last), (0, 0));
+}
+
+#[test]
+fn sheets_that_meet_in_free_flight_keep_momentum_and_do_not_cross() {
+    let mut desc = sheets(2, 16, 0.5, |sheet, x| {
+        Quat::from_rotation_z(0.2 * sheet as f32) * x + Vec3::Y * (0.08 * sheet as f32)
+    });
+    let (settings, material) = common::bare();
+    desc.settings =
+        Settings { gravity: Vec3::ZERO, self_collision: SelfCollision::Surface, ..settings };
+    desc.material = material;
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    for i in 0..512 {
+        cloth.set_velocity(i, Vec3::Y * if i < 256 { 1.0 } else { -1.0 }).unwrap();
+    }
+    let sums = |cloth: &Cloth| {
+        let mass = |i: usize| cloth.mass(i as u32).unwrap();
+        let of = |i: usize| cloth.velocity(i as u32).unwrap() * mass(i);
+        let linear: Vec3 = (0..512).map(of).sum();
+        let angular: Vec3 = (0..512).map(|i| cloth.positions()[i].cross(of(i))).sum();
+        (linear, angular)
+    };
+    let start = sums(&cloth);
+    let (most, _) = watch("flight", &mut cloth, 60, |_, _| ());
+    let end = sums(&cloth);
+    println!("{start:?} {end:?}");
+    assert_eq!(most, 0);
+    let one = 0.18 * 0.25;
+    assert!((end.0 - start.0).length() < 1.0e-3 * one, "{:?} was {:?}", end.0, start.0);
+}
+
+/// A sheet that stands on its edge over a floor and is about to crumple.
+fn standing(side: u32) -> Cloth {
+    let spacing = 1.0 / side as f32;
+    let desc = GridDesc { columns: side, rows: side, spacing, ..GridDesc::default() };
+    let desc = GridDesc { pin_mode: PinMode::None, settings: surface(), ..desc };
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.add_collider(&floor(-1.05)).unwrap();
+    for i in (0..side * side).step_by(7) {
+        cloth.set_velocity(i, Vec3::Z * 0.05 * ((i % 5) as f32 - 2.0)).unwrap();
+    }
+    cloth
+}
+
+/// When pairs are listed makes no difference: a restored cloth lists them at another time.
+#[test]
+fn a_restored_cloth_goes_on_in_the_same_bits() {
+    let mut cloth = standing(16);
+    for tick in 0..100 {
+        if tick == 15 {
+            let at = |x: f32| Vec3::new(x, -0.8, -1.0);
+            assert!(cloth.cut(at(0.2), at(0.8), Vec3::Z * 2.0).unwrap() > 0);
+        }
+        if tick == 50 {
+            assert!(cloth.tear_edge(120, 121).unwrap());
+        }
+        let mut restored = Cloth::restore(&cloth.save()).unwrap();
+        cloth.step(1);
+        restored.step(1);
+        assert_eq!(restored.state_hash(), cloth.state_hash(), "tick {tick}");
+    }
+    assert!(cloth.positions().len() > 257, "nothing was cut and torn");
+}
+
+#[test]
+fn without_it_layers_do_cross() {
+    let mut cloth = standing(24);
+    let settings = Settings { self_collision: SelfCollision::None, ..surface() };
+    cloth.set_settings(settings).unwrap();
+    let (most, _) = watch("none", &mut cloth, 120, |_, _| ());
+    assert!(most > 50, "{most} crossings");
+}
+
+#[test]
+fn a_flat_sheet_and_its_cut_feel_nothing_of_themselves() {
+    let mut desc = common::bare_grid(9, 9, 0.1, PinMode::None);
+    desc.settings.gravity = Vec3::ZERO;
+    desc.settings.self_collision = SelfCollision::Surface;
+    for distance in [0.0, 0.05] {
+        desc.settings.self_distance = distance;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let (from, to) = (Vec3::new(-0.1, -0.33, -1.0), Vec3::new(0.61, -0.37, -1.0));
+        assert!(cloth.cut(from, to, Vec3::Z * 2.0).unwrap() > 5);
+        let start = cloth.positions().to_vec();
+        cloth.step(10);
+        let most = cloth.positions().iter().zip(&start).map(|(x, at)| (x - at).length());
+        assert!(most.fold(0.0, f32::max) < 1.0e-5, "it moved, at a distance of {distance} m");
+    }
+}
+
+#[test]
+fn what_is_pinned_stays_where_it_is_pinned() {
+    let mut desc = sheets(2, 12, 0.4, |sheet, x| x + Vec3::Y * (0.1 * sheet as f32));
+    desc.pinned = vec![0, 11, 132, 143];
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    let before: Vec<Vec3> = desc.pinned.iter().map(|i| cloth.positions()[*i as usize]).collect();
+    let (most, _) = watch("pinned", &mut cloth, 120, |_, _| ());
+    assert_eq!(most, 0);
+    let after: Vec<Vec3> = desc.pinned.iter().map(|i| cloth.positions()[*i as usize]).collect();
+    assert_eq!(before, after);
+}
+
+#[test]
+fn a_bounded_sheet_that_is_dragged_tears_and_keeps_from_itself() {
+    let mut desc = GridDesc { columns: 12, rows: 12, settings: surface(), ..GridDesc::default() };
+    (desc.settings.tearing, desc.settings.max_stretch) = (true, 0.5);
+    desc.material.tear_stretch = 1.1;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let grab = cloth.grab_particle(100).unwrap();
+    let from = cloth.positions()[100];
+    for tick in 0..60 {
+        cloth.move_grab(grab, from + Vec3::new(0.02, -0.03, 0.02) * tick as f32).unwrap();
+        cloth.step(1);
+    }
+    assert!(cloth.positions().len() > 150, "only {} particles", cloth.positions().len());
+    assert!(cloth.positions().iter().all(|x| x.is_finite()));
+}
