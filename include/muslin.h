@@ -59,8 +59,9 @@
  * For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses,
  * with the material's friction. A thickness counts up to half of the mean rest length. What is nearer than
  * two thicknesses in the weave keeps half of that distance. What pins or grabs hold may be forced through,
- * and what crosses from the start, or where particles are placed, stays crossed. It costs several times the
- * rest of a tick where much lies on each other.
+ * and what crosses from the start, or where particles are placed, stays crossed. It costs about as
+ * much as the rest of a tick while little touches, several times that where layers lie on each other, and
+ * from twenty to hundreds of times where sheets of thousands of particles crumple.
  */
 #define MUSLIN_SELF_COLLISION_SURFACE 1
 
