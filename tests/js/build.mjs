@@ -1,28 +1,25 @@
-// One build of the package in an engine: `node build.mjs SPECIFIER [no-wasm] [no-vectors]` prints, as JSON, the
-// hash that a small cloth ends in, where there is WebAssembly that of the script, the sizes of the modules that were
-// compiled, and what became of views.
+// One build of the package in an engine: `node build.mjs SPECIFIER [no-vectors]` prints, as JSON, the
+// hashes that the script and a small cloth end in, the sizes of the modules that were compiled, and what became of
+// views.
 
 import { hexOf, playScript } from "./script.mjs";
 
 const [specifier, ...lacks] = process.argv.slice(2);
 const compiled = [];
 if (lacks.includes("no-vectors")) WebAssembly.validate = () => false;
-if (lacks.includes("no-wasm")) {
-  delete globalThis.WebAssembly;
-} else {
-  const { Module } = WebAssembly;
-  WebAssembly.Module = class extends Module {
-    constructor(bytes) {
-      super(bytes);
-      compiled.push(bytes.byteLength);
-    }
-  };
-}
+const { Module } = WebAssembly;
+WebAssembly.Module = class extends Module {
+  constructor(bytes) {
+    super(bytes);
+    compiled.push(bytes.byteLength);
+  }
+};
 
 const { default: init, Cloth } = await import(specifier);
 await init();
-const script = lacks.includes("no-wasm") ? undefined : playScript(Cloth);
-const hash = script && hexOf(script.stateHash());
+const script = playScript(Cloth);
+const hash = hexOf(script.stateHash());
+script.free();
 
 const cloth = Cloth.grid({ columns: 16, rows: 16, settings: { tearing: true }, material: "silk" });
 cloth.wind = { velocity: [0.25, 0, 3], gust: 0.5, turbulence: 0.25, seed: 3 };

@@ -1,5 +1,4 @@
-// Every build of the package ends in the same bits: with vectors, without them, with the module inside, without
-// WebAssembly.
+// Every build of the package ends in the same bits: with vectors, without them, with the module inside.
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -25,7 +24,6 @@ const BUILDS = [
   ["with vectors", ["muslin"], "raw_bg.wasm"],
   ["in an engine without vectors", ["muslin", "no-vectors"], "plain_bg.wasm"],
   ["with its module inside", ["muslin/inline"], undefined],
-  ["without WebAssembly", ["muslin/without-wasm", "no-wasm"], undefined],
 ];
 
 /** What a small cloth ends in, as the first build says. */
@@ -34,7 +32,7 @@ let small;
 for (const [name, words, module] of BUILDS) {
   test(`the package ${name}`, async () => {
     const found = await run(...words);
-    assert.equal(found.hash, words.includes("no-wasm") ? undefined : golden);
+    assert.equal(found.hash, golden);
     small ??= found.small;
     assert.match(small, /^0x[0-9a-f]{16}$/);
     assert.equal(found.small, small);
@@ -43,11 +41,3 @@ for (const [name, words, module] of BUILDS) {
     if (module) assert.deepEqual(found.compiled, [await sizeOf(module)]);
   });
 }
-
-test("the build without WebAssembly takes no source", async () => {
-  const { default: init, initSync } = await import("muslin/without-wasm");
-  await assert.rejects(init("raw_bg.wasm"), /source/);
-  assert.throws(() => initSync(new Uint8Array(8)), /source/);
-  initSync();
-  await init();
-});

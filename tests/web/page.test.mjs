@@ -26,18 +26,3 @@ test("the package loads under a strict policy and ends the script in the golden 
     await browser.close();
   }
 });
-
-test("the build without WebAssembly runs where that is forbidden", async () => {
-  const browser = await launch();
-  try {
-    const { page } = await open(browser);
-    await page.goto(new URL("strict.html", url).href);
-    await page.waitForFunction(() => window.result, null, { timeout: 60_000 });
-    const { error, isForbidden, sag, isDrawable } = await page.evaluate(() => window.result);
-    assert.equal(error, undefined);
-    assert.ok(isForbidden, "the page is to forbid WebAssembly");
-    assert.ok(isDrawable && sag > 0.005, `the cloth hangs by its corners, but sags by ${sag} m`);
-  } finally {
-    await browser.close();
-  }
-});

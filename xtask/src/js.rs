@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{browser, files, npm, shell, wasm, without_wasm};
+use crate::{browser, files, npm, shell, wasm};
 
 /// Where the package is built.
 pub fn dir() -> PathBuf {
@@ -32,12 +32,6 @@ pub fn build() -> Result {
     Ok(())
 }
 
-/// Builds the package with all its variants.
-pub fn build_all() -> Result {
-    build()?;
-    without_wasm::build()
-}
-
 /// The module once more, for engines without vectors. What binds it is the same, so it goes without.
 fn build_plain() -> Result {
     let plain = files::target().join("js-plain");
@@ -63,7 +57,7 @@ fn inline() -> Result {
 
 /// Runs the tests in node, and has the compiler read the types.
 pub fn test() -> Result {
-    build_all()?;
+    build()?;
     npm::install()?;
     let tests = files::root().join("tests/js");
     let mut node = shell::command("node");
@@ -80,7 +74,7 @@ pub fn test() -> Result {
 
 /// Loads the package in a browser, from a page that is as strict as ours.
 pub fn test_page() -> Result {
-    build_all()?;
+    build()?;
     npm::install()?;
     let root = files::root();
     let mounts = vec![

@@ -19,7 +19,6 @@ mod shell;
 mod test;
 mod wasm;
 mod web;
-mod without_wasm;
 
 use std::process::ExitCode;
 
@@ -65,7 +64,7 @@ fn run(args: &[String]) -> Result {
         "bench" => bench::run(rest),
         "setup" => test::prepare(rest),
         "web" => alone(chore, rest, web::build),
-        "js" => alone(chore, rest, js::build_all),
+        "js" => alone(chore, rest, js::build),
         "c" => alone(chore, rest, c::check),
         "package" => alone(chore, rest, package::build),
         "help" | "--help" | "-h" => {

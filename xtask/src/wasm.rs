@@ -31,13 +31,6 @@ pub fn compile_plain(package: &str) -> Result<PathBuf> {
     compile(package, "-C target-feature=-simd128")
 }
 
-/// As `compile_plain`, of a module that is bound without references, which JavaScript has no table for,
-/// and turns numbers into whole ones by itself: what lowers the instruction for that rounds others.
-pub fn compile_oldest(package: &str) -> Result<PathBuf> {
-    let features = "-simd128,-reference-types,-multivalue,-nontrapping-fptoint";
-    compile(package, &format!("-C target-feature={features}"))
-}
-
 fn compile(package: &str, flags: &str) -> Result<PathBuf> {
     setup::ensure_target(TARGET)?;
     let mut cargo = shell::cargo(&["rustc", "--release", "--lib", "--crate-type", "cdylib"]);
