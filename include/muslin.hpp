@@ -263,6 +263,9 @@ class Cloth {
   Done teleport(MuslinVec3 position, MuslinQuat rotation) noexcept {
     return muslin_cloth_teleport(cloth_, position, rotation);
   }
+  Done move_frame(MuslinVec3 position, MuslinQuat rotation, float inertia) noexcept {
+    return muslin_cloth_move_frame(cloth_, position, rotation, inertia);
+  }
   Done set_position(std::uint32_t particle, MuslinVec3 position) noexcept {
     return muslin_cloth_set_position(cloth_, particle, position);
   }

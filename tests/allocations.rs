@@ -319,6 +319,8 @@ fn what_is_worn_on_a_body_allocates_nothing_either() {
             cloth.release(grab).unwrap();
             cloth.teleport(Vec3::X, Quat::IDENTITY).unwrap();
             cloth.step(30);
+            cloth.move_frame(Vec3::Y, Quat::from_rotation_y(0.25), 0.5).unwrap();
+            cloth.step(10);
             cloth.detach(body).unwrap();
             cloth.step(10);
         });

@@ -1,7 +1,8 @@
-//! A cloth goes along with a body that jumps.
+//! A cloth goes along with a body that jumps, or runs.
 
 use super::Cloth;
-use crate::error::Result;
+use crate::error::{Result, check};
+use crate::geom::frame::Frame;
 use crate::math::float_env::guarded;
 use crate::solver::World;
 use crate::state::pose::{Pose, check_pose};
@@ -11,8 +12,8 @@ use glam::{Quat, Vec3};
 const OF_FRAME: [&str; 2] = ["position", "rotation"];
 
 impl Cloth {
-    /// Says where the body is that wears the cloth, and how it is turned: [`Cloth::teleport`] goes from there.
-    /// At first, and after a reset, that is the origin. It moves nothing.
+    /// Says where the body is that wears the cloth, and how it is turned: [`Cloth::teleport`] and
+    /// [`Cloth::move_frame`] go from there. At first, and after a reset, that is the origin. It moves nothing.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
@@ -25,9 +26,9 @@ impl Cloth {
         })
     }
 
-    /// Takes the cloth along as the body that wears it jumps from where [`Cloth::set_frame`] or the last
-    /// `teleport` had it: at once, as a solid body, and without feeling it. Velocities turn with it. Pins,
-    /// attachments, grabs and anchors go along; colliders do not, see [`Cloth::teleport_collider`].
+    /// Takes the cloth along as the body that wears it jumps from where [`Cloth::set_frame`], [`Cloth::move_frame`]
+    /// or the last `teleport` had it: at once, as a solid body, and without feeling it. Velocities turn with it.
+    /// Pins, attachments, grabs and anchors go along; colliders do not, see [`Cloth::teleport_collider`].
     ///
     /// A call in the same frame as `move_attachment` or `set_anchors` comes first: those tell where things go
     /// from there.
@@ -44,40 +45,123 @@ impl Cloth {
         self.changed_state();
         Ok(())
     }
+
+    /// Takes the cloth along as the body that wears it runs and turns on from where [`Cloth::set_frame`],
+    /// [`Cloth::teleport`] or the last `move_frame` had it: over the next tick, and with only a share of its
+    /// `inertia`. At 1 it feels all of the body's motion, as if nothing were said; at 0 none, as if the body
+    /// stood still and the rest of the world moved past; between, so much of it, both of the way and of the turn.
+    ///
+    /// What is not felt takes particles along at once, as a solid body; over the tick they, pins, attachments
+    /// and anchors get to where the body has them then. Colliders and grabs stay where they are told to be, on the
+    /// body or off it, and the cloth meets them as one who goes with the body sees them move. Air goes along
+    /// as far as the motion is not felt.
+    ///
+    /// A call in the same frame as `move_attachment`, `move_collider` or `set_anchors` comes first: those tell
+    /// where things get to.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite, a rotation that is no
+    /// unit quaternion, or an `inertia` that is not from 0 to 1.
+    pub fn move_frame(&mut self, position: Vec3, rotation: Quat, inertia: f32) -> Result<()> {
+        guarded(|| {
+            check_pose(position, rotation, OF_FRAME)?;
+            check((0.0..=1.0).contains(&inertia), "inertia", "be from 0 to 1")?;
+            self.world.go_along(Pose::new(position, rotation), inertia);
+            Ok(())
+        })?;
+        self.changed_state();
+        Ok(())
+    }
+}
+
+/// From where a body was to where it is.
+#[derive(Clone, Copy)]
+struct Move {
+    from: Pose,
+    to: Pose,
+    frames: [Frame; 2],
+}
+
+impl Move {
+    fn new(from: Pose, to: Pose) -> Self {
+        Self { from, to, frames: [from.frame(), to.frame()] }
+    }
+
+    fn point(&self, x: Vec3) -> Vec3 {
+        self.frames[1].outward(self.frames[0].inward(x))
+    }
+
+    fn turn(&self, v: Vec3) -> Vec3 {
+        self.frames[1].turn(self.frames[0].turn_inward(v))
+    }
+
+    fn pose(&self, pose: &Pose) -> Pose {
+        pose.jump(&self.from, &self.to)
+    }
 }
 
 impl World {
     /// Moves all but colliders with the body that it goes along with.
     fn jump(&mut self, to: Pose) {
+        let all = Move::new(self.reference, to);
+        self.carry(&all, &all);
+        self.grabs.iter_mut().for_each(|held| held.target = all.point(held.target));
+        self.reference = to;
+    }
+
+    /// As a tick is to begin, all goes along but for what is felt of a body's motion, and that is left to the
+    /// tick. Seen from there colliders come from elsewhere.
+    fn go_along(&mut self, to: Pose, inertia: f32) {
         let from = core::mem::replace(&mut self.reference, to);
-        let (old, new) = (from.frame(), to.frame());
-        let point = |x: Vec3| new.outward(old.inward(x));
-        let turn = |v: Vec3| new.turn(old.turn_inward(v));
+        if from == to {
+            return;
+        }
+        let unfelt = match inertia {
+            1.0 => from,
+            0.0 => to,
+            felt => to.toward(&from, felt),
+        };
+        let unfelt = Move::new(from, unfelt);
+        self.carry(&unfelt, &Move::new(from, to));
+        if unfelt.from != unfelt.to {
+            self.colliders.iter_mut().for_each(|body| body.last = unfelt.pose(&body.last));
+        }
+    }
+
+    /// Moves particles and where things are by `now`, and where they get to over the tick by `then`.
+    fn carry(&mut self, now: &Move, then: &Move) {
+        if now.from != now.to {
+            self.carry_starts(now);
+        }
+        self.attachments.iter_mut().for_each(|carrier| carrier.next = then.pose(&carrier.next));
+        for pin in self.pins.iter_mut() {
+            pin.target = match self.attachments.get(pin.carrier, "attachment") {
+                Ok(carrier) => carrier.next.frame().outward(pin.local),
+                Err(_) => then.point(pin.target),
+            };
+        }
+        for leash in self.leashes.iter_mut() {
+            (leash.anchor, leash.normal) = (then.point(leash.anchor), then.turn(leash.normal));
+        }
+        self.wake();
+    }
+
+    fn carry_starts(&mut self, by: &Move) {
         let p = &mut self.particles;
         for i in 0..p.len() {
             for places in [&mut p.x, &mut p.x_last] {
-                places.set(i, point(places.at(i)));
+                places.set(i, by.point(places.at(i)));
             }
             for ways in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
-                ways.set(i, turn(ways.at(i)));
+                ways.set(i, by.turn(ways.at(i)));
             }
         }
-        for carrier in self.attachments.iter_mut() {
-            (carrier.last, carrier.next) =
-                (carrier.last.jump(&from, &to), carrier.next.jump(&from, &to));
-        }
-        for pin in self.pins.iter_mut() {
-            (pin.from, pin.target) = (point(pin.from), point(pin.target));
-            if let Ok(carrier) = self.attachments.get(pin.carrier, "attachment") {
-                pin.target = carrier.next.frame().outward(pin.local);
-            }
-        }
-        self.grabs.iter_mut().for_each(|held| held.target = point(held.target));
+        self.attachments.iter_mut().for_each(|carrier| carrier.last = by.pose(&carrier.last));
+        self.pins.iter_mut().for_each(|pin| pin.from = by.point(pin.from));
         for leash in self.leashes.iter_mut() {
-            (leash.from, leash.anchor) = (point(leash.from), point(leash.anchor));
-            (leash.normal_from, leash.normal) = (turn(leash.normal_from), turn(leash.normal));
+            leash.from = by.point(leash.from);
+            leash.normal_from = by.turn(leash.normal_from);
         }
         self.scratch.contacts.near.forget();
-        self.wake();
     }
 }

@@ -361,6 +361,10 @@ static void worn_is_refused_by_argument(void) {
   REFUSED(muslin_cloth_set_anchors(cloth, &last, &zero, NULL, 10, 1), BAD_VALUE, "`stride`");
   REFUSED(muslin_cloth_set_frame(cloth, nan, as_it_is), BAD_VALUE, "`position`");
   REFUSED(muslin_cloth_teleport(cloth, zero, too_long), BAD_VALUE, "`rotation`");
+  REFUSED(muslin_cloth_move_frame(cloth, nan, as_it_is, 0), BAD_VALUE, "`position`");
+  REFUSED(muslin_cloth_move_frame(cloth, zero, too_long, 0), BAD_VALUE, "`rotation`");
+  REFUSED(muslin_cloth_move_frame(cloth, zero, as_it_is, 1.5f), BAD_VALUE, "`inertia`");
+  REFUSED(muslin_cloth_move_frame(cloth, zero, as_it_is, NAN), BAD_VALUE, "`inertia`");
   REFUSED(muslin_cloth_teleport_collider(cloth, no_collider, zero, as_it_is),
           MUSLIN_STATUS_BAD_HANDLE, "`collider`");
 }

@@ -189,6 +189,11 @@ refuses("normals", [[0, 0, 1], targets, targets.map(() => NaN)], (value, { cloth
 refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setFrame(value));
 refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.teleport(value));
 refuses("rotation", NOT_ROTATIONS, (value, { cloth }) => cloth.teleport([0, 0, 0], value));
+refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.moveFrame(value));
+refuses("rotation", NOT_ROTATIONS, (value, { cloth }) => cloth.moveFrame([0, 0, 0], value));
+refuses("inertia", [-0.1, 1.1, NaN, "1"], (value, { cloth }) =>
+  cloth.moveFrame([0, 0, 0], undefined, value),
+);
 refuses("position", [...NOT_VECTORS, undefined], (value, { collider }) => collider.teleport(value));
 refuses("collider.position", [[0, Infinity, 0]], (value, { collider }) => collider.teleport(value));
 refuses("particles", [...NOT_LISTS, undefined, [1, -1], [1, 0.5], [1, 1000]], (value, { cloth }) =>

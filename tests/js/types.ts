@@ -127,6 +127,8 @@ cloth.setAnchors([4], [0, 0, 0], [0, 0, 1]);
 cloth.setMassScales([4], [2]);
 cloth.setFrame([0, 0, 0]);
 cloth.teleport([1, 0, 0], [0, 0, 0, 1]);
+cloth.moveFrame([1, 0, 0]);
+cloth.moveFrame([1, 0, 0], [0, 0, 0, 1], 0.25);
 cloth.setPosition(5, [0, 0, 0]);
 cloth.setVelocity(5, new Float64Array(3));
 const velocity: Vec3 = cloth.velocity(5);

@@ -306,6 +306,9 @@ test("what is attached is carried, and what is led stays near its anchor", () =>
   cloth.teleport([5, 0, 0], [0, 1, 0, 0]);
   const there = cloth.position(5);
   [5 - x, y, -z].forEach((each, axis) => assert.ok(Math.abs(there[axis] - each) < 1e-5));
+  cloth.moveFrame([0, 0, 0]);
+  const back = cloth.position(5);
+  [x, y, z].forEach((each, axis) => assert.ok(Math.abs(back[axis] - each) < 1e-5));
   cloth.clearLeashes();
   body.detach();
   assert.equal(cloth.pinned.length, 0);

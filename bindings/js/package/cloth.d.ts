@@ -228,16 +228,30 @@ export class Cloth {
   /** Takes away all anchors, maximum distances and backstops. */
   clearLeashes(): void;
   /**
-   * Says where the body is that wears the cloth, and how it is turned: `teleport` goes from there. At first, and
-   * after a reset, that is the origin. It moves nothing.
+   * Says where the body is that wears the cloth, and how it is turned: `teleport` and `moveFrame` go from there.
+   * At first, and after a reset, that is the origin. It moves nothing.
    */
   setFrame(position: Vec3Like, rotation?: QuatLike): void;
   /**
-   * Takes the cloth along as the body that wears it jumps from where `setFrame` or the last `teleport` had it: at
-   * once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs and anchors
+   * Takes the cloth along as the body that wears it jumps from where `setFrame`, `moveFrame` or the last
+   * `teleport` had it: at once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs and anchors
    * go along; colliders do not, see their own `teleport`. In a frame it comes before `moveTo` and `setAnchors`.
    */
   teleport(position: Vec3Like, rotation?: QuatLike): void;
+  /**
+   * Takes the cloth along as the body that wears it runs and turns on from where `setFrame`, `teleport` or the last
+   * `moveFrame` had it: over the next tick, and with only a share of its `inertia`, 0. At 1 it feels all of the
+   * body's motion, as if nothing were said; at 0 none, as if the body stood still and the rest of the world moved
+   * past; between, so much of it, both of the way and of the turn.
+   *
+   * What is not felt takes particles along at once, as a solid body; over the tick they, pins, attachments and
+   * anchors get to where the body has them then. Colliders and grabs stay where they are told to be, and the cloth
+   * meets them as one who goes with the body sees them move. Air goes along as far as the motion is not felt. In a
+   * frame it comes before `moveTo` and `setAnchors`.
+   *
+   * @throws if `inertia` is not from 0 to 1
+   */
+  moveFrame(position: Vec3Like, rotation?: QuatLike, inertia?: number): void;
 
   /** The first triangle along a ray, within `maxDistance` [m], Infinity; hit from either side. */
   raycast(origin: Vec3Like, direction: Vec3Like, maxDistance?: number): Hit | undefined;

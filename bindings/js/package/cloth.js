@@ -314,6 +314,10 @@ export class Cloth {
     this.#live.teleport(pose(position, rotation));
   }
 
+  moveFrame(position, rotation = [0, 0, 0, 1], inertia = 0) {
+    this.#live.move_frame(pose(position, rotation), number(inertia, "inertia"));
+  }
+
   // Pointing, grabbing, cutting and tearing
 
   raycast(origin, direction, maxDistance = Infinity) {

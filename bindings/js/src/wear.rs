@@ -86,4 +86,11 @@ impl RawCloth {
         let mut pose = Reader::new(pose);
         self.cloth.teleport(pose.vector(), pose.rotation()).map_err(refusal)
     }
+
+    /// Takes the cloth along as that body runs on, with a share of its inertia.
+    pub fn move_frame(&mut self, pose: &[f64], inertia: f64) -> Result<()> {
+        let mut pose = Reader::new(pose);
+        let (position, rotation) = (pose.vector(), pose.rotation());
+        self.cloth.move_frame(position, rotation, inertia as f32).map_err(refusal)
+    }
 }

@@ -42,6 +42,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },
     Scene { name: "garment-on-a-moving-body", play: worn::garment_on_a_moving_body },
+    Scene { name: "cape-in-a-running-frame", play: worn::cape_in_a_running_frame },
     Scene { name: "skirt-on-leashes", play: worn::skirt_on_leashes },
     Scene { name: "first-order", play: time::first_order },
     Scene { name: "receipt", play: time::receipt },

@@ -3,7 +3,10 @@
 use super::along;
 use crate::Trace;
 use muslin::glam::{Quat, Vec3};
-use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Preset, Result, Settings, Wind};
+use muslin::{
+    Cloth, ColliderDesc, EventKind, GridDesc, Material, PinMode, Preset, Result, Settings, Shape,
+    Wind,
+};
 
 /// Turns by exact numbers: all but unit quaternions, which a cloth makes whole.
 const TURNS: [[f32; 4]; 4] = [
@@ -61,6 +64,36 @@ pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
     trace.run(&mut cloth, 20);
     trace.look(&mut cloth);
     assert_eq!(trace.count_of(EventKind::Recovered), 0, "the cape ran away from its body");
+    Ok(())
+}
+
+/// A cape in the frame of a body that runs and turns over a floor, feeling all of its inertia, a quarter, none;
+/// a ball goes with the body.
+pub fn cape_in_a_running_frame(trace: &mut Trace) -> Result<()> {
+    let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0625))?;
+    let shoulders: Vec<u32> = (0..12).collect();
+    let body = cloth.attach(&shoulders, Vec3::ZERO, turn(0))?;
+    let ball = ColliderDesc { shape: Shape::Sphere, radius: 0.1875, ..ColliderDesc::default() };
+    let back = Vec3::new(0.34375, -0.5, -0.25);
+    let back = cloth.add_collider(&ColliderDesc { position: back, ..ball })?;
+    cloth.add_collider(&ColliderDesc {
+        shape: Shape::Plane,
+        position: Vec3::Y * -1.0,
+        ..ColliderDesc::default()
+    })?;
+    let led: Vec<u32> = (60..72).collect();
+    cloth.set_max_distances(&led, &[0.25; 12])?;
+    for i in 1..=90 {
+        let (to, turned) = (along(Vec3::ZERO, Vec3::new(0.125, 0.0, 0.0625), i), turn(i / 4));
+        cloth.move_frame(to, turned, [1.0, 0.25, 0.0][i as usize / 31])?;
+        cloth.move_attachment(body, to, turned)?;
+        cloth.move_collider(back, to + Vec3::new(0.34375, -0.5, -0.25), turned)?;
+        if i == 50 {
+            cloth = Cloth::restore(&cloth.save())?;
+        }
+        trace.run(&mut cloth, 1);
+    }
+    trace.look(&mut cloth);
     Ok(())
 }
 
