@@ -18,7 +18,8 @@ pub(crate) fn keep(world: &mut World, number: u32) {
 
 /// Once more at the end of a tick, after other stages moved particles.
 pub(crate) fn keep_in(world: &mut World) {
-    pull(world, 1.0, |_, _| ());
+    world.scratch.pulled.clear();
+    pull(world, 1.0, |pulled, leash| pulled.push(leash.particle));
 }
 
 fn pull(world: &mut World, share: f32, tell: impl Fn(&mut Vec<u32>, &Leash)) {

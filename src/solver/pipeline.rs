@@ -56,12 +56,15 @@ pub(crate) fn tick(world: &mut World) -> bool {
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
         timed!(world, Tear, tear::tear(world));
     }
-    if world.settings.max_stretch > 0.0 {
+    let is_bounded = world.settings.max_stretch > 0.0;
+    if is_bounded || !world.leashes.is_empty() {
         timed!(world, Pairs, layers::begin(world));
-        timed!(world, Limit, limit::enforce(world));
-        timed!(world, SelfContacts, layers::hold(world));
+        if is_bounded {
+            timed!(world, Limit, limit::enforce(world));
+        }
+        timed!(world, Hold, leash::keep_in(world));
+        timed!(world, SelfContacts, layers::hold_at_last(world));
     }
-    timed!(world, Hold, leash::keep_in(world));
     hold::arrive(world);
     sleep::look(world);
     true

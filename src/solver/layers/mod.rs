@@ -260,6 +260,18 @@ pub(crate) fn hold(world: &mut World) {
     world.layers = Some(layers);
 }
 
+/// Once more at the end of a tick, after other stages moved particles; what leashes pulled stays where that is.
+pub(crate) fn hold_at_last(world: &mut World) {
+    let (pulled, w) = (&world.scratch.pulled, &world.particles.w);
+    if let Some(layers) = &mut world.layers {
+        for (spot, w) in layers.now.iter_mut().zip(w.iter()) {
+            spot[3] = *w;
+        }
+        pulled.iter().for_each(|i| layers.now[*i as usize][3] = 0.0);
+    }
+    hold(world);
+}
+
 /// After velocities were derived, those of layers that touch agree.
 pub(crate) fn calm(world: &mut World) {
     let Some(layers) = &world.layers else {
