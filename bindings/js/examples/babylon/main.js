@@ -42,19 +42,21 @@ sky.groundColor = new Color3(0.3, 0.24, 0.2);
 const key = new BABYLON.DirectionalLight("key", new Vector3(-0.5, -0.8, -0.7), scene);
 key.position = new Vector3(2.2, 3.6, 3.2);
 key.diffuse = new Color3(1, 0.94, 0.84);
-key.intensity = 0.85;
+key.intensity = 0.95;
 const rim = new BABYLON.DirectionalLight("rim", new Vector3(0.4, -0.4, 1), scene);
 rim.diffuse = new Color3(1, 0.62, 0.36);
 rim.intensity = 0.5;
 
 const { mesh, update } = makeClothMesh(BABYLON, cloth, scene);
 const fabric = new BABYLON.StandardMaterial("fabric", scene);
-fabric.diffuseColor = new Color3(0.3, 0.44, 0.72);
+fabric.diffuseColor = new Color3(0.22, 0.34, 0.62);
 fabric.specularColor = new Color3(0.1, 0.1, 0.11);
 fabric.specularPower = 24;
 fabric.ambientColor = new Color3(0.03, 0.035, 0.05);
 fabric.backFaceCulling = false;
 fabric.twoSidedLighting = true;
+// Fronts are counter-clockwise, which has to be said of a right-handed scene.
+fabric.sideOrientation = BABYLON.Material.CounterClockWiseSideOrientation;
 mesh.material = fabric;
 pullClothMesh(BABYLON, cloth, mesh, scene);
 
