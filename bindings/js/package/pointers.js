@@ -53,8 +53,10 @@ export class Pointers {
 
   lift(pointer) {
     const held = this.#held.get(pointer);
-    if (held) this.#use(pointer, () => held.grab.release());
-    return this.#held.delete(pointer);
+    if (!held) return false;
+    this.#use(pointer, () => held.grab.release());
+    this.#held.delete(pointer);
+    return true;
   }
 
   liftAll() {

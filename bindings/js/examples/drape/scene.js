@@ -34,26 +34,23 @@ function weave(THREE) {
   });
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
   texture.repeat.set(80, 80);
-  texture.anisotropy = 8;
+  texture.anisotropy = 2;
   return texture;
 }
 
 /** Two sides of one sheet, in two colours. Gives the group and its front. */
 export function makeSheet(THREE, geometry) {
   const map = weave(THREE);
-  const side = (which, color, sheen) => {
-    const material = new THREE.MeshPhysicalMaterial({
-      color, map, side: which, roughness: 0.82, sheen: 0.35, sheenRoughness: 0.5, sheenColor: sheen,
-    });
-    material.shadowSide = which;
+  const side = (which, color) => {
+    const material = new THREE.MeshStandardMaterial({ color, map, side: which, roughness: 0.78 });
     const mesh = new THREE.Mesh(geometry, material);
     mesh.receiveShadow = true;
     return mesh;
   };
-  const front = side(THREE.FrontSide, 0xb23a34, 0xffb49a);
+  const front = side(THREE.FrontSide, 0xb23a34);
   front.castShadow = true;
   front.material.shadowSide = THREE.DoubleSide;
-  const back = side(THREE.BackSide, 0xc9924f, 0xffe0b0);
+  const back = side(THREE.BackSide, 0xc9924f);
   const sheet = new THREE.Group();
   sheet.add(front, back);
   return { sheet, front, back };

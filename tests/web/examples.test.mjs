@@ -1,0 +1,170 @@
+// Every example page of the npm package, used by a visitor: the cloth is where the pointer drags it, nothing complains.
+
+import assert from "node:assert/strict";
+import { readdir } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { launch, open, url, variable } from "./browser.mjs";
+
+const shots = variable("MUSLIN_SHOTS");
+/** The same pages with the newest three.js. */
+const newest = variable("MUSLIN_NEWEST");
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser?.close());
+
+/** Small, since a busy machine without a graphics card draws slowly; the panel is below the cloth then. */
+const SIZE = { width: 300, height: 460 };
+/** On the cloth, and beside it where only the background is, in parts of the picture above the panel. */
+const [ON, BESIDE] = [[0.6, 0.5], [0.9, 0.45]];
+
+/** A page that draws: its readout tells of particles. */
+async function visit(name, { home = url, ...options } = {}) {
+  const visited = await open(browser, { viewport: SIZE, ...options }, home);
+  visited.page.setDefaultTimeout(120_000);
+  await visited.page.goto(new URL(`${name}/`, home).href);
+  await visited.page.waitForFunction(() => /^[1-9]\d+ particles/.test(document.getElementById("stats").textContent));
+  return visited;
+}
+
+/** A place of the page in pixels, from its part of what the panel leaves free. */
+const place = (page, [x, y]) =>
+  page.evaluate(([x, y]) => {
+    const { top } = document.querySelector(".panel").getBoundingClientRect();
+    return [Math.round(x * innerWidth), Math.round(y * top)];
+  }, [x, y]);
+
+/** The mean colour of what is drawn around a place. */
+async function patch(page, [x, y]) {
+  const clip = { x: x - 6, y: y - 6, width: 12, height: 12 };
+  const picture = (await page.screenshot({ clip })).toString("base64");
+  return page.evaluate(async (picture) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${picture}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(12, 12).getContext("2d");
+    canvas.drawImage(image, 0, 0);
+    const { data } = canvas.getImageData(0, 0, 12, 12);
+    const mean = [0, 0, 0];
+    for (let at = 0; at < data.length; at += 4) for (const i of [0, 1, 2]) mean[i] += data[at + i] / 144;
+    return mean;
+  }, picture);
+}
+
+const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
+
+/** Waits until what is drawn at a place is far from a colour, or near it. */
+async function becomes(page, place, colour, isFar) {
+  let last;
+  for (let i = 0; i < 60; i++) {
+    last = await patch(page, place);
+    if (apart(last, colour) > 25 === isFar) return;
+    await page.waitForTimeout(100);
+  }
+  assert.fail(`${place} stays ${isFar ? "near" : "far from"} ${colour}: ${last}`);
+}
+
+/** Drags the cloth to where there is none, and gives that place and the colour that it had. */
+async function drag(page) {
+  const [on, beside] = [await place(page, ON), await place(page, BESIDE)];
+  const background = await patch(page, beside);
+  await page.mouse.move(...on);
+  await page.mouse.down();
+  for (const share of [0.25, 0.5, 0.75, 1]) {
+    await page.mouse.move(...on.map((from, i) => from + share * (beside[i] - from)));
+    await page.waitForTimeout(200); // or it is torn out of the cloth rather than pulled
+  }
+  await becomes(page, beside, background, true);
+  return [beside, background];
+}
+
+test("every folder of examples is looked at here", async () => {
+  const dirs = await readdir(new URL("../../bindings/js/examples", import.meta.url), { withFileTypes: true });
+  assert.deepEqual(dirs.filter((dir) => dir.isDirectory()).map(({ name }) => name).sort(), ["babylon", "drape", "plain", "worker"]);
+});
+
+for (const [name, version, home] of [
+  ["drape", "r160", url],
+  ["drape", "newest", newest],
+  ["worker", "r160", url],
+  ["worker", "newest", newest],
+  ["plain", "", url],
+  ["babylon", "", url],
+]) {
+  test(`${name} ${version}: a drag brings the cloth along, and lets it go`, async () => {
+    const { context, page, complaints } = await visit(name, { home });
+    await page.screenshot({ path: join(shots, `${name}${version}.png`) });
+    const [beside, background] = await drag(page);
+    await page.screenshot({ path: join(shots, `${name}${version}-dragged.png`) });
+    await page.mouse.up();
+    await page.locator("#reset").click();
+    await becomes(page, beside, background, false);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+}
+
+test("drape, torn: with its switch on a hard pull makes pieces of it, and a reset makes it whole", async () => {
+  const { context, page, complaints } = await visit("drape");
+  const particles = async () => parseInt(await page.locator("#stats").textContent());
+  await page.locator("#tear").check();
+  await page.mouse.move(...(await place(page, ON)));
+  await page.mouse.down();
+  for (const far of [[0.5, 0.1], [0.98, 0.95], [0.02, 0.95]]) await page.mouse.move(...(await place(page, far)), { steps: 2 });
+  await page.waitForFunction(() => parseInt(document.getElementById("stats").textContent) > 1600);
+  assert.ok((await particles()) > 1600);
+  await page.screenshot({ path: join(shots, "drape-torn.png") });
+  await page.mouse.up(); // until then every pointer event is the canvas's
+  await page.locator("#wire").check();
+  await page.locator("#reset").click();
+  await page.waitForFunction(() => /^1600 particles ·/.test(document.getElementById("stats").textContent));
+  // Hung anew, in the other ways: nothing of the sheet before is left to complain.
+  for (const pins of ["corners", "top-edge"]) await page.locator("#pins").selectOption(pins);
+  await page.locator("#pause").click();
+  assert.equal(await page.locator("#pause").getAttribute("aria-pressed"), "true");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("drape on a phone: two fingers pull at two places, beside the cloth they zoom", async () => {
+  const size = { width: 390, height: 844 };
+  const { context, page, complaints } = await visit("drape", { viewport: size, hasTouch: true });
+  await page.screenshot({ path: join(shots, "drape-phone.png") });
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.ok(wider <= 0, `the page is ${wider} pixels wider than the screen`);
+  const session = await context.newCDPSession(page);
+  const touch = (type, ...places) => {
+    const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
+    return session.send("Input.dispatchTouchEvent", { type, touchPoints });
+  };
+  const [left, right] = [[130, 330], [260, 330]];
+  const above = await patch(page, [30, 100]);
+  await touch("touchStart", left);
+  await touch("touchStart", left, right);
+  for (const y of [270, 200, 150, 100]) {
+    await touch("touchMove", [30, y], [360, y]);
+    await page.waitForTimeout(250);
+  }
+  await becomes(page, [30, 100], above, true);
+  await touch("touchEnd");
+  const beside = [[60, 480], [330, 480]];
+  const corner = await patch(page, left);
+  await touch("touchStart", ...beside);
+  await touch("touchMove", [190, 480], [200, 480]);
+  await touch("touchEnd");
+  await becomes(page, left, corner, true); // as small as it gets: the place is beside it now
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a worker goes on while its page is busy", async () => {
+  const { context, page, complaints } = await visit("worker");
+  await page.locator("#busy").click();
+  await page.waitForFunction(() => / [1-9]\d* fps in the worker/.test(document.getElementById("stats").textContent));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
