@@ -42,7 +42,7 @@ cargo xtask package                 pack the C library as others install it, int
   --js                              pack the npm package instead, into dist, and say what it weighs
 cargo xtask examples                serve the example pages of the npm package
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
-                                    kernels, ticks, shreds, layers, scenes, node
+                                    kernels, ticks, shreds, layers, scenes, node, peers
   --test                            once and tiny, to see that it runs
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
