@@ -5,7 +5,7 @@ import { contenders } from "./peers.js";
 /** Frames that a sheet hangs before it is timed; the stretch after them is told. */
 const HANG = 600;
 /** How long a contender is timed in a round, and how long all of its hanging may take [ms]. */
-const [SLICE, PATIENCE] = [40, 12_000];
+const [SLICE, PATIENCE] = [40, 4_000];
 
 const SIDES = [40, 128, 256];
 

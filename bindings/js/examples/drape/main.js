@@ -35,7 +35,7 @@ function hang() {
     origin: [-1, 1, 0],
     pinMode: $("pins").value,
     material: { tearStretch: 1.6, tearVariation: 0.3 },
-    settings: { selfCollision: true, damping: 0.35 },
+    settings: { substeps: 2, selfCollision: true, damping: 0.35 },
   });
   const geometry = new ClothGeometry(cloth);
   const { sheet, front } = makeSheet(THREE, geometry);
