@@ -22,6 +22,9 @@ const SIZE = { width: 300, height: 460 };
 /** On the cloth, and beside it where only the background is, in parts of the picture above the panel. */
 const [ON, BESIDE] = [[0.6, 0.5], [0.9, 0.45]];
 
+/** A patch of a picture that is compared, and how many of its pixels it takes to make it another [pixels]. */
+const [WIDTH, HEIGHT, MANY] = [24, 32, 40];
+
 /** A page that draws: its readout tells of particles. */
 async function visit(name, { home = url, ...options } = {}) {
   const visited = await open(browser, { viewport: SIZE, ...options }, home);
@@ -38,34 +41,39 @@ const place = (page, [x, y]) =>
     return [Math.round(x * innerWidth), Math.round(y * top)];
   }, [x, y]);
 
-/** The mean colour of what is drawn around a place. */
+/** The pixels about a place, more of them below it, where cloth hangs that is held there. */
 async function patch(page, [x, y]) {
-  const clip = { x: x - 6, y: y - 6, width: 12, height: 12 };
+  const clip = { x: x - WIDTH / 2, y: y - HEIGHT / 4, width: WIDTH, height: HEIGHT };
   const picture = (await page.screenshot({ clip })).toString("base64");
-  return page.evaluate(async (picture) => {
+  return page.evaluate(async ([picture, width, height]) => {
     const image = new Image();
     image.src = `data:image/png;base64,${picture}`;
     await image.decode();
-    const canvas = new OffscreenCanvas(12, 12).getContext("2d");
+    const canvas = new OffscreenCanvas(width, height).getContext("2d");
     canvas.drawImage(image, 0, 0);
-    const { data } = canvas.getImageData(0, 0, 12, 12);
-    const mean = [0, 0, 0];
-    for (let at = 0; at < data.length; at += 4) for (const i of [0, 1, 2]) mean[i] += data[at + i] / 144;
-    return mean;
-  }, picture);
+    return [...canvas.getImageData(0, 0, width, height).data];
+  }, [picture, WIDTH, HEIGHT]);
 }
 
-const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
+/** How many pixels of two patches are of different colours. */
+function differing(a, b) {
+  let count = 0;
+  for (let at = 0; at < a.length; at += 4) {
+    const apart = Math.hypot(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]);
+    if (apart > 30) count++;
+  }
+  return count;
+}
 
-/** Waits until what is drawn at a place is far from a colour, or near it. */
-async function becomes(page, place, colour, isFar) {
+/** Waits until what is drawn at a place is other than it was, or as it was. */
+async function becomes(page, place, before, isOther) {
   let last;
   for (let i = 0; i < 60; i++) {
-    last = await patch(page, place);
-    if (apart(last, colour) > 25 === isFar) return;
+    last = differing(await patch(page, place), before);
+    if (last > MANY === isOther) return;
     await page.waitForTimeout(100);
   }
-  assert.fail(`${place} stays ${isFar ? "near" : "far from"} ${colour}: ${last}`);
+  assert.fail(`at ${place} ${last} pixels differ, where ${isOther ? "many" : "few"} should`);
 }
 
 /** Drags the cloth to where there is none, and gives that place and the colour that it had. */
@@ -82,9 +90,17 @@ async function drag(page) {
   return [beside, background];
 }
 
-test("every folder of examples is looked at here", async () => {
+test("the list names every folder of examples, and each is looked at here", async () => {
+  const { context, page, complaints } = await open(browser);
+  await page.goto(url);
+  const links = await page.locator("a").evaluateAll((links) => links.map((link) => link.getAttribute("href").replace("/", "")));
+  await page.screenshot({ path: join(shots, "../examples-list.png") });
+  assert.deepEqual(complaints, []);
+  await context.close();
   const dirs = await readdir(new URL("../../bindings/js/examples", import.meta.url), { withFileTypes: true });
-  assert.deepEqual(dirs.filter((dir) => dir.isDirectory()).map(({ name }) => name).sort(), ["babylon", "drape", "plain", "worker"]);
+  const names = dirs.filter((dir) => dir.isDirectory()).map(({ name }) => name).sort();
+  assert.deepEqual(links.sort(), names);
+  assert.deepEqual(names, ["babylon", "drape", "plain", "worker"]);
 });
 
 for (const [name, version, home] of [
