@@ -19,7 +19,9 @@ pub fn pack() -> Result {
     std::fs::remove_file(&tarball).ok(); // there may be none
     let mut pack = shell::command("npm");
     let to = tarball.parent().unwrap_or(&tarball);
-    pack.current_dir(js::dir()).args(["pack", "--silent", "--ignore-scripts", "--pack-destination"]).arg(to);
+    pack.current_dir(js::dir())
+        .args(["pack", "--silent", "--ignore-scripts", "--pack-destination"])
+        .arg(to);
     println!("$ npm pack");
     shell::output(&mut pack)?;
     if !tarball.is_file() {
