@@ -32,9 +32,9 @@ const HARMLESS = /GPU stall due to ReadPixels/;
 
 /**
  * A page in a context of its own. `complaints` fills with all that goes wrong: errors and warnings
- * of the console, exceptions, requests that fail or leave this machine, reports of the policy.
+ * of the console, exceptions, requests that fail or leave `home`, reports of the policy.
  */
-export async function open(browser, options = {}) {
+export async function open(browser, options = {}, home = url) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
   const page = await context.newPage();
   const complaints = [];
@@ -51,7 +51,7 @@ export async function open(browser, options = {}) {
     if (response.status() >= 400) complaints.push(`${response.status()}: ${response.url()}`);
   });
   page.on("request", (request) => {
-    if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(url)) {
+    if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(home)) {
       complaints.push(`leaves this machine: ${request.url()}`);
     }
   });

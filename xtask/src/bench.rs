@@ -1,11 +1,14 @@
 //! The benchmarks: tables of kernels and whole ticks, natively and in node.
 
 use crate::failure::{Failure, Result};
-use crate::{files, js, setup, shell, wasm};
+use crate::serve::{Mount, Server};
+use crate::{files, js, npm, setup, shell, wasm};
 
 /// The tables that are run natively; in node they go by one name.
 const NATIVE: [&str; 5] = ["kernels", "ticks", "shreds", "layers", "scenes"];
 const NODE: &str = "node";
+/// Others that have cloth for a page; run only when they are named, as they have to be fetched.
+const PEERS: &str = "peers";
 /// Leaves vectors wider than those of AVX2 unused, as on machines that have no others.
 const AVX2: &str = "avx2";
 /// Runs everything once and tiny.
@@ -14,10 +17,10 @@ const TEST: &str = "--test";
 /// Prints the tables that are named, or all.
 pub fn run(options: &[String]) -> Result {
     let words: Vec<_> = options.iter().map(String::as_str).filter(|word| *word != "--").collect();
-    let is_known = |word: &str| [NODE, AVX2, TEST].contains(&word) || NATIVE.contains(&word);
+    let is_known = |word: &str| [NODE, PEERS, AVX2, TEST].contains(&word) || NATIVE.contains(&word);
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
-            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, node, avx2 and --test"
+            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, node, peers, avx2 and --test"
         )));
     }
     let test: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };
@@ -37,7 +40,26 @@ pub fn run(options: &[String]) -> Result {
     if words.contains(&NODE) || all && !words.contains(&AVX2) {
         in_node(test)?;
     }
+    if words.contains(&PEERS) {
+        beside_peers(test)?;
+    }
     Ok(())
+}
+
+/// The npm package beside its peers, in node and in a browser.
+fn beside_peers(test: &[&str]) -> Result {
+    setup::ensure(&[&setup::NODE, &setup::CHROMIUM])?;
+    js::build()?;
+    npm::install()?;
+    let peers = files::root().join("benches/peers");
+    npm::install_in(&peers)?;
+    let script = peers.join("node.mjs");
+    let mounts = vec![Mount { at: "/js/", dir: js::dir() }, Mount { at: "/peers/", dir: peers }];
+    let url = Server::open(mounts, 0)?.run_aside() + "peers/index.html";
+    let chromium = setup::chromium().ok_or_else(|| Failure::new("chromium is missing"))?;
+    let mut node = shell::command("node");
+    node.arg(script).args(test).env("MUSLIN_URL", url).env("MUSLIN_CHROMIUM", chromium);
+    shell::run(&mut node)
 }
 
 /// The npm package beside the plain loop as a wasm module of its own.

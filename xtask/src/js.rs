@@ -28,6 +28,7 @@ pub fn build() -> Result {
         files::write(&dir().join(license), &text)?;
     }
     inline()?;
+    name_build()?;
     println!("the package is in dist/js");
     Ok(())
 }
@@ -53,6 +54,33 @@ fn inline() -> Result {
     let bytes = std::fs::read(&module).during(|| format!("reading {}", module.display()))?;
     let text = base64::engine::general_purpose::STANDARD.encode(bytes);
     files::write(&dir().join("bytes.js"), &format!("export default \"{text}\";\n"))
+}
+
+/// Writes down of which version and commit the package is.
+fn name_build() -> Result {
+    let version = env!("CARGO_PKG_VERSION");
+    let manifest = dir().join("package.json");
+    let text = files::read(&manifest)?;
+    let filled = text.replace("\"version\": \"0.0.0\"", &format!("\"version\": \"{version}\""));
+    if filled == text {
+        return Err(Failure::new("package.json has no version 0.0.0 to be filled in"));
+    }
+    files::write(&manifest, &filled)?;
+    // From an archive of the sources there is no commit to name.
+    let mut git = shell::command("git");
+    git.args(["describe", "--always", "--abbrev=40", "--exclude=*", "--dirty"]);
+    let commit = match git.stderr(std::process::Stdio::null()).output() {
+        Ok(said) if said.status.success() => {
+            format!("\"{}\"", String::from_utf8_lossy(&said.stdout).trim())
+        }
+        _ => "null".into(),
+    };
+    let compiler = shell::output(shell::command("rustc").arg("--version"))?;
+    let compiler = compiler.trim();
+    let build = format!(
+        "{{\n  \"version\": \"{version}\",\n  \"commit\": {commit},\n  \"compiler\": \"{compiler}\"\n}}\n"
+    );
+    files::write(&dir().join("build.json"), &build)
 }
 
 /// Runs the tests in node, and has the compiler read the types.

@@ -5,7 +5,9 @@ mod bench;
 mod bits;
 mod browser;
 mod c;
+mod clients;
 mod demo;
+mod examples;
 mod failure;
 mod files;
 mod js;
@@ -37,8 +39,10 @@ cargo xtask web                     build the demo's page into dist/web
 cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
 cargo xtask package                 pack the C library as others install it, into dist/c
+  --js                              pack the npm package instead, into dist, and say what it weighs
+cargo xtask examples                serve the example pages of the npm package
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
-                                    kernels, ticks, shreds, layers, scenes, node
+                                    kernels, ticks, shreds, layers, scenes, node, peers
   --test                            once and tiny, to see that it runs
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
@@ -66,7 +70,9 @@ fn run(args: &[String]) -> Result {
         "web" => alone(chore, rest, web::build),
         "js" => alone(chore, rest, js::build),
         "c" => alone(chore, rest, c::check),
+        "package" if rest == ["--js"] => clients::pack(),
         "package" => alone(chore, rest, package::build),
+        "examples" => alone(chore, rest, examples::serve),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(())

@@ -149,6 +149,8 @@ fn action(command: &str) -> Action<'_> {
         ["demo", "--shot", _file, options @ ..] => Action::Shot(options.to_vec()),
         ["js"] => Action::Step("js"),
         ["c"] => Action::Step("c"),
+        ["package", "--js"] => Action::Step("clients"),
+        ["examples"] => Action::Step("examples"),
         ["web" | "setup"] => Action::Chore(rest.to_vec()),
         ["bench", tables @ ..] => Action::Bench(tables.to_vec()),
         _ => Action::Unknown,

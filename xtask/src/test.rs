@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
-use crate::{bits, c, demo, js, npm, package, readme, shell, wasm, web};
+use crate::{bits, c, clients, demo, examples, js, npm, package, readme, shell, wasm, web};
 
 /// A part of the tests.
 struct Step {
@@ -47,6 +47,18 @@ const STEPS: &[Step] = &[
         about: "the npm package in a browser",
         needs: &[&setup::NODE, &setup::CHROMIUM],
         run: js::test_page,
+    },
+    Step {
+        name: "clients",
+        about: "the npm package as others install it: a page, Vite, webpack, node",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        run: clients::test,
+    },
+    Step {
+        name: "examples",
+        about: "the npm package's example pages in a browser",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        run: examples::test,
     },
     Step {
         name: "web",

@@ -12,7 +12,15 @@ const VECTOR = [
   ...[0x0a, 0x08, 0x01, 0x06, 0x00, 0x41, 0x00, 0xfd, 0x0f, 0x0b], // i32.const 0, i8x16.splat
 ];
 
+/**
+ * Where Vite's server for development has the scripts of packages, put together anew and without their modules. It
+ * serves those too, from where they are installed.
+ */
+const REBUILT = /\/node_modules\/\.vite\/deps\/(?=[^/]*$)/;
+
 const SOURCES = "be a URL, Request, Response, bytes or WebAssembly.Module";
+
+const ADVICE = "give init() the address of raw_bg.wasm, or import muslin/inline, which has it inside";
 
 let loading;
 
@@ -41,8 +49,9 @@ async function load(source) {
 /** The module beside this file that the engine can run; written so that bundlers find both. */
 function beside() {
   const hasVectors = WebAssembly.validate(new Uint8Array(VECTOR));
-  if (hasVectors) return new URL("raw_bg.wasm", import.meta.url);
-  return new URL("plain_bg.wasm", import.meta.url);
+  const [vectors, plain] = [new URL("raw_bg.wasm", import.meta.url), new URL("plain_bg.wasm", import.meta.url)];
+  const { href } = hasVectors ? vectors : plain;
+  return new URL(href.replace(REBUILT, "/node_modules/muslin/"));
 }
 
 async function compile(source) {
@@ -57,9 +66,12 @@ async function compile(source) {
 }
 
 async function receive(response) {
-  check(response.ok, "source", `be found, but ${response.url || "it"} answered ${response.status}`);
-  const isTyped = response.headers.get("content-type")?.startsWith("application/wasm");
-  if (isTyped) return WebAssembly.compileStreaming(response);
+  const type = response.headers.get("content-type") ?? "";
+  // A server that knows no such file may answer with its front page and call that well done.
+  const isThere = response.ok && !type.startsWith("text/html");
+  const found = response.ok ? "is a page" : `answered ${response.status}`;
+  check(isThere, "source", `be found, but ${response.url || "it"} ${found}; ${ADVICE}`);
+  if (type.startsWith("application/wasm")) return WebAssembly.compileStreaming(response);
   return WebAssembly.compile(await response.arrayBuffer());
 }
 

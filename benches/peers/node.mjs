@@ -1,0 +1,41 @@
+// The peers in node, then in Chromium: `node node.mjs [--test]`. `cargo xtask bench peers` installs what it needs.
+
+import RAPIER from "@dimforge/rapier3d-compat";
+import initJolt from "jolt-physics";
+import init, { Cloth, version } from "../../dist/js/index.js";
+import { Table } from "../node/table.mjs";
+import { HEAD, compare, reading } from "./compare.js";
+
+const isTest = process.argv.includes("--test");
+
+function print(where, rows, micros) {
+  const table = new Table(...HEAD);
+  table.rows.push(...rows);
+  console.log(`
+Muslin ${version()} and its peers in ${where}: ms of a frame, 1/60 s and its positions and normals, of a sheet that hangs by its top
+edge in still air; least and median of rounds in turn. Reading both views of Muslin's again takes ${micros.toFixed(3)} µs.
+`);
+  console.log(`${table}`);
+}
+
+await init();
+await RAPIER.init();
+const modules = { Cloth, RAPIER, Jolt: await initJolt() };
+const say = (text) => console.error(`  ${text}`);
+print(`node ${process.version}`, await compare(modules, { isTest, say }), reading(modules, isTest));
+
+const { MUSLIN_URL: url, MUSLIN_CHROMIUM: executablePath } = process.env;
+if (url) {
+  const { chromium } = await import("../../tests/node_modules/playwright-core/index.mjs");
+  const browser = await chromium.launch({ executablePath, headless: true });
+  const page = await browser.newPage();
+  page.on("console", (message) => say(message.text()));
+  page.on("pageerror", (error) => say(`${error.stack}`));
+  await page.goto(`${url}?${isTest ? "test" : ""}`);
+  await page.waitForFunction(() => window.result, null, { timeout: 0 });
+  const { rows, micros, error } = await page.evaluate(() => window.result);
+  const name = `Chromium ${browser.version()}`;
+  await browser.close();
+  if (error) throw new Error(error);
+  print(name, rows, micros);
+}

@@ -1,0 +1,156 @@
+// Every example page of the npm package, used by a visitor: the cloth is where the pointer drags it, nothing complains.
+
+import assert from "node:assert/strict";
+import { readdir } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { launch, open, url, variable } from "./browser.mjs";
+
+const shots = variable("MUSLIN_SHOTS");
+/** The same pages with the newest three.js. */
+const newest = variable("MUSLIN_NEWEST");
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser?.close());
+
+/** Small, since a busy machine without a graphics card draws slowly; the panel is below the cloth then. */
+const SIZE = { width: 300, height: 460 };
+/** On the cloth, and beside it where only the background is, in parts of the picture above the panel. */
+const [ON, BESIDE] = [[0.6, 0.5], [0.9, 0.45]];
+
+/** A patch of a picture that is compared, and how many of its pixels it takes to make it another [pixels]. */
+const [WIDTH, HEIGHT, MANY] = [24, 32, 40];
+
+/** A page that draws: its readout tells of particles. */
+async function visit(name, { home = url, ...options } = {}) {
+  const visited = await open(browser, { viewport: SIZE, ...options }, home);
+  visited.page.setDefaultTimeout(120_000);
+  await visited.page.goto(new URL(`${name}/`, home).href);
+  await visited.page.waitForFunction(() => /^[1-9]\d+ particles/.test(document.getElementById("stats").textContent));
+  return visited;
+}
+
+/** A place of the page in pixels, from its part of what the panel leaves free. */
+const place = (page, [x, y]) =>
+  page.evaluate(([x, y]) => {
+    const { top } = document.querySelector(".panel").getBoundingClientRect();
+    return [Math.round(x * innerWidth), Math.round(y * top)];
+  }, [x, y]);
+
+/** The pixels about a place, more of them below it, where cloth hangs that is held there. */
+async function patch(page, [x, y]) {
+  const clip = { x: x - WIDTH / 2, y: y - HEIGHT / 4, width: WIDTH, height: HEIGHT };
+  const picture = (await page.screenshot({ clip })).toString("base64");
+  return page.evaluate(async ([picture, width, height]) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${picture}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(width, height).getContext("2d");
+    canvas.drawImage(image, 0, 0);
+    return [...canvas.getImageData(0, 0, width, height).data];
+  }, [picture, WIDTH, HEIGHT]);
+}
+
+/** How many pixels of two patches are of different colours. */
+function differing(a, b) {
+  let count = 0;
+  for (let at = 0; at < a.length; at += 4) {
+    const apart = Math.hypot(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]);
+    if (apart > 30) count++;
+  }
+  return count;
+}
+
+/** Waits until what is drawn at a place is other than it was, or as it was. */
+async function becomes(page, place, before, isOther) {
+  let last;
+  for (let i = 0; i < 60; i++) {
+    last = differing(await patch(page, place), before);
+    if (last > MANY === isOther) return;
+    await page.waitForTimeout(100);
+  }
+  assert.fail(`at ${place} ${last} pixels differ, where ${isOther ? "many" : "few"} should`);
+}
+
+/** Drags the cloth to where there is none, and gives that place and the colour that it had. */
+async function drag(page) {
+  const [on, beside] = [await place(page, ON), await place(page, BESIDE)];
+  const background = await patch(page, beside);
+  await page.mouse.move(...on);
+  await page.mouse.down();
+  for (const share of [0.25, 0.5, 0.75, 1]) {
+    await page.mouse.move(...on.map((from, i) => from + share * (beside[i] - from)));
+    await page.waitForTimeout(200); // or it is torn out of the cloth rather than pulled
+  }
+  await becomes(page, beside, background, true);
+  return [beside, background];
+}
+
+test("the list names every folder of examples, and each is looked at here", async () => {
+  const { context, page, complaints } = await open(browser);
+  await page.goto(url);
+  const links = await page.locator("a").evaluateAll((links) => links.map((link) => link.getAttribute("href").replace("/", "")));
+  await page.screenshot({ path: join(shots, "../examples-list.png") });
+  assert.deepEqual(complaints, []);
+  await context.close();
+  const dirs = await readdir(new URL("../../bindings/js/examples", import.meta.url), { withFileTypes: true });
+  const names = dirs.filter((dir) => dir.isDirectory()).map(({ name }) => name).sort();
+  assert.deepEqual(links.sort(), names);
+  assert.deepEqual(names, ["babylon", "drape", "plain", "worker"]);
+});
+
+for (const [name, version, home] of [
+  ["drape", "r160", url],
+  ["drape", "newest", newest],
+  ["worker", "r160", url],
+  ["plain", "", url],
+  ["babylon", "", url],
+]) {
+  test(`${name} ${version}: a drag brings the cloth along, and lets it go`, async () => {
+    const { context, page, complaints } = await visit(name, { home });
+    await page.screenshot({ path: join(shots, `${name}${version}.png`) });
+    const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wider <= 0, `the page is ${wider} pixels wider than a small phone`);
+    const [beside, background] = await drag(page);
+    await page.screenshot({ path: join(shots, `${name}${version}-dragged.png`) });
+    await page.mouse.up();
+    await page.locator("#reset").click();
+    await becomes(page, beside, background, false);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+}
+
+test("drape, torn: with its switch on a hard pull makes pieces of it, and a reset makes it whole", async () => {
+  const { context, page, complaints } = await visit("drape");
+  const particles = async () => parseInt(await page.locator("#stats").textContent());
+  await page.locator("#tear").check();
+  await page.mouse.move(...(await place(page, ON)));
+  await page.mouse.down();
+  for (const far of [[0.5, 0.1], [0.98, 0.95], [0.02, 0.95]]) await page.mouse.move(...(await place(page, far)), { steps: 2 });
+  await page.waitForFunction(() => parseInt(document.getElementById("stats").textContent) > 1600);
+  assert.ok((await particles()) > 1600);
+  await page.screenshot({ path: join(shots, "drape-torn.png") });
+  await page.mouse.up(); // until then every pointer event is the canvas's
+  await page.locator("#wire").check();
+  await page.locator("#reset").click();
+  await page.waitForFunction(() => /^1600 particles ·/.test(document.getElementById("stats").textContent));
+  // Hung anew, in the other ways: nothing of the sheet before is left to complain.
+  for (const pins of ["corners", "top-edge"]) await page.locator("#pins").selectOption(pins);
+  await page.locator("#pause").click();
+  assert.equal(await page.locator("#pause").getAttribute("aria-pressed"), "true");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a worker goes on while its page is busy", async () => {
+  const { context, page, complaints } = await visit("worker");
+  await page.locator("#busy").click();
+  await page.waitForFunction(() => / [1-9]\d* fps in the worker/.test(document.getElementById("stats").textContent));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
