@@ -6,8 +6,10 @@ mod bits;
 mod browser;
 mod c;
 mod demo;
+mod engines;
 mod failure;
 mod files;
+mod fuzz;
 mod js;
 mod npm;
 mod package;
@@ -16,6 +18,7 @@ mod readme;
 mod serve;
 mod setup;
 mod shell;
+mod sources;
 mod test;
 mod wasm;
 mod web;
@@ -40,6 +43,7 @@ cargo xtask package                 pack the C library as others install it, int
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
                                     kernels, ticks, shreds, layers, scenes, node
   --test                            once and tiny, to see that it runs
+cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or so many seconds
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
 fn main() -> ExitCode {
@@ -65,6 +69,7 @@ fn run(args: &[String]) -> Result {
         "setup" => test::prepare(rest),
         "web" => alone(chore, rest, web::build),
         "js" => alone(chore, rest, js::build),
+        "fuzz" => fuzz::run(rest),
         "c" => alone(chore, rest, c::check),
         "package" => alone(chore, rest, package::build),
         "help" | "--help" | "-h" => {
