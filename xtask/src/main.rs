@@ -14,6 +14,7 @@ mod js;
 mod npm;
 mod package;
 mod picture;
+mod race;
 mod readme;
 mod serve;
 mod setup;
@@ -44,6 +45,7 @@ cargo xtask bench [TABLE…]          time kernels and ticks natively and in nod
                                     kernels, ticks, shreds, layers, scenes, node
   --test                            once and tiny, to see that it runs
 cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or so many seconds
+cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer, a minute
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
 fn main() -> ExitCode {
@@ -69,6 +71,7 @@ fn run(args: &[String]) -> Result {
         "setup" => test::prepare(rest),
         "web" => alone(chore, rest, web::build),
         "js" => alone(chore, rest, js::build),
+        "race" => race::run(rest),
         "fuzz" => fuzz::run(rest),
         "c" => alone(chore, rest, c::check),
         "package" => alone(chore, rest, package::build),

@@ -289,7 +289,7 @@ static void call_write_vertices(void) {
       memcpy(&stream.buffer, &seen.normals, sizeof stream.buffer);
       stream.size = 12 * (size_t)seen.vertex_count;
     }
-    if (byte() > 250) stream.struct_size = byte();
+    if (byte() > 250) stream.struct_size = byte() % (step + 1);
     memcpy(streams + (size_t)step * i, &stream, step);
   }
   MuslinWriteDesc desc;
