@@ -71,7 +71,8 @@ fn fuzzer(program: &Path, seconds: u32) -> Command {
         "-timeout=60",
         "-malloc_limit_mb=600",
         "-rss_limit_mb=3000",
-        "-verbosity=0",
+        "-print_funcs=0",
+        "-print_pcs=0",
     ]);
     fuzz.arg(format!("-artifact_prefix={}/", dir().display()));
     fuzz
