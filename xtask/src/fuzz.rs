@@ -17,7 +17,7 @@ const TARGET: &str = "x86_64-unknown-linux-gnu";
 /// How long a run of the tests goes on, after what is known was tried [s].
 const SECONDS: u32 = 20;
 /// A mistake made on purpose is found within this [s].
-const PLANTED_SECONDS: u32 = 120;
+const PLANTED_SECONDS: u32 = 180;
 /// What `cargo xtask fuzz` runs if it is not told how long [s].
 const LONG: u32 = 3600;
 

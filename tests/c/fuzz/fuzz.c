@@ -111,7 +111,7 @@ static void call_set_wind(void) {
   judge(SET_WIND, muslin_cloth_set_wind(cloth, is_sane() ? told(&wind, sizeof wind) : NULL));
 }
 
-static void call_step(void) { judge(STEP, muslin_cloth_step(cloth, byte() % 8)); }
+static void call_step(void) { judge(STEP, muslin_cloth_step(cloth, byte() % 4)); }
 
 static void call_advance(void) {
   const float seconds = at_least_0() / 32.0f;
@@ -271,11 +271,13 @@ static void call_write_vertices(void) {
   const size_t widths[] = {12, 12, 16, 8, 4}, apart = strides[byte() % 9];
   size_t size = (byte() % 2 ? seen.vertex_count : seen.vertex_capacity) * (size_t)32;
   if (!is_sane()) size = byte() * (size_t)16;
-  uint8_t *block = aligned_room(size), *streams = room((count > 17 ? 17 : count) * (size_t)step);
 #ifdef PLANTED
-  /* A mistake to be found: the buffer of the mesh as it was, the size of the mesh as it is torn. */
-  size += 32 * (size_t)(seen.vertex_count - first_vertex_count(cloth));
+  /* A mistake to be found: of a mesh of some size the last vertex has no room. */
+  const size_t lacking = seen.vertex_count > 50 && size >= 32 ? 32 : 0;
+#else
+  const size_t lacking = 0;
 #endif
+  uint8_t *block = aligned_room(size - lacking), *streams = room((count > 17 ? 17 : count) * (size_t)step);
   for (uint32_t i = 0; i < count && i < 17; i++) {
     const uint32_t attribute = below(5), width = (uint32_t)widths[attribute % 5];
     /* At the front, at the back of the stride, one behind the other, anywhere, nowhere. */

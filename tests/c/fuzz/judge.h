@@ -113,20 +113,11 @@ static void tame(MuslinCloth of) {
   MuslinSettings settings;
   muslin_settings_init(&settings);
   if (muslin_cloth_get_settings(of, &settings) != MUSLIN_STATUS_OK) return;
-  if (settings.substeps > 4) settings.substeps = 4;
-  if (settings.iterations > 4) settings.iterations = 4;
+  const uint32_t most = settings.self_collision == MUSLIN_SELF_COLLISION_SURFACE ? 1 : 4;
+  if (settings.substeps > most) settings.substeps = most;
+  if (settings.iterations > most) settings.iterations = most;
   if (settings.max_ticks_per_advance > 8) settings.max_ticks_per_advance = 8;
   if (muslin_cloth_set_settings(of, &settings) != MUSLIN_STATUS_OK) fail("SET_SETTINGS", "what it has is refused");
-}
-
-static uint32_t first_vertices[CLOTHS];
-
-/* How many vertices a cloth began with. */
-static inline uint32_t first_vertex_count(MuslinCloth of) {
-  for (int i = 0; i < CLOTHS; i++) {
-    if (cloths[i].id == of.id) return first_vertices[i];
-  }
-  return view_of(of).vertex_count;
 }
 
 /* Keeps a cloth that was made, in place of an older one. */
@@ -137,7 +128,6 @@ static void keep(MuslinStatus status, const void *made) {
     if (muslin_cloth_destroy(cloths[place]) != MUSLIN_STATUS_OK) fail("DESTROY", "refused");
   }
   memcpy(&cloths[place], made, sizeof cloths[place]);
-  first_vertices[place] = view_of(cloths[place]).vertex_count;
   tame(cloths[place]);
 }
 
