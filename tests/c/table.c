@@ -204,6 +204,10 @@ static void what_wears_a_cloth(void) {
   OF_NONE(muslin_cloth_set_frame, (none, zero, straight));
   ROW(muslin_cloth_set_frame, position, VALUE, "`position`", (cloth, askew, straight));
   ROW(muslin_cloth_set_frame, rotation, VALUE, "`rotation`", (cloth, zero, too_long));
+  OF_NONE(muslin_cloth_move_frame, (none, zero, straight, 1));
+  ROW(muslin_cloth_move_frame, position, VALUE, "`position`", (cloth, askew, straight, 1));
+  ROW(muslin_cloth_move_frame, rotation, VALUE, "`rotation`", (cloth, zero, too_long, 1));
+  ROW(muslin_cloth_move_frame, inertia, VALUE, "`inertia`", (cloth, zero, straight, 2));
   OF_NONE(muslin_cloth_teleport, (none, zero, straight));
   ROW(muslin_cloth_teleport, position, VALUE, "`position`", (cloth, askew, straight));
   ROW(muslin_cloth_teleport, rotation, VALUE, "`rotation`", (cloth, zero, too_long));

@@ -237,8 +237,12 @@ static void call_collider(void) {
 static void call_body(void) {
   const MuslinVec3 there = vector();
   const MuslinQuat turned = rotation();
-  if (byte() % 2) judge(SET_FRAME, muslin_cloth_set_frame(cloth, there, turned));
-  else judge(TELEPORT, muslin_cloth_teleport(cloth, there, turned));
+  const float inertia = at_least_0() / 8.0f;
+  switch (byte() % 3) {
+    case 0: judge(SET_FRAME, muslin_cloth_set_frame(cloth, there, turned)); break;
+    case 1: judge(MOVE_FRAME, muslin_cloth_move_frame(cloth, there, turned, inertia)); break;
+    default: judge(TELEPORT, muslin_cloth_teleport(cloth, there, turned));
+  }
 }
 
 /* A report, begun or poked, in memory of the size that it says. */
