@@ -415,9 +415,11 @@ typedef struct MuslinGridDesc {
   uint32_t columns;
   /** Particles down; 40. At least 2. */
   uint32_t rows;
-  /** Distance between neighbours [m]; 0.05. Above 0. */
+  /** Distance between neighbours [m]; 0.05. From 1e-6 to 1e6. */
   float spacing;
-  /** Where particle (0, 0), the top left, is [m]; 0, 0, 0. */
+  /**
+   * Where particle (0, 0), the top left, is [m]; 0, 0, 0. Within 2097152 `spacing` of zero along each axis.
+   */
   MuslinVec3 origin;
   /** Unit direction of a row; 1, 0, 0. */
   MuslinVec3 right;

@@ -12,6 +12,9 @@ pub const AS_MANY_AGAIN: u32 = u32::MAX;
 /// No cloth has more particles than this, tears included.
 pub(crate) const MAX_PARTICLES: u64 = 1 << 22;
 
+/// How far a grid may be from zero [spacings].
+const FARTHEST: f32 = 2097152.0;
+
 /// Which particles of a new grid are pinned where they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
@@ -35,9 +38,10 @@ pub struct GridDesc {
     pub columns: u32,
     /// Particles down; 40. At least 2.
     pub rows: u32,
-    /// Distance between neighbours [m]; 0.05. Above 0.
+    /// Distance between neighbours [m]; 0.05. From 1e-6 to 1e6.
     pub spacing: f32,
-    /// Where particle (0, 0), the top left, is [m]; the origin.
+    /// Where particle (0, 0), the top left, is [m]; the origin. Within 2097152 `spacing` of zero along each
+    /// axis.
     pub origin: Vec3,
     /// Unit direction of a row; +x.
     pub right: Vec3,
@@ -76,8 +80,11 @@ impl GridDesc {
         check(self.rows >= 2, "rows", "be at least 2")?;
         let count = u64::from(self.columns) * u64::from(self.rows);
         check(count <= MAX_PARTICLES, "columns", "make at most 4194304 particles with `rows`")?;
-        check(self.spacing.is_finite() && self.spacing > 0.0, "spacing", "be above 0 and finite")?;
+        check((1.0e-6..=1.0e6).contains(&self.spacing), "spacing", "be from 0.000001 to 1000000")?;
         check_finite(self.origin, "origin")?;
+        // Farther off, numbers are too coarse to tell neighbours apart.
+        let near = self.origin.abs().max_element() <= FARTHEST * self.spacing;
+        check(near, "origin", "be within 2097152 `spacing` of zero along each axis")?;
         let unit = |v: Vec3| (v.length_squared() - 1.0).abs() < 1.0e-3;
         check(unit(self.right), "right", "be a unit direction")?;
         check(unit(self.down), "down", "be a unit direction")?;

@@ -149,7 +149,7 @@ impl Cloth {
         fresh.grabs.clear();
         core::mem::swap(&mut fresh.attachments, &mut self.world.attachments);
         fresh.attachments.clear();
-        fresh.scratch.tear.reserve(fresh.settings.max_tears_per_tick as usize);
+        fresh.scratch.tear.reserve(fresh.settings.most_tears(fresh.triangle_capacity));
         self.world = fresh;
         self.world.reserve_contacts();
         guarded(|| {
@@ -183,7 +183,7 @@ impl Cloth {
         let restarts = settings.scheme() != world.settings.scheme();
         let touches = |settings: &Settings| (settings.self_collision, settings.self_distance);
         let touches_otherwise = touches(&settings) != touches(&world.settings);
-        world.scratch.tear.reserve(settings.max_tears_per_tick as usize);
+        world.scratch.tear.reserve(settings.most_tears(world.triangle_capacity));
         let is_unsorted = world.settings.max_stretch == 0.0;
         if settings != world.settings {
             world.wake();

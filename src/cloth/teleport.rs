@@ -163,5 +163,7 @@ impl World {
             leash.normal_from = by.turn(leash.normal_from);
         }
         self.scratch.contacts.near.forget();
+        // Turned, pins are as far apart as they were but for rounding, which a restored cloth would measure anew.
+        self.is_apart_current = false;
     }
 }

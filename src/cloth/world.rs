@@ -173,7 +173,8 @@ fn build(
 ) -> World {
     let Fabric { mesh, mut weave, rest, frame, areas, cells, plates } = fabric;
     weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
-    let max_tears = settings.max_tears_per_tick as usize;
+    let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
+    let max_tears = settings.most_tears(triangle_capacity);
     let folds = match &plates {
         Some(plates) => Folds::of_plates(plates),
         None => Folds::of_hinges(&weave.hinges.all),
@@ -196,7 +197,7 @@ fn build(
         time: 0.0,
         tick: 0,
         pieces: 0,
-        triangle_capacity: mesh.triangles.len() + capacity - rest.len(),
+        triangle_capacity,
         reserve_told: false,
         over_stretched: 0,
         over_stretch_told: false,
@@ -289,7 +290,7 @@ impl World {
             self.particles.len(),
             capacity,
             self.mesh.triangles.len(),
-            self.settings.max_tears_per_tick as usize,
+            self.settings.most_tears(self.triangle_capacity),
         );
         self.reserve_packed(capacity);
         self.reserve_inertia();

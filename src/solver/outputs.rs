@@ -76,8 +76,12 @@ leveled! {
 fn normalize_lanes([x, y, z]: [&mut [f32]; 3]) {
     for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
         let length = (*x * *x + *y * *y + *z * *z).sqrt();
-        let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-        (*x, *y, *z) = (*x * inverse, *y * inverse, *z * inverse);
+        // Where numbers end there is no normal either.
+        let is_one = length > 0.0 && length < f32::INFINITY;
+        let inverse = if is_one { 1.0 / length } else { 0.0 };
+        *x = if is_one { *x * inverse } else { 0.0 };
+        *y = if is_one { *y * inverse } else { 0.0 };
+        *z = if is_one { *z * inverse } else { 0.0 };
     }
 }
 

@@ -121,6 +121,11 @@ impl Settings {
         Ok(())
     }
 
+    /// How many links of so many triangles may tear in one tick: no more than there can ever be.
+    pub(crate) fn most_tears(&self, triangles: usize) -> usize {
+        (self.max_tears_per_tick as usize).min(4 * triangles)
+    }
+
     /// How positions follow from velocities in these settings.
     pub(crate) fn scheme(&self) -> Scheme {
         let h = self.tick / self.substeps as f32;

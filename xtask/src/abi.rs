@@ -48,7 +48,7 @@ fn compare(kept: &str, seen: &str) -> Result {
     Ok(())
 }
 
-fn without_comments(text: &str) -> String {
+pub fn without_comments(text: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;
     while let Some((before, comment)) = rest.split_once("/*") {
@@ -108,7 +108,7 @@ fn program(header: &str) -> String {
 }
 
 /// The functions as they are declared, each on a line.
-fn functions(header: &str) -> Vec<String> {
+pub fn functions(header: &str) -> Vec<String> {
     let flat: Vec<&str> = header.lines().filter(|line| !line.starts_with('#')).collect();
     let mut found: Vec<String> = flat
         .join(" ")

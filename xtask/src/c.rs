@@ -48,10 +48,12 @@ pub fn check() -> Result {
     files::make(&built())?;
     check_header()?;
     check_wrapper()?;
+    check_table()?;
     abi::check()?;
     let root = files::root();
     let mut sources = files::ending(&root.join("tests/c"), ".c")?;
-    sources.extend(files::ending(&root.join("bindings/c/examples"), ".c")?);
+    // Those in engines have a step of their own.
+    sources.push(root.join("bindings/c/examples/hang.c"));
     sources.extend(
         files::list(&root.join("tests/c"))?
             .into_iter()
@@ -79,6 +81,55 @@ pub fn release() -> PathBuf {
 /// Where programs are built.
 pub fn built() -> PathBuf {
     files::target().join("c")
+}
+
+/// Every argument of every function that can refuse has a row in `tests/c/table.c`.
+fn check_table() -> Result {
+    let header = files::read(&files::root().join("include/muslin.h"))?;
+    let table = files::read(&files::root().join("tests/c/table.c"))?;
+    let lacking = rows(&abi::functions(&abi::without_comments(&header)))
+        .into_iter()
+        .find(|(function, argument)| !has_row(&table, function, argument));
+    match lacking {
+        None => Ok(()),
+        Some((function, argument)) => {
+            Err(Failure::new(format!("tests/c/table.c has no row for `{argument}` of {function}")))
+        }
+    }
+}
+
+/// The rows that functions ask for: one for each argument of those that answer by a status.
+fn rows(functions: &[String]) -> Vec<(String, String)> {
+    let calls = functions.iter().filter_map(|line| line.strip_prefix("MuslinStatus "));
+    let split = calls.filter_map(|call| call.trim_end_matches(')').split_once('('));
+    split
+        .flat_map(|(function, arguments)| {
+            let last = |one: &str| one.rsplit([' ', '*']).next().unwrap_or_default().to_owned();
+            arguments.split(',').map(move |one| (function.to_owned(), last(one)))
+        })
+        .collect()
+}
+
+fn has_row(table: &str, function: &str, argument: &str) -> bool {
+    let ways = [
+        format!("ROW({function}, {argument},"),
+        format!("ANY({function}, {argument})"),
+        format!("REPORT({function}, "),
+    ];
+    let of_none = argument == "cloth" && table.contains(&format!("OF_NONE({function},"));
+    of_none || ways.iter().any(|way| table.contains(way))
+}
+
+/// The compiler for a program, with all that it may warn of being an error.
+pub fn strict(source: &Path) -> Command {
+    let language = language_of(source);
+    let mut cc = compiler(language, language.compiler);
+    cc.args(["-g", "-O1"]);
+    cc
+}
+
+fn language_of(source: &Path) -> Language {
+    if source.extension().is_some_and(|end| end == "cpp") { CPP } else { C }
 }
 
 fn compiler(language: Language, program: &str) -> Command {
@@ -126,17 +177,35 @@ fn check_wrapper() -> Result {
 }
 
 fn compile(source: &Path, linking: Linking) -> Result<PathBuf> {
-    let language = if source.extension().is_some_and(|end| end == "cpp") { CPP } else { C };
+    let language = language_of(source);
     let stem = source.file_stem().unwrap_or_default().to_string_lossy();
     let end = if linking == Linking::Static { "static" } else { "shared" };
     let program = built().join(format!("{stem}-{}-{end}", language.end));
     files::make(&built())?;
-    let mut cc = compiler(language, language.compiler);
-    cc.args(["-g", "-O1", "-o"]).arg(&program).arg(source);
+    let mut cc = strict(source);
+    cc.arg("-o").arg(&program).arg(source);
     match linking {
         Linking::Static => cc.arg(release().join("libmuslin.a")),
         Linking::Shared => cc.arg("-L").arg(release()).arg("-lmuslin"),
     };
     shell::run(cc.args(SYSTEM))?;
     Ok(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_argument_of_what_answers_by_a_status_asks_for_a_row() {
+        let functions =
+            ["uint32_t muslin_version(void)", "MuslinStatus muslin_x(MuslinCloth cloth, void *to)"];
+        let asked = rows(&functions.map(String::from));
+        let names: Vec<_> =
+            asked.iter().map(|(function, to)| (function.as_str(), to.as_str())).collect();
+        assert_eq!(names, [("muslin_x", "cloth"), ("muslin_x", "to")]);
+        assert!(has_row("  OF_NONE(muslin_x, (none));", "muslin_x", "cloth"));
+        assert!(has_row("  ROW(muslin_x, to, …", "muslin_x", "to"));
+        assert!(!has_row("  ROW(muslin_x, to, …", "muslin_x", "too"));
+    }
 }

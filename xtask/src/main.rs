@@ -7,17 +7,21 @@ mod browser;
 mod c;
 mod clients;
 mod demo;
+mod engines;
 mod examples;
 mod failure;
 mod files;
+mod fuzz;
 mod js;
 mod npm;
 mod package;
 mod picture;
+mod race;
 mod readme;
 mod serve;
 mod setup;
 mod shell;
+mod sources;
 mod test;
 mod wasm;
 mod web;
@@ -44,6 +48,8 @@ cargo xtask examples                serve the example pages of the npm package
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
                                     kernels, ticks, shreds, layers, scenes, node, peers
   --test                            once and tiny, to see that it runs
+cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or so many seconds
+cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer, a minute
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
 fn main() -> ExitCode {
@@ -69,6 +75,8 @@ fn run(args: &[String]) -> Result {
         "setup" => test::prepare(rest),
         "web" => alone(chore, rest, web::build),
         "js" => alone(chore, rest, js::build),
+        "race" => race::run(rest),
+        "fuzz" => fuzz::run(rest),
         "c" => alone(chore, rest, c::check),
         "package" if rest == ["--js"] => clients::pack(),
         "package" => alone(chore, rest, package::build),

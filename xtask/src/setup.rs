@@ -68,6 +68,37 @@ pub const EGL: Need = Need {
     is_there: || cfg!(not(target_os = "linux")) || has_egl(&library_dirs()),
 };
 
+/// A screen that nobody sees, with a driver that draws on it.
+pub const XVFB: Need = Need {
+    name: "Xvfb with OpenGL",
+    packages: &["xvfb", "xauth", "libgl1", "libgl1-mesa-dri"],
+    is_there: || {
+        which("xvfb-run").is_some() && which("xauth").is_some() && has_driver(&library_dirs())
+    },
+};
+
+/// What raylib is built with.
+pub const RAYLIB: Need = Need {
+    name: "the headers of X11",
+    packages: &["libx11-dev", "libxcursor-dev", "libxi-dev", "libxinerama-dev", "libxrandr-dev"],
+    is_there: || {
+        let wanted = ["Xlib.h", "Xcursor/Xcursor.h", "extensions/XInput2.h"];
+        let more = ["extensions/Xinerama.h", "extensions/Xrandr.h"];
+        wanted.iter().chain(&more).all(|file| Path::new("/usr/include/X11").join(file).exists())
+    },
+};
+
+/// The engine OGRE.
+pub const OGRE: Need = Need {
+    name: "OGRE 1.12",
+    packages: &["libogre-1.12-dev"],
+    is_there: || shell::succeeds("pkg-config", &["OGRE >= 1.12"]),
+};
+
+/// The interpreter.
+pub const PYTHON: Need =
+    Need { name: "Python 3", packages: &["python3"], is_there: || which("python3").is_some() };
+
 /// What the demo's window needs of X11.
 pub const X11: Need = Need {
     name: "the X11 libraries",
@@ -235,14 +266,19 @@ fn library_dirs() -> Vec<PathBuf> {
 
 /// Whether there are EGL, a vendor behind it, and for Mesa a driver that draws on any machine.
 fn has_egl(dirs: &[PathBuf]) -> bool {
-    let files = |dir: &Path, start: &str| {
-        let names = std::fs::read_dir(dir).into_iter().flatten().flatten().map(|e| e.file_name());
-        names.into_iter().any(|name| name.to_string_lossy().starts_with(start))
-    };
-    let any = |start: &str| dirs.iter().any(|dir| files(dir, start));
-    let software =
-        any("libgallium") || dirs.iter().any(|dir| files(&dir.join("dri"), "swrast_dri"));
-    any("libEGL.so.1") && (any("libEGL_nvidia") || any("libEGL_mesa") && software)
+    let any = |start: &str| dirs.iter().any(|dir| has_file(dir, start));
+    any("libEGL.so.1") && (any("libEGL_nvidia") || any("libEGL_mesa") && has_driver(dirs))
+}
+
+/// Whether there is Mesa's driver that draws on any machine.
+fn has_driver(dirs: &[PathBuf]) -> bool {
+    dirs.iter().any(|dir| has_file(dir, "libgallium") || has_file(&dir.join("dri"), "swrast_dri"))
+}
+
+/// Whether a file of a folder begins with this.
+fn has_file(dir: &Path, start: &str) -> bool {
+    let names = std::fs::read_dir(dir).into_iter().flatten().flatten().map(|e| e.file_name());
+    names.into_iter().any(|name| name.to_string_lossy().starts_with(start))
 }
 
 #[cfg(test)]

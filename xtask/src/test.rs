@@ -4,7 +4,9 @@ use std::time::{Duration, Instant};
 
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
-use crate::{bits, c, clients, demo, examples, js, npm, package, readme, shell, wasm, web};
+use crate::{
+    bits, c, clients, demo, engines, examples, fuzz, js, npm, package, readme, shell, wasm, web,
+};
 
 /// A part of the tests.
 struct Step {
@@ -34,6 +36,18 @@ const STEPS: &[Step] = &[
         about: "header, tests and examples in C and C++",
         needs: &[&setup::CXX, &setup::VALGRIND],
         run: c::check,
+    },
+    Step {
+        name: "fuzz",
+        about: "the C library in any order with any arguments",
+        needs: fuzz::NEEDS,
+        run: fuzz::test,
+    },
+    Step {
+        name: "engines",
+        about: "the examples of the C library in engines, and their pictures",
+        needs: engines::NEEDS,
+        run: engines::test,
     },
     Step {
         name: "package",

@@ -156,9 +156,9 @@ export interface GridDesc extends ClothDesc {
   columns?: number;
   /** Particles down; 40. At least 2. */
   rows?: number;
-  /** Distance between neighbours [m]; 0.05. Above 0. */
+  /** Distance between neighbours [m]; 0.05. From 1e-6 to 1e6. */
   spacing?: number;
-  /** Where particle 0, the top left, is [m]; [0, 0, 0]. */
+  /** Where particle 0, the top left, is [m]; [0, 0, 0]. Within 2097152 `spacing` of zero along each axis. */
   origin?: Vec3Like;
   /** Unit direction of a row; [1, 0, 0]. */
   right?: Vec3Like;

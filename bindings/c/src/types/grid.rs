@@ -31,9 +31,9 @@ pub struct MuslinGridDesc {
     pub columns: u32,
     /// Particles down; 40. At least 2.
     pub rows: u32,
-    /// Distance between neighbours [m]; 0.05. Above 0.
+    /// Distance between neighbours [m]; 0.05. From 1e-6 to 1e6.
     pub spacing: f32,
-    /// Where particle (0, 0), the top left, is [m]; 0, 0, 0.
+    /// Where particle (0, 0), the top left, is [m]; 0, 0, 0. Within 2097152 `spacing` of zero along each axis.
     pub origin: MuslinVec3,
     /// Unit direction of a row; 1, 0, 0.
     pub right: MuslinVec3,

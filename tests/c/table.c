@@ -1,0 +1,350 @@
+/* Every argument of every function: what is wrong with it is refused by its status, in words that name it, and
+ * leaves the cloth as it was. `cargo xtask c` compares the rows with muslin.h: none may be missing. */
+#include "check.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define VALUE MUSLIN_STATUS_BAD_VALUE
+#define INDEX MUSLIN_STATUS_BAD_INDEX
+#define HANDLE MUSLIN_STATUS_BAD_HANDLE
+#define SMALL MUSLIN_STATUS_BUFFER_TOO_SMALL
+
+static MuslinCloth cloth;
+static const MuslinCloth none = {0};
+static const MuslinVec3 zero = {0, 0, 0}, one = {1, 0, 0}, side = {0, 1, 0}, askew = {0, NAN, 0};
+static const MuslinQuat straight = {0, 0, 0, 1}, too_long = {0, 0, 0, 2};
+static const uint32_t first = 0, beyond = 400, many[401] = {0};
+static const float number = 1, not_a_number = NAN;
+static uint32_t word = 7;
+static int rows = 0;
+
+static uint64_t hash(void) {
+  uint64_t hash = 0;
+  DONE(muslin_cloth_state_hash(cloth, &hash));
+  return hash;
+}
+
+/* A call of `function` with its `argument` wrong. */
+#define ROW(function, argument, status, words, given)     \
+  do {                                                    \
+    const uint64_t before = hash();                       \
+    REFUSED(function given, status, words);               \
+    CHECK(hash() == before && word == 7);                 \
+    rows++;                                               \
+  } while (0)
+
+/* Whatever `argument` is, `function` takes it. */
+#define ANY(function, argument) (void)(function)
+
+/* Where `cloth` is none. */
+#define OF_NONE(function, given) ROW(function, cloth, HANDLE, "`cloth`", given)
+
+/* A struct that has begun, but for one field. */
+#define BEGUN(type, name, field, value) \
+  type name;                            \
+  BEGIN_##type(&name);                  \
+  name.field = value
+#define BEGIN_MuslinGridDesc muslin_grid_desc_init
+#define BEGIN_MuslinMeshDesc muslin_mesh_desc_init
+#define BEGIN_MuslinSettings muslin_settings_init
+#define BEGIN_MuslinMaterial muslin_material_init
+#define BEGIN_MuslinWind muslin_wind_init
+#define BEGIN_MuslinColliderDesc muslin_collider_desc_init
+#define BEGIN_MuslinWriteDesc muslin_write_desc_init
+
+static void what_begins_structs(void) {
+  union {
+    MuslinGridDesc grid;
+    MuslinMeshDesc mesh;
+    MuslinSettings settings;
+    MuslinMaterial material;
+    MuslinWind wind;
+    MuslinColliderDesc collider;
+    MuslinStream stream;
+    MuslinWriteDesc write;
+  } of;
+  const uint32_t material = sizeof of.material, settings = sizeof of.settings;
+  ROW(muslin_settings_init_sized, settings, VALUE, "`settings`", (NULL, sizeof of.settings));
+  ROW(muslin_settings_init_sized, struct_size, VALUE, "`struct_size`", (&of.settings, 3));
+  ROW(muslin_material_init_sized, material, VALUE, "`material`", (NULL, sizeof of.material));
+  ROW(muslin_material_init_sized, struct_size, VALUE, "`struct_size`", (&of.material, 0));
+  ROW(muslin_wind_init_sized, wind, VALUE, "`wind`", (NULL, sizeof of.wind));
+  ROW(muslin_wind_init_sized, struct_size, VALUE, "`struct_size`", (&of.wind, 41));
+  ROW(muslin_collider_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.collider));
+  ROW(muslin_collider_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.collider, 8));
+  ROW(muslin_stream_init_sized, stream, VALUE, "`stream`", (NULL, sizeof of.stream));
+  ROW(muslin_stream_init_sized, struct_size, VALUE, "`struct_size`", (&of.stream, 4));
+  ROW(muslin_write_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.write));
+  ROW(muslin_write_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.write, 5000));
+  ROW(muslin_grid_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.grid, material, settings));
+  ROW(muslin_grid_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.grid, 60, material, settings));
+  ROW(muslin_grid_desc_init_sized, material_size, VALUE, "`material_size`", (&of.grid, sizeof of.grid, 2, settings));
+  ROW(muslin_grid_desc_init_sized, settings_size, VALUE, "`settings_size`", (&of.grid, sizeof of.grid, material, 2));
+  ROW(muslin_mesh_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.mesh, material, settings));
+  ROW(muslin_mesh_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.mesh, 60, material, settings));
+  ROW(muslin_mesh_desc_init_sized, material_size, VALUE, "`material_size`", (&of.mesh, sizeof of.mesh, 2, settings));
+  ROW(muslin_mesh_desc_init_sized, settings_size, VALUE, "`settings_size`", (&of.mesh, sizeof of.mesh, material, 2));
+  BEGUN(MuslinMaterial, silk, density, 1);
+  ROW(muslin_material_preset, material, VALUE, "`material`", (NULL, MUSLIN_PRESET_SILK));
+  ROW(muslin_material_preset, preset, VALUE, "`preset`", (&silk, 6));
+  ANY(muslin_set_log, log);
+  ANY(muslin_set_log, user);
+  ANY(muslin_set_log, max_level);
+}
+
+static void what_makes_and_ends_cloths(void) {
+  MuslinCloth made = {7};
+  BEGUN(MuslinGridDesc, grid, columns, 1);
+  ROW(muslin_cloth_create_grid, desc, VALUE, "`columns`", (&grid, &made));
+  ROW(muslin_cloth_create_grid, desc, VALUE, "`desc`", (NULL, &made));
+  ROW(muslin_cloth_create_grid, out_cloth, VALUE, "`out_cloth`", (&grid, NULL));
+  BEGUN(MuslinMeshDesc, mesh, vertex_count, 2);
+  ROW(muslin_cloth_create_mesh, desc, VALUE, "`vertex_count`", (&mesh, &made));
+  ROW(muslin_cloth_create_mesh, desc, VALUE, "`desc`", (NULL, &made));
+  ROW(muslin_cloth_create_mesh, out_cloth, VALUE, "`out_cloth`", (&mesh, NULL));
+  OF_NONE(muslin_cloth_destroy, (none));
+  OF_NONE(muslin_cloth_reset, (none));
+  size_t size = 7;
+  unsigned char few[4] = {0};
+  OF_NONE(muslin_cloth_save, (none, NULL, 0, &size));
+  ROW(muslin_cloth_save, buffer, VALUE, "`out_needed`", (cloth, NULL, 0, NULL));
+  ROW(muslin_cloth_save, size, SMALL, "`size`", (cloth, few, sizeof few, &size));
+  ROW(muslin_cloth_save, out_needed, VALUE, "`out_needed`", (cloth, NULL, 9, NULL));
+  ROW(muslin_cloth_restore, buffer, VALUE, "`buffer`", (NULL, 9, &made));
+  ROW(muslin_cloth_restore, buffer, MUSLIN_STATUS_BAD_SAVE, "`buffer`", (few, sizeof few, &made));
+  ROW(muslin_cloth_restore, size, VALUE, "`size`", (few, SIZE_MAX, &made));
+  ROW(muslin_cloth_restore, out_cloth, VALUE, "`out_cloth`", (few, sizeof few, NULL));
+  CHECK(made.id == 7 && size == 7);
+}
+
+static void what_a_cloth_is_told(void) {
+  BEGUN(MuslinSettings, settings, substeps, 0);
+  BEGUN(MuslinMaterial, material, density, 0);
+  BEGUN(MuslinWind, wind, model, 2);
+  MuslinSettings into = settings;
+  into.struct_size = 2;
+  OF_NONE(muslin_cloth_get_settings, (none, &settings));
+  ROW(muslin_cloth_get_settings, out_settings, VALUE, "`out_settings`", (cloth, NULL));
+  ROW(muslin_cloth_get_settings, out_settings, VALUE, "`out_settings->struct_size`", (cloth, &into));
+  OF_NONE(muslin_cloth_set_settings, (none, &settings));
+  ROW(muslin_cloth_set_settings, settings, VALUE, "`settings.substeps`", (cloth, &settings));
+  OF_NONE(muslin_cloth_get_material, (none, &material));
+  ROW(muslin_cloth_get_material, out_material, VALUE, "`out_material`", (cloth, NULL));
+  OF_NONE(muslin_cloth_set_material, (none, &material));
+  ROW(muslin_cloth_set_material, material, VALUE, "`material.density`", (cloth, &material));
+  OF_NONE(muslin_cloth_set_wind, (none, &wind));
+  ROW(muslin_cloth_set_wind, wind, VALUE, "`wind.model`", (cloth, &wind));
+  OF_NONE(muslin_cloth_advance, (none, 1, &word));
+  ROW(muslin_cloth_advance, seconds, VALUE, "`seconds`", (cloth, -1, &word));
+  ANY(muslin_cloth_advance, out_ticks);
+  OF_NONE(muslin_cloth_step, (none, 1));
+  ANY(muslin_cloth_step, ticks);
+  OF_NONE(muslin_cloth_pin, (none, 0, NULL));
+  ROW(muslin_cloth_pin, particle, INDEX, "`particle`", (cloth, 400, NULL));
+  ROW(muslin_cloth_pin, target, VALUE, "`target`", (cloth, 0, &askew));
+  OF_NONE(muslin_cloth_unpin, (none, 0));
+  ROW(muslin_cloth_unpin, particle, INDEX, "`particle`", (cloth, 400));
+  OF_NONE(muslin_cloth_unpin_all, (none));
+  OF_NONE(muslin_cloth_set_pin_targets, (none, &first, &zero, 0, 1));
+  ROW(muslin_cloth_set_pin_targets, particles, INDEX, "`particles`", (cloth, &beyond, &zero, 0, 1));
+  ROW(muslin_cloth_set_pin_targets, positions, VALUE, "`positions`", (cloth, &first, &askew, 0, 1));
+  ROW(muslin_cloth_set_pin_targets, stride, VALUE, "`stride`", (cloth, &first, &zero, 8, 1));
+  ROW(muslin_cloth_set_pin_targets, count, VALUE, "`count`", (cloth, many, &zero, 0, 401));
+  OF_NONE(muslin_cloth_set_pin_stiffness, (none, &first, 1, 1));
+  ROW(muslin_cloth_set_pin_stiffness, particles, INDEX, "`particles`", (cloth, &beyond, 1, 1));
+  ROW(muslin_cloth_set_pin_stiffness, count, VALUE, "`count`", (cloth, many, 401, 1));
+  ROW(muslin_cloth_set_pin_stiffness, stiffness, VALUE, "`stiffness`", (cloth, &first, 1, -1));
+  OF_NONE(muslin_cloth_set_mass_scales, (none, &first, &number, 1));
+  ROW(muslin_cloth_set_mass_scales, particles, INDEX, "`particles`", (cloth, &beyond, &number, 1));
+  ROW(muslin_cloth_set_mass_scales, scales, VALUE, "`scales`", (cloth, &first, &not_a_number, 1));
+  ROW(muslin_cloth_set_mass_scales, count, VALUE, "`count`", (cloth, many, (const float *)many, 401));
+  OF_NONE(muslin_cloth_set_position, (none, 0, zero));
+  ROW(muslin_cloth_set_position, particle, INDEX, "`particle`", (cloth, 400, zero));
+  ROW(muslin_cloth_set_position, position, VALUE, "`position`", (cloth, 0, askew));
+  OF_NONE(muslin_cloth_set_velocity, (none, 0, zero));
+  ROW(muslin_cloth_set_velocity, particle, INDEX, "`particle`", (cloth, 400, zero));
+  ROW(muslin_cloth_set_velocity, velocity, VALUE, "`velocity`", (cloth, 0, askew));
+}
+
+static void what_wears_a_cloth(void) {
+  MuslinAttachment body = {9};
+  OF_NONE(muslin_cloth_attach, (none, &first, 1, zero, straight, &body));
+  ROW(muslin_cloth_attach, particles, INDEX, "`particles`", (cloth, &beyond, 1, zero, straight, &body));
+  ROW(muslin_cloth_attach, count, VALUE, "`count`", (cloth, many, 401, zero, straight, &body));
+  ROW(muslin_cloth_attach, position, VALUE, "`position`", (cloth, &first, 1, askew, straight, &body));
+  ROW(muslin_cloth_attach, rotation, VALUE, "`rotation`", (cloth, &first, 1, zero, too_long, &body));
+  ROW(muslin_cloth_attach, out_attachment, VALUE, "`out_attachment`", (cloth, &first, 1, zero, straight, NULL));
+  CHECK(body.id == 9);
+  OF_NONE(muslin_cloth_move_attachment, (none, body, zero, straight));
+  OF_NONE(muslin_cloth_detach, (none, body));
+  ROW(muslin_cloth_move_attachment, attachment, HANDLE, "`attachment`", (cloth, body, zero, straight));
+  ROW(muslin_cloth_detach, attachment, HANDLE, "`attachment`", (cloth, body));
+  DONE(muslin_cloth_attach(cloth, NULL, 0, zero, straight, &body));
+  ROW(muslin_cloth_move_attachment, position, VALUE, "`position`", (cloth, body, askew, straight));
+  ROW(muslin_cloth_move_attachment, rotation, VALUE, "`rotation`", (cloth, body, zero, too_long));
+  DONE(muslin_cloth_detach(cloth, body));
+  const float *lengths = (const float *)many;
+  OF_NONE(muslin_cloth_set_max_distances, (none, &first, &number, 1));
+  ROW(muslin_cloth_set_max_distances, particles, INDEX, "`particles`", (cloth, &beyond, &number, 1));
+  ROW(muslin_cloth_set_max_distances, distances, VALUE, "`distances`", (cloth, &first, &not_a_number, 1));
+  ROW(muslin_cloth_set_max_distances, count, VALUE, "`count`", (cloth, many, lengths, 401));
+  OF_NONE(muslin_cloth_set_backstops, (none, &first, &number, &number, 1));
+  ROW(muslin_cloth_set_backstops, particles, INDEX, "`particles`", (cloth, &beyond, &number, &number, 1));
+  ROW(muslin_cloth_set_backstops, distances, VALUE, "`distances`", (cloth, &first, &not_a_number, &number, 1));
+  ROW(muslin_cloth_set_backstops, radii, VALUE, "`radii`", (cloth, &first, &number, &not_a_number, 1));
+  ROW(muslin_cloth_set_backstops, count, VALUE, "`count`", (cloth, many, lengths, lengths, 401));
+  OF_NONE(muslin_cloth_set_anchors, (none, &first, &zero, &one, 0, 1));
+  ROW(muslin_cloth_set_anchors, particles, INDEX, "`particles`", (cloth, &beyond, &zero, &one, 0, 1));
+  ROW(muslin_cloth_set_anchors, positions, VALUE, "`positions`", (cloth, &first, &askew, &one, 0, 1));
+  ROW(muslin_cloth_set_anchors, normals, VALUE, "`normals`", (cloth, &first, &zero, &zero, 0, 1));
+  ROW(muslin_cloth_set_anchors, stride, VALUE, "`stride`", (cloth, &first, &zero, &one, 13, 1));
+  static const MuslinVec3 places[401] = {{0, 0, 0}};
+  ROW(muslin_cloth_set_anchors, count, VALUE, "`count`", (cloth, many, places, NULL, 0, 401));
+  OF_NONE(muslin_cloth_clear_leashes, (none));
+  OF_NONE(muslin_cloth_set_frame, (none, zero, straight));
+  ROW(muslin_cloth_set_frame, position, VALUE, "`position`", (cloth, askew, straight));
+  ROW(muslin_cloth_set_frame, rotation, VALUE, "`rotation`", (cloth, zero, too_long));
+  OF_NONE(muslin_cloth_move_frame, (none, zero, straight, 1));
+  ROW(muslin_cloth_move_frame, position, VALUE, "`position`", (cloth, askew, straight, 1));
+  ROW(muslin_cloth_move_frame, rotation, VALUE, "`rotation`", (cloth, zero, too_long, 1));
+  ROW(muslin_cloth_move_frame, inertia, VALUE, "`inertia`", (cloth, zero, straight, 2));
+  OF_NONE(muslin_cloth_teleport, (none, zero, straight));
+  ROW(muslin_cloth_teleport, position, VALUE, "`position`", (cloth, askew, straight));
+  ROW(muslin_cloth_teleport, rotation, VALUE, "`rotation`", (cloth, zero, too_long));
+}
+
+static void what_hands_and_blades_do(void) {
+  MuslinHit hit;
+  muslin_hit_init(&hit);
+  MuslinGrab grab = {9};
+  MuslinVec3 at = zero;
+  OF_NONE(muslin_cloth_raycast, (none, zero, one, 1, &hit));
+  ROW(muslin_cloth_raycast, origin, VALUE, "`origin`", (cloth, askew, one, 1, &hit));
+  ROW(muslin_cloth_raycast, direction, VALUE, "`direction`", (cloth, zero, zero, 1, &hit));
+  ROW(muslin_cloth_raycast, max_distance, VALUE, "`max_distance`", (cloth, zero, one, -1, &hit));
+  ROW(muslin_cloth_raycast, out_hit, VALUE, "`out_hit`", (cloth, zero, one, 1, NULL));
+  OF_NONE(muslin_cloth_grab_ray, (none, zero, one, 1, &grab, &at));
+  ROW(muslin_cloth_grab_ray, origin, VALUE, "`origin`", (cloth, askew, one, 1, &grab, &at));
+  ROW(muslin_cloth_grab_ray, direction, VALUE, "`direction`", (cloth, zero, askew, 1, &grab, &at));
+  ROW(muslin_cloth_grab_ray, radius, VALUE, "`radius`", (cloth, zero, one, INFINITY, &grab, &at));
+  ROW(muslin_cloth_grab_ray, out_grab, VALUE, "`out_grab`", (cloth, zero, one, 1, NULL, &at));
+  ANY(muslin_cloth_grab_ray, out_at);
+  OF_NONE(muslin_cloth_grab_particle, (none, 0, &grab));
+  ROW(muslin_cloth_grab_particle, particle, INDEX, "`particle`", (cloth, 400, &grab));
+  ROW(muslin_cloth_grab_particle, out_grab, VALUE, "`out_grab`", (cloth, 0, NULL));
+  OF_NONE(muslin_cloth_move_grab, (none, grab, zero));
+  OF_NONE(muslin_cloth_release, (none, grab));
+  ROW(muslin_cloth_move_grab, grab, HANDLE, "`grab`", (cloth, grab, zero));
+  ROW(muslin_cloth_release, grab, HANDLE, "`grab`", (cloth, grab));
+  DONE(muslin_cloth_grab_particle(cloth, 0, &grab));
+  ROW(muslin_cloth_move_grab, target, VALUE, "`target`", (cloth, grab, askew));
+  DONE(muslin_cloth_release(cloth, grab));
+  OF_NONE(muslin_cloth_tear_edge, (none, 0, 1));
+  ROW(muslin_cloth_tear_edge, particle_a, INDEX, "`particle_a`", (cloth, 400, 1));
+  ROW(muslin_cloth_tear_edge, particle_b, INDEX, "`particle_b`", (cloth, 0, 400));
+  ROW(muslin_cloth_tear_edge, particle_b, VALUE, "`particle_b`", (cloth, 0, 399));
+  OF_NONE(muslin_cloth_crease, (none, zero, one, 1));
+  ROW(muslin_cloth_crease, from, VALUE, "`from`", (cloth, askew, one, 1));
+  ROW(muslin_cloth_crease, to, VALUE, "`to`", (cloth, zero, zero, 1));
+  ROW(muslin_cloth_crease, angle, VALUE, "`angle`", (cloth, zero, one, 4));
+  OF_NONE(muslin_cloth_cut, (none, zero, one, side, &word));
+  ROW(muslin_cloth_cut, from, VALUE, "`from`", (cloth, askew, one, side, &word));
+  ROW(muslin_cloth_cut, to, VALUE, "`to`", (cloth, zero, zero, side, &word));
+  ROW(muslin_cloth_cut, sweep, VALUE, "`sweep`", (cloth, zero, one, one, &word));
+  ANY(muslin_cloth_cut, out_edges);
+  MuslinEvent event;
+  muslin_event_init(&event);
+  OF_NONE(muslin_cloth_next_event, (none, &event, &word));
+  ROW(muslin_cloth_next_event, out_event, VALUE, "`out_event`", (cloth, NULL, &word));
+  ROW(muslin_cloth_next_event, out_some, VALUE, "`out_some`", (cloth, &event, NULL));
+}
+
+static void what_a_cloth_lies_on(void) {
+  BEGUN(MuslinColliderDesc, ball, radius, 0);
+  ball.shape = MUSLIN_SHAPE_SPHERE;
+  BEGUN(MuslinColliderDesc, ground, friction, 1);
+  MuslinCollider body = {9};
+  MuslinVec3 linear = zero;
+  OF_NONE(muslin_cloth_add_collider, (none, &ground, &body));
+  ROW(muslin_cloth_add_collider, desc, VALUE, "`collider.radius`", (cloth, &ball, &body));
+  ROW(muslin_cloth_add_collider, out_collider, VALUE, "`out_collider`", (cloth, &ground, NULL));
+  CHECK(body.id == 9);
+  OF_NONE(muslin_cloth_move_collider, (none, body, zero, straight));
+  OF_NONE(muslin_cloth_teleport_collider, (none, body, zero, straight));
+  OF_NONE(muslin_cloth_remove_collider, (none, body));
+  OF_NONE(muslin_cloth_get_collider_impulse, (none, body, &linear, NULL));
+  ROW(muslin_cloth_move_collider, collider, HANDLE, "`collider`", (cloth, body, zero, straight));
+  ROW(muslin_cloth_teleport_collider, collider, HANDLE, "`collider`", (cloth, body, zero, straight));
+  ROW(muslin_cloth_remove_collider, collider, HANDLE, "`collider`", (cloth, body));
+  ROW(muslin_cloth_get_collider_impulse, collider, HANDLE, "`collider`", (cloth, body, &linear, NULL));
+  ANY(muslin_cloth_get_collider_impulse, out_linear);
+  ANY(muslin_cloth_get_collider_impulse, out_angular);
+  DONE(muslin_cloth_add_collider(cloth, &ground, &body));
+  ROW(muslin_cloth_move_collider, position, VALUE, "`collider.position`", (cloth, body, askew, straight));
+  ROW(muslin_cloth_move_collider, rotation, VALUE, "`collider.rotation`", (cloth, body, zero, too_long));
+  ROW(muslin_cloth_teleport_collider, position, VALUE, "`collider.position`", (cloth, body, askew, straight));
+  ROW(muslin_cloth_teleport_collider, rotation, VALUE, "`collider.rotation`", (cloth, body, zero, too_long));
+  DONE(muslin_cloth_remove_collider(cloth, body));
+}
+
+/* A report that has not begun. */
+#define REPORT(function, type, argument, words)                        \
+  do {                                                                 \
+    type report;                                                       \
+    report.struct_size = 1;                                            \
+    OF_NONE(function, (none, &report));                                \
+    ROW(function, argument, VALUE, "`" words "`", (cloth, NULL));      \
+    ROW(function, argument, VALUE, "`" words "->struct_size`", (cloth, &report)); \
+  } while (0)
+
+static void what_a_cloth_tells(void) {
+  MuslinChanges changes;
+  muslin_changes_init(&changes);
+  REPORT(muslin_cloth_view, MuslinView, out_view, "out_view");
+  REPORT(muslin_cloth_get_mesh_report, MuslinMeshReport, out_report, "out_report");
+  REPORT(muslin_cloth_get_stats, MuslinStats, out_stats, "out_stats");
+  OF_NONE(muslin_cloth_changes, (none, 0, &changes));
+  ANY(muslin_cloth_changes, since_topology_revision);
+  ROW(muslin_cloth_changes, out_changes, VALUE, "`out_changes`", (cloth, 0, NULL));
+  uint64_t bits = 7;
+  OF_NONE(muslin_cloth_state_hash, (none, &bits));
+  ROW(muslin_cloth_state_hash, out_hash, VALUE, "`out_hash`", (cloth, NULL));
+  CHECK(bits == 7);
+  static float room[3 * 400];
+  MuslinStream stream = muslin_stream(MUSLIN_ATTRIBUTE_POSITION, MUSLIN_FORMAT_F32, room, 0, sizeof room);
+  MuslinStream short_one = stream;
+  short_one.size = 12;
+  BEGUN(MuslinWriteDesc, desc, blend, 2);
+  OF_NONE(muslin_cloth_write_vertices, (none, &stream, 1, NULL));
+  ROW(muslin_cloth_write_vertices, streams, VALUE, "`streams`", (cloth, NULL, 1, NULL));
+  ROW(muslin_cloth_write_vertices, streams, SMALL, "`streams[0].size`", (cloth, &short_one, 1, NULL));
+  ROW(muslin_cloth_write_vertices, stream_count, VALUE, "`stream_count`", (cloth, &stream, 0, NULL));
+  ROW(muslin_cloth_write_vertices, desc, VALUE, "`blend`", (cloth, &stream, 1, &desc));
+  static uint32_t indices[6 * 19 * 19];
+  OF_NONE(muslin_cloth_write_indices, (none, indices, sizeof indices, 32, 0, 0));
+  ROW(muslin_cloth_write_indices, buffer, VALUE, "`buffer`", (cloth, NULL, sizeof indices, 32, 0, 0));
+  ROW(muslin_cloth_write_indices, size, SMALL, "`size`", (cloth, indices, sizeof indices - 1, 32, 0, 0));
+  ROW(muslin_cloth_write_indices, index_format, VALUE, "`index_format`", (cloth, indices, sizeof indices, 64, 0, 0));
+  ROW(muslin_cloth_write_indices, flip, VALUE, "`flip`", (cloth, indices, sizeof indices, 32, 2, 0));
+  ROW(muslin_cloth_write_indices, base_vertex, VALUE, "`base_vertex`",
+      (cloth, indices, sizeof indices, 32, 0, UINT32_MAX));
+  CHECK(room[4] == 0 && indices[1] == 0);
+}
+
+int main(void) {
+  MuslinGridDesc desc;
+  muslin_grid_desc_init(&desc);
+  desc.columns = desc.rows = 20;
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+  DONE(muslin_cloth_step(cloth, 10));
+  TEST(what_begins_structs);
+  TEST(what_makes_and_ends_cloths);
+  TEST(what_a_cloth_is_told);
+  TEST(what_wears_a_cloth);
+  TEST(what_hands_and_blades_do);
+  TEST(what_a_cloth_lies_on);
+  TEST(what_a_cloth_tells);
+  printf("%d rows\n", rows);
+  DONE(muslin_cloth_destroy(cloth));
+  return failures != 0;
+}

@@ -1,0 +1,62 @@
+//! What the fuzzer of the C library found, each as small as it can be told.
+
+use muslin::glam::{Quat, Vec3};
+use muslin::{Cloth, Error, GridDesc};
+
+fn small() -> GridDesc {
+    GridDesc { columns: 7, rows: 7, ..GridDesc::default() }
+}
+
+/// Room for that many would be more than any machine has.
+#[test]
+fn as_many_tears_a_tick_as_a_number_can_say_take_no_room() {
+    let mut desc = small();
+    desc.settings.tearing = true;
+    desc.settings.max_tears_per_tick = u32::MAX;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    assert!(cloth.stats().bytes < 1 << 20, "{} bytes", cloth.stats().bytes);
+    cloth.set_settings(desc.settings.clone()).unwrap();
+    cloth.reset();
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    // What pulls at all of it may tear all of it in one tick.
+    for cloth in [&mut cloth, &mut restored] {
+        for particle in 14..49 {
+            cloth.set_position(particle, Vec3::new(0.0, -9.0 * particle as f32, 0.0)).unwrap();
+        }
+        cloth.step(1);
+        assert!(cloth.stats().particles > 60, "{} particles", cloth.stats().particles);
+    }
+    assert_eq!(restored.state_hash(), cloth.state_hash());
+}
+
+/// There its particles are at the same places, and a save of it could not be read.
+#[test]
+fn a_grid_so_far_off_that_neighbours_meet_is_refused() {
+    let far = |y: f32| GridDesc { origin: Vec3::Y * y, ..small() };
+    let refused = Cloth::grid(&far(4.0e37)).err();
+    assert!(matches!(refused, Some(Error::BadValue { field: "origin", .. })), "{refused:?}");
+    let cloth = Cloth::grid(&far(1.0e5)).unwrap();
+    Cloth::restore(&cloth.save()).unwrap();
+}
+
+#[test]
+fn normals_are_finite_wherever_a_particle_is() {
+    for far in [1.0e12, 1.0e20, 3.0e38] {
+        let mut cloth = Cloth::grid(&small()).unwrap();
+        cloth.set_position(24, Vec3::new(far, -far, far)).unwrap();
+        assert!(cloth.normals().iter().all(|normal| normal.is_finite()), "at {far} m");
+    }
+}
+
+/// How far pins are apart was kept over the jump, and measured anew, rounded, in the restored one.
+#[test]
+fn a_cloth_saved_after_a_jump_goes_on_in_the_same_bits() {
+    let mut cloth = Cloth::grid(&small()).unwrap();
+    cloth.step(20);
+    cloth.teleport(Vec3::new(7.6, 7.6, 7.6), Quat::from_xyzw(0.0, 0.6, 0.0, 0.8)).unwrap();
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    for cloth in [&mut cloth, &mut restored] {
+        cloth.step(1);
+    }
+    assert_eq!(restored.state_hash(), cloth.state_hash());
+}

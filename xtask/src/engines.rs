@@ -1,0 +1,145 @@
+//! Examples in engines: built as their heads say, run on a screen that nobody sees, their pictures looked at.
+
+use std::path::{Path, PathBuf};
+
+use crate::failure::{Failure, Result};
+use crate::setup::{self, Need};
+use crate::{c, files, picture, shell, sources};
+
+/// What building and running them needs.
+pub const NEEDS: &[&Need] =
+    &[&setup::CXX, &setup::PKG_CONFIG, &setup::XVFB, &setup::RAYLIB, &setup::OGRE, &setup::PYTHON];
+
+/// No example takes more lines than this, …
+const LINES: usize = 149;
+/// … and no more than this from nothing to a first frame.
+const FIRST_FRAME: usize = 20;
+
+/// The parts of raylib that draw.
+const RAYLIB_PARTS: [&str; 6] = ["rcore", "rshapes", "rtextures", "rtext", "rmodels", "rglfw"];
+const RAYLIB_FLAGS: [&str; 6] = [
+    "-O1",
+    "-w",
+    "-D_GNU_SOURCE",
+    "-DPLATFORM_DESKTOP_GLFW",
+    "-DGRAPHICS_API_OPENGL_33",
+    "-D_GLFW_X11",
+];
+
+/// Builds the library and all examples, draws their pictures into `target/engines` and looks at them.
+pub fn test() -> Result {
+    c::build()?;
+    files::make(&dir())?;
+    for name in ["raylib.c", "ogre.cpp", "viewer.py"] {
+        check_length(name)?;
+    }
+    check_first_frame("raylib.c")?;
+    viewer()?;
+    raylib()?;
+    ogre()
+}
+
+fn dir() -> PathBuf {
+    files::target().join("engines")
+}
+
+fn example(name: &str) -> PathBuf {
+    files::root().join("bindings/c/examples").join(name)
+}
+
+fn check_length(name: &str) -> Result {
+    let lines = files::read(&example(name))?.lines().count();
+    if lines > LINES {
+        return Err(Failure::new(format!("{name} takes {lines} lines, {LINES} are meant")));
+    }
+    Ok(())
+}
+
+/// Counts what stands between the two comments that say where a cloth begins and is first drawn.
+fn check_first_frame(name: &str) -> Result {
+    let text = files::read(&example(name))?;
+    let lines = lines_to_first_frame(&text)
+        .ok_or_else(|| Failure::new(format!("{name} does not say where its first frame is")))?;
+    println!("{name}: {lines} lines from nothing to the first frame");
+    if lines > FIRST_FRAME {
+        return Err(Failure::new(format!("{name}: {FIRST_FRAME} lines are meant")));
+    }
+    Ok(())
+}
+
+fn lines_to_first_frame(text: &str) -> Option<usize> {
+    let (_, rest) = text.split_once("/* From nothing... */")?;
+    let (lines, _) = rest.split_once("/* ...to the first frame. */")?;
+    Some(lines.lines().filter(|line| !line.trim().is_empty()).count())
+}
+
+/// Runs a program on a screen of its own, and looks at the picture that it draws last.
+fn draw(program: &Path, options: &[&str], name: &str) -> Result {
+    let file = dir().join(name);
+    std::fs::remove_file(&file).ok();
+    let mut run = shell::command("xvfb-run");
+    run.args(["-a", "-s", "-screen 0 1280x800x24"]).arg(program).args(options).arg(&file);
+    // Engines tell much.
+    shell::output(run.current_dir(dir()))?;
+    picture::check(&file)
+}
+
+fn viewer() -> Result {
+    let (root, file) = (files::root(), dir().join("viewer.png"));
+    let mut python = shell::command("python3");
+    python.arg(example("viewer.py")).arg(root.join("include/muslin.h"));
+    python.arg(c::release().join("libmuslin.so")).arg(&file).arg(root.join("include/muslin.abi"));
+    shell::run(&mut python)?;
+    picture::check(&file)
+}
+
+fn raylib() -> Result {
+    let sources = sources::RAYLIB.fetch()?;
+    let parts = dir().join("raylib");
+    files::make(&parts)?;
+    for part in RAYLIB_PARTS {
+        let object = parts.join(part).with_extension("o");
+        if !object.exists() {
+            let mut cc = shell::command("cc");
+            cc.args(RAYLIB_FLAGS).arg("-DSUPPORT_MODULE_RAUDIO=0");
+            cc.arg("-I").arg(sources.join("external/glfw/include")).arg("-c");
+            shell::run(cc.arg(sources.join(part).with_extension("c")).arg("-o").arg(&object))?;
+        }
+    }
+    let program = dir().join("raylib-example");
+    let mut cc = c::strict(&example("raylib.c"));
+    cc.arg("-isystem").arg(&sources).arg("-o").arg(&program).arg(example("raylib.c"));
+    cc.args(RAYLIB_PARTS.map(|part| parts.join(part).with_extension("o")));
+    cc.arg(c::release().join("libmuslin.a")).args(["-lX11", "-lm", "-lpthread", "-ldl"]);
+    shell::run(&mut cc)?;
+    draw(&program, &["--shot"], "raylib.png")
+}
+
+fn ogre() -> Result {
+    let ask =
+        |options: &[&str]| shell::output(shell::command("pkg-config").args(options).arg("OGRE"));
+    let plugins = format!("-DOGRE_PLUGINS=\"{}\"", ask(&["--variable=plugindir"])?.trim());
+    let (headers, libraries) = (ask(&["--cflags-only-I"])?, ask(&["--libs"])?);
+    let program = dir().join("ogre-example");
+    let mut cc = c::strict(&example("ogre.cpp"));
+    for folder in headers.split_whitespace() {
+        cc.arg(folder.replacen("-I", "-isystem", 1));
+    }
+    cc.arg(plugins).arg("-o").arg(&program).arg(example("ogre.cpp"));
+    cc.arg(c::release().join("libmuslin.a")).args(libraries.split_whitespace());
+    shell::run(cc.args(["-lm", "-lpthread", "-ldl"]))?;
+    draw(&program, &[], "ogre.png")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_counted_between_the_two_comments() {
+        let text =
+            "a;\n  /* From nothing... */\n  b;\n\n  c;\n  /* ...to the first frame. */\nd;\n";
+        assert_eq!(lines_to_first_frame(text), Some(2));
+        assert_eq!(lines_to_first_frame("a;\n"), None);
+    }
+}

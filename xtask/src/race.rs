@@ -1,0 +1,32 @@
+//! The C library on several threads, under the thread sanitizer.
+
+use crate::failure::{During, Failure, Result};
+use crate::{c, files, fuzz, setup, shell};
+
+/// How long cloths are stepped [s], and how many on each of two threads.
+const SECONDS: u32 = 60;
+const CLOTHS: &str = "1000";
+
+/// Runs the tests with threads, the one with many cloths for a minute or so many seconds.
+pub fn run(options: &[String]) -> Result {
+    let seconds = match options {
+        [] => SECONDS,
+        [number] => number.parse().during(|| "cargo xtask race takes seconds".into())?,
+        _ => return Err(Failure::new("`cargo xtask race` takes seconds and nothing else")),
+    };
+    setup::ensure(&[&setup::CXX])?;
+    // Rust's own library is not looked into; what of it is inlined is.
+    let library = fuzz::library("thread", &["-Cunsafe-allow-abi-mismatch=sanitizer"])?;
+    for (name, options) in
+        [("threads", vec![]), ("crowd", vec![CLOTHS.into(), seconds.to_string()])]
+    {
+        let source = files::root().join("tests/c").join(name).with_extension("c");
+        let program = files::target().join("thread").join(name);
+        let mut cc = c::strict(&source);
+        cc.arg("-o").arg(&program).arg(&source).arg(&library).args(fuzz::runtime("tsan")?);
+        shell::run(cc.args(["-lm", "-lpthread", "-ldl", "-lstdc++"]))?;
+        let mut run = shell::command(&program);
+        shell::run(run.args(options).env("TSAN_OPTIONS", "halt_on_error=1"))?;
+    }
+    Ok(())
+}
