@@ -323,3 +323,48 @@ fn a_bounded_sheet_that_is_dragged_tears_and_keeps_from_itself() {
     assert!(cloth.positions().len() > 150, "only {} particles", cloth.positions().len());
     assert!(cloth.positions().iter().all(|x| x.is_finite()));
 }
+
+/// Rips a sheet by its grabbed corner and cuts it, restores it in between, and counts crossings all the while.
+fn rip_and_cut(name: &str, mut cloth: Cloth, ticks: u32) {
+    let (low, high) = bounds(&cloth);
+    let middle = 0.5 * (low + high);
+    let wide = Vec3::X * (0.3 * (high.x - low.x));
+    let (from, to) = (middle - wide, middle + wide + Vec3::Y * 0.02);
+    let opened = cloth.cut(from - Vec3::Z, to - Vec3::Z, Vec3::Z * 2.0).unwrap();
+    assert!(opened > 5, "{name}: the cut opened {opened} edges");
+    let before = cloth.positions().len();
+    let grab = cloth.grab_particle(0).unwrap();
+    let held = cloth.positions()[0];
+    let (most, last) = watch(name, &mut cloth, ticks, |cloth, tick| {
+        if tick == 10 {
+            assert!(cloth.tear_edge(before as u32 / 2, before as u32 / 2 + 1).unwrap());
+        }
+        cloth.move_grab(grab, held + Vec3::new(0.004, 0.006, 0.012) * tick as f32).unwrap();
+        if tick % 20 == 5 {
+            let mut restored = Cloth::restore(&cloth.save()).unwrap();
+            let mut straight = cloth.clone();
+            restored.step(2);
+            straight.step(2);
+            assert_eq!(restored.state_hash(), straight.state_hash(), "{name}, tick {tick}");
+        }
+    });
+    let torn = cloth.positions().len() - before;
+    assert!(torn > 3, "{name}: only {torn} more particles");
+    assert_eq!((most, last), (0, 0), "{name}");
+}
+
+fn bounds(cloth: &Cloth) -> (Vec3, Vec3) {
+    let mut all = cloth.positions().iter();
+    let first = *all.next().unwrap();
+    all.fold((first, first), |(low, high), x| (low.min(*x), high.max(*x)))
+}
+
+#[test]
+fn a_hanging_sheet_that_is_ripped_and_cut_does_not_cross_itself() {
+    let mut desc = GridDesc { columns: 20, rows: 20, settings: surface(), ..GridDesc::default() };
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.15;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.step(30);
+    rip_and_cut("hanging rip", cloth, 90);
+}

@@ -7,6 +7,7 @@ use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Level, leveled};
 use crate::math::threads::Threads;
 use crate::math::{max, min};
+use crate::state::pins::Pin;
 
 /// What tethers of soft links give at least.
 const LEAST_SLACK: f32 = 0.005;
@@ -91,8 +92,12 @@ fn held_apart(world: &mut World) -> f32 {
     }
     // A grab may hold a pinned particle too.
     let is_held = world.grabs.iter().next().is_some();
-    world.is_apart_current = !is_held && world.pins.iter().all(|pin| pin.from == pin.target);
     let x = &world.particles.x;
+    // One that moved gets to its target but for rounding, and is there a tick later.
+    let rests = |pin: &Pin| {
+        pin.from == pin.target && (pin.is_soft() || x.at(pin.particle as usize) == pin.target)
+    };
+    world.is_apart_current = !is_held && world.pins.iter().all(rests);
     let mut most = world.apart;
     for set in world.tethers.sets() {
         for held in world.grabs.iter().map(|held| held.particle as usize) {

@@ -35,7 +35,7 @@ pub fn test() -> Result {
     let found = dir().join("found");
     files::make_empty(&found)?;
     let mut fuzz = fuzzer(&program, SECONDS);
-    shell::run(fuzz.arg(&found).arg(seeds()))?;
+    shell::run(fuzz.args([RUNS, CHANCES]).arg(&found).arg(seeds()))?;
     find_planted()
 }
 
@@ -83,7 +83,8 @@ fn find_planted() -> Result {
     let program = build("planted", &["-DPLANTED"])?;
     let found = dir().join("found");
     files::make_empty(&found)?;
-    let mut fuzz = fuzzer(&program, PLANTED_SECONDS);
+    let mut fuzz = fuzzer(&program, SECONDS);
+    fuzz.args([PLANTED_RUNS, CHANCES]);
     let told = fuzz.arg(&found).arg(seeds()).output().during(|| "starting the fuzzer".into())?;
     let told = String::from_utf8_lossy(&told.stderr).into_owned();
     let seen = told.contains("heap-buffer-overflow") && told.contains("call_write_vertices");
