@@ -139,6 +139,28 @@ fn a_cape_leans_by_what_it_feels() {
 }
 
 #[test]
+fn what_the_body_has_goes_along_and_what_the_world_has_stays() {
+    let mut cloth = Cloth::grid(&GridDesc { columns: 9, rows: 9, ..GridDesc::default() }).unwrap();
+    cloth.set_max_distances(&[40], &[0.0]).unwrap();
+    let grab = cloth.grab_particle(80).unwrap();
+    cloth.step(1);
+    let start = cloth.positions().to_vec();
+    let hand = start[80] + Vec3::X * 0.01;
+    cloth.move_grab(grab, hand).unwrap();
+    let (way, turned) = (Vec3::new(0.04, 0.02, -0.03), Quat::from_rotation_z(0.02));
+    cloth.move_frame(way, turned, 0.5).unwrap();
+    cloth.step(1);
+    let x = cloth.positions();
+    // The pinned top edge and what is on a leash of no length got to where the body has them …
+    for i in (0..9).chain([40]) {
+        let off = (way + turned * start[i] - x[i]).length();
+        assert!(off < 1e-6, "particle {i} is {off} m off");
+    }
+    // … and the hand holds what it holds where it was told to, off the body.
+    assert!(x[80].distance(hand) < 1e-6, "the hand is {} m off", x[80].distance(hand));
+}
+
+#[test]
 fn what_cannot_be_is_refused_and_changes_nothing() {
     let mut worn = Worn::new();
     let before = worn.cloth.save();

@@ -368,3 +368,30 @@ fn a_hanging_sheet_that_is_ripped_and_cut_does_not_cross_itself() {
     cloth.step(30);
     rip_and_cut("hanging rip", cloth, 90);
 }
+
+/// What a leash pulls at the end of a tick is where it is to be, and what lies there gives way.
+#[test]
+fn what_leashes_lead_pushes_other_layers_along() {
+    let mut desc = sheets(2, 12, 0.4, |sheet, x| x + Vec3::Y * (0.02 * sheet as f32));
+    desc.settings.gravity = Vec3::ZERO;
+    desc.settings.max_stretch = 0.1;
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    let led: Vec<u32> = (144..288).collect();
+    let (start, most_off) = (cloth.positions()[144..].to_vec(), 0.001);
+    cloth.set_max_distances(&led, &[most_off; 144]).unwrap();
+    let mut anchors = start.clone();
+    let (most, _) = watch("led", &mut cloth, 60, |cloth, tick| {
+        for (anchor, at) in anchors.iter_mut().zip(&start) {
+            let slope = 0.3 * at.x;
+            *anchor = *at - Vec3::Y * ((0.004 + 0.01 * slope.abs()) * tick as f32);
+        }
+        cloth.set_anchors(&led, &anchors, &[]).unwrap();
+    });
+    let off = cloth.positions()[144..].iter().zip(&anchors).map(|(x, at)| x.distance(*at));
+    let off = off.fold(0.0, f32::max);
+    println!("led: {most} crossings, {off:.6} m off their anchors at most");
+    assert_eq!(most, 0);
+    assert!(off < most_off + 1e-5, "{off} m off an anchor");
+    let lower = cloth.positions()[..144].iter().map(|x| x.y).fold(f32::MIN, f32::max);
+    assert!(lower < -0.15, "the sheet below is at {lower} m");
+}

@@ -108,14 +108,16 @@ test("the page of the package's README, pasted", async () => {
   await page.route(address, (route) => route.fulfill({ contentType: "text/html", body: pasted }));
   await page.goto(address);
   const shot = () => page.screenshot();
-  await page.waitForFunction(() => document.querySelector("canvas"));
+  await page.waitForFunction(() => document.querySelector("canvas").style.touchAction === "none"); // it listens
+  await page.evaluate(() => document.querySelector("canvas").addEventListener("gotpointercapture", () => (window.holds = true)));
   const first = await shot();
   await page.waitForTimeout(500);
   await page.mouse.move(320, 300);
   await page.mouse.down();
   await page.mouse.move(420, 240, { steps: 4 });
   await page.waitForTimeout(500);
-  assert.notDeepEqual(await shot(), first);
+  assert.notDeepEqual(await shot(), first, "nothing moves");
+  assert.ok(await page.evaluate(() => window.holds), "the press took no hold of the cloth");
   assert.deepEqual(complaints, []);
   await context.close();
 });
