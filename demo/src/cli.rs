@@ -20,7 +20,8 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
     --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear;
                       with tender: fold, crumple or toss
     --strip N         a film strip: N pictures of that size side by side (1)
-    --times           draw every tick, and say what the stages of a frame take
+    --times           draw every tick, and say what the stages of a frame take, and how many there
+                      are a second
     --orbit X,Y       drag the camera, in heights of the screen (0,0)
     --zoom F          multiply the camera's distance (1)
   --scene NAME        sheet, flag, ball, discs, curtain or tender, or their numbers from 0; with

@@ -11,6 +11,7 @@ use glutin::config::{ConfigSurfaceTypes, ConfigTemplateBuilder};
 use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
 use glutin::display::GlDisplay;
 use three_d::Context;
+use three_d::context::HasContext as _;
 
 /// A drawing context that no screen belongs to.
 pub struct Headless {
@@ -50,6 +51,18 @@ impl Headless {
             }
         }
         Err(NoContext(why))
+    }
+
+    /// Waits until all that was asked for is drawn.
+    pub fn finish(&self) {
+        // SAFETY: the context is current.
+        unsafe { self.context.finish() }
+    }
+
+    /// What draws, in its driver's words.
+    pub fn driver(&self) -> String {
+        // SAFETY: the context is current.
+        unsafe { self.context.get_parameter_string(three_d::context::RENDERER) }
     }
 
     fn on(device: &Device) -> Result<Self, String> {

@@ -20,6 +20,9 @@ fn main() -> std::process::ExitCode {
                 for time in picture.times {
                     println!("{:12} {:7.3} ms", time.name, time.milliseconds);
                 }
+                if let Some((driver, rate)) = picture.rate {
+                    println!("{rate:.1} frames a second on {driver}");
+                }
             }
             Task::Window(values) => {
                 let mut settings = native::store::read();

@@ -70,6 +70,8 @@ impl Default for Shot {
 pub struct Picture {
     /// What the stages of a frame took, if they were timed.
     pub times: Vec<StageTime>,
+    /// What drew it, and how many frames of the timed ones a second, from the first tick until the last was finished.
+    pub rate: Option<(String, f64)>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Red, green, blue.
@@ -94,6 +96,12 @@ impl Shot {
         let mut strip = Picture::black([width * self.strip, height]);
         // The hands work before the usual camera, whatever the picture: the same gesture in each.
         let hands_view = act.camera().clone();
+        if self.times {
+            // What is made at the first frame is none of the others' time.
+            act.draw(&canvas)?;
+            headless.finish();
+        }
+        let start = native::clock();
         let mut ticks = 0;
         for i in 0..self.strip {
             let until = self.moment(i);
@@ -103,6 +111,11 @@ impl Shot {
                 if self.times {
                     act.draw(&canvas)?;
                 }
+            }
+            if self.times && i + 1 == self.strip {
+                headless.finish();
+                strip.rate =
+                    Some((headless.driver(), f64::from(ticks) / (native::clock() - start)));
             }
             *act.camera() = self.view(&hands_view);
             act.draw(&canvas)?;
@@ -239,7 +252,12 @@ impl Act for OnDesk {
 
 impl Picture {
     fn black(size: [u32; 2]) -> Self {
-        Self { times: Vec::new(), size, rgb: vec![0; 3 * size[0] as usize * size[1] as usize] }
+        Self {
+            times: Vec::new(),
+            rate: None,
+            size,
+            rgb: vec![0; 3 * size[0] as usize * size[1] as usize],
+        }
     }
 
     /// Puts the pixels of a smaller picture into this one, so far from its left side.

@@ -92,8 +92,12 @@ fn a_film_strip_shows_the_gesture_go_on() {
             let rows = strip.rgb.chunks_exact(3 * 480);
             rows.flat_map(|row| &row[3 * 160 * i..3 * 160 * (i + 1)]).copied().collect()
         };
-        let frames =
-            [0, 1, 2].map(|i| Picture { times: Vec::new(), size: [160, 160], rgb: frame(i) });
+        let frames = [0, 1, 2].map(|i| Picture {
+            times: Vec::new(),
+            rate: None,
+            size: [160, 160],
+            rgb: frame(i),
+        });
         for two in frames.windows(2) {
             let differ = difference(&two[0], &two[1]);
             assert!(differ > 0.02, "{gesture:?}: two frames differ by {differ}");
@@ -149,7 +153,7 @@ fn the_receipts_gestures_can_be_seen() {
         for i in 0..3 {
             let rows = strip.rgb.chunks_exact(3 * 720);
             let rgb = rows.flat_map(|row| &row[720 * i..720 * (i + 1)]).copied().collect();
-            let frame = Picture { times: Vec::new(), size: [240, 240], rgb };
+            let frame = Picture { times: Vec::new(), rate: None, size: [240, 240], rgb };
             let differ = difference(&still, &frame);
             assert!(differ > 0.03, "frame {i} of {name} differs by {differ}");
         }
