@@ -95,7 +95,8 @@ pub(crate) fn arrive(world: &mut World) {
     for (body, impulse) in world.colliders.iter_mut().zip(&world.scratch.contacts.impulses) {
         body.arrive();
         let Impulse { linear, angular } = *impulse;
-        body.impulse = Impulse { linear, angular: angular - body.next.position.cross(linear) };
+        let angular = angular - body.next.position.cross(linear);
+        body.impulse = Impulse { linear, angular }.finite();
     }
 }
 

@@ -16,6 +16,10 @@ const ROOM: f32 = 0.02;
 const AHEAD: f32 = 1.5;
 const MOST: f32 = 0.25;
 
+/// Only a list of so little room outlasts a tick, as a share of the mean rest length: a patch that was flat may fold up
+/// in more, and what is in it is listed from then on in a cloth that was saved and restored.
+const LASTING: f32 = 0.1;
+
 /// Listing anew begins a little before it must, which covers rounding.
 const HASTE: f32 = 0.98;
 
@@ -41,6 +45,8 @@ pub(super) struct List {
     /// Where particles were, and the room they have around it [m].
     pub at: Vec<Spot>,
     pub room: Vec<f32>,
+    /// Whether it is good for the next tick too.
+    is_lasting: bool,
     boxes: [Vec<Aabb>; 3],
 }
 
@@ -52,6 +58,7 @@ impl List {
             pairs: [Vec::with_capacity(20 * particles), Vec::with_capacity(56 * particles)],
             at: Vec::with_capacity(capacity),
             room: Vec::with_capacity(capacity),
+            is_lasting: false,
             boxes,
         }
     }
@@ -65,6 +72,13 @@ impl List {
     /// Nothing is known any more.
     pub fn forget(&mut self) {
         self.room.clear();
+    }
+
+    /// A tick begins: forgets what a cloth that was just restored would list otherwise.
+    pub fn begin_tick(&mut self) {
+        if !self.is_lasting {
+            self.forget();
+        }
     }
 
     /// Whether particles have the room they need around where they are, but for how all moved; `needs` gets what
@@ -100,8 +114,9 @@ impl List {
         self.room.clear();
         let room = |need: &f32| need * 1.1 + min(need * AHEAD, spacing * MOST) + spacing * ROOM;
         self.room.extend(needs.iter().map(room));
+        self.is_lasting = self.room.iter().all(|room| *room <= spacing * LASTING);
         patches.fit(&world.mesh, x, &self.room);
-        let Self { pairs, at, room, boxes } = self;
+        let Self { pairs, at, room, boxes, .. } = self;
         let boxed = |ids: &[u32]| {
             let mut all = Aabb::EMPTY;
             for id in ids {

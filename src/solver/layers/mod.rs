@@ -205,6 +205,7 @@ pub(crate) fn begin(world: &mut World) {
         layers.gap = gap;
         layers.list.forget();
     }
+    layers.list.begin_tick();
     let p = &world.particles;
     if layers.start.len() != p.len() {
         layers.patches.follow(&world.mesh);
