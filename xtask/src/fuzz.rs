@@ -101,7 +101,7 @@ fn find_planted() -> Result {
 
 /// Links the calls with the library and the fuzzer.
 fn build(name: &str, flags: &[&str]) -> Result<PathBuf> {
-    let library = library("address", &COVERAGE)?;
+    let library = library("address", &COVERAGE, &[])?;
     let engine = engine()?;
     let (object, program) = (dir().join(name).with_extension("o"), dir().join(name));
     let source = files::root().join("tests/c/fuzz/fuzz.c");
@@ -113,14 +113,14 @@ fn build(name: &str, flags: &[&str]) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// The static library with a sanitizer in it, and with checks and assertions.
-pub fn library(sanitizer: &str, flags: &[&str]) -> Result<PathBuf> {
+/// The static library with a sanitizer in it, and with checks and assertions; `more` is for cargo.
+pub fn library(sanitizer: &str, flags: &[&str], more: &[&str]) -> Result<PathBuf> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         return Err(Failure::new("Rust brings its sanitizers for Linux on x86-64 only"));
     }
     let built = files::target().join(sanitizer);
     let mut cargo = shell::cargo(&["build", "--profile=sanitized", "--package=muslin-c"]);
-    cargo.arg("--target").arg(TARGET).arg("--target-dir").arg(&built);
+    cargo.arg("--target").arg(TARGET).arg("--target-dir").arg(&built).args(more);
     let flags: Vec<&str> = flags.iter().copied().chain(["-Cforce-frame-pointers=yes"]).collect();
     // Sanitizers are not a stable part of the compiler; they are there in every one.
     cargo.env("RUSTC_BOOTSTRAP", "1").env_remove("CARGO_ENCODED_RUSTFLAGS");

@@ -13,6 +13,7 @@ mod failure;
 mod files;
 mod fuzz;
 mod js;
+mod miri;
 mod npm;
 mod package;
 mod picture;
@@ -50,6 +51,7 @@ cargo xtask bench [TABLE…]          time kernels and ticks natively and in nod
   --test                            once and tiny, to see that it runs
 cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or so many seconds
 cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer, a minute
+cargo xtask miri                    run the tests of the C library's boundary under Miri
 cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
 
 fn main() -> ExitCode {
@@ -76,6 +78,7 @@ fn run(args: &[String]) -> Result {
         "web" => alone(chore, rest, web::build),
         "js" => alone(chore, rest, js::build),
         "race" => race::run(rest),
+        "miri" => miri::run(rest),
         "fuzz" => fuzz::run(rest),
         "c" => alone(chore, rest, c::check),
         "package" if rest == ["--js"] => clients::pack(),

@@ -162,12 +162,15 @@ pub fn ensure_target(target: &str) -> Result {
     if Path::new(libraries.trim()).is_dir() {
         return Ok(());
     }
+    rustup(&format!("rustc cannot build for {target}"), &["target", "add", target])
+}
+
+/// Has rustup add what is missing, or says so.
+pub fn rustup(missing: &str, args: &[&str]) -> Result {
     if which("rustup").is_none() {
-        return Err(Failure::new(format!(
-            "rustc cannot build for {target}; with rustup: rustup target add {target}"
-        )));
+        return Err(Failure::new(format!("{missing}; with rustup: rustup {}", args.join(" "))));
     }
-    shell::run(shell::command("rustup").args(["target", "add", target]))
+    shell::run(shell::command("rustup").args(args))
 }
 
 /// Makes sure that a part of cargo such as `fmt` is there, which `component` brings.
@@ -177,12 +180,16 @@ pub fn ensure_component(part: &str, component: &str) -> Result {
     if probe.status().is_ok_and(|status| status.success()) {
         return Ok(());
     }
-    if which("rustup").is_none() {
-        return Err(Failure::new(format!(
-            "`cargo {part}` is missing; with rustup: rustup component add {component}"
-        )));
+    rustup(&format!("`cargo {part}` is missing"), &["component", "add", component])
+}
+
+/// Makes sure that the source of Rust's own library is there, to be built in other ways.
+pub fn ensure_std_source() -> Result {
+    let root = shell::output(shell::command("rustc").args(["--print", "sysroot"]))?;
+    if Path::new(root.trim()).join("lib/rustlib/src/rust/library/Cargo.lock").exists() {
+        return Ok(());
     }
-    shell::run(shell::command("rustup").args(["component", "add", component]))
+    rustup("the source of Rust's library is missing", &["component", "add", "rust-src"])
 }
 
 /// The browser.

@@ -13,4 +13,6 @@ mod save;
 mod tear;
 mod teleport;
 mod time;
+#[cfg(test)]
+mod walk;
 mod write;
