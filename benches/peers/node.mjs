@@ -5,24 +5,27 @@ import initJolt from "jolt-physics";
 import init, { Cloth, version } from "../../dist/js/index.js";
 import { Table } from "../node/table.mjs";
 import { HEAD, compare, reading } from "./compare.js";
+import { RECEIPT_HEAD, receipt } from "./receipt.js";
 
 const isTest = process.argv.includes("--test");
 
-function print(where, rows, micros) {
-  const table = new Table(...HEAD);
+function print(where, { rows, micros, receipts }) {
+  const [table, brief] = [new Table(...HEAD), new Table(...RECEIPT_HEAD)];
   table.rows.push(...rows);
+  brief.rows.push(...receipts);
   console.log(`
 Muslin ${version()} and its peers in ${where}: ms of a frame, 1/60 s and its positions and normals, of a sheet that hangs by its top
 edge in still air; least and median of rounds in turn. Reading both views of Muslin's again takes ${micros.toFixed(3)} µs.
 `);
-  console.log(`${table}`);
+  console.log(`${table}\n${brief}`);
 }
 
 await init();
 await RAPIER.init();
 const modules = { Cloth, RAPIER, Jolt: await initJolt() };
 const say = (text) => console.error(`  ${text}`);
-print(`node ${process.version}`, await compare(modules, { isTest, say }), reading(modules, isTest));
+const rows = await compare(modules, { isTest, say });
+print(`node ${process.version}`, { rows, micros: reading(modules, isTest), receipts: receipt(modules, isTest) });
 
 const { MUSLIN_URL: url, MUSLIN_CHROMIUM: executablePath } = process.env;
 if (url) {
@@ -33,9 +36,9 @@ if (url) {
   page.on("pageerror", (error) => say(`${error.stack}`));
   await page.goto(`${url}?${isTest ? "test" : ""}`);
   await page.waitForFunction(() => window.result, null, { timeout: 0 });
-  const { rows, micros, error } = await page.evaluate(() => window.result);
+  const result = await page.evaluate(() => window.result);
   const name = `Chromium ${browser.version()}`;
   await browser.close();
-  if (error) throw new Error(error);
-  print(name, rows, micros);
+  if (result.error) throw new Error(result.error);
+  print(name, result);
 }

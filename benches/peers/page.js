@@ -4,6 +4,7 @@ import RAPIER from "/peers/node_modules/@dimforge/rapier3d-compat/dist/rapier.mj
 import initJolt from "/peers/node_modules/jolt-physics/dist/jolt-physics.wasm-compat.js";
 import init, { Cloth } from "/js/index.js";
 import { compare, reading } from "./compare.js";
+import { receipt } from "./receipt.js";
 
 async function play() {
   const isTest = location.search === "?test";
@@ -11,7 +12,7 @@ async function play() {
   await RAPIER.init();
   const modules = { Cloth, RAPIER, Jolt: await initJolt() };
   const rows = await compare(modules, { isTest, say: (text) => console.log(text) });
-  return { rows, micros: reading(modules, isTest) };
+  return { rows, micros: reading(modules, isTest), receipts: receipt(modules, isTest) };
 }
 
 window.result = await play().catch((error) => ({ error: `${error.stack ?? error}` }));
