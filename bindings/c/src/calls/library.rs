@@ -91,7 +91,7 @@ mod tests {
         for (at, stage) in Stage::ALL.iter().enumerate() {
             let name = muslin_stage_name(at as u32);
             // SAFETY: not NULL, and then it is one of the words above.
-            let name = unsafe { name.as_ref().map(|name| CStr::from_ptr(name)) };
+            let name = (!name.is_null()).then(|| unsafe { CStr::from_ptr(name) });
             assert_eq!(name.and_then(|name| name.to_str().ok()), Some(stage.name()));
         }
         assert!(muslin_stage_name(Stage::COUNT as u32).is_null());
