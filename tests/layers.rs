@@ -292,7 +292,12 @@ fn a_flat_sheet_and_its_cut_feel_nothing_of_themselves() {
         let start = cloth.positions().to_vec();
         cloth.step(10);
         let most = cloth.positions().iter().zip(&start).map(|(x, at)| (x - at).length());
-        assert!(most.fold(0.0, f32::max) < 1.0e-5, "it moved, at a distance of {distance} m");
+        let most = most.fold(0.0, f32::max);
+        println!("flat: it moved by {most:e} m, {:e} m/s at last", speed(&cloth));
+        // The sides of the cut parted by some thousandths of the spacing, and come back by less than that.
+        assert!(most < 3.0e-4, "it moved by {most} m, at a distance of {distance} m");
+        assert!(speed(&cloth) < 1.0e-3, "it moves on at {} m/s", speed(&cloth));
+        assert_eq!(crossings(&cloth), 0);
     }
 }
 

@@ -5,6 +5,7 @@ use crate::error::{Error, Result, check, check_finite};
 use crate::geom::blade::Blade;
 use crate::math::float_env::guarded;
 use crate::solver::cut;
+use crate::solver::layers::slits;
 use glam::Vec3;
 
 impl Cloth {
@@ -49,6 +50,8 @@ impl Cloth {
             cut::cut(&mut self.world, &plan);
             self.world.see_to_crowd();
             self.world.see_to_layers();
+            let count = self.world.particles.len() as u32;
+            slits::part(&mut self.world, 0..count);
         });
         self.changed_topology();
         self.changed_state();

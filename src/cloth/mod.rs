@@ -28,6 +28,7 @@ use crate::error::{Result, check, check_finite, check_index};
 use crate::fabric::material::Material;
 use crate::math::float_env::guarded;
 use crate::mesh::report::MeshReport;
+use crate::solver::layers::slits;
 use crate::solver::profile::Clock;
 use crate::solver::{World, pipeline};
 use crate::state::events::Event;
@@ -183,6 +184,7 @@ impl Cloth {
         let restarts = settings.scheme() != world.settings.scheme();
         let touches = |settings: &Settings| (settings.self_collision, settings.self_distance);
         let touches_otherwise = touches(&settings) != touches(&world.settings);
+        let is_new = world.layers.is_none();
         world.scratch.tear.reserve(settings.most_tears(world.triangle_capacity));
         let is_unsorted = world.settings.max_stretch == 0.0;
         if settings != world.settings {
@@ -196,6 +198,10 @@ impl Cloth {
             guarded(|| {
                 world.see_to_crowd();
                 world.see_to_layers();
+                if is_new {
+                    let count = world.particles.len() as u32;
+                    slits::part(world, 0..count);
+                }
             });
         }
         if restarts {
@@ -203,6 +209,9 @@ impl Cloth {
                 world.restart_history();
                 world.refresh_soft_pins();
             });
+        }
+        if is_new && self.world.layers.is_some() {
+            self.changed_state();
         }
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! in two fans by the plane across the link, and the fan on the link's side gets a new vertex.
 
 use super::World;
+use super::layers::slits;
 use crate::fabric::links::{LinkKind, Links};
 use crate::fabric::tips;
 use crate::math::mix::unit;
@@ -120,6 +121,7 @@ pub(crate) fn tear(world: &mut World) {
     }
     follow_tips(world, &mut scratch);
     if torn > 0 {
+        slits::part(world, scratch.touched.iter().copied());
         settle(world);
         world.tether_around(&scratch.touched);
     }
@@ -135,6 +137,7 @@ pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
         && (tear_between(world, &mut scratch, a, b) || part_along(world, &mut scratch, a, b));
     follow_tips(world, &mut scratch);
     if torn {
+        slits::part(world, scratch.touched.iter().copied());
         settle(world);
         world.tether_around(&scratch.touched);
     }

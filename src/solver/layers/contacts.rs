@@ -10,7 +10,7 @@
 use super::list::Pair;
 use super::spots::{Spot, place};
 use crate::geom::closest;
-use crate::math::{max, min};
+use crate::math::{TINY, max, min};
 use glam::Vec3;
 
 /// A fence leaves a share of their gap between two sides; if there was less, a little more than there was.
@@ -22,6 +22,13 @@ const LEAST: f32 = 0.998;
 
 /// Nearer than this no direction tells sides apart [m].
 const NOTHING: f32 = 1.0e-7;
+
+/// The share of their distance that a direction tells two edges apart by, unless they are too nearly parallel.
+const CLEAR: f32 = 0.9;
+
+/// Where only such particles give way that count for next to nothing beside what is held, they are taken to make
+/// this share of an inverse mass, so that none is flung away.
+const SLIGHT: f32 = 0.005;
 
 /// Two sides that may meet.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +92,36 @@ fn edge_closest([p, q, r, s]: [Vec3; 4]) -> Closest {
     Closest { share, n: direction(way, distance, normal), distance }
 }
 
+/// Two edges that are nearly parallel, so that where they are closest is not well known: what else tells them
+/// apart better, which is what both are square to, or leads from an end to the other edge.
+fn told_apart(x: [Vec3; 4], closest: Closest) -> Closest {
+    let [p, q, r, s] = x;
+    let mut best = (between(x, 2, closest.n), closest);
+    let mut look = |share: [f32; 4], way: Vec3| {
+        let length = way.length();
+        if length > TINY {
+            let n = way * (1.0 / length);
+            let distance = between(x, 2, n);
+            if distance > best.0 {
+                best = (distance, Closest { share, n, distance });
+            }
+        }
+    };
+    let normal = (q - p).cross(s - r);
+    look(closest.share, normal);
+    look(closest.share, -normal);
+    let at_end = |t: f32, u: f32| ([1.0 - t, t, u - 1.0, -u], p - r + (q - p) * t - (s - r) * u);
+    for (t, end) in [(0.0, p), (1.0, q)] {
+        let (share, way) = at_end(t, closest::of_segments([end; 2], [r, s]).1);
+        look(share, way);
+    }
+    for (u, end) in [(0.0, r), (1.0, s)] {
+        let (share, way) = at_end(closest::of_segments([p, q], [end; 2]).0, u);
+        look(share, way);
+    }
+    best.1
+}
+
 /// The direction of a way, by the normal that it is along if there is one: of a short way that is more exact.
 #[inline(always)]
 fn direction(way: Vec3, distance: f32, normal: Vec3) -> Vec3 {
@@ -145,9 +182,12 @@ fn find_in(
             continue;
         }
         let start = places(span.start, pair.ids);
-        let then = closest(start);
+        let mut then = closest(start);
         if then.distance > pair.gap + both(reach, first) || then.distance <= NOTHING {
             continue;
+        }
+        if first == 2 && between(start, 2, then.n) < CLEAR * then.distance {
+            then = told_apart(start, then);
         }
         let mut contact = Contact {
             ids: pair.ids,
@@ -221,10 +261,12 @@ impl Contact {
     /// Finds out how it gives way, which changes with what touches a collider.
     #[inline(always)]
     pub(super) fn weigh(&mut self, x: &[Spot]) {
-        let mut sum = 0.0;
+        let (mut sum, mut most) = (0.0, 0.0);
         for (id, share) in self.ids.iter().zip(self.share) {
-            sum += x[*id as usize][3] * share * share;
+            let w = x[*id as usize][3];
+            sum += w * share * share;
+            most = max(most, w);
         }
-        self.give = if sum > 0.0 { 1.0 / sum } else { 0.0 };
+        self.give = if sum > 0.0 { 1.0 / max(sum, most * SLIGHT) } else { 0.0 };
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! As a substep began, each pair was apart along its direction, all of them at once. Particles are moved, each
 //! as little as it takes, until all are so again; and where that does not end, some go back to where
-//! they were, but for how all moved, and with them whom that gets in the way of.
+//! they were, but for how all moved, and with them whom that gets in the way of. What is held does not: it takes
+//! along what it would cross.
 
 use super::contacts::{Contact, between, places};
 use super::spots::{Spot, farthest, place, shift};
@@ -10,6 +11,10 @@ use glam::Vec3;
 
 /// How often all are moved before some go back.
 const ROUNDS: u32 = 24;
+
+/// What goes nowhere by now, and what goes back; what else is along with that particle.
+const FREE: u32 = u32::MAX;
+const BACK: u32 = u32::MAX - 1;
 
 /// A slit this much smaller than it should be is let be.
 const HAIR: f32 = 0.99;
@@ -23,7 +28,7 @@ pub(super) fn hold(
     start: &[Spot],
     x: &mut [Spot],
     drift: Vec3,
-    frozen: &mut Vec<bool>,
+    frozen: &mut Vec<u32>,
 ) -> bool {
     for round in 0..ROUNDS {
         let least =
@@ -74,30 +79,40 @@ fn draw_apart(contact: &Contact, x: &mut [Spot]) {
     }
 }
 
-/// What would cross goes back, and what that gets in the way of.
+/// What would cross goes back, and what that gets in the way of; or along with what is held, if that is in the
+/// way.
 pub(super) fn go_back(
     contacts: &[Contact],
     start: &[Spot],
     x: &mut [Spot],
     drift: Vec3,
-    frozen: &mut Vec<bool>,
+    frozen: &mut Vec<u32>,
 ) {
     frozen.clear();
-    frozen.resize(x.len(), false);
+    frozen.resize(x.len(), FREE);
+    for (at, (frozen, x)) in frozen.iter_mut().zip(x.iter()).enumerate() {
+        *frozen = if x[3] > 0.0 { FREE } else { at as u32 };
+    }
     loop {
         let mut is_done = true;
         for contact in contacts {
             if is_apart(contact, x, contact.least) {
                 continue;
             }
+            let leads = contact.ids.map(|id| frozen[id as usize]);
+            let leader = leads.into_iter().find(|lead| *lead < BACK).unwrap_or(BACK);
             for id in contact.ids.map(|id| id as usize) {
-                if frozen[id] || x[id][3] <= 0.0 {
+                if frozen[id] <= leader || frozen[id] < BACK {
                     continue;
                 }
-                frozen[id] = true;
+                frozen[id] = leader;
                 is_done = false;
-                let back = place(&start[id]) + drift;
-                [x[id][0], x[id][1], x[id][2]] = back.to_array();
+                let way = if leader == BACK {
+                    drift
+                } else {
+                    place(&x[leader as usize]) - place(&start[leader as usize])
+                };
+                [x[id][0], x[id][1], x[id][2]] = (place(&start[id]) + way).to_array();
             }
         }
         if is_done {

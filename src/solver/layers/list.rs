@@ -2,6 +2,7 @@
 
 use super::contacts::{of_all, places};
 use super::patches::{PATCH, Patch, Patches};
+use super::slits::HAIR;
 use super::spots::{Spot, drift, place};
 use crate::geom::aabb::Aabb;
 use crate::geom::closest;
@@ -299,7 +300,9 @@ impl Lister<'_> {
         if !sides[0].grown(self.gap / WOVEN).meets(&sides[1]) {
             return self.gap;
         }
-        min(self.gap, WOVEN * distance(x))
+        // The sides of a slit are at the same place at rest, and a hair apart as they part.
+        let least = self.world.spacing * (WOVEN * HAIR);
+        min(self.gap, max(WOVEN * distance(x), least))
     }
 }
 

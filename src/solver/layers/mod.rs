@@ -11,6 +11,7 @@ mod fence;
 mod list;
 mod patches;
 mod push;
+pub(crate) mod slits;
 mod spots;
 
 use super::World;
@@ -21,6 +22,7 @@ use contacts::{Contact, Span};
 use glam::Vec3;
 use list::List;
 use patches::Patches;
+use slits::Slits;
 use spots::{Spot, place};
 
 /// Gap of a cloth without thickness, in mean rest lengths; and the most that any has.
@@ -37,7 +39,7 @@ const SPARE_WAY: f32 = 0.25;
 const BACKED: f32 = 0.02;
 
 /// How often that is done at most.
-const LOOKS: u32 = 4;
+const LOOKS: u32 = 8;
 
 /// The layers of a cloth.
 #[derive(Clone, Debug)]
@@ -60,9 +62,10 @@ pub(crate) struct Layers {
     /// How far each may move against the mean, and that from where it was listed [m].
     reach: Vec<f32>,
     needs: Vec<f32>,
-    frozen: Vec<bool>,
+    frozen: Vec<u32>,
     /// The piece that each site was part of before anything tore.
     pieces: Vec<u32>,
+    slits: Slits,
     gap: f32,
 }
 
@@ -86,6 +89,7 @@ impl Layers {
             needs: Vec::with_capacity(capacity),
             frozen: Vec::with_capacity(capacity),
             pieces,
+            slits: Slits::new(capacity),
             gap: 0.0,
         }
     }
@@ -95,11 +99,12 @@ impl Layers {
         let spots = self.start.capacity() + self.now.capacity() + self.found_at.capacity();
         self.patches.bytes()
             + self.list.bytes()
+            + self.slits.bytes()
             + size_of::<Contact>() * (self.contacts.capacity() + self.late.capacity())
             + size_of::<Spot>() * spots
             + 4 * (self.reach.capacity() + self.needs.capacity() + self.active.capacity())
             + 4 * self.pieces.capacity()
-            + self.frozen.capacity()
+            + 4 * self.frozen.capacity()
     }
 
     /// Finds what may meet until particles moved farther than by now, and a little.
