@@ -20,8 +20,18 @@ pub fn build() -> Result {
         ));
     }
     files::make_empty(&dir())?;
-    wasm::build("muslin-js", &dir(), "raw", true)?;
-    build_plain()?;
+    let vectors = module("vectors", wasm::FLAGS)?;
+    let plain = module("plain", wasm::PLAIN)?;
+    let [script, same] = [&vectors, &plain].map(|dir| files::read(&dir.join("raw_bg.js")));
+    let script = script?;
+    if script != same? {
+        return Err(Failure::new("the modules with and without vectors are bound differently"));
+    }
+    files::write(&dir().join("raw.js"), &script)?;
+    for (from, name) in [(&vectors, "raw_bg.wasm"), (&plain, "plain_bg.wasm")] {
+        let to = dir().join(name);
+        std::fs::copy(from.join("raw_bg.wasm"), &to).during(|| format!("writing {name}"))?;
+    }
     files::copy_all(&hand_written, &dir())?;
     for license in ["LICENSE-MIT", "LICENSE-APACHE"] {
         let text = files::read(&files::root().join(license))?;
@@ -33,18 +43,12 @@ pub fn build() -> Result {
     Ok(())
 }
 
-/// The module once more, for engines without vectors. What binds it is the same, so it goes without.
-fn build_plain() -> Result {
-    let plain = files::target().join("js-plain");
-    files::make_empty(&plain)?;
-    wasm::bind_module(&wasm::compile_plain("muslin-js")?, &plain, "raw")?;
-    let [ours, theirs] = [dir(), plain.clone()].map(|dir| files::read(&dir.join("raw.js")));
-    if ours? != theirs? {
-        return Err(Failure::new("the modules with and without vectors are bound differently"));
-    }
-    let to = dir().join("plain_bg.wasm");
-    std::fs::copy(plain.join("raw_bg.wasm"), &to).during(|| format!("writing {}", to.display()))?;
-    Ok(())
+/// Builds the module with these flags and what binds it; gives the folder.
+fn module(name: &str, flags: &str) -> Result<PathBuf> {
+    let to = files::target().join("js").join(name);
+    files::make_empty(&to)?;
+    wasm::bind(&wasm::compile("muslin-js", flags)?, &to, "raw")?;
+    Ok(to)
 }
 
 /// The module as text, for those who want no second file.
