@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{browser, files, npm, shell, wasm};
+use crate::{browser, files, no_wasm, npm, shell, wasm};
 
 /// Where the package is built.
 pub fn dir() -> PathBuf {
@@ -20,17 +20,20 @@ pub fn build() -> Result {
         ));
     }
     files::make_empty(&dir())?;
-    let vectors = module("vectors", wasm::FLAGS)?;
-    let plain = module("plain", wasm::PLAIN)?;
-    let [script, same] = [&vectors, &plain].map(|dir| files::read(&dir.join("raw_bg.js")));
-    let script = script?;
-    if script != same? {
-        return Err(Failure::new("the modules with and without vectors are bound differently"));
+    let vectors = module("vectors", |package| wasm::compile(package, wasm::FLAGS))?;
+    let plain = module("plain", |package| wasm::compile(package, wasm::PLAIN))?;
+    let small = module("small", wasm::compile_small)?;
+    let script = files::read(&vectors.join("raw_bg.js"))?;
+    for other in [&plain, &small] {
+        if files::read(&other.join("raw_bg.js"))? != script {
+            return Err(Failure::new("the modules are bound differently, with vectors and without"));
+        }
     }
     files::write(&dir().join("raw.js"), &script)?;
-    for (from, name) in [(&vectors, "raw_bg.wasm"), (&plain, "plain_bg.wasm")] {
-        let to = dir().join(name);
-        std::fs::copy(from.join("raw_bg.wasm"), &to).during(|| format!("writing {name}"))?;
+    let code = no_wasm::convert(&small.join("raw_bg.wasm"), &small)?;
+    let [vectors, plain] = [vectors, plain].map(|dir| dir.join("raw_bg.wasm"));
+    for (from, name) in [(vectors, "raw_bg.wasm"), (plain, "plain_bg.wasm"), (code, "code.js")] {
+        std::fs::copy(from, dir().join(name)).during(|| format!("writing {name}"))?;
     }
     files::copy_all(&hand_written, &dir())?;
     for license in ["LICENSE-MIT", "LICENSE-APACHE"] {
@@ -43,11 +46,11 @@ pub fn build() -> Result {
     Ok(())
 }
 
-/// Builds the module with these flags and what binds it; gives the folder.
-fn module(name: &str, flags: &str) -> Result<PathBuf> {
+/// Builds a module and what binds it; gives the folder.
+fn module(name: &str, compile: impl Fn(&str) -> Result<PathBuf>) -> Result<PathBuf> {
     let to = files::target().join("js").join(name);
-    files::make_empty(&to)?;
-    wasm::bind(&wasm::compile("muslin-js", flags)?, &to, "raw")?;
+    files::make(&to)?;
+    wasm::bind(&compile("muslin-js")?, &to, "raw")?;
     Ok(to)
 }
 

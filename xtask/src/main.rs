@@ -13,6 +13,7 @@ mod failure;
 mod files;
 mod fuzz;
 mod js;
+mod no_wasm;
 mod npm;
 mod package;
 mod picture;

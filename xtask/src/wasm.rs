@@ -14,8 +14,11 @@ pub const TARGET: &str = "wasm32-unknown-unknown";
 /// is off: what it makes of addresses cannot be folded into loads and stores of wasm.
 pub const FLAGS: &str = "-C target-feature=+simd128 -C llvm-args=--disable-lsr";
 
+/// For engines that have no vectors.
+pub const PLAIN: &str = "-C target-feature=-simd128";
+
 /// Nothing that engines did not have from the start but copies within memory: what JavaScript can be made of.
-pub const PLAIN: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext";
+const OLD: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext";
 
 /// Builds the library of `package` for a page and puts `name.js` and `name_bg.wasm` into `dir`.
 pub fn build(package: &str, dir: &Path, name: &str) -> Result {
@@ -50,9 +53,18 @@ fn disclaim(module: &mut [u8], feature: &str) -> Result {
 
 /// Compiles the library of `package` to a module with these flags.
 pub fn compile(package: &str, flags: &str) -> Result<PathBuf> {
+    compile_with(package, flags, &[])
+}
+
+/// Compiles the library of `package` to a module of small functions that JavaScript can be made of.
+pub fn compile_small(package: &str) -> Result<PathBuf> {
+    compile_with(package, OLD, &["--config", "profile.release.opt-level=\"s\""])
+}
+
+fn compile_with(package: &str, flags: &str, options: &[&str]) -> Result<PathBuf> {
     setup::ensure_target(TARGET)?;
     let mut cargo = shell::cargo(&["rustc", "--release", "--lib", "--crate-type", "cdylib"]);
-    cargo.args(["--target", TARGET, "--package", package]);
+    cargo.args(["--target", TARGET, "--package", package]).args(options);
     // A caller's flags would replace these.
     cargo.env("RUSTFLAGS", flags).env_remove("CARGO_ENCODED_RUSTFLAGS");
     shell::run(&mut cargo)?;
