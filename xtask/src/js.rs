@@ -90,14 +90,26 @@ fn name_build() -> Result {
     files::write(&dir().join("build.json"), &build)
 }
 
+/// Tests of how modules are loaded.
+const OF_MODULES: [&str; 2] = ["lifetime.test.mjs", "builds.test.mjs"];
+
+fn node_test(options: &[&str], tests: &[PathBuf]) -> Result {
+    let mut node = shell::command("node");
+    node.args(options).args(["--test", "--test-reporter=spec"]);
+    shell::run(node.args(tests))
+}
+
 /// Runs the tests in node, and has the compiler read the types.
 pub fn test() -> Result {
     build()?;
     npm::install()?;
     let tests = files::root().join("tests/js");
-    let mut node = shell::command("node");
-    node.args(["--test", "--test-reporter=spec"]);
-    shell::run(node.args(files::ending(&tests, ".test.mjs")?))?;
+    let all = files::ending(&tests, ".test.mjs")?;
+    node_test(&[], &all)?;
+    // Once more without WebAssembly, but for how the module is loaded.
+    let is_of_modules = |file: &PathBuf| OF_MODULES.iter().any(|name| file.ends_with(name));
+    let rest: Vec<_> = all.into_iter().filter(|file| !is_of_modules(file)).collect();
+    node_test(&["--import", "./tests/js/no-wasm.mjs"], &rest)?;
     for types in files::ending(&tests, ".ts")? {
         let mut tsc = shell::command("node");
         tsc.arg(npm::modules().join("typescript/bin/tsc"));

@@ -29,9 +29,8 @@ renderer.setAnimationLoop(() => {
   sheet.geometry.update();
   renderer.render(scene, camera);
   const { size: held } = pointers;
-  const depth = cloth.positions.reduce((most, z, at) => (at % 3 === 2 ? Math.max(most, Math.abs(z)) : most), 0);
-  const sway = cloth.positions.reduce((most, x, at) => (at % 3 === 0 ? Math.max(most, Math.abs(x)) : most), 0);
-  window.pulled = { held, depth, sway };
+  const right = cloth.positions.reduce((most, x, at) => (at % 3 === 0 ? Math.max(most, x) : most), -Infinity);
+  window.pulled = { held, right };
 });
 
 const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
