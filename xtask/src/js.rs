@@ -26,7 +26,9 @@ pub fn build() -> Result {
     let script = files::read(&vectors.join("raw_bg.js"))?;
     for other in [&plain, &small] {
         if files::read(&other.join("raw_bg.js"))? != script {
-            return Err(Failure::new("the modules are bound differently, with vectors and without"));
+            return Err(Failure::new(
+                "the modules are bound differently, with vectors and without",
+            ));
         }
     }
     files::write(&dir().join("raw.js"), &script)?;

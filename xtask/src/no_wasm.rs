@@ -71,7 +71,10 @@ pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
     shell::run(wasm2js.arg("-o").arg(&code))?;
     files::write(&code, &changed(&files::read(&code)?)?)?;
     let mut esbuild = shell::command("node");
-    esbuild.arg(tools.join("esbuild/bin/esbuild")).arg(&code).args(["--minify", "--log-level=warning"]);
+    esbuild
+        .arg(tools.join("esbuild/bin/esbuild"))
+        .arg(&code)
+        .args(["--minify", "--log-level=warning"]);
     shell::run(esbuild.arg(format!("--outfile={}", small.display())))?;
     std::fs::write(&made, of).during(|| format!("writing {}", made.display()))?;
     Ok(small)
@@ -106,9 +109,17 @@ mod tests {
     #[test]
     fn what_wasm2js_wrote_is_changed_and_the_rest_stays() {
         let code = changed(WRITTEN).unwrap();
-        assert!(code.starts_with("import { grow, trap } from \"./heap.js\";\n\nvar view;\n"), "{code}");
+        assert!(
+            code.starts_with("import { grow, trap } from \"./heap.js\";\n\nvar view;\n"),
+            "{code}"
+        );
         assert!(code.contains("{ trap(); }") && code.contains("larger = grow(buffer"), "{code}");
-        assert!(code.ends_with(" return {\n  \"memory\": 1\n };\n}\nexport { asmFunc as instantiate };\n"), "{code}");
+        assert!(
+            code.ends_with(
+                " return {\n  \"memory\": 1\n };\n}\nexport { asmFunc as instantiate };\n"
+            ),
+            "{code}"
+        );
         assert!(!code.contains("abort") && !code.contains("raw.js"), "{code}");
     }
 
