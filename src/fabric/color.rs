@@ -1,7 +1,5 @@
 //! Colouring: links of one colour share no particle, so their order cannot matter.
 
-use crate::math::sort::sort;
-
 /// A colour for each pair, the lowest that neither end has yet, in the order of the list.
 pub(crate) fn greedy(pairs: &[[u32; 2]], particle_count: usize) -> Vec<u32> {
     let mut taken: Vec<Vec<bool>> = vec![Vec::new(); particle_count];
@@ -38,7 +36,7 @@ mod tests {
                 .flat_map(|(p, _)| *p)
                 .collect();
             let all = ends.len();
-            sort(&mut ends);
+            ends.sort_unstable();
             ends.dedup();
             assert_eq!(ends.len(), all, "color {color}");
         }
