@@ -1,7 +1,10 @@
 // What code.js, the core as JavaScript, has in place of a machine: traps, and memory that grows.
 
+/** Memory comes in these [B]. */
+const PAGE = 2 ** 16;
+
 /** Addresses are signed numbers there: memory ends where they do [B]. */
-const MOST = 2 ** 31 - 2 ** 16;
+const MOST = 2 ** 31 - PAGE;
 
 /** What is thrown where the core cannot go on. */
 export class Trap extends Error {
@@ -18,7 +21,8 @@ export function trap() {
  */
 export function grow(old, size) {
   if (size <= old.byteLength) return old;
-  const wanted = Math.min(Math.max(size, 1.5 * old.byteLength), MOST);
+  // More than asked for, so that many small steps do not copy all of it each.
+  const wanted = Math.min(PAGE * Math.ceil(Math.max(size, 1.5 * old.byteLength) / PAGE), MOST);
   if (size > wanted) return undefined;
   try {
     const grown = new ArrayBuffer(wanted);
