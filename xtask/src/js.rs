@@ -92,8 +92,14 @@ fn name_build() -> Result {
     files::write(&dir().join("build.json"), &build)
 }
 
-/// Tests of how modules are loaded.
-const OF_MODULES: [&str; 2] = ["lifetime.test.mjs", "builds.test.mjs"];
+/// Tests that take no minute without WebAssembly either; `builds` plays the script there.
+const QUICK: [&str; 5] = [
+    "meshes.test.mjs",
+    "pointers.test.mjs",
+    "refusals.test.mjs",
+    "streams.test.mjs",
+    "three.test.mjs",
+];
 
 fn node_test(options: &[&str], tests: &[PathBuf]) -> Result {
     let mut node = shell::command("node");
@@ -108,10 +114,9 @@ pub fn test() -> Result {
     let tests = files::root().join("tests/js");
     let all = files::ending(&tests, ".test.mjs")?;
     node_test(&[], &all)?;
-    // Once more without WebAssembly, but for how the module is loaded.
-    let is_of_modules = |file: &PathBuf| OF_MODULES.iter().any(|name| file.ends_with(name));
-    let rest: Vec<_> = all.into_iter().filter(|file| !is_of_modules(file)).collect();
-    node_test(&["--import", "./tests/js/no-wasm.mjs"], &rest)?;
+    let is_quick = |file: &PathBuf| QUICK.iter().any(|name| file.ends_with(name));
+    let quick: Vec<_> = all.into_iter().filter(is_quick).collect();
+    node_test(&["--import", "./tests/js/no-wasm.mjs"], &quick)?;
     for types in files::ending(&tests, ".ts")? {
         let mut tsc = shell::command("node");
         tsc.arg(npm::modules().join("typescript/bin/tsc"));
