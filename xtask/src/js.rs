@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{browser, files, no_wasm, npm, shell, wasm};
+use crate::{browser, files, no_wasm, npm, shell, tools, wasm};
 
 /// Where the package is built.
 pub fn dir() -> PathBuf {
@@ -31,7 +31,7 @@ pub fn build() -> Result {
             ));
         }
     }
-    files::write(&dir().join("raw.js"), &script)?;
+    tools::minify(&vectors.join("raw_bg.js"), &dir().join("raw.js"), "--minify-whitespace")?;
     let code = no_wasm::convert(&small.join("raw_bg.wasm"), &small)?;
     let [vectors, plain] = [vectors, plain].map(|dir| dir.join("raw_bg.wasm"));
     for (from, name) in [(vectors, "raw_bg.wasm"), (plain, "plain_bg.wasm"), (code, "code.js")] {

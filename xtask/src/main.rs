@@ -24,6 +24,7 @@ mod setup;
 mod shell;
 mod sources;
 mod test;
+mod tools;
 mod wasm;
 mod web;
 

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
-use crate::{files, npm, setup, shell};
+use crate::{files, tools};
 
 /// What the module may use: all else has no counterpart.
 const FEATURES: [&str; 3] = ["--mvp-features", "--enable-bulk-memory", "--enable-mutable-globals"];
@@ -45,17 +45,9 @@ const MEMORY: &str = r#" var pages = buffer.byteLength >> 16;
  }
 "#;
 
-/// The tools, installed as their lock says.
-fn tools() -> Result<PathBuf> {
-    setup::ensure(&[&setup::NODE])?;
-    let dir = files::root().join("bindings/js/tools");
-    npm::install_in(&dir)?;
-    Ok(dir.join("node_modules"))
-}
-
 /// Makes `code.js` of a module, in `work`; gives it. What was made of the same module before is taken as it is.
 pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
-    let tools = tools()?;
+    let tools = tools::install()?;
     files::make(work)?;
     let [made, code, small] = ["made-of", "code.js", "code.min.js"].map(|name| work.join(name));
     let read = |path: &Path| std::fs::read(path).during(|| format!("reading {}", path.display()));
@@ -66,16 +58,9 @@ pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
         return Ok(small);
     }
     std::fs::remove_file(&made).ok(); // there may be none
-    let mut wasm2js = shell::command("node");
-    wasm2js.arg(tools.join("binaryen/bin/wasm2js")).arg(module).args(FEATURES).args(OPTIMIZED);
-    shell::run(wasm2js.arg("-o").arg(&code))?;
+    tools::to_javascript(module, &code, &[&FEATURES[..], &OPTIMIZED].concat())?;
     files::write(&code, &changed(&files::read(&code)?)?)?;
-    let mut esbuild = shell::command("node");
-    esbuild
-        .arg(tools.join("esbuild/bin/esbuild"))
-        .arg(&code)
-        .args(["--minify", "--log-level=warning"]);
-    shell::run(esbuild.arg(format!("--outfile={}", small.display())))?;
+    tools::minify(&code, &small, "--minify")?;
     std::fs::write(&made, of).during(|| format!("writing {}", made.display()))?;
     Ok(small)
 }
