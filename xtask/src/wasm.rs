@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use wasm_bindgen_cli_support::Bindgen;
 
-use crate::failure::{During, Failure, Result};
+use crate::failure::{During, Result};
 use crate::{files, setup, shell};
 
 /// What Rust calls the web.
@@ -35,7 +35,7 @@ pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
     let during = || format!("binding {}", module.display());
     let mut bytes = std::fs::read(module).during(during)?;
     for feature in ["reference-types", "multivalue"] {
-        disclaim(&mut bytes, feature)?;
+        disclaim(&mut bytes, feature);
     }
     let mut bindgen = Bindgen::new();
     bindgen.bundler(true).during(during)?.input_bytes(name, bytes);
@@ -43,12 +43,11 @@ pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
 }
 
 /// Takes back that a module uses a feature. Rust's standard library says so of some that nothing uses.
-fn disclaim(module: &mut [u8], feature: &str) -> Result {
+fn disclaim(module: &mut [u8], feature: &str) {
     let claim = [&[b'+', feature.len() as u8], feature.as_bytes()].concat();
-    let at = module.windows(claim.len()).rposition(|window| window == claim);
-    let at = at.ok_or_else(|| Failure::new(format!("the module does not claim {feature}")))?;
-    module[at] = b'-';
-    Ok(())
+    if let Some(at) = module.windows(claim.len()).rposition(|window| window == claim) {
+        module[at] = b'-';
+    }
 }
 
 /// Compiles the library of `package` to a module with these flags.
