@@ -31,7 +31,8 @@ class Figures {
   }
 }
 
-function median(values) {
+/** The one in the middle. */
+export function median(values) {
   return [...values].sort((a, b) => a - b)[values.length >> 1];
 }
 

@@ -9,6 +9,7 @@ use crate::fabric::extra::EXTRA;
 use crate::fabric::links::{LinkKind, Spec, Support, Thread};
 use crate::fabric::material::Material;
 use crate::fabric::weave::{Weave, bend_shape, edge_of};
+use crate::math::sort::sort;
 use crate::mesh::divide::{Division, Side};
 use crate::mesh::{Corner, Mesh, NONE, after, before};
 use glam::Vec3;
@@ -64,7 +65,7 @@ impl Weave {
             .sides()
             .flat_map(|side| touching[side.kept() as usize].iter().copied())
             .collect();
-        met.sort_unstable();
+        sort(&mut met);
         met.dedup();
         for number in met {
             let (links, at) = self.link(number);

@@ -13,6 +13,7 @@
 //! cylinder may have, and takes its hinges by so much less. Then a strip of it bends as the material says.
 
 use crate::fabric::links::{LinkKind, Links, Support};
+use crate::math::sort::sort_by;
 use crate::mesh::{Corner, Mesh, after};
 use glam::Vec3;
 
@@ -141,7 +142,7 @@ impl Hinges {
         let scale = if given > 0.0 { (due / given) as f32 } else { 1.0 };
         let color = colors(&found, mesh.vertex_count());
         let mut order: Vec<usize> = (0..found.len()).collect();
-        order.sort_by_key(|at| color[*at]);
+        sort_by(&mut order, |p, q| (color[*p], p).cmp(&(color[*q], q)));
         let mut hinge_of = vec![u32::MAX; links.len() - first];
         let (mut all, mut of) = (Vec::new(), Vec::new());
         for at in order {

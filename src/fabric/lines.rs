@@ -6,6 +6,7 @@
 use crate::fabric::abreast::{Abreast, Member};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::LANES;
+use crate::math::sort::sort_by;
 use crate::mesh::NONE;
 use core::cmp::Reverse;
 use glam::Vec3;
@@ -80,7 +81,7 @@ fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
                 }
             }
         }
-        pairs.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+        sort_by(&mut pairs, |p, q| q.0.total_cmp(&p.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
         for (_, p, q) in pairs {
             let end = |link: u32| usize::from(links.b[link as usize] == vertex as u32);
             if next[p as usize][end(p)] == NONE && next[q as usize][end(q)] == NONE {

@@ -2,6 +2,7 @@
 
 use crate::fabric::links::Links;
 use crate::fabric::tethers::Tethers;
+use crate::math::sort::sort_by;
 
 /// Links sorted by how far their farther end is from a pin.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +36,7 @@ impl Outward {
             let [a, b] = ends.map(|end| distance[end as usize]);
             if a > b { a } else { b }
         };
-        self.order.sort_unstable_by(|p, q| farther(p).total_cmp(&farther(q)).then(p.cmp(q)));
+        sort_by(&mut self.order, |p, q| farther(p).total_cmp(&farther(q)).then(p.cmp(q)));
     }
 
     /// The links, nearest to a pin first.

@@ -8,6 +8,7 @@ use crate::fabric::loose::Loose;
 use crate::fabric::material::Material;
 use crate::fabric::palette::Palette;
 use crate::fabric::rows::Rows;
+use crate::math::sort::sort;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
 use core::ops::Range;
 use glam::Vec3;
@@ -355,7 +356,7 @@ fn involvement(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
     for (at, spec) in links.spec.iter().enumerate() {
         pairs.extend(spec.corners().map(|corner| (mesh.vertex(corner), at as u32)));
     }
-    pairs.sort_unstable();
+    sort(&mut pairs);
     pairs.dedup();
     let mut first = vec![0u32; mesh.original_count as usize + 1];
     for (vertex, _) in &pairs {
@@ -375,7 +376,7 @@ struct EdgeIndex {
 impl EdgeIndex {
     fn new(mesh: &Mesh) -> Self {
         let mut sorted: Vec<_> = mesh.edges().map(|edge| (mesh.ends(edge), edge)).collect();
-        sorted.sort_unstable();
+        sort(&mut sorted);
         Self { sorted }
     }
 

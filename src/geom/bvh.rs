@@ -1,6 +1,7 @@
 //! A tree of boxes: which of many things may be near a place.
 
 use super::aabb::Aabb;
+use crate::math::sort::sort_by;
 use core::ops::Range;
 
 /// Things in a leaf at most.
@@ -52,8 +53,8 @@ impl Tree {
             let middle = things.start + things.len() / 2;
             let center = |thing: &u32| bounds[*thing as usize].center()[axis];
             // Equal ones by their numbers, so that the order is always the same.
-            self.order[things.clone()]
-                .sort_unstable_by(|a, b| center(a).total_cmp(&center(b)).then(a.cmp(b)));
+            let order = &mut self.order[things.clone()];
+            sort_by(order, |a, b| center(a).total_cmp(&center(b)).then(a.cmp(b)));
             self.grow(bounds, things.start..middle);
             self.grow(bounds, middle..things.end);
         }

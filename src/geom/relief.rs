@@ -2,6 +2,7 @@
 
 use super::aabb::Aabb;
 use super::bvh::Tree;
+use crate::math::sort::{sort, sort_by};
 use glam::Vec3;
 
 /// How much a shape bends somewhere.
@@ -249,7 +250,7 @@ impl Relief {
                 edges.push(([from.min(to), from.max(to)], tip));
             }
         }
-        edges.sort_unstable();
+        sort(&mut edges);
         let (mut features, mut steps) = (Features::default(), Steps::default());
         let mut ends = Vec::new();
         for edge in edges.chunk_by(|a, b| a.0 == b.0) {
@@ -263,7 +264,7 @@ impl Relief {
             ends.extend([(from, to, features.ridges.len()), (to, from, features.ridges.len())]);
             features.ridges.push(ridge);
         }
-        ends.sort_unstable();
+        sort(&mut ends);
         for own in ends.chunk_by(|a, b| a.0 == b.0) {
             let at = positions[own[0].0 as usize];
             let ridges: Vec<(Vec3, Ridge)> = own
@@ -289,7 +290,7 @@ fn join_places(positions: &[Vec3]) -> Vec<u32> {
     // Minus zero is zero.
     let bits = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
-    order.sort_unstable_by_key(|i| (bits(*i), *i));
+    sort_by(&mut order, |p, q| (bits(*p), p).cmp(&(bits(*q), q)));
     let mut same = vec![0; positions.len()];
     for places in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
         places.iter().for_each(|i| same[*i as usize] = places[0]);

@@ -7,6 +7,7 @@ pub(crate) mod mix;
 pub(crate) mod pack;
 pub(crate) mod shared;
 pub(crate) mod simd;
+pub(crate) mod sort;
 pub(crate) mod threads;
 pub(crate) mod trig;
 

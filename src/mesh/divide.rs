@@ -12,6 +12,7 @@
 
 use super::split::Opening;
 use super::{Corner, Fan, Mesh, NONE, after, before, triangle_of};
+use crate::math::sort::sort;
 use core::ops::{Add, Mul, Sub};
 use serde::{Deserialize, Serialize};
 
@@ -152,7 +153,7 @@ impl Mesh {
     ) {
         let mut vertices: Vec<u32> =
             edges.iter().flat_map(|edge| [self.vertex(*edge), self.vertex(after(*edge))]).collect();
-        vertices.sort_unstable();
+        sort(&mut vertices);
         vertices.dedup();
         let mut fan = Fan::default();
         let whole: Vec<Vec<Corner>> = vertices
@@ -160,7 +161,7 @@ impl Mesh {
             .map(|vertex| {
                 self.fan(self.corner_of[*vertex as usize], &mut fan);
                 let mut corners = fan.corners.clone();
-                corners.sort_unstable();
+                sort(&mut corners);
                 corners
             })
             .collect();

@@ -9,6 +9,7 @@ pub(crate) mod seams;
 pub(crate) mod sound;
 pub(crate) mod split;
 
+use crate::math::sort::sort;
 use serde::{Deserialize, Serialize};
 
 /// No triangle, no corner.
@@ -208,7 +209,7 @@ impl Mesh {
         let mut edges: Vec<((u32, u32), Corner)> = (0..3 * self.triangles.len() as u32)
             .map(|corner| (self.ends(corner), corner))
             .collect();
-        edges.sort_unstable();
+        sort(&mut edges);
         self.across.fill([NONE; 3]);
         for pair in edges.windows(2) {
             if let [(ends, a), (same, b)] = pair

@@ -7,6 +7,7 @@
 
 use super::divide::{Crossing, Division};
 use super::{Corner, Mesh, after, before, triangle_of};
+use crate::math::sort::sort;
 use serde::{Deserialize, Serialize};
 
 /// The vertices of a mesh whose particles are shared.
@@ -71,7 +72,7 @@ impl Seams {
             .filter(|vertex| self.uses[*vertex] > 0)
             .map(|vertex| self.particles[vertex])
             .collect();
-        used.sort_unstable();
+        sort(&mut used);
         let most = used.chunk_by(|a, b| a == b).map(<[u32]>::len).max().unwrap_or(1);
         let unused = self.particles.len() - used.len();
         let count = self.particles.len();

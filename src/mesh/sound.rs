@@ -4,6 +4,7 @@
 
 use super::{Fan, Mesh, NONE};
 use crate::error::{Error, Result};
+use crate::math::sort::sort;
 use glam::Vec3;
 
 /// Refuses triangles that cannot be cloth: indices out of range, no area, a third triangle at an
@@ -38,7 +39,7 @@ fn refuse_crowded_edges(triangles: &[[u32; 3]]) -> Result<()> {
             edges.push(([*a.min(b), *a.max(b)], at as u32));
         }
     }
-    edges.sort_unstable();
+    sort(&mut edges);
     match edges.windows(3).find(|three| three[0].0 == three[2].0) {
         Some(three) => {
             Err(Error::BadMesh { at: three[2].1, must: "give no edge more than two triangles" })

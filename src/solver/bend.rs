@@ -70,6 +70,7 @@ pub(crate) fn go_on(world: &mut World, order: Order, iteration: u32) {
     }
 }
 
+/// Each way to bend is a function of its own, as stages are (see `pipeline`).
 fn bend(world: &mut World, order: Order) {
     let scheme = world.settings.scheme();
     // Damping acts against how much more or less something is bent than when the substep began.
@@ -89,6 +90,7 @@ fn bend(world: &mut World, order: Order) {
     }
 }
 
+#[inline(never)]
 fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
     let inertia = world.inertia();
     let [lightest, _] = world.mass_scales.range();
@@ -176,6 +178,7 @@ fn find_normals(plates: &Plates, x: &Columns, normal: &mut Columns) {
 }
 
 /// What left its place in a grid.
+#[inline(never)]
 fn bend_elbows(world: &mut World, step: hinges::Step) {
     let Some(plates) = &world.plates else { return };
     let (scratch, [weft, warp, _]) = (&world.scratch, &world.folds.offset);
@@ -191,6 +194,7 @@ fn bend_elbows(world: &mut World, step: hinges::Step) {
 }
 
 /// What cuts folded anew.
+#[inline(never)]
 fn bend_late(world: &mut World, step: hinges::Step) {
     let links = &world.weave.extra;
     if world.weave.loose.batches_of(LinkKind::Bend).is_empty() {
@@ -209,6 +213,7 @@ fn bend_late(world: &mut World, step: hinges::Step) {
     }
 }
 
+#[inline(never)]
 fn bend_hinges(world: &mut World, step: hinges::Step, order: Order) {
     let (count, scratch) = (world.particles.len(), &mut world.scratch);
     let (predicted, way) = (&scratch.predicted, &scratch.way);

@@ -11,6 +11,7 @@ use super::{World, layers};
 use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
+use crate::math::sort::sort;
 use crate::mesh::Mesh;
 use crate::state::settings::{SelfCollision, Settings};
 use glam::Vec3;
@@ -117,7 +118,7 @@ impl Crowd {
                     near.push(j);
                 }
             });
-            near.sort_unstable();
+            sort(near);
             for j in near.iter() {
                 let other = world.mesh.source[*j as usize] as usize;
                 let apart = (world.rest[other] - world.rest[site]).length_squared();

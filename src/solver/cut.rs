@@ -10,6 +10,7 @@ use super::tear::{admit, settle, tell_torn};
 use crate::fabric::divide::{Recipe, Touching};
 use crate::geom::blade::Blade;
 use crate::geom::triangle::corner_areas;
+use crate::math::sort::sort_by;
 use crate::mesh::divide::Crossing;
 use crate::mesh::{Corner, Fan, Mesh, NONE, after, before};
 use crate::state::events::{Event, EventKind};
@@ -246,7 +247,7 @@ impl<'a> Draft<'a> {
     fn is_no_sliver(&self, [a, b, c]: [Vec3; 3]) -> bool {
         let doubled = (b - a).cross(c - a).length();
         let mut sides = [(b - a).length(), (c - b).length(), (a - c).length()];
-        sides.sort_unstable_by(f32::total_cmp);
+        sort_by(&mut sides, f32::total_cmp);
         // The sharpest angle is between the two longer sides.
         let spacing = self.world.spacing;
         doubled >= LEAST_SINE * sides[1] * sides[2]

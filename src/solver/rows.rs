@@ -112,7 +112,7 @@ struct Pass {
 macro_rules! kernels {
     ($($name:ident: $solve:ident $law:ident $pattern:ident;)*) => {$(
         vectored! {
-            #[inline(never)]
+            #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // there `vectored` says so
             fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
                 = $solve::<_, $law, $pattern>, Avx512, none
         }

@@ -8,6 +8,7 @@ use super::layers::slits;
 use crate::fabric::links::{LinkKind, Links};
 use crate::fabric::tips;
 use crate::math::mix::unit;
+use crate::math::sort::sort;
 use crate::mesh::split::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::state::events::{Event, EventKind};
@@ -392,7 +393,7 @@ fn share_stiffness(world: &mut World, vertices: [u32; 2], stiffness: f32) {
 /// The mass of a vertex from the triangles it has left, added up in their order.
 fn weigh_fan(world: &mut World, vertex: u32, fan: &mut Fan) {
     world.mesh.fan(world.mesh.corner_of[vertex as usize], fan);
-    fan.corners.sort_unstable();
+    sort(&mut fan.corners);
     let density = world.material.density;
     let share =
         |corner: &u32| world.corner_area[triangle_of(*corner)][*corner as usize % 3] * density;

@@ -1,4 +1,4 @@
-// One build of the package in an engine: `node build.mjs SPECIFIER [no-vectors]` prints, as JSON, the
+// One build of the package in an engine: `node build.mjs SPECIFIER [no-vectors|no-wasm]` prints, as JSON, the
 // hashes that the script and a small cloth end in, the sizes of the modules that were compiled, and what became of
 // views.
 
@@ -7,13 +7,17 @@ import { hexOf, playScript } from "./script.mjs";
 const [specifier, ...lacks] = process.argv.slice(2);
 const compiled = [];
 if (lacks.includes("no-vectors")) WebAssembly.validate = () => false;
-const { Module } = WebAssembly;
-WebAssembly.Module = class extends Module {
-  constructor(bytes) {
-    super(bytes);
-    compiled.push(bytes.byteLength);
-  }
-};
+if (lacks.includes("no-wasm")) {
+  delete globalThis.WebAssembly;
+} else {
+  const { Module } = WebAssembly;
+  WebAssembly.Module = class extends Module {
+    constructor(bytes) {
+      super(bytes);
+      compiled.push(bytes.byteLength);
+    }
+  };
+}
 
 const { default: init, Cloth } = await import(specifier);
 await init();

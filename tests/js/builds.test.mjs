@@ -1,4 +1,5 @@
-// Every build of the package ends in the same bits: with vectors, without them, with the module inside.
+// Every build of the package ends in the same bits: with vectors, without them, with the module inside, without
+// WebAssembly.
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -24,6 +25,7 @@ const BUILDS = [
   ["with vectors", ["muslin"], "raw_bg.wasm"],
   ["in an engine without vectors", ["muslin", "no-vectors"], "plain_bg.wasm"],
   ["with its module inside", ["muslin/inline"], undefined],
+  ["in an engine without WebAssembly", ["muslin/no-wasm", "no-wasm"], undefined],
 ];
 
 /** What a small cloth ends in, as the first build says. */
@@ -38,6 +40,7 @@ for (const [name, words, module] of BUILDS) {
     assert.equal(found.small, small);
     assert.ok(found.isKept && found.isRestored);
     assert.match(found.refusal, /columns/);
+    if (words.includes("no-wasm")) assert.deepEqual(found.compiled, []);
     if (module) assert.deepEqual(found.compiled, [await sizeOf(module)]);
   });
 }

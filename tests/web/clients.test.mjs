@@ -14,6 +14,8 @@ import webpack from "webpack";
 import { launch, open, url, variable } from "./browser.mjs";
 
 const work = variable("MUSLIN_WORK");
+/** As `url`, under a policy of `script-src 'self'` and nothing else. */
+const strict = variable("MUSLIN_STRICT");
 const here = fileURLToPath(new URL("../clients", import.meta.url));
 const modules = fileURLToPath(new URL("../node_modules", import.meta.url));
 const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
@@ -43,12 +45,20 @@ async function project(name, ...sources) {
 async function visit(address, server = url) {
   const { context, page, complaints } = await open(browser, {}, server);
   await page.goto(address);
-  await page.waitForFunction(() => window.result, null, { timeout: 60_000 }).catch(() => {});
-  const result = await page.evaluate(() => window.result);
+  const result = await resultOf(page);
   assert.deepEqual(complaints, []);
   await context.close();
-  const manifest = JSON.parse(await readFile(join(work, "node/node_modules/muslin/package.json"), "utf8"));
-  assert.deepEqual(result, { version: manifest.version, hash: golden, worker: golden, vertices: 1600, held: 1 });
+  assert.deepEqual(result, { version: await packedVersion(), hash: golden, worker: golden, vertices: 1600, held: 1 });
+}
+
+/** What a page found; nothing if it finds nothing. */
+async function resultOf(page, timeout = 60_000) {
+  await page.waitForFunction(() => window.result, null, { timeout }).catch(() => {});
+  return page.evaluate(() => window.result);
+}
+
+async function packedVersion() {
+  return JSON.parse(await readFile(join(work, "node/node_modules/muslin/package.json"), "utf8")).version;
 }
 
 test("the package holds what it says, and nothing that it does not need", async () => {
@@ -68,7 +78,7 @@ test("the package holds what it says, and nothing that it does not need", async 
   const targets = Object.values(manifest.exports).flatMap((to) => (typeof to === "string" ? [to] : Object.values(to)));
   for (const target of targets) assert.ok(files.includes(target.replace("./", "")), target);
   // What is named by a file is there; what is there is named by a file, or is for people.
-  const named = new Set([...targets.map((target) => target.replace("./", "")), "raw_bg.wasm.d.ts", "raw.d.ts"]);
+  const named = new Set(targets.map((target) => target.replace("./", "")));
   for (const file of files.filter((name) => /\.(js|d\.ts)$/.test(name))) {
     const text = await readFile(join(dir, file), "utf8");
     for (const [, name] of text.matchAll(/^(?:import|export|\}).* from "\.\/([^"]+)"/gm)) {
@@ -96,6 +106,33 @@ test("node: as a module, from CommonJS, in a worker, and with the types that bun
 test("a page without a bundler, from its own folder", async () => {
   await project("page");
   await visit(new URL("page/", url).href);
+});
+
+test("a page that may run its own scripts and nothing else", async () => {
+  await project("no-wasm");
+  const { context, page, complaints } = await open(browser, { viewport: { width: 400, height: 300 } }, strict);
+  await page.goto(new URL("no-wasm/", strict).href);
+  const found = { version: await packedVersion(), hash: golden, worker: golden, isForbidden: true };
+  assert.deepEqual(await resultOf(page), found);
+  const { right } = await page.evaluate(() => window.pulled);
+  await page.mouse.move(250, 150); // amid the sheet
+  await page.mouse.down();
+  await page.mouse.move(340, 130, { steps: 6 });
+  await page.waitForFunction((right) => window.pulled.held === 1 && window.pulled.right > right + 0.1, right);
+  await page.screenshot({ path: join(work, "no-wasm.png") });
+  await page.mouse.up();
+  await page.waitForFunction(() => window.pulled.held === 0);
+  // It tried WebAssembly, to see that it may not have it; there is nothing else to complain about.
+  assert.deepEqual(complaints, ["error: policy: script-src wasm-eval"]);
+  await context.close();
+});
+
+test("under such a policy the package with its module cannot start", async () => {
+  const { context, page, complaints } = await open(browser, {}, strict);
+  await page.goto(new URL("page/", strict).href);
+  assert.equal(await resultOf(page, 3_000), undefined);
+  assert.match(complaints.join("\n"), /policy: script-src wasm-eval/);
+  await context.close();
 });
 
 test("the page of the package's README, pasted", async () => {

@@ -66,7 +66,7 @@ fn beside_peers(test: &[&str]) -> Result {
 fn in_node(test: &[&str]) -> Result {
     setup::ensure(&[&setup::NODE])?;
     js::build()?;
-    let plain = wasm::compile_plain("muslin-plain")?;
+    let plain = wasm::compile("muslin-plain", wasm::PLAIN)?;
     let mut node = shell::command("node");
     node.arg(files::root().join("benches/node/tables.mjs"));
     shell::run(node.arg(plain).args(test))

@@ -61,7 +61,7 @@ const PLATFORMS: &[Platform] = &[
     },
     Platform {
         name: "wasm",
-        built_for: Some((wasm::TARGET, "-C target-feature=-simd128")),
+        built_for: Some((wasm::TARGET, wasm::PLAIN)),
         player: Player::Node,
         has: Some("scalar"),
     },

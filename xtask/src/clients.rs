@@ -37,11 +37,15 @@ pub fn test() -> Result {
     npm::install()?;
     let work = files::target().join("clients");
     files::make_empty(&work)?;
-    let mounts = vec![
-        Mount { at: "/vendor/", dir: npm::modules().join("three-160/build") },
-        Mount { at: "/", dir: work.clone() },
-    ];
-    let url = Server::open(mounts, 0)?.run_aside();
-    let paths = [("MUSLIN_WORK", &work), ("MUSLIN_TARBALL", &tarball())];
+    let mounts = || {
+        vec![
+            Mount { at: "/vendor/", dir: npm::modules().join("three-160/build") },
+            Mount { at: "/", dir: work.clone() },
+        ]
+    };
+    let url = Server::open(mounts(), 0)?.run_aside();
+    let strict = Server::open(mounts(), 0)?.under("script-src 'self'").run_aside().into();
+    let paths =
+        [("MUSLIN_WORK", &work), ("MUSLIN_TARBALL", &tarball()), ("MUSLIN_STRICT", &strict)];
     browser::node_test("tests/web/clients.test.mjs", &url, &paths)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{browser, files, npm, shell, wasm};
+use crate::{browser, files, no_wasm, npm, shell, tools, wasm};
 
 /// Where the package is built.
 pub fn dir() -> PathBuf {
@@ -20,8 +20,23 @@ pub fn build() -> Result {
         ));
     }
     files::make_empty(&dir())?;
-    wasm::build("muslin-js", &dir(), "raw", true)?;
-    build_plain()?;
+    let vectors = module("vectors", |package| wasm::compile(package, wasm::FLAGS))?;
+    let plain = module("plain", |package| wasm::compile(package, wasm::PLAIN))?;
+    let small = module("small", wasm::compile_small)?;
+    let script = files::read(&vectors.join("raw_bg.js"))?;
+    for other in [&plain, &small] {
+        if files::read(&other.join("raw_bg.js"))? != script {
+            return Err(Failure::new(
+                "the modules are bound differently, with vectors and without",
+            ));
+        }
+    }
+    tools::minify(&vectors.join("raw_bg.js"), &dir().join("raw.js"), "--minify-whitespace")?;
+    let code = no_wasm::convert(&small.join("raw_bg.wasm"), &small)?;
+    let [vectors, plain] = [vectors, plain].map(|dir| dir.join("raw_bg.wasm"));
+    for (from, name) in [(vectors, "raw_bg.wasm"), (plain, "plain_bg.wasm"), (code, "code.js")] {
+        std::fs::copy(from, dir().join(name)).during(|| format!("writing {name}"))?;
+    }
     files::copy_all(&hand_written, &dir())?;
     for license in ["LICENSE-MIT", "LICENSE-APACHE"] {
         let text = files::read(&files::root().join(license))?;
@@ -33,18 +48,12 @@ pub fn build() -> Result {
     Ok(())
 }
 
-/// The module once more, for engines without vectors. What binds it is the same, so it goes without.
-fn build_plain() -> Result {
-    let plain = files::target().join("js-plain");
-    files::make_empty(&plain)?;
-    wasm::bind_module(&wasm::compile_plain("muslin-js")?, &plain, "raw")?;
-    let [ours, theirs] = [dir(), plain.clone()].map(|dir| files::read(&dir.join("raw.js")));
-    if ours? != theirs? {
-        return Err(Failure::new("the modules with and without vectors are bound differently"));
-    }
-    let to = dir().join("plain_bg.wasm");
-    std::fs::copy(plain.join("raw_bg.wasm"), &to).during(|| format!("writing {}", to.display()))?;
-    Ok(())
+/// Builds a module and what binds it; gives the folder.
+fn module(name: &str, compile: impl Fn(&str) -> Result<PathBuf>) -> Result<PathBuf> {
+    let to = files::target().join("js").join(name);
+    files::make(&to)?;
+    wasm::bind(&compile("muslin-js")?, &to, "raw")?;
+    Ok(to)
 }
 
 /// The module as text, for those who want no second file.
@@ -83,14 +92,31 @@ fn name_build() -> Result {
     files::write(&dir().join("build.json"), &build)
 }
 
+/// Tests that take no minute without WebAssembly either; `builds` plays the script there.
+const QUICK: [&str; 5] = [
+    "meshes.test.mjs",
+    "pointers.test.mjs",
+    "refusals.test.mjs",
+    "streams.test.mjs",
+    "three.test.mjs",
+];
+
+fn node_test(options: &[&str], tests: &[PathBuf]) -> Result {
+    let mut node = shell::command("node");
+    node.args(options).args(["--test", "--test-reporter=spec"]);
+    shell::run(node.args(tests))
+}
+
 /// Runs the tests in node, and has the compiler read the types.
 pub fn test() -> Result {
     build()?;
     npm::install()?;
     let tests = files::root().join("tests/js");
-    let mut node = shell::command("node");
-    node.args(["--test", "--test-reporter=spec"]);
-    shell::run(node.args(files::ending(&tests, ".test.mjs")?))?;
+    let all = files::ending(&tests, ".test.mjs")?;
+    node_test(&[], &all)?;
+    let is_quick = |file: &PathBuf| QUICK.iter().any(|name| file.ends_with(name));
+    let quick: Vec<_> = all.into_iter().filter(is_quick).collect();
+    node_test(&["--import", "./tests/js/no-wasm.mjs"], &quick)?;
     for types in files::ending(&tests, ".ts")? {
         let mut tsc = shell::command("node");
         tsc.arg(npm::modules().join("typescript/bin/tsc"));

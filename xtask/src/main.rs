@@ -14,6 +14,7 @@ mod files;
 mod fuzz;
 mod js;
 mod miri;
+mod no_wasm;
 mod npm;
 mod package;
 mod picture;
@@ -24,6 +25,7 @@ mod setup;
 mod shell;
 mod sources;
 mod test;
+mod tools;
 mod wasm;
 mod web;
 

@@ -32,6 +32,7 @@ pub struct Mount {
 pub struct Server {
     listener: TcpListener,
     mounts: Vec<Mount>,
+    policy: &'static str,
 }
 
 impl Server {
@@ -41,7 +42,12 @@ impl Server {
         let listener = TcpListener::bind(("127.0.0.1", port)).map_err(|error| {
             Failure::new(format!("cannot listen on port {port} ({error}); --port N takes another"))
         })?;
-        Ok(Self { listener, mounts })
+        Ok(Self { listener, mounts, policy: POLICY })
+    }
+
+    /// Serves under another content security policy.
+    pub fn under(self, policy: &'static str) -> Self {
+        Self { policy, ..self }
     }
 
     /// Listens on the usual port, or if it is taken on a free one.
@@ -61,7 +67,7 @@ impl Server {
         std::thread::scope(|scope| {
             for connection in self.listener.incoming().flatten() {
                 // A browser that has gone away needs no answer.
-                scope.spawn(|| answer(&self.mounts, connection).ok());
+                scope.spawn(|| self.answer(connection).ok());
             }
         });
     }
@@ -72,47 +78,48 @@ impl Server {
         std::thread::spawn(move || self.run());
         url
     }
-}
 
-/// Reads one request and answers it; that ends the connection, so none waits for another.
-fn answer(mounts: &[Mount], connection: TcpStream) -> std::io::Result<()> {
-    connection.set_read_timeout(Some(PATIENCE))?;
-    let mut lines = BufReader::new(&connection).take(MOST_HEAD).lines();
-    let request = lines.next().transpose()?.unwrap_or_default();
-    // The rest of the head says nothing that matters here, but must be read before answering.
-    for line in lines {
-        if line?.is_empty() {
-            break;
+    /// Reads one request and answers it; that ends the connection, so none waits for another.
+    fn answer(&self, connection: TcpStream) -> std::io::Result<()> {
+        connection.set_read_timeout(Some(PATIENCE))?;
+        let mut lines = BufReader::new(&connection).take(MOST_HEAD).lines();
+        let request = lines.next().transpose()?.unwrap_or_default();
+        // The rest of the head says nothing that matters here, but must be read before answering.
+        for line in lines {
+            if line?.is_empty() {
+                break;
+            }
         }
+        let mut words = request.split_whitespace();
+        let (method, url) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+        let mut out = &connection;
+        if !matches!(method, "GET" | "HEAD") {
+            return out.write_all(&self.head("405 Method Not Allowed", "text/plain", 0));
+        }
+        let Some(path) = file(&self.mounts, url) else {
+            return out.write_all(&self.head("404 Not Found", "text/plain", 0));
+        };
+        let body = std::fs::read(&path)?;
+        out.write_all(&self.head("200 OK", content_type(&path), body.len()))?;
+        if method == "GET" {
+            out.write_all(&body)?;
+        }
+        Ok(())
     }
-    let mut words = request.split_whitespace();
-    let (method, url) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
-    let mut out = &connection;
-    if !matches!(method, "GET" | "HEAD") {
-        return out.write_all(&head("405 Method Not Allowed", "text/plain", 0));
-    }
-    let Some(path) = file(mounts, url) else {
-        return out.write_all(&head("404 Not Found", "text/plain", 0));
-    };
-    let body = std::fs::read(&path)?;
-    out.write_all(&head("200 OK", content_type(&path), body.len()))?;
-    if method == "GET" {
-        out.write_all(&body)?;
-    }
-    Ok(())
-}
 
-fn head(status: &str, content_type: &str, length: usize) -> Vec<u8> {
-    format!(
-        "HTTP/1.1 {status}\r\n\
-         Content-Type: {content_type}\r\n\
-         Content-Length: {length}\r\n\
-         Content-Security-Policy: {POLICY}\r\n\
-         X-Content-Type-Options: nosniff\r\n\
-         Cache-Control: no-store\r\n\
-         Connection: close\r\n\r\n"
-    )
-    .into_bytes()
+    fn head(&self, status: &str, content_type: &str, length: usize) -> Vec<u8> {
+        let policy = self.policy;
+        format!(
+            "HTTP/1.1 {status}\r\n\
+             Content-Type: {content_type}\r\n\
+             Content-Length: {length}\r\n\
+             Content-Security-Policy: {policy}\r\n\
+             X-Content-Type-Options: nosniff\r\n\
+             Cache-Control: no-store\r\n\
+             Connection: close\r\n\r\n"
+        )
+        .into_bytes()
+    }
 }
 
 /// The file that an address means, if there is one.

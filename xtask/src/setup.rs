@@ -42,9 +42,9 @@ pub const VALGRIND: Need = Need {
 
 /// Node, and npm for its packages.
 pub const NODE: Need = Need {
-    name: "node 18.15 or newer with npm",
+    name: "node 18.19 or newer with npm",
     packages: &["nodejs", "npm"],
-    is_there: || which("npm").is_some() && node_version() >= Some((18, 15)),
+    is_there: || which("npm").is_some() && node_version() >= Some((18, 19)),
 };
 
 /// What imitates other processors, with AVX2 among what it imitates; there is none but for Linux.

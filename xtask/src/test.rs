@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
 use crate::{
-    bits, c, clients, demo, engines, examples, fuzz, js, npm, package, readme, shell, wasm, web,
+    bits, c, clients, demo, engines, examples, fuzz, js, npm, package, readme, shell, tools, wasm,
+    web,
 };
 
 /// A part of the tests.
@@ -120,6 +121,7 @@ pub fn prepare(options: &[String]) -> Result {
             setup::ensure_component("fmt", "rustfmt")?;
             setup::ensure_component("clippy", "clippy")?;
             bits::ensure_targets()?;
+            tools::install()?;
             npm::install()
         }
         [list] if list == "--list" => {

@@ -14,27 +14,56 @@ pub const TARGET: &str = "wasm32-unknown-unknown";
 /// is off: what it makes of addresses cannot be folded into loads and stores of wasm.
 pub const FLAGS: &str = "-C target-feature=+simd128 -C llvm-args=--disable-lsr";
 
-/// Builds the library of `package` for the web and puts `name.js` and `name_bg.wasm` into `dir`;
-/// `name.d.ts` too if there are to be `types`.
-pub fn build(package: &str, dir: &Path, name: &str, types: bool) -> Result {
+/// For engines that have no vectors.
+pub const PLAIN: &str = "-C target-feature=-simd128";
+
+/// Nothing that engines did not have from the start but copies within memory: what JavaScript can be made of.
+const OLD: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext";
+
+/// Builds the library of `package` for a page and puts `name.js` and `name_bg.wasm` into `dir`.
+pub fn build(package: &str, dir: &Path, name: &str) -> Result {
     let module = compile(package, FLAGS)?;
-    bind(&module, dir, name, types).during(|| format!("binding {}", module.display()))
+    let during = || format!("binding {}", module.display());
+    let mut bindgen = Bindgen::new();
+    bindgen.web(true).during(during)?.input_path(&module);
+    write(&mut bindgen, dir, name).during(during)
 }
 
-/// As `build`, from a module that is there.
-pub fn bind_module(module: &Path, dir: &Path, name: &str) -> Result {
-    bind(module, dir, name, true).during(|| format!("binding {}", module.display()))
+/// Binds a module to JavaScript that is told what it exports, so that anything may stand in for WebAssembly:
+/// `name_bg.wasm` and `name_bg.js`, with neither tables of JavaScript's values nor results of several.
+pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
+    let during = || format!("binding {}", module.display());
+    let mut bytes = std::fs::read(module).during(during)?;
+    for feature in ["reference-types", "multivalue"] {
+        disclaim(&mut bytes, feature);
+    }
+    let mut bindgen = Bindgen::new();
+    bindgen.bundler(true).during(during)?.input_bytes(name, bytes);
+    write(&mut bindgen, dir, name).during(during)
 }
 
-/// Compiles the library of `package` to a module that asks nothing of the engine, not even vectors.
-pub fn compile_plain(package: &str) -> Result<PathBuf> {
-    compile(package, "-C target-feature=-simd128")
+/// Takes back that a module uses a feature. Rust's standard library says so of some that nothing uses.
+fn disclaim(module: &mut [u8], feature: &str) {
+    let claim = [&[b'+', feature.len() as u8], feature.as_bytes()].concat();
+    if let Some(at) = module.windows(claim.len()).rposition(|window| window == claim) {
+        module[at] = b'-';
+    }
 }
 
-fn compile(package: &str, flags: &str) -> Result<PathBuf> {
+/// Compiles the library of `package` to a module with these flags.
+pub fn compile(package: &str, flags: &str) -> Result<PathBuf> {
+    compile_with(package, flags, &[])
+}
+
+/// Compiles the library of `package` to a module of small functions that JavaScript can be made of.
+pub fn compile_small(package: &str) -> Result<PathBuf> {
+    compile_with(package, OLD, &["--config", "profile.release.opt-level=\"s\""])
+}
+
+fn compile_with(package: &str, flags: &str, options: &[&str]) -> Result<PathBuf> {
     setup::ensure_target(TARGET)?;
     let mut cargo = shell::cargo(&["rustc", "--release", "--lib", "--crate-type", "cdylib"]);
-    cargo.args(["--target", TARGET, "--package", package]);
+    cargo.args(["--target", TARGET, "--package", package]).args(options);
     // A caller's flags would replace these.
     cargo.env("RUSTFLAGS", flags).env_remove("CARGO_ENCODED_RUSTFLAGS");
     shell::run(&mut cargo)?;
@@ -42,16 +71,13 @@ fn compile(package: &str, flags: &str) -> Result<PathBuf> {
     Ok(files::target().join(TARGET).join("release").join(built))
 }
 
-fn bind(module: &Path, dir: &Path, name: &str, types: bool) -> Result {
+fn write(bindgen: &mut Bindgen, dir: &Path, name: &str) -> Result {
     let during = || String::from("wasm-bindgen");
-    Bindgen::new()
-        .web(true)
-        .during(during)?
-        .typescript(types)
+    bindgen
+        .typescript(false)
         .remove_name_section(true)
         .remove_producers_section(true)
         .out_name(name)
-        .input_path(module)
         .generate(dir)
         .during(during)
 }

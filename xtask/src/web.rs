@@ -18,7 +18,7 @@ pub fn build() -> Result {
     // The receipt's font is in the wasm; its licence goes with it.
     let licence = files::read(&files::root().join("demo/fonts/OFL.txt"))?;
     files::write(&dir().join("OFL.txt"), &licence)?;
-    wasm::build("muslin-demo", &dir(), "muslin_demo", false)?;
+    wasm::build("muslin-demo", &dir(), "muslin_demo")?;
     println!("the page is in dist/web; it needs a server, such as `cargo xtask demo --web`");
     Ok(())
 }

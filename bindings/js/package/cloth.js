@@ -2,7 +2,7 @@
 
 import * as raw from "./raw.js";
 import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from "./check.js";
-import { ready } from "./memory.js";
+import { isTrap, ready } from "./memory.js";
 import * as fields from "./fields.js";
 import { Attachment, Collider, Grab, OURS, onlyOurs } from "./handles.js";
 import { readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
@@ -26,7 +26,7 @@ function make(build) {
   try {
     return new Cloth(OURS, build());
   } catch (error) {
-    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+    if (!isTrap(error)) throw error;
     throw new Error("no memory is left for such a cloth", { cause: error });
   }
 }

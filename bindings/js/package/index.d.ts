@@ -30,7 +30,8 @@ export type Source =
 
 /**
  * Loads the module: `raw_bg.wasm` beside this file, or what you give. In a page under a content
- * security policy this needs `'wasm-unsafe-eval'` in `script-src`, and nothing else.
+ * security policy this needs `'wasm-unsafe-eval'` in `script-src`, and nothing else;
+ * `muslin/no-wasm` does without.
  *
  * Loads once: further calls, also at the same time, wait for the same module. One that failed may be
  * tried again.

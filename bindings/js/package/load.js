@@ -1,8 +1,7 @@
 // Loading the wasm module: once, whoever asks and however often.
 
-import instantiate, { initSync as instantiateSync } from "./raw.js";
 import { check, isBytes } from "./check.js";
-import { hold, isLoaded } from "./memory.js";
+import { IMPORTS, hold, isLoaded } from "./memory.js";
 
 /** A module of one function that gives a vector: engines without vectors find it wrong. */
 const VECTOR = [
@@ -38,12 +37,16 @@ export function initSync(source) {
   const isModule = source instanceof WebAssembly.Module;
   check(isModule || isBytes(source), "source", "be bytes or a WebAssembly.Module");
   const module = ours(isModule ? source : new WebAssembly.Module(source));
-  hold(instantiateSync({ module }).memory);
+  use(new WebAssembly.Instance(module, IMPORTS));
 }
 
 async function load(source) {
   const module = ours(await compile(await (source ?? beside())));
-  hold((await instantiate({ module_or_path: module })).memory);
+  use(await WebAssembly.instantiate(module, IMPORTS));
+}
+
+function use({ exports }) {
+  hold(exports, WebAssembly.RuntimeError);
 }
 
 /** The module beside this file that the engine can run; written so that bundlers find both. */

@@ -1,10 +1,22 @@
-// The memory of the module, once it is loaded.
+// The module, once it is loaded, and its memory.
+
+import * as raw from "./raw.js";
+
+/** What the module asks for. */
+export const IMPORTS = { "./raw_bg.js": raw };
 
 let memory;
+let Trap;
 
-/** From now on the module is loaded, and this is its memory. */
-export function hold(loaded) {
-  memory = loaded;
+/** From now on the module is loaded: these are its exports, and what it throws when it cannot go on. */
+export function hold(exports, Thrown) {
+  raw.__wbg_set_wasm(exports);
+  [memory, Trap] = [exports.memory, Thrown];
+}
+
+/** Whether this is what the module throws when it cannot go on. */
+export function isTrap(error) {
+  return error instanceof Trap;
 }
 
 /** Whether the module is loaded. */

@@ -316,6 +316,8 @@ macro_rules! leveled {
             = $body:path, $fast:path
     ) => {
         $(#[$doc])*
+        // Engines leave a function as it is, uncompiled, that many kernels make too long.
+        #[cfg_attr(target_arch = "wasm32", inline(never))]
         $vis fn $name(level: $crate::math::simd::Level, $($arg: $type),*) {
             #[cfg(target_arch = "x86_64")]
             {
@@ -357,6 +359,8 @@ macro_rules! vectored {
             = $body:path, $widest:ident, $scalar:path
     ) => {
         $(#[$doc])*
+        // Engines leave a function as it is, uncompiled, that many kernels make too long.
+        #[cfg_attr(target_arch = "wasm32", inline(never))]
         $vis fn $name(level: $crate::math::simd::Level, $($arg: $type),*) {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2")]

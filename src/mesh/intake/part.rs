@@ -9,6 +9,7 @@
 //! Of the triangles at such an edge the two that lie flattest stay joined, then the flattest two of the
 //! others, and so on; of equally flat ones the first. The sheet with the first triangle keeps the particle.
 
+use crate::math::sort::{sort, sort_by};
 use crate::mesh::{Corner, after, before, triangle_of};
 use glam::{DVec3, Vec3};
 
@@ -60,7 +61,7 @@ impl Edges {
                 ([a.min(b), a.max(b)], edge)
             })
             .collect();
-        sorted.sort_unstable();
+        sort(&mut sorted);
         Self { sorted }
     }
 
@@ -112,7 +113,7 @@ fn flattest(
     for one in 0..sides.len() {
         folds.extend((one + 1..sides.len()).map(|other| (ways[one].dot(ways[other]), one, other)));
     }
-    folds.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+    sort_by(&mut folds, |p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
     let mut is_free = vec![true; sides.len()];
     for (_, one, other) in folds {
         if is_free[one] && is_free[other] {

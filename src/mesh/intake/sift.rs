@@ -1,6 +1,7 @@
 //! Sifting: triangles without an area and repeated ones are left out.
 
 use crate::error::{Error, Result};
+use crate::math::sort::sort;
 use glam::Vec3;
 
 /// A triangle whose height is at most this share of its longest edge has no area but by rounding.
@@ -39,16 +40,16 @@ pub(super) fn sift(positions: &[Vec3], given: &[[u32; 3]], welded: &[u32]) -> Re
         .map(|at| (*at, given[*at as usize]))
         .map(|(at, corners)| {
             let mut corners = corners.map(|v| welded[v as usize]);
-            corners.sort_unstable();
+            sort(&mut corners);
             (corners, at)
         })
         .collect();
-    sorted.sort_unstable();
+    sort(&mut sorted);
     sorted.dedup_by_key(|(corners, _)| *corners);
     let duplicates = (kept.len() - sorted.len()) as u32;
     if duplicates > 0 {
         kept = sorted.into_iter().map(|(_, at)| at).collect();
-        kept.sort_unstable();
+        sort(&mut kept);
     }
     if kept.is_empty() {
         return Err(Error::BadMesh { at: 0, must: "hold at least one triangle with an area" });

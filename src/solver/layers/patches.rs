@@ -5,6 +5,7 @@
 
 use super::spots::{Spot, place};
 use crate::geom::aabb::Aabb;
+use crate::math::sort::{sort, sort_by};
 use crate::mesh::{Mesh, NONE, after};
 use glam::Vec3;
 
@@ -73,7 +74,7 @@ impl Patches {
             |triangle: u32| sites(triangle).iter().map(|site| rest[*site as usize]).sum::<Vec3>();
         let mut order: Vec<u32> = (0..count as u32).collect();
         let piece = |triangle: u32| pieces[sites(triangle)[0] as usize];
-        order.sort_by_key(|triangle| piece(*triangle));
+        sort_by(&mut order, |p, q| (piece(*p), p).cmp(&(piece(*q), q)));
         let mut patches = Self {
             nodes: Vec::new(),
             bounds: Vec::new(),
@@ -136,7 +137,7 @@ impl Patches {
                 };
                 let place = |triangle: &u32| center(*triangle)[axis];
                 // Equal ones by their numbers, so that the order is always the same.
-                part.sort_unstable_by(|a, b| place(a).total_cmp(&place(b)).then(a.cmp(b)));
+                sort_by(part, |a, b| place(a).total_cmp(&place(b)).then(a.cmp(b)));
                 part.len() / 2
             } else {
                 // A piece is not torn apart.
@@ -220,14 +221,14 @@ impl Patches {
             let [from, _, to] = patch.vertices.map(|v| v as usize);
             around.extend(self.vertices[from..to].iter().map(|v| [*v, at as u32]));
         }
-        around.sort_unstable();
+        sort(&mut around);
         let mut beside = Vec::new();
         for of_vertex in around.chunk_by(|a, b| a[0] == b[0]) {
             for (at, [_, one]) in of_vertex.iter().enumerate() {
                 beside.extend(of_vertex[at + 1..].iter().map(|[_, other]| [*one, *other]));
             }
         }
-        beside.sort_unstable();
+        sort(&mut beside);
         beside.dedup();
         debug_assert!(
             beside.iter().all(|[a, b]| a < b) && mesh.triangles.len() >= self.patches.len()

@@ -3,10 +3,12 @@
 import init, { Cloth, version } from "muslin";
 import { Pointers } from "muslin/pointers";
 import initInline from "muslin/inline";
+import initNoWasm, { Cloth as SameCloth } from "muslin/no-wasm";
 
 await init();
 await initInline();
-const cloth: Cloth = Cloth.grid({ columns: 8, rows: 8, material: "silk", pinMode: "corners" });
+await initNoWasm();
+const cloth: Cloth = SameCloth.grid({ columns: 8, rows: 8, material: "silk", pinMode: "corners" });
 const pointers = new Pointers(cloth, { radius: 0.1 });
 const took: boolean = pointers.press("mouse", [0, 0, 1], [0, 0, -1]);
 const heights: Float32Array = cloth.positions;
