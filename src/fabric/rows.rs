@@ -32,6 +32,9 @@ pub(crate) struct Row {
     pub is_torn: bool,
     /// From which link to before which the two ends weigh the same; see `solver::weights`.
     pub even: [u32; 2],
+    /// How many rows from this one on are alike: whole, the same links even, one as far behind the other
+    /// as the next; 0 if this one itself is torn.
+    pub alike: u32,
 }
 
 /// All rows of a grid's weave.
@@ -86,9 +89,33 @@ impl Rows {
         let is_in_place = row.ends(link as u32 - row.first) == ends;
         self.mask[link] = if is_in_place && holds { 1.0 } else { 0.0 };
         if self.mask[link] == 0.0 {
-            self.rows[self.row_of[link] as usize].is_torn = true;
+            self.tear(self.row_of[link] as usize);
         }
         self.strays.follow(link, holds && !is_in_place);
+    }
+
+    /// Takes note that a link left a row.
+    fn tear(&mut self, row: usize) {
+        (self.rows[row].is_torn, self.rows[row].alike) = (true, 0);
+        let before = self.rows[..row].iter_mut().rev().zip(1..);
+        for (row, until) in before.take_while(|(row, until)| row.alike > *until) {
+            row.alike = until;
+        }
+    }
+
+    /// Finds the rows that are alike, after it became known which links are even.
+    pub fn find_alike(&mut self) {
+        for at in (0..self.rows.len()).rev() {
+            let (rows, behind) = self.rows.split_at_mut(at + 1);
+            let row = &mut rows[at];
+            row.alike = match behind {
+                _ if row.is_torn => 0,
+                [next, ..] if !row.is_followed_by(next) => 1,
+                [next, after, ..] if next.alike > 1 && after.a - next.a != next.a - row.a => 2,
+                [next, ..] => next.alike + 1,
+                [] => 1,
+            };
+        }
     }
 
     /// Gathers the strays, after links changed.
@@ -119,7 +146,7 @@ impl Row {
             2 => Pattern::Quads,
             _ => Pattern::Straight,
         };
-        Self { pattern, a, b, first, count: 1, is_torn: false, even: [first; 2] }
+        Self { pattern, a, b, first, count: 1, is_torn: false, even: [first; 2], alike: 0 }
     }
 
     /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper
@@ -127,6 +154,17 @@ impl Row {
     fn take(&self, a: u32, b: u32) -> bool {
         let has_room = self.pattern != Pattern::Straight || a < self.b;
         has_room && self.ends(self.count) == (a, b)
+    }
+
+    /// Whether one that is behind it differs from it in nothing but its place.
+    fn is_followed_by(&self, next: &Self) -> bool {
+        next.alike > 0
+            && next.pattern == self.pattern
+            && next.count == self.count
+            && next.first == self.first + self.count
+            && next.a > self.a
+            && next.b - next.a == self.b - self.a
+            && next.even.map(|link| link - next.first) == self.even.map(|link| link - self.first)
     }
 
     /// The particles of its link `k`.
@@ -158,6 +196,51 @@ impl Row {
         let from = links.start.max(self.first) - self.first;
         let end = links.end.min(self.first + self.count) - self.first;
         let (a, b) = self.ends(from);
-        Self { a, b, first: self.first + from, count: end - from, ..*self }
+        Self { a, b, first: self.first + from, count: end - from, alike: 0, ..*self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rows of one colour of a sheet five particles wide: four, two rows of the sheet apart.
+    fn four_rows() -> Rows {
+        let a: Vec<u32> = (0..4).flat_map(|row| (0..5).map(move |k| 10 * row + k)).collect();
+        let b: Vec<u32> = a.iter().map(|a| a + 5).collect();
+        let mut rows = Rows::find(&a, &b, &[0]);
+        for row in &mut rows.rows {
+            row.even = [row.first, row.first + row.count];
+        }
+        rows
+    }
+
+    fn alike(rows: &Rows) -> Vec<u32> {
+        rows.rows.iter().map(|row| row.alike).collect()
+    }
+
+    #[test]
+    fn rows_are_alike_up_to_one_that_is_uneven_or_elsewhere() {
+        let mut rows = four_rows();
+        rows.find_alike();
+        assert_eq!(alike(&rows), [4, 3, 2, 1]);
+        rows.rows[1].even[0] += 1;
+        rows.find_alike();
+        assert_eq!(alike(&rows), [1, 1, 2, 1]);
+        let mut rows = four_rows();
+        (rows.rows[3].a, rows.rows[3].b) = (rows.rows[3].a + 1, rows.rows[3].b + 1);
+        rows.find_alike();
+        assert_eq!(alike(&rows), [3, 2, 2, 1]);
+    }
+
+    #[test]
+    fn rows_are_alike_up_to_one_that_tears() {
+        let mut rows = four_rows();
+        rows.find_alike();
+        let (link, ends) = (11, (21, 26));
+        rows.follow(link, ends, true);
+        assert_eq!(alike(&rows), [4, 3, 2, 1], "nothing changed");
+        rows.follow(link, ends, false);
+        assert_eq!(alike(&rows), [2, 1, 0, 1]);
     }
 }

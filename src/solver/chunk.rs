@@ -17,12 +17,13 @@ const PAIRS: u8 = Pattern::Pairs as u8;
 /// The most lanes that there are.
 const MOST: usize = 16;
 
-/// Where the ends of some links come to, lower and upper, and the links' multipliers; as dealt.
+/// Some links: where their ends are, lower and upper, how those are to move, and the links' multipliers; as
+/// dealt.
 #[derive(Clone, Copy)]
 pub(crate) struct Chunk<F> {
-    x: [F; 2],
-    y: [F; 2],
-    z: [F; 2],
+    ends: [[F; 3]; 2],
+    /// What is added to the lower ends, and taken from the upper ones.
+    moves: [[F; 3]; 2],
     lambda: F,
 }
 
@@ -69,9 +70,8 @@ impl<F: Number> Chunk<F> {
             let ([to_a, to_b], lambda) =
                 correct::<LAW, _>(s, [dx, dy, dz], weights, rest, compliance, lambda, scale);
             Self {
-                x: [xa + dx * to_a, xb - dx * to_b],
-                y: [ya + dy * to_a, yb - dy * to_b],
-                z: [za + dz * to_a, zb - dz * to_b],
+                ends: [[xa, ya, za], [xb, yb, zb]],
+                moves: [[dx * to_a, dy * to_a, dz * to_a], [dx * to_b, dy * to_b, dz * to_b]],
                 lambda,
             }
         }
@@ -115,18 +115,18 @@ impl<F: Number> Chunk<F> {
     ) -> Self {
         let keep = in_order::<_, PATTERN>(s, keep);
         let mut lambda = self.lambda;
-        // SAFETY: the caller's promise.
-        unsafe {
-            if LAW == SOFT {
-                lambda = s.pick(keep, lambda, in_order::<_, PATTERN>(s, s.load_from(place.lambda)));
-            }
-            Self {
-                x: only::<_, PATTERN>(s, keep, self.x, place.x),
-                y: only::<_, PATTERN>(s, keep, self.y, place.y),
-                z: only::<_, PATTERN>(s, keep, self.z, place.z),
-                lambda,
-            }
+        if LAW == SOFT {
+            // SAFETY: the caller's promise.
+            let old = unsafe { in_order::<_, PATTERN>(s, s.load_from(place.lambda)) };
+            lambda = s.pick(keep, lambda, old);
         }
+        // What changes no number at all, not even a zero's sign, when it is added, and when it is taken.
+        let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
+        let [[ax, ay, az], [bx, by, bz]] = self.moves;
+        let added =
+            [s.pick(keep, ax, nothing), s.pick(keep, ay, nothing), s.pick(keep, az, nothing)];
+        let taken = [s.pick(keep, bx, zero), s.pick(keep, by, zero), s.pick(keep, bz, zero)];
+        Self { moves: [added, taken], lambda, ..self }
     }
 
     #[inline(always)]
@@ -136,28 +136,11 @@ impl<F: Number> Chunk<F> {
             if LAW == SOFT {
                 s.store_to(place.lambda, self.lambda_in_memory::<PATTERN>(s));
             }
-            store::<_, PATTERN>(s, place.x, self.x);
-            store::<_, PATTERN>(s, place.y, self.y);
-            store::<_, PATTERN>(s, place.z, self.z);
-        }
-    }
-
-    /// As `store`, the first `count` links, of neighbours in one row.
-    #[inline(always)]
-    pub unsafe fn store_first<const LAW: u8, const PATTERN: u8>(
-        self,
-        s: impl Simd<F = F>,
-        place: Place,
-        count: usize,
-    ) {
-        // SAFETY: the caller's promise.
-        unsafe {
-            if LAW == SOFT {
-                s.store_first(place.lambda, count, self.lambda_in_memory::<PATTERN>(s));
-            }
-            store_first::<_, PATTERN>(s, place.x, count, self.x);
-            store_first::<_, PATTERN>(s, place.y, count, self.y);
-            store_first::<_, PATTERN>(s, place.z, count, self.z);
+            let [[xa, ya, za], [xb, yb, zb]] = self.ends;
+            let [[ax, ay, az], [bx, by, bz]] = self.moves;
+            store::<_, PATTERN>(s, place.x, [xa + ax, xb - bx]);
+            store::<_, PATTERN>(s, place.y, [ya + ay, yb - by]);
+            store::<_, PATTERN>(s, place.z, [za + az, zb - bz]);
         }
     }
 
@@ -171,22 +154,6 @@ impl<F: Number> Chunk<F> {
 #[inline(always)]
 fn in_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
     if PATTERN == STRAIGHT { v } else { s.dealt(v) }
-}
-
-/// One column at both ends of a chunk's links, of those to keep; of the others what is there.
-///
-/// # Safety
-/// As for `Chunk::of`.
-#[inline(always)]
-unsafe fn only<S: Simd, const PATTERN: u8>(
-    s: S,
-    keep: S::F,
-    [a, b]: [S::F; 2],
-    at: [*mut f32; 2],
-) -> [S::F; 2] {
-    // SAFETY: the caller's promise.
-    let old = unsafe { load::<_, PATTERN>(s, fixed(at)) };
-    [s.pick(keep, a, old.0), s.pick(keep, b, old.1)]
 }
 
 /// 0 as often as there may be lanes, then 1 as often, then 0 again.
@@ -237,27 +204,5 @@ unsafe fn store<S: Simd, const PATTERN: u8>(s: S, [to_a, to_b]: [*mut f32; 2], [
         let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
         s.store_to(to_a, low);
         s.store_to(to_a.add(S::LANES), high);
-    }
-}
-
-/// As `store`, the ends of the first `count` links: fewer than there are lanes.
-///
-/// # Safety
-/// As for `Chunk::of`.
-#[inline(always)]
-unsafe fn store_first<S: Simd, const PATTERN: u8>(
-    s: S,
-    [to_a, _]: [*mut f32; 2],
-    count: usize,
-    [a, b]: [S::F; 2],
-) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
-        if 2 * count < S::LANES {
-            return s.store_first(to_a, 2 * count, low);
-        }
-        s.store_to(to_a, low);
-        s.store_first(to_a.add(S::LANES), 2 * count - S::LANES, high);
     }
 }

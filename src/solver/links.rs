@@ -190,8 +190,9 @@ pub(crate) fn correct<const LAW: u8, S: Arithmetic>(
     let tiny = s.splat(TINY);
     let length2 = dx * dx + dy * dy + dz * dz;
     if LAW == RIGID {
-        let rest2 = rest * rest;
-        let share = (length2 - rest2) / (length2 * s.splat(3.0) + rest2).max(tiny);
+        // Guarded beforehand, where nothing waits for it.
+        let rest2 = (rest * rest).max(tiny);
+        let share = (length2 - rest2) / (length2 * s.splat(3.0) + rest2);
         return ([share * wa, share * wb], lambda);
     }
     let (length, weight) = (length2.sqrt().max(tiny), wa + wb);

@@ -50,6 +50,9 @@ pub(crate) fn solve<const LAW: u8, P: Field>(
     scale: f32,
 ) {
     let (own, is_colored) = loose.of_batch(batch);
+    if own.is_empty() {
+        return;
+    }
     // A bound may come before the ends are weighed anew.
     let ends = if LAW == BOUND { 0..0 } else { own.clone() };
     let mut color = Color {

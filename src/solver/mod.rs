@@ -1,5 +1,6 @@
 //! The tick: what it works on, its stages, and the order they run in (see `pipeline`).
 
+mod alike;
 #[cfg(feature = "parallel")]
 mod bands;
 pub(crate) mod bend;

@@ -125,7 +125,7 @@ impl Lists {
 }
 
 /// A link of a row, and the particles at its ends; both the first of two where they alternate.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Spot {
     pub a: usize,
     pub b: usize,

@@ -3,9 +3,9 @@
 //! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
 //! left of a row after whole chunks is one more chunk that reaches over its end, of which only the
-//! row's links count; at the end of all lists one that reaches back. Between two rows of the grid it
-//! writes what is beyond anew as it was, and what follows would have to wait for that: so those
-//! ends come after the whole chunks of all rows. In one row nothing beyond is written to.
+//! row's links count; at the end of all lists one that reaches back. It writes what is beyond anew as
+//! it was, and what follows would have to wait for that: so ends come after the whole chunks of many
+//! rows. Rows that are alike, as nearly all are, go together (see `alike`).
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -13,6 +13,7 @@
     allow(dead_code)
 )]
 
+use super::alike::Alike;
 use super::chunk::Chunk;
 use super::links::{BOUND, RIGID, SOFT, pull};
 use super::places::{Lists, Place, Spot, in_chunks, in_chunks_of};
@@ -153,38 +154,22 @@ fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
     pass: &mut Pass,
 ) {
     let lists = Lists::of(sheet);
-    let mut have_ends = false;
-    for (number, row) in rows.iter().enumerate() {
+    let mut number = 0;
+    while let Some(row) = rows.get(number) {
         if row.pattern as u8 != PATTERN {
             pass.rows = number;
             break;
         }
-        let count = in_chunks_of::<PATTERN>(row);
-        pass.has_apart |= count < row.count as usize;
+        pass.has_apart |= in_chunks_of::<PATTERN>(row) < row.count as usize;
         if row.is_torn {
             pass.has_torn = true;
+            number += 1;
             continue;
         }
-        have_ends |= !count.is_multiple_of(S::LANES);
-        let start = lists.spot::<PATTERN>(row, count);
-        let (mut spot, end) = (start, start.link + count);
-        let even = row.even.map(|link| (link.max(row.first) - row.first) as usize);
-        let even = [even[0].next_multiple_of(S::LANES), even[1]].map(|k| spot.link + k.min(count));
-        // SAFETY: the row was just found to lie within the lists.
-        unsafe {
-            // What weighs the same at both ends, as nearly all does, has less to compute.
-            if LAW != BOUND {
-                solve_run::<S, LAW, PATTERN, false>(s, &lists, &mut spot, even[0], scale);
-                solve_run::<S, LAW, PATTERN, true>(s, &lists, &mut spot, even[1], scale);
-            }
-            solve_run::<S, LAW, PATTERN, false>(s, &lists, &mut spot, end, scale);
-            if PATTERN != STRAIGHT {
-                solve_end::<S, LAW, PATTERN, false>(s, &lists, [start, spot], count, scale);
-            }
-        }
-    }
-    if PATTERN == STRAIGHT && have_ends {
-        solve_ends::<S, LAW, false>(s, &rows[..pass.rows], &lists, scale);
+        let left = &rows[number..];
+        let alike = &left[..left.len().min(row.alike.max(1) as usize)];
+        Alike::of::<PATTERN>(&lists, alike).solve::<S, LAW, PATTERN>(s, &lists, scale);
+        number += alike.len();
     }
 }
 
@@ -209,30 +194,14 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
                 solve_chunk::<S, LAW, PATTERN, true, false>(s, place, 0, scale);
                 spot = spot.after::<PATTERN>(S::LANES);
             }
-            if PATTERN != STRAIGHT {
-                solve_end::<S, LAW, PATTERN, true>(s, &lists, [start, spot], count, scale);
-            }
         }
     }
-    if PATTERN == STRAIGHT {
-        solve_ends::<S, LAW, true>(s, rows, &lists, scale);
-    }
-}
-
-/// The ends of rows that are straight: torn ones or whole ones.
-#[inline(always)]
-fn solve_ends<S: Simd, const LAW: u8, const ARE_TORN: bool>(
-    s: S,
-    rows: &[Row],
-    lists: &Lists,
-    scale: f32,
-) {
-    for row in rows.iter().filter(|row| row.is_torn == ARE_TORN) {
-        let count = in_chunks_of::<STRAIGHT>(row);
-        let start = lists.spot::<STRAIGHT>(row, count);
-        let spot = start.after::<STRAIGHT>(count - count % S::LANES);
-        // SAFETY: the row was just found to lie within the lists.
-        unsafe { solve_end::<S, LAW, STRAIGHT, ARE_TORN>(s, lists, [start, spot], count, scale) };
+    for row in rows.iter().filter(|row| row.is_torn) {
+        let count = in_chunks_of::<PATTERN>(row);
+        let start = lists.spot::<PATTERN>(row, count);
+        let spot = start.after::<PATTERN>(count - count % S::LANES);
+        // SAFETY: as above.
+        unsafe { solve_end::<S, LAW, PATTERN, true>(s, &lists, [start, spot], count, scale) };
     }
 }
 
@@ -293,15 +262,12 @@ impl Spots for Sheet<'_> {
     }
 }
 
-/// How many chunks go together, so that they share what finds their places.
-const TOGETHER: usize = 4;
-
 /// Solves the links of a row from a spot up to `end` as far as they go in whole chunks.
 ///
 /// # Safety
 /// The row lies within the lists; so for all that follow.
 #[inline(always)]
-unsafe fn solve_run<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
+pub(crate) unsafe fn solve_run<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
     s: S,
     lists: &Lists,
     spot: &mut Spot,
@@ -310,15 +276,7 @@ unsafe fn solve_run<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bo
 ) {
     // SAFETY: the caller's promise.
     unsafe {
-        while IS_EVEN && spot.link + TOGETHER * S::LANES <= end {
-            let place = lists.place(*spot);
-            for chunk in 0..TOGETHER {
-                let place = place.after::<PATTERN>(chunk * S::LANES);
-                solve_chunk::<S, LAW, PATTERN, false, IS_EVEN>(s, place, 0, scale);
-            }
-            *spot = spot.after::<PATTERN>(TOGETHER * S::LANES);
-        }
-        while spot.link + S::LANES <= end {
+        while spot.link < end {
             let place = lists.place(*spot);
             solve_chunk::<S, LAW, PATTERN, false, IS_EVEN>(s, place, 0, scale);
             *spot = spot.after::<PATTERN>(S::LANES);
@@ -331,7 +289,7 @@ unsafe fn solve_run<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bo
 /// # Safety
 /// As for `solve_run`.
 #[inline(always)]
-unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
     s: S,
     lists: &Lists,
     [start, spot]: [Spot; 2],
@@ -346,42 +304,12 @@ unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: boo
     unsafe {
         if lists.have_room::<PATTERN>(spot, S::LANES) {
             let place = lists.place(spot);
-            solve_first::<S, LAW, PATTERN, CHOOSY>(s, place, count - done, scale);
+            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, scale);
+            let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, 0) } else { chunk };
+            let chunk = chunk.only_first::<LAW, PATTERN>(s, place, count - done);
+            chunk.store::<LAW, PATTERN>(s, place);
         } else {
             solve_rest::<S, LAW, PATTERN>(s, lists.place(start), done, count, scale);
-        }
-    }
-}
-
-/// Solves the `left` first links of a chunk that reaches over the end of its row, with no more
-/// lanes than it takes, and leaves what is beyond as it is.
-///
-/// # Safety
-/// There is as much in the lists; nobody else reads or writes what is beyond the row.
-#[inline(always)]
-unsafe fn solve_first<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
-    s: S,
-    place: Place,
-    left: usize,
-    scale: f32,
-) {
-    let few = <S::Half as Simd>::LANES;
-    // SAFETY: the caller's promise.
-    unsafe {
-        if few < S::LANES && left <= few {
-            let half = s.half();
-            return solve_first::<S::Half, LAW, PATTERN, CHOOSY>(half, place, left, scale);
-        }
-        if left == S::LANES {
-            return solve_chunk::<S, LAW, PATTERN, CHOOSY, false>(s, place, 0, scale);
-        }
-        let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, scale);
-        let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, 0) } else { chunk };
-        if PATTERN == STRAIGHT {
-            // The lower ends are stored first: the upper ones may be among what is beyond.
-            chunk.only_first::<LAW, PATTERN>(s, place, left).store::<LAW, PATTERN>(s, place);
-        } else {
-            chunk.store_first::<LAW, PATTERN>(s, place, left);
         }
     }
 }

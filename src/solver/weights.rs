@@ -90,4 +90,5 @@ fn find_even(rows: &mut Rows, is_even: &[bool]) {
             }
         }
     }
+    rows.find_alike();
 }

@@ -98,12 +98,6 @@ pub(crate) trait Simd: Arithmetic {
     /// There is room for each lane, which nobody else reads or writes.
     unsafe fn store_to(self, place: *mut f32, v: Self::F);
 
-    /// Puts the first `count` numbers at a place and behind it: fewer than there are lanes.
-    ///
-    /// # Safety
-    /// There is room for them, which nobody else reads or writes.
-    unsafe fn store_first(self, place: *mut f32, count: usize, v: Self::F);
-
     /// Numbers `at` and on of a list.
     ///
     /// # Panics
@@ -172,9 +166,6 @@ impl Simd for Scalar {
         // SAFETY: the caller's promise.
         unsafe { *place = v };
     }
-
-    #[inline(always)]
-    unsafe fn store_first(self, _: *mut f32, _: usize, _: f32) {}
 
     #[inline(always)]
     fn pick(self, keep: f32, new: f32, old: f32) -> f32 {

@@ -110,23 +110,6 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
-    unsafe fn store_first(self, place: *mut f32, count: usize, v: Four) {
-        // SAFETY: the caller's promise.
-        unsafe {
-            if count & 2 == 0 {
-                if count & 1 != 0 {
-                    vst1q_lane_f32::<0>(place, v.0);
-                }
-                return;
-            }
-            vst1_f32(place, vget_low_f32(v.0));
-            if count & 1 != 0 {
-                vst1q_lane_f32::<2>(place.add(2), v.0);
-            }
-        }
-    }
-
-    #[inline(always)]
     fn pick(self, keep: Four, new: Four, old: Four) -> Four {
         // SAFETY: see above.
         unsafe { Four(vbslq_f32(vcgtq_f32(keep.0, vdupq_n_f32(0.0)), new.0, old.0)) }

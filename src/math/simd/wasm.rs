@@ -101,23 +101,6 @@ impl Simd for Simd128 {
     }
 
     #[inline(always)]
-    unsafe fn store_first(self, place: *mut f32, count: usize, v: Four) {
-        // SAFETY: the caller's promise.
-        unsafe {
-            if count & 2 == 0 {
-                if count & 1 != 0 {
-                    v128_store32_lane::<0>(v.0, place.cast());
-                }
-                return;
-            }
-            v128_store64_lane::<0>(v.0, place.cast());
-            if count & 1 != 0 {
-                v128_store32_lane::<2>(v.0, place.add(2).cast());
-            }
-        }
-    }
-
-    #[inline(always)]
     fn pick(self, keep: Four, new: Four, old: Four) -> Four {
         Four(v128_bitselect(new.0, old.0, f32x4_gt(keep.0, f32x4_splat(0.0))))
     }

@@ -161,23 +161,6 @@ impl Simd for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn store_first(self, place: *mut f32, count: usize, v: Four) {
-        // SAFETY: the caller's promise, and see above.
-        unsafe {
-            if count & 2 == 0 {
-                if count & 1 != 0 {
-                    _mm_store_ss(place, v.0);
-                }
-                return;
-            }
-            _mm_storel_pd(place.cast(), _mm_castps_pd(v.0));
-            if count & 1 != 0 {
-                _mm_store_ss(place.add(2), _mm_movehl_ps(v.0, v.0));
-            }
-        }
-    }
-
-    #[inline(always)]
     fn pick(self, keep: Four, new: Four, old: Four) -> Four {
         // SAFETY: see above.
         unsafe {
@@ -244,19 +227,6 @@ impl Simd for Avx2 {
     unsafe fn store_to(self, place: *mut f32, v: Eight) {
         // SAFETY: the caller's promise, and see above.
         unsafe { _mm256_storeu_ps(place, v.0) };
-    }
-
-    #[inline(always)]
-    unsafe fn store_first(self, place: *mut f32, count: usize, v: Eight) {
-        // SAFETY: the caller's promise, and see above.
-        unsafe {
-            let low = Four(_mm256_castps256_ps128(v.0));
-            if count < 4 {
-                return self.half().store_first(place, count, low);
-            }
-            self.half().store_to(place, low);
-            self.half().store_first(place.add(4), count - 4, Four(_mm256_extractf128_ps::<1>(v.0)));
-        }
     }
 
     #[inline(always)]
@@ -336,23 +306,6 @@ impl Simd for Avx512 {
     unsafe fn store_to(self, place: *mut f32, v: Sixteen) {
         // SAFETY: the caller's promise, and see above.
         unsafe { _mm512_storeu_ps(place, v.0) };
-    }
-
-    #[inline(always)]
-    unsafe fn store_first(self, place: *mut f32, count: usize, v: Sixteen) {
-        // SAFETY: the caller's promise, and see above.
-        unsafe {
-            let low = Eight(_mm512_castps512_ps256(v.0));
-            if count < 8 {
-                return self.half().store_first(place, count, low);
-            }
-            self.half().store_to(place, low);
-            self.half().store_first(
-                place.add(8),
-                count - 8,
-                Eight(_mm256_castpd_ps(_mm512_extractf64x4_pd::<1>(_mm512_castps_pd(v.0)))),
-            );
-        }
     }
 
     #[inline(always)]
