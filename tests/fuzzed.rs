@@ -116,3 +116,26 @@ fn what_a_cloth_does_to_a_collider_is_finite_wherever_it_is_hit() {
     assert!(linear.is_finite() && angular.is_finite(), "{linear} {angular}");
     Cloth::restore(&cloth.save()).unwrap();
 }
+
+/// A bound on stretch pulls at what was put as far off as a number can say.
+#[test]
+fn positions_stay_finite_however_far_off_a_particle_is_put() {
+    for (far, max_stretch) in [(f32::MAX, 0.0), (f32::MAX, 0.078), (2.0e38, 0.078), (1.0e20, 0.078)]
+    {
+        for particle in [0, 5] {
+            let mut desc = GridDesc { columns: 4, pin_mode: PinMode::Corners, ..small() };
+            desc.settings.iterations = 2;
+            desc.settings.max_stretch = max_stretch;
+            let mut cloth = Cloth::grid(&desc).unwrap();
+            cloth.set_position(particle, Vec3::new(-6.8, 0.6, far)).unwrap();
+            for tick in 0..3 {
+                let is_finite = cloth.positions().iter().all(|x| x.is_finite());
+                assert!(
+                    is_finite,
+                    "{far} m, at most {max_stretch}, particle {particle}, tick {tick}"
+                );
+                cloth.step(1);
+            }
+        }
+    }
+}

@@ -64,6 +64,8 @@ pub(crate) fn tick(world: &mut World) -> bool {
         }
         timed!(world, Hold, leash::keep_in(world));
         timed!(world, SelfContacts, layers::hold_at_last(world));
+        // What was put as far off as a number can say is no number when it is pulled at.
+        timed!(world, Guard, guard::mend(world));
     }
     hold::arrive(world);
     sleep::look(world);
