@@ -1372,7 +1372,8 @@ MuslinStatus muslin_cloth_set_frame(MuslinCloth cloth,
  * and anchors go along; colliders do not, see muslin_cloth_teleport_collider. In a frame it comes before
  * muslin_cloth_move_attachment and muslin_cloth_set_anchors.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion
+ * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion, or if
+ * something would get farther off than a number can say
  */
 MuslinStatus muslin_cloth_teleport(MuslinCloth cloth,
                                    MuslinVec3 position,
@@ -1390,8 +1391,8 @@ MuslinStatus muslin_cloth_teleport(MuslinCloth cloth,
  * felt. In a frame it comes before muslin_cloth_move_attachment, muslin_cloth_move_collider and
  * muslin_cloth_set_anchors.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite, a rotation that is no unit quaternion, or an
- * inertia that is not from 0 to 1
+ * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite, a rotation that is no unit quaternion, an
+ * inertia that is not from 0 to 1, or if something would get farther off than a number can say
  */
 MuslinStatus muslin_cloth_move_frame(MuslinCloth cloth,
                                      MuslinVec3 position,

@@ -139,3 +139,30 @@ fn positions_stay_finite_however_far_off_a_particle_is_put() {
         }
     }
 }
+
+#[test]
+fn a_frame_that_would_take_a_cloth_farther_than_numbers_go_is_refused() {
+    let far = Vec3::splat(-3.0e38);
+    let mut cloth = Cloth::grid(&small()).unwrap();
+    cloth.step(2);
+    cloth.set_frame(far, Quat::IDENTITY).unwrap();
+    let before = cloth.state_hash();
+    let turned = Quat::from_xyzw(0.0, 0.6, 0.0, 0.8);
+    for refused in [cloth.move_frame(-far, turned, 0.5), cloth.teleport(-far, turned)] {
+        assert!(matches!(refused, Err(Error::BadValue { field: "position", .. })), "{refused:?}");
+    }
+    assert_eq!(cloth.state_hash(), before);
+    cloth.teleport(far, Quat::IDENTITY).unwrap();
+}
+
+/// Both are numbers, and their sum is none.
+#[test]
+fn a_cloth_as_fast_as_gravity_is_strong_is_saved_and_restored() {
+    let mut cloth = Cloth::grid(&small()).unwrap();
+    let mut settings = cloth.settings().clone();
+    settings.gravity = Vec3::Y * f32::MAX;
+    (settings.tick, settings.substeps) = (1.0, 1);
+    cloth.set_settings(settings).unwrap();
+    cloth.set_velocity(40, Vec3::Y * f32::MAX).unwrap();
+    Cloth::restore(&cloth.save()).unwrap();
+}

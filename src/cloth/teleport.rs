@@ -35,12 +35,11 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
-    /// unit quaternion.
+    /// unit quaternion, or if something would get farther off than a number can say. Then nothing moved.
     pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         guarded(|| {
             check_pose(position, rotation, OF_FRAME)?;
-            self.world.jump(Pose::new(position, rotation));
-            Ok(())
+            self.world.jump(Pose::new(position, rotation))
         })?;
         self.changed_state();
         Ok(())
@@ -61,13 +60,13 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite, a rotation that is no
-    /// unit quaternion, or an `inertia` that is not from 0 to 1.
+    /// unit quaternion, an `inertia` that is not from 0 to 1, or if something would get farther off than a number
+    /// can say. Then nothing moved.
     pub fn move_frame(&mut self, position: Vec3, rotation: Quat, inertia: f32) -> Result<()> {
         guarded(|| {
             check_pose(position, rotation, OF_FRAME)?;
             check((0.0..=1.0).contains(&inertia), "inertia", "be from 0 to 1")?;
-            self.world.go_along(Pose::new(position, rotation), inertia);
-            Ok(())
+            self.world.go_along(Pose::new(position, rotation), inertia)
         })?;
         self.changed_state();
         Ok(())
@@ -102,30 +101,67 @@ impl Move {
 
 impl World {
     /// Moves all but colliders with the body that it goes along with.
-    fn jump(&mut self, to: Pose) {
+    fn jump(&mut self, to: Pose) -> Result<()> {
         let all = Move::new(self.reference, to);
+        self.check_reach(&all, &all)?;
         self.carry(&all, &all);
         self.grabs.iter_mut().for_each(|held| held.target = all.point(held.target));
         self.reference = to;
+        Ok(())
     }
 
     /// As a tick is to begin, all goes along but for what is felt of a body's motion, and that is left to the
     /// tick. Seen from there colliders come from elsewhere.
-    fn go_along(&mut self, to: Pose, inertia: f32) {
-        let from = core::mem::replace(&mut self.reference, to);
+    fn go_along(&mut self, to: Pose, inertia: f32) -> Result<()> {
+        let from = self.reference;
         if from == to {
-            return;
+            return Ok(());
         }
         let unfelt = match inertia {
             1.0 => from,
             0.0 => to,
             felt => to.toward(&from, felt),
         };
-        let unfelt = Move::new(from, unfelt);
-        self.carry(&unfelt, &Move::new(from, to));
+        let (unfelt, all) = (Move::new(from, unfelt), Move::new(from, to));
+        self.check_reach(&unfelt, &all)?;
+        self.reference = to;
+        self.carry(&unfelt, &all);
         if unfelt.from != unfelt.to {
             self.colliders.iter_mut().for_each(|body| body.last = unfelt.pose(&body.last));
         }
+        Ok(())
+    }
+
+    /// Whether all that `carry` moves, and grabs and colliders, get to where numbers can say.
+    fn check_reach(&self, now: &Move, then: &Move) -> Result<()> {
+        let p = &self.particles;
+        let is_near = |i: usize| {
+            let places = [&p.x, &p.x_last].map(|places| now.point(places.at(i)));
+            let ways = [&p.v, &p.v_ahead, &p.moved].map(|ways| now.turn(ways.at(i)));
+            places.iter().chain(&ways).all(|v| v.is_finite())
+        };
+        let mut bodies = self.colliders.iter();
+        let mut carriers = self.attachments.iter();
+        let mut pins = self.pins.iter();
+        let mut leashes = self.leashes.iter();
+        let are_near = (0..p.len()).all(is_near)
+            && bodies.all(|body| now.pose(&body.last).position.is_finite())
+            && self.grabs.iter().all(|held| now.point(held.target).is_finite())
+            && carriers.all(|carrier| {
+                let ends = [now.pose(&carrier.last), then.pose(&carrier.next)];
+                ends.iter().all(|pose| pose.position.is_finite())
+            })
+            && pins.all(|pin| {
+                let target = match self.attachments.get(pin.carrier, "attachment") {
+                    Ok(carrier) => then.pose(&carrier.next).frame().outward(pin.local),
+                    Err(_) => then.point(pin.target),
+                };
+                target.is_finite() && now.point(pin.from).is_finite()
+            })
+            && leashes.all(|leash| {
+                then.point(leash.anchor).is_finite() && now.point(leash.from).is_finite()
+            });
+        check(are_near, "position", "keep all of the cloth where numbers can say")
     }
 
     /// Moves particles and where things are by `now`, and where they get to over the tick by `then`.

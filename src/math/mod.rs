@@ -11,6 +11,8 @@ pub(crate) mod sort;
 pub(crate) mod threads;
 pub(crate) mod trig;
 
+use glam::Vec3;
+
 /// Below this a length or a sum of inverse masses counts as nothing.
 pub(crate) const TINY: f32 = 1.0e-18;
 
@@ -24,4 +26,16 @@ pub(crate) fn min(a: f32, b: f32) -> f32 {
 #[inline(always)]
 pub(crate) fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
+}
+
+/// The same with the largest number there is in place of what none can say, and 0 for what came out of two such.
+#[inline(always)]
+pub(crate) fn finite(v: Vec3) -> Vec3 {
+    if v.is_finite() { v } else { saturated(v) }
+}
+
+#[cold]
+fn saturated(v: Vec3) -> Vec3 {
+    let number = |x: f32| if x.is_nan() { 0.0 } else { x.clamp(-f32::MAX, f32::MAX) };
+    Vec3::from_array(v.to_array().map(number))
 }

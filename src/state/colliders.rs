@@ -36,15 +36,6 @@ pub struct Impulse {
     pub angular: Vec3,
 }
 
-impl Impulse {
-    /// The same with the largest number there is in place of what none can say, and 0 for what came out of two such.
-    pub(crate) fn finite(self) -> Self {
-        let number = |x: f32| if x.is_nan() { 0.0 } else { x.clamp(-f32::MAX, f32::MAX) };
-        let finite = |v: Vec3| Vec3::from_array(v.to_array().map(number));
-        Self { linear: finite(self.linear), angular: finite(self.angular) }
-    }
-}
-
 /// One collider of a cloth.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Body {

@@ -1,6 +1,7 @@
 //! What moves: positions, their history, velocities and masses.
 
 use crate::math::columns::Columns;
+use crate::math::finite;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -100,8 +101,8 @@ impl Particles {
     pub fn place(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);
         self.v.set(i, v);
-        self.moved.set(i, v * h - gravity * (0.5 * h * h));
-        self.v_ahead.set(i, v + gravity * (h * (1.0 / 3.0)));
+        self.moved.set(i, finite(v * h - gravity * (0.5 * h * h)));
+        self.v_ahead.set(i, finite(v + gravity * (h * (1.0 / 3.0))));
     }
 
     /// Begins every history anew, for another kind of substep. Velocities stay.

@@ -19,7 +19,7 @@ use crate::geom::frame::Frame;
 use crate::geom::relief::Bend;
 use crate::geom::shape::Form;
 use crate::math::columns::Columns;
-use crate::math::{max, min};
+use crate::math::{finite, max, min};
 use crate::state::colliders::{Body, Impulse};
 use crate::state::settings::Scheme;
 use glam::Vec3;
@@ -96,7 +96,7 @@ pub(crate) fn arrive(world: &mut World) {
         body.arrive();
         let Impulse { linear, angular } = *impulse;
         let angular = angular - body.next.position.cross(linear);
-        body.impulse = Impulse { linear, angular }.finite();
+        body.impulse = Impulse { linear: finite(linear), angular: finite(angular) };
     }
 }
 

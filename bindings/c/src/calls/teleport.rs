@@ -23,7 +23,8 @@ pub extern "C" fn muslin_cloth_set_frame(
 /// and anchors go along; colliders do not, see muslin_cloth_teleport_collider. In a frame it comes before
 /// muslin_cloth_move_attachment and muslin_cloth_set_anchors.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion
+/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion, or if
+/// something would get farther off than a number can say
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_teleport(
     cloth: MuslinCloth,
@@ -44,8 +45,8 @@ pub extern "C" fn muslin_cloth_teleport(
 /// felt. In a frame it comes before muslin_cloth_move_attachment, muslin_cloth_move_collider and
 /// muslin_cloth_set_anchors.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite, a rotation that is no unit quaternion, or an
-/// inertia that is not from 0 to 1
+/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite, a rotation that is no unit quaternion, an
+/// inertia that is not from 0 to 1, or if something would get farther off than a number can say
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_move_frame(
     cloth: MuslinCloth,
