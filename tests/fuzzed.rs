@@ -166,3 +166,18 @@ fn a_cloth_as_fast_as_gravity_is_strong_is_saved_and_restored() {
     cloth.set_velocity(40, Vec3::Y * f32::MAX).unwrap();
     Cloth::restore(&cloth.save()).unwrap();
 }
+
+/// The way between two places that numbers can say may be one that they cannot.
+#[test]
+fn what_is_attached_from_one_end_of_numbers_to_the_other_is_saved_and_restored() {
+    let far = Vec3::splat(-3.0e38);
+    let mut cloth = Cloth::grid(&small()).unwrap();
+    cloth.set_position(30, -far).unwrap();
+    let attachment = cloth.attach(&[30, 31], far, Quat::IDENTITY).unwrap();
+    Cloth::restore(&cloth.save()).unwrap();
+    cloth.move_attachment(attachment, -far, Quat::IDENTITY).unwrap();
+    cloth.set_position(31, far).unwrap();
+    Cloth::restore(&cloth.save()).unwrap();
+    cloth.step(2);
+    Cloth::restore(&cloth.save()).unwrap();
+}

@@ -2,6 +2,7 @@
 
 use super::Cloth;
 use crate::error::{Result, check_index};
+use crate::math::finite;
 use crate::math::float_env::guarded;
 use crate::solver::World;
 use crate::state::attachments::{Attachment, Carrier};
@@ -40,8 +41,8 @@ impl Cloth {
             let frame = pose.frame();
             for particle in particles {
                 let x = self.world.particles.x.at(*particle as usize);
-                let local = frame.inward(x);
-                self.put_pin(*particle, frame.outward(local));
+                let local = finite(frame.inward(x));
+                self.put_pin(*particle, finite(frame.outward(local)));
                 if let Some(pin) = self.world.pins.find_mut(*particle) {
                     (pin.from, pin.carrier, pin.local) = (x, handle, local);
                 }
@@ -69,7 +70,7 @@ impl Cloth {
             carrier.next = Pose::new(position, rotation);
             let frame = carrier.next.frame();
             for pin in self.world.pins.iter_mut().filter(|pin| pin.carrier == attachment.0) {
-                pin.target = frame.outward(pin.local);
+                pin.target = finite(frame.outward(pin.local));
             }
             Ok(())
         })
@@ -108,8 +109,8 @@ impl World {
         let Some(pin) = self.pins.find_mut(particle) else { return };
         (pin.from, pin.target) = (position, position);
         if let Ok(carrier) = self.attachments.get(pin.carrier, "attachment") {
-            pin.local = carrier.last.frame().inward(position);
-            pin.target = carrier.next.frame().outward(pin.local);
+            pin.local = finite(carrier.last.frame().inward(position));
+            pin.target = finite(carrier.next.frame().outward(pin.local));
         }
     }
 }
