@@ -12,7 +12,7 @@ use crate::{c, files, shell};
 pub const NEEDS: &[&Need] = &[&setup::CXX, &setup::CMAKE, &setup::PKG_CONFIG];
 
 /// The shared library, stripped, is no larger than this [B].
-const MAX_SHARED: u64 = 2_360_000;
+const MAX_SHARED: u64 = 2_380_000;
 /// The example `hang.c` with the static library in it, stripped, is no larger than this [B].
 const MAX_STATIC: u64 = 1_750_000;
 
