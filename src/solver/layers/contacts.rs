@@ -7,7 +7,7 @@
 //!                                  the plane went meanwhile.
 //! ```
 
-use super::list::Pair;
+use super::motion::Motion;
 use super::spots::{Spot, place};
 use crate::geom::closest;
 use crate::math::{TINY, max, min};
@@ -17,7 +17,8 @@ use glam::Vec3;
 const SLIT: f32 = 0.25;
 const MORE: f32 = 1.1;
 
-/// What it never gets below: so much of that, or of what there was.
+/// What is let be: so much of that, or of what there was.
+const ENOUGH: f32 = 0.2;
 const LEAST: f32 = 0.998;
 
 /// Nearer than this no direction tells sides apart [m].
@@ -29,6 +30,11 @@ const CLEAR: f32 = 0.9;
 /// Where only such particles give way that count for next to nothing beside what is held, they are taken to make
 /// this share of an inverse mass, so that none is flung away.
 const SLIGHT: f32 = 0.005;
+
+/// What meets, by how many particles the first side has: a vertex and a triangle, or two edges.
+pub(super) type Kind = u32;
+pub(super) const VERTEX: Kind = 1;
+pub(super) const EDGES: Kind = 2;
 
 /// Two sides that may meet.
 #[derive(Clone, Copy, Debug)]
@@ -148,81 +154,6 @@ pub(super) fn places(x: &[Spot], ids: [u32; 4]) -> [Vec3; 4] {
     [place(&x[a as usize]), place(&x[b as usize]), place(&x[c as usize]), place(&x[d as usize])]
 }
 
-/// What is known of a substep.
-#[derive(Clone, Copy)]
-pub(super) struct Span<'a> {
-    /// Where particles were as it began, all sides apart, and where they are.
-    pub start: &'a [Spot],
-    pub now: &'a [Spot],
-    /// How far each may move against the mean, and that from where it was listed [m].
-    pub reach: &'a [f32],
-    pub needs: &'a [f32],
-}
-
-/// Finds the pairs that may meet, in the order of the list.
-pub(super) fn find(pairs: &[Vec<Pair>; 2], span: Span<'_>, contacts: &mut Vec<Contact>) {
-    contacts.clear();
-    find_in(&pairs[0], 1, vertex_closest, span, contacts);
-    find_in(&pairs[1], 2, edge_closest, span, contacts);
-}
-
-#[inline(always)]
-fn find_in(
-    pairs: &[Pair],
-    first: u32,
-    closest: impl Fn([Vec3; 4]) -> Closest,
-    span: Span<'_>,
-    contacts: &mut Vec<Contact>,
-) {
-    for pair in pairs {
-        let reach = of_all(span.reach, pair.ids);
-        let needs = of_all(span.needs, pair.ids);
-        // A hair more, for rounding.
-        if pair.distance > (pair.gap + both(needs, first)) * 1.001 {
-            continue;
-        }
-        let start = places(span.start, pair.ids);
-        let mut then = closest(start);
-        if then.distance > pair.gap + both(reach, first) || then.distance <= NOTHING {
-            continue;
-        }
-        if first == 2 && between(start, 2, then.n) < CLEAR * then.distance {
-            then = told_apart(start, then);
-        }
-        let mut contact = Contact {
-            ids: pair.ids,
-            first,
-            distance: then.distance,
-            share: then.share,
-            n: then.n,
-            gap: pair.gap,
-            aim: 0.0,
-            slit: -1.0,
-            least: -1.0,
-            give: 0.0,
-            push: 0.0,
-            sticks: false,
-        };
-        let now = places(span.now, pair.ids);
-        if along(now, &contact) < pair.gap {
-            contact.turn(closest(now), start);
-        }
-        contact.prepare(start);
-        contacts.push(contact);
-    }
-}
-
-#[inline(always)]
-pub(super) fn of_all(list: &[f32], [a, b, c, d]: [u32; 4]) -> [f32; 4] {
-    [list[a as usize], list[b as usize], list[c as usize], list[d as usize]]
-}
-
-/// The most that the two sides have, added.
-#[inline(always)]
-fn both([a, b, c, d]: [f32; 4], first: u32) -> f32 {
-    if first == 1 { a + max(b, max(c, d)) } else { max(a, b) + max(c, d) }
-}
-
 /// How far the closest points are from each other along `n`.
 #[inline(always)]
 pub(super) fn along(x: [Vec3; 4], contact: &Contact) -> f32 {
@@ -230,7 +161,78 @@ pub(super) fn along(x: [Vec3; 4], contact: &Contact) -> f32 {
     contact.n.dot(x[0] * a + x[1] * b + x[2] * c + x[3] * d)
 }
 
+/// Where a pair is closest.
+#[inline(always)]
+fn closest<const FIRST: Kind>(x: [Vec3; 4]) -> Closest {
+    if FIRST == VERTEX { vertex_closest(x) } else { edge_closest(x) }
+}
+
+/// How far one side is from the other along a direction in the end, at least.
+#[inline(always)]
+fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) -> f32 {
+    let [a, b, c, d] = ids.map(|id| motion.ends_along(id, n));
+    if FIRST == VERTEX {
+        a[0] - max(b[1], max(c[1], d[1]))
+    } else {
+        min(a[0], b[0]) - max(c[1], d[1])
+    }
+}
+
 impl Contact {
+    /// The distance of two sides.
+    pub fn distance<const FIRST: Kind>(x: [Vec3; 4]) -> f32 {
+        closest::<FIRST>(x).distance
+    }
+
+    /// The contact of two sides, if they may come nearer than `gap`; `own_gap` is what they keep, and no larger.
+    #[inline(always)]
+    pub fn find<const FIRST: Kind>(
+        ids: [u32; 4],
+        motion: &Motion,
+        gap: f32,
+        own_gap: impl Fn() -> f32,
+    ) -> Option<Self> {
+        let start = places(&motion.start, ids);
+        let mut then = closest::<FIRST>(start);
+        let (one, other) = ids.split_at(FIRST as usize);
+        let way = motion.of(one).way_against(&motion.of(other));
+        if then.distance > gap + way || then.distance <= NOTHING {
+            return None;
+        }
+        if FIRST == EDGES && between(start, 2, then.n) < CLEAR * then.distance {
+            then = told_apart(start, then);
+        }
+        // What a direction tells apart before and after did not cross, whatever went on.
+        let gap = own_gap();
+        let is_told_apart = |n: Vec3| between_at_end::<FIRST>(motion, ids, n) > gap;
+        if is_told_apart(then.n) && between(start, FIRST, then.n) > NOTHING {
+            return None;
+        }
+        let mut contact = Self {
+            ids,
+            first: FIRST,
+            distance: then.distance,
+            share: then.share,
+            n: then.n,
+            gap,
+            aim: 0.0,
+            slit: -1.0,
+            least: -1.0,
+            give: 0.0,
+            push: 0.0,
+            sticks: false,
+        };
+        let now = places(&motion.now, ids);
+        if along(now, &contact) < gap {
+            contact.turn(closest::<FIRST>(now), start);
+            if is_told_apart(contact.n) && between(start, FIRST, contact.n) > NOTHING {
+                return None;
+            }
+        }
+        contact.prepare(start);
+        Some(contact)
+    }
+
     /// Takes the direction of where sides are closest now, if it told them apart before.
     #[inline(always)]
     fn turn(&mut self, now: Closest, start: [Vec3; 4]) {
@@ -252,7 +254,7 @@ impl Contact {
         let apart = between(start, self.first, self.n);
         let most = self.gap * SLIT;
         (self.slit, self.least) = if apart > NOTHING {
-            (min(apart * MORE, most), min(apart, most) * LEAST)
+            (min(apart * MORE, most), min(apart * LEAST, most * ENOUGH))
         } else {
             (-1.0, -1.0)
         };

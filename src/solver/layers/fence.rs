@@ -6,54 +6,66 @@
 //! along what it would cross.
 
 use super::contacts::{Contact, between, places};
-use super::spots::{Spot, farthest, place, shift};
-use glam::Vec3;
+use super::motion::Motion;
+use super::spots::{Spot, place, shift};
 
-/// How often all are moved before some go back.
-const ROUNDS: u32 = 24;
+/// How often those that would cross are moved before some go back.
+const ROUNDS: u32 = 48;
+
+/// Rounds that come nearer to all that is to be left between sides than to what is let be.
+const FULL: u32 = 8;
+
+/// Every so many rounds sides that still would cross are told apart anew.
+const TURN: u32 = 4;
+
+/// A slit this much smaller than it should be is let be.
+const HAIR: f32 = 0.99;
 
 /// What goes nowhere by now, and what goes back; what else is along with that particle.
 const FREE: u32 = u32::MAX;
 const BACK: u32 = u32::MAX - 1;
 
-/// A slit this much smaller than it should be is let be.
-const HAIR: f32 = 0.99;
-
-/// Rounds that come nearer to all that is to be left between sides than to what is let be.
-const FULL: u32 = 8;
-
-/// Moves what would cross; `frozen` is room to work in. Says whether anything went back.
-pub(super) fn hold(
-    contacts: &mut [Contact],
-    start: &[Spot],
-    x: &mut [Spot],
-    drift: Vec3,
-    frozen: &mut Vec<u32>,
-) -> bool {
-    for round in 0..ROUNDS {
-        let least =
-            |contact: &Contact| if round < FULL { contact.slit * HAIR } else { contact.least };
-        let way = 2.0 * farthest(start, x, drift);
-        let mut is_done = true;
-        for contact in contacts.iter_mut() {
-            if contact.distance > contact.slit + way || is_apart(contact, x, least(contact)) {
+/// Moves what would cross, and says whether nothing does any more; `open` is room to work in.
+pub(super) fn draw_apart(contacts: &mut [Contact], motion: &mut Motion, open: &mut Vec<u32>) -> bool {
+    let Motion { start, now, .. } = motion;
+    let least = |contact: &Contact, round| {
+        if round < FULL { contact.slit * HAIR } else { contact.least }
+    };
+    let mut round = 0;
+    loop {
+        open.clear();
+        for (at, contact) in contacts.iter_mut().enumerate() {
+            if is_apart(contact, now, least(contact, round)) {
                 continue;
             }
-            if round == 0 {
-                contact.turn_to(places(start, contact.ids), x);
-                if is_apart(contact, x, least(contact)) {
+            contact.turn_to(places(start, contact.ids), now);
+            if !is_apart(contact, now, least(contact, round)) {
+                open.push(at as u32);
+            }
+        }
+        if open.is_empty() {
+            return true;
+        }
+        let mut is_done = false;
+        while !is_done {
+            if round == ROUNDS {
+                return false;
+            }
+            round += 1;
+            is_done = true;
+            for at in &*open {
+                let contact = &mut contacts[*at as usize];
+                if is_apart(contact, now, least(contact, round)) {
                     continue;
                 }
+                if round.is_multiple_of(TURN) {
+                    contact.turn_to(places(start, contact.ids), now);
+                }
+                is_done = false;
+                draw(contact, now);
             }
-            is_done = false;
-            draw_apart(contact, x);
-        }
-        if is_done {
-            return false;
         }
     }
-    go_back(contacts, start, x, drift, frozen);
-    true
 }
 
 #[inline(always)]
@@ -62,7 +74,7 @@ fn is_apart(contact: &Contact, x: &[Spot], least: f32) -> bool {
 }
 
 /// Moves each particle of one side and each of the other apart.
-fn draw_apart(contact: &Contact, x: &mut [Spot]) {
+fn draw(contact: &Contact, x: &mut [Spot]) {
     let (one, other) = contact.ids.split_at(contact.first as usize);
     for a in one {
         for b in other {
@@ -81,13 +93,8 @@ fn draw_apart(contact: &Contact, x: &mut [Spot]) {
 
 /// What would cross goes back, and what that gets in the way of; or along with what is held, if that is in the
 /// way.
-pub(super) fn go_back(
-    contacts: &[Contact],
-    start: &[Spot],
-    x: &mut [Spot],
-    drift: Vec3,
-    frozen: &mut Vec<u32>,
-) {
+pub(super) fn go_back(contacts: &[Contact], motion: &mut Motion, frozen: &mut Vec<u32>) {
+    let Motion { start, now: x, drift, .. } = motion;
     frozen.clear();
     frozen.resize(x.len(), FREE);
     for (at, (frozen, x)) in frozen.iter_mut().zip(x.iter()).enumerate() {
@@ -108,7 +115,7 @@ pub(super) fn go_back(
                 frozen[id] = leader;
                 is_done = false;
                 let way = if leader == BACK {
-                    drift
+                    *drift
                 } else {
                     place(&x[leader as usize]) - place(&start[leader as usize])
                 };

@@ -3,14 +3,19 @@
 //! The tree is made of the mesh and its rest shape alone, so patches always come in the same order; its boxes
 //! follow the cloth.
 
-use super::spots::{Spot, place};
+use super::motion::Motion;
+use super::spots::place;
+use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::{Mesh, NONE, after};
 use glam::Vec3;
 
 /// Triangles in a patch at most.
-pub(super) const PATCH: usize = 8;
+const PATCH: usize = LANES;
+
+/// Blocks of lanes that its edges take at most.
+const EDGES: usize = 3 * PATCH / LANES;
 
 /// In a flat patch no normal is farther from the mean one than the first, and flat patches lie in line if
 /// their means are no farther apart than the second (cosines of 25° and 40°). So no two normals are more
@@ -23,6 +28,8 @@ const IN_LINE: f32 = 0.7661;
 pub(super) struct Patch {
     /// Its triangles: from, to.
     pub triangles: [u32; 2],
+    /// Its node.
+    node: u32,
     /// Its vertices: from, to; those up to the middle one are of no patch before.
     pub vertices: [u32; 3],
     /// Its edges that are of no patch before: from, to.
@@ -31,7 +38,13 @@ pub(super) struct Patch {
     is_frayed: bool,
     /// The mean normal; zero where normals differ much.
     normal: Vec3,
-    pub bounds: Aabb,
+    /// Whether what is in it was told apart since it was fitted.
+    is_split: bool,
+    /// The patches after it that share a vertex with it: from, to.
+    beside: [u32; 2],
+    /// The piece that it is of, and where it is at rest.
+    piece: u32,
+    rest: Aabb,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,14 +61,17 @@ struct Node {
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
     nodes: Vec<Node>,
-    bounds: Vec<Aabb>,
+    /// Where each node is and goes, and what is in each patch.
+    sweeps: Vec<Sweep>,
+    triangle_sweeps: Vec<Sweeps>,
+    edge_sweeps: Vec<[Sweeps; EDGES]>,
     pub patches: Vec<Patch>,
     /// Triangles, patch by patch.
     pub triangles: Vec<u32>,
     pub vertices: Vec<u32>,
     pub edges: Vec<[u32; 2]>,
-    /// Patches that share a vertex, the lower first, in order.
-    beside: Vec<[u32; 2]>,
+    /// Patches that share a vertex with one before.
+    beside: Vec<u32>,
     /// The patch of each triangle.
     patch_of: Vec<u32>,
     /// The last patch that had each vertex.
@@ -77,7 +93,9 @@ impl Patches {
         sort_by(&mut order, |p, q| (piece(*p), p).cmp(&(piece(*q), q)));
         let mut patches = Self {
             nodes: Vec::new(),
-            bounds: Vec::new(),
+            sweeps: Vec::new(),
+            triangle_sweeps: Vec::new(),
+            edge_sweeps: Vec::new(),
             patches: Vec::new(),
             triangles: order,
             vertices: Vec::with_capacity(3 * count),
@@ -89,15 +107,19 @@ impl Patches {
             stack: Vec::with_capacity(256),
         };
         patches.grow(&piece, &center, 0, count);
-        patches.bounds = vec![Aabb::EMPTY; patches.nodes.len()];
-        for (at, patch) in patches.patches.iter().enumerate() {
+        patches.sweeps = vec![Sweep::EMPTY; patches.nodes.len()];
+        patches.triangle_sweeps = vec![Sweeps::EMPTY; patches.patches.len()];
+        patches.edge_sweeps = vec![[Sweeps::EMPTY; EDGES]; patches.patches.len()];
+        for (at, patch) in patches.patches.iter_mut().enumerate() {
             let [from, to] = patch.triangles.map(|t| t as usize);
-            for triangle in &patches.triangles[from..to] {
-                patches.patch_of[*triangle as usize] = at as u32;
-            }
+            let own = &patches.triangles[from..to];
+            own.iter().for_each(|triangle| patches.patch_of[*triangle as usize] = at as u32);
+            let all = own.iter().flat_map(|triangle| sites(*triangle));
+            patch.rest = Aabb::around(all.map(|site| rest[site as usize]));
+            patch.piece = piece(own[0]);
         }
         patches.follow(mesh);
-        patches.find_neighbours(mesh);
+        patches.find_neighbours();
         patches
     }
 
@@ -117,11 +139,15 @@ impl Patches {
             let triangles = [from as u32, to as u32];
             self.patches.push(Patch {
                 triangles,
+                node: at as u32,
                 vertices: [0; 3],
                 edges: [0; 2],
                 is_frayed: false,
                 normal: Vec3::ZERO,
-                bounds: Aabb::EMPTY,
+                is_split: false,
+                beside: [0; 2],
+                piece: 0,
+                rest: Aabb::EMPTY,
             });
         } else {
             let middle = if is_whole {
@@ -158,9 +184,11 @@ impl Patches {
             + self.vertices.capacity()
             + self.patch_of.capacity()
             + self.seen_in.capacity()
-            + 2 * (self.edges.capacity() + self.beside.capacity() + self.stack.capacity());
+            + self.beside.capacity()
+            + 2 * (self.edges.capacity() + self.stack.capacity());
         size_of::<Node>() * self.nodes.capacity()
-            + size_of::<Aabb>() * self.bounds.capacity()
+            + size_of::<Sweep>() * self.sweeps.capacity()
+            + size_of::<Sweeps>() * (1 + EDGES) * self.triangle_sweeps.capacity()
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
             + self.frayed.capacity()
@@ -215,14 +243,14 @@ impl Patches {
         }
     }
 
-    fn find_neighbours(&mut self, mesh: &Mesh) {
+    fn find_neighbours(&mut self) {
         let mut around: Vec<[u32; 2]> = Vec::new();
         for (at, patch) in self.patches.iter().enumerate() {
             let [from, _, to] = patch.vertices.map(|v| v as usize);
             around.extend(self.vertices[from..to].iter().map(|v| [*v, at as u32]));
         }
         sort(&mut around);
-        let mut beside = Vec::new();
+        let mut beside: Vec<[u32; 2]> = Vec::new();
         for of_vertex in around.chunk_by(|a, b| a[0] == b[0]) {
             for (at, [_, one]) in of_vertex.iter().enumerate() {
                 beside.extend(of_vertex[at + 1..].iter().map(|[_, other]| [*one, *other]));
@@ -230,44 +258,81 @@ impl Patches {
         }
         sort(&mut beside);
         beside.dedup();
-        debug_assert!(
-            beside.iter().all(|[a, b]| a < b) && mesh.triangles.len() >= self.patches.len()
-        );
-        self.beside = beside;
-    }
-
-    /// Fits boxes around where vertices are, each with so much room around it, and finds which patches
-    /// are flat.
-    pub fn fit(&mut self, mesh: &Mesh, x: &[Spot], room: &[f32]) {
-        for at in (0..self.nodes.len()).rev() {
-            let node = self.nodes[at];
-            let mut all = Aabb::EMPTY;
-            if node.patch == NONE {
-                all = self.bounds[at + 1];
-                all.join(&self.bounds[node.second as usize]);
-            } else {
-                let patch = self.patches[node.patch as usize];
-                for vertex in &self.vertices[patch.vertices[0] as usize..patch.vertices[2] as usize]
-                {
-                    let (x, room) =
-                        (place(&x[*vertex as usize]), Vec3::splat(room[*vertex as usize]));
-                    all.add(x - room);
-                    all.add(x + room);
-                }
-                let normal = self.normal(mesh, x, &patch);
-                let patch = &mut self.patches[node.patch as usize];
-                (patch.normal, patch.bounds) = (normal, all);
-            }
-            self.bounds[at] = all;
+        for of_patch in beside.chunk_by(|a, b| a[0] == b[0]) {
+            let from = self.beside.len() as u32;
+            self.beside.extend(of_patch.iter().map(|[_, other]| *other));
+            self.patches[of_patch[0][0] as usize].beside = [from, self.beside.len() as u32];
         }
     }
 
+    /// Fits boxes around where vertices are and get to, and finds which patches are flat.
+    pub fn fit(&mut self, mesh: &Mesh, motion: &Motion) {
+        for at in (0..self.nodes.len()).rev() {
+            let node = self.nodes[at];
+            let mut all;
+            if node.patch == NONE {
+                all = self.sweeps[at + 1];
+                all.join(&self.sweeps[node.second as usize]);
+            } else {
+                let patch = self.patches[node.patch as usize];
+                all = Sweep::EMPTY;
+                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
+                self.vertices[own].iter().for_each(|v| motion.add_to(&mut all, *v));
+                let normal = self.normal(mesh, motion, &patch);
+                let patch = &mut self.patches[node.patch as usize];
+                (patch.normal, patch.is_split) = (normal, false);
+            }
+            self.sweeps[at] = all;
+        }
+    }
+
+    /// Tells apart what is in a patch, unless that was done.
+    pub fn split(&mut self, patch: u32, mesh: &Mesh, motion: &Motion) {
+        let at = patch as usize;
+        let patch = &mut self.patches[at];
+        if patch.is_split {
+            return;
+        }
+        patch.is_split = true;
+        let [from, to] = patch.triangles.map(|triangle| triangle as usize);
+        let all = &mut self.triangle_sweeps[at];
+        *all = Sweeps::EMPTY;
+        for (lane, triangle) in self.triangles[from..to].iter().enumerate() {
+            all.set(lane, &motion.of(&mesh.triangles[*triangle as usize]));
+        }
+        let [from, to] = patch.edges.map(|edge| edge as usize);
+        let blocks = self.edges[from..to].chunks(LANES);
+        for (all, block) in self.edge_sweeps[at].iter_mut().zip(blocks) {
+            *all = Sweeps::EMPTY;
+            for (lane, ends) in block.iter().enumerate() {
+                all.set(lane, &motion.of(ends));
+            }
+        }
+    }
+
+    /// Whether what is in two patches may be near at rest, so that it keeps a smaller gap.
+    pub fn is_near_at_rest(&self, pair: [u32; 2], near: f32) -> bool {
+        let [a, b] = pair.map(|patch| &self.patches[patch as usize]);
+        a.piece == b.piece && a.rest.grown(near).meets(&b.rest)
+    }
+
+    /// The triangles of a patch, one in a lane.
+    pub fn triangle_sweeps(&self, patch: u32) -> &Sweeps {
+        &self.triangle_sweeps[patch as usize]
+    }
+
+    /// The edges of a patch that are of no patch before, in blocks of lanes.
+    pub fn edge_sweeps(&self, patch: u32) -> &[Sweeps; EDGES] {
+        &self.edge_sweeps[patch as usize]
+    }
+
     /// The mean normal of a patch that is flat, else zero.
-    fn normal(&self, mesh: &Mesh, x: &[Spot], patch: &Patch) -> Vec3 {
+    fn normal(&self, mesh: &Mesh, motion: &Motion, patch: &Patch) -> Vec3 {
         if patch.is_frayed {
             return Vec3::ZERO;
         }
         let triangles = &self.triangles[patch.triangles[0] as usize..patch.triangles[1] as usize];
+        let x = &motion.start;
         let mut normals = [Vec3::ZERO; PATCH];
         let mut sum = Vec3::ZERO;
         for (normal, triangle) in normals.iter_mut().zip(triangles) {
@@ -287,12 +352,14 @@ impl Patches {
         if one == other {
             return a != Vec3::ZERO;
         }
-        a.dot(b) > IN_LINE && self.beside.binary_search(&[one, other]).is_ok()
+        let [from, to] = self.patches[one as usize].beside.map(|at| at as usize);
+        a.dot(b) > IN_LINE && self.beside[from..to].contains(&other)
     }
 
-    /// The pairs of patches whose boxes come nearer than `gap`, the lower first: always in the same order.
-    /// Patches are visited with themselves as well.
-    pub fn visit(&mut self, gap: f32, mut visit: impl FnMut(&Self, [u32; 2])) {
+    /// Lists the pairs of patches that may come nearer than `gap`, the lower first: always in the same order.
+    /// Patches are listed with themselves as well.
+    pub fn pair(&mut self, gap: f32, pairs: &mut Vec<[u32; 2]>) {
+        pairs.clear();
         let mut stack = core::mem::take(&mut self.stack);
         stack.clear();
         stack.push([0, 0]);
@@ -304,12 +371,12 @@ impl Patches {
                     stack.push([a + 1, one.second]);
                     stack.push([a + 1, a + 1]);
                 } else if !self.is_quiet([one.patch; 2]) {
-                    visit(self, [one.patch; 2]);
+                    pairs.push([one.patch; 2]);
                 }
-            } else if self.bounds[a as usize].grown(gap).meets(&self.bounds[b as usize]) {
+            } else if self.sweeps[a as usize].meets(&self.sweeps[b as usize], gap) {
                 if one.patch != NONE && other.patch != NONE {
                     if !self.is_quiet([one.patch, other.patch]) {
-                        visit(self, [one.patch, other.patch]);
+                        pairs.push([one.patch, other.patch]);
                     }
                 } else if one.patch == NONE && one.count >= other.count {
                     stack.push([one.second, b]);
@@ -321,5 +388,10 @@ impl Patches {
             }
         }
         self.stack = stack;
+    }
+
+    /// Where a patch is and goes.
+    pub fn sweep(&self, patch: u32) -> &Sweep {
+        &self.sweeps[self.patches[patch as usize].node as usize]
     }
 }

@@ -28,14 +28,12 @@ fn press(x: &mut [Spot], contact: &Contact, by: Vec3) {
     }
 }
 
-/// Ends approach, and rubs; `active` gets the contacts that may push. No two particles moved by more than `way`
-/// against each other since contacts were found.
+/// Ends approach, and rubs; `active` gets the contacts that may push.
 pub(super) fn solve(
     contacts: &mut [Contact],
     active: &mut Vec<u32>,
     start: &[Spot],
     x: &mut [Spot],
-    way: f32,
     friction: f32,
 ) {
     active.clear();
@@ -43,7 +41,7 @@ pub(super) fn solve(
         contact.push = 0.0;
         contact.sticks = false;
         let near = contact.gap * NEAR[contact.first as usize - 1];
-        if contact.distance <= near + way && along(places(x, contact.ids), contact) < near {
+        if along(places(x, contact.ids), contact) < near {
             contact.weigh(x);
             contact.aim = min(along(places(start, contact.ids), contact), contact.gap);
             active.push(at as u32);

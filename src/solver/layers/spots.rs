@@ -53,12 +53,6 @@ pub(super) fn drift(from: &[Spot], to: &[Spot]) -> Vec3 {
     all * (1.0 / from.len() as f32)
 }
 
-/// The farthest that one moved from one state to another, but for a drift.
-pub(super) fn farthest(from: &[Spot], to: &[Spot], drift: Vec3) -> f32 {
-    let way = |(from, to): (&Spot, &Spot)| (place(to) - place(from) - drift).length_squared();
-    from.iter().zip(to).map(way).fold(0.0, crate::math::max).sqrt()
-}
-
 /// The middle of all mass, if nothing is held.
 pub(super) fn middle(spots: &[Spot]) -> Option<Vec3> {
     let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);

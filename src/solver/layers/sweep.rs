@@ -1,0 +1,147 @@
+//! Where something is, and how far it may go: what can be told apart cheaply although it moves.
+//!
+//! ```text
+//!   ┌────┐ ways            Both go on at once, so what counts is how one goes against the other:
+//!   │    │────►  ┌────┐    layers that travel together never meet.
+//!   └────┘       │    │────►
+//!                └────┘
+//! ```
+
+use super::spots::Spot;
+use crate::math::{max, min};
+
+/// Things that are tested at once.
+pub(super) const LANES: usize = 8;
+
+/// A box around places, and one around the ways from there to where they may be in the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sweep {
+    pub low: Spot,
+    pub high: Spot,
+    pub from: Spot,
+    pub to: Spot,
+}
+
+impl Sweep {
+    /// Nothing.
+    pub const EMPTY: Self = Self {
+        low: [f32::INFINITY; 4],
+        high: [f32::NEG_INFINITY; 4],
+        from: [f32::INFINITY; 4],
+        to: [f32::NEG_INFINITY; 4],
+    };
+
+    /// Grows to hold something else.
+    #[inline(always)]
+    pub fn join(&mut self, other: &Self) {
+        for k in 0..4 {
+            self.low[k] = min(self.low[k], other.low[k]);
+            self.high[k] = max(self.high[k], other.high[k]);
+            self.from[k] = min(self.from[k], other.from[k]);
+            self.to[k] = max(self.to[k], other.to[k]);
+        }
+    }
+
+    /// Whether some point of one may come nearer than `gap` to one of the other. What is not a number is
+    /// everywhere.
+    #[inline(always)]
+    pub fn meets(&self, other: &Self, gap: f32) -> bool {
+        let (a, b) = (self, other);
+        let mut is_apart = false;
+        for k in 0..3 {
+            let down = min(a.from[k] - b.to[k], 0.0);
+            let up = max(a.to[k] - b.from[k], 0.0);
+            is_apart |= a.low[k] + down > b.high[k] + gap || a.high[k] + up < b.low[k] - gap;
+        }
+        !is_apart
+    }
+
+    /// The most that one moves against the other.
+    #[inline(always)]
+    pub fn way_against(&self, other: &Self) -> f32 {
+        let mut sum = 0.0;
+        for k in 0..3 {
+            let way = max(self.to[k] - other.from[k], other.to[k] - self.from[k]);
+            sum += way * way;
+        }
+        sum.sqrt()
+    }
+}
+
+/// Some of them, numbers of one kind together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sweeps {
+    low: [[f32; LANES]; 3],
+    high: [[f32; LANES]; 3],
+    from: [[f32; LANES]; 3],
+    to: [[f32; LANES]; 3],
+}
+
+impl Sweeps {
+    /// Nothing.
+    pub const EMPTY: Self = Self {
+        low: [[f32::INFINITY; LANES]; 3],
+        high: [[f32::NEG_INFINITY; LANES]; 3],
+        from: [[0.0; LANES]; 3],
+        to: [[0.0; LANES]; 3],
+    };
+
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, sweep: &Sweep) {
+        for k in 0..3 {
+            self.low[k][lane] = sweep.low[k];
+            self.high[k][lane] = sweep.high[k];
+            self.from[k][lane] = sweep.from[k];
+            self.to[k][lane] = sweep.to[k];
+        }
+    }
+
+    /// Which of them may come nearer than `gap`: a bit for each.
+    #[inline(always)]
+    pub fn meet(&self, one: &Sweep, gap: f32) -> u32 {
+        let mut is_apart = [0_u32; LANES];
+        for k in 0..3 {
+            let (from, to) = (one.from[k], one.to[k]);
+            let (low, high) = (one.low[k] - gap, one.high[k] + gap);
+            for (lane, is_apart) in is_apart.iter_mut().enumerate() {
+                let down = min(from - self.to[k][lane], 0.0);
+                let up = max(to - self.from[k][lane], 0.0);
+                *is_apart |= u32::from(low + down > self.high[k][lane])
+                    | u32::from(high + up < self.low[k][lane]);
+            }
+        }
+        is_apart.iter().enumerate().fold(0, |all, (lane, is_apart)| all | ((1 - is_apart) << lane))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn thing(at: f32, way: f32) -> Sweep {
+        Sweep { low: [at; 4], high: [at + 1.0; 4], from: [way - 0.1; 4], to: [way + 0.1; 4] }
+    }
+
+    #[test]
+    fn what_travels_together_never_meets() {
+        let (one, other) = (thing(0.0, 5.0), thing(2.0, 5.0));
+        assert!(!one.meets(&other, 0.5) && one.meets(&other, 0.81));
+        let slow = thing(2.0, 0.0);
+        assert!(one.meets(&slow, 0.0) && slow.meets(&one, 0.0), "one runs into the other");
+        let away = thing(2.0, 9.0);
+        assert!(!one.meets(&away, 0.5), "one runs away from the other");
+    }
+
+    #[test]
+    fn many_at_once_are_as_each_alone() {
+        let mut all = Sweeps::EMPTY;
+        let things: Vec<_> = (0..LANES - 1).map(|i| thing(0.7 * i as f32, 2.0 - i as f32)).collect();
+        things.iter().enumerate().for_each(|(lane, thing)| all.set(lane, thing));
+        let one = thing(2.5, 0.5);
+        for gap in [0.0, 0.3, 1.0] {
+            let each = things.iter().enumerate();
+            let bits = each.map(|(lane, thing)| u32::from(thing.meets(&one, gap)) << lane);
+            assert_eq!(all.meet(&one, gap), bits.sum::<u32>(), "{gap}");
+        }
+    }
+}
