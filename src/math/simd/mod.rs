@@ -30,6 +30,16 @@ pub(crate) use x86::{Avx2, Avx512, Sse2};
 use crate::math::shared::Points;
 pub(crate) use turn::{turn, turn_back};
 
+/// What the target always has, for what is not worth a copy for each level.
+#[cfg(target_arch = "aarch64")]
+pub(crate) type Base = Neon;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+pub(crate) type Base = Simd128;
+#[cfg(target_arch = "x86_64")]
+pub(crate) type Base = Sse2;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")))]
+pub(crate) type Base = Scalar;
+
 use core::ops::{Add, Div, Mul, Sub};
 
 /// A number, or one in each lane.
@@ -66,6 +76,13 @@ pub(crate) trait Arithmetic: Copy {
 /// Number by number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scalar;
+
+impl Scalar {
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")))]
+    pub fn new() -> Self {
+        Self
+    }
+}
 
 impl Arithmetic for Scalar {
     type F = f32;

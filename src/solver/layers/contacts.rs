@@ -170,7 +170,8 @@ fn closest<const FIRST: Kind>(x: [Vec3; 4]) -> Closest {
 /// How far one side is from the other along a direction in the end, at least.
 #[inline(always)]
 fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) -> f32 {
-    let [a, b, c, d] = ids.map(|id| motion.ends_along(id, n));
+    let [a, b] = [motion.ends_along(ids[0], n), motion.ends_along(ids[1], n)];
+    let [c, d] = [motion.ends_along(ids[2], n), motion.ends_along(ids[3], n)];
     if FIRST == VERTEX {
         a[0] - max(b[1], max(c[1], d[1]))
     } else {
@@ -194,8 +195,12 @@ impl Contact {
     ) -> Option<Self> {
         let start = places(&motion.start, ids);
         let mut then = closest::<FIRST>(start);
-        let (one, other) = ids.split_at(FIRST as usize);
-        let way = motion.of(one).way_against(&motion.of(other));
+        let [a, b, c, d] = ids;
+        let way = if FIRST == VERTEX {
+            motion.one(a).way_against(&motion.of([b, c, d]))
+        } else {
+            motion.of([a, b]).way_against(&motion.of([c, d]))
+        };
         if then.distance > gap + way || then.distance <= NOTHING {
             return None;
         }

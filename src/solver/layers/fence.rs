@@ -26,7 +26,11 @@ const FREE: u32 = u32::MAX;
 const BACK: u32 = u32::MAX - 1;
 
 /// Moves what would cross, and says whether nothing does any more; `open` is room to work in.
-pub(super) fn draw_apart(contacts: &mut [Contact], motion: &mut Motion, open: &mut Vec<u32>) -> bool {
+pub(super) fn draw_apart(
+    contacts: &mut [Contact],
+    motion: &mut Motion,
+    open: &mut Vec<u32>,
+) -> bool {
     let Motion { start, now, .. } = motion;
     let least = |contact: &Contact, round| {
         if round < FULL { contact.slit * HAIR } else { contact.least }

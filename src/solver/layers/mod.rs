@@ -19,7 +19,7 @@ use super::World;
 use super::crowd;
 use crate::state::settings::SelfCollision;
 use contacts::Contact;
-use motion::{Motion, Scope};
+use motion::Motion;
 use patches::Patches;
 use sift::Sift;
 use slits::Slits;
@@ -45,8 +45,6 @@ pub(crate) struct Layers {
     is_found: bool,
     /// The contacts that push in this substep.
     active: Vec<u32>,
-    /// What was found late, since particles were pushed far.
-    late: Vec<Contact>,
     /// What the fence has in hand.
     frozen: Vec<u32>,
     open: Vec<u32>,
@@ -67,7 +65,6 @@ impl Layers {
             contacts: Vec::with_capacity(24 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
-            late: Vec::with_capacity(24 * count),
             frozen: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
             pieces,
@@ -86,17 +83,24 @@ impl Layers {
         self.patches.bytes()
             + self.motion.bytes()
             + self.slits.bytes()
-            + size_of::<Contact>() * (self.contacts.capacity() + self.late.capacity())
+            + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<u32>() * words
     }
 
     /// Finds what may meet in this substep, as particles are now.
-    fn find(&mut self, world: &World, scope: Scope, is_late: bool) {
-        let Self { motion, patches, pieces, pairs, contacts, late, gap, .. } = self;
-        motion.look_ahead(world.spacing, *gap, scope);
-        let mut sift = Sift { world, pieces, patches, motion, gap: *gap };
-        sift.find(pairs, if is_late { late } else { contacts });
-        self.is_found = !is_late;
+    fn find(&mut self, world: &World) {
+        let Self { motion, patches, pieces, pairs, contacts, gap, .. } = self;
+        motion.look_ahead(world.spacing, *gap);
+        Sift { world, pieces, patches, motion, gap: *gap }.find(pairs, contacts);
+        self.is_found = true;
+    }
+
+    /// Adds what those may meet that are not where they were thought to be.
+    fn find_strays(&mut self, world: &World, may_go_back: bool) {
+        let Self { motion, patches, pieces, pairs, contacts, gap, .. } = self;
+        if motion.look_again(world.spacing, *gap, may_go_back) {
+            Sift { world, pieces, patches, motion, gap: *gap }.find_strays(pairs, contacts);
+        }
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
@@ -114,28 +118,25 @@ impl Layers {
 
     /// Says whether anything went back to where it was.
     fn fence(&mut self, world: &World) -> bool {
-        let (mut is_late, mut scope) = (false, Scope::Pushed);
-        for look in 0..LOOKS {
-            if look > 0 || !self.is_found || !self.motion.is_as_thought() {
-                self.find(world, scope, true);
-                is_late = true;
-            }
-            let Self { contacts, late, motion, frozen, open, .. } = self;
-            let contacts = if is_late { late } else { contacts };
+        if !self.is_found {
+            self.find(world);
+        }
+        let mut may_go_back = false;
+        for _ in 0..LOOKS {
+            self.find_strays(world, may_go_back);
+            let Self { contacts, motion, frozen, open, .. } = self;
             let is_done = fence::draw_apart(contacts, motion, open);
-            if !is_done && scope == Scope::Back {
+            if !is_done && may_go_back {
                 fence::go_back(contacts, motion, frozen);
             }
-            if (is_done || scope == Scope::Back) && motion.is_as_thought() {
+            if (is_done || may_go_back) && motion.is_as_thought() {
                 return !is_done;
             }
-            if !is_done {
-                // Whoever goes back must not get in the way of somebody else.
-                scope = Scope::Back;
-            }
+            // Whoever goes back must not get in the way of somebody else.
+            may_go_back |= !is_done;
         }
-        self.find(world, Scope::Back, true);
-        fence::go_back(&self.late, &mut self.motion, &mut self.frozen);
+        self.find_strays(world, true);
+        fence::go_back(&self.contacts, &mut self.motion, &mut self.frozen);
         true
     }
 }
@@ -182,7 +183,7 @@ pub(crate) fn pair(world: &mut World) {
         layers.motion.now[touch.particle as usize][3] =
             world.particles.w[touch.particle as usize] * BACKED;
     }
-    layers.find(world, Scope::Pushed, false);
+    layers.find(world);
     world.layers = Some(layers);
 }
 

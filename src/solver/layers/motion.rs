@@ -7,18 +7,9 @@ use glam::Vec3;
 
 /// What particles may be pushed by beyond where they are: a share of the mean rest length, of the gap, and of
 /// how they moved against the mean. Those that were pushed farther are looked at again.
-const SPARE: f32 = 0.02;
-const SPARE_GAP: f32 = 1.0;
+const SPARE: f32 = 0.05;
+const SPARE_GAP: f32 = 2.5;
 const SPARE_WAY: f32 = 0.25;
-
-/// How far particles may get.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Scope {
-    /// Little beyond where they are.
-    Pushed,
-    /// That, or back to where they were.
-    Back,
-}
 
 /// The particles of a cloth in a substep.
 #[derive(Clone, Debug)]
@@ -31,46 +22,65 @@ pub(super) struct Motion {
     /// The ways from the start that each may have made in the end.
     from: Vec<Spot>,
     to: Vec<Spot>,
+    /// Whether each got out of that.
+    strays: Vec<bool>,
 }
 
 impl Motion {
     pub fn new(capacity: usize) -> Self {
         let [start, now, from, to] = [(); 4].map(|()| Vec::with_capacity(capacity));
-        Self { start, now, drift: Vec3::ZERO, from, to }
+        let strays = Vec::with_capacity(capacity);
+        Self { start, now, drift: Vec3::ZERO, from, to, strays }
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
         let spots = [&self.start, &self.now, &self.from, &self.to];
         size_of::<Spot>() * spots.iter().map(|spots| spots.capacity()).sum::<usize>()
+            + self.strays.capacity()
     }
 
     /// Gives each particle room around where it is.
-    pub fn look_ahead(&mut self, spacing: f32, gap: f32, scope: Scope) {
+    pub fn look_ahead(&mut self, spacing: f32, gap: f32) {
         self.drift = drift(&self.start, &self.now);
         let spare = min(spacing * SPARE, gap * SPARE_GAP);
         self.from.clear();
         self.to.clear();
-        let back = self.drift;
         for (start, now) in self.start.iter().zip(&self.now) {
             let way = place(now) - place(start);
-            let room = (way - back).length() * SPARE_WAY + spare;
-            let (mut from, mut to) = (way - room, way + room);
-            if scope == Scope::Back {
-                from = Vec3::new(
-                    min(from.x, back.x - spare),
-                    min(from.y, back.y - spare),
-                    min(from.z, back.z - spare),
-                );
-                to = Vec3::new(
-                    max(to.x, back.x + spare),
-                    max(to.y, back.y + spare),
-                    max(to.z, back.z + spare),
-                );
-            }
-            self.from.push([from.x, from.y, from.z, 0.0]);
-            self.to.push([to.x, to.y, to.z, 0.0]);
+            let room = Vec3::splat((way - self.drift).length() * SPARE_WAY + spare);
+            self.from.push(spot(way - room));
+            self.to.push(spot(way + room));
         }
+    }
+
+    /// Gives those room that strayed from what they had, to where they are and, if they may, back to where they
+    /// were; says whether there are any.
+    pub fn look_again(&mut self, spacing: f32, gap: f32, may_go_back: bool) -> bool {
+        let spare = min(spacing * SPARE, gap * SPARE_GAP);
+        let mut any = false;
+        self.strays.clear();
+        let rooms = self.from.iter_mut().zip(&mut self.to);
+        for ((start, now), (from, to)) in self.start.iter().zip(&self.now).zip(rooms) {
+            let way = place(now) - place(start);
+            let mut strays = !holds(from, to, way);
+            if strays {
+                extend(from, to, way, way.distance(self.drift) * SPARE_WAY + spare);
+            }
+            if may_go_back && !holds(from, to, self.drift) {
+                extend(from, to, self.drift, spare);
+                strays = true;
+            }
+            self.strays.push(strays);
+            any |= strays;
+        }
+        any
+    }
+
+    /// Whether a particle strayed.
+    #[inline(always)]
+    pub fn strays(&self, particle: u32) -> bool {
+        self.strays[particle as usize]
     }
 
     /// Whether all are where they were thought to be in the end.
@@ -78,10 +88,7 @@ impl Motion {
         let mut is_within = true;
         let rooms = self.from.iter().zip(&self.to);
         for ((start, now), (from, to)) in self.start.iter().zip(&self.now).zip(rooms) {
-            for k in 0..3 {
-                let way = now[k] - start[k];
-                is_within &= way >= from[k] && way <= to[k];
-            }
+            is_within &= holds(from, to, place(now) - place(start));
         }
         is_within
     }
@@ -102,9 +109,11 @@ impl Motion {
 
     /// How particles go together.
     #[inline(always)]
-    pub fn of(&self, particles: &[u32]) -> Sweep {
+    pub fn of<const COUNT: usize>(&self, particles: [u32; COUNT]) -> Sweep {
         let mut all = self.one(particles[0]);
-        particles[1..].iter().for_each(|particle| self.add_to(&mut all, *particle));
+        for particle in &particles[1..] {
+            all.join(&self.one(*particle));
+        }
         all
     }
 
@@ -119,5 +128,23 @@ impl Motion {
             start + min(a.x, b.x) + min(a.y, b.y) + min(a.z, b.z),
             start + max(a.x, b.x) + max(a.y, b.y) + max(a.z, b.z),
         ]
+    }
+}
+
+fn spot(v: Vec3) -> Spot {
+    [v.x, v.y, v.z, 0.0]
+}
+
+#[inline(always)]
+fn holds(from: &Spot, to: &Spot, way: Vec3) -> bool {
+    let way = way.to_array();
+    (0..3).all(|k| way[k] >= from[k] && way[k] <= to[k])
+}
+
+#[inline(always)]
+fn extend(from: &mut Spot, to: &mut Spot, way: Vec3, room: f32) {
+    for (k, way) in way.to_array().into_iter().enumerate() {
+        from[k] = min(from[k], way - room);
+        to[k] = max(to[k], way + room);
     }
 }

@@ -7,6 +7,7 @@ use super::motion::Motion;
 use super::spots::place;
 use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
+use crate::math::min;
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::{Mesh, NONE, after};
 use glam::Vec3;
@@ -14,14 +15,12 @@ use glam::Vec3;
 /// Triangles in a patch at most.
 const PATCH: usize = LANES;
 
-/// Blocks of lanes that its edges take at most.
-const EDGES: usize = 3 * PATCH / LANES;
+/// Blocks of lanes that its vertices take at most, and its edges.
+const BLOCKS: usize = 3 * PATCH / LANES;
 
-/// In a flat patch no normal is farther from the mean one than the first, and flat patches lie in line if
-/// their means are no farther apart than the second (cosines of 25° and 40°). So no two normals are more
-/// than a right angle apart, and neighbours cannot meet.
-const FLAT: f32 = 0.9064;
-const IN_LINE: f32 = 0.7661;
+/// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
+/// (cosine of 60°).
+const STEEP: f32 = 0.5;
 
 /// Some triangles beside each other.
 #[derive(Clone, Copy, Debug)]
@@ -36,8 +35,9 @@ pub(super) struct Patch {
     pub edges: [u32; 2],
     /// Whether a tear or a cut goes through it, so that its triangles may meet each other.
     is_frayed: bool,
-    /// The mean normal; zero where normals differ much.
+    /// The mean normal, and the least cosine that a normal makes with it; -1 where a tear or a cut goes through.
     normal: Vec3,
+    cone: f32,
     /// Whether what is in it was told apart since it was fitted.
     is_split: bool,
     /// The patches after it that share a vertex with it: from, to.
@@ -55,6 +55,37 @@ struct Node {
     patch: u32,
     /// Patches below.
     count: u32,
+    /// Whether a vertex below strayed.
+    has_strays: bool,
+}
+
+/// Some of what is in a patch: a bit for each, in order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chosen {
+    pub vertices: u32,
+    pub triangles: u32,
+    pub edges: u32,
+}
+
+/// The places of bits, from the lowest on.
+pub(super) fn places_of(mut bits: u32) -> impl Iterator<Item = u32> {
+    core::iter::from_fn(move || {
+        let place = bits.trailing_zeros();
+        (bits != 0).then(|| {
+            bits &= bits - 1;
+            place
+        })
+    })
+}
+
+/// Which of so many may meet another patch.
+#[inline(always)]
+fn meet(blocks: &[Sweeps; BLOCKS], count: u32, other: &Sweep, gap: f32) -> u32 {
+    let mut bits = 0;
+    for block in (0..count.div_ceil(LANES as u32)).rev() {
+        bits = bits << LANES | blocks[block as usize].meet(other, gap);
+    }
+    bits
 }
 
 /// All patches of a cloth.
@@ -64,7 +95,8 @@ pub(super) struct Patches {
     /// Where each node is and goes, and what is in each patch.
     sweeps: Vec<Sweep>,
     triangle_sweeps: Vec<Sweeps>,
-    edge_sweeps: Vec<[Sweeps; EDGES]>,
+    vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
+    edge_sweeps: Vec<[Sweeps; BLOCKS]>,
     pub patches: Vec<Patch>,
     /// Triangles, patch by patch.
     pub triangles: Vec<u32>,
@@ -95,6 +127,7 @@ impl Patches {
             nodes: Vec::new(),
             sweeps: Vec::new(),
             triangle_sweeps: Vec::new(),
+            vertex_sweeps: Vec::new(),
             edge_sweeps: Vec::new(),
             patches: Vec::new(),
             triangles: order,
@@ -109,7 +142,8 @@ impl Patches {
         patches.grow(&piece, &center, 0, count);
         patches.sweeps = vec![Sweep::EMPTY; patches.nodes.len()];
         patches.triangle_sweeps = vec![Sweeps::EMPTY; patches.patches.len()];
-        patches.edge_sweeps = vec![[Sweeps::EMPTY; EDGES]; patches.patches.len()];
+        patches.vertex_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
+        patches.edge_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
         for (at, patch) in patches.patches.iter_mut().enumerate() {
             let [from, to] = patch.triangles.map(|t| t as usize);
             let own = &patches.triangles[from..to];
@@ -131,7 +165,7 @@ impl Patches {
         to: usize,
     ) {
         let (at, first) = (self.nodes.len(), self.patches.len());
-        self.nodes.push(Node { second: 0, patch: NONE, count: 0 });
+        self.nodes.push(Node { second: 0, patch: NONE, count: 0, has_strays: false });
         let part = &mut self.triangles[from..to];
         let is_whole = piece(part[0]) == piece(part[part.len() - 1]);
         if is_whole && part.len() <= PATCH {
@@ -144,6 +178,7 @@ impl Patches {
                 edges: [0; 2],
                 is_frayed: false,
                 normal: Vec3::ZERO,
+                cone: -1.0,
                 is_split: false,
                 beside: [0; 2],
                 piece: 0,
@@ -164,7 +199,18 @@ impl Patches {
                 let place = |triangle: &u32| center(*triangle)[axis];
                 // Equal ones by their numbers, so that the order is always the same.
                 sort_by(part, |a, b| place(a).total_cmp(&place(b)).then(a.cmp(b)));
-                part.len() / 2
+                // Where there is most room near the middle, so that patches have straight sides.
+                let jump = |at: usize| place(&part[at]) - place(&part[at - 1]);
+                let half = part.len() / 2;
+                let mut best = half;
+                for off in 1..=part.len() / 4 {
+                    for at in [half - off, half + off] {
+                        if at < part.len() && at > 0 && jump(at) > jump(best) * 1.01 {
+                            best = at;
+                        }
+                    }
+                }
+                best
             } else {
                 // A piece is not torn apart.
                 let half = piece(part[part.len() / 2]);
@@ -188,7 +234,7 @@ impl Patches {
             + 2 * (self.edges.capacity() + self.stack.capacity());
         size_of::<Node>() * self.nodes.capacity()
             + size_of::<Sweep>() * self.sweeps.capacity()
-            + size_of::<Sweeps>() * (1 + EDGES) * self.triangle_sweeps.capacity()
+            + size_of::<Sweeps>() * (1 + 2 * BLOCKS) * self.triangle_sweeps.capacity()
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
             + self.frayed.capacity()
@@ -278,10 +324,38 @@ impl Patches {
                 all = Sweep::EMPTY;
                 let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
                 self.vertices[own].iter().for_each(|v| motion.add_to(&mut all, *v));
-                let normal = self.normal(mesh, motion, &patch);
+                let (normal, cone) = self.lean(mesh, motion, &patch);
                 let patch = &mut self.patches[node.patch as usize];
-                (patch.normal, patch.is_split) = (normal, false);
+                (patch.normal, patch.cone, patch.is_split) = (normal, cone, false);
             }
+            self.sweeps[at] = all;
+        }
+    }
+
+    /// Fits boxes around where vertices get to that strayed.
+    pub fn follow_strays(&mut self, motion: &Motion) {
+        for at in (0..self.nodes.len()).rev() {
+            let node = self.nodes[at];
+            let mut all = self.sweeps[at];
+            let has_strays = if node.patch == NONE {
+                let (one, other) = (at + 1, node.second as usize);
+                all = self.sweeps[one];
+                all.join(&self.sweeps[other]);
+                self.nodes[one].has_strays || self.nodes[other].has_strays
+            } else {
+                let patch = &mut self.patches[node.patch as usize];
+                let mut has_strays = false;
+                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
+                for vertex in &self.vertices[own] {
+                    if motion.strays(*vertex) {
+                        has_strays = true;
+                        motion.add_to(&mut all, *vertex);
+                    }
+                }
+                patch.is_split &= !has_strays;
+                has_strays
+            };
+            self.nodes[at].has_strays = has_strays;
             self.sweeps[at] = all;
         }
     }
@@ -294,25 +368,46 @@ impl Patches {
             return;
         }
         patch.is_split = true;
-        let [from, to] = patch.triangles.map(|triangle| triangle as usize);
+        let [from, to] = patch.triangles;
         let all = &mut self.triangle_sweeps[at];
         *all = Sweeps::EMPTY;
-        for (lane, triangle) in self.triangles[from..to].iter().enumerate() {
-            all.set(lane, &motion.of(&mesh.triangles[*triangle as usize]));
+        for (lane, triangle) in self.triangles[from as usize..to as usize].iter().enumerate() {
+            all.set(lane, &motion.of(mesh.triangles[*triangle as usize]));
         }
-        let [from, to] = patch.edges.map(|edge| edge as usize);
-        let blocks = self.edges[from..to].chunks(LANES);
+        let [from, to, _] = patch.vertices;
+        let blocks = self.vertices[from as usize..to as usize].chunks(LANES);
+        for (all, block) in self.vertex_sweeps[at].iter_mut().zip(blocks) {
+            *all = Sweeps::EMPTY;
+            for (lane, vertex) in block.iter().enumerate() {
+                all.set(lane, &motion.one(*vertex));
+            }
+        }
+        let [from, to] = patch.edges;
+        let blocks = self.edges[from as usize..to as usize].chunks(LANES);
         for (all, block) in self.edge_sweeps[at].iter_mut().zip(blocks) {
             *all = Sweeps::EMPTY;
             for (lane, ends) in block.iter().enumerate() {
-                all.set(lane, &motion.of(ends));
+                all.set(lane, &motion.of(*ends));
             }
+        }
+    }
+
+    /// Which own vertices of one patch may meet another one, which of its triangles, and which own edges: a bit
+    /// for each.
+    pub fn chosen(&self, one: u32, other: u32, gap: f32) -> Chosen {
+        let all = self.sweep(other);
+        let at = one as usize;
+        let patch = &self.patches[at];
+        Chosen {
+            vertices: meet(&self.vertex_sweeps[at], patch.vertices[1] - patch.vertices[0], all, gap),
+            triangles: self.triangle_sweeps[at].meet(all, gap),
+            edges: meet(&self.edge_sweeps[at], patch.edges[1] - patch.edges[0], all, gap),
         }
     }
 
     /// Whether what is in two patches may be near at rest, so that it keeps a smaller gap.
     pub fn is_near_at_rest(&self, pair: [u32; 2], near: f32) -> bool {
-        let [a, b] = pair.map(|patch| &self.patches[patch as usize]);
+        let (a, b) = (&self.patches[pair[0] as usize], &self.patches[pair[1] as usize]);
         a.piece == b.piece && a.rest.grown(near).meets(&b.rest)
     }
 
@@ -322,49 +417,62 @@ impl Patches {
     }
 
     /// The edges of a patch that are of no patch before, in blocks of lanes.
-    pub fn edge_sweeps(&self, patch: u32) -> &[Sweeps; EDGES] {
+    pub fn edge_sweeps(&self, patch: u32) -> &[Sweeps; BLOCKS] {
         &self.edge_sweeps[patch as usize]
     }
 
-    /// The mean normal of a patch that is flat, else zero.
-    fn normal(&self, mesh: &Mesh, motion: &Motion, patch: &Patch) -> Vec3 {
+    /// The mean normal of a patch, and the least cosine that one makes with it.
+    fn lean(&self, mesh: &Mesh, motion: &Motion, patch: &Patch) -> (Vec3, f32) {
         if patch.is_frayed {
-            return Vec3::ZERO;
+            return (Vec3::ZERO, -1.0);
         }
         let triangles = &self.triangles[patch.triangles[0] as usize..patch.triangles[1] as usize];
         let x = &motion.start;
         let mut normals = [Vec3::ZERO; PATCH];
         let mut sum = Vec3::ZERO;
         for (normal, triangle) in normals.iter_mut().zip(triangles) {
-            let [a, b, c] = mesh.triangles[*triangle as usize].map(|v| place(&x[v as usize]));
+            let [a, b, c] = mesh.triangles[*triangle as usize];
+            let (a, b, c) = (place(&x[a as usize]), place(&x[b as usize]), place(&x[c as usize]));
             let doubled = (b - a).cross(c - a);
             *normal = doubled * (1.0 / doubled.length());
             sum += *normal;
         }
         let mean = sum * (1.0 / sum.length());
-        let is_flat = normals[..triangles.len()].iter().all(|normal| normal.dot(mean) > FLAT);
-        if is_flat { mean } else { Vec3::ZERO }
+        let mut cone = 1.0;
+        for normal in &normals[..triangles.len()] {
+            cone = min(normal.dot(mean), cone);
+        }
+        // Where there is no mean, nothing is known.
+        (mean, if cone <= 1.0 { cone } else { -1.0 })
     }
 
-    /// Whether triangles of two patches cannot meet, since the patches are neighbours and flat.
+    /// Whether triangles of two patches cannot meet, since the patches are neighbours and lean little.
     fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
-        let [a, b] = [one, other].map(|patch| self.patches[patch as usize].normal);
-        if one == other {
-            return a != Vec3::ZERO;
+        let (a, b) = (&self.patches[one as usize], &self.patches[other as usize]);
+        let cone = min(a.cone, b.cone);
+        if one == other || cone <= STEEP {
+            return cone > STEEP;
         }
-        let [from, to] = self.patches[one as usize].beside.map(|at| at as usize);
-        a.dot(b) > IN_LINE && self.beside[from..to].contains(&other)
+        // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
+        let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
+        let side = (1.0 - half) * (1.0 - cone * cone);
+        let lean = half.sqrt() * cone - side.sqrt();
+        let [from, to] = a.beside;
+        lean > STEEP && self.beside[from as usize..to as usize].contains(&other)
     }
 
     /// Lists the pairs of patches that may come nearer than `gap`, the lower first: always in the same order.
-    /// Patches are listed with themselves as well.
-    pub fn pair(&mut self, gap: f32, pairs: &mut Vec<[u32; 2]>) {
+    /// Patches are listed with themselves as well; of `strays` only those that have some.
+    pub fn pair(&mut self, gap: f32, strays: bool, pairs: &mut Vec<[u32; 2]>) {
         pairs.clear();
         let mut stack = core::mem::take(&mut self.stack);
         stack.clear();
         stack.push([0, 0]);
         while let Some([a, b]) = stack.pop() {
             let (one, other) = (self.nodes[a as usize], self.nodes[b as usize]);
+            if strays && !one.has_strays && !other.has_strays {
+                continue;
+            }
             if a == b {
                 if one.patch == NONE {
                     stack.push([one.second, one.second]);

@@ -6,13 +6,16 @@
 
 use super::contacts::{Contact, EDGES, Kind, VERTEX};
 use super::motion::Motion;
-use super::patches::Patches;
+use super::patches::{Chosen, Patches, places_of};
 use super::slits::HAIR;
 use super::sweep::LANES;
 use crate::geom::aabb::Aabb;
 use crate::math::{max, min};
 use crate::solver::World;
 use glam::Vec3;
+
+/// The bits of a block of lanes.
+const LANE_BITS: u32 = (1 << LANES) - 1;
 
 /// Pairs of one piece keep no farther apart than this share of their distance at rest.
 const WOVEN: f32 = 0.5;
@@ -32,80 +35,32 @@ impl Sift<'_> {
     pub fn find(&mut self, pairs: &mut Vec<[u32; 2]>, contacts: &mut Vec<Contact>) {
         contacts.clear();
         self.patches.fit(&self.world.mesh, self.motion);
-        self.patches.pair(self.gap, pairs);
-        for [one, other] in &*pairs {
+        self.patches.pair(self.gap, false, pairs);
+        self.look(pairs, false, contacts);
+    }
+
+    /// Adds what those may meet that strayed.
+    pub fn find_strays(&mut self, pairs: &mut Vec<[u32; 2]>, contacts: &mut Vec<Contact>) {
+        self.patches.follow_strays(self.motion);
+        self.patches.pair(self.gap, true, pairs);
+        self.look(pairs, true, contacts);
+    }
+
+    fn look(&mut self, pairs: &[[u32; 2]], strays: bool, contacts: &mut Vec<Contact>) {
+        for [one, other] in pairs {
             self.patches.split(*one, &self.world.mesh, self.motion);
             self.patches.split(*other, &self.world.mesh, self.motion);
+            let chosen = [
+                self.patches.chosen(*one, *other, self.gap),
+                self.patches.chosen(*other, *one, self.gap),
+            ];
             let is_woven = self.patches.is_near_at_rest([*one, *other], self.gap / WOVEN);
-            self.vertices([*one, *other], is_woven, contacts);
+            let mut look = Look { sift: self, chosen, is_woven, strays, contacts };
+            look.vertices([*one, *other], [0, 1]);
             if one != other {
-                self.vertices([*other, *one], is_woven, contacts);
+                look.vertices([*other, *one], [1, 0]);
             }
-            self.edges([*one, *other], is_woven, contacts);
-        }
-    }
-
-    /// The own vertices of one patch and the triangles of another one.
-    fn vertices(&self, [one, other]: [u32; 2], is_woven: bool, contacts: &mut Vec<Contact>) {
-        let patches = &*self.patches;
-        let [from, to, _] = patches.patches[one as usize].vertices.map(|at| at as usize);
-        let first = patches.patches[other as usize].triangles[0];
-        let (all, each) = (patches.sweep(other), patches.triangle_sweeps(other));
-        for vertex in &patches.vertices[from..to] {
-            let own = self.motion.one(*vertex);
-            if !own.meets(all, self.gap) {
-                continue;
-            }
-            let mut bits = each.meet(&own, self.gap);
-            while bits != 0 {
-                let triangle = patches.triangles[(first + bits.trailing_zeros()) as usize];
-                bits &= bits - 1;
-                let [a, b, c] = self.world.mesh.triangles[triangle as usize];
-                if *vertex != a && *vertex != b && *vertex != c {
-                    self.look::<VERTEX>([*vertex, a, b, c], is_woven, contacts);
-                }
-            }
-        }
-    }
-
-    /// The edges of two patches, each pair once.
-    fn edges(&self, [one, other]: [u32; 2], is_woven: bool, contacts: &mut Vec<Contact>) {
-        let patches = &*self.patches;
-        let [from, to] = patches.patches[one as usize].edges;
-        let [first, end] = patches.patches[other as usize].edges;
-        let (all, blocks) = (patches.sweep(other), patches.edge_sweeps(other));
-        let blocks = &blocks[..(end - first).div_ceil(LANES as u32) as usize];
-        for i in from..to {
-            let [p, q] = patches.edges[i as usize];
-            let own = self.motion.of(&[p, q]);
-            if !own.meets(all, self.gap) {
-                continue;
-            }
-            for (block, start) in blocks.iter().zip((first..end).step_by(LANES)) {
-                let mut bits = block.meet(&own, self.gap);
-                while bits != 0 {
-                    let j = start + bits.trailing_zeros();
-                    bits &= bits - 1;
-                    let [r, s] = patches.edges[j as usize];
-                    let is_apart = p != r && p != s && q != r && q != s;
-                    if is_apart && (one != other || i < j) {
-                        self.look::<EDGES>([p, q, r, s], is_woven, contacts);
-                    }
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn look<const FIRST: Kind>(
-        &self,
-        ids: [u32; 4],
-        is_woven: bool,
-        contacts: &mut Vec<Contact>,
-    ) {
-        let gap = || if is_woven { self.own_gap::<FIRST>(ids) } else { self.gap };
-        if let Some(contact) = Contact::find::<FIRST>(ids, self.motion, self.gap, gap) {
-            contacts.push(contact);
+            look.edges([*one, *other]);
         }
     }
 
@@ -127,5 +82,85 @@ impl Sift<'_> {
         // The sides of a slit are at the same place at rest, and a hair apart as they part.
         let least = self.world.spacing * (WOVEN * HAIR);
         min(self.gap, max(WOVEN * Contact::distance::<FIRST>(x), least))
+    }
+}
+
+/// A look at two patches.
+struct Look<'a> {
+    sift: &'a Sift<'a>,
+    chosen: [Chosen; 2],
+    is_woven: bool,
+    /// Whether only those count that strayed.
+    strays: bool,
+    contacts: &'a mut Vec<Contact>,
+}
+
+impl Look<'_> {
+    /// The own vertices of one patch and the triangles of another one.
+    fn vertices(&mut self, [one, other]: [u32; 2], side: [usize; 2]) {
+        let (vertices, triangles) = (self.chosen[side[0]].vertices, self.chosen[side[1]].triangles);
+        if vertices == 0 || triangles == 0 {
+            return;
+        }
+        let sift = self.sift;
+        let patches = &*sift.patches;
+        let (from, first) = (
+            patches.patches[one as usize].vertices[0],
+            patches.patches[other as usize].triangles[0],
+        );
+        let each = patches.triangle_sweeps(other);
+        for at in places_of(vertices) {
+            let vertex = patches.vertices[(from + at) as usize];
+            for at in places_of(triangles & each.meet(&sift.motion.one(vertex), sift.gap)) {
+                let triangle = patches.triangles[(first + at) as usize];
+                let [a, b, c] = sift.world.mesh.triangles[triangle as usize];
+                if vertex != a && vertex != b && vertex != c {
+                    self.look::<VERTEX>([vertex, a, b, c]);
+                }
+            }
+        }
+    }
+
+    /// The edges of two patches, each pair once.
+    fn edges(&mut self, [one, other]: [u32; 2]) {
+        let [chosen, others] = [self.chosen[0].edges, self.chosen[1].edges];
+        if chosen == 0 || others == 0 {
+            return;
+        }
+        let sift = self.sift;
+        let patches = &*sift.patches;
+        let (from, first) =
+            (patches.patches[one as usize].edges[0], patches.patches[other as usize].edges[0]);
+        let blocks = patches.edge_sweeps(other);
+        for i in places_of(chosen) {
+            let [p, q] = patches.edges[(from + i) as usize];
+            let own = sift.motion.of([p, q]);
+            for (at, block) in blocks.iter().enumerate() {
+                let others = others >> (at * LANES) & LANE_BITS;
+                if others == 0 {
+                    continue;
+                }
+                for j in places_of(others & block.meet(&own, sift.gap)) {
+                    let j = j + (at * LANES) as u32;
+                    let [r, s] = patches.edges[(first + j) as usize];
+                    let is_apart = p != r && p != s && q != r && q != s;
+                    if is_apart && (one != other || i < j) {
+                        self.look::<EDGES>([p, q, r, s]);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn look<const FIRST: Kind>(&mut self, ids: [u32; 4]) {
+        let sift = self.sift;
+        if self.strays && !ids.iter().any(|id| sift.motion.strays(*id)) {
+            return;
+        }
+        let gap = || if self.is_woven { sift.own_gap::<FIRST>(ids) } else { sift.gap };
+        if let Some(contact) = Contact::find::<FIRST>(ids, sift.motion, sift.gap, gap) {
+            self.contacts.push(contact);
+        }
     }
 }

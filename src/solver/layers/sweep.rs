@@ -8,6 +8,7 @@
 //! ```
 
 use super::spots::Spot;
+use crate::math::simd::{Arithmetic, Base, Number, Simd};
 use crate::math::{max, min};
 
 /// Things that are tested at once.
@@ -96,21 +97,31 @@ impl Sweeps {
         }
     }
 
-    /// Which of them may come nearer than `gap`: a bit for each.
+    /// Which of them may come nearer than `gap` to one: a bit for each.
     #[inline(always)]
     pub fn meet(&self, one: &Sweep, gap: f32) -> u32 {
-        let mut is_apart = [0_u32; LANES];
-        for k in 0..3 {
-            let (from, to) = (one.from[k], one.to[k]);
-            let (low, high) = (one.low[k] - gap, one.high[k] + gap);
-            for (lane, is_apart) in is_apart.iter_mut().enumerate() {
-                let down = min(from - self.to[k][lane], 0.0);
-                let up = max(to - self.from[k][lane], 0.0);
-                *is_apart |= u32::from(low + down > self.high[k][lane])
-                    | u32::from(high + up < self.low[k][lane]);
+        let simd = Base::new();
+        let zero = simd.splat(0.0);
+        let mut bits = 0;
+        for lane in (0..LANES).step_by(Base::LANES) {
+            let mut clear = simd.splat(f32::NEG_INFINITY);
+            for k in 0..3 {
+                let back = simd.load(&self.to[k], lane) - simd.splat(one.from[k]);
+                let ahead = simd.splat(one.to[k]) - simd.load(&self.from[k], lane);
+                let above = simd.splat(one.low[k] - gap) - simd.load(&self.high[k], lane);
+                let below = simd.load(&self.low[k], lane) - simd.splat(one.high[k] + gap);
+                let apart = (above - back.max(zero)).max(below - ahead.max(zero));
+                clear = apart.max(clear);
+            }
+            if simd.is_any_positive(zero - clear) {
+                let mut each = [0.0; LANES];
+                simd.store(&mut each, 0, clear);
+                for (at, clear) in each[..Base::LANES].iter().enumerate() {
+                    bits |= u32::from(*clear < 0.0) << (lane + at);
+                }
             }
         }
-        is_apart.iter().enumerate().fold(0, |all, (lane, is_apart)| all | ((1 - is_apart) << lane))
+        bits
     }
 }
 
@@ -135,7 +146,8 @@ mod tests {
     #[test]
     fn many_at_once_are_as_each_alone() {
         let mut all = Sweeps::EMPTY;
-        let things: Vec<_> = (0..LANES - 1).map(|i| thing(0.7 * i as f32, 2.0 - i as f32)).collect();
+        let things: Vec<_> =
+            (0..LANES - 1).map(|i| thing(0.7 * i as f32, 2.0 - i as f32)).collect();
         things.iter().enumerate().for_each(|(lane, thing)| all.set(lane, thing));
         let one = thing(2.5, 0.5);
         for gap in [0.0, 0.3, 1.0] {
