@@ -28,10 +28,7 @@ use slits::Slits;
 const THIN: f32 = 0.005;
 pub(super) const THICK: f32 = 0.5;
 
-/// What a collider touches gives way to other layers by this share of what it would.
-const BACKED: f32 = 0.02;
-
-/// How often that is done at most.
+/// How often those are looked at again at most that strayed.
 const LOOKS: u32 = 8;
 
 /// The layers of a cloth.
@@ -47,6 +44,8 @@ pub(crate) struct Layers {
     active: Vec<u32>,
     /// What the fence has in hand.
     frozen: Vec<u32>,
+    /// How many contacts each particle is from what bears the cloth.
+    levels: Vec<u8>,
     open: Vec<u32>,
     /// The piece that each site was part of before anything tore.
     pieces: Vec<u32>,
@@ -66,6 +65,7 @@ impl Layers {
             is_found: false,
             active: Vec::with_capacity(24 * count),
             frozen: Vec::with_capacity(capacity),
+            levels: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
             pieces,
             slits: Slits::new(capacity),
@@ -85,6 +85,7 @@ impl Layers {
             + self.slits.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<u32>() * words
+            + self.levels.capacity()
     }
 
     /// Finds what may meet in this substep, as particles are now.
@@ -179,9 +180,11 @@ pub(crate) fn pair(world: &mut World) {
         return;
     };
     spots::gather(&mut layers.motion.now, &world.particles.x, &world.particles.w);
+    let Layers { motion, levels, .. } = &mut *layers;
+    levels.clear();
+    levels.extend(motion.now.iter().map(|spot| if spot[3] > 0.0 { push::FREE } else { 0 }));
     for touch in &world.scratch.contacts.touches {
-        layers.motion.now[touch.particle as usize][3] =
-            world.particles.w[touch.particle as usize] * BACKED;
+        levels[touch.particle as usize] = 0;
     }
     layers.find(world);
     world.layers = Some(layers);
@@ -193,9 +196,9 @@ pub(crate) fn solve(world: &mut World) {
     let Some(layers) = &mut world.layers else {
         return;
     };
-    let Layers { contacts, active, motion, .. } = &mut **layers;
+    let Layers { contacts, active, levels, motion, .. } = &mut **layers;
     let Motion { start, now, .. } = motion;
-    push::solve(contacts, active, start, now, friction);
+    push::solve(contacts, active, levels, start, now, friction);
     push::spread(contacts, active, now, &mut world.scratch.predicted, h);
     spots::scatter(now, &mut world.particles.x);
 }

@@ -9,6 +9,12 @@ use glam::Vec3;
 /// How often contacts are gone over in a substep, to and fro in turn.
 const SWEEPS: usize = 6;
 
+/// How much of its inverse mass counts of what touches a collider, of what lies on that, and so on.
+const LEVELS: [f32; 4] = [0.02, 0.06, 0.18, 0.5];
+
+/// The level of what nothing bears.
+pub(super) const FREE: u8 = u8::MAX;
+
 /// What is farther apart than this, in gaps, does not push: of vertices and triangles, and of edges, which have
 /// little to do where surfaces lie on each other.
 const NEAR: [f32; 2] = [1.25, 1.02];
@@ -32,6 +38,7 @@ fn press(x: &mut [Spot], contact: &Contact, by: Vec3) {
 pub(super) fn solve(
     contacts: &mut [Contact],
     active: &mut Vec<u32>,
+    levels: &mut [u8],
     start: &[Spot],
     x: &mut [Spot],
     friction: f32,
@@ -42,11 +49,11 @@ pub(super) fn solve(
         contact.sticks = false;
         let near = contact.gap * NEAR[contact.first as usize - 1];
         if along(places(x, contact.ids), contact) < near {
-            contact.weigh(x);
             contact.aim = min(along(places(start, contact.ids), contact), contact.gap);
             active.push(at as u32);
         }
     }
+    bear(contacts, active, x, levels);
     for sweep in 0..SWEEPS {
         if sweep % 2 == 0 {
             active.iter().for_each(|at| part(&mut contacts[*at as usize], x));
@@ -55,6 +62,35 @@ pub(super) fn solve(
         }
     }
     active.iter().for_each(|at| rub(&mut contacts[*at as usize], start, x, friction));
+}
+
+/// What lies on something that bears it gives way less than what lies on top of that, so that layers find their
+/// places from below up; `levels` says how many contacts each is from what bears it all.
+fn bear(contacts: &mut [Contact], active: &mut [u32], x: &mut [Spot], levels: &mut [u8]) {
+    for pass in 0..LEVELS.len() {
+        let mut raise = |at: &u32| {
+            let ids = contacts[*at as usize].ids;
+            let least = ids.iter().map(|id| levels[*id as usize]).min().unwrap_or(FREE);
+            let next = least.saturating_add(1);
+            ids.iter().for_each(|id| levels[*id as usize] = levels[*id as usize].min(next));
+        };
+        if pass % 2 == 0 {
+            active.iter().for_each(&mut raise);
+        } else {
+            active.iter().rev().for_each(&mut raise);
+        }
+    }
+    for (spot, level) in x.iter_mut().zip(&*levels) {
+        if let Some(scale) = LEVELS.get(*level as usize) {
+            spot[3] *= scale;
+        }
+    }
+    let level = |at: &u32| {
+        let ids = contacts[*at as usize].ids;
+        ids.iter().map(|id| levels[*id as usize]).min().unwrap_or(FREE)
+    };
+    active.sort_by_key(level);
+    active.iter().for_each(|at| contacts[*at as usize].weigh(x));
 }
 
 #[inline(always)]
