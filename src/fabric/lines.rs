@@ -6,9 +6,8 @@
 use crate::fabric::abreast::{Abreast, Member};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::LANES;
-use crate::math::sort::sort_by;
+use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
-use core::cmp::Reverse;
 use glam::Vec3;
 
 /// Links continue each other up to a turn of which this is the cosine.
@@ -47,8 +46,12 @@ impl Lines {
                 lines.push(vec![(link, false)]);
             }
         }
-        // Those of a length go together, in the order of their first links.
-        lines.sort_by_key(|line| Reverse(line.len()));
+        // Those of a length go together, the longest first, in the order in which they were found.
+        let number = |(at, line): (usize, &Line)| (!(line.len() as u32), at as u32);
+        let mut order: Vec<(u32, u32)> = lines.iter().enumerate().map(number).collect();
+        sort(&mut order);
+        let taken = order.iter().map(|(_, at)| core::mem::take(&mut lines[*at as usize]));
+        let lines: Vec<Line> = taken.collect();
         let blocks = arrange(links, &lines, rest.len());
         Self {
             abreast: Abreast::new(links, &blocks, breaks),
