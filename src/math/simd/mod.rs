@@ -335,6 +335,9 @@ macro_rules! leveled {
 }
 pub(crate) use leveled;
 
+/// The most lanes that any vectors have.
+pub(crate) const MOST_LANES: usize = 16;
+
 /// Lanes of a chunk.
 pub(crate) const LANES: usize = 8;
 
