@@ -6,9 +6,10 @@
 use crate::fabric::abreast::{Abreast, Member};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::LANES;
-use crate::math::sort::sort_by;
+use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
 use core::cmp::Reverse;
+use core::mem::take;
 use glam::Vec3;
 
 /// Links continue each other up to a turn of which this is the cosine.
@@ -48,7 +49,10 @@ impl Lines {
             }
         }
         // Those of a length go together, in the order of their first links.
-        lines.sort_by_key(|line| Reverse(line.len()));
+        let mut order: Vec<_> =
+            lines.iter().enumerate().map(|(at, line)| (Reverse(line.len()), at)).collect();
+        sort(&mut order);
+        let lines: Vec<Line> = order.iter().map(|(_, at)| take(&mut lines[*at])).collect();
         let blocks = arrange(links, &lines, rest.len());
         Self {
             abreast: Abreast::new(links, &blocks, breaks),

@@ -88,6 +88,7 @@ impl<'a> Given<'a> {
     }
 
     /// Takes over what is torn of a row.
+    #[inline(never)]
     fn tear(&mut self, row: Row<'_>) {
         let own = row.number * row.across()..(row.number + 1) * row.across();
         let (triangles, _) = row.cells.torn_triangles(row.number);
@@ -175,11 +176,8 @@ pub(crate) fn sum<S: Simd, G: Give>(
     let (upper, lower) = room.split_at_mut(size);
     let (mut above, mut below) =
         (&mut Given::new(upper, length), &mut Given::new(&mut lower[..size], length));
-    let rows = band.first..band.end.min(cells.rows);
-    if let Some(number) = rows.start.checked_sub(1) {
-        fill(s, surface, Row { cells, number }, give, above, out);
-    }
-    for number in rows {
+    // Particles take from the row of cells above theirs too, so that one comes first.
+    for number in band.first.saturating_sub(1)..band.end.min(cells.rows) {
         let row = Row { cells, number };
         if number + 1 < cells.rows {
             fill(s, surface, row, give, below, out);
@@ -187,7 +185,8 @@ pub(crate) fn sum<S: Simd, G: Give>(
             below.clear();
         }
         let seen = [above.seen(), below.seen()];
-        for start in (0..columns).step_by(S::LANES) {
+        let count = if number < band.first { 0 } else { columns };
+        for start in (0..count).step_by(S::LANES) {
             // The last chunk reaches back over particles that are done, and gives them the same.
             let first = start.min(columns - S::LANES);
             let at = (number - band.first) * columns + first;
@@ -364,6 +363,7 @@ fn add<S: Simd, const TORN: bool>(
 }
 
 /// One particle takes what is its own of the cells around, wherever in them it is.
+#[inline(never)]
 fn take_apart<G: Give>(
     surface: Surface<'_>,
     row: Row<'_>,

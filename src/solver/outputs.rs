@@ -90,6 +90,8 @@ fn normalize_lanes([x, y, z]: [&mut [f32]; 3]) {
 struct Doubled;
 
 impl Give for Doubled {
+    const FEELS_AIR: bool = false;
+
     #[inline(always)]
     fn give<S: Simd>(self, _: S, [a, b, c]: [V<S>; 3], _: [V<S>; 3], _: S::F) -> V<S> {
         let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
