@@ -19,11 +19,23 @@ pub(crate) trait Give: Copy {
     /// Whether it depends on the air.
     const FEELS_AIR: bool = true;
 
+    /// Whether a corner takes its part of the area at rest of what is given, rather than all of it.
+    const BY_AREA: bool;
+
     /// From its corners' positions and the air's velocities against them, and its area at rest.
     fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S>;
 
     /// A corner's part of it, where so much of the area at rest is the corner's.
-    fn part(self, area: f32) -> f32;
+    #[inline(always)]
+    fn part(area: f32) -> f32 {
+        part(area, Self::BY_AREA)
+    }
+}
+
+/// See `Give::part`.
+#[inline(always)]
+pub(crate) fn part(area: f32, by_area: bool) -> f32 {
+    if by_area { area } else { 1.0 }
 }
 
 /// What is summed over.
@@ -117,21 +129,21 @@ fn add_triangles<S: Simd, G: Give>(
     let mut rest_areas = [0.0; LANES];
     rest_areas.iter_mut().zip(areas).for_each(|(rest, [a, b, c])| *rest = a + b + c);
     let given = given_by(s, surface, corners, &rest_areas, give);
-    add_apart(&given, corners, areas, give, out);
+    add_apart(&given, corners, areas, G::BY_AREA, out);
 }
 
 /// Adds what up to eight triangles give to their corners, one by one.
 #[inline(never)]
-fn add_apart<G: Give>(
+fn add_apart(
     given: &[Lanes; 3],
     corners: &[[u32; 3]],
     areas: &[[f32; 3]],
-    give: G,
+    by_area: bool,
     out: &mut [&mut [f32]; 3],
 ) {
     for (lane, (corners, areas)) in corners.iter().zip(areas).enumerate() {
         for (v, area) in corners.iter().zip(areas) {
-            let part = give.part(*area);
+            let part = part(*area, by_area);
             for axis in 0..3 {
                 out[axis][*v as usize] += given[axis][lane % LANES] * part;
             }
