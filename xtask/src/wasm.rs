@@ -12,7 +12,7 @@ pub const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Four lanes at a time; every current browser and node has them. LLVM's reduction of loop strength
 /// is off: what it makes of addresses cannot be folded into loads and stores of wasm. What is called from several
-/// places is woven into fewer of them, see `c::FLAGS`.
+/// places is woven into fewer of them, as `c` has it.
 pub const FLAGS: &str =
     "-C target-feature=+simd128 -C llvm-args=--disable-lsr -C llvm-args=-inline-threshold=50";
 
