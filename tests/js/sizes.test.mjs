@@ -10,10 +10,10 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** What parts of the package weigh with gzip at most [B]. */
-const MOST = { "raw_bg.wasm": 0, "plain_bg.wasm": 0, "code.js": 0 };
+const MOST = { "raw_bg.wasm": 351_000, "plain_bg.wasm": 320_000, "code.js": 392_000 };
 
 /** The same of the scripts that every page loads. */
-const MOST_SCRIPTS = 0;
+const MOST_SCRIPTS = 14_600;
 
 /** Scripts that only some pages load. */
 const EXTRA = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers)\.js$/;
