@@ -39,7 +39,7 @@ fn sort_parts<T>(mut list: &mut [T], is_less: &mut impl FnMut(&T, &T) -> bool, m
         let count = list.len();
         let mut any = || {
             dice = u32::wrapping_add(u32::wrapping_mul(dice, 1_664_525), 1_013_904_223);
-            (u64::from(dice) * count as u64 >> 32) as usize
+            ((u64::from(dice) * count as u64) >> 32) as usize
         };
         let [mut a, mut b, c] = [any(), any(), any()];
         if is_less(&list[b], &list[a]) {
