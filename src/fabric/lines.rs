@@ -8,6 +8,7 @@ use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::LANES;
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
+use core::mem::take;
 use glam::Vec3;
 
 /// Links continue each other up to a turn of which this is the cosine.
@@ -47,11 +48,10 @@ impl Lines {
             }
         }
         // Those of a length go together, the longest first, in the order in which they were found.
-        let number = |(at, line): (usize, &Line)| (!(line.len() as u32), at as u32);
-        let mut order: Vec<(u32, u32)> = lines.iter().enumerate().map(number).collect();
+        let mut order: Vec<[u32; 2]> =
+            lines.iter().zip(0..).map(|(line, at)| [!(line.len() as u32), at]).collect();
         sort(&mut order);
-        let taken = order.iter().map(|(_, at)| core::mem::take(&mut lines[*at as usize]));
-        let lines: Vec<Line> = taken.collect();
+        let lines: Vec<Line> = order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
         let blocks = arrange(links, &lines, rest.len());
         Self {
             abreast: Abreast::new(links, &blocks, breaks),

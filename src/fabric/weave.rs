@@ -194,15 +194,15 @@ impl Weave {
 
     fn from_drafts(mesh: &Mesh, drafts: Vec<Draft>, opening_capacity: usize) -> Self {
         // Those of a colour stay in the order in which they were drafted.
-        let number = |(at, draft): (usize, &Draft)| (draft.color, at as u32);
-        let mut order: Vec<(u32, u32)> = drafts.iter().enumerate().map(number).collect();
+        let mut order: Vec<[u32; 2]> =
+            drafts.iter().zip(0..).map(|(draft, at)| [draft.color, at]).collect();
         sort(&mut order);
         let mut links = Links::default();
         links.reserve(drafts.len());
         let mut batches: Vec<Batch> = Vec::new();
         let mut last_color = u32::MAX;
-        for (at, (_, number)) in order.iter().enumerate() {
-            let draft = &drafts[*number as usize];
+        for (at, [_, draft]) in order.into_iter().enumerate() {
+            let draft = &drafts[draft as usize];
             if draft.color != last_color {
                 batches.push(Batch { kind: draft.spec.kind, first: at, count: 0 });
                 last_color = draft.color;

@@ -16,7 +16,7 @@ mod spots;
 
 use super::World;
 use super::crowd;
-use crate::math::min;
+use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use contacts::{Contact, Span};
 use glam::Vec3;
@@ -196,7 +196,8 @@ impl World {
     fn layer_gap(&self) -> f32 {
         let own = self.settings.self_distance;
         let gap = if own > 0.0 { own } else { self.material.thickness };
-        gap.clamp(THIN * self.spacing, THICK * self.spacing)
+        // Not `clamp`: what that would say of limits that cannot be takes 18 kB of a page.
+        min(max(gap, THIN * self.spacing), THICK * self.spacing)
     }
 }
 
