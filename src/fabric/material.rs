@@ -104,7 +104,7 @@ impl Material {
     pub fn preset(preset: Preset) -> Self {
         let yield_angle = if preset == Preset::Paper { 0.8 } else { 0.0 };
         let (density, thickness, stretch, shear, bend, friction) = match preset {
-            Preset::Silk => (0.10, 0.15e-3, 2.0e3, 30.0, 5.0e-6, 0.25),
+            Preset::Silk => (0.10, 0.15e-3, 2.0e3, 30.0, 3.0e-6, 0.25),
             Preset::Cotton => (0.18, 0.35e-3, 2.0e3, 50.0, 2.5e-5, 0.4),
             Preset::Denim => (0.38, 0.8e-3, 2.0e3, 100.0, 1.0e-4, 0.5),
             Preset::Leather => (0.70, 1.0e-3, 3.0e4, 1.0e4, 2.5e-3, 0.6),
