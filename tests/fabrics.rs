@@ -215,9 +215,16 @@ fn strips_of_any_mesh_hang_as_their_material_says_whichever_way_they_are_cut() {
     for (gamma, all_cells) in [(8.0_f32, &[16, 24][..]), (30.0, &[16])] {
         let exact = elastica::tip(f64::from(gamma)).drop as f32;
         let mut lengths = Vec::new();
-        for pattern in PATTERNS {
-            for cells in all_cells.iter().copied() {
-                let (drop, reach) = hang(pattern, cells, gamma);
+        let hung = PATTERNS.map(|pattern| {
+            std::thread::spawn(move || {
+                all_cells
+                    .iter()
+                    .map(|cells| (*cells, hang(pattern, *cells, gamma)))
+                    .collect::<Vec<_>>()
+            })
+        });
+        for (pattern, hung) in PATTERNS.into_iter().zip(hung) {
+            for (cells, (drop, reach)) in hung.join().unwrap() {
                 let row = format!(
                     "B4 {pattern:?}, {cells} cells, gamma {gamma}, drop: {drop:.4}, reference {exact:.4}"
                 );
