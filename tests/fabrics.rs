@@ -44,6 +44,32 @@ fn a_soft_strip_stretches_by_its_weight() {
 }
 
 #[test]
+fn a_taut_strip_sags_by_what_it_stretches() {
+    for (stiffness, sag) in
+        [(10.0_f32, 0.1728), (30.0, 0.1178), (100.0, 0.0782), (300.0, 0.0540), (1000.0, 0.0361)]
+    {
+        let (columns, span) = (41_u32, 1.0);
+        let mut desc = bare_grid(columns, 4, span / (columns - 1) as f32, PinMode::None);
+        desc.down = Vec3::Z;
+        desc.settings.damping = 3.0;
+        desc.settings.substeps = 16;
+        desc.material.stretch_stiffness_weft = stiffness * desc.material.density * G * span;
+        desc.material.stretch_stiffness_warp = desc.material.stretch_stiffness_weft;
+        desc.material.shear_stiffness = 0.01;
+        desc.material.bend_stiffness = 0.0;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        for row in 0..4 {
+            cloth.pin(row * columns, None).unwrap();
+            cloth.pin((row + 1) * columns - 1, None).unwrap();
+        }
+        settle(&mut cloth, 1200);
+        let found = -cloth.positions()[(columns + columns / 2) as usize].y / span;
+        println!("S2 stiffness {stiffness} of its weight: sag {found:.5}, reference {sag}");
+        assert!((found / sag - 1.0).abs() < 0.02, "S2 {stiffness}: sag {found}, exact {sag}");
+    }
+}
+
+#[test]
 fn a_hanging_strip_leans_with_the_wind() {
     for (k, degrees) in [(0.1_f32, 5.68_f32), (0.5, 24.47), (1.0, 38.17), (2.0, 51.33)] {
         let mut desc = bare_grid(4, 24, 0.5 / 23.0, PinMode::TopEdge);
