@@ -48,7 +48,7 @@ pub(crate) struct Scratch {
     revision: u32,
     /// The steps that are enough as long as masses stay too; none if there are too many.
     descent: Option<Descent>,
-    /// What flaps resist when a particle alone is moved [kg].
+    /// What flaps resist at most when a particle alone is moved [kg].
     own: Vec<f32>,
     w: Vec<f32>,
     /// Mass and one over the diagonal; 0 for what is held.
@@ -91,11 +91,10 @@ impl Scratch {
     }
 
     /// No shape has more stiffness over mass: that of a flap is at most four times what the flap adds to
-    /// its particles' own, and coupling adds its share.
+    /// its particles' own.
     fn bound(&self) -> f32 {
         let each = self.own.iter().zip(&self.w).map(|(own, w)| own * w);
-        (4.0 + 4.0 * self.coupling)
-            * each.fold(0.0, |most, own| if own > most { own } else { most })
+        4.0 * each.fold(0.0, |most, own| if own > most { own } else { most })
     }
 }
 
@@ -185,12 +184,14 @@ impl Flaps<'_> {
             let [_, q, a, b] = hinge.weight;
             let weight = [q * root, a * root, b * root];
             let first = -((weight[0] + weight[1]) + weight[2]);
+            // What couples it adds at most so much to what it resists.
+            let [p, q, a, b] = row.by.map(f32::abs);
+            let coupling = (p + q) + (a + b);
             for (vertex, c) in hinge.at.iter().zip([first, weight[0], weight[1], weight[2]]) {
-                room.own[*vertex as usize] += c * c;
+                room.own[*vertex as usize] += c * c * (1.0 + coupling);
             }
             room.flaps.push(Flap { at: hinge.at, weight, root });
-            let [p, q, a, b] = row.by.map(f32::abs);
-            room.coupling = max(room.coupling, (p + q) + (a + b));
+            room.coupling = max(room.coupling, coupling);
         }
     }
 
