@@ -181,6 +181,7 @@ fn a_hanging_strip_hardly_stretches() {
             let length = -cloth.positions()[4 * (rows as usize - 1)].y;
             // Without tethers and lines what sweeps leave stays; nothing else bears the load along threads.
             let most = if tethers { 1.0e-3 } else { 0.06 };
+            println!("S5 {rows} rows, tethers {tethers}: {length:.5} m long, reference 1");
             assert!((length - 1.0).abs() < most, "{rows} rows, tethers {tethers}: {length} m");
         }
     }
@@ -188,7 +189,9 @@ fn a_hanging_strip_hardly_stretches() {
 
 #[test]
 fn a_slack_strip_hangs_in_a_catenary() {
-    for (ratio, sag) in [(1.2, 0.29234), (1.5, 0.50263), (2.0, 0.79639)] {
+    for (ratio, sag) in
+        [(1.05, 0.13930), (1.1, 0.20030), (1.2, 0.29234), (1.5, 0.50263), (2.0, 0.79639)]
+    {
         let (columns, span) = (41_u32, 1.0);
         let spacing = ratio * span / (columns - 1) as f32;
         let mut desc = bare_grid(columns, 3, spacing, PinMode::None);
@@ -214,6 +217,7 @@ fn a_slack_strip_hangs_in_a_catenary() {
         let row: Vec<Vec3> = cloth.positions()[columns as usize..2 * columns as usize].to_vec();
         let lowest = row.iter().map(|x| x.y).fold(0.0, f32::min);
         let found = (row[0].y - lowest) / span;
+        println!("S1 length {ratio}: sag {found:.5}, reference {sag}");
         assert!((found - sag).abs() < 0.01, "length {ratio}: sag {found}, exact {sag}");
     }
 }
@@ -229,6 +233,7 @@ fn a_sheet_falling_flat_reaches_its_terminal_speed() {
         cloth.step(180);
         let exact = (2.0 * density * G / (1.2 * drag)).sqrt();
         let speed = -cloth.velocity(66).unwrap().y;
+        println!("A3 {density} kg/m², drag {drag}: {speed:.4} m/s, reference {exact:.4}");
         assert!((speed / exact - 1.0).abs() < 0.02, "{density} kg/m²: {speed} m/s, exact {exact}");
     }
 }
@@ -255,6 +260,10 @@ fn the_wind_pushes_by_the_square_of_its_normal_speed() {
         let exact = 0.5 * 1.2 * (speed * degrees.to_radians().sin()).powi(2) / density;
         for particles in [24, 40, 56] {
             let found = push(speed, degrees, particles);
+            println!(
+                "A1 {speed} m/s at {degrees}°, {particles} particles: {:.6} m/s², reference {exact:.6}",
+                found.z
+            );
             assert!((found.z / exact - 1.0).abs() < 0.01, "{speed} m/s at {degrees}°: {found}");
             assert!(found.x.abs() < 0.01 * exact, "and nothing along the sheet: {found}");
         }

@@ -51,8 +51,9 @@ fn fine() -> Settings {
     Settings { damping: 3.0, substeps: 32, ..Settings::default() }
 }
 
-/// Rings of particles in a disc: one of them is where it is held.
-const RINGS: u32 = 20;
+/// Rings of particles in a disc, so that edges are well below half of the shortest bending length: 5.4 mm. With fewer,
+/// of 7.5 mm, folds of silk find no room to bend both ways, and a disc of it shows up to 13 points more.
+const RINGS: u32 = 28;
 
 /// What a fabric shows: drape coefficient [%] and folds.
 fn shown(material: &Material, turn: f32) -> (f32, usize) {
@@ -104,8 +105,7 @@ fn a_disc_drapes_by_its_bending_length() {
 
 #[test]
 fn fabrics_drape_in_their_order() {
-    // Measured bands, D2; silk's is missed by what silk is said to be: its bending length, 1.8 cm as a plate, is
-    // beyond 40 % on the reference curve as well.
+    // Measured bands, D2.
     let bands = [
         (Preset::Silk, [20.0, 40.0]),
         (Preset::Cotton, [60.0, 76.0]),
@@ -128,8 +128,7 @@ fn fabrics_drape_in_their_order() {
         );
         let is_near = (found - curve).abs() < 6.0 && (found - turned).abs() < 3.0;
         let is_folded = (3..=10).contains(&folds) && folds.abs_diff(turned_folds) <= 2;
-        let is_inside = verdict == "inside" || preset == Preset::Silk;
-        if !(is_near && is_folded && is_inside && found > last + 5.0) {
+        if !(is_near && is_folded && verdict == "inside" && found > last + 5.0) {
             misses.push(format!(
                 "{preset:?}: {found} % in {folds} folds, {turned} % in {turned_folds}"
             ));

@@ -1,6 +1,7 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
 mod attachments;
+mod bytes;
 pub(crate) mod changes;
 mod colliders;
 mod crease;

@@ -4,6 +4,7 @@
 //! `Saved` holds in the postcard format.
 
 use super::Cloth;
+use super::bytes;
 use super::changes::History;
 use super::view::Outputs;
 use super::world::Origin;
@@ -122,7 +123,7 @@ impl Cloth {
         bytes.extend_from_slice(&FORMAT.to_le_bytes());
         bytes.extend_from_slice(&[0; 8]);
         // Writing to memory fails for no value that a cloth can hold.
-        bytes = postcard::to_extend(&saved, bytes).unwrap_or_default();
+        bytes = bytes::write(&saved, bytes).unwrap_or_default();
         let sum = checksum(&bytes[HEADER..]).to_le_bytes();
         bytes[HEADER - 8..HEADER].copy_from_slice(&sum);
         bytes
@@ -145,7 +146,7 @@ impl Cloth {
         if header[12..] != checksum(body).to_le_bytes() {
             return Err(bad("it was damaged"));
         }
-        let saved: Saved<'_> = postcard::from_bytes(body).map_err(|_| bad("it cannot be read"))?;
+        let saved: Saved<'_> = bytes::read(body).map_err(|_| bad("it cannot be read"))?;
         guarded(|| rebuild(saved))
     }
 }

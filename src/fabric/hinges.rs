@@ -9,12 +9,14 @@
 //! ```
 //! Bergou et al., "A quadratic bending model for inextensible surfaces", SGP 2006. How much energy that
 //! gives a sheet in the shape of a cylinder depends on how its edges lie, and is about three times
-//! what it should be; so a mesh measures at its own flaps what it gives, over all directions that the
-//! cylinder may have, and takes its hinges by so much less. Then a strip of it bends as the material says.
+//! what it should be. So the hinges of a triangle are taken together, see `facets`: then a strip of any mesh
+//! bends as the material says, whichever way it is cut. Hinges that a cut makes go by themselves: a mesh
+//! measures at its own flaps what they give a cylinder, over all its directions, and takes them by so much less.
 
+use crate::fabric::facets::{Facets, Shows};
 use crate::fabric::links::{LinkKind, Links, Support};
 use crate::math::sort::sort_by;
-use crate::mesh::{Corner, Mesh, after};
+use crate::mesh::{Corner, Mesh, after, triangle_of};
 use glam::Vec3;
 
 /// What a grid's triangles give a cylinder, over what they should: 3 along threads, 4½ halfway between.
@@ -29,7 +31,7 @@ pub(crate) struct Hinge {
     /// The ends of the edge, and what is across from it on either side.
     pub at: [u32; 4],
     pub weight: [f32; 4],
-    /// Energy over ½ D |C|² [1/m²].
+    /// Energy over ½ D |C|² of one that goes by itself [1/m²].
     pub shape: f32,
     /// What |C| is at rest, to the side that its normal is on [m].
     pub rest: f32,
@@ -46,8 +48,8 @@ impl Hinge {
     }
 
     /// A hinge between two triangles, from where its corners are at rest; none if one has no area. Also
-    /// what a cylinder gives it on average and should, each over ½ D κ².
-    fn flap(at: [u32; 4], [p, q, a, b]: [Vec3; 4]) -> Option<(Self, [f32; 2])> {
+    /// what a cylinder gives it on average and should, each over ½ D κ², and what it shows of a curvature.
+    fn flap(at: [u32; 4], [p, q, a, b]: [Vec3; 4]) -> Option<(Self, [f32; 2], Shows)> {
         let edge = q - p;
         let length = edge.length();
         let doubled = |c: Vec3| edge.cross(c - p).length();
@@ -80,7 +82,8 @@ impl Hinge {
         let mean = 0.25 * (0.25 * round * round + 0.125 * across * across + 0.5 * twist * twist);
         let width = (area_a + area_b) / (3.0 * length);
         let hinge = Self { at, weight, shape, rest, length, width };
-        Some((hinge, [shape * mean, area / 3.0]))
+        let shows = [0.25 * (round + across), 0.25 * (round - across), twist];
+        Some((hinge, [shape * mean, area / 3.0], shows))
     }
 }
 
@@ -100,6 +103,8 @@ pub(crate) struct Hinges {
     pub all: Vec<Hinge>,
     /// The bend link of each.
     pub links: Vec<u32>,
+    /// How they go together.
+    pub facets: Facets,
     /// Whether any is bent at rest.
     pub are_bent: bool,
     /// How often any followed its link, or lost it.
@@ -117,6 +122,7 @@ impl Hinges {
         Self {
             all: Vec::new(),
             links: Vec::new(),
+            facets: Facets::default(),
             are_bent: false,
             revision: 0,
             scale: 1.0 / OF_GRIDS,
@@ -134,9 +140,11 @@ impl Hinges {
         let mut found = Vec::new();
         for link in (first..links.len()).filter(is_bend) {
             let Some(corners) = corners(links, link) else { continue };
-            if let Some((hinge, [gives, should])) = between(mesh, rest, corners) {
+            if let Some((hinge, [gives, should], shows)) = between(mesh, rest, corners) {
                 (given, due) = (given + f64::from(gives), due + f64::from(should));
-                found.push((link as u32, hinge));
+                let [edge, _, _, beyond] = corners;
+                let triangles = [triangle_of(edge), triangle_of(beyond)].map(|at| at as u32);
+                found.push((link as u32, hinge, triangles, shows));
             }
         }
         let scale = if given > 0.0 { (due / given) as f32 } else { 1.0 };
@@ -145,14 +153,20 @@ impl Hinges {
         sort_by(&mut order, |p, q| (color[*p], p).cmp(&(color[*q], q)));
         let mut hinge_of = vec![u32::MAX; links.len() - first];
         let (mut all, mut of) = (Vec::new(), Vec::new());
+        let (mut triangles, mut shows) = (Vec::new(), Vec::new());
         for at in order {
-            let (link, hinge) = found[at];
+            let (link, hinge, between, shown) = found[at];
             hinge_of[link as usize - first] = all.len() as u32;
             all.push(Hinge { shape: hinge.shape * scale, ..hinge });
             of.push(link);
+            triangles.push(between);
+            shows.push(shown);
         }
+        let place = |vertex: u32| rest[mesh.source[vertex as usize] as usize];
+        let corners = |triangle: u32| mesh.triangles[triangle as usize].map(place);
+        let facets = Facets::find(&all, &triangles, &shows, corners, place);
         let are_bent = all.iter().any(|hinge| hinge.rest != 0.0);
-        Self { all, links: of, are_bent, revision: 0, scale, first, hinge_of }
+        Self { all, links: of, facets, are_bent, revision: 0, scale, first, hinge_of }
     }
 
     /// Brings the hinge of a link in line with the mesh.
@@ -167,7 +181,7 @@ impl Hinges {
 
     /// The hinge of a link that came later.
     pub fn late(&self, mesh: &Mesh, links: &Links, link: usize, rest: &[Vec3]) -> Option<Hinge> {
-        let (hinge, _) = between(mesh, rest, corners(links, link)?)?;
+        let (hinge, ..) = between(mesh, rest, corners(links, link)?)?;
         Some(Hinge { shape: hinge.shape * self.scale, ..hinge })
     }
 
@@ -175,6 +189,7 @@ impl Hinges {
     pub fn bytes(&self) -> usize {
         self.all.len() * (size_of::<Hinge>() + size_of::<u32>())
             + self.hinge_of.len() * size_of::<u32>()
+            + self.facets.bytes()
     }
 }
 
@@ -187,16 +202,16 @@ fn corners(links: &Links, link: usize) -> Option<[Corner; 4]> {
     }
 }
 
-fn between(mesh: &Mesh, rest: &[Vec3], corners: [Corner; 4]) -> Option<(Hinge, [f32; 2])> {
+fn between(mesh: &Mesh, rest: &[Vec3], corners: [Corner; 4]) -> Option<(Hinge, [f32; 2], Shows)> {
     let at = corners.map(|corner| mesh.vertex(corner));
     Hinge::flap(at, at.map(|vertex| rest[mesh.source[vertex as usize] as usize]))
 }
 
 /// A colour for each hinge, the lowest that none of its particles has yet.
-fn colors(hinges: &[(u32, Hinge)], vertex_count: usize) -> Vec<u32> {
+fn colors(hinges: &[(u32, Hinge, [u32; 2], Shows)], vertex_count: usize) -> Vec<u32> {
     let mut taken = vec![0_u64; vertex_count];
     let mut colors = Vec::with_capacity(hinges.len());
-    for (_, hinge) in hinges {
+    for (_, hinge, ..) in hinges {
         let all = hinge.at.iter().fold(0, |all, vertex| all | taken[*vertex as usize]);
         let color = (!all).trailing_zeros().min(63);
         hinge.at.iter().for_each(|vertex| taken[*vertex as usize] |= 1 << color);

@@ -6,9 +6,9 @@
 use crate::fabric::abreast::{Abreast, Member};
 use crate::fabric::links::{LinkKind, Links};
 use crate::math::simd::LANES;
-use crate::math::sort::sort_by;
+use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
-use core::cmp::Reverse;
+use core::mem::take;
 use glam::Vec3;
 
 /// Links continue each other up to a turn of which this is the cosine.
@@ -47,8 +47,11 @@ impl Lines {
                 lines.push(vec![(link, false)]);
             }
         }
-        // Those of a length go together, in the order of their first links.
-        lines.sort_by_key(|line| Reverse(line.len()));
+        // Those of a length go together, the longest first, in the order in which they were found.
+        let mut order: Vec<[u32; 2]> =
+            lines.iter().zip(0..).map(|(line, at)| [!(line.len() as u32), at]).collect();
+        sort(&mut order);
+        let lines: Vec<Line> = order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
         let blocks = arrange(links, &lines, rest.len());
         Self {
             abreast: Abreast::new(links, &blocks, breaks),

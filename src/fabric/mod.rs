@@ -7,6 +7,7 @@ pub(crate) mod divide;
 pub(crate) mod elbows;
 pub(crate) mod ends;
 pub(crate) mod extra;
+pub(crate) mod facets;
 pub(crate) mod folds;
 pub(crate) mod hinges;
 pub(crate) mod lines;

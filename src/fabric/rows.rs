@@ -7,6 +7,7 @@
 use crate::fabric::links::{Batch, Links};
 use crate::fabric::loose::Loose;
 use crate::fabric::strays::Strays;
+use crate::math::simd::MOST_LANES;
 use core::ops::Range;
 
 /// How the particles of a row's links lie in memory. Link `k` of a row joins …
@@ -28,6 +29,8 @@ pub(crate) struct Row {
     pub b: u32,
     pub first: u32,
     pub count: u32,
+    /// The length at rest of all its links [m].
+    pub rest: f32,
     /// Whether a link has left it.
     pub is_torn: bool,
     /// From which link to before which the two ends weigh the same; see `solver::weights`.
@@ -52,18 +55,20 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Finds the rows in links that are sorted as a grid weaves them; the ends are those it wove.
-    pub fn find(a: &[u32], b: &[u32], batch_starts: &[usize]) -> Self {
+    /// Finds the rows in links that are sorted as a grid of so many columns weaves them; the ends are
+    /// those it wove.
+    pub fn find(columns: u32, [a, b]: [&[u32]; 2], rest: &[f32], batch_starts: &[usize]) -> Self {
         let mut rows: Vec<Row> = Vec::new();
         let mut row_of = Vec::with_capacity(a.len());
         for link in 0..a.len() {
             let goes_on = rows.last_mut().is_some_and(|row| {
-                let fits = !batch_starts.contains(&link) && row.take(a[link], b[link]);
+                let may_go_on = rest[link] == row.rest && !row.is_full(columns);
+                let fits = may_go_on && !batch_starts.contains(&link) && row.take(a[link], b[link]);
                 row.count += u32::from(fits);
                 fits
             });
             if !goes_on {
-                rows.push(Row::starting(link as u32, a[link], b[link]));
+                rows.push(Row::starting(link as u32, (a[link], b[link]), rest[link]));
             }
             row_of.push(rows.len() as u32 - 1);
         }
@@ -140,13 +145,20 @@ impl Rows {
 }
 
 impl Row {
-    fn starting(first: u32, a: u32, b: u32) -> Self {
+    fn starting(first: u32, (a, b): (u32, u32), rest: f32) -> Self {
         let pattern = match b - a {
             1 => Pattern::Pairs,
             2 => Pattern::Quads,
             _ => Pattern::Straight,
         };
-        Self { pattern, a, b, first, count: 1, is_torn: false, even: [first; 2], alike: 0 }
+        Self { pattern, a, b, first, count: 1, rest, is_torn: false, even: [first; 2], alike: 0 }
+    }
+
+    /// Whether it has all links of one row of the grid and they fill chunks: those of the next row would
+    /// only bring what is uneven, at borders, between what is even.
+    fn is_full(&self, columns: u32) -> bool {
+        let is_whole = self.pattern != Pattern::Straight && 2 * self.count == columns;
+        is_whole && self.count.is_multiple_of(MOST_LANES as u32)
     }
 
     /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper
@@ -161,6 +173,7 @@ impl Row {
         next.alike > 0
             && next.pattern == self.pattern
             && next.count == self.count
+            && next.rest == self.rest
             && next.first == self.first + self.count
             && next.a > self.a
             && next.b - next.a == self.b - self.a
@@ -208,7 +221,7 @@ mod tests {
     fn four_rows() -> Rows {
         let a: Vec<u32> = (0..4).flat_map(|row| (0..5).map(move |k| 10 * row + k)).collect();
         let b: Vec<u32> = a.iter().map(|a| a + 5).collect();
-        let mut rows = Rows::find(&a, &b, &[0]);
+        let mut rows = Rows::find(5, [&a, &b], &[0.1; 20], &[0]);
         for row in &mut rows.rows {
             row.even = [row.first, row.first + row.count];
         }

@@ -134,7 +134,8 @@ impl Weave {
         }
         let mut weave = Self::from_drafts(mesh, drafts, opening_capacity);
         let starts: Vec<usize> = weave.batches.iter().map(|batch| batch.first).collect();
-        let mut rows = Rows::find(&weave.links.a, &weave.links.b, &starts);
+        let mut rows =
+            Rows::find(columns, [&weave.links.a, &weave.links.b], &weave.links.rest, &starts);
         if opening_capacity > 0 {
             rows.reserve();
         }
@@ -191,13 +192,17 @@ impl Weave {
         Self::from_drafts(mesh, drafts, opening_capacity)
     }
 
-    fn from_drafts(mesh: &Mesh, mut drafts: Vec<Draft>, opening_capacity: usize) -> Self {
-        drafts.sort_by_key(|draft| draft.color);
+    fn from_drafts(mesh: &Mesh, drafts: Vec<Draft>, opening_capacity: usize) -> Self {
+        // Those of a colour stay in the order in which they were drafted.
+        let mut order: Vec<[u32; 2]> =
+            drafts.iter().zip(0..).map(|(draft, at)| [draft.color, at]).collect();
+        sort(&mut order);
         let mut links = Links::default();
         links.reserve(drafts.len());
         let mut batches: Vec<Batch> = Vec::new();
         let mut last_color = u32::MAX;
-        for (at, draft) in drafts.iter().enumerate() {
+        for (at, [_, draft]) in order.into_iter().enumerate() {
+            let draft = &drafts[draft as usize];
             if draft.color != last_color {
                 batches.push(Batch { kind: draft.spec.kind, first: at, count: 0 });
                 last_color = draft.color;

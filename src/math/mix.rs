@@ -20,10 +20,12 @@ impl Mixer {
         self.word(value.to_bits());
     }
 
+    #[inline(never)]
     pub fn floats(&mut self, values: &[f32]) {
         values.iter().for_each(|v| self.float(*v));
     }
 
+    #[inline(never)]
     pub fn words(&mut self, values: &[u32]) {
         values.iter().for_each(|v| self.word(*v));
     }

@@ -6,12 +6,16 @@
     allow(dead_code)
 )]
 
-use super::chunk::Chunk;
-use super::links::BOUND;
+use super::chunk::{Chunk, Terms};
+use super::links::{BOUND, RIGID};
 use super::places::{Lists, Spot, in_chunks_of};
-use super::rows::{solve_end, solve_run};
+use super::rows::{STRAIGHT, solve_end};
 use crate::fabric::rows::Row;
-use crate::math::simd::Simd;
+use crate::math::simd::{MOST_LANES, Simd};
+use core::ops::Range;
+
+/// Links that go together, about: the positions at their ends fit into the nearest memory several times.
+const BLOCK: usize = 1024;
 
 /// Rows that differ in nothing but their places, which are as far from each other.
 pub(crate) struct Alike {
@@ -68,49 +72,142 @@ impl Alike {
         &self,
         s: S,
         lists: &Lists,
-        scale: f32,
+        terms: Terms,
     ) {
         let left = self.count % S::LANES;
         let whole = self.count - left;
-        // What weighs the same at both ends, as nearly all does, has less to compute.
         let chunks = whole / S::LANES;
+        // What weighs the same at both ends, as nearly all does, has less to compute.
         let [from, to] = self.even;
-        let from = if LAW == BOUND { 0 } else { from.div_ceil(S::LANES).min(chunks) };
-        let runs = [from, (to / S::LANES).clamp(from, chunks), chunks];
-        let is_end_even = LAW != BOUND && self.even[0] <= whole && self.even[1] >= self.count;
+        let from = if LAW == BOUND { chunks } else { from.div_ceil(S::LANES).min(chunks) };
+        let to = (to / S::LANES).clamp(from, chunks);
+        // Chunks of a kind go together, in so few rows that these are still near when the others come.
+        let block = (BLOCK / self.count.max(1)).max(1);
         // SAFETY: the first and the last row lie within the lists, and all others between them.
         unsafe {
-            for number in 0..self.rows {
-                let mut spot = self.row(number);
-                let [from, to, end] = runs.map(|chunks| spot.link + chunks * S::LANES);
-                solve_run::<S, LAW, PATTERN, false>(s, lists, &mut spot, from, scale);
-                if LAW != BOUND {
-                    solve_run::<S, LAW, PATTERN, true>(s, lists, &mut spot, to, scale);
+            for first in (0..self.rows).step_by(block) {
+                let rows = first..(first + block).min(self.rows);
+                for chunks in [0..from, to..chunks] {
+                    let part = (rows.clone(), chunks);
+                    self.solve_chunks::<S, LAW, PATTERN, false>(s, lists, part, terms);
                 }
-                solve_run::<S, LAW, PATTERN, false>(s, lists, &mut spot, end, scale);
+                if LAW != BOUND {
+                    let part = (rows, from..to);
+                    self.solve_chunks::<S, LAW, PATTERN, true>(s, lists, part, terms);
+                }
             }
             if left == 0 {
                 return;
             }
-            let end = |number: usize| self.row(number).after::<PATTERN>(whole);
-            // Chunks that reach over the ends of the last rows may reach over those of the lists.
-            let mut roomy = self.rows;
-            while roomy > 0 && !lists.have_room::<PATTERN>(end(roomy - 1), S::LANES) {
-                roomy -= 1;
+            // Two ends that fill half a chunk each are one, where all that is loaded for them are places.
+            let is_even = self.even[0] <= whole && self.even[1] >= self.count;
+            let mut rows = 0..self.rows;
+            if LAW == RIGID && PATTERN != STRAIGHT && is_even && 2 * left <= S::LANES {
+                let by_twos = rows.clone();
+                rows.start =
+                    self.solve_ends::<S, LAW, PATTERN, true>(s, lists, by_twos, left, terms);
             }
-            for number in 0..roomy {
-                let place = lists.place(end(number));
-                let chunk = if is_end_even {
-                    Chunk::of::<LAW, PATTERN, true>(s, place, scale)
-                } else {
-                    Chunk::of::<LAW, PATTERN, false>(s, place, scale)
-                };
-                chunk.only_first::<LAW, PATTERN>(s, place, left).store::<LAW, PATTERN>(s, place);
+            self.solve_ends::<S, LAW, PATTERN, false>(s, lists, rows, left, terms);
+        }
+    }
+
+    /// Solves some whole chunks of each of some rows.
+    ///
+    /// # Safety
+    /// There are such chunks and rows, all within the lists.
+    #[inline(always)]
+    unsafe fn solve_chunks<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
+        &self,
+        s: S,
+        lists: &Lists,
+        (rows, chunks): (Range<usize>, Range<usize>),
+        terms: Terms,
+    ) {
+        let count = chunks.len();
+        if count == 0 {
+            return;
+        }
+        let mut spot = self.row(rows.start).after::<PATTERN>(chunks.start * S::LANES);
+        // From behind the last of a row to the first of the next; of a row alone, wherever that is.
+        let done = Spot::default().after::<PATTERN>(count * S::LANES);
+        let step = self.step.before(done);
+        // Links are looked at before those that come before them move, see `Chunk`.
+        // SAFETY: the caller's promise.
+        unsafe {
+            let place = lists.place::<S, PATTERN>(spot);
+            let mut chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, terms);
+            let mut left = count;
+            for _ in 1..count * rows.len() {
+                // Found anew each time, as there are too few registers to keep where all lies.
+                let place = lists.place::<S, PATTERN>(spot);
+                spot = spot.after::<PATTERN>(S::LANES);
+                left -= 1;
+                if left == 0 {
+                    (left, spot) = (count, spot.behind(step));
+                }
+                let next = lists.place::<S, PATTERN>(spot);
+                let next = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, next, terms);
+                chunk.finish::<LAW, PATTERN>(s, place);
+                chunk = next;
             }
-            for number in roomy..self.rows {
+            chunk.finish::<LAW, PATTERN>(s, lists.place::<S, PATTERN>(spot));
+        }
+    }
+
+    /// Solves the last `left` links of some rows, fewer than a chunk; with `BY_TWOS` set, those of two
+    /// rows at a time, as far as there are two and room. Gives the first row that it left.
+    ///
+    /// # Safety
+    /// All rows lie within the lists; two ends of even links fit into a chunk, each in half of it, if they
+    /// are to go by twos.
+    #[inline(always)]
+    unsafe fn solve_ends<S: Simd, const LAW: u8, const PATTERN: u8, const BY_TWOS: bool>(
+        &self,
+        s: S,
+        lists: &Lists,
+        rows: Range<usize>,
+        left: usize,
+        terms: Terms,
+    ) -> usize {
+        let end = |number: usize| self.row(number).after::<PATTERN>(self.count - left);
+        // Chunks that reach over the ends of the last rows may reach over those of the lists.
+        let mut roomy = rows.end;
+        while roomy > rows.start && !lists.have_room::<PATTERN>(end(roomy - 1), S::LANES) {
+            roomy -= 1;
+        }
+        let (mut spot, mut step) = (end(rows.start), self.step);
+        let (mut keep, mut count) = ([0.0; MOST_LANES], roomy - rows.start);
+        keep[..left].fill(1.0);
+        if PATTERN != STRAIGHT {
+            spot.b = spot.a + S::LANES;
+        }
+        if BY_TWOS {
+            spot.b = end(rows.start + 1).a;
+            keep[S::LANES / 2..][..left].fill(1.0);
+            (step, count) = (step.behind(step), count / 2);
+        }
+        // SAFETY: the caller's promise, and there is room.
+        unsafe {
+            if count > 0 {
+                let keep = s.load(&keep, 0);
+                let mut chunk = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, lists.place_of(spot), terms);
+                for _ in 1..count {
+                    let place = lists.place_of(spot);
+                    spot = spot.behind(step);
+                    let next = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, lists.place_of(spot), terms);
+                    chunk.finish_only::<LAW, PATTERN>(s, place, keep);
+                    chunk = next;
+                }
+                chunk.finish_only::<LAW, PATTERN>(s, lists.place_of(spot), keep);
+            }
+            if BY_TWOS {
+                return rows.start + 2 * count;
+            }
+            for number in rows.start + count..rows.end {
                 let ends = [self.row(number), end(number)];
-                solve_end::<S, LAW, PATTERN, false>(s, lists, ends, self.count, scale);
+                solve_end::<S, LAW, PATTERN>(s, lists, ends, self.count, terms);
             }
+            rows.end
         }
     }
 }

@@ -14,16 +14,17 @@ use crate::fabric::folds::{Lengths, Line2};
 use crate::fabric::hinges::Hinge;
 use crate::fabric::links::LinkKind;
 use crate::fabric::plates::{Each, Plates};
-use crate::math::TINY;
 use crate::math::columns::Columns;
+use crate::math::{TINY, max, min};
 use glam::Vec3;
 
 /// Room to work in.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub plates: plates::Scratch,
-    /// The normals of a grid, current while folds are looked at.
+    /// The normals of a grid, current while folds are looked at, and the ways that its elements are bent.
     normal: Columns,
+    ways: Each<Columns>,
     flaps: flaps::Scratch,
 }
 
@@ -32,10 +33,12 @@ impl Scratch {
     pub fn new(world: &World, capacity: usize) -> Self {
         let is_grid = world.plates.is_some();
         let hinges = world.weave.hinges.all.len();
+        let grid = || Columns::filled(world.plates.as_ref().map_or(0, Plates::count));
         let plates = world.plates.as_ref().map(plates::Scratch::new);
         Self {
             plates: plates.unwrap_or_default(),
-            normal: Columns::filled(world.plates.as_ref().map_or(0, Plates::count)),
+            normal: grid(),
+            ways: [grid(), grid(), grid()],
             flaps: flaps::Scratch::new(hinges, if is_grid { 0 } else { capacity }),
         }
     }
@@ -98,8 +101,10 @@ fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
     let area = plates.spacing * plates.spacing;
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let rest = if world.folds.are_any {
-        find_normals(plates, &p.x, &mut scratch.bend.normal);
-        Some((&world.folds.offset, &scratch.bend.normal))
+        let (normal, ways) = (&mut scratch.bend.normal, &mut scratch.bend.ways);
+        find_normals(plates, &p.x, normal);
+        find_ways(plates, &world.folds.offset, &p.x, normal, ways);
+        Some((&world.folds.offset, &scratch.bend.ways))
     } else {
         None
     };
@@ -173,6 +178,48 @@ fn find_normals(plates: &Plates, x: &Columns, normal: &mut Columns) {
             let length = n.length();
             let n = if length > TINY { n * (1.0 / length) } else { Vec3::ZERO };
             normal.set(row * columns + column, n);
+        }
+    }
+}
+
+/// From this share of its curvature at rest on an element is bent the way that it is, …
+const IS_BENT: f32 = 0.25;
+/// … wholly so from so much more on.
+const BENDS_OVER: f32 = 0.5;
+
+/// The way that each element of a grid is bent if it is bent at rest: along the normal while it is about flat, along
+/// its own curvature when it is folded, whichever way that has turned. So a fold pushes along what it shows, and turns
+/// neither itself nor the sheet.
+fn find_ways(
+    plates: &Plates,
+    offset: &Each<Vec<f32>>,
+    x: &Columns,
+    normal: &Columns,
+    ways: &mut Each<Columns>,
+) {
+    let columns = plates.columns;
+    for (kind, (offset, ways)) in offset.iter().zip(ways).enumerate() {
+        for (at, rest) in offset.iter().enumerate() {
+            if *rest == 0.0 || plates.share[kind][at] == 0.0 {
+                continue;
+            }
+            let x = |at: usize| x.at(at);
+            let curve = match kind {
+                0 => x(at - 1) + x(at + 1) - x(at) * 2.0,
+                1 => x(at - columns) + x(at + columns) - x(at) * 2.0,
+                _ => (x(at) - x(at + 1)) - (x(at + columns) - x(at + columns + 1)),
+            };
+            let (n, over) = (normal.at(at), 1.0 / rest);
+            let folded = (curve.dot(n) * over - IS_BENT) / BENDS_OVER;
+            let share = max(min(folded, 1.0), 0.0);
+            let way = if share > 0.0 {
+                let own = curve * (if over > 0.0 { 1.0 } else { -1.0 } / curve.length());
+                let way = n + (own - n) * share;
+                way * (1.0 / max(way.length(), TINY))
+            } else {
+                n
+            };
+            ways.set(at, way);
         }
     }
 }

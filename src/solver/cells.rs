@@ -10,10 +10,10 @@
 //! What was split off a cell takes for itself. Where a cut divided a cell, particles look for what is
 //! theirs one by one.
 
-use super::surface::{Band, Give, Surface, V, given_by, rest_areas_of};
+use super::surface::{Band, Give, Surface, V, given_by, part, rest_areas_of};
 use crate::fabric::cells::Cells;
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Simd};
+use crate::math::simd::{LANES, Lanes, Simd};
 use crate::mesh::grid::falls;
 
 /// Grids with more particles across are summed up triangle by triangle.
@@ -52,6 +52,7 @@ struct Seen<'a> {
 
 impl<'a> Given<'a> {
     /// Nothing, in room that is clear: columns of such a length, with those for corners or without.
+    #[inline(never)]
     fn new(room: &'a mut [f32], length: usize) -> Self {
         let mut columns = room.chunks_exact_mut(length);
         let mut next = || columns.next().unwrap_or_default();
@@ -88,6 +89,7 @@ impl<'a> Given<'a> {
     }
 
     /// Takes over what is torn of a row.
+    #[inline(never)]
     fn tear(&mut self, row: Row<'_>) {
         let own = row.number * row.across()..(row.number + 1) * row.across();
         let (triangles, _) = row.cells.torn_triangles(row.number);
@@ -175,11 +177,8 @@ pub(crate) fn sum<S: Simd, G: Give>(
     let (upper, lower) = room.split_at_mut(size);
     let (mut above, mut below) =
         (&mut Given::new(upper, length), &mut Given::new(&mut lower[..size], length));
-    let rows = band.first..band.end.min(cells.rows);
-    if let Some(number) = rows.start.checked_sub(1) {
-        fill(s, surface, Row { cells, number }, give, above, out);
-    }
-    for number in rows {
+    // Particles take from the row of cells above theirs too, so that one comes first.
+    for number in band.first.saturating_sub(1)..band.end.min(cells.rows) {
         let row = Row { cells, number };
         if number + 1 < cells.rows {
             fill(s, surface, row, give, below, out);
@@ -187,17 +186,19 @@ pub(crate) fn sum<S: Simd, G: Give>(
             below.clear();
         }
         let seen = [above.seen(), below.seen()];
-        for start in (0..columns).step_by(S::LANES) {
+        let count = if number < band.first { 0 } else { columns };
+        for start in (0..count).step_by(S::LANES) {
             // The last chunk reaches back over particles that are done, and gives them the same.
             let first = start.min(columns - S::LANES);
             let at = (number - band.first) * columns + first;
             if !(above.is_torn_at(first) || below.is_torn_at(first)) {
-                take::<S, G, false>(s, row, first, give, &seen, at, out);
+                take::<S, G, false>(s, row, first, &seen, at, out);
             } else if !(above.is_divided || below.is_divided) {
-                take::<S, G, true>(s, row, first, give, &seen, at, out);
+                take::<S, G, true>(s, row, first, &seen, at, out);
             } else {
                 (0..S::LANES).for_each(|lane| {
-                    take_apart(surface, row, first + lane, give, [above, below], at + lane, out);
+                    let at = at + lane;
+                    take_apart(surface, row, first + lane, G::BY_AREA, [above, below], at, out);
                 });
             }
         }
@@ -299,17 +300,30 @@ fn fill_torn<S: Simd, G: Give>(
             rest_areas = rest_areas_of(surface, some);
         }
         let found = given_by(s, surface, corners, &rest_areas, give);
-        for (lane, (at, corners)) in some.iter().zip(corners).enumerate() {
-            let at = *at as usize;
-            let (cell, half) = row.place(at);
-            let areas =
-                if given.is_divided { surface.areas[at] } else { row.corner_areas(cell, half) };
-            for axis in 0..3 {
-                let found = found[axis][lane];
-                given.by[3 * half + axis][cell + 1] = found;
-                for corner in 0..3 {
-                    out[axis][corners[corner] as usize] += found * give.part(areas[corner]);
-                }
+        give_torn(surface, row, [some, corners.as_flattened()], &found, G::BY_AREA, given, out);
+    }
+}
+
+/// Hands out what up to eight torn triangles give.
+#[inline(never)]
+fn give_torn(
+    surface: Surface<'_>,
+    row: Row<'_>,
+    [triangles, corners]: [&[u32]; 2],
+    found: &[Lanes; 3],
+    by_area: bool,
+    given: &mut Given<'_>,
+    out: &mut [&mut [f32]; 3],
+) {
+    for (lane, (at, corners)) in triangles.iter().zip(corners.chunks_exact(3)).enumerate() {
+        let at = *at as usize;
+        let (cell, half) = row.place(at);
+        let areas = if given.is_divided { surface.areas[at] } else { row.corner_areas(cell, half) };
+        for axis in 0..3 {
+            let found = found[axis][lane];
+            given.by[3 * half + axis][cell + 1] = found;
+            for corner in 0..3 {
+                out[axis][corners[corner] as usize] += found * part(areas[corner], by_area);
             }
         }
     }
@@ -321,13 +335,12 @@ fn take<S: Simd, G: Give, const TORN: bool>(
     s: S,
     row: Row<'_>,
     first: usize,
-    give: G,
     seen: &[Seen<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
     let (area, zero) = (row.cells.quarter, s.splat(0.0));
-    let (quarter, half) = (s.splat(give.part(area)), s.splat(give.part(2.0 * area)));
+    let (quarter, half) = (s.splat(G::part(area)), s.splat(G::part(2.0 * area)));
     // Where the cell below falls, all diagonals around meet here.
     let meets = s.load(&BY_TURNS, usize::from(!falls(row.number as u32, first as u32)));
     let (shared, own) = (s.pick(meets, quarter, zero), s.pick(meets, quarter, half));
@@ -364,11 +377,12 @@ fn add<S: Simd, const TORN: bool>(
 }
 
 /// One particle takes what is its own of the cells around, wherever in them it is.
-fn take_apart<G: Give>(
+#[inline(never)]
+fn take_apart(
     surface: Surface<'_>,
     row: Row<'_>,
     column: usize,
-    give: G,
+    by_area: bool,
     [above, below]: [&Given<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
@@ -384,7 +398,7 @@ fn take_apart<G: Give>(
             for half in 0..2 {
                 let corners = surface.triangles[first + half].into_iter();
                 for (corner, area) in corners.zip(surface.areas[first + half]) {
-                    let part = give.part(area);
+                    let part = part(area, by_area);
                     for axis in 0..3 {
                         let given = given.by[3 * half + axis][cell + 1] * part;
                         sums[axis] += if corner == particle { given } else { 0.0 };

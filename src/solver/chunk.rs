@@ -10,25 +10,34 @@ use super::links::{BOUND, RIGID, SOFT, correct};
 use super::places::Place;
 use super::rows::STRAIGHT;
 use crate::fabric::rows::Pattern;
-use crate::math::simd::{Number, Simd};
+use crate::math::simd::{MOST_LANES, Number, Simd};
 
 const PAIRS: u8 = Pattern::Pairs as u8;
 
-/// The most lanes that there are.
-const MOST: usize = 16;
+/// What all links of a row have in common.
+#[derive(Clone, Copy)]
+pub(crate) struct Terms {
+    /// As `links::correct` has it.
+    pub scale: f32,
+    /// The length at rest of those that do not give way; others have what their substep gives them.
+    pub rest: f32,
+}
 
-/// Some links: where their ends are, lower and upper, how those are to move, and the links' multipliers; as
-/// dealt.
+/// Links that are about to be solved: what leads from their lower to their upper ends, the shares of it that these
+/// are to move by, and the links' multipliers then; as dealt.
+///
+/// Finding that out takes long, most of it spent waiting for a division, so kernels find out about the next links
+/// before they move the ends of these: where those are is read anew then, as there are too few registers to keep it.
 #[derive(Clone, Copy)]
 pub(crate) struct Chunk<F> {
-    ends: [[F; 3]; 2],
-    /// What is added to the lower ends, and taken from the upper ones.
-    moves: [[F; 3]; 2],
+    span: [F; 3],
+    /// Lower ends move along the span, upper ones against it.
+    shares: [F; 2],
     lambda: F,
 }
 
 impl<F: Number> Chunk<F> {
-    /// Solves links.
+    /// Looks at links.
     ///
     /// # Safety
     /// There are as many at that place, which nobody else writes to; so for all that follow.
@@ -36,12 +45,16 @@ impl<F: Number> Chunk<F> {
     pub unsafe fn of<const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
         s: impl Simd<F = F>,
         place: Place,
-        scale: f32,
+        Terms { scale, rest }: Terms,
     ) -> Self {
         let zero = s.splat(0.0);
         // SAFETY: the caller's promise.
         unsafe {
-            let rest = in_order::<_, PATTERN>(s, s.load_from(place.rest));
+            let rest = if LAW == RIGID {
+                s.splat(rest)
+            } else {
+                in_order::<_, PATTERN>(s, s.load_from(place.rest))
+            };
             let (mut compliance, mut lambda) = (zero, zero);
             if LAW == SOFT {
                 compliance = in_order::<_, PATTERN>(s, s.load_from(place.compliance));
@@ -66,87 +79,74 @@ impl<F: Number> Chunk<F> {
                     in_order::<_, PATTERN>(s, s.load_from(place.ends[1])),
                 ]
             };
-            let (dx, dy, dz) = (xb - xa, yb - ya, zb - za);
-            let ([to_a, to_b], lambda) =
-                correct::<LAW, _>(s, [dx, dy, dz], weights, rest, compliance, lambda, scale);
-            Self {
-                ends: [[xa, ya, za], [xb, yb, zb]],
-                moves: [[dx * to_a, dy * to_a, dz * to_a], [dx * to_b, dy * to_b, dz * to_b]],
-                lambda,
-            }
+            let span = [xb - xa, yb - ya, zb - za];
+            let (shares, lambda) =
+                correct::<LAW, _>(s, span, weights, rest, compliance, lambda, scale);
+            Self { span, shares, lambda }
         }
     }
 
-    /// Takes back what links did that are not in the row any more, and the first `done`.
+    /// Which links are still in the row, but for the first `done`.
     #[inline(always)]
-    pub unsafe fn only_in_row<const LAW: u8, const PATTERN: u8>(
+    pub unsafe fn in_row(s: impl Simd<F = F>, place: Place, done: usize) -> F {
+        // SAFETY: the caller's promise.
+        unsafe { s.pick(s.load(&COUNTS, MOST_LANES - done), s.load_from(place.mask), s.splat(0.0)) }
+    }
+
+    /// The first `count` links.
+    #[inline(always)]
+    pub fn first(s: impl Simd<F = F>, count: usize) -> F {
+        s.load(&COUNTS, 2 * MOST_LANES - count)
+    }
+
+    /// Moves the ends of all links.
+    #[inline(always)]
+    pub unsafe fn finish<const LAW: u8, const PATTERN: u8>(
         self,
         s: impl Simd<F = F>,
         place: Place,
-        done: usize,
-    ) -> Self {
+    ) {
         // SAFETY: the caller's promise.
-        unsafe {
-            let counts = s.load(&COUNTS, MOST - done);
-            let keep = s.pick(counts, s.load_from(place.mask), s.splat(0.0));
-            self.only::<LAW, PATTERN>(s, place, keep)
-        }
+        unsafe { self.store::<LAW, PATTERN, false>(s, place, self.lambda) }
     }
 
-    /// Takes back what all but the first `count` links did.
+    /// The same of those links alone that are to be kept, as they lie in memory; what is beyond is written anew as it was.
     #[inline(always)]
-    pub unsafe fn only_first<const LAW: u8, const PATTERN: u8>(
-        self,
-        s: impl Simd<F = F>,
-        place: Place,
-        count: usize,
-    ) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe { self.only::<LAW, PATTERN>(s, place, s.load(&COUNTS, 2 * MOST - count)) }
-    }
-
-    /// Takes back what links did that are not to be kept, as they lie in memory.
-    #[inline(always)]
-    unsafe fn only<const LAW: u8, const PATTERN: u8>(
+    pub unsafe fn finish_only<const LAW: u8, const PATTERN: u8>(
         self,
         s: impl Simd<F = F>,
         place: Place,
         keep: F,
-    ) -> Self {
+    ) {
         let keep = in_order::<_, PATTERN>(s, keep);
-        let mut lambda = self.lambda;
-        if LAW == SOFT {
-            // SAFETY: the caller's promise.
-            let old = unsafe { in_order::<_, PATTERN>(s, s.load_from(place.lambda)) };
-            lambda = s.pick(keep, lambda, old);
-        }
-        // What changes no number at all, not even a zero's sign, when it is added, and when it is taken.
-        let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
-        let [[ax, ay, az], [bx, by, bz]] = self.moves;
-        let added =
-            [s.pick(keep, ax, nothing), s.pick(keep, ay, nothing), s.pick(keep, az, nothing)];
-        let taken = [s.pick(keep, bx, zero), s.pick(keep, by, zero), s.pick(keep, bz, zero)];
-        Self { moves: [added, taken], lambda, ..self }
+        // SAFETY: the caller's promise.
+        unsafe { self.store::<LAW, PATTERN, true>(s, place, keep) }
     }
 
     #[inline(always)]
-    pub unsafe fn store<const LAW: u8, const PATTERN: u8>(self, s: impl Simd<F = F>, place: Place) {
+    unsafe fn store<const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+        self,
+        s: impl Simd<F = F>,
+        place: Place,
+        keep: F,
+    ) {
+        let Self { span: [dx, dy, dz], shares, lambda } = self;
         // SAFETY: the caller's promise.
         unsafe {
             if LAW == SOFT {
-                s.store_to(place.lambda, self.lambda_in_memory::<PATTERN>(s));
+                let lambda = if CHOOSY {
+                    let old = in_order::<_, PATTERN>(s, s.load_from(place.lambda));
+                    s.pick(keep, lambda, old)
+                } else {
+                    lambda
+                };
+                let lambda = if PATTERN == STRAIGHT { lambda } else { s.undealt(lambda) };
+                s.store_to(place.lambda, lambda);
             }
-            let [[xa, ya, za], [xb, yb, zb]] = self.ends;
-            let [[ax, ay, az], [bx, by, bz]] = self.moves;
-            store::<_, PATTERN>(s, place.x, [xa + ax, xb - bx]);
-            store::<_, PATTERN>(s, place.y, [ya + ay, yb - by]);
-            store::<_, PATTERN>(s, place.z, [za + az, zb - bz]);
+            push::<_, PATTERN, CHOOSY>(s, place.x, dx, shares, keep);
+            push::<_, PATTERN, CHOOSY>(s, place.y, dy, shares, keep);
+            push::<_, PATTERN, CHOOSY>(s, place.z, dz, shares, keep);
         }
-    }
-
-    #[inline(always)]
-    fn lambda_in_memory<const PATTERN: u8>(&self, s: impl Simd<F = F>) -> F {
-        if PATTERN == STRAIGHT { self.lambda } else { s.undealt(self.lambda) }
     }
 }
 
@@ -157,10 +157,10 @@ fn in_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
 }
 
 /// 0 as often as there may be lanes, then 1 as often, then 0 again.
-const COUNTS: [f32; 3 * MOST] = {
-    let mut counts = [0.0; 3 * MOST];
-    let mut at = MOST;
-    while at < 2 * MOST {
+const COUNTS: [f32; 3 * MOST_LANES] = {
+    let mut counts = [0.0; 3 * MOST_LANES];
+    let mut at = MOST_LANES;
+    while at < 2 * MOST_LANES {
         counts[at] = 1.0;
         at += 1;
     }
@@ -183,26 +183,39 @@ unsafe fn load<S: Simd, const PATTERN: u8>(s: S, [a, b]: [*const f32; 2]) -> (S:
         if PATTERN == STRAIGHT {
             return (s.load_from(a), s.load_from(b));
         }
-        let (low, high) = (s.load_from(a), s.load_from(a.add(S::LANES)));
+        let (low, high) = (s.load_from(a), s.load_from(b));
         if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
     }
 }
 
-/// Puts back what `load` read.
+/// Moves both ends of a chunk's links in one column: lower ones along a span by their share, upper ones against it.
 ///
 /// # Safety
 /// As for `Chunk::of`.
 #[inline(always)]
-unsafe fn store<S: Simd, const PATTERN: u8>(s: S, [to_a, to_b]: [*mut f32; 2], [a, b]: [S::F; 2]) {
+unsafe fn push<S: Simd, const PATTERN: u8, const CHOOSY: bool>(
+    s: S,
+    [a, b]: [*mut f32; 2],
+    span: S::F,
+    [to_a, to_b]: [S::F; 2],
+    keep: S::F,
+) {
+    // What changes no number at all, not even a zero's sign, when it is added, and when it is taken.
+    let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
+    let chosen = |v: S::F, nothing: S::F| if CHOOSY { s.pick(keep, v, nothing) } else { v };
     // SAFETY: the caller's promise.
     unsafe {
         if PATTERN == STRAIGHT {
-            s.store_to(to_a, a);
-            s.store_to(to_b, b);
+            let (added, taken) = (chosen(span * to_a, nothing), chosen(span * to_b, zero));
+            s.store_to(a, s.load_from(a) + added);
+            s.store_to(b, s.load_from(b) - taken);
             return;
         }
-        let (low, high) = if PATTERN == PAIRS { s.gather_up(a, b) } else { s.deal_twos(a, b) };
-        s.store_to(to_a, low);
-        s.store_to(to_a.add(S::LANES), high);
+        let against = to_b * s.splat(-1.0);
+        let (to_a, to_b) = (chosen(span * to_a, nothing), chosen(span * against, nothing));
+        let (low, high) =
+            if PATTERN == PAIRS { s.gather_up(to_a, to_b) } else { s.deal_twos(to_a, to_b) };
+        s.store_to(a, s.load_from(a) + low);
+        s.store_to(b, s.load_from(b) + high);
     }
 }

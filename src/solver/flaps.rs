@@ -10,8 +10,9 @@
 use super::descent::Descent;
 use super::hinges::Step;
 use super::spots::Spots;
+use crate::fabric::facets::Row;
 use crate::fabric::hinges::{Hinges, normal};
-use crate::math::TINY;
+use crate::math::{TINY, max};
 use glam::{Vec3, Vec4};
 
 /// The most steps of conjugate gradients that a round makes.
@@ -36,13 +37,18 @@ struct Flap {
 /// Room to work in: a number or a vector for each particle.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
-    /// As long as links and stiffness stay: those of `stiffness` and `revision`.
+    /// As long as links, stiffness and what is held stay: those of `stiffness` and `revision`, …
     flaps: Vec<Flap>,
+    /// … how they go together, and the most that coupling adds to what they resist.
+    rows: Vec<Row>,
+    coupling: f32,
+    /// The curvature of each, where they are coupled.
+    curve: Vec<Vec4>,
     stiffness: f32,
     revision: u32,
     /// The steps that are enough as long as masses stay too; none if there are too many.
     descent: Option<Descent>,
-    /// What flaps resist when a particle alone is moved [kg].
+    /// What flaps resist at most when a particle alone is moved [kg].
     own: Vec<f32>,
     w: Vec<f32>,
     /// Mass and one over the diagonal; 0 for what is held.
@@ -65,6 +71,9 @@ impl Scratch {
         let vectors = || Vec::with_capacity(capacity);
         Self {
             flaps: Vec::with_capacity(hinges),
+            rows: Vec::with_capacity(hinges),
+            coupling: 0.0,
+            curve: Vec::with_capacity(hinges),
             stiffness: 0.0,
             revision: 0,
             descent: None,
@@ -117,11 +126,18 @@ impl Flaps<'_> {
         if !self.is_first && (self.over_mass < TWICE || room.descent.is_some()) {
             return;
         }
-        let has_changed = self.take_up(room, count);
-        if self.seat(room, start, spots) || has_changed {
+        let is_new = self.make_room(room, count);
+        if self.seat(room, start, spots) || is_new {
+            self.take_up(room);
             room.descent = Descent::new(room.bound());
         }
-        add_pulls(&room.flaps, &room.x, &mut room.force);
+        add_pulls(
+            &room.flaps,
+            coupled(&room.rows, room.coupling),
+            &mut room.curve,
+            &room.x,
+            &mut room.force,
+        );
         self.add_rest(room, spots);
         match room.descent {
             Some(descent) => descend(room, &descent),
@@ -136,35 +152,47 @@ impl Flaps<'_> {
         }
     }
 
-    /// Whether links or stiffness have changed; then takes them up.
-    fn take_up(&self, room: &mut Scratch, count: usize) -> bool {
+    /// Room for so many particles; whether they, links or stiffness have changed.
+    fn make_room(&self, room: &mut Scratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
         let is_known = (room.revision, room.stiffness) == (revision, stiffness);
         if is_known && room.own.len() == count {
             return false;
         }
-        for numbers in [&mut room.w, &mut room.mass, &mut room.over] {
+        for numbers in [&mut room.w, &mut room.mass, &mut room.over, &mut room.own] {
             numbers.resize(count, 0.0);
         }
         let vectors = [&mut room.x, &mut room.given, &mut room.force];
         let more = [&mut room.change, &mut room.way, &mut room.pull];
         vectors.into_iter().chain(more).for_each(|vectors| vectors.resize(count, Vec4::ZERO));
+        room.curve.resize(self.hinges.all.len(), Vec4::ZERO);
         (room.revision, room.stiffness) = (revision, stiffness);
-        room.own.clear();
-        room.own.resize(count, 0.0);
+        true
+    }
+
+    /// Takes up links, stiffness and what is held.
+    fn take_up(&self, room: &mut Scratch) {
+        let Scratch { rows, w, .. } = room;
+        let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
+        let is_held = |vertex: u32| w[vertex as usize] == 0.0;
+        self.hinges.facets.couple(&self.hinges.all, holds, is_held, rows);
+        room.own.fill(0.0);
         room.flaps.clear();
-        for (hinge, link) in self.hinges.all.iter().zip(&self.hinges.links) {
-            let holds = self.active[*link as usize];
-            let root = if holds { (hinge.shape * stiffness).sqrt() } else { 0.0 };
+        room.coupling = 0.0;
+        for (hinge, row) in self.hinges.all.iter().zip(&room.rows) {
+            let root = (row.shape * self.step.stiffness).sqrt();
             let [_, q, a, b] = hinge.weight;
             let weight = [q * root, a * root, b * root];
             let first = -((weight[0] + weight[1]) + weight[2]);
+            // What couples it adds at most so much to what it resists.
+            let [p, q, a, b] = row.by.map(f32::abs);
+            let coupling = (p + q) + (a + b);
             for (vertex, c) in hinge.at.iter().zip([first, weight[0], weight[1], weight[2]]) {
-                room.own[*vertex as usize] += c * c;
+                room.own[*vertex as usize] += c * c * (1.0 + coupling);
             }
             room.flaps.push(Flap { at: hinge.at, weight, root });
+            room.coupling = max(room.coupling, coupling);
         }
-        true
     }
 
     /// Sees where particles are; whether they weigh something else than they did.
@@ -195,8 +223,10 @@ impl Flaps<'_> {
         if !self.hinges.are_bent && self.folds.is_none() {
             return;
         }
-        for (at, (flap, hinge)) in room.flaps.iter().zip(&self.hinges.all).enumerate() {
+        let (flaps, hinges) = (room.flaps.iter(), &self.hinges.all);
+        for (at, ((flap, hinge), curve)) in flaps.zip(hinges).zip(&mut room.curve).enumerate() {
             let rest = hinge.rest + self.folds.map_or(0.0, |folds| folds[at]);
+            *curve = Vec4::ZERO;
             if rest == 0.0 || flap.root == 0.0 {
                 continue;
             }
@@ -205,13 +235,15 @@ impl Flaps<'_> {
                 *corner = spots.spot(vertex as usize).0;
             }
             let bow = normal(corners) * (-rest * (1.0 - self.step.before) * flap.root);
-            spread(flap, bow.extend(0.0), &mut room.force);
+            *curve = bow.extend(0.0);
         }
+        pull_back(&room.flaps, &room.rows, &room.curve, &mut room.force);
     }
 
     /// Conjugate gradients for what the force changes.
     fn solve(&self, room: &mut Scratch) {
         let Scratch { flaps, own, w, mass, over, change, force, way, pull, .. } = room;
+        let (rows, curve) = (coupled(&room.rows, room.coupling), &mut room.curve[..]);
         let steps = (2.0 * (1.0 + 64.0 * self.over_mass).sqrt()).min(MOST_STEPS) as u32;
         for (((over, w), mass), own) in over.iter_mut().zip(&*w).zip(&*mass).zip(&*own) {
             *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };
@@ -225,7 +257,7 @@ impl Flaps<'_> {
             if left <= enough || left <= TINY * TINY {
                 return;
             }
-            bring_back(flaps, mass, way, pull);
+            bring_back(flaps, rows, curve, mass, way, pull);
             let far = left / -dot(way, pull);
             let next = go_on(far, [change, force], [way, pull], over);
             lead(way, force, over, next / left);
@@ -236,11 +268,12 @@ impl Flaps<'_> {
 
 /// A few explicit steps for what the force changes.
 fn descend(room: &mut Scratch, descent: &Descent) {
-    let Scratch { flaps, w, mass, change, force, way, .. } = room;
+    let Scratch { flaps, rows, coupling, curve, w, mass, change, force, way, .. } = room;
+    let rows = coupled(rows, *coupling);
     change.fill(Vec4::ZERO);
     for (at, [keep, take]) in descent.steps().iter().enumerate() {
         if at > 0 {
-            add_pulls(flaps, way, force);
+            add_pulls(flaps, rows, curve, way, force);
         }
         let of_particles = force.iter_mut().zip(&*w).zip(&*mass);
         for ((change, way), ((force, w), mass)) in
@@ -255,22 +288,61 @@ fn descend(room: &mut Scratch, descent: &Descent) {
 }
 
 /// What pulls particles back once they have gone their way.
-fn bring_back(flaps: &[Flap], mass: &[f32], way: &[Vec4], pull: &mut [Vec4]) {
+fn bring_back(
+    flaps: &[Flap],
+    rows: Option<&[Row]>,
+    curve: &mut [Vec4],
+    mass: &[f32],
+    way: &[Vec4],
+    pull: &mut [Vec4],
+) {
     for ((pull, way), mass) in pull.iter_mut().zip(way).zip(mass) {
         *pull = -*way * *mass;
     }
-    add_pulls(flaps, way, pull);
+    add_pulls(flaps, rows, curve, way, pull);
+}
+
+/// The rows, if they couple anything.
+fn coupled(rows: &[Row], coupling: f32) -> Option<&[Row]> {
+    (coupling > 0.0).then_some(rows)
 }
 
 /// Adds what flaps pull particles by that are at these places.
-fn add_pulls(flaps: &[Flap], x: &[Vec4], force: &mut [Vec4]) {
-    for flap in flaps {
-        let from = x[flap.at[0] as usize];
-        let mut curve = Vec4::ZERO;
-        for (vertex, c) in flap.at[1..].iter().zip(flap.weight) {
-            curve += (x[*vertex as usize] - from) * c;
+fn add_pulls(
+    flaps: &[Flap],
+    rows: Option<&[Row]>,
+    curve: &mut [Vec4],
+    x: &[Vec4],
+    force: &mut [Vec4],
+) {
+    let Some(rows) = rows else {
+        flaps.iter().for_each(|flap| spread(flap, curve_of(flap, x), force));
+        return;
+    };
+    for (curve, flap) in curve.iter_mut().zip(flaps) {
+        *curve = curve_of(flap, x);
+    }
+    pull_back(flaps, rows, curve, force);
+}
+
+#[inline(always)]
+fn curve_of(flap: &Flap, x: &[Vec4]) -> Vec4 {
+    let from = x[flap.at[0] as usize];
+    let mut curve = Vec4::ZERO;
+    for (vertex, c) in flap.at[1..].iter().zip(flap.weight) {
+        curve += (x[*vertex as usize] - from) * c;
+    }
+    curve
+}
+
+/// Adds what flaps of these curvatures pull particles by.
+fn pull_back(flaps: &[Flap], rows: &[Row], curve: &[Vec4], force: &mut [Vec4]) {
+    for (own, (flap, row)) in curve.iter().zip(flaps.iter().zip(rows)) {
+        let mut pull = *own;
+        for (with, by) in row.with.iter().zip(row.by) {
+            pull += curve[*with as usize] * by;
         }
-        spread(flap, curve, force);
+        spread(flap, pull, force);
     }
 }
 

@@ -174,14 +174,11 @@ impl Pressure {
 }
 
 impl Give for Pressure {
+    const BY_AREA: bool = true;
+
     #[inline(always)]
     fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
         self.on::<S, false>(s, x, air, rest_area)
-    }
-
-    #[inline(always)]
-    fn part(self, area: f32) -> f32 {
-        area
     }
 }
 
@@ -190,13 +187,10 @@ impl Give for Pressure {
 struct WithLift(Pressure);
 
 impl Give for WithLift {
+    const BY_AREA: bool = true;
+
     #[inline(always)]
     fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
         self.0.on::<S, true>(s, x, air, rest_area)
-    }
-
-    #[inline(always)]
-    fn part(self, area: f32) -> f32 {
-        area
     }
 }

@@ -90,16 +90,14 @@ fn normalize_lanes([x, y, z]: [&mut [f32]; 3]) {
 struct Doubled;
 
 impl Give for Doubled {
+    const FEELS_AIR: bool = false;
+    const BY_AREA: bool = false;
+
     #[inline(always)]
     fn give<S: Simd>(self, _: S, [a, b, c]: [V<S>; 3], _: [V<S>; 3], _: S::F) -> V<S> {
         let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
         let (qx, qy, qz) = (c[0] - a[0], c[1] - a[1], c[2] - a[2]);
         [py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx]
-    }
-
-    #[inline(always)]
-    fn part(self, _: f32) -> f32 {
-        1.0
     }
 }
 

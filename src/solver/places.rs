@@ -8,6 +8,7 @@
 
 use super::rows::{STRAIGHT, Sheet};
 use crate::fabric::rows::{Pattern, Row};
+use crate::math::simd::Simd;
 
 /// The fewest lanes that there are.
 const FEWEST: usize = 4;
@@ -100,13 +101,23 @@ impl Lists {
             && spot.link <= self.links - links
     }
 
-    /// What lies at a spot.
+    /// What a chunk from a spot on is about.
     ///
     /// # Safety
     /// It is in the lists, or right behind their ends.
     #[inline(always)]
-    pub unsafe fn place(&self, spot: Spot) -> Place {
-        let Spot { a, b, link } = spot;
+    pub unsafe fn place<S: Simd, const PATTERN: u8>(&self, spot: Spot) -> Place {
+        let b = if PATTERN == STRAIGHT { spot.b } else { spot.a + S::LANES };
+        // SAFETY: the caller's promise; where ends alternate there are as many behind as before.
+        unsafe { self.place_of(Spot { b, ..spot }) }
+    }
+
+    /// The same where the second half of particles is elsewhere.
+    ///
+    /// # Safety
+    /// As for `place`, of both halves.
+    #[inline(always)]
+    pub unsafe fn place_of(&self, Spot { a, b, link }: Spot) -> Place {
         // SAFETY: the caller's promise.
         unsafe {
             Place {
@@ -125,7 +136,7 @@ impl Lists {
 }
 
 /// A link of a row, and the particles at its ends; both the first of two where they alternate.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Spot {
     pub a: usize,
     pub b: usize,
@@ -133,6 +144,20 @@ pub(crate) struct Spot {
 }
 
 impl Spot {
+    /// As far on as another one is from the very first.
+    #[inline(always)]
+    pub fn behind(self, by: Self) -> Self {
+        let Self { a, b, link } = self;
+        Self { a: a.wrapping_add(by.a), b: b.wrapping_add(by.b), link: link.wrapping_add(by.link) }
+    }
+
+    /// Takes back what `behind` did; what is before the very first comes out as far behind all.
+    #[inline(always)]
+    pub fn before(self, by: Self) -> Self {
+        let Self { a, b, link } = self;
+        Self { a: a.wrapping_sub(by.a), b: b.wrapping_sub(by.b), link: link.wrapping_sub(by.link) }
+    }
+
     /// So many links further on.
     #[inline(always)]
     pub fn after<const PATTERN: u8>(self, links: usize) -> Self {
@@ -141,8 +166,8 @@ impl Spot {
     }
 }
 
-/// Where some links of a row lie, and the particles at their lower and upper ends; both in the first
-/// of two where they alternate.
+/// Where some links of a row lie, and the particles at their lower and upper ends; the first and the second half
+/// of all where they alternate.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
     pub x: [*mut f32; 2],
@@ -154,30 +179,4 @@ pub(crate) struct Place {
     pub compliance: *const f32,
     pub ends: [*const f32; 2],
     pub lambda: *mut f32,
-}
-
-impl Place {
-    /// So many links further on.
-    ///
-    /// # Safety
-    /// The row has as many from here.
-    #[inline(always)]
-    pub unsafe fn after<const PATTERN: u8>(self, links: usize) -> Self {
-        let ends = if PATTERN == STRAIGHT { links } else { 2 * links };
-        let Self { x: [xa, xb], y: [ya, yb], z: [za, zb], w: [wa, wb], .. } = self;
-        // SAFETY: the caller's promise, and that of `Lists::of`.
-        unsafe {
-            Self {
-                x: [xa.add(ends), xb.add(ends)],
-                y: [ya.add(ends), yb.add(ends)],
-                z: [za.add(ends), zb.add(ends)],
-                w: [wa.add(ends), wb.add(ends)],
-                mask: self.mask.add(links),
-                rest: self.rest.add(links),
-                compliance: self.compliance.add(links),
-                ends: [self.ends[0].add(links), self.ends[1].add(links)],
-                lambda: self.lambda.add(links),
-            }
-        }
-    }
 }

@@ -73,8 +73,8 @@ pub(crate) struct Step<'a> {
     /// Where the substep began: where particles were led to, and by which way.
     pub predicted: &'a Columns,
     pub way: &'a Columns,
-    /// What each element is curved by at rest, and along which directions [m].
-    pub rest: Option<(&'a Each<Vec<f32>>, &'a Columns)>,
+    /// What each element is curved by at rest [m], and which way.
+    pub rest: Option<(&'a Each<Vec<f32>>, &'a Each<Columns>)>,
 }
 
 impl Scratch {
@@ -153,12 +153,12 @@ impl Scratch {
         if has_twist {
             find_twists(step.level, seen, &weight[2], &mut curve[2], columns);
         }
-        if let Some((rest, normal)) = step.rest {
+        if let Some((rest, ways)) = step.rest {
             let share = 1.0 - step.before;
             for kind in 0..if has_twist { 3 } else { 2 } {
                 let (weight, rest) = (&weight[kind], &rest[kind]);
-                let normal = &normal.all()[axis][..count];
-                take_rest(step.level, weight, rest, normal, share, &mut curve[kind][columns + 1..]);
+                let way = &ways[kind].all()[axis][..count];
+                take_rest(step.level, weight, rest, way, share, &mut curve[kind][columns + 1..]);
             }
         }
         gather(step.level, curve, stiffness, &mut force[axis], columns);
@@ -248,7 +248,7 @@ pub(crate) fn bend(
         before: step.before,
         predicted: step.predicted,
         way: step.way,
-        rest: step.rest.map(|(rest, normal)| (&rest[2][..], normal)),
+        rest: step.rest.map(|(rest, ways)| (&rest[2][..], &ways[2])),
     };
     if !step.is_first {
         room.twist.solve(plates, x, w, from, false);
@@ -371,16 +371,16 @@ leveled! {
     fn take_rest(
         weight: &[f32],
         rest: &[f32],
-        normal: &[f32],
+        way: &[f32],
         share: f32,
         curve: &mut [f32],
     ) = take_rest_lanes
 }
 
 #[inline(always)]
-fn take_rest_lanes(weight: &[f32], rest: &[f32], normal: &[f32], share: f32, curve: &mut [f32]) {
-    for (((curve, weight), rest), normal) in curve.iter_mut().zip(weight).zip(rest).zip(normal) {
-        *curve -= rest * share * normal * weight;
+fn take_rest_lanes(weight: &[f32], rest: &[f32], way: &[f32], share: f32, curve: &mut [f32]) {
+    for (((curve, weight), rest), way) in curve.iter_mut().zip(weight).zip(rest).zip(way) {
+        *curve -= rest * share * way * weight;
     }
 }
 

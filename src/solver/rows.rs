@@ -14,7 +14,7 @@
 )]
 
 use super::alike::Alike;
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Terms};
 use super::links::{BOUND, RIGID, SOFT, pull};
 use super::places::{Lists, Place, Spot, in_chunks, in_chunks_of};
 use super::spots::Spots;
@@ -168,7 +168,11 @@ fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
         }
         let left = &rows[number..];
         let alike = &left[..left.len().min(row.alike.max(1) as usize)];
-        Alike::of::<PATTERN>(&lists, alike).solve::<S, LAW, PATTERN>(s, &lists, scale);
+        Alike::of::<PATTERN>(&lists, alike).solve::<S, LAW, PATTERN>(
+            s,
+            &lists,
+            Terms { scale, rest: row.rest },
+        );
         number += alike.len();
     }
 }
@@ -184,24 +188,24 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
 ) {
     let lists = Lists::of(sheet);
     for row in rows.iter().filter(|row| row.is_torn) {
-        let count = in_chunks_of::<PATTERN>(row);
+        let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
         let start = lists.spot::<PATTERN>(row, count);
         let (mut spot, end) = (start, start.link + count);
         // SAFETY: the row was just found to lie within the lists.
         unsafe {
             while spot.link + S::LANES <= end {
-                let place = lists.place(spot);
-                solve_chunk::<S, LAW, PATTERN, true, false>(s, place, 0, scale);
+                let place = lists.place::<S, PATTERN>(spot);
+                solve_chunk::<S, LAW, PATTERN>(s, place, 0, terms);
                 spot = spot.after::<PATTERN>(S::LANES);
             }
         }
     }
     for row in rows.iter().filter(|row| row.is_torn) {
-        let count = in_chunks_of::<PATTERN>(row);
+        let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
         let start = lists.spot::<PATTERN>(row, count);
         let spot = start.after::<PATTERN>(count - count % S::LANES);
         // SAFETY: as above.
-        unsafe { solve_end::<S, LAW, PATTERN, true>(s, &lists, [start, spot], count, scale) };
+        unsafe { solve_end::<S, LAW, PATTERN>(s, &lists, [start, spot], count, terms) };
     }
 }
 
@@ -262,39 +266,17 @@ impl Spots for Sheet<'_> {
     }
 }
 
-/// Solves the links of a row from a spot up to `end` as far as they go in whole chunks.
-///
-/// # Safety
-/// The row lies within the lists; so for all that follow.
-#[inline(always)]
-pub(crate) unsafe fn solve_run<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
-    s: S,
-    lists: &Lists,
-    spot: &mut Spot,
-    end: usize,
-    scale: f32,
-) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        while spot.link < end {
-            let place = lists.place(*spot);
-            solve_chunk::<S, LAW, PATTERN, false, IS_EVEN>(s, place, 0, scale);
-            *spot = spot.after::<PATTERN>(S::LANES);
-        }
-    }
-}
-
 /// Solves the links of a row that begins at one spot from another spot on: fewer than a chunk.
 ///
 /// # Safety
-/// As for `solve_run`.
+/// As for `solve_chunk`.
 #[inline(always)]
-pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     lists: &Lists,
     [start, spot]: [Spot; 2],
     count: usize,
-    scale: f32,
+    terms: Terms,
 ) {
     let done = spot.link - start.link;
     if done == count {
@@ -303,13 +285,13 @@ pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const 
     // SAFETY: the caller's promise; there is room for a whole chunk, or none is made.
     unsafe {
         if lists.have_room::<PATTERN>(spot, S::LANES) {
-            let place = lists.place(spot);
-            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, scale);
-            let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, 0) } else { chunk };
-            let chunk = chunk.only_first::<LAW, PATTERN>(s, place, count - done);
-            chunk.store::<LAW, PATTERN>(s, place);
+            let place = lists.place::<S, PATTERN>(spot);
+            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
+            let first = Chunk::first(s, count - done);
+            let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
+            chunk.finish_only::<LAW, PATTERN>(s, place, keep);
         } else {
-            solve_rest::<S, LAW, PATTERN>(s, lists.place(start), done, count, scale);
+            solve_rest::<S, LAW, PATTERN>(s, lists, start, done, count, terms);
         }
     }
 }
@@ -318,14 +300,15 @@ pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8, const 
 /// links which are done.
 ///
 /// # Safety
-/// As for `solve_run`.
+/// As for `solve_chunk`.
 #[inline(always)]
 unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
-    row: Place,
+    lists: &Lists,
+    row: Spot,
     mut done: usize,
     count: usize,
-    scale: f32,
+    terms: Terms,
 ) {
     // SAFETY: the caller's promise. Rows that go in chunks have links for the fewest lanes, so this
     // ends.
@@ -333,42 +316,35 @@ unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
         if count < S::LANES {
             let (half, few) = (s.half(), <S::Half as Simd>::LANES);
             while done + few <= count {
-                let place = row.after::<PATTERN>(done);
-                solve_chunk::<S::Half, LAW, PATTERN, true, false>(half, place, 0, scale);
+                let place = lists.place::<S::Half, PATTERN>(row.after::<PATTERN>(done));
+                solve_chunk::<_, LAW, PATTERN>(half, place, 0, terms);
                 done += few;
             }
-            return solve_rest::<S::Half, LAW, PATTERN>(half, row, done, count, scale);
+            return solve_rest::<S::Half, LAW, PATTERN>(half, lists, row, done, count, terms);
         }
         if done < count {
             let from = count - S::LANES;
-            let place = row.after::<PATTERN>(from);
-            solve_chunk::<S, LAW, PATTERN, true, false>(s, place, done - from, scale);
+            let place = lists.place::<S, PATTERN>(row.after::<PATTERN>(from));
+            solve_chunk::<S, LAW, PATTERN>(s, place, done - from, terms);
         }
     }
 }
 
-/// As many links of a row as there are lanes; with `CHOOSY` set, only those that are still in the
-/// row, but for the first `done`; with `IS_EVEN` set, both ends of each weigh the same.
+/// As many links of a row as there are lanes, but only those that are still in it, and not the first
+/// `done`.
 ///
 /// # Safety
-/// As for `solve_run`.
+/// The row lies within the lists; so for all that follow.
 #[inline(always)]
-unsafe fn solve_chunk<
-    S: Simd,
-    const LAW: u8,
-    const PATTERN: u8,
-    const CHOOSY: bool,
-    const IS_EVEN: bool,
->(
+unsafe fn solve_chunk<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     place: Place,
     done: usize,
-    scale: f32,
+    terms: Terms,
 ) {
     // SAFETY: the caller's promise.
     unsafe {
-        let chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, scale);
-        let chunk = if CHOOSY { chunk.only_in_row::<LAW, PATTERN>(s, place, done) } else { chunk };
-        chunk.store::<LAW, PATTERN>(s, place);
+        let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
+        chunk.finish_only::<LAW, PATTERN>(s, place, Chunk::in_row(s, place, done));
     }
 }

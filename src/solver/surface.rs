@@ -16,11 +16,26 @@ pub(crate) type V<S> = [<S as Arithmetic>::F; 3];
 
 /// What a triangle gives.
 pub(crate) trait Give: Copy {
+    /// Whether it depends on the air.
+    const FEELS_AIR: bool = true;
+
+    /// Whether a corner takes its part of the area at rest of what is given, rather than all of it.
+    const BY_AREA: bool;
+
     /// From its corners' positions and the air's velocities against them, and its area at rest.
     fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S>;
 
     /// A corner's part of it, where so much of the area at rest is the corner's.
-    fn part(self, area: f32) -> f32;
+    #[inline(always)]
+    fn part(area: f32) -> f32 {
+        part(area, Self::BY_AREA)
+    }
+}
+
+/// See `Give::part`.
+#[inline(always)]
+pub(crate) fn part(area: f32, by_area: bool) -> f32 {
+    if by_area { area } else { 1.0 }
 }
 
 /// What is summed over.
@@ -114,11 +129,23 @@ fn add_triangles<S: Simd, G: Give>(
     let mut rest_areas = [0.0; LANES];
     rest_areas.iter_mut().zip(areas).for_each(|(rest, [a, b, c])| *rest = a + b + c);
     let given = given_by(s, surface, corners, &rest_areas, give);
+    add_apart(&given, corners, areas, G::BY_AREA, out);
+}
+
+/// Adds what up to eight triangles give to their corners, one by one.
+#[inline(never)]
+fn add_apart(
+    given: &[Lanes; 3],
+    corners: &[[u32; 3]],
+    areas: &[[f32; 3]],
+    by_area: bool,
+    out: &mut [&mut [f32]; 3],
+) {
     for (lane, (corners, areas)) in corners.iter().zip(areas).enumerate() {
         for (v, area) in corners.iter().zip(areas) {
-            let part = give.part(*area);
+            let part = part(*area, by_area);
             for axis in 0..3 {
-                out[axis][*v as usize] += given[axis][lane] * part;
+                out[axis][*v as usize] += given[axis][lane % LANES] * part;
             }
         }
     }
@@ -143,7 +170,8 @@ pub(crate) fn given_by<S: Simd, G: Give>(
     rest_areas: &Lanes,
     give: G,
 ) -> [Lanes; 3] {
-    let (x, air) = (gather(surface.x, triangles), gather(surface.air, triangles));
+    let x = gather(surface.x, triangles);
+    let air = if G::FEELS_AIR { gather(surface.air, triangles) } else { x };
     let mut given = [[0.0; LANES]; 3];
     for first in (0..LANES).step_by(S::LANES) {
         let (x, air) = (corners(s, &x, first), corners(s, &air, first));
@@ -155,8 +183,9 @@ pub(crate) fn given_by<S: Simd, G: Give>(
     given
 }
 
-/// What is known of the corners of up to eight triangles.
-#[inline(always)]
+/// What is known of the corners of up to eight triangles. Once for all kernels: it is long and the same at
+/// every level.
+#[inline(never)]
 fn gather(of: &Columns, triangles: &[[u32; 3]]) -> [[Lanes; 3]; 3] {
     // All as long as each other, so that one check does for all.
     let count = of.x.len();

@@ -129,6 +129,8 @@ vectored! {
 struct Along;
 
 impl Give for Along {
+    const BY_AREA: bool = false;
+
     #[inline(always)]
     fn give<S: Simd>(self, s: S, [a, b, c]: [V<S>; 3], [ua, ub, uc]: [V<S>; 3], _: S::F) -> V<S> {
         let (zero, minus) = (s.splat(0.0), s.splat(-0.0));
@@ -142,10 +144,5 @@ impl Give for Along {
             *along = (b[axis] - a[axis]) * dv2 - (c[axis] - a[axis]) * dv1;
         }
         along
-    }
-
-    #[inline(always)]
-    fn part(self, _: f32) -> f32 {
-        1.0
     }
 }

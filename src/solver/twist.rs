@@ -49,7 +49,7 @@ pub(crate) struct Seen<'a> {
     pub before: f32,
     pub predicted: &'a Columns,
     pub way: &'a Columns,
-    /// What each cell is twisted by at rest, and the normals there.
+    /// What each cell is twisted by at rest, and which way.
     pub rest: Option<(&'a [f32], &'a Columns)>,
 }
 
@@ -211,11 +211,11 @@ impl Cells<'_> {
                 *twist -= was * seen.before;
             }
         }
-        if let Some((rest, normal)) = seen.rest
+        if let Some((rest, ways)) = seen.rest
             && rest[i] != 0.0
         {
             let share = rest[i] * (1.0 - seen.before);
-            let n = normal.at(i).to_array();
+            let n = ways.at(i).to_array();
             twist.iter_mut().zip(n).for_each(|(twist, n)| *twist -= n * share);
         }
         twist

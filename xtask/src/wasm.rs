@@ -11,11 +11,13 @@ use crate::{files, setup, shell};
 pub const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Four lanes at a time; every current browser and node has them. LLVM's reduction of loop strength
-/// is off: what it makes of addresses cannot be folded into loads and stores of wasm.
-pub const FLAGS: &str = "-C target-feature=+simd128 -C llvm-args=--disable-lsr";
+/// is off: what it makes of addresses cannot be folded into loads and stores of wasm. What is called from several
+/// places is woven into fewer of them, as `c` has it.
+pub const FLAGS: &str =
+    "-C target-feature=+simd128 -C llvm-args=--disable-lsr -C llvm-args=-inline-threshold=50";
 
 /// For engines that have no vectors.
-pub const PLAIN: &str = "-C target-feature=-simd128";
+pub const PLAIN: &str = "-C target-feature=-simd128 -C llvm-args=-inline-threshold=50";
 
 /// Nothing that engines did not have from the start but copies within memory: what JavaScript can be made of.
 const OLD: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext";

@@ -27,6 +27,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Runs a call, catches its panic, and keeps and logs the sentence of its refusal.
 pub fn guard(call: impl FnOnce() -> Result) -> MuslinStatus {
+    let mut call = Some(call);
+    guard_shared(&mut || call.take().map_or(Ok(()), |call| call()))
+}
+
+/// The same for all calls at once: what is around them would be half of the library if each had its own.
+fn guard_shared(call: &mut dyn FnMut() -> Result) -> MuslinStatus {
     // Whatever the panic left half-changed is behind a lock that it spoilt.
     let outcome = catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);

@@ -77,15 +77,19 @@ pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
 
 /// Runs `call` on a cloth that nobody else uses meanwhile. A panic spoils the cloth for good.
 pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -> MuslinStatus {
-    guard(|| {
-        let cell = cell(cloth)?;
-        let mut held = match cell.try_lock() {
-            Ok(held) => held,
-            Err(TryLockError::WouldBlock) => return Err(busy()),
-            Err(TryLockError::Poisoned(_)) => return Err(Refusal::spoilt()),
-        };
-        call(held.as_mut().ok_or_else(Refusal::bad_cloth)?)
-    })
+    let mut call = Some(call);
+    guard(|| on_cloth(cloth, &mut |cloth| call.take().map_or(Ok(()), |call| call(cloth))))
+}
+
+/// The same for all calls at once.
+fn on_cloth(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
+    let cell = cell(cloth)?;
+    let mut held = match cell.try_lock() {
+        Ok(held) => held,
+        Err(TryLockError::WouldBlock) => return Err(busy()),
+        Err(TryLockError::Poisoned(_)) => return Err(Refusal::spoilt()),
+    };
+    call(held.as_mut().ok_or_else(Refusal::bad_cloth)?)
 }
 
 /// Destroys a cloth, a spoilt one too.

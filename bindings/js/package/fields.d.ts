@@ -74,8 +74,8 @@ export interface Material {
   shearStiffness: number;
   /**
    * Bending rigidity per width [N·m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however fine
-   * the mesh, the tick and the sweeps are. Grids have it in all directions, other meshes on average over
-   * them. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+   * the mesh, the tick and the sweeps are, whichever way it is cut: exactly on grids, within a twentieth of its
+   * bending length on other meshes. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
    */
   bendStiffness: number;
   /**

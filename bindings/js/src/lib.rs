@@ -3,6 +3,7 @@
 //! `package/` holds the other half, written in JavaScript: it checks what it is given, gives names to
 //! numbers and hands out views. Every refusal is an `Error` that names the argument as JavaScript spells it.
 
+mod heap;
 mod hold;
 mod make;
 mod numbers;

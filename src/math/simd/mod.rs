@@ -269,6 +269,13 @@ pub(crate) enum Level {
 }
 
 impl Level {
+    /// Whether kernels are compiled to go number by number too: where nothing else can be done, and in
+    /// tests, which compare.
+    pub const HAS_SCALAR: bool = cfg!(any(
+        test,
+        not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+    ));
+
     /// The best that this machine has.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -352,6 +359,9 @@ macro_rules! leveled {
 }
 pub(crate) use leveled;
 
+/// The most lanes that any vectors have.
+pub(crate) const MOST_LANES: usize = 16;
+
 /// Lanes of a chunk.
 pub(crate) const LANES: usize = 8;
 
@@ -378,10 +388,8 @@ macro_rules! vectored {
             #[cfg(target_arch = "x86_64")]
             let widest = $crate::math::simd::vectored!(@$widest avx2, $body, $($arg: $type),*);
             match level {
-                $crate::math::simd::Level::Scalar => $scalar($($arg),*),
-                #[cfg(target_arch = "x86_64")]
-                $crate::math::simd::Level::Base => {
-                    $body($crate::math::simd::Sse2::new(), $($arg),*);
+                $crate::math::simd::Level::Scalar if $crate::math::simd::Level::HAS_SCALAR => {
+                    $scalar($($arg),*);
                 }
                 // SAFETY: `Level::best` gave this level, so the machine has these instructions.
                 #[cfg(target_arch = "x86_64")]
@@ -389,14 +397,18 @@ macro_rules! vectored {
                 // SAFETY: as above.
                 #[cfg(target_arch = "x86_64")]
                 $crate::math::simd::Level::Avx512 => unsafe { widest($($arg),*) },
+                #[cfg(target_arch = "x86_64")]
+                _ => $body($crate::math::simd::Sse2::new(), $($arg),*),
                 #[cfg(target_arch = "aarch64")]
-                $crate::math::simd::Level::Base => {
-                    $body($crate::math::simd::Neon::new(), $($arg),*);
-                }
+                _ => $body($crate::math::simd::Neon::new(), $($arg),*),
                 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-                $crate::math::simd::Level::Base => {
-                    $body($crate::math::simd::Simd128::new(), $($arg),*);
-                }
+                _ => $body($crate::math::simd::Simd128::new(), $($arg),*),
+                #[cfg(not(any(
+                    target_arch = "x86_64",
+                    target_arch = "aarch64",
+                    target_feature = "simd128"
+                )))]
+                _ => {}
             }
         }
     };

@@ -107,7 +107,7 @@ pub(crate) fn keep_out(world: &mut World) {
         return;
     }
     near::pair(world);
-    touch(world, |body| [body.next.frame(); 2], true);
+    touch(world, &|body| [body.next.frame(); 2], true);
     world.scratch.contacts.touches.clear();
 }
 
@@ -115,12 +115,12 @@ pub(crate) fn keep_out(world: &mut World) {
 pub(crate) fn solve(world: &mut World, number: u32) {
     world.scratch.contacts.touches.clear();
     let substeps = world.settings.substeps;
-    touch(world, |body| frames(body, number, substeps), false);
+    touch(world, &|body| frames(body, number, substeps), false);
 }
 
 /// Goes over all colliders, of which `frames` tells how they stand at the start and at the end; `is_bare`
 /// leaves out friction, and triangles.
-fn touch(world: &mut World, frames: impl Fn(&Body) -> [Frame; 2], is_bare: bool) {
+fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Frame; 2], is_bare: bool) {
     let scheme = world.settings.scheme();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
@@ -167,11 +167,11 @@ fn touch(world: &mut World, frames: impl Fn(&Body) -> [Frame; 2], is_bare: bool)
                 deepest: near.longest * 0.5,
             };
             sharp::look(&task, &place, &mut contacts.seen, &mut contacts.close);
-            rounds(form, &mut place, &near, gap, lifts, |place, lifts| {
+            rounds(form, &mut place, &near, gap, lifts, &|place, lifts| {
                 sharp::solve(&task, place, &contacts.close, lifts)
             });
         } else if !near.faces.is_empty() {
-            rounds(form, &mut place, &near, gap, lifts, |place, lifts| {
+            rounds(form, &mut place, &near, gap, lifts, &|place, lifts| {
                 faces::solve(form, place, &world.mesh.triangles, &near, gap, clear, lifts)
             });
         }
@@ -186,7 +186,7 @@ fn rounds(
     near: &Found<'_>,
     gap: f32,
     lifts: &mut Lifts,
-    push: impl Fn(&mut Place<'_>, &mut Lifts) -> f32,
+    push: &dyn Fn(&mut Place<'_>, &mut Lifts) -> f32,
 ) {
     for round in 1..=ROUNDS[1] {
         let deepest = push(place, lifts);

@@ -46,6 +46,7 @@ pub(super) fn solve(
 }
 
 /// Pushes a particle out of a shape.
+#[inline(never)]
 pub(super) fn push(form: &Form, place: &mut Place<'_>, sharp: &Sharp<'_>, i: usize) {
     let (before, now, gap) = (place.before(i), place.now(i), place.gap);
     let rise = place.rise;
@@ -149,9 +150,13 @@ fn meet_solid(solid: &impl Solid, before: Vec3, now: Vec3, gap: f32, rise: Rise)
     if start < -rise.deep {
         return Some(Push { normal: out, depth: rise.by, is_slick: true });
     }
-    // It went around the body or through it, which its way tells.
-    let gap = min(gap, start + rise.by);
-    let (at, normal) = strike(solid, before, way, start, gap)?;
+    turn_back(solid, before, now, start, min(gap, start + rise.by))
+}
+
+/// What takes back a particle that went around a body or through it, which its way tells.
+#[inline(never)]
+fn turn_back(solid: &dyn Solid, before: Vec3, now: Vec3, start: f32, gap: f32) -> Option<Push> {
+    let (at, normal) = strike(solid, before, now - before, start, gap)?;
     let (distance, _) = solid.nearest(at);
     let depth = gap - distance - (now - at).dot(normal);
     (depth > 0.0).then_some(Push::new(normal, depth))
@@ -162,7 +167,7 @@ fn meet_solid(solid: &impl Solid, before: Vec3, now: Vec3, gap: f32, rise: Rise)
 /// Up to the plane in front of a convex body one may go on: all of the body is behind it. One that sets out
 /// from the surface is let slide along it.
 fn strike(
-    solid: &impl Solid,
+    solid: &dyn Solid,
     before: Vec3,
     way: Vec3,
     start: f32,

@@ -17,6 +17,7 @@ mod sweep;
 
 use super::World;
 use super::crowd;
+use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use contacts::Contact;
 use motion::Motion;
@@ -153,7 +154,8 @@ impl World {
     fn layer_gap(&self) -> f32 {
         let own = self.settings.self_distance;
         let gap = if own > 0.0 { own } else { self.material.thickness };
-        gap.clamp(THIN * self.spacing, THICK * self.spacing)
+        // Not `clamp`: what that would say of limits that cannot be takes 18 kB of a page.
+        min(max(gap, THIN * self.spacing), THICK * self.spacing)
     }
 }
 
@@ -196,9 +198,9 @@ pub(crate) fn solve(world: &mut World) {
     let Some(layers) = &mut world.layers else {
         return;
     };
-    let Layers { contacts, active, levels, motion, .. } = &mut **layers;
+    let Layers { contacts, active, open, levels, motion, .. } = &mut **layers;
     let Motion { start, now, .. } = motion;
-    push::solve(contacts, active, levels, start, now, friction);
+    push::solve(contacts, active, open, levels, start, now, friction);
     push::spread(contacts, active, now, &mut world.scratch.predicted, h);
     spots::scatter(now, &mut world.particles.x);
 }

@@ -399,7 +399,12 @@ impl Patches {
         let at = one as usize;
         let patch = &self.patches[at];
         Chosen {
-            vertices: meet(&self.vertex_sweeps[at], patch.vertices[1] - patch.vertices[0], all, gap),
+            vertices: meet(
+                &self.vertex_sweeps[at],
+                patch.vertices[1] - patch.vertices[0],
+                all,
+                gap,
+            ),
             triangles: self.triangle_sweeps[at].meet(all, gap),
             edges: meet(&self.edge_sweeps[at], patch.edges[1] - patch.edges[0], all, gap),
         }

@@ -38,6 +38,7 @@ fn press(x: &mut [Spot], contact: &Contact, by: Vec3) {
 pub(super) fn solve(
     contacts: &mut [Contact],
     active: &mut Vec<u32>,
+    order: &mut Vec<u32>,
     levels: &mut [u8],
     start: &[Spot],
     x: &mut [Spot],
@@ -53,7 +54,7 @@ pub(super) fn solve(
             active.push(at as u32);
         }
     }
-    bear(contacts, active, x, levels);
+    bear(contacts, active, order, x, levels);
     for sweep in 0..SWEEPS {
         if sweep % 2 == 0 {
             active.iter().for_each(|at| part(&mut contacts[*at as usize], x));
@@ -66,7 +67,13 @@ pub(super) fn solve(
 
 /// What lies on something that bears it gives way less than what lies on top of that, so that layers find their
 /// places from below up; `levels` says how many contacts each is from what bears it all.
-fn bear(contacts: &mut [Contact], active: &mut [u32], x: &mut [Spot], levels: &mut [u8]) {
+fn bear(
+    contacts: &mut [Contact],
+    active: &mut [u32],
+    order: &mut Vec<u32>,
+    x: &mut [Spot],
+    levels: &mut [u8],
+) {
     for pass in 0..LEVELS.len() {
         let mut raise = |at: &u32| {
             let ids = contacts[*at as usize].ids;
@@ -85,11 +92,17 @@ fn bear(contacts: &mut [Contact], active: &mut [u32], x: &mut [Spot], levels: &m
             spot[3] *= scale;
         }
     }
-    let level = |at: &u32| {
-        let ids = contacts[*at as usize].ids;
-        ids.iter().map(|id| levels[*id as usize]).min().unwrap_or(FREE)
-    };
-    active.sort_by_key(level);
+    order.clear();
+    let most = LEVELS.len() as u8;
+    for level in 0..=most {
+        let is_of = |at: &u32| {
+            let ids = contacts[*at as usize].ids;
+            let least = ids.iter().fold(most, |least, id| levels[*id as usize].min(least));
+            least == level
+        };
+        order.extend(active.iter().copied().filter(is_of));
+    }
+    active.copy_from_slice(order);
     active.iter().for_each(|at| contacts[*at as usize].weigh(x));
 }
 

@@ -8,6 +8,7 @@
 //!      ╱   │   ╲                 ╱  │  ╲        others', however the cloth is folded.
 //! ```
 
+use crate::math::sort::sort_by;
 use crate::math::{TINY, min};
 use crate::mesh::{Fan, after, before};
 use crate::solver::World;
@@ -224,7 +225,7 @@ pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
         let bits = x.at(vertex as usize).to_array().map(f32::to_bits);
         (sources[vertex as usize], bits)
     };
-    copies.sort_unstable_by_key(|vertex| (place(*vertex), *vertex));
+    sort_by(&mut copies, |a, b| (place(*a), *a).cmp(&(place(*b), *b)));
     copies.dedup();
     // All ways before anything moves.
     slits.ways.clear();

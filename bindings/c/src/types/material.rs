@@ -36,8 +36,8 @@ pub struct MuslinMaterial {
     /// Stiffness against shear [N/m]; 0 is as the stretch stiffness.
     pub shear_stiffness: f32,
     /// Bending rigidity per width [N m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however
-    /// fine the mesh, the tick and the sweeps are. Grids have it in all directions, other meshes on average
-    /// over them. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+    /// fine the mesh, the tick and the sweeps are, whichever way it is cut: exactly on grids, within a twentieth
+    /// of its bending length on other meshes. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
     pub bend_stiffness: f32,
     /// Damping of bending [s]; 0. Bending by some angle a second is resisted as that angle times this would be;
     /// a few hundredths calm a flutter. At least 0.
