@@ -21,6 +21,9 @@ const MORE: f32 = 1.1;
 const ENOUGH: f32 = 0.2;
 const LEAST: f32 = 0.998;
 
+/// Another direction that would let sides come nearer than this share of what they may is not taken.
+const WORSE: f32 = 0.5;
+
 /// Nearer than this no direction tells sides apart [m].
 const NOTHING: f32 = 1.0e-7;
 
@@ -250,8 +253,12 @@ impl Contact {
     pub(super) fn turn_to(&mut self, start: [Vec3; 4], x: &[Spot]) {
         let now = places(x, self.ids);
         let now = if self.first == 1 { vertex_closest(now) } else { edge_closest(now) };
+        let before = *self;
         self.turn(now, start);
         self.prepare(start);
+        if self.least < before.least * WORSE {
+            *self = before;
+        }
     }
 
     #[inline(always)]

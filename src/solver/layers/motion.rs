@@ -7,8 +7,8 @@ use glam::Vec3;
 
 /// What particles may be pushed by beyond where they are: a share of the mean rest length, of the gap, and of
 /// how they moved against the mean. Those that were pushed farther are looked at again.
-const SPARE: f32 = 0.05;
-const SPARE_GAP: f32 = 2.5;
+const SPARE: f32 = 0.03;
+const SPARE_GAP: f32 = 1.5;
 const SPARE_WAY: f32 = 0.25;
 
 /// The particles of a cloth in a substep.

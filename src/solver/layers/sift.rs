@@ -50,10 +50,17 @@ impl Sift<'_> {
         for [one, other] in pairs {
             self.patches.split(*one, &self.world.mesh, self.motion);
             self.patches.split(*other, &self.world.mesh, self.motion);
-            let chosen = [
-                self.patches.chosen(*one, *other, self.gap),
-                self.patches.chosen(*other, *one, self.gap),
-            ];
+            let ours = self.patches.chosen(*one, *other, self.gap);
+            let theirs =
+                if one == other { ours } else { self.patches.chosen(*other, *one, self.gap) };
+            let can_meet = |vertices, triangles| vertices != 0 && triangles != 0;
+            if !can_meet(ours.vertices, theirs.triangles)
+                && !can_meet(theirs.vertices, ours.triangles)
+                && !can_meet(ours.edges, theirs.edges)
+            {
+                continue;
+            }
+            let chosen = [ours, theirs];
             let is_woven = self.patches.is_near_at_rest([*one, *other], self.gap / WOVEN);
             let mut look = Look { sift: self, chosen, is_woven, strays, contacts };
             look.vertices([*one, *other], [0, 1]);
