@@ -45,8 +45,6 @@ pub(super) struct Contact {
     pub ids: [u32; 4],
     /// How many of them are the first side.
     pub first: u32,
-    /// How far they were from each other when they were found [m].
-    pub distance: f32,
     /// What each counts for in the closest points: above 0 on the first side, below 0 on the second.
     pub share: [f32; 4],
     /// From the second side to the first.
@@ -219,7 +217,6 @@ impl Contact {
         let mut contact = Self {
             ids,
             first: FIRST,
-            distance: then.distance,
             share: then.share,
             n: then.n,
             gap,

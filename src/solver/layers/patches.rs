@@ -5,7 +5,7 @@
 
 use super::motion::Motion;
 use super::spots::place;
-use super::sweep::{LANES, Sweep, Sweeps};
+use super::sweep::{LANES, Sweep, Sweeps, meet};
 use crate::geom::aabb::Aabb;
 use crate::math::min;
 use crate::math::sort::{sort, sort_by};
@@ -65,27 +65,6 @@ pub(super) struct Chosen {
     pub vertices: u32,
     pub triangles: u32,
     pub edges: u32,
-}
-
-/// The places of bits, from the lowest on.
-pub(super) fn places_of(mut bits: u32) -> impl Iterator<Item = u32> {
-    core::iter::from_fn(move || {
-        let place = bits.trailing_zeros();
-        (bits != 0).then(|| {
-            bits &= bits - 1;
-            place
-        })
-    })
-}
-
-/// Which of so many may meet another patch.
-#[inline(always)]
-fn meet(blocks: &[Sweeps; BLOCKS], count: u32, other: &Sweep, gap: f32) -> u32 {
-    let mut bits = 0;
-    for block in (0..count.div_ceil(LANES as u32)).rev() {
-        bits = bits << LANES | blocks[block as usize].meet(other, gap);
-    }
-    bits
 }
 
 /// All patches of a cloth.

@@ -6,9 +6,9 @@
 
 use super::contacts::{Contact, EDGES, Kind, VERTEX};
 use super::motion::Motion;
-use super::patches::{Chosen, Patches, places_of};
+use super::patches::{Chosen, Patches};
 use super::slits::HAIR;
-use super::sweep::LANES;
+use super::sweep::{LANES, places_of};
 use crate::geom::aabb::Aabb;
 use crate::math::{max, min};
 use crate::solver::World;

@@ -125,6 +125,27 @@ impl Sweeps {
     }
 }
 
+/// Which of so many, in blocks of lanes, may come nearer than `gap` to one: a bit for each.
+#[inline(always)]
+pub(super) fn meet(blocks: &[Sweeps], count: u32, one: &Sweep, gap: f32) -> u32 {
+    let mut bits = 0;
+    for block in (0..count.div_ceil(LANES as u32)).rev() {
+        bits = bits << LANES | blocks[block as usize].meet(one, gap);
+    }
+    bits
+}
+
+/// The places of bits, from the lowest on.
+pub(super) fn places_of(mut bits: u32) -> impl Iterator<Item = u32> {
+    core::iter::from_fn(move || {
+        let place = bits.trailing_zeros();
+        (bits != 0).then(|| {
+            bits &= bits - 1;
+            place
+        })
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
