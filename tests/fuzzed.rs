@@ -181,3 +181,20 @@ fn what_is_attached_from_one_end_of_numbers_to_the_other_is_saved_and_restored()
     cloth.step(2);
     Cloth::restore(&cloth.save()).unwrap();
 }
+
+/// A cut goes between two particles that are farther apart than a number can say.
+#[test]
+fn what_is_cut_between_both_ends_of_numbers_is_somewhere() {
+    let far = Vec3::X * 3.0e38;
+    for flip in [1.0, -1.0] {
+        let mut cloth = Cloth::grid(&GridDesc { extra_particles: 200, ..small() }).unwrap();
+        for i in 0..cloth.positions().len() as u32 {
+            let side = if i % 7 < 3 { flip } else { -flip };
+            cloth.set_position(i, far * side + Vec3::Y * (0.01 * i as f32)).unwrap();
+        }
+        let corner = Vec3::new(0.0, -9.0, -1.0);
+        let opened = cloth.cut(corner, corner + Vec3::Y * 18.0, Vec3::Z * 2.0).unwrap();
+        assert!(opened > 0, "nothing was cut");
+        assert!(cloth.positions().iter().all(|x| x.is_finite()), "flip {flip}");
+    }
+}

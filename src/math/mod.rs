@@ -28,6 +28,13 @@ pub(crate) fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
+/// What is at a share of the way from one point to another, however far apart they are.
+#[inline(always)]
+pub(crate) fn between(from: Vec3, to: Vec3, share: f32) -> Vec3 {
+    let v = from + (to - from) * share;
+    if v.is_finite() { v } else { from * (1.0 - share) + to * share }
+}
+
 /// The same with the largest number there is in place of what none can say, and 0 for what came out of two such.
 #[inline(always)]
 pub(crate) fn finite(v: Vec3) -> Vec3 {

@@ -1,7 +1,7 @@
 //! What moves: positions, their history, velocities and masses.
 
 use crate::math::columns::Columns;
-use crate::math::finite;
+use crate::math::{between, finite};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -90,7 +90,7 @@ impl Particles {
     pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
         for columns in self.all_columns() {
             let (from, to) = (columns.at(a), columns.at(b));
-            columns.push(from + (to - from) * share);
+            columns.push(between(from, to, share));
         }
         self.mass.push(0.0);
         self.w.push(0.0);

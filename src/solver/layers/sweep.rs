@@ -110,8 +110,9 @@ impl Sweeps {
                 let ahead = simd.splat(one.to[k]) - simd.load(&self.from[k], lane);
                 let above = simd.splat(one.low[k] - gap) - simd.load(&self.high[k], lane);
                 let below = simd.load(&self.low[k], lane) - simd.splat(one.high[k] + gap);
-                let apart = (above - back.max(zero)).max(below - ahead.max(zero));
-                clear = apart.max(clear);
+                let (above, below) =
+                    (above - Number::max(back, zero), below - Number::max(ahead, zero));
+                clear = Number::max(Number::max(above, below), clear);
             }
             if simd.is_any_positive(zero - clear) {
                 let mut each = [0.0; LANES];
