@@ -18,7 +18,7 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
     --size WxH        its size in pixels (1280x720)
     --frames N        ticks of 1/60 s that the scene plays first (240); tender's are 1/120 s
     --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear;
-                      with tender: fold, letter, crumple or toss
+                      with tender: fold, crumple or toss
     --strip N         a film strip: N pictures of that size side by side (1)
     --times           draw every tick, and say what the stages of a frame take, and how many there
                       are a second

@@ -13,8 +13,6 @@ use super::settings::Action;
 pub enum Gesture {
     /// Two hands lift the lower edge to the upper one; the bend is pressed into a crease; they let go.
     Fold,
-    /// They fold it like a letter: the lower third up and creased, that once more, and off its pins.
-    Letter,
     /// Two hands gather the sheet into a ball and drop it.
     Crumple,
     /// A hand takes it off its pins and throws it across the floor.
@@ -31,8 +29,6 @@ enum Deed {
     Act(Action),
     /// A finger presses the bend at this place, in shares of the sheet as it hangs.
     Crease([f32; 2]),
-    /// A finger presses this place of the sheet, in its shares, wherever it is by now.
-    Press([f32; 2]),
 }
 
 struct Score {
@@ -48,23 +44,6 @@ const FOLD: Score = Score {
         &[(0, [0.97, 0.99]), (12, [0.97, 0.99]), (150, [0.94, 0.10]), (330, [0.94, 0.10])],
     ],
     deeds: &[(250, Deed::Crease([0.5, 0.40])), (290, Deed::Crease([0.5, 0.40]))],
-};
-
-const LETTER: Score = Score {
-    ticks: 1140,
-    ways: &[
-        &[(0, [0.03, 0.99]), (12, [0.03, 0.99]), (140, [0.05, 0.42]), (300, [0.05, 0.42])],
-        &[(0, [0.97, 0.99]), (12, [0.97, 0.99]), (140, [0.95, 0.42]), (300, [0.95, 0.42])],
-        &[(440, [0.10, 0.64]), (450, [0.10, 0.64]), (590, [0.10, 0.20]), (760, [0.10, 0.20])],
-        &[(440, [0.90, 0.64]), (450, [0.90, 0.64]), (590, [0.90, 0.20]), (760, [0.90, 0.20])],
-    ],
-    deeds: &[
-        (220, Deed::Press([0.5, 0.70])),
-        (260, Deed::Press([0.5, 0.70])),
-        (680, Deed::Press([0.5, 0.42])),
-        (720, Deed::Press([0.5, 0.42])),
-        (900, Deed::Act(Action::Drop)),
-    ],
 };
 
 const CRUMPLE: Score = Score { ticks: 600, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
@@ -83,12 +62,8 @@ const TOSS: Score = Score {
 
 impl Gesture {
     /// All of them, with the names that the command line knows.
-    pub const ALL: [(&'static str, Self); 4] = [
-        ("fold", Self::Fold),
-        ("letter", Self::Letter),
-        ("crumple", Self::Crumple),
-        ("toss", Self::Toss),
-    ];
+    pub const ALL: [(&'static str, Self); 3] =
+        [("fold", Self::Fold), ("crumple", Self::Crumple), ("toss", Self::Toss)];
 
     /// Ticks from its beginning until the receipt rests again.
     pub fn ticks(self) -> u32 {
@@ -98,7 +73,6 @@ impl Gesture {
     fn score(self) -> &'static Score {
         match self {
             Self::Fold => &FOLD,
-            Self::Letter => &LETTER,
             Self::Crumple => &CRUMPLE,
             Self::Toss => &TOSS,
         }
@@ -144,14 +118,6 @@ impl Play {
                     let at = on_screen(tender, *share);
                     tender.crease(at)?;
                 }
-                Deed::Press(share) => {
-                    let weave = tender.weave().map(|n| (n - 1) as f32);
-                    let [column, row] = [0, 1].map(|i| (share[i] * weave[i]).round() as u32);
-                    let place = tender.particle(row * tender.weave()[0] + column);
-                    if let Some(at) = place.and_then(|place| tender.on_screen(place)) {
-                        tender.crease(at)?;
-                    }
-                }
             }
         }
         tender.play(1)?;
@@ -184,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_hand_passes_its_places_at_their_ticks() {
-        for way in FOLD.ways.iter().chain(LETTER.ways).chain(TOSS.ways) {
+        for way in FOLD.ways.iter().chain(TOSS.ways) {
             for (tick, at) in *way {
                 let off = Vec2::from(place(way, *tick)).distance(Vec2::from(*at));
                 assert!(off < 1.0e-5, "at {tick} it is {off} off {at:?}");

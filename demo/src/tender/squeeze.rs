@@ -7,9 +7,9 @@ use muslin::{Cloth, Error, Grab, Result};
 const FINGERS: [u32; 2] = [8, 6];
 /// How long they take to close [s], and how long they stay closed.
 const CLOSING: f32 = 1.1;
-const CLOSED: f32 = 0.25;
+const CLOSED: f32 = 0.6;
 /// Radius of what they close to, in units.
-const FIST: f32 = 0.9;
+const FIST: f32 = 0.65;
 /// How high over the floor they close at least, in units.
 const HEIGHT: f32 = 2.2;
 

@@ -271,21 +271,3 @@ fn comes_back(tender: &mut Tender) {
     assert_eq!(tender.readout().pieces, 1);
     assert_eq!(tender.cloth().positions(), fresh, "it is not as new");
 }
-
-#[test]
-fn folded_like_a_letter_and_off_its_pins_both_creases_stay() {
-    let tender = played(Gesture::Letter, Sheet::Paper);
-    assert!(tender.cloth().pinned().count() == 0, "it still hangs");
-    let [columns, rows] = tender.weave();
-    let at = |share: f32| {
-        let row = (share * (rows - 1) as f32).round() as u32;
-        tender.particle(row * columns + columns / 2).unwrap()
-    };
-    // How much the paper turns across each crease, from one third to the next.
-    let thirds = [at(0.28) - at(0.05), at(0.64) - at(0.48), at(0.97) - at(0.78)];
-    for (two, crease) in thirds.windows(2).zip(["second", "first"]) {
-        let turned = two[0].angle_between(two[1]);
-        assert!(turned > 0.7, "the {crease} crease opened to {turned} rad");
-    }
-    assert!(speed(&tender) < 0.3, "it still moves at {} units/s", speed(&tender));
-}
