@@ -376,16 +376,12 @@ impl Patches {
     pub fn chosen(&self, one: u32, other: u32, gap: f32) -> Chosen {
         let all = self.sweep(other);
         let at = one as usize;
-        let patch = &self.patches[at];
+        let Patch { vertices, triangles, edges, .. } = &self.patches[at];
+        let own = core::slice::from_ref(&self.triangle_sweeps[at]);
         Chosen {
-            vertices: meet(
-                &self.vertex_sweeps[at],
-                patch.vertices[1] - patch.vertices[0],
-                all,
-                gap,
-            ),
-            triangles: self.triangle_sweeps[at].meet(all, gap),
-            edges: meet(&self.edge_sweeps[at], patch.edges[1] - patch.edges[0], all, gap),
+            vertices: meet(&self.vertex_sweeps[at], vertices[1] - vertices[0], all, gap),
+            triangles: meet(own, triangles[1] - triangles[0], all, gap),
+            edges: meet(&self.edge_sweeps[at], edges[1] - edges[0], all, gap),
         }
     }
 

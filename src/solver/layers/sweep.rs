@@ -133,7 +133,8 @@ pub(super) fn meet(blocks: &[Sweeps], count: u32, one: &Sweep, gap: f32) -> u32 
     for block in (0..count.div_ceil(LANES as u32)).rev() {
         bits = bits << LANES | blocks[block as usize].meet(one, gap);
     }
-    bits
+    // What is not a number meets lanes as well that nothing is in.
+    bits & ((1 << count) - 1)
 }
 
 /// The places of bits, from the lowest on.
@@ -163,6 +164,16 @@ mod tests {
         assert!(one.meets(&slow, 0.0) && slow.meets(&one, 0.0), "one runs into the other");
         let away = thing(2.0, 9.0);
         assert!(!one.meets(&away, 0.5), "one runs away from the other");
+    }
+
+    #[test]
+    fn lanes_that_nothing_is_in_meet_nothing() {
+        let mut all = Sweeps::EMPTY;
+        all.set(0, &thing(0.0, 1.0));
+        for far in [f32::INFINITY, f32::NAN] {
+            let one = Sweep { from: [-far; 4], to: [far; 4], ..thing(0.0, 0.0) };
+            assert_eq!(meet(&[all], 1, &one, 0.1), 1, "{far}");
+        }
     }
 
     #[test]
