@@ -26,7 +26,7 @@ const NONE: u32 = u32::MAX;
 const LEAST_APART: f32 = 0.15;
 
 /// The pairs among three.
-const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+pub(crate) const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
 /// What a hinge shows of a curvature whose parts along its edge, across and between are these.
 pub(crate) type Shows = [f32; 3];
@@ -49,14 +49,15 @@ struct Facet {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Facets(Vec<Facet>);
 
-/// A hinge among those that its triangles' energy couples it to.
+/// The energy of a triangle over ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Row {
-    /// Its own energy over ½ D |C|² [1/m²].
-    pub shape: f32,
-    /// The others, and by how much of the root of both shapes.
-    pub with: [u32; 4],
-    pub by: [f32; 4],
+pub(crate) struct Element {
+    /// Its hinges; those whose own energy is 0 may be none.
+    pub hinges: [u32; 3],
+    /// [1/m²].
+    pub own: [f32; 3],
+    /// Of the pairs among three (`PAIRS`) [1/m²].
+    pub between: [f32; 3],
 }
 
 /// A hinge at an edge of a triangle.
@@ -129,18 +130,17 @@ impl Facets {
         Self(facets)
     }
 
-    /// How hinges are coupled, of which some hold, where some particles are held. Where a mesh goes on into a
-    /// clamp only the half of a hinge outside bends, and has all of the angle.
-    pub fn couple(
+    /// What triangles resist whose hinges hold in part, where some particles are held. Where a mesh goes on into
+    /// a clamp only the half of a hinge outside bends, and has all of the angle.
+    pub fn resist(
         &self,
         hinges: &[Hinge],
         holds: impl Fn(usize) -> bool,
         is_held: impl Fn(u32) -> bool,
-        rows: &mut Vec<Row>,
+        elements: &mut Vec<Element>,
     ) {
-        rows.clear();
-        rows.resize(hinges.len(), Row { shape: 0.0, with: [NONE; 4], by: [0.0; 4] });
-        for facet in &self.0 {
+        elements.clear();
+        elements.extend(self.0.iter().map(|facet| {
             let mut times = [0.0; 3];
             for (slot, times) in times.iter_mut().enumerate() {
                 let hinge = facet.hinges[slot] as usize;
@@ -154,18 +154,8 @@ impl Facets {
                     };
                 }
             }
-            facet.add(times, rows);
-        }
-        for at in 0..rows.len() {
-            let Row { shape, with, .. } = rows[at];
-            for (slot, other) in with.into_iter().enumerate() {
-                if other == NONE {
-                    rows[at].with[slot] = at as u32;
-                } else {
-                    rows[at].by[slot] *= 1.0 / (shape * rows[other as usize].shape).sqrt();
-                }
-            }
-        }
+            facet.element(times)
+        }));
     }
 
     /// Bytes that it holds.
@@ -175,8 +165,8 @@ impl Facets {
 }
 
 impl Facet {
-    /// Adds its energy, if hinges are bent so many times as they show: those at 0 tell nothing.
-    fn add(&self, times: [f32; 3], rows: &mut [Row]) {
+    /// Its energy, if hinges are bent so many times as they show: those at 0 tell nothing.
+    fn element(&self, times: [f32; 3]) -> Element {
         let mut alike = self.alike;
         for (alike, [p, q]) in alike.iter_mut().zip(PAIRS) {
             if times[p] * times[q] == 0.0 {
@@ -186,39 +176,29 @@ impl Facet {
         let [ab, ac, bc] = alike;
         let apart = 1.0 + 2.0 * (ab * ac * bc) - (ab * ab + ac * ac + bc * bc);
         let d = 1.0 + max(LEAST_APART - apart, 0.0);
-        let own = [d * d - bc * bc, d * d - ac * ac, d * d - ab * ab];
-        let between = [ac * bc - ab * d, ab * bc - ac * d, ab * ac - bc * d];
-        let over = 1.0 / (d * own[0] + (ab * between[0] + ac * between[1]));
+        let minors = [d * d - bc * bc, d * d - ac * ac, d * d - ab * ab];
+        let mixed = [ac * bc - ab * d, ab * bc - ac * d, ab * ac - bc * d];
+        let over = 1.0 / (d * minors[0] + (ab * mixed[0] + ac * mixed[1]));
         let slope = self.slope * self.slope;
+        let mut element = Element { hinges: self.hinges, own: [0.0; 3], between: [0.0; 3] };
         for slot in 0..3 {
-            if times[slot] > 0.0 {
-                let size = self.sizes[slot] * self.sizes[slot];
-                let mean = 0.5 * (own[slot] * over * size + slope);
-                rows[self.hinges[slot] as usize].shape += mean * (times[slot] * times[slot]);
-            }
+            let size = self.sizes[slot] * self.sizes[slot];
+            let mean = 0.5 * (minors[slot] * over * size + slope);
+            element.own[slot] = mean * (times[slot] * times[slot]);
         }
         for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
             let size = self.sizes[p] * self.sizes[q];
-            let mean = 0.5 * (between[pair] * over * size + self.aligned[pair] * slope);
-            if times[p] * times[q] > 0.0 && mean.abs() > NEGLIGIBLE * slope {
-                let by = mean * (times[p] * times[q]);
-                rows[self.hinges[p] as usize].put(self.hinges[q], by);
-                rows[self.hinges[q] as usize].put(self.hinges[p], by);
+            let mean = 0.5 * (mixed[pair] * over * size + self.aligned[pair] * slope);
+            if mean.abs() > NEGLIGIBLE * slope {
+                element.between[pair] = mean * (times[p] * times[q]);
             }
         }
+        element
     }
 }
 
 /// A coupling of less than this is rounding.
 const NEGLIGIBLE: f32 = 1.0e-4;
-
-impl Row {
-    fn put(&mut self, with: u32, by: f32) {
-        if let Some(slot) = self.with.iter().position(|other| *other == NONE) {
-            (self.with[slot], self.by[slot]) = (with, by);
-        }
-    }
-}
 
 /// What a hinge shows of a curvature's parts along x, along y and √2 times that between, for where its own
 /// ways lead.

@@ -32,14 +32,18 @@ impl Scratch {
     /// Room for so many particles.
     pub fn new(world: &World, capacity: usize) -> Self {
         let is_grid = world.plates.is_some();
-        let hinges = world.weave.hinges.all.len();
+        let (triangles, hinges) = (world.mesh.triangles.len(), world.weave.hinges.all.len());
         let grid = || Columns::filled(world.plates.as_ref().map_or(0, Plates::count));
         let plates = world.plates.as_ref().map(plates::Scratch::new);
         Self {
             plates: plates.unwrap_or_default(),
             normal: grid(),
             ways: [grid(), grid(), grid()],
-            flaps: flaps::Scratch::new(hinges, if is_grid { 0 } else { capacity }),
+            flaps: if is_grid {
+                flaps::Scratch::default()
+            } else {
+                flaps::Scratch::new(triangles, hinges, capacity)
+            },
         }
     }
 }

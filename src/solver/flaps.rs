@@ -10,9 +10,10 @@
 use super::descent::Descent;
 use super::hinges::Step;
 use super::spots::Spots;
-use crate::fabric::facets::Row;
-use crate::fabric::hinges::{Hinges, normal};
-use crate::math::{TINY, max};
+use super::stiffness::Stiffness;
+use crate::fabric::facets::{Element, PAIRS};
+use crate::fabric::hinges::{Hinge, Hinges, normal};
+use crate::math::TINY;
 use glam::{Vec3, Vec4};
 
 /// The most steps of conjugate gradients that a round makes.
@@ -24,32 +25,18 @@ const TWICE: f32 = 0.25;
 /// Steps end when what is left has so much of the square of what there was.
 const LEFT: f32 = 1.0e-8;
 
-/// A hinge as a step wants it: C √k = Σ cᵢ (xᵢ − x₀), so that it does not matter where the mesh is.
-#[derive(Clone, Copy, Debug)]
-struct Flap {
-    at: [u32; 4],
-    /// All weights but the first one, which is less the sum of the others, times the root of the stiffness.
-    weight: [f32; 3],
-    /// The root of the stiffness; 0, as the weights, if its link does not hold.
-    root: f32,
-}
-
 /// Room to work in: a number or a vector for each particle.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
-    /// As long as links, stiffness and what is held stay: those of `stiffness` and `revision`, …
-    flaps: Vec<Flap>,
-    /// … how they go together, and the most that coupling adds to what they resist.
-    rows: Vec<Row>,
-    coupling: f32,
-    /// The curvature of each, where they are coupled.
-    curve: Vec<Vec4>,
-    stiffness: f32,
+    /// As long as links and what is held stay: what triangles resist, and that as a matrix.
+    elements: Vec<Element>,
+    stiffness: Stiffness,
     revision: u32,
-    /// The steps that are enough as long as masses stay too; none if there are too many.
+    /// The steps that are enough as long as masses and `of_stiffness` stay too; none if there are too many.
     descent: Option<Descent>,
-    /// What flaps resist at most when a particle alone is moved [kg].
-    own: Vec<f32>,
+    of_stiffness: f32,
+    /// What each hinge is bent by at rest, where some are [m].
+    bow: Vec<Vec4>,
     w: Vec<f32>,
     /// Mass and one over the diagonal; 0 for what is held.
     mass: Vec<f32>,
@@ -61,23 +48,22 @@ pub(crate) struct Scratch {
     change: Vec<Vec4>,
     force: Vec<Vec4>,
     way: Vec<Vec4>,
+    /// The next way of a descent; what pulls back along one of conjugate gradients.
     pull: Vec<Vec4>,
 }
 
 impl Scratch {
-    /// Room for so many hinges and particles.
-    pub fn new(hinges: usize, capacity: usize) -> Self {
+    /// Room for so many triangles, hinges and particles.
+    pub fn new(triangles: usize, hinges: usize, capacity: usize) -> Self {
         let numbers = || Vec::with_capacity(capacity);
         let vectors = || Vec::with_capacity(capacity);
         Self {
-            flaps: Vec::with_capacity(hinges),
-            rows: Vec::with_capacity(hinges),
-            coupling: 0.0,
-            curve: Vec::with_capacity(hinges),
-            stiffness: 0.0,
+            elements: Vec::with_capacity(triangles),
+            stiffness: Stiffness::with_capacity(capacity),
             revision: 0,
             descent: None,
-            own: numbers(),
+            of_stiffness: 0.0,
+            bow: Vec::with_capacity(hinges),
             w: numbers(),
             mass: numbers(),
             over: numbers(),
@@ -88,13 +74,6 @@ impl Scratch {
             way: vectors(),
             pull: vectors(),
         }
-    }
-
-    /// No shape has more stiffness over mass: that of a flap is at most four times what the flap adds to
-    /// its particles' own.
-    fn bound(&self) -> f32 {
-        let each = self.own.iter().zip(&self.w).map(|(own, w)| own * w);
-        4.0 * each.fold(0.0, |most, own| if own > most { own } else { most })
     }
 }
 
@@ -128,19 +107,15 @@ impl Flaps<'_> {
         }
         let is_new = self.make_room(room, count);
         if self.seat(room, start, spots) || is_new {
-            self.take_up(room);
-            room.descent = Descent::new(room.bound());
+            self.take_up(room, count);
         }
-        add_pulls(
-            &room.flaps,
-            coupled(&room.rows, room.coupling),
-            &mut room.curve,
-            &room.x,
-            &mut room.force,
-        );
+        let stiffness = self.step.stiffness;
+        for (i, force) in room.force.iter_mut().enumerate() {
+            *force += room.stiffness.pull(i, &room.x) * stiffness;
+        }
         self.add_rest(room, spots);
         match room.descent {
-            Some(descent) => descend(room, &descent),
+            Some(descent) => descend(room, &descent, stiffness),
             None => self.solve(room),
         }
         for (i, (given, change)) in room.given.iter_mut().zip(&room.change).enumerate() {
@@ -155,44 +130,33 @@ impl Flaps<'_> {
     /// Room for so many particles; whether they, links or stiffness have changed.
     fn make_room(&self, room: &mut Scratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
-        let is_known = (room.revision, room.stiffness) == (revision, stiffness);
-        if is_known && room.own.len() == count {
+        let is_known = (room.revision, room.of_stiffness) == (revision, stiffness);
+        if is_known && room.w.len() == count {
             return false;
         }
-        for numbers in [&mut room.w, &mut room.mass, &mut room.over, &mut room.own] {
+        for numbers in [&mut room.w, &mut room.mass, &mut room.over] {
             numbers.resize(count, 0.0);
         }
         let vectors = [&mut room.x, &mut room.given, &mut room.force];
         let more = [&mut room.change, &mut room.way, &mut room.pull];
         vectors.into_iter().chain(more).for_each(|vectors| vectors.resize(count, Vec4::ZERO));
-        room.curve.resize(self.hinges.all.len(), Vec4::ZERO);
-        (room.revision, room.stiffness) = (revision, stiffness);
+        room.bow.resize(self.hinges.all.len(), Vec4::ZERO);
+        (room.revision, room.of_stiffness) = (revision, stiffness);
         true
     }
 
     /// Takes up links, stiffness and what is held.
-    fn take_up(&self, room: &mut Scratch) {
-        let Scratch { rows, w, .. } = room;
+    fn take_up(&self, room: &mut Scratch, count: usize) {
+        let Scratch { elements, stiffness, w, mass, over, .. } = room;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
-        self.hinges.facets.couple(&self.hinges.all, holds, is_held, rows);
-        room.own.fill(0.0);
-        room.flaps.clear();
-        room.coupling = 0.0;
-        for (hinge, row) in self.hinges.all.iter().zip(&room.rows) {
-            let root = (row.shape * self.step.stiffness).sqrt();
-            let [_, q, a, b] = hinge.weight;
-            let weight = [q * root, a * root, b * root];
-            let first = -((weight[0] + weight[1]) + weight[2]);
-            // What couples it adds at most so much to what it resists.
-            let [p, q, a, b] = row.by.map(f32::abs);
-            let coupling = (p + q) + (a + b);
-            for (vertex, c) in hinge.at.iter().zip([first, weight[0], weight[1], weight[2]]) {
-                room.own[*vertex as usize] += c * c * (1.0 + coupling);
-            }
-            room.flaps.push(Flap { at: hinge.at, weight, root });
-            room.coupling = max(room.coupling, coupling);
+        self.hinges.facets.resist(&self.hinges.all, holds, is_held, elements);
+        stiffness.assemble(&self.hinges.all, elements, count);
+        for (i, ((over, w), mass)) in over.iter_mut().zip(&*w).zip(&*mass).enumerate() {
+            let own = stiffness.own(i) * self.step.stiffness;
+            *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };
         }
+        room.descent = Descent::new(stiffness.bound(w) * self.step.stiffness);
     }
 
     /// Sees where particles are; whether they weigh something else than they did.
@@ -223,31 +187,26 @@ impl Flaps<'_> {
         if !self.hinges.are_bent && self.folds.is_none() {
             return;
         }
-        let (flaps, hinges) = (room.flaps.iter(), &self.hinges.all);
-        for (at, ((flap, hinge), curve)) in flaps.zip(hinges).zip(&mut room.curve).enumerate() {
+        let hinges = &self.hinges.all;
+        for (at, (hinge, bow)) in hinges.iter().zip(&mut room.bow).enumerate() {
             let rest = hinge.rest + self.folds.map_or(0.0, |folds| folds[at]);
-            *curve = Vec4::ZERO;
-            if rest == 0.0 || flap.root == 0.0 {
-                continue;
-            }
-            let mut corners = [Vec3::ZERO; 4];
-            for (corner, vertex) in corners.iter_mut().zip(flap.at) {
-                *corner = spots.spot(vertex as usize).0;
-            }
-            let bow = normal(corners) * (-rest * (1.0 - self.step.before) * flap.root);
-            *curve = bow.extend(0.0);
+            *bow = if rest == 0.0 {
+                Vec4::ZERO
+            } else {
+                let corners = hinge.at.map(|vertex| spots.spot(vertex as usize).0);
+                let rest = rest * (1.0 - self.step.before) * self.step.stiffness;
+                (normal(corners) * rest).extend(0.0)
+            };
         }
-        pull_back(&room.flaps, &room.rows, &room.curve, &mut room.force);
+        for element in &room.elements {
+            push(hinges, element, &room.bow, &mut room.force);
+        }
     }
 
     /// Conjugate gradients for what the force changes.
     fn solve(&self, room: &mut Scratch) {
-        let Scratch { flaps, own, w, mass, over, change, force, way, pull, .. } = room;
-        let (rows, curve) = (coupled(&room.rows, room.coupling), &mut room.curve[..]);
+        let Scratch { stiffness, mass, over, change, force, way, pull, .. } = room;
         let steps = (2.0 * (1.0 + 64.0 * self.over_mass).sqrt()).min(MOST_STEPS) as u32;
-        for (((over, w), mass), own) in over.iter_mut().zip(&*w).zip(&*mass).zip(&*own) {
-            *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };
-        }
         change.fill(Vec4::ZERO);
         way.fill(Vec4::ZERO);
         lead(way, force, over, 0.0);
@@ -257,7 +216,9 @@ impl Flaps<'_> {
             if left <= enough || left <= TINY * TINY {
                 return;
             }
-            bring_back(flaps, rows, curve, mass, way, pull);
+            for (i, (pull, mass)) in pull.iter_mut().zip(&*mass).enumerate() {
+                *pull = stiffness.pull(i, way) * self.step.stiffness - way[i] * *mass;
+            }
             let far = left / -dot(way, pull);
             let next = go_on(far, [change, force], [way, pull], over);
             lead(way, force, over, next / left);
@@ -267,95 +228,58 @@ impl Flaps<'_> {
 }
 
 /// A few explicit steps for what the force changes.
-fn descend(room: &mut Scratch, descent: &Descent) {
-    let Scratch { flaps, rows, coupling, curve, w, mass, change, force, way, .. } = room;
-    let rows = coupled(rows, *coupling);
-    change.fill(Vec4::ZERO);
-    for (at, [keep, take]) in descent.steps().iter().enumerate() {
-        if at > 0 {
-            add_pulls(flaps, rows, curve, way, force);
-        }
-        let of_particles = force.iter_mut().zip(&*w).zip(&*mass);
-        for ((change, way), ((force, w), mass)) in
-            change.iter_mut().zip(&mut *way).zip(of_particles)
+fn descend(room: &mut Scratch, descent: &Descent, stiffness: f32) {
+    let Scratch { stiffness: matrix, w, mass, change, force, way, pull: next, .. } = room;
+    let [[_, first], others @ ..] = descent.steps() else { return };
+    for (((change, way), force), (w, mass)) in
+        change.iter_mut().zip(&mut *way).zip(&mut *force).zip(w.iter().zip(&*mass))
+    {
+        *way = *force * (w * first);
+        *change = *way;
+        *force -= *way * *mass;
+    }
+    for [keep, take] in others {
+        let of_particles = force.iter_mut().zip(w.iter().zip(&*mass)).enumerate();
+        for ((change, next), (i, (force, (w, mass)))) in
+            change.iter_mut().zip(&mut *next).zip(of_particles)
         {
-            let last = if at == 0 { Vec4::ZERO } else { *way * *keep };
-            *way = last + *force * (w * take);
-            *change += *way;
-            *force -= *way * *mass;
+            *force += matrix.pull(i, way) * stiffness;
+            *next = way[i] * *keep + *force * (w * take);
+            *change += *next;
+            *force -= *next * *mass;
         }
+        core::mem::swap(way, next);
     }
 }
 
-/// What pulls particles back once they have gone their way.
-fn bring_back(
-    flaps: &[Flap],
-    rows: Option<&[Row]>,
-    curve: &mut [Vec4],
-    mass: &[f32],
-    way: &[Vec4],
-    pull: &mut [Vec4],
-) {
-    for ((pull, way), mass) in pull.iter_mut().zip(way).zip(mass) {
-        *pull = -*way * *mass;
-    }
-    add_pulls(flaps, rows, curve, way, pull);
-}
-
-/// The rows, if they couple anything.
-fn coupled(rows: &[Row], coupling: f32) -> Option<&[Row]> {
-    (coupling > 0.0).then_some(rows)
-}
-
-/// Adds what flaps pull particles by that are at these places.
-fn add_pulls(
-    flaps: &[Flap],
-    rows: Option<&[Row]>,
-    curve: &mut [Vec4],
-    x: &[Vec4],
-    force: &mut [Vec4],
-) {
-    let Some(rows) = rows else {
-        flaps.iter().for_each(|flap| spread(flap, curve_of(flap, x), force));
+/// Pushes the particles of a triangle's hinges that are bent so much at rest: all together by naught.
+fn push(hinges: &[Hinge], element: &Element, bow: &[Vec4], force: &mut [Vec4]) {
+    let own = [0, 1, 2].map(|slot| {
+        if element.own[slot] > 0.0 { bow[element.hinges[slot] as usize] } else { Vec4::ZERO }
+    });
+    if own == [Vec4::ZERO; 3] {
         return;
-    };
-    for (curve, flap) in curve.iter_mut().zip(flaps) {
-        *curve = curve_of(flap, x);
     }
-    pull_back(flaps, rows, curve, force);
-}
-
-#[inline(always)]
-fn curve_of(flap: &Flap, x: &[Vec4]) -> Vec4 {
-    let from = x[flap.at[0] as usize];
-    let mut curve = Vec4::ZERO;
-    for (vertex, c) in flap.at[1..].iter().zip(flap.weight) {
-        curve += (x[*vertex as usize] - from) * c;
+    let mut push = own;
+    for (push, by) in push.iter_mut().zip(element.own) {
+        *push *= by;
     }
-    curve
-}
-
-/// Adds what flaps of these curvatures pull particles by.
-fn pull_back(flaps: &[Flap], rows: &[Row], curve: &[Vec4], force: &mut [Vec4]) {
-    for (own, (flap, row)) in curve.iter().zip(flaps.iter().zip(rows)) {
-        let mut pull = *own;
-        for (with, by) in row.with.iter().zip(row.by) {
-            pull += curve[*with as usize] * by;
+    for ([p, q], by) in PAIRS.into_iter().zip(element.between) {
+        push[p] += own[q] * by;
+        push[q] += own[p] * by;
+    }
+    for (slot, push) in push.into_iter().enumerate() {
+        if element.own[slot] > 0.0 {
+            let Hinge { at, weight: [_, q, a, b], .. } = hinges[element.hinges[slot] as usize];
+            let mut sum = Vec4::ZERO;
+            for (vertex, weight) in at[1..].iter().zip([q, a, b]) {
+                let push = push * weight;
+                force[*vertex as usize] += push;
+                sum += push;
+            }
+            force[at[0] as usize] -= sum;
         }
-        spread(flap, pull, force);
     }
-}
-
-/// Spreads the pull of a curvature over the particles of a flap: on all together it is naught.
-#[inline(always)]
-fn spread(flap: &Flap, curve: Vec4, force: &mut [Vec4]) {
-    let mut sum = Vec4::ZERO;
-    for (vertex, c) in flap.at[1..].iter().zip(flap.weight) {
-        let pull = curve * c;
-        force[*vertex as usize] -= pull;
-        sum += pull;
-    }
-    force[flap.at[0] as usize] += sum;
 }
 
 /// The next way: where the force leads, and on by so much of the last way.

@@ -39,6 +39,7 @@ pub(crate) mod sleep;
 pub(crate) mod spots;
 pub(crate) mod stage;
 pub(crate) mod stiffest;
+mod stiffness;
 pub(crate) mod surface;
 pub(crate) mod tangents;
 pub(crate) mod tear;
