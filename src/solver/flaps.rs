@@ -3,9 +3,9 @@
 //! With K the matrix of the bending energy, a substep of length h is to end at M d = −h² K (x + d), where d
 //! is what bending moves the particles by. K is symmetric and, as the hinges are quadratic, the same wherever
 //! the mesh is. So d comes of a few explicit steps where the mesh is soft, see `descent`, and else by
-//! conjugate gradients (Hestenes and Stiefel 1952), with the diagonal as their preconditioner. Each step
-//! costs what one sweep over the hinges would, but as many of them as the root of the stiffness over mass
-//! are enough, where sweeps would take as many as itself.
+//! conjugate gradients (Hestenes and Stiefel 1952), with the diagonal as their preconditioner. Each step is
+//! one pass over K (see `stiffness`), and as many of them as the root of the stiffness over mass are enough,
+//! where sweeps over hinges would take as many as itself.
 
 use super::descent::Descent;
 use super::hinges::Step;
@@ -48,7 +48,6 @@ pub(crate) struct Scratch {
     change: Vec<Vec4>,
     force: Vec<Vec4>,
     way: Vec<Vec4>,
-    /// The next way of a descent; what pulls back along one of conjugate gradients.
     pull: Vec<Vec4>,
 }
 
@@ -109,13 +108,10 @@ impl Flaps<'_> {
         if self.seat(room, start, spots) || is_new {
             self.take_up(room, count);
         }
-        let stiffness = self.step.stiffness;
-        for (i, force) in room.force.iter_mut().enumerate() {
-            *force += room.stiffness.pull(i, &room.x) * stiffness;
-        }
+        room.stiffness.add_pulls(&room.x, &mut room.force);
         self.add_rest(room, spots);
         match room.descent {
-            Some(descent) => descend(room, &descent, stiffness),
+            Some(descent) => descend(room, &descent),
             None => self.solve(room),
         }
         for (i, (given, change)) in room.given.iter_mut().zip(&room.change).enumerate() {
@@ -151,12 +147,12 @@ impl Flaps<'_> {
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
         self.hinges.facets.resist(&self.hinges.all, holds, is_held, elements);
-        stiffness.assemble(&self.hinges.all, elements, count);
-        for (i, ((over, w), mass)) in over.iter_mut().zip(&*w).zip(&*mass).enumerate() {
-            let own = stiffness.own(i) * self.step.stiffness;
+        stiffness.assemble(&self.hinges.all, elements, self.step.stiffness, count);
+        let each = over.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.own());
+        for (((over, w), mass), own) in each {
             *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };
         }
-        room.descent = Descent::new(stiffness.bound(w) * self.step.stiffness);
+        room.descent = Descent::new(stiffness.bound(w));
     }
 
     /// Sees where particles are; whether they weigh something else than they did.
@@ -216,9 +212,10 @@ impl Flaps<'_> {
             if left <= enough || left <= TINY * TINY {
                 return;
             }
-            for (i, (pull, mass)) in pull.iter_mut().zip(&*mass).enumerate() {
-                *pull = stiffness.pull(i, way) * self.step.stiffness - way[i] * *mass;
+            for ((pull, way), mass) in pull.iter_mut().zip(&*way).zip(&*mass) {
+                *pull = -*way * *mass;
             }
+            stiffness.add_pulls(way, pull);
             let far = left / -dot(way, pull);
             let next = go_on(far, [change, force], [way, pull], over);
             lead(way, force, over, next / left);
@@ -228,27 +225,22 @@ impl Flaps<'_> {
 }
 
 /// A few explicit steps for what the force changes.
-fn descend(room: &mut Scratch, descent: &Descent, stiffness: f32) {
-    let Scratch { stiffness: matrix, w, mass, change, force, way, pull: next, .. } = room;
-    let [[_, first], others @ ..] = descent.steps() else { return };
-    for (((change, way), force), (w, mass)) in
-        change.iter_mut().zip(&mut *way).zip(&mut *force).zip(w.iter().zip(&*mass))
-    {
-        *way = *force * (w * first);
-        *change = *way;
-        *force -= *way * *mass;
-    }
-    for [keep, take] in others {
-        let of_particles = force.iter_mut().zip(w.iter().zip(&*mass)).enumerate();
-        for ((change, next), (i, (force, (w, mass)))) in
-            change.iter_mut().zip(&mut *next).zip(of_particles)
-        {
-            *force += matrix.pull(i, way) * stiffness;
-            *next = way[i] * *keep + *force * (w * take);
-            *change += *next;
-            *force -= *next * *mass;
+fn descend(room: &mut Scratch, descent: &Descent) {
+    let Scratch { stiffness, w, mass, change, force, way, .. } = room;
+    change.fill(Vec4::ZERO);
+    for (at, [keep, take]) in descent.steps().iter().enumerate() {
+        if at > 0 {
+            stiffness.add_pulls(way, force);
         }
-        core::mem::swap(way, next);
+        let of_particles = force.iter_mut().zip(&*w).zip(&*mass);
+        for ((change, way), ((force, w), mass)) in
+            change.iter_mut().zip(&mut *way).zip(of_particles)
+        {
+            let last = if at == 0 { Vec4::ZERO } else { *way * *keep };
+            *way = last + *force * (w * take);
+            *change += *way;
+            *force -= *way * *mass;
+        }
     }
 }
 

@@ -10,139 +10,140 @@ use crate::fabric::hinges::Hinge;
 use crate::math::sort::sort_by;
 use glam::Vec4;
 
-/// Others that a row has room for: those around a particle that eight triangles meet at. What is more comes behind
-/// all rows.
-const WIDTH: usize = 24;
+/// Later ones that a row has room for: those around a particle that eight triangles meet at. What is more comes
+/// behind all rows.
+const WIDTH: usize = 12;
 
 /// Particles of a triangle and of those beside it; 6 of them differ, unless the mesh is torn there.
 const CORNERS: usize = 12;
 
-/// Another particle, and what it pulls by [1/m²].
+/// Another particle, and what it pulls by [kg].
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     with: u32,
     by: f32,
 }
 
-/// The others of one particle, two by two.
-#[derive(Clone, Copy, Debug)]
-struct Row {
-    entries: [Entry; WIDTH],
-    count: u32,
-    /// What its particle resists when it alone is moved, and all that pulls or pushes it, added up [1/m²].
-    own: f32,
-    sum: f32,
-}
+const NO_ENTRY: Entry = Entry { with: 0, by: 0.0 };
 
-/// The matrix, over the stiffness.
+/// The matrix, of which one half says all.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Stiffness {
-    rows: Vec<Row>,
+    /// For each particle those after it, and how many they are.
+    rows: Vec<[Entry; WIDTH]>,
+    counts: Vec<u32>,
     /// What found no room in the row of a particle, in the order of particles, each other one once.
     beyond: Vec<(u32, Entry)>,
+    /// What each particle resists when it alone is moved, and all that pulls or pushes it, added up [kg].
+    own: Vec<f32>,
+    sum: Vec<f32>,
 }
 
 impl Stiffness {
     /// Room for so many particles.
     pub fn with_capacity(capacity: usize) -> Self {
-        Self { rows: Vec::with_capacity(capacity), beyond: Vec::with_capacity(capacity) }
+        Self {
+            rows: Vec::with_capacity(capacity),
+            counts: Vec::with_capacity(capacity),
+            beyond: Vec::with_capacity(capacity),
+            own: Vec::with_capacity(capacity),
+            sum: Vec::with_capacity(capacity),
+        }
     }
 
-    /// Adds up what triangles resist, for so many particles.
-    pub fn assemble(&mut self, hinges: &[Hinge], elements: &[Element], count: usize) {
+    /// Adds up what triangles resist, times a stiffness [kg m²], for so many particles.
+    pub fn assemble(
+        &mut self,
+        hinges: &[Hinge],
+        elements: &[Element],
+        stiffness: f32,
+        count: usize,
+    ) {
         self.rows.clear();
+        self.rows.resize(count, [NO_ENTRY; WIDTH]);
+        self.counts.clear();
+        self.counts.resize(count, 0);
         self.beyond.clear();
-        self.rows.extend((0..count as u32).map(Row::empty));
         for element in elements {
             let patch = Patch::of(hinges, element);
             for b in 1..patch.count {
                 for a in 0..b {
-                    self.add([patch.at[a], patch.at[b]], -patch.stiffness(a, b));
+                    self.add([patch.at[a], patch.at[b]], -patch.stiffness(a, b) * stiffness);
                 }
             }
         }
-        let by_row = |(row, entry): &(u32, Entry)| (*row, entry.with);
-        sort_by(&mut self.beyond, |p, q| by_row(p).cmp(&by_row(q)).then(p.1.by.total_cmp(&q.1.by)));
-        self.beyond.dedup_by(|next, known| {
-            let is_known = by_row(next) == by_row(known);
-            known.1.by += if is_known { next.1.by } else { 0.0 };
-            is_known
-        });
-        for (row, entry) in &self.beyond {
-            self.rows[*row as usize].count_in(entry.by);
+        self.order_beyond();
+        for sums in [&mut self.own, &mut self.sum] {
+            sums.clear();
+            sums.resize(count, 0.0);
         }
-        for row in &mut self.rows {
-            for at in 0..row.count as usize {
-                row.count_in(row.entries[at].by);
+        let Self { rows, counts, beyond, own, sum } = self;
+        let mut count_in = |i: usize, entry: &Entry| {
+            for at in [i, entry.with as usize] {
+                own[at] += entry.by;
+                sum[at] += entry.by.abs();
             }
-            // Two by two: one that is no other pulls by nothing.
-            row.count += row.count % 2;
+        };
+        for (i, (row, count)) in rows.iter().zip(&*counts).enumerate() {
+            row[..*count as usize].iter().for_each(|entry| count_in(i, entry));
         }
+        beyond.iter().for_each(|(row, entry)| count_in(*row as usize, entry));
     }
 
     fn add(&mut self, [a, b]: [u32; 2], by: f32) {
-        for (row, with) in [(a, b), (b, a)] {
-            if !self.rows[row as usize].add(with, by) {
-                self.beyond.push((row, Entry { with, by }));
+        let (i, with) = if a < b { (a, b) } else { (b, a) };
+        let (row, count) = (&mut self.rows[i as usize], &mut self.counts[i as usize]);
+        let known = row[..*count as usize].iter_mut().find(|entry| entry.with == with);
+        if let Some(entry) = known {
+            entry.by += by;
+        } else if let Some(entry) = row.get_mut(*count as usize) {
+            *entry = Entry { with, by };
+            *count += 1;
+        } else {
+            self.beyond.push((i, Entry { with, by }));
+        }
+    }
+
+    /// Each pair once.
+    fn order_beyond(&mut self) {
+        let pair = |(row, entry): &(u32, Entry)| (*row, entry.with);
+        sort_by(&mut self.beyond, |p, q| pair(p).cmp(&pair(q)).then(p.1.by.total_cmp(&q.1.by)));
+        self.beyond.dedup_by(|next, known| {
+            let is_known = pair(next) == pair(known);
+            known.1.by += if is_known { next.1.by } else { 0.0 };
+            is_known
+        });
+    }
+
+    /// Adds what particles are pulled by, with all at these places.
+    pub fn add_pulls(&self, x: &[Vec4], force: &mut [Vec4]) {
+        for (i, (row, count)) in self.rows.iter().zip(&self.counts).enumerate() {
+            let (from, mut sum) = (x[i], Vec4::ZERO);
+            for Entry { with, by } in &row[..*count as usize] {
+                let pull = (x[*with as usize] - from) * *by;
+                force[*with as usize] -= pull;
+                sum += pull;
             }
+            force[i] += sum;
+        }
+        for (i, Entry { with, by }) in &self.beyond {
+            let pull = (x[*with as usize] - x[*i as usize]) * *by;
+            force[*with as usize] -= pull;
+            force[*i as usize] += pull;
         }
     }
 
-    /// What a particle is pulled by, with all at these places.
-    #[inline(always)]
-    pub fn pull(&self, i: usize, x: &[Vec4]) -> Vec4 {
-        let (row, from) = (&self.rows[i], x[i]);
-        let [mut even, mut odd] = [Vec4::ZERO; 2];
-        for pair in row.entries[..row.count as usize].chunks_exact(2) {
-            even += (x[pair[0].with as usize] - from) * pair[0].by;
-            odd += (x[pair[1].with as usize] - from) * pair[1].by;
-        }
-        let sum = even + odd;
-        if row.count as usize == WIDTH { sum + self.pull_beyond(i, x) } else { sum }
-    }
-
-    #[cold]
-    fn pull_beyond(&self, i: usize, x: &[Vec4]) -> Vec4 {
-        let first = self.beyond.partition_point(|(row, _)| (*row as usize) < i);
-        let own = self.beyond[first..].iter().take_while(|(row, _)| *row as usize == i);
-        own.fold(Vec4::ZERO, |sum, (_, entry)| sum + (x[entry.with as usize] - x[i]) * entry.by)
-    }
-
-    /// What a particle resists when it alone is moved [1/m²].
-    pub fn own(&self, i: usize) -> f32 {
-        self.rows[i].own
+    /// What each particle resists when it alone is moved [kg].
+    pub fn own(&self) -> &[f32] {
+        &self.own
     }
 
     /// No shape has more of it over mass: the most that the rows of particles with these inverse masses add up to
     /// (Gershgorin 1931).
     pub fn bound(&self, w: &[f32]) -> f32 {
-        let each = self.rows.iter().zip(w).map(|(row, w)| (row.own.abs() + row.sum) * w);
-        each.fold(0.0, |most, each| if each > most { each } else { most })
-    }
-}
-
-impl Row {
-    fn empty(own: u32) -> Self {
-        let none = Entry { with: own, by: 0.0 };
-        Self { entries: [none; WIDTH], count: 0, own: 0.0, sum: 0.0 }
-    }
-
-    /// False if there is no room.
-    fn add(&mut self, with: u32, by: f32) -> bool {
-        let known = self.entries[..self.count as usize].iter_mut().find(|e| e.with == with);
-        if let Some(entry) = known {
-            entry.by += by;
-            return true;
-        }
-        let Some(entry) = self.entries.get_mut(self.count as usize) else { return false };
-        *entry = Entry { with, by };
-        self.count += 1;
-        true
-    }
-
-    fn count_in(&mut self, by: f32) {
-        self.own += by;
-        self.sum += by.abs();
+        let each = self.own.iter().zip(&self.sum).zip(w);
+        each.map(|((own, sum), w)| (own.abs() + sum) * w)
+            .fold(0.0, |most, each| if each > most { each } else { most })
     }
 }
 
