@@ -13,8 +13,8 @@ const LEAST_BITS: u32 = 2;
 pub(crate) struct HashGrid {
     /// For each cell, where its points begin; and where the last ones end.
     first: Vec<u32>,
-    /// The points, cell by cell, lowest first in each.
-    points: Vec<u32>,
+    /// The points, cell by cell, lowest first in each, and where they are.
+    points: Vec<(Vec3, u32)>,
     /// The cell of each point.
     cell: Vec<u32>,
     /// Cells along each side, as powers of two.
@@ -23,8 +23,8 @@ pub(crate) struct HashGrid {
 }
 
 impl HashGrid {
-    /// A grid for so many points, in cells of such a side [m].
-    pub fn new(capacity: usize, side: f32) -> Self {
+    /// A grid for so many points.
+    pub fn new(capacity: usize) -> Self {
         let all = capacity.next_power_of_two().trailing_zeros() + 2;
         let bits = [all.div_ceil(3), (all + 1) / 3, all / 3].map(|bits| bits.max(LEAST_BITS));
         let cells = 1_usize << bits.iter().sum::<u32>();
@@ -33,20 +33,22 @@ impl HashGrid {
             points: Vec::with_capacity(capacity),
             cell: Vec::with_capacity(capacity),
             bits,
-            per_length: 1.0 / side,
+            per_length: 1.0,
         }
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * (self.first.len() + self.points.capacity() + self.cell.capacity())
+        size_of::<u32>() * (self.first.len() + self.cell.capacity())
+            + size_of::<(Vec3, u32)>() * self.points.capacity()
     }
 
-    /// Sorts points into cells.
-    pub fn fill(&mut self, points: impl Iterator<Item = Vec3>) {
+    /// Sorts points into cells of such a side [m].
+    pub fn fill(&mut self, points: &[Vec3], side: f32) {
+        self.per_length = 1.0 / side;
         let mut cell = core::mem::take(&mut self.cell);
         cell.clear();
-        cell.extend(points.map(|point| self.index(self.place(point))));
+        cell.extend(points.iter().map(|point| self.index(self.place(*point))));
         self.first.fill(0);
         for cell in &cell {
             self.first[*cell as usize + 2] += 1;
@@ -55,10 +57,10 @@ impl HashGrid {
             self.first[at] += self.first[at - 1];
         }
         self.points.clear();
-        self.points.resize(cell.len(), 0);
+        self.points.resize(cell.len(), (Vec3::ZERO, 0));
         for (point, cell) in cell.iter().enumerate() {
             let next = &mut self.first[*cell as usize + 1];
-            self.points[*next as usize] = point as u32;
+            self.points[*next as usize] = (points[point], point as u32);
             *next += 1;
         }
         self.cell = cell;
@@ -66,7 +68,7 @@ impl HashGrid {
 
     /// Visits the points in the cell of a point and the 26 around it, those of cells that share their
     /// places as well.
-    pub fn visit_near(&self, point: Vec3, mut visit: impl FnMut(u32)) {
+    pub fn visit_near(&self, point: Vec3, mut visit: impl FnMut(Vec3, u32)) {
         let [x, y, z] = self.place(point);
         let last = (1 << self.bits[0]) - 1;
         for (dy, dz) in (0..9).map(|k| (k % 3, k / 3)) {
@@ -90,8 +92,8 @@ impl HashGrid {
     }
 
     #[inline(always)]
-    fn visit_range(&self, from: u32, to: u32, visit: &mut impl FnMut(u32)) {
-        self.points[from as usize..to as usize].iter().for_each(|point| visit(*point));
+    fn visit_range(&self, from: u32, to: u32, visit: &mut impl FnMut(Vec3, u32)) {
+        self.points[from as usize..to as usize].iter().for_each(|(at, point)| visit(*at, *point));
     }
 
     /// The cell of a point along each axis, not wrapped yet.
@@ -120,13 +122,13 @@ mod tests {
             Vec3::new(c(7919), c(104_729), c(1299))
         };
         let points: Vec<Vec3> = (0..500).map(point).collect();
-        let mut grid = HashGrid::new(points.len(), 0.6);
+        let mut grid = HashGrid::new(points.len());
         for shift in [0.0, 1000.0] {
             let moved: Vec<Vec3> = points.iter().map(|p| *p + Vec3::splat(shift)).collect();
-            grid.fill(moved.iter().copied());
+            grid.fill(&moved, 0.6);
             for (i, point) in moved.iter().enumerate() {
                 let mut found = Vec::new();
-                grid.visit_near(*point, |other| found.push(other));
+                grid.visit_near(*point, |_, other| found.push(other));
                 found.sort_unstable();
                 assert!(found.windows(2).all(|pair| pair[0] != pair[1]), "{i} sees one twice");
                 let near = |j: &u32| (moved[*j as usize] - *point).length() < 0.6;

@@ -28,6 +28,12 @@ const WOVEN: f32 = 1.5;
 /// How far particles may move before pairs are listed anew, in mean rest lengths.
 const MARGIN: f32 = 0.25;
 
+/// The same where all is in such motion that no list does for long: there short lists are the cheaper ones.
+const NARROW: f32 = 0.02;
+
+/// For fewer passes than this no long list is worth it.
+const PASSES: f32 = 4.0;
+
 /// Listing anew begins a little before it must, which covers rounding, …
 const HASTE: f32 = 0.95;
 
@@ -54,7 +60,11 @@ pub(crate) struct Crowd {
     distance: f32,
     /// What lies no farther apart at rest in one piece does not count [m].
     woven: f32,
+    /// The margin of the list as it is, of long ones and of short ones [m].
     margin: f32,
+    margins: [f32; 2],
+    /// Passes that the list has been asked for.
+    passes: u32,
 }
 
 impl Crowd {
@@ -62,10 +72,10 @@ impl Crowd {
         let distance = distance(world);
         let wider = |a: f32, b: f32| if a > b { a } else { b };
         let woven = wider(WOVEN * world.spacing, distance);
-        let margin = MARGIN * world.spacing;
+        let margins = [MARGIN, NARROW].map(|margin| margin * world.spacing);
         let (capacity, count) = (world.capacity(), world.particles.len());
         Self {
-            grid: HashGrid::new(capacity, distance + 2.0 * margin),
+            grid: HashGrid::new(capacity),
             // As many as balls that lie close have around them; of more, lists grow.
             pairs: Vec::with_capacity(16 * count),
             listed_at: Vec::with_capacity(capacity),
@@ -74,7 +84,9 @@ impl Crowd {
             pieces: pieces(&world.mesh, world.rest.len()),
             distance,
             woven,
-            margin,
+            margin: margins[0],
+            margins,
+            passes: 0,
         }
     }
 
@@ -87,34 +99,44 @@ impl Crowd {
             + size_of::<u32>() * (self.near.capacity() + self.pieces.capacity())
     }
 
-    /// Whether no particle moved farther than the margin, but for what all did.
-    fn holds(&self, world: &World) -> bool {
+    /// Sees to it that the list holds: that no particle moved farther than the margin since, but for what all did.
+    fn see_to_list(&mut self, world: &World) {
         let x = &world.particles.x;
         if self.listed_at.len() != world.particles.len() {
-            return false;
+            self.list(world, self.margins[0]);
+            return;
         }
         let ways = || x.iter().zip(&self.listed_at).map(|(x, at)| x - *at);
         let drift = ways().fold(Vec3::ZERO, |sum, way| sum + way) * (1.0 / x.x.len() as f32);
-        let (most, far) = (HASTE * self.margin, FAR * self.margin);
-        let mut holds = drift.length_squared() <= far * far;
+        let (most, far) = (HASTE * self.margin, FAR * self.margins[0]);
+        let (mut holds, mut farthest) = (drift.length_squared() <= far * far, 0.0);
         for way in ways() {
-            holds &= (way - drift).length_squared() <= most * most;
+            let moved = (way - drift).length_squared();
+            holds &= moved <= most * most;
+            farthest = if moved > farthest { moved } else { farthest };
         }
-        holds
+        self.passes += 1;
+        if holds {
+            return;
+        }
+        let lasts = HASTE * self.margins[0] * self.passes as f32;
+        let is_calm = farthest * (PASSES * PASSES) <= lasts * lasts;
+        self.list(world, self.margins[usize::from(!is_calm)]);
     }
 
-    fn list(&mut self, world: &World) {
+    fn list(&mut self, world: &World, margin: f32) {
+        (self.margin, self.passes) = (margin, 0);
         let Self { grid, pairs, listed_at, near, pieces, .. } = self;
         listed_at.clear();
         listed_at.extend(world.particles.x.iter());
-        grid.fill(listed_at.iter().copied());
-        let most = self.distance + 2.0 * self.margin;
+        let most = self.distance + 2.0 * margin;
+        grid.fill(listed_at, most);
         pairs.clear();
         for (i, x) in listed_at.iter().enumerate() {
             let site = world.mesh.source[i] as usize;
             near.clear();
-            grid.visit_near(*x, |j| {
-                if j as usize > i && (listed_at[j as usize] - *x).length_squared() < most * most {
+            grid.visit_near(*x, |at, j| {
+                if (at - *x).length_squared() < most * most && j as usize > i {
                     near.push(j);
                 }
             });
@@ -186,9 +208,7 @@ pub(crate) fn pair(world: &mut World) {
     let Some(mut crowd) = world.crowd.take() else {
         return;
     };
-    if !crowd.holds(world) {
-        crowd.list(world);
-    }
+    crowd.see_to_list(world);
     world.crowd = Some(crowd);
 }
 
