@@ -7,17 +7,20 @@ const SIZE = 2;
 const TICK = 1 / 60;
 const SWEEPS = 6;
 
-/** The contenders, from the modules that are compared; each makes a sheet of `side` by `side`. */
+/** The contenders, from the modules that are there; each makes a sheet of `side` by `side`. */
 export function contenders({ Cloth, Jolt, RAPIER }) {
-  return [
+  const ours = [
     { name: "muslin, 6 sweeps", make: (side) => muslin(Cloth, side, { substeps: 1, iterations: SWEEPS }) },
     { name: "muslin", make: (side) => muslin(Cloth, side, {}) },
     { name: "hand-written JS, 6 sweeps", make: handwritten },
+  ];
+  const jolts = [
     { name: "Jolt, 6 sweeps", make: (side) => jolt(Jolt, side, false) },
     { name: "Jolt, 6 sweeps, LRA", make: (side) => jolt(Jolt, side, true) },
-    // At 128 a frame takes it most of a second.
-    { name: "Rapier's cloth", make: (side) => rapier(RAPIER, side), most: 64 },
   ];
+  // At 128 a frame takes it most of a second.
+  const rapiers = [{ name: "Rapier's cloth", make: (side) => rapier(RAPIER, side), most: 64 }];
+  return [...ours, ...(Jolt ? jolts : []), ...(RAPIER ? rapiers : [])];
 }
 
 /** Greatest stretch of the threads of a sheet, from its positions. */

@@ -2,14 +2,15 @@
 //!
 //! `kernels` tells what one projection of one constraint costs, `ticks` what whole ticks cost and
 //! how calm and how long the cloth is in the end, `shreds` what tears add to that, `layers` what
-//! collision with itself adds, `scenes` what the demo's scenes cost. Names choose among them. `--test`
-//! runs everything once and tiny, and times nothing that is worth reading. `benches/node` prints the
-//! same in wasm.
+//! collision with itself adds, `scenes` what the demo's scenes cost, `receipt` what its receipt costs
+//! in all that happens to it. Names choose among them. `--test` runs everything once and tiny, and
+//! times nothing that is worth reading. `benches/node` prints the same in wasm.
 
 mod cases;
 mod kernels;
 mod layers;
 mod measure;
+mod receipt;
 mod scenes;
 mod shreds;
 mod table;
@@ -29,12 +30,13 @@ enum Effort {
 /// A table's name, and what prints it.
 type Entry = (&'static str, fn(Effort));
 
-const TABLES: [Entry; 5] = [
+const TABLES: [Entry; 6] = [
     ("kernels", kernels::print),
     ("ticks", ticks::print),
     ("shreds", shreds::print),
     ("layers", layers::print),
     ("scenes", scenes::print),
+    ("receipt", receipt::print),
 ];
 
 fn main() -> ExitCode {
@@ -46,7 +48,7 @@ fn main() -> ExitCode {
     if let Some(unknown) = names.iter().find(|name| !TABLES.iter().any(|(known, _)| known == name))
     {
         eprintln!(
-            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers and scenes"
+            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers, scenes and receipt"
         );
         return ExitCode::FAILURE;
     }

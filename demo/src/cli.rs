@@ -18,12 +18,12 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
     --size WxH        its size in pixels (1280x720)
     --frames N        ticks of 1/60 s that the scene plays first (240); tender's are 1/120 s
     --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear;
-                      with tender: fold, crumple or toss
+                      with tender: fold, letter, crumple or toss
     --strip N         a film strip: N pictures of that size side by side (1)
     --times           draw every tick, and say what the stages of a frame take, and how many there
                       are a second
-    --orbit X,Y       drag the camera, in heights of the screen (0,0)
-    --zoom F          multiply the camera's distance (1)
+    --orbit X,Y       drag the camera, in heights of the screen (0,0, or as a gesture is seen best)
+    --zoom F          multiply the camera's distance (1, or the same)
   --scene NAME        sheet, flag, ball, discs, curtain or tender, or their numbers from 0; with
                       tender:
     --wind            it blows
@@ -66,7 +66,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
     let of_receipt = args.windows(2).any(|two| two[0] == "--scene" && is_receipt(&two[1]));
     let mut args = args.into_iter();
     let mut shot = Shot { receipt: of_receipt.then(Receipt::default), ..Shot::default() };
-    let mut ticks = None;
+    let (mut ticks, mut orbit, mut zoom) = (None, None, None);
     let mut file = None;
     let mut values = Vec::new();
     let mut only_for_shots = None;
@@ -81,9 +81,9 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             "--orbit" => {
                 let text = value()?;
                 let (x, y) = text.split_once(',').ok_or("--orbit must look like 0.3,-0.1")?;
-                shot.orbit = glam::Vec2::new(finite(&arg, x)?, finite(&arg, y)?);
+                orbit = Some(glam::Vec2::new(finite(&arg, x)?, finite(&arg, y)?));
             }
-            "--zoom" => shot.zoom = finite(&arg, &value()?)?,
+            "--zoom" => zoom = Some(finite(&arg, &value()?)?),
             "--tear" => shot.play = Some(Gesture::Tear),
             "--play" => match &mut shot.receipt {
                 None => shot.play = Some(named("--play", &Gesture::ALL, &value()?)?),
@@ -130,6 +130,8 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
     // The receipt's gestures last longer than the usual picture waits.
     let usual = gesture.map_or(shot.ticks, |gesture| 60 + gesture.ticks());
     shot.ticks = ticks.unwrap_or(usual);
+    let seen = gesture.map_or((shot.orbit, shot.zoom), |gesture| gesture.view());
+    (shot.orbit, shot.zoom) = (orbit.unwrap_or(seen.0), zoom.unwrap_or(seen.1));
     match (file, only_for_shots) {
         (Some(file), _) => {
             apply(&values, &mut shot.settings);
@@ -241,6 +243,12 @@ mod tests {
         assert_eq!(receipt.play, Some(tender::play::Gesture::Fold));
         assert_eq!(receipt.settings.sheet, muslin_scenes::Sheet::Brief);
         assert_eq!(shot.ticks, 60 + tender::play::Gesture::Fold.ticks());
+        // A gesture may have a view of its own, but what is given goes before it.
+        for (line, zoom) in [("", tender::play::Gesture::Letter.view().1), (" --zoom 2", 2.0)] {
+            let task = parsed(&format!("--scene tender --shot a.png --play letter{line}"));
+            let Ok(Task::Shot(_, shot)) = task else { panic!("{task:?}") };
+            assert_eq!((shot.orbit, shot.zoom), (tender::play::Gesture::Letter.view().0, zoom));
+        }
     }
 
     #[test]

@@ -26,3 +26,22 @@ test("the package loads under a strict policy and ends the script in the golden 
     await browser.close();
   }
 });
+
+test("the receipt of the brief, whose particles push each other apart, keeps up with real time", async () => {
+  const browser = await launch();
+  try {
+    const { page, complaints } = await open(browser);
+    await page.goto(new URL("page/index.html?brief", url).href);
+    await page.waitForFunction(() => window.result, null, { timeout: 120_000 });
+    const { error, receipts } = await page.evaluate(() => window.result);
+    assert.equal(error, undefined);
+    assert.deepEqual(receipts.map(({ name }) => name.split(/[ ,]/)[0]), ["at", "in", "dragged", "crumpled", "crumpled"]);
+    // The machine may be busy with much else, so the least of some rounds; it takes a fifth of that or less where it is not.
+    for (const { name, least } of receipts) {
+      assert.ok(least > 0.05 && least < 1000 / 120, `${name} a tick of 8.33 ms takes ${least} ms`);
+    }
+    assert.deepEqual(complaints, []);
+  } finally {
+    await browser.close();
+  }
+});

@@ -84,7 +84,7 @@ pub fn test_shot() -> Result {
         let options = ["--play", gesture, "--strip", "5", "--size", "400x400"];
         shoot(&shots.join(gesture).with_extension("png"), &options)?;
     }
-    for gesture in ["fold", "crumple", "toss"] {
+    for gesture in ["fold", "letter", "crumple", "toss"] {
         let options = ["--scene", "tender", "--play", gesture, "--strip", "5", "--size", "400x400"];
         shoot(&shots.join(format!("tender-{gesture}.png")), &options)?;
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{browser, files, no_wasm, npm, shell, tools, wasm};
+use crate::{bench, browser, files, no_wasm, npm, shell, tools, wasm};
 
 /// Where the package is built.
 pub fn dir() -> PathBuf {
@@ -132,11 +132,11 @@ pub fn test_page() -> Result {
     npm::install()?;
     let root = files::root();
     let mounts = vec![
-        Mount { at: "/js/", dir: dir() },
         Mount { at: "/three/", dir: npm::modules().join("three/build") },
         Mount { at: "/tests/", dir: root.join("tests") },
         Mount { at: "/", dir: root.join("tests/js/page") },
     ];
+    let mounts = bench::mounts().into_iter().chain(mounts).collect();
     let url = Server::open(mounts, 0)?.run_aside();
     browser::node_test("tests/web/page.test.mjs", &url, &[])
 }

@@ -9,6 +9,7 @@ mod flag;
 mod hanging_sheet;
 pub mod receipt;
 pub mod shadow;
+pub mod squeeze;
 
 pub use ball::SheetOnBall;
 pub use cast::{Cast, Roll};
@@ -17,6 +18,7 @@ pub use drapes::Drapes;
 pub use flag::Flag;
 pub use hanging_sheet::HangingSheet;
 pub use receipt::{Receipt, Sheet};
+pub use squeeze::Squeeze;
 
 /// Height of the floor [m]; where a scene is drawn larger than it is, in what it is drawn in.
 pub const FLOOR: f32 = -1.4;

@@ -22,6 +22,9 @@ pub struct Squeeze {
 }
 
 impl Squeeze {
+    /// How long the fingers hold it [s].
+    pub const HELD: f32 = CLOSING + CLOSED;
+
     /// Takes hold all over a sheet of so many particles, where a unit is so long [m].
     ///
     /// # Errors
@@ -29,7 +32,7 @@ impl Squeeze {
     pub fn new(cloth: &mut Cloth, [columns, rows]: [u32; 2], unit: f32) -> Result<Self> {
         let positions = cloth.positions();
         let middle = positions.iter().sum::<Vec3>() / positions.len() as f32;
-        let floor = (muslin_scenes::receipt::FLOOR + HEIGHT) * unit;
+        let floor = (crate::receipt::FLOOR + HEIGHT) * unit;
         let fist = middle.with_y(middle.y.max(floor));
         let mut fingers = Vec::new();
         let [down, across] = FINGERS;
@@ -70,7 +73,7 @@ impl Squeeze {
     /// As [`Cloth::move_grab`].
     pub fn tick(&mut self, seconds: f32, cloth: &mut Cloth) -> Result<bool> {
         self.age += seconds;
-        if self.age > CLOSING + CLOSED {
+        if self.age > Self::HELD {
             for (grab, ..) in self.fingers.drain(..) {
                 cloth.release(grab)?;
             }

@@ -7,26 +7,27 @@ pub mod bill;
 pub mod crease;
 mod drawn;
 pub mod hands;
+pub mod letter;
 #[cfg(target_arch = "wasm32")]
 pub mod page;
 pub mod play;
 pub mod print;
 pub mod put_back;
 pub mod settings;
-pub mod squeeze;
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, Result};
 use muslin_scenes::receipt::Sheet;
+use muslin_scenes::squeeze::Squeeze;
 
 use crate::camera::{Camera, Rig};
 use crate::meter::{Governor, Meter, Readout, StageTime};
 use crate::pointer::{Cursor, Screen};
 use crease::Creases;
 use hands::{Button, Hands, Table};
+use letter::Letter;
 use put_back::PutBack;
 pub use settings::{Action, Control, Settings};
-use squeeze::Squeeze;
 
 /// Length of a tick [s], and the longest frame that ticks are run for.
 pub const TICK: f32 = 1.0 / 120.0;
@@ -48,6 +49,7 @@ pub struct Tender {
     hands: Hands,
     creases: Creases,
     squeeze: Option<Squeeze>,
+    letter: Option<Letter>,
     put_back: Option<PutBack>,
     screen: Screen,
     /// Time that frames brought and no tick has run yet [s].
@@ -76,6 +78,7 @@ impl Tender {
             hands: Hands::default(),
             creases: Creases::default(),
             squeeze: None,
+            letter: None,
             put_back: None,
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
             owed: 0.0,
@@ -132,6 +135,7 @@ impl Tender {
             Action::Reset => return self.reset(),
             Action::Drop => self.cloth.unpin_all(),
             Action::Crumple => return self.crumple(),
+            Action::Fold => return self.fold(),
         }
         self.set_settings(settings)
     }
@@ -280,6 +284,11 @@ impl Tender {
             {
                 self.squeeze = Some(squeeze);
             }
+            if let Some(mut letter) = self.letter.take()
+                && letter.tick(TICK, &mut self.cloth)?
+            {
+                self.letter = Some(letter);
+            }
             self.cloth.step(1);
         }
         Ok(())
@@ -364,6 +373,9 @@ impl Tender {
         if let Some(squeeze) = self.squeeze.take() {
             squeeze.release(&mut self.cloth)?;
         }
+        if let Some(letter) = self.letter.take() {
+            letter.release(&mut self.cloth)?;
+        }
         let desc = self.settings.sheet.desc(self.small);
         self.put_back = Some(PutBack::new(&self.cloth, &desc));
         Ok(())
@@ -382,13 +394,14 @@ impl Tender {
     fn forget(&mut self) {
         self.creases = Creases::default();
         self.squeeze = None;
+        self.letter = None;
         self.put_back = None;
         self.owed = 0.0;
         self.generation = self.generation.wrapping_add(1);
     }
 
     fn crumple(&mut self) -> Result<()> {
-        if self.squeeze.is_some() || self.put_back.is_some() {
+        if self.is_handled() {
             return Ok(());
         }
         let (hands, mut table) = self.hands();
@@ -398,6 +411,24 @@ impl Tender {
         let weave = self.weave();
         self.squeeze = Some(Squeeze::new(&mut self.cloth, weave, unit)?);
         Ok(())
+    }
+
+    fn fold(&mut self) -> Result<()> {
+        if self.is_handled() {
+            return Ok(());
+        }
+        let (hands, mut table) = self.hands();
+        hands.open(&mut table)?;
+        self.cloth.unpin_all();
+        let sheet = self.settings.sheet;
+        let desc = sheet.desc(self.small);
+        self.letter = Some(Letter::new(&mut self.cloth, desc, sheet.unit())?);
+        Ok(())
+    }
+
+    /// Whether hands of its own do something with it.
+    fn is_handled(&self) -> bool {
+        self.squeeze.is_some() || self.letter.is_some() || self.put_back.is_some()
     }
 
     /// Paper comes off a pin that a hand pulls it away from.

@@ -15,6 +15,8 @@ pub enum Gesture {
     Fold,
     /// Two hands gather the sheet into a ball and drop it.
     Crumple,
+    /// Two hands fold it on the floor, in half and in half again, and let go.
+    Letter,
     /// A hand takes it off its pins and throws it across the floor.
     Toss,
 }
@@ -48,6 +50,8 @@ const FOLD: Score = Score {
 
 const CRUMPLE: Score = Score { ticks: 600, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
 
+const LETTER: Score = Score { ticks: 1080, ways: &[], deeds: &[(1, Deed::Act(Action::Fold))] };
+
 const TOSS: Score = Score {
     ticks: 840,
     ways: &[&[
@@ -62,17 +66,31 @@ const TOSS: Score = Score {
 
 impl Gesture {
     /// All of them, with the names that the command line knows.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("fold", Self::Fold), ("crumple", Self::Crumple), ("toss", Self::Toss)];
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("fold", Self::Fold),
+        ("letter", Self::Letter),
+        ("crumple", Self::Crumple),
+        ("toss", Self::Toss),
+    ];
 
     /// Ticks from its beginning until the receipt rests again.
     pub fn ticks(self) -> u32 {
         self.score().ticks
     }
 
+    /// How far the camera is dragged to see it well, in heights of the screen, and what its distance is multiplied by.
+    pub fn view(self) -> (Vec2, f32) {
+        match self {
+            // It ends flat on the floor.
+            Self::Letter => (Vec2::new(-0.05, 0.22), 0.9),
+            _ => (Vec2::ZERO, 1.0),
+        }
+    }
+
     fn score(self) -> &'static Score {
         match self {
             Self::Fold => &FOLD,
+            Self::Letter => &LETTER,
             Self::Crumple => &CRUMPLE,
             Self::Toss => &TOSS,
         }

@@ -27,6 +27,8 @@ pub enum Action {
     Drop,
     /// Into a ball.
     Crumple,
+    /// In half, and in half again.
+    Fold,
     /// The other sheet.
     Sheet,
     /// Time stands still, or goes on.
@@ -64,10 +66,11 @@ const fn control(
 }
 
 /// Every control, in the order of the pills.
-pub const CONTROLS: [Control; 7] = [
+pub const CONTROLS: [Control; 8] = [
     control("wind", "Wind", "Wind on or off", 'W', Action::Wind, true),
     control("drop", "Drop", "Takes it off its pins", 'X', Action::Drop, true),
     control("crumple", "Crumple", "Squeezes it into a ball", 'C', Action::Crumple, true),
+    control("fold", "Fold", "Folds it in half, and in half again", 'F', Action::Fold, true),
     control("sheet", "Real paper", "Real paper, or the brief's links", 'P', Action::Sheet, true),
     control("reset", "Reset", "Hangs it up again as new", 'R', Action::Reset, true),
     control("paused", "Pause", "Time stands still", ' ', Action::Pause, false),
@@ -100,7 +103,7 @@ impl Control {
             Action::Sheet => Some(settings.sheet == Sheet::Paper),
             Action::Pause => Some(settings.paused),
             Action::Counter => Some(settings.counter),
-            Action::Reset | Action::Drop | Action::Crumple => None,
+            Action::Reset | Action::Drop | Action::Crumple | Action::Fold => None,
         }
     }
 }

@@ -197,6 +197,49 @@ fn folded_in_half_and_released_the_crease_stays() {
     assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
 }
 
+/// How much each quarter of the sheet's length is turned against the one before [rad].
+fn folds(tender: &Tender) -> [f32; 3] {
+    let [columns, rows] = tender.weave();
+    let middle = |share: f32| {
+        let row = (share * (rows - 1) as f32).round() as u32;
+        let places = (0..columns).map(|column| tender.particle(row * columns + column).unwrap());
+        places.sum::<Vec3>() / columns as f32
+    };
+    let quarter = |i: usize| middle(0.25 * i as f32 + 0.22) - middle(0.25 * i as f32 + 0.03);
+    [0, 1, 2].map(|i| quarter(i).angle_between(quarter(i + 1)))
+}
+
+#[test]
+fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_go() {
+    let mut tender = tender(Sheet::Paper);
+    tender.play(60).unwrap();
+    let before = folds(&tender);
+    assert!(before.iter().all(|turned| *turned < 0.4), "it hangs folded by {before:?}");
+    let mut play = Play::new(Gesture::Letter);
+    for tick in 0..Gesture::Letter.ticks() {
+        play.step(&mut tender).unwrap();
+        let corners = [0, 23, 35 * 24, 36 * 24 - 1].map(|i| tender.particle(i).unwrap());
+        for at in corners.into_iter().map(|at| tender.on_screen(at).unwrap()) {
+            let is_seen = at.x > 0.0 && at.x < 1280.0 && at.y > 0.0 && at.y < 720.0;
+            assert!(is_seen, "at tick {tick} a corner is at {at}");
+        }
+    }
+    assert!(!tender.hands.any() && tender.letter.is_none(), "hands still hold it");
+    tender.play(240).unwrap();
+    let creased = folds(&tender);
+    assert!(creased.iter().all(|turned| *turned > 2.6), "it is folded by {creased:?}");
+    let [low, high] = heights(&tender);
+    assert!(low > FLOOR - 1.0e-3 && high < FLOOR + 0.8, "it lies from {low} to {high} units");
+    assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
+    // It wants to stay so, too: alone in the air no crease opens far.
+    let mut settings = tender.cloth.settings().clone();
+    settings.gravity = Vec3::ZERO;
+    tender.cloth.set_settings(settings).unwrap();
+    tender.play(360).unwrap();
+    let alone = folds(&tender);
+    assert!(alone.iter().all(|turned| *turned > 2.0), "alone it is folded by {alone:?}");
+}
+
 #[test]
 fn a_toss_flies_lands_and_comes_to_rest_on_the_floor() {
     for sheet in Sheet::ALL {
@@ -233,9 +276,12 @@ fn crumpled_paper_is_a_ball_and_stays_one() {
 fn reset_brings_everything_back_in_half_a_second_and_the_last_of_it_slowly() {
     for sheet in Sheet::ALL {
         // Folded and held, crumpled and on the floor, in the air.
-        for (gesture, ticks) in
-            [(Gesture::Fold, 180), (Gesture::Crumple, 240), (Gesture::Toss, 170)]
-        {
+        for (gesture, ticks) in [
+            (Gesture::Fold, 180),
+            (Gesture::Letter, 620),
+            (Gesture::Crumple, 240),
+            (Gesture::Toss, 170),
+        ] {
             comes_back(&mut played_for(gesture, sheet, ticks));
         }
         let mut torn = tender(sheet);
