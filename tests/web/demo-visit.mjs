@@ -80,3 +80,36 @@ export async function fingers(page) {
     return session.send("Input.dispatchTouchEvent", { type, touchPoints });
   };
 }
+
+/** Looks at what others show of a page when it is shared: names, a favicon, and a picture that is there. */
+export async function looksShared(page) {
+  const told = await page.evaluate(() =>
+    Object.fromEntries([...document.querySelectorAll("meta[content]")].map((meta) =>
+      [meta.name || meta.getAttribute("property"), meta.content])));
+  const title = await page.title();
+  assert.ok(title.length > 5);
+  assert.ok(told.description.length > 40, `the description is ${told.description}`);
+  assert.equal(told["og:type"], "website");
+  assert.equal(told["twitter:card"], "summary_large_image");
+  for (const family of ["og", "twitter"]) {
+    assert.equal(told[`${family}:title`], title);
+    for (const name of ["description", "image:alt"]) {
+      assert.ok(told[`${family}:${name}`]?.length > 20, `${family}:${name} is ${told[`${family}:${name}`]}`);
+    }
+    const image = await page.evaluate(async (address) => {
+      const answer = await fetch(address);
+      const { width, height } = await createImageBitmap(await answer.blob());
+      return [answer.ok, answer.headers.get("content-type"), String(width), String(height)];
+    }, told[`${family}:image`]);
+    assert.deepEqual(image, [true, ...["type", "width", "height"].map((name) => told[`og:image:${name}`])]);
+  }
+  const icon = await page.locator("link[rel=icon]").getAttribute("href");
+  assert.match(icon, /^data:image\/svg/);
+  const isDrawn = await page.evaluate(async (icon) => {
+    const image = new Image();
+    image.src = icon;
+    await image.decode();
+    return image.naturalWidth > 0;
+  }, icon);
+  assert.ok(isDrawn, "the favicon is no picture");
+}

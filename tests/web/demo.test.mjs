@@ -8,7 +8,7 @@ import { variable } from "./browser.mjs";
 import "./demo-panel.test.mjs";
 import "./demo-robust.test.mjs";
 import "./tender.test.mjs";
-import { MIDDLE, apart, becomes, eye, fingers, frames, hash, particle, running, settings, stats, visitRunning } from "./demo-visit.mjs";
+import { MIDDLE, apart, becomes, eye, fingers, frames, hash, looksShared, particle, running, settings, stats, visitRunning } from "./demo-visit.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
 
@@ -20,6 +20,7 @@ test("the sheet moves, and its picture fits a wide and a tall screen", async () 
     await frames(page, 20);
     const box = await page.locator("#stage").boundingBox();
     assert.deepEqual([box.x, box.y, box.width, box.height], [0, 0, width, height]);
+    await looksShared(page);
     const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wider <= 0, `the page is ${wider} pixels wider than the screen`);
     await page.screenshot({ path: join(shots, `web-${width}x${height}.png`) });

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 
 import { variable } from "./browser.mjs";
-import { apart, becomes, eye, fingers, frames, hash, particle, started, stats, visit } from "./demo-visit.mjs";
+import { apart, becomes, eye, fingers, frames, hash, looksShared, particle, started, stats, visit } from "./demo-visit.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
 /** A particle in the middle of the last row, of the larger sheet and of the smaller one. */
@@ -25,11 +25,7 @@ test("the receipt has its own page, and its picture fits a wide and a tall scree
     const { context, page, complaints } = await visitReceipt({ viewport: { width, height }, hasTouch });
     assert.equal(await page.title(), "Tender — Receipt Paper Physics");
     assert.equal((await stats(page)).particles, hasTouch ? 24 * 36 : 40 * 60);
-    for (const [at, name] of [["name", "description"], ["property", "og:title"], ["name", "twitter:card"]]) {
-      const content = await page.locator(`meta[${at}="${name}"]`).getAttribute("content");
-      assert.ok(content.length > 5, `${name} is ${content}`);
-    }
-    assert.match(await page.locator("link[rel=icon]").getAttribute("href"), /^data:image\/svg/);
+    await looksShared(page);
     const instructions = page.locator("#instructions");
     assert.match(await instructions.textContent(), /Click and drag to grab the paper/);
     await page.waitForFunction(() => getComputedStyle(document.getElementById("instructions")).opacity === "0");
@@ -98,14 +94,14 @@ test("space pauses with its overlay, I shows the counter, W and the pills do wha
   await page.keyboard.press("Enter");
   assert.equal(await isOn(page, "wind"), false);
   const reached = [];
-  for (let i = 0; i < 4; i++) {
+  for (let i = 0; i < 5; i++) {
     await page.keyboard.press("Tab");
     reached.push(await page.evaluate(() => {
       const focused = document.activeElement;
       return [focused.id, getComputedStyle(focused).outlineStyle];
     }));
   }
-  assert.deepEqual(reached.map(([id]) => id), ["drop", "crumple", "sheet", "reset"].map((name) => `control-${name}`));
+  assert.deepEqual(reached.map(([id]) => id), ["drop", "crumple", "fold", "sheet", "reset"].map((name) => `control-${name}`));
   for (const [id, ring] of reached) assert.notEqual(ring, "none", `${id} has no ring`);
   await page.locator("#control-sheet").click();
   assert.equal(await isOn(page, "sheet"), false);

@@ -43,13 +43,14 @@ cargo xtask test [STEP…]            every test, or the steps that are named
 cargo xtask bits                    play the scenes of tests/golden everywhere, compare the hashes
   --bless                           write golden.txt anew instead, from this machine
 cargo xtask web                     build the demo's page into dist/web
+  --url ADDRESS/                    to be served at this address, which previews of links need
 cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
 cargo xtask package                 pack the C library as others install it, into dist/c
   --js                              pack the npm package instead, into dist, and say what it weighs
 cargo xtask examples                serve the example pages of the npm package
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
-                                    kernels, ticks, shreds, layers, scenes, node, peers
+                                    kernels, ticks, shreds, layers, scenes, receipt, node, page, peers
   --test                            once and tiny, to see that it runs
 cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or so many seconds
 cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer, a minute
@@ -77,7 +78,7 @@ fn run(args: &[String]) -> Result {
         "bits" => bits::run(rest),
         "bench" => bench::run(rest),
         "setup" => test::prepare(rest),
-        "web" => alone(chore, rest, web::build),
+        "web" => web::run(rest),
         "js" => alone(chore, rest, js::build),
         "race" => race::run(rest),
         "miri" => miri::run(rest),

@@ -3,12 +3,39 @@
 use std::path::PathBuf;
 
 use crate::browser::Served;
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
 use crate::{browser, files, picture, wasm};
 
 /// Where the page is built.
 pub fn dir() -> PathBuf {
     files::root().join("dist/web")
+}
+
+/// Builds the page; with `--url` for an address that it will be served at.
+pub fn run(options: &[String]) -> Result {
+    let typed: Vec<_> = options.iter().flat_map(|option| option.splitn(2, '=')).collect();
+    match typed[..] {
+        [] => build(),
+        ["--url", url] if url.starts_with("http") && url.ends_with('/') => {
+            build()?;
+            name_address(url)
+        }
+        _ => Err(Failure::new(
+            "`cargo xtask web` takes only --url, such as https://example.org/cloth/ with the slash",
+        )),
+    }
+}
+
+/// Says in the pages' own tags where their pictures are: who shows a link to a page wants the whole address.
+fn name_address(url: &str) -> Result {
+    for page in files::ending(&dir(), ".html")? {
+        files::write(&page, &addressed(&files::read(&page)?, url))?;
+    }
+    Ok(())
+}
+
+fn addressed(page: &str, url: &str) -> String {
+    page.replace("content=\"./", &format!("content=\"{url}"))
 }
 
 /// Builds the page.
@@ -36,4 +63,32 @@ pub fn test() -> Result {
     }
     browser::node_test("tests/web/demo.test.mjs", &served.url, &[("MUSLIN_SHOTS", &shots)])?;
     pictures.iter().try_for_each(|picture| picture::check(picture))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_at_an_address_names_the_whole_of_it_for_its_picture() {
+        for (page, picture) in [("index.html", "sheet.png"), ("tender.html", "tender.png")] {
+            let dir = files::root().join("demo/web");
+            let file = dir.join(picture);
+            let size = std::fs::metadata(&file).map_or(0, |file| file.len());
+            assert!((1..150_000).contains(&size), "{picture} has {size} bytes");
+            let text = addressed(&files::read(&dir.join(page)).unwrap(), "https://example.org/a/");
+            for name in ["property=\"og:image\"", "name=\"twitter:image\""] {
+                let tag = format!("<meta {name} content=\"https://example.org/a/{picture}\" />");
+                assert!(text.contains(&tag), "{page} has no {tag}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_address_without_its_slash_is_refused() {
+        for options in [&["--url"][..], &["--url", "https://example.org/a"], &["--at"]] {
+            let options: Vec<_> = options.iter().map(|option| String::from(*option)).collect();
+            assert!(run(&options).is_err_and(|failure| failure.to_string().contains("--url")));
+        }
+    }
 }
