@@ -24,6 +24,9 @@ import init, {
   type Wind,
   type WriteDesc,
 } from "muslin";
+import initInline from "muslin/inline";
+import initWithout, { Cloth as ClothWithout, initSync as initWithoutSync } from "muslin/no-wasm";
+import { Pointers } from "muslin/pointers";
 import { ClothGeometry } from "muslin/three";
 import { BufferGeometry, Mesh } from "three";
 
@@ -38,6 +41,15 @@ await init(7);
 // @ts-expect-error: nothing can be fetched at once
 initSync("raw_bg.wasm");
 const told: string = version();
+
+// Without WebAssembly there is nothing to load, and the cloth is the same.
+const ready: Promise<void> = initWithout();
+initWithoutSync();
+// @ts-expect-error: nothing is loaded
+await initWithout("raw_bg.wasm");
+const without: Cloth = ClothWithout.grid({ columns: 8, rows: 8 });
+const pulls: boolean = new Pointers(without, { radius: 0.1 }).press(1, [0, 0, 1], [0, 0, -1]);
+await initInline();
 
 const desc: GridDesc = {
   columns: 40,
@@ -210,5 +222,5 @@ cloth.writeVertices([{ attribute: "uv", buffer: [0, 0] }]);
 cloth.writeIndices(new Float32Array(3));
 
 export { clocks, floats, geometry, hash, held, isFreed, kept, loaded, mass, material, moved, other };
-export { place, repaired, revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };
+export { place, pulls, ready, repaired, revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };
 export { writtenIndices, writtenVertices };

@@ -62,3 +62,12 @@ export async function open(browser, options = {}, home = url) {
   });
   return { context, page, complaints };
 }
+
+/** Touches a page with as many fingers as there are places; real events, from outside the page. */
+export async function fingers(page) {
+  const session = await page.context().newCDPSession(page);
+  return (type, ...places) => {
+    const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
+    return session.send("Input.dispatchTouchEvent", { type, touchPoints });
+  };
+}

@@ -5,6 +5,8 @@ import { after, before } from "node:test";
 
 import { launch, open, url } from "./browser.mjs";
 
+export { fingers } from "./browser.mjs";
+
 /** A particle in the middle of the 40 x 40. */
 export const MIDDLE = 20 * 40 + 20;
 
@@ -70,15 +72,6 @@ export async function becomes(page, read, fits, what) {
     await frames(page, 2);
   }
   assert.fail(`${what}: ${JSON.stringify(last)}`);
-}
-
-/** Touches a page with as many fingers as there are places; real events, from outside the page. */
-export async function fingers(page) {
-  const session = await page.context().newCDPSession(page);
-  return (type, ...places) => {
-    const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
-    return session.send("Input.dispatchTouchEvent", { type, touchPoints });
-  };
 }
 
 /** Looks at what others show of a page when it is shared: names, a favicon, and a picture that is there. */

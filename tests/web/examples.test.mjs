@@ -5,7 +5,7 @@ import { readdir } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { launch, open, url, variable } from "./browser.mjs";
+import { fingers, launch, open, url, variable } from "./browser.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
 /** The same pages with the newest three.js. */
@@ -131,6 +131,32 @@ for (const [name, version, home, top, pace] of [
     await page.mouse.up();
     await page.locator("#reset").click();
     await becomes(page, beside, background, false);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+}
+
+// The sheet hangs at 73; the second finger does on the left what the first does on the right.
+for (const count of [1, 2]) {
+  test(`drape, ${count === 1 ? "a finger" : "two fingers"}: each brings the cloth along, and lets it go`, async () => {
+    const { context, page, complaints } = await visit("drape", { hasTouch: true });
+    const touch = await fingers(page);
+    const places = ([x, y]) => [[x, 73 + y], [SIZE.width - x, 73 + y]].slice(0, count);
+    const [from, to] = [places(ON), places(BESIDE)];
+    const backgrounds = [];
+    for (const place of to) backgrounds.push(await patch(page, place));
+    // One comes down after the other, as fingers do.
+    for (let down = 1; down <= count; down++) await touch("touchStart", ...from.slice(0, down));
+    for (let step = 1; step <= STEPS; step++) {
+      const share = step / STEPS;
+      await touch("touchMove", ...from.map((at, i) => at.map((x, axis) => x + share * (to[i][axis] - x))));
+      await Promise.all([page.waitForTimeout(100), pictures(page, 4)]);
+    }
+    for (const [i, place] of to.entries()) await becomes(page, place, backgrounds[i], true);
+    await page.screenshot({ path: join(shots, `drape-${count}-touched.png`) });
+    await touch("touchEnd");
+    await page.locator("#reset").click();
+    for (const [i, place] of to.entries()) await becomes(page, place, backgrounds[i], false);
     assert.deepEqual(complaints, []);
     await context.close();
   });
