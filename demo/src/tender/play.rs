@@ -83,7 +83,9 @@ impl Gesture {
         match self {
             // It ends flat on the floor.
             Self::Letter => (Vec2::new(-0.05, 0.22), 0.9),
-            _ => (Vec2::ZERO, 1.0),
+            // It flies to the right, out of a square picture otherwise.
+            Self::Toss => (Vec2::new(0.0, 0.1), 1.45),
+            Self::Fold | Self::Crumple => (Vec2::ZERO, 1.0),
         }
     }
 
