@@ -5,6 +5,7 @@
 //! push and rub (`push`); and after all else moved, none gets past the other (`fence`). All of it follows from
 //! where particles are alone, in the order of the mesh.
 
+mod around;
 mod contacts;
 mod fence;
 mod motion;
@@ -19,6 +20,7 @@ use super::World;
 use super::crowd;
 use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
+use around::Around;
 use contacts::Contact;
 use motion::Motion;
 use patches::Patches;
@@ -43,6 +45,7 @@ pub(crate) struct Layers {
     is_found: bool,
     /// The contacts that push in this substep.
     active: Vec<u32>,
+    around: Around,
     /// What the fence has in hand.
     frozen: Vec<u32>,
     /// How many contacts each particle is from what bears the cloth.
@@ -65,6 +68,7 @@ impl Layers {
             contacts: Vec::with_capacity(24 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
+            around: Around::new(capacity, 24 * count),
             frozen: Vec::with_capacity(capacity),
             levels: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
@@ -84,6 +88,7 @@ impl Layers {
         self.patches.bytes()
             + self.motion.bytes()
             + self.slits.bytes()
+            + self.around.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<u32>() * words
             + self.levels.capacity()
@@ -123,23 +128,27 @@ impl Layers {
         if !self.is_found {
             self.find(world);
         }
-        let mut may_go_back = false;
-        for _ in 0..LOOKS {
-            self.find_strays(world, may_go_back);
-            let Self { contacts, motion, frozen, open, .. } = self;
-            let is_done = fence::draw_apart(contacts, motion, open);
-            if !is_done && may_go_back {
-                fence::go_back(contacts, motion, frozen);
+        let (mut may_go_back, mut went_back) = (false, false);
+        self.around.begin(self.motion.now.len());
+        let mut known = 0;
+        for look in 0..=LOOKS {
+            let is_last = look == LOOKS;
+            self.find_strays(world, may_go_back || is_last);
+            let Self { contacts, motion, frozen, open, around, .. } = self;
+            around.call_from(known, contacts);
+            known = contacts.len();
+            let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
+            if !is_done && (may_go_back || is_last) {
+                fence::go_back(contacts, motion, around, frozen);
+                went_back = true;
             }
             if (is_done || may_go_back) && motion.is_as_thought() {
-                return !is_done;
+                break;
             }
             // Whoever goes back must not get in the way of somebody else.
             may_go_back |= !is_done;
         }
-        self.find_strays(world, true);
-        fence::go_back(&self.contacts, &mut self.motion, &mut self.frozen);
-        true
+        went_back
     }
 }
 
