@@ -11,6 +11,7 @@ mod fence;
 mod motion;
 mod patches;
 mod push;
+mod reach;
 mod sift;
 pub(crate) mod slits;
 mod spots;
@@ -24,6 +25,7 @@ use around::Around;
 use contacts::Contact;
 use motion::Motion;
 use patches::Patches;
+use reach::Reach;
 use sift::Sift;
 use slits::Slits;
 
@@ -39,6 +41,7 @@ const LOOKS: u32 = 8;
 pub(crate) struct Layers {
     patches: Patches,
     motion: Motion,
+    reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<[u32; 2]>,
     contacts: Vec<Contact>,
@@ -64,6 +67,7 @@ impl Layers {
         Self {
             patches: Patches::new(&world.mesh, &world.rest, &pieces, capacity),
             motion: Motion::new(capacity),
+            reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
             contacts: Vec::with_capacity(24 * count),
             is_found: false,
@@ -87,6 +91,7 @@ impl Layers {
             + 2 * self.pairs.capacity();
         self.patches.bytes()
             + self.motion.bytes()
+            + self.reach.bytes()
             + self.slits.bytes()
             + self.around.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
@@ -94,20 +99,34 @@ impl Layers {
             + self.levels.capacity()
     }
 
-    /// Finds what may meet in this substep, as particles are now.
-    fn find(&mut self, world: &World) {
-        let Self { motion, patches, pieces, pairs, contacts, gap, .. } = self;
+    /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
+    fn find(&mut self, world: &World, substeps: u32) {
+        let Self { motion, reach, patches, pieces, pairs, contacts, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
+        if reach.is_known {
+            reach.follow(motion);
+            reach.is_known = reach.holds(motion);
+        }
+        if !reach.is_known {
+            reach.look_ahead(motion, substeps, world.spacing);
+            patches.list(reach, *gap);
+        }
         Sift { world, pieces, patches, motion, gap: *gap }.find(pairs, contacts);
         self.is_found = true;
     }
 
     /// Adds what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, patches, pieces, pairs, contacts, gap, .. } = self;
-        if motion.look_again(world.spacing, *gap, may_go_back) {
-            Sift { world, pieces, patches, motion, gap: *gap }.find_strays(pairs, contacts);
+        let Self { motion, reach, patches, pieces, pairs, contacts, gap, .. } = self;
+        if !motion.look_again(world.spacing, *gap, may_go_back) {
+            return;
         }
+        if !reach.holds(motion) {
+            let all = 0..motion.now.len() as u32;
+            all.filter(|at| motion.strays(*at)).for_each(|at| reach.widen(motion, at));
+            patches.list(reach, *gap);
+        }
+        Sift { world, pieces, patches, motion, gap: *gap }.find_strays(pairs, contacts);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
@@ -126,7 +145,7 @@ impl Layers {
     /// Says whether anything went back to where it was.
     fn fence(&mut self, world: &World) -> bool {
         if !self.is_found {
-            self.find(world);
+            self.find(world, 1);
         }
         let (mut may_go_back, mut went_back) = (false, false);
         self.around.begin(self.motion.now.len());
@@ -182,11 +201,12 @@ pub(crate) fn begin(world: &mut World) {
     spots::gather(&mut motion.start, &p.x, &p.w);
     motion.now.clone_from(&motion.start);
     layers.is_found = false;
+    layers.reach.is_known = false;
     world.layers = Some(layers);
 }
 
-/// Finds what may meet in this substep.
-pub(crate) fn pair(world: &mut World) {
+/// Finds what may meet in substep `number` of the tick.
+pub(crate) fn pair(world: &mut World, number: u32) {
     let Some(mut layers) = world.layers.take() else {
         return;
     };
@@ -197,7 +217,7 @@ pub(crate) fn pair(world: &mut World) {
     for touch in &world.scratch.contacts.touches {
         levels[touch.particle as usize] = 0;
     }
-    layers.find(world);
+    layers.find(world, world.settings.substeps - number);
     world.layers = Some(layers);
 }
 

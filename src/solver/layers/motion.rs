@@ -93,6 +93,12 @@ impl Motion {
         is_within
     }
 
+    /// The ways that a particle may have made in the end, from and to.
+    #[inline(always)]
+    pub fn ways(&self, at: usize) -> [Vec3; 2] {
+        [place(&self.from[at]), place(&self.to[at])]
+    }
+
     /// Grows a sweep to hold a particle.
     #[inline(always)]
     pub fn add_to(&self, sweep: &mut Sweep, particle: u32) {
