@@ -6,6 +6,7 @@
 //! where particles are alone, in the order of the mesh.
 
 mod around;
+mod candidates;
 mod contacts;
 mod fence;
 mod motion;
@@ -26,7 +27,7 @@ use contacts::Contact;
 use motion::Motion;
 use patches::Patches;
 use reach::Reach;
-use sift::Sift;
+use sift::{Candidacy, Sift};
 use slits::Slits;
 
 /// Gap of a cloth without thickness, in mean rest lengths; and the most that any has.
@@ -44,6 +45,7 @@ pub(crate) struct Layers {
     reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<[u32; 2]>,
+    candidacy: Candidacy,
     contacts: Vec<Contact>,
     is_found: bool,
     /// The contacts that push in this substep.
@@ -69,6 +71,7 @@ impl Layers {
             motion: Motion::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
+            candidacy: Candidacy::new(),
             contacts: Vec::with_capacity(24 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
@@ -94,6 +97,7 @@ impl Layers {
             + self.reach.bytes()
             + self.slits.bytes()
             + self.around.bytes()
+            + self.candidacy.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<u32>() * words
             + self.levels.capacity()
@@ -101,7 +105,7 @@ impl Layers {
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
-        let Self { motion, reach, patches, pieces, pairs, contacts, gap, .. } = self;
+        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
         if reach.is_known {
             reach.follow(motion);
@@ -111,13 +115,13 @@ impl Layers {
             reach.look_ahead(motion, substeps, world.spacing);
             patches.list(reach, *gap);
         }
-        Sift { world, pieces, patches, motion, gap: *gap }.find(pairs, contacts);
+        Sift { world, pieces, patches, motion, candidacy, gap: *gap }.find(pairs, contacts);
         self.is_found = true;
     }
 
     /// Adds what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, reach, patches, pieces, pairs, contacts, gap, .. } = self;
+        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, gap, .. } = self;
         if !motion.look_again(world.spacing, *gap, may_go_back) {
             return;
         }
@@ -126,7 +130,7 @@ impl Layers {
             all.filter(|at| motion.strays(*at)).for_each(|at| reach.widen(motion, at));
             patches.list(reach, *gap);
         }
-        Sift { world, pieces, patches, motion, gap: *gap }.find_strays(pairs, contacts);
+        Sift { world, pieces, patches, motion, candidacy, gap: *gap }.find_strays(pairs, contacts);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.

@@ -93,6 +93,11 @@ impl Motion {
         is_within
     }
 
+    /// Where particles were as the substep began, and the ways that each may have made in the end, from and to.
+    pub fn rooms(&self) -> [&[Spot]; 3] {
+        [&self.start, &self.from, &self.to]
+    }
+
     /// The ways that a particle may have made in the end, from and to.
     #[inline(always)]
     pub fn ways(&self, at: usize) -> [Vec3; 2] {
