@@ -227,3 +227,61 @@ impl<F: Number> V<F> {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangle that lies still, and a vertex a tenth over it that goes down by so much.
+    fn above(down: f32) -> Motion {
+        let mut motion = Motion::new(4);
+        let start = [[0.2, 0.1, 0.2], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        motion.start.extend(start.map(|[x, y, z]: [f32; 3]| [x, y, z, 1.0]));
+        motion.now.clone_from(&motion.start);
+        motion.now[0][1] -= down;
+        motion.look_ahead(0.01, 0.01);
+        motion
+    }
+
+    #[test]
+    fn what_stays_above_is_told_apart_and_what_falls_through_is_not() {
+        for level in Level::all() {
+            for (down, may_meet) in [(0.0, false), (0.05, false), (0.15, true), (f32::NAN, true)] {
+                let motion = above(down);
+                let mut candidates = Candidates::new(1);
+                candidates.push([0, 1, 2, 3]);
+                candidates.judge::<VERTEX>(level, &motion, 0.001);
+                let found = candidates.may_meet(0);
+                assert_eq!(found, may_meet.then_some([0, 1, 2, 3]), "{down} at {level:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_judge_as_each_alone() {
+        let mut motion = Motion::new(64);
+        let number = |i: usize| (i * 7919 % 97) as f32 / 97.0;
+        let spot = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2), 1.0];
+        motion.start.extend((0..64).map(spot));
+        motion.now.extend(motion.start.iter().map(|[x, y, z, w]| [*x, y - z, z + x, *w]));
+        motion.look_ahead(0.1, 0.01);
+        let judged = |level| {
+            let mut all = [(); 2].map(|()| Candidates::new(60));
+            for (k, candidates) in all.iter_mut().enumerate() {
+                (0..60).for_each(|i| candidates.push([i, i + 1, i + 2, i + 3]));
+                if k == 0 {
+                    candidates.judge::<VERTEX>(level, &motion, 0.01);
+                } else {
+                    candidates.judge::<EDGES>(level, &motion, 0.01);
+                }
+            }
+            all.map(|all| all.clear.iter().map(|clear| clear.to_bits()).collect::<Vec<u32>>())
+        };
+        let alone = judged(Level::Scalar);
+        let clear = alone
+            .each_ref()
+            .map(|all| all.iter().filter(|bits| f32::from_bits(**bits) > 0.0).count());
+        assert!(clear.iter().all(|count| (1..60).contains(count)), "{clear:?} of 60 are clear");
+        Level::all().into_iter().for_each(|level| assert_eq!(judged(level), alone, "{level:?}"));
+    }
+}

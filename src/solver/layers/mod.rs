@@ -10,6 +10,7 @@ mod candidates;
 mod contacts;
 mod fence;
 mod motion;
+mod pairing;
 mod patches;
 mod push;
 mod reach;

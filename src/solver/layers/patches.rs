@@ -4,7 +4,6 @@
 //! follow the cloth.
 
 use super::motion::Motion;
-use super::reach::Reach;
 use super::spots::place;
 use super::sweep::{LANES, Sweep, Sweeps, meet};
 use crate::geom::aabb::Aabb;
@@ -19,13 +18,6 @@ const PATCH: usize = LANES;
 /// Blocks of lanes that its vertices take at most, and its edges.
 const BLOCKS: usize = 3 * PATCH / LANES;
 
-/// The bit of a listed pair whose patches share a vertex, or are the same.
-const BESIDE: u32 = 1 << 31;
-
-/// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
-/// (cosine of 60°).
-const STEEP: f32 = 0.5;
-
 /// Some triangles beside each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patch {
@@ -38,27 +30,27 @@ pub(super) struct Patch {
     /// Whether a tear or a cut goes through it, so that its triangles may meet each other.
     is_frayed: bool,
     /// The mean normal, and the least cosine that a normal makes with it; -1 where a tear or a cut goes through.
-    normal: Vec3,
-    cone: f32,
+    pub(super) normal: Vec3,
+    pub(super) cone: f32,
     /// Whether what is in it was told apart since it was fitted.
     is_split: bool,
     /// Whether one of its vertices strayed.
-    has_strays: bool,
+    pub(super) has_strays: bool,
     /// The patches after it that share a vertex with it: from, to.
-    beside: [u32; 2],
+    pub(super) beside: [u32; 2],
     /// The piece that it is of, and where it is at rest.
     piece: u32,
     rest: Aabb,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Node {
+pub(super) struct Node {
     /// The other child; the first comes right behind.
-    second: u32,
+    pub(super) second: u32,
     /// The patch of a leaf, else `NONE`.
-    patch: u32,
+    pub(super) patch: u32,
     /// Patches below.
-    count: u32,
+    pub(super) count: u32,
 }
 
 /// Some of what is in a patch: a bit for each, in order.
@@ -72,12 +64,12 @@ pub(super) struct Chosen {
 /// All patches of a cloth.
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
-    nodes: Vec<Node>,
+    pub(super) nodes: Vec<Node>,
     /// Where what is below each node may get in this tick, and the pairs of patches that may meet in it.
-    reaches: Vec<Sweep>,
-    listed: Vec<[u32; 2]>,
+    pub(super) reaches: Vec<Sweep>,
+    pub(super) listed: Vec<[u32; 2]>,
     /// Where each patch is and goes, and what is in it.
-    sweeps: Vec<Sweep>,
+    pub(super) sweeps: Vec<Sweep>,
     triangle_sweeps: Vec<Sweeps>,
     vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
     edge_sweeps: Vec<[Sweeps; BLOCKS]>,
@@ -87,13 +79,13 @@ pub(super) struct Patches {
     pub vertices: Vec<u32>,
     pub edges: Vec<[u32; 2]>,
     /// Patches that share a vertex with one before.
-    beside: Vec<u32>,
+    pub(super) beside: Vec<u32>,
     /// The patch of each triangle.
     patch_of: Vec<u32>,
     /// The last patch that had each vertex.
     seen_in: Vec<u32>,
     frayed: Vec<bool>,
-    stack: Vec<[u32; 2]>,
+    pub(super) stack: Vec<[u32; 2]>,
 }
 
 impl Patches {
@@ -412,92 +404,6 @@ impl Patches {
         }
         // Where there is no mean, nothing is known.
         (mean, if cone <= 1.0 { cone } else { -1.0 })
-    }
-
-    /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little.
-    fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
-        let (a, b) = (&self.patches[one as usize], &self.patches[other as usize]);
-        let cone = min(a.cone, b.cone);
-        if one == other || cone <= STEEP {
-            return cone > STEEP;
-        }
-        // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
-        let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
-        let side = (1.0 - half) * (1.0 - cone * cone);
-        let lean = half.sqrt() * cone - side.sqrt();
-        lean > STEEP
-    }
-
-    fn are_beside(&self, [one, other]: [u32; 2]) -> bool {
-        let [from, to] = self.patches[one as usize].beside;
-        one == other || self.beside[from as usize..to as usize].contains(&other)
-    }
-
-    /// Lists the pairs of patches that may come nearer than `gap` in this tick, the lower first: always in the same
-    /// order. Patches are listed with themselves as well.
-    pub fn list(&mut self, reach: &Reach, gap: f32) {
-        for at in (0..self.nodes.len()).rev() {
-            let node = self.nodes[at];
-            let mut all;
-            if node.patch == NONE {
-                all = self.reaches[at + 1];
-                all.join(&self.reaches[node.second as usize]);
-            } else {
-                let patch = &self.patches[node.patch as usize];
-                all = Sweep::EMPTY;
-                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-                self.vertices[own].iter().for_each(|v| reach.add_to(&mut all, *v));
-            }
-            self.reaches[at] = all;
-        }
-        let mut listed = core::mem::take(&mut self.listed);
-        listed.clear();
-        let mut stack = core::mem::take(&mut self.stack);
-        stack.clear();
-        stack.push([0, 0]);
-        while let Some([a, b]) = stack.pop() {
-            let (one, other) = (self.nodes[a as usize], self.nodes[b as usize]);
-            if a == b {
-                if one.patch == NONE {
-                    stack.push([one.second, one.second]);
-                    stack.push([a + 1, one.second]);
-                    stack.push([a + 1, a + 1]);
-                } else {
-                    listed.push([one.patch, one.patch | BESIDE]);
-                }
-            } else if self.reaches[a as usize].meets(&self.reaches[b as usize], gap) {
-                if one.patch != NONE && other.patch != NONE {
-                    let beside = self.are_beside([one.patch, other.patch]);
-                    listed.push([one.patch, other.patch | if beside { BESIDE } else { 0 }]);
-                } else if one.patch == NONE && one.count >= other.count {
-                    stack.push([one.second, b]);
-                    stack.push([a + 1, b]);
-                } else {
-                    stack.push([a, other.second]);
-                    stack.push([a, b + 1]);
-                }
-            }
-        }
-        (self.stack, self.listed) = (stack, listed);
-    }
-
-    /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
-    /// have some.
-    pub fn pair(&self, gap: f32, strays: bool, pairs: &mut Vec<[u32; 2]>) {
-        pairs.clear();
-        for [one, other] in &self.listed {
-            let (pair, are_beside) = ([*one, *other & !BESIDE], *other & BESIDE != 0);
-            let [a, b] = pair.map(|at| at as usize);
-            if strays && !self.patches[a].has_strays && !self.patches[b].has_strays {
-                continue;
-            }
-            if a != b && !self.sweeps[a].meets(&self.sweeps[b], gap) {
-                continue;
-            }
-            if !are_beside || !self.is_quiet(pair) {
-                pairs.push(pair);
-            }
-        }
     }
 
     /// Where a patch is and goes.
