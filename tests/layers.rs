@@ -208,7 +208,6 @@ fn a_sheet_is_folded_and_let_go() {
     assert_eq!((most, last), (0, 0));
 }
 
-/// Hands that press held layers through each other can make some cross: few, and not for long.
 #[test]
 fn a_sheet_is_folded_twice_and_let_go() {
     let side = 33;
@@ -216,26 +215,14 @@ fn a_sheet_is_folded_twice_and_let_go() {
     cloth.add_collider(&floor(0.0)).unwrap();
     let left: Vec<u32> = (0..side).map(|k| k * side).collect();
     let back: Vec<u32> = (0..side).collect();
-    let (mut now, mut most, mut since, mut longest) = (0, 0, 0, 0);
-    for tick in 0..300 {
-        fold(&mut cloth, tick, [10, 100], &left, Vec3::NEG_Z, 0.004);
-        fold(&mut cloth, tick, [120, 210], &back, Vec3::X, 0.006);
-        cloth.step(1);
-        now = crossings(&cloth);
-        most = most.max(now);
-        if now > 0 {
-            println!("fold twice: {now} cross in tick {tick}");
-        }
-        since = if now > 0 { since + 1 } else { 0 };
-        longest = longest.max(since);
-    }
+    let (most, last) = watch("fold twice", &mut cloth, 300, |cloth, tick| {
+        fold(cloth, tick, [10, 100], &left, Vec3::NEG_Z, 0.004);
+        fold(cloth, tick, [120, 210], &back, Vec3::X, 0.006);
+    });
+    assert_eq!((most, last), (0, 0));
     let (low, high) = bounds(&cloth);
     let size = high - low;
-    println!("fold twice: {most} at most, for {longest} ticks, {now} at the end; {size} m large");
-    assert!(most <= 4, "{most} crossings of 2,048 triangles");
-    assert!(longest <= 15, "for {longest} ticks");
-    assert_eq!(now, 0, "crossings at rest");
-    assert!(size.x < 0.6 && size.z < 0.6 && size.y < 0.2, "it lies {size} m large");
+    assert!(size.x < 0.6 && size.z < 0.6 && size.y < 0.1, "it lies {size} m large");
 }
 
 #[test]
