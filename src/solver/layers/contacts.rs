@@ -25,7 +25,7 @@ const LEAST: f32 = 0.998;
 const WORSE: f32 = 0.5;
 
 /// Nearer than this no direction tells sides apart [m].
-const NOTHING: f32 = 1.0e-7;
+pub(super) const NOTHING: f32 = 1.0e-7;
 
 /// The share of their distance that a direction tells two edges apart by, unless they are too nearly parallel.
 const CLEAR: f32 = 0.9;

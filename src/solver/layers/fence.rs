@@ -5,6 +5,7 @@
 //! they were, but for how all moved, and with them whom that gets in the way of. What is held does not: it takes
 //! along what it would cross.
 
+use super::around::Around;
 use super::contacts::{Contact, between, places};
 use super::motion::Motion;
 use super::spots::{Spot, place, shift};
@@ -25,10 +26,12 @@ const HAIR: f32 = 0.99;
 const FREE: u32 = u32::MAX;
 const BACK: u32 = u32::MAX - 1;
 
-/// Moves what would cross, and says whether nothing does any more; `open` is room to work in.
+/// Moves what would cross of those that are due, and what gets in the way of that; says whether nothing crosses
+/// any more, or else leaves due what does. `open` is room to work in.
 pub(super) fn draw_apart(
     contacts: &mut [Contact],
     motion: &mut Motion,
+    around: &mut Around,
     open: &mut Vec<u32>,
 ) -> bool {
     let Motion { start, now, .. } = motion;
@@ -38,7 +41,11 @@ pub(super) fn draw_apart(
     let mut round = 0;
     loop {
         open.clear();
-        for (at, contact) in contacts.iter_mut().enumerate() {
+        around.call_moved(contacts);
+        let mut next = 0;
+        while let Some(at) = around.next_due(next) {
+            next = at;
+            let contact = &mut contacts[at];
             if is_apart(contact, now, least(contact, round)) {
                 continue;
             }
@@ -53,6 +60,8 @@ pub(super) fn draw_apart(
         let mut is_done = false;
         while !is_done {
             if round == ROUNDS {
+                around.call_moved(contacts);
+                open.iter().for_each(|at| around.call_one(*at));
                 return false;
             }
             round += 1;
@@ -66,7 +75,7 @@ pub(super) fn draw_apart(
                     contact.turn_to(places(start, contact.ids), now);
                 }
                 is_done = false;
-                draw(contact, now);
+                draw(contact, now, around);
             }
         }
     }
@@ -78,7 +87,7 @@ fn is_apart(contact: &Contact, x: &[Spot], least: f32) -> bool {
 }
 
 /// Moves each particle of one side and each of the other apart.
-fn draw(contact: &Contact, x: &mut [Spot]) {
+fn draw(contact: &Contact, x: &mut [Spot], around: &mut Around) {
     let (one, other) = contact.ids.split_at(contact.first as usize);
     for a in one {
         for b in other {
@@ -91,13 +100,20 @@ fn draw(contact: &Contact, x: &mut [Spot]) {
             let by = contact.n * (missing / sum);
             shift(&mut x[*a as usize], by * spot_a[3]);
             shift(&mut x[*b as usize], by * -spot_b[3]);
+            around.moves(*a);
+            around.moves(*b);
         }
     }
 }
 
-/// What would cross goes back, and what that gets in the way of; or along with what is held, if that is in the
-/// way.
-pub(super) fn go_back(contacts: &[Contact], motion: &mut Motion, frozen: &mut Vec<u32>) {
+/// What would cross of those that are due goes back, and what that gets in the way of; or along with what is held,
+/// if that is in the way.
+pub(super) fn go_back(
+    contacts: &[Contact],
+    motion: &mut Motion,
+    around: &mut Around,
+    frozen: &mut Vec<u32>,
+) {
     let Motion { start, now: x, drift, .. } = motion;
     frozen.clear();
     frozen.resize(x.len(), FREE);
@@ -105,28 +121,32 @@ pub(super) fn go_back(contacts: &[Contact], motion: &mut Motion, frozen: &mut Ve
         *frozen = if x[3] > 0.0 { FREE } else { at as u32 };
     }
     loop {
-        let mut is_done = true;
-        for contact in contacts {
+        around.call_moved(contacts);
+        let mut next = 0;
+        while let Some(at) = around.next_due(next) {
+            next = at;
+            let contact = &contacts[at];
             if is_apart(contact, x, contact.least) {
                 continue;
             }
             let leads = contact.ids.map(|id| frozen[id as usize]);
             let leader = leads.into_iter().find(|lead| *lead < BACK).unwrap_or(BACK);
-            for id in contact.ids.map(|id| id as usize) {
-                if frozen[id] <= leader || frozen[id] < BACK {
+            for id in contact.ids {
+                let at = id as usize;
+                if frozen[at] <= leader || frozen[at] < BACK {
                     continue;
                 }
-                frozen[id] = leader;
-                is_done = false;
+                frozen[at] = leader;
+                around.moves(id);
                 let way = if leader == BACK {
                     *drift
                 } else {
                     place(&x[leader as usize]) - place(&start[leader as usize])
                 };
-                [x[id][0], x[id][1], x[id][2]] = (place(&start[id]) + way).to_array();
+                [x[at][0], x[at][1], x[at][2]] = (place(&start[at]) + way).to_array();
             }
         }
-        if is_done {
+        if !around.has_moved() {
             return;
         }
     }

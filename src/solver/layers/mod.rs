@@ -5,11 +5,15 @@
 //! push and rub (`push`); and after all else moved, none gets past the other (`fence`). All of it follows from
 //! where particles are alone, in the order of the mesh.
 
+mod around;
+mod candidates;
 mod contacts;
 mod fence;
 mod motion;
+mod pairing;
 mod patches;
 mod push;
+mod reach;
 mod sift;
 pub(crate) mod slits;
 mod spots;
@@ -19,10 +23,12 @@ use super::World;
 use super::crowd;
 use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
+use around::Around;
 use contacts::Contact;
 use motion::Motion;
 use patches::Patches;
-use sift::Sift;
+use reach::Reach;
+use sift::{Candidacy, Sift};
 use slits::Slits;
 
 /// Gap of a cloth without thickness, in mean rest lengths; and the most that any has.
@@ -37,12 +43,15 @@ const LOOKS: u32 = 8;
 pub(crate) struct Layers {
     patches: Patches,
     motion: Motion,
+    reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<[u32; 2]>,
+    candidacy: Candidacy,
     contacts: Vec<Contact>,
     is_found: bool,
     /// The contacts that push in this substep.
     active: Vec<u32>,
+    around: Around,
     /// What the fence has in hand.
     frozen: Vec<u32>,
     /// How many contacts each particle is from what bears the cloth.
@@ -61,10 +70,13 @@ impl Layers {
         Self {
             patches: Patches::new(&world.mesh, &world.rest, &pieces, capacity),
             motion: Motion::new(capacity),
+            reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
+            candidacy: Candidacy::new(),
             contacts: Vec::with_capacity(24 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
+            around: Around::new(capacity, 24 * count),
             frozen: Vec::with_capacity(capacity),
             levels: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
@@ -83,26 +95,43 @@ impl Layers {
             + 2 * self.pairs.capacity();
         self.patches.bytes()
             + self.motion.bytes()
+            + self.reach.bytes()
             + self.slits.bytes()
+            + self.around.bytes()
+            + self.candidacy.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<u32>() * words
             + self.levels.capacity()
     }
 
-    /// Finds what may meet in this substep, as particles are now.
-    fn find(&mut self, world: &World) {
-        let Self { motion, patches, pieces, pairs, contacts, gap, .. } = self;
+    /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
+    fn find(&mut self, world: &World, substeps: u32) {
+        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
-        Sift { world, pieces, patches, motion, gap: *gap }.find(pairs, contacts);
+        if reach.is_known {
+            reach.follow(motion);
+            reach.is_known = reach.holds(motion);
+        }
+        if !reach.is_known {
+            reach.look_ahead(motion, substeps, world.spacing);
+            patches.list(reach, *gap);
+        }
+        Sift { world, pieces, patches, motion, candidacy, gap: *gap }.find(pairs, contacts);
         self.is_found = true;
     }
 
     /// Adds what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, patches, pieces, pairs, contacts, gap, .. } = self;
-        if motion.look_again(world.spacing, *gap, may_go_back) {
-            Sift { world, pieces, patches, motion, gap: *gap }.find_strays(pairs, contacts);
+        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, gap, .. } = self;
+        if !motion.look_again(world.spacing, *gap, may_go_back) {
+            return;
         }
+        if !reach.holds(motion) {
+            let all = 0..motion.now.len() as u32;
+            all.filter(|at| motion.strays(*at)).for_each(|at| reach.widen(motion, at));
+            patches.list(reach, *gap);
+        }
+        Sift { world, pieces, patches, motion, candidacy, gap: *gap }.find_strays(pairs, contacts);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
@@ -121,25 +150,29 @@ impl Layers {
     /// Says whether anything went back to where it was.
     fn fence(&mut self, world: &World) -> bool {
         if !self.is_found {
-            self.find(world);
+            self.find(world, 1);
         }
-        let mut may_go_back = false;
-        for _ in 0..LOOKS {
-            self.find_strays(world, may_go_back);
-            let Self { contacts, motion, frozen, open, .. } = self;
-            let is_done = fence::draw_apart(contacts, motion, open);
-            if !is_done && may_go_back {
-                fence::go_back(contacts, motion, frozen);
+        let (mut may_go_back, mut went_back) = (false, false);
+        self.around.begin(self.motion.now.len());
+        let mut known = 0;
+        for look in 0..=LOOKS {
+            let is_last = look == LOOKS;
+            self.find_strays(world, may_go_back || is_last);
+            let Self { contacts, motion, frozen, open, around, .. } = self;
+            around.call_from(known, contacts);
+            known = contacts.len();
+            let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
+            if !is_done && (may_go_back || is_last) {
+                fence::go_back(contacts, motion, around, frozen);
+                went_back = true;
             }
             if (is_done || may_go_back) && motion.is_as_thought() {
-                return !is_done;
+                break;
             }
             // Whoever goes back must not get in the way of somebody else.
             may_go_back |= !is_done;
         }
-        self.find_strays(world, true);
-        fence::go_back(&self.contacts, &mut self.motion, &mut self.frozen);
-        true
+        went_back
     }
 }
 
@@ -173,11 +206,12 @@ pub(crate) fn begin(world: &mut World) {
     spots::gather(&mut motion.start, &p.x, &p.w);
     motion.now.clone_from(&motion.start);
     layers.is_found = false;
+    layers.reach.is_known = false;
     world.layers = Some(layers);
 }
 
-/// Finds what may meet in this substep.
-pub(crate) fn pair(world: &mut World) {
+/// Finds what may meet in substep `number` of the tick.
+pub(crate) fn pair(world: &mut World, number: u32) {
     let Some(mut layers) = world.layers.take() else {
         return;
     };
@@ -188,7 +222,7 @@ pub(crate) fn pair(world: &mut World) {
     for touch in &world.scratch.contacts.touches {
         levels[touch.particle as usize] = 0;
     }
-    layers.find(world);
+    layers.find(world, world.settings.substeps - number);
     world.layers = Some(layers);
 }
 

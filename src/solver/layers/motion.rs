@@ -93,6 +93,17 @@ impl Motion {
         is_within
     }
 
+    /// Where particles were as the substep began, and the ways that each may have made in the end, from and to.
+    pub fn rooms(&self) -> [&[Spot]; 3] {
+        [&self.start, &self.from, &self.to]
+    }
+
+    /// The ways that a particle may have made in the end, from and to.
+    #[inline(always)]
+    pub fn ways(&self, at: usize) -> [Vec3; 2] {
+        [place(&self.from[at]), place(&self.to[at])]
+    }
+
     /// Grows a sweep to hold a particle.
     #[inline(always)]
     pub fn add_to(&self, sweep: &mut Sweep, particle: u32) {

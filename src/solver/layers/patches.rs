@@ -18,17 +18,11 @@ const PATCH: usize = LANES;
 /// Blocks of lanes that its vertices take at most, and its edges.
 const BLOCKS: usize = 3 * PATCH / LANES;
 
-/// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
-/// (cosine of 60°).
-const STEEP: f32 = 0.5;
-
 /// Some triangles beside each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patch {
     /// Its triangles: from, to.
     pub triangles: [u32; 2],
-    /// Its node.
-    node: u32,
     /// Its vertices: from, to; those up to the middle one are of no patch before.
     pub vertices: [u32; 3],
     /// Its edges that are of no patch before: from, to.
@@ -36,27 +30,27 @@ pub(super) struct Patch {
     /// Whether a tear or a cut goes through it, so that its triangles may meet each other.
     is_frayed: bool,
     /// The mean normal, and the least cosine that a normal makes with it; -1 where a tear or a cut goes through.
-    normal: Vec3,
-    cone: f32,
+    pub(super) normal: Vec3,
+    pub(super) cone: f32,
     /// Whether what is in it was told apart since it was fitted.
     is_split: bool,
+    /// Whether one of its vertices strayed.
+    pub(super) has_strays: bool,
     /// The patches after it that share a vertex with it: from, to.
-    beside: [u32; 2],
+    pub(super) beside: [u32; 2],
     /// The piece that it is of, and where it is at rest.
     piece: u32,
     rest: Aabb,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Node {
+pub(super) struct Node {
     /// The other child; the first comes right behind.
-    second: u32,
+    pub(super) second: u32,
     /// The patch of a leaf, else `NONE`.
-    patch: u32,
+    pub(super) patch: u32,
     /// Patches below.
-    count: u32,
-    /// Whether a vertex below strayed.
-    has_strays: bool,
+    pub(super) count: u32,
 }
 
 /// Some of what is in a patch: a bit for each, in order.
@@ -70,9 +64,12 @@ pub(super) struct Chosen {
 /// All patches of a cloth.
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
-    nodes: Vec<Node>,
-    /// Where each node is and goes, and what is in each patch.
-    sweeps: Vec<Sweep>,
+    pub(super) nodes: Vec<Node>,
+    /// Where what is below each node may get in this tick, and the pairs of patches that may meet in it.
+    pub(super) reaches: Vec<Sweep>,
+    pub(super) listed: Vec<[u32; 2]>,
+    /// Where each patch is and goes, and what is in it.
+    pub(super) sweeps: Vec<Sweep>,
     triangle_sweeps: Vec<Sweeps>,
     vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
     edge_sweeps: Vec<[Sweeps; BLOCKS]>,
@@ -82,13 +79,13 @@ pub(super) struct Patches {
     pub vertices: Vec<u32>,
     pub edges: Vec<[u32; 2]>,
     /// Patches that share a vertex with one before.
-    beside: Vec<u32>,
+    pub(super) beside: Vec<u32>,
     /// The patch of each triangle.
     patch_of: Vec<u32>,
     /// The last patch that had each vertex.
     seen_in: Vec<u32>,
     frayed: Vec<bool>,
-    stack: Vec<[u32; 2]>,
+    pub(super) stack: Vec<[u32; 2]>,
 }
 
 impl Patches {
@@ -104,6 +101,8 @@ impl Patches {
         sort_by(&mut order, |p, q| (piece(*p), p).cmp(&(piece(*q), q)));
         let mut patches = Self {
             nodes: Vec::new(),
+            reaches: Vec::new(),
+            listed: Vec::with_capacity(8 * rest.len()),
             sweeps: Vec::new(),
             triangle_sweeps: Vec::new(),
             vertex_sweeps: Vec::new(),
@@ -119,7 +118,8 @@ impl Patches {
             stack: Vec::with_capacity(256),
         };
         patches.grow(&piece, &center, 0, count);
-        patches.sweeps = vec![Sweep::EMPTY; patches.nodes.len()];
+        patches.reaches = vec![Sweep::EMPTY; patches.nodes.len()];
+        patches.sweeps = vec![Sweep::EMPTY; patches.patches.len()];
         patches.triangle_sweeps = vec![Sweeps::EMPTY; patches.patches.len()];
         patches.vertex_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
         patches.edge_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
@@ -144,7 +144,7 @@ impl Patches {
         to: usize,
     ) {
         let (at, first) = (self.nodes.len(), self.patches.len());
-        self.nodes.push(Node { second: 0, patch: NONE, count: 0, has_strays: false });
+        self.nodes.push(Node { second: 0, patch: NONE, count: 0 });
         let part = &mut self.triangles[from..to];
         let is_whole = piece(part[0]) == piece(part[part.len() - 1]);
         if is_whole && part.len() <= PATCH {
@@ -152,13 +152,13 @@ impl Patches {
             let triangles = [from as u32, to as u32];
             self.patches.push(Patch {
                 triangles,
-                node: at as u32,
                 vertices: [0; 3],
                 edges: [0; 2],
                 is_frayed: false,
                 normal: Vec3::ZERO,
                 cone: -1.0,
                 is_split: false,
+                has_strays: false,
                 beside: [0; 2],
                 piece: 0,
                 rest: Aabb::EMPTY,
@@ -210,9 +210,9 @@ impl Patches {
             + self.patch_of.capacity()
             + self.seen_in.capacity()
             + self.beside.capacity()
-            + 2 * (self.edges.capacity() + self.stack.capacity());
+            + 2 * (self.edges.capacity() + self.stack.capacity() + self.listed.capacity());
         size_of::<Node>() * self.nodes.capacity()
-            + size_of::<Sweep>() * self.sweeps.capacity()
+            + size_of::<Sweep>() * (self.sweeps.capacity() + self.reaches.capacity())
             + size_of::<Sweeps>() * (1 + 2 * BLOCKS) * self.triangle_sweeps.capacity()
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
@@ -292,50 +292,30 @@ impl Patches {
 
     /// Fits boxes around where vertices are and get to, and finds which patches are flat.
     pub fn fit(&mut self, mesh: &Mesh, motion: &Motion) {
-        for at in (0..self.nodes.len()).rev() {
-            let node = self.nodes[at];
-            let mut all;
-            if node.patch == NONE {
-                all = self.sweeps[at + 1];
-                all.join(&self.sweeps[node.second as usize]);
-            } else {
-                let patch = self.patches[node.patch as usize];
-                all = Sweep::EMPTY;
-                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-                self.vertices[own].iter().for_each(|v| motion.add_to(&mut all, *v));
-                let (normal, cone) = self.lean(mesh, motion, &patch);
-                let patch = &mut self.patches[node.patch as usize];
-                (patch.normal, patch.cone, patch.is_split) = (normal, cone, false);
-            }
+        for at in 0..self.patches.len() {
+            let patch = self.patches[at];
+            let mut all = Sweep::EMPTY;
+            let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
+            self.vertices[own].iter().for_each(|v| motion.add_to(&mut all, *v));
             self.sweeps[at] = all;
+            let (normal, cone) = self.lean(mesh, motion, &patch);
+            let patch = &mut self.patches[at];
+            (patch.normal, patch.cone, patch.is_split) = (normal, cone, false);
         }
     }
 
     /// Fits boxes around where vertices get to that strayed.
     pub fn follow_strays(&mut self, motion: &Motion) {
-        for at in (0..self.nodes.len()).rev() {
-            let node = self.nodes[at];
-            let mut all = self.sweeps[at];
-            let has_strays = if node.patch == NONE {
-                let (one, other) = (at + 1, node.second as usize);
-                all = self.sweeps[one];
-                all.join(&self.sweeps[other]);
-                self.nodes[one].has_strays || self.nodes[other].has_strays
-            } else {
-                let patch = &mut self.patches[node.patch as usize];
-                let mut has_strays = false;
-                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-                for vertex in &self.vertices[own] {
-                    if motion.strays(*vertex) {
-                        has_strays = true;
-                        motion.add_to(&mut all, *vertex);
-                    }
+        for (patch, all) in self.patches.iter_mut().zip(&mut self.sweeps) {
+            patch.has_strays = false;
+            let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
+            for vertex in &self.vertices[own] {
+                if motion.strays(*vertex) {
+                    patch.has_strays = true;
+                    motion.add_to(all, *vertex);
                 }
-                patch.is_split &= !has_strays;
-                has_strays
-            };
-            self.nodes[at].has_strays = has_strays;
-            self.sweeps[at] = all;
+            }
+            patch.is_split &= !patch.has_strays;
         }
     }
 
@@ -426,60 +406,8 @@ impl Patches {
         (mean, if cone <= 1.0 { cone } else { -1.0 })
     }
 
-    /// Whether triangles of two patches cannot meet, since the patches are neighbours and lean little.
-    fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
-        let (a, b) = (&self.patches[one as usize], &self.patches[other as usize]);
-        let cone = min(a.cone, b.cone);
-        if one == other || cone <= STEEP {
-            return cone > STEEP;
-        }
-        // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
-        let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
-        let side = (1.0 - half) * (1.0 - cone * cone);
-        let lean = half.sqrt() * cone - side.sqrt();
-        let [from, to] = a.beside;
-        lean > STEEP && self.beside[from as usize..to as usize].contains(&other)
-    }
-
-    /// Lists the pairs of patches that may come nearer than `gap`, the lower first: always in the same order.
-    /// Patches are listed with themselves as well; of `strays` only those that have some.
-    pub fn pair(&mut self, gap: f32, strays: bool, pairs: &mut Vec<[u32; 2]>) {
-        pairs.clear();
-        let mut stack = core::mem::take(&mut self.stack);
-        stack.clear();
-        stack.push([0, 0]);
-        while let Some([a, b]) = stack.pop() {
-            let (one, other) = (self.nodes[a as usize], self.nodes[b as usize]);
-            if strays && !one.has_strays && !other.has_strays {
-                continue;
-            }
-            if a == b {
-                if one.patch == NONE {
-                    stack.push([one.second, one.second]);
-                    stack.push([a + 1, one.second]);
-                    stack.push([a + 1, a + 1]);
-                } else if !self.is_quiet([one.patch; 2]) {
-                    pairs.push([one.patch; 2]);
-                }
-            } else if self.sweeps[a as usize].meets(&self.sweeps[b as usize], gap) {
-                if one.patch != NONE && other.patch != NONE {
-                    if !self.is_quiet([one.patch, other.patch]) {
-                        pairs.push([one.patch, other.patch]);
-                    }
-                } else if one.patch == NONE && one.count >= other.count {
-                    stack.push([one.second, b]);
-                    stack.push([a + 1, b]);
-                } else {
-                    stack.push([a, other.second]);
-                    stack.push([a, b + 1]);
-                }
-            }
-        }
-        self.stack = stack;
-    }
-
     /// Where a patch is and goes.
     pub fn sweep(&self, patch: u32) -> &Sweep {
-        &self.sweeps[self.patches[patch as usize].node as usize]
+        &self.sweeps[patch as usize]
     }
 }

@@ -4,6 +4,7 @@
 //! (`sweep`), and what is left is looked at closely (`contacts`). All goes by where particles are, in the order
 //! of the mesh.
 
+use super::candidates::Candidates;
 use super::contacts::{Contact, EDGES, Kind, VERTEX};
 use super::motion::Motion;
 use super::patches::{Chosen, Patches};
@@ -20,12 +21,39 @@ const LANE_BITS: u32 = (1 << LANES) - 1;
 /// Pairs of one piece keep no farther apart than this share of their distance at rest.
 const WOVEN: f32 = 0.5;
 
+/// So many pairs that boxes do not tell apart are judged together; two patches make at most `MANY` more.
+const TOGETHER: usize = 1024;
+const MANY: usize = (3 * LANES) * (3 * LANES);
+
+/// Pairs that boxes do not tell apart.
+#[derive(Clone, Debug)]
+pub(super) struct Candidacy {
+    vertices: Candidates,
+    edges: Candidates,
+    /// How many of both there were after each two patches, and whether those are near at rest.
+    runs: Vec<([u32; 2], bool)>,
+}
+
+impl Candidacy {
+    pub fn new() -> Self {
+        let [vertices, edges] = [(); 2].map(|()| Candidates::new(TOGETHER + MANY));
+        Self { vertices, edges, runs: Vec::with_capacity(2 * (TOGETHER + MANY)) }
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let runs = size_of::<([u32; 2], bool)>() * self.runs.capacity();
+        self.vertices.bytes() + self.edges.bytes() + runs
+    }
+}
+
 pub(super) struct Sift<'a> {
     pub world: &'a World,
     /// The piece that each site was part of before anything tore.
     pub pieces: &'a [u32],
     pub patches: &'a mut Patches,
     pub motion: &'a Motion,
+    pub candidacy: &'a mut Candidacy,
     /// How far layers keep apart [m].
     pub gap: f32,
 }
@@ -61,13 +89,56 @@ impl Sift<'_> {
                 continue;
             }
             let chosen = [ours, theirs];
-            let is_woven = self.patches.is_near_at_rest([*one, *other], self.gap / WOVEN);
-            let mut look = Look { sift: self, chosen, is_woven, strays, contacts };
+            let mut look = Look { sift: self, chosen, strays };
             look.vertices([*one, *other], [0, 1]);
             if one != other {
                 look.vertices([*other, *one], [1, 0]);
             }
             look.edges([*one, *other]);
+            let is_woven = self.patches.is_near_at_rest([*one, *other], self.gap / WOVEN);
+            let Candidacy { vertices, edges, runs } = &mut *self.candidacy;
+            let counts = [vertices.len(), edges.len()];
+            let counts = counts.map(|count| count as u32);
+            if runs.last().map_or([0; 2], |(before, _)| *before) == counts {
+                continue;
+            }
+            runs.push((counts, is_woven));
+            if counts[0].max(counts[1]) > TOGETHER as u32 {
+                self.judge(contacts);
+            }
+        }
+        self.judge(contacts);
+    }
+
+    /// Judges the pairs so far, and looks closely at those that are not told apart.
+    fn judge(&mut self, contacts: &mut Vec<Contact>) {
+        let Candidacy { vertices, edges, .. } = &mut *self.candidacy;
+        vertices.judge::<VERTEX>(self.world.level, self.motion, self.gap);
+        edges.judge::<EDGES>(self.world.level, self.motion, self.gap);
+        let Candidacy { vertices, edges, runs } = &*self.candidacy;
+        let mut from = [0; 2];
+        for (to, is_woven) in runs {
+            self.look_closely::<VERTEX>(vertices, [from[0], to[0]], *is_woven, contacts);
+            self.look_closely::<EDGES>(edges, [from[1], to[1]], *is_woven, contacts);
+            from = *to;
+        }
+        let Candidacy { vertices, edges, runs } = &mut *self.candidacy;
+        vertices.clear();
+        edges.clear();
+        runs.clear();
+    }
+
+    #[inline(always)]
+    fn look_closely<const FIRST: Kind>(
+        &self,
+        candidates: &Candidates,
+        [from, to]: [u32; 2],
+        is_woven: bool,
+        contacts: &mut Vec<Contact>,
+    ) {
+        for ids in (from..to).filter_map(|at| candidates.may_meet(at as usize)) {
+            let gap = || if is_woven { self.own_gap::<FIRST>(ids) } else { self.gap };
+            contacts.extend(Contact::find::<FIRST>(ids, self.motion, self.gap, gap));
         }
     }
 
@@ -93,24 +164,22 @@ impl Sift<'_> {
 }
 
 /// A look at two patches.
-struct Look<'a> {
-    sift: &'a Sift<'a>,
+struct Look<'a, 'b> {
+    sift: &'a mut Sift<'b>,
     chosen: [Chosen; 2],
-    is_woven: bool,
     /// Whether only those count that strayed.
     strays: bool,
-    contacts: &'a mut Vec<Contact>,
 }
 
-impl Look<'_> {
+impl Look<'_, '_> {
     /// The own vertices of one patch and the triangles of another one.
     fn vertices(&mut self, [one, other]: [u32; 2], side: [usize; 2]) {
         let (vertices, triangles) = (self.chosen[side[0]].vertices, self.chosen[side[1]].triangles);
         if vertices == 0 || triangles == 0 {
             return;
         }
-        let sift = self.sift;
-        let patches = &*sift.patches;
+        let Sift { patches, motion, world, candidacy, gap, .. } = &mut *self.sift;
+        let (patches, gap) = (&**patches, *gap);
         let (from, first) = (
             patches.patches[one as usize].vertices[0],
             patches.patches[other as usize].triangles[0],
@@ -118,11 +187,12 @@ impl Look<'_> {
         let each = patches.triangle_sweeps(other);
         for at in places_of(vertices) {
             let vertex = patches.vertices[(from + at) as usize];
-            for at in places_of(triangles & each.meet(&sift.motion.one(vertex), sift.gap)) {
+            for at in places_of(triangles & each.meet(&motion.one(vertex), gap)) {
                 let triangle = patches.triangles[(first + at) as usize];
-                let [a, b, c] = sift.world.mesh.triangles[triangle as usize];
-                if vertex != a && vertex != b && vertex != c {
-                    self.look::<VERTEX>([vertex, a, b, c]);
+                let [a, b, c] = world.mesh.triangles[triangle as usize];
+                let ids = [vertex, a, b, c];
+                if vertex != a && vertex != b && vertex != c && counts(motion, self.strays, ids) {
+                    candidacy.vertices.push(ids);
                 }
             }
         }
@@ -134,40 +204,35 @@ impl Look<'_> {
         if chosen == 0 || others == 0 {
             return;
         }
-        let sift = self.sift;
-        let patches = &*sift.patches;
+        let Sift { patches, motion, candidacy, gap, .. } = &mut *self.sift;
+        let (patches, gap) = (&**patches, *gap);
         let (from, first) =
             (patches.patches[one as usize].edges[0], patches.patches[other as usize].edges[0]);
         let blocks = patches.edge_sweeps(other);
         for i in places_of(chosen) {
             let [p, q] = patches.edges[(from + i) as usize];
-            let own = sift.motion.of([p, q]);
+            let own = motion.of([p, q]);
             for (at, block) in blocks.iter().enumerate() {
                 let others = others >> (at * LANES) & LANE_BITS;
                 if others == 0 {
                     continue;
                 }
-                for j in places_of(others & block.meet(&own, sift.gap)) {
+                for j in places_of(others & block.meet(&own, gap)) {
                     let j = j + (at * LANES) as u32;
                     let [r, s] = patches.edges[(first + j) as usize];
                     let is_apart = p != r && p != s && q != r && q != s;
-                    if is_apart && (one != other || i < j) {
-                        self.look::<EDGES>([p, q, r, s]);
+                    let is_first = one != other || i < j;
+                    if is_apart && is_first && counts(motion, self.strays, [p, q, r, s]) {
+                        candidacy.edges.push([p, q, r, s]);
                     }
                 }
             }
         }
     }
+}
 
-    #[inline(always)]
-    fn look<const FIRST: Kind>(&mut self, ids: [u32; 4]) {
-        let sift = self.sift;
-        if self.strays && !ids.iter().any(|id| sift.motion.strays(*id)) {
-            return;
-        }
-        let gap = || if self.is_woven { sift.own_gap::<FIRST>(ids) } else { sift.gap };
-        if let Some(contact) = Contact::find::<FIRST>(ids, sift.motion, sift.gap, gap) {
-            self.contacts.push(contact);
-        }
-    }
+/// Whether a pair counts, where only those may that strayed.
+#[inline(always)]
+fn counts(motion: &Motion, strays: bool, ids: [u32; 4]) -> bool {
+    !strays || ids.iter().any(|id| motion.strays(*id))
 }

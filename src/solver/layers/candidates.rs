@@ -1,0 +1,287 @@
+//! Pairs that boxes do not tell apart, and which of them a direction does, many at once.
+//!
+//! What leads from one side to the other where they are closest as the substep begins tells most pairs apart then
+//! and, wherever they may get, in the end. What it does not is looked at one by one (`contacts`).
+
+use super::contacts::{EDGES, Kind, NOTHING, VERTEX};
+use super::motion::Motion;
+use super::spots::Spot;
+use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
+
+/// Lanes that lists are filled up to.
+const LANES: usize = 8;
+
+/// Pairs of one kind, a list for each of their particles.
+#[derive(Clone, Debug)]
+pub(super) struct Candidates {
+    pub ids: [Vec<u32>; 4],
+    /// How clearly each was told apart; what is not above 0 may meet.
+    clear: Vec<f32>,
+}
+
+impl Candidates {
+    pub fn new(capacity: usize) -> Self {
+        let ids = [(); 4].map(|()| Vec::with_capacity(capacity + LANES));
+        Self { ids, clear: Vec::with_capacity(capacity + LANES) }
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of::<u32>() * 5 * self.clear.capacity()
+    }
+
+    pub fn clear(&mut self) {
+        self.ids.iter_mut().for_each(Vec::clear);
+    }
+
+    pub fn len(&self) -> usize {
+        self.ids[0].len()
+    }
+
+    #[inline(always)]
+    pub fn push(&mut self, ids: [u32; 4]) {
+        for (list, id) in self.ids.iter_mut().zip(ids) {
+            list.push(id);
+        }
+    }
+
+    /// Finds which are told apart by more than `gap` in the end; lists are filled up for that.
+    pub fn judge<const FIRST: Kind>(&mut self, level: Level, motion: &Motion, gap: f32) {
+        let count = self.len().next_multiple_of(LANES);
+        self.ids.iter_mut().for_each(|list| list.resize(count, 0));
+        self.clear.resize(count, 0.0);
+        let [a, b, c, d] = &self.ids;
+        let rooms = motion.rooms();
+        let judged = Judged { ids: [a, b, c, d], rooms, gap, clear: &mut self.clear };
+        if FIRST == VERTEX { judge_vertices(level, judged) } else { judge_edges(level, judged) }
+    }
+
+    /// Whether one may meet.
+    #[inline(always)]
+    pub fn may_meet(&self, at: usize) -> Option<[u32; 4]> {
+        let is_clear = self.clear[at] > 0.0;
+        (!is_clear).then(|| [0, 1, 2, 3].map(|k: usize| self.ids[k][at]))
+    }
+}
+
+/// Pairs with where their particles are at the start, and from where to where they get.
+struct Judged<'a> {
+    ids: [&'a [u32]; 4],
+    rooms: [&'a [Spot]; 3],
+    gap: f32,
+    clear: &'a mut [f32],
+}
+
+vectored! {
+    fn judge_vertices(judged: Judged<'_>) = judge::<_, VERTEX>, Avx2, judge_vertices_apart
+}
+
+vectored! {
+    fn judge_edges(judged: Judged<'_>) = judge::<_, EDGES>, Avx2, judge_edges_apart
+}
+
+fn judge_vertices_apart(judged: Judged<'_>) {
+    judge::<_, VERTEX>(Scalar, judged);
+}
+
+fn judge_edges_apart(judged: Judged<'_>) {
+    judge::<_, EDGES>(Scalar, judged);
+}
+
+#[inline(always)]
+fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
+    let Judged { ids, rooms: [start, from, to], gap, clear } = judged;
+    for at in (0..clear.len()).step_by(S::LANES) {
+        let own = at..at + S::LANES;
+        let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
+        let mut rooms = [[x[0]; 2]; 4];
+        for k in 0..4 {
+            let ids = &ids[k][own.clone()];
+            x[k] = V::new(turn(s, start, ids));
+            rooms[k] = [V::new(turn(s, from, ids)), V::new(turn(s, to, ids))];
+        }
+        let way = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
+        let n = way.times(s.splat(1.0) / way.dot(way).sqrt());
+        let mut before = [s.splat(0.0); 4];
+        let mut ends = [[s.splat(0.0); 2]; 4];
+        for k in 0..4 {
+            before[k] = n.dot(x[k]);
+            let [least, most] = ends_along(s, n, rooms[k]);
+            ends[k] = [before[k] + least, before[k] + most];
+        }
+        let [a, b, c, d] = before;
+        let [p, q, r, t] = ends;
+        let (then, after) = if FIRST == VERTEX {
+            let most = Number::max(q[1], Number::max(r[1], t[1]));
+            (a - Number::max(b, Number::max(c, d)), p[0] - most)
+        } else {
+            let least = s.min(p[0], q[0]);
+            (s.min(a, b) - Number::max(c, d), least - Number::max(r[1], t[1]))
+        };
+        let is_clear = s.min(then - s.splat(NOTHING), after - s.splat(gap));
+        s.store(clear, at, is_clear);
+    }
+}
+
+/// From the closest point of a triangle to a vertex (as `geom::closest::of_triangle`).
+#[inline(always)]
+fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> V<S::F> {
+    let (zero, one) = (s.splat(0.0), s.splat(1.0));
+    let [a, b, c] = [x[1].minus(x[0]), x[2].minus(x[0]), x[3].minus(x[0])];
+    let (ab, ac) = (b.minus(a), c.minus(a));
+    let [a1, b1, c1] = [zero - ab.dot(a), zero - ab.dot(b), zero - ab.dot(c)];
+    let [a2, b2, c2] = [zero - ac.dot(a), zero - ac.dot(b), zero - ac.dot(c)];
+    let (over_ab, over_ac, over_bc) = (a1 * b2 - b1 * a2, c1 * a2 - a1 * c2, b1 * c2 - c1 * b2);
+    let (from_b, from_c) = (b2 - b1, c1 - c2);
+    let scale = one / (over_bc + over_ac + over_ab);
+    let mut weights = [over_ac * scale, over_ab * scale];
+    // Each place in the order of the least to say: what is above 0 says that it is not there.
+    let share = from_b / (from_b + from_c);
+    let off = beyond(over_bc, zero - from_b, zero - from_c);
+    weights = choose(s, off, weights, [one - share, share]);
+    let off = beyond(over_ac, zero - a2, c2);
+    weights = choose(s, off, weights, [zero, a2 / (a2 - c2)]);
+    let off = beyond(over_ab, zero - a1, b1);
+    weights = choose(s, off, weights, [a1 / (a1 - b1), zero]);
+    let off = Number::max(zero - c2, c1 - c2);
+    weights = choose(s, off, weights, [zero, one]);
+    let off = Number::max(zero - b1, b2 - b1);
+    weights = choose(s, off, weights, [one, zero]);
+    let off = Number::max(a1, a2);
+    let [v, w] = choose(s, off, weights, [zero; 2]);
+    let to = a.plus(ab.times(v)).plus(ac.times(w));
+    to.times(zero - one)
+}
+
+/// From the closest point of the second edge to that of the first (as `geom::closest::of_segments`).
+#[inline(always)]
+fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> V<S::F> {
+    let (u, v, r) = (x[1].minus(x[0]), x[3].minus(x[2]), x[0].minus(x[2]));
+    let (uu, vv, uv) = (u.dot(u), v.dot(v), u.dot(v));
+    let (ur, vr) = (u.dot(r), v.dot(r));
+    let across = uu * vv - uv * uv;
+    let amid = share(s, (uv * vr - ur * vv) / across);
+    let amid = s.pick(across - s.splat(1.0e-6) * uu * vv, amid, s.splat(0.5));
+    let t = (uv * amid + vr) / vv;
+    let (zero, one) = (s.splat(0.0), s.splat(1.0));
+    let low = s.pick(zero - t, share(s, (zero - ur) / uu), amid);
+    let along = s.pick(t - one, share(s, (uv - ur) / uu), low);
+    r.plus(u.times(along)).minus(v.times(share(s, t)))
+}
+
+/// The least and the most that something gets along `n`.
+#[inline(always)]
+fn ends_along<S: Simd>(s: S, n: V<S::F>, [from, to]: [V<S::F>; 2]) -> [S::F; 2] {
+    let (ax, ay, az) = (n.x * from.x, n.y * from.y, n.z * from.z);
+    let (bx, by, bz) = (n.x * to.x, n.y * to.y, n.z * to.z);
+    let least = s.min(ax, bx) + s.min(ay, by) + s.min(az, bz);
+    [least, Number::max(ax, bx) + Number::max(ay, by) + Number::max(az, bz)]
+}
+
+#[inline(always)]
+fn choose<S: Simd>(s: S, keep: S::F, old: [S::F; 2], new: [S::F; 2]) -> [S::F; 2] {
+    [s.pick(keep, old[0], new[0]), s.pick(keep, old[1], new[1])]
+}
+
+#[inline(always)]
+fn beyond<F: Number>(p: F, q: F, r: F) -> F {
+    Number::max(Number::max(p, q), r)
+}
+
+/// Between 0 and 1.
+#[inline(always)]
+fn share<S: Simd>(s: S, t: S::F) -> S::F {
+    s.min(Number::max(t, s.splat(0.0)), s.splat(1.0))
+}
+
+/// A vector in each lane.
+#[derive(Clone, Copy)]
+struct V<F> {
+    x: F,
+    y: F,
+    z: F,
+}
+
+impl<F: Number> V<F> {
+    #[inline(always)]
+    fn new([x, y, z, _]: [F; 4]) -> Self {
+        Self { x, y, z }
+    }
+
+    #[inline(always)]
+    fn plus(self, v: Self) -> Self {
+        Self { x: self.x + v.x, y: self.y + v.y, z: self.z + v.z }
+    }
+
+    #[inline(always)]
+    fn minus(self, v: Self) -> Self {
+        Self { x: self.x - v.x, y: self.y - v.y, z: self.z - v.z }
+    }
+
+    #[inline(always)]
+    fn times(self, by: F) -> Self {
+        Self { x: self.x * by, y: self.y * by, z: self.z * by }
+    }
+
+    #[inline(always)]
+    fn dot(self, v: Self) -> F {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangle that lies still, and a vertex a tenth over it that goes down by so much.
+    fn above(down: f32) -> Motion {
+        let mut motion = Motion::new(4);
+        let start = [[0.2, 0.1, 0.2], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        motion.start.extend(start.map(|[x, y, z]: [f32; 3]| [x, y, z, 1.0]));
+        motion.now.clone_from(&motion.start);
+        motion.now[0][1] -= down;
+        motion.look_ahead(0.01, 0.01);
+        motion
+    }
+
+    #[test]
+    fn what_stays_above_is_told_apart_and_what_falls_through_is_not() {
+        for level in Level::all() {
+            for (down, may_meet) in [(0.0, false), (0.05, false), (0.15, true), (f32::NAN, true)] {
+                let motion = above(down);
+                let mut candidates = Candidates::new(1);
+                candidates.push([0, 1, 2, 3]);
+                candidates.judge::<VERTEX>(level, &motion, 0.001);
+                let found = candidates.may_meet(0);
+                assert_eq!(found, may_meet.then_some([0, 1, 2, 3]), "{down} at {level:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_judge_as_each_alone() {
+        let mut motion = Motion::new(64);
+        let number = |i: usize| (i * 7919 % 97) as f32 / 97.0;
+        let spot = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2), 1.0];
+        motion.start.extend((0..64).map(spot));
+        motion.now.extend(motion.start.iter().map(|[x, y, z, w]| [*x, y - z, z + x, *w]));
+        motion.look_ahead(0.1, 0.01);
+        let judged = |level| {
+            let mut all = [(); 2].map(|()| Candidates::new(60));
+            for (k, candidates) in all.iter_mut().enumerate() {
+                (0..60).for_each(|i| candidates.push([i, i + 1, i + 2, i + 3]));
+                if k == 0 {
+                    candidates.judge::<VERTEX>(level, &motion, 0.01);
+                } else {
+                    candidates.judge::<EDGES>(level, &motion, 0.01);
+                }
+            }
+            all.map(|all| all.clear.iter().map(|clear| clear.to_bits()).collect::<Vec<u32>>())
+        };
+        let alone = judged(Level::Scalar);
+        let clear = alone
+            .each_ref()
+            .map(|all| all.iter().filter(|bits| f32::from_bits(**bits) > 0.0).count());
+        assert!(clear.iter().all(|count| (1..60).contains(count)), "{clear:?} of 60 are clear");
+        Level::all().into_iter().for_each(|level| assert_eq!(judged(level), alone, "{level:?}"));
+    }
+}

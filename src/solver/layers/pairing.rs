@@ -1,0 +1,102 @@
+//! Which patches may meet: in a tick by the tree, and of those in a substep.
+
+use super::patches::Patches;
+use super::reach::Reach;
+use super::sweep::Sweep;
+use crate::math::min;
+use crate::mesh::NONE;
+
+/// The bit of a listed pair whose patches share a vertex, or are the same.
+const BESIDE: u32 = 1 << 31;
+
+/// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
+/// (cosine of 60°).
+const STEEP: f32 = 0.5;
+
+impl Patches {
+    /// Lists the pairs of patches that may come nearer than `gap` in this tick, the lower first: always in the same
+    /// order. Patches are listed with themselves as well.
+    pub fn list(&mut self, reach: &Reach, gap: f32) {
+        for at in (0..self.nodes.len()).rev() {
+            let node = self.nodes[at];
+            let mut all;
+            if node.patch == NONE {
+                all = self.reaches[at + 1];
+                all.join(&self.reaches[node.second as usize]);
+            } else {
+                let patch = &self.patches[node.patch as usize];
+                all = Sweep::EMPTY;
+                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
+                self.vertices[own].iter().for_each(|v| reach.add_to(&mut all, *v));
+            }
+            self.reaches[at] = all;
+        }
+        let mut listed = core::mem::take(&mut self.listed);
+        listed.clear();
+        let mut stack = core::mem::take(&mut self.stack);
+        stack.clear();
+        stack.push([0, 0]);
+        while let Some([a, b]) = stack.pop() {
+            let (one, other) = (self.nodes[a as usize], self.nodes[b as usize]);
+            if a == b {
+                if one.patch == NONE {
+                    stack.push([one.second, one.second]);
+                    stack.push([a + 1, one.second]);
+                    stack.push([a + 1, a + 1]);
+                } else {
+                    listed.push([one.patch, one.patch | BESIDE]);
+                }
+            } else if self.reaches[a as usize].meets(&self.reaches[b as usize], gap) {
+                if one.patch != NONE && other.patch != NONE {
+                    let beside = self.are_beside([one.patch, other.patch]);
+                    listed.push([one.patch, other.patch | if beside { BESIDE } else { 0 }]);
+                } else if one.patch == NONE && one.count >= other.count {
+                    stack.push([one.second, b]);
+                    stack.push([a + 1, b]);
+                } else {
+                    stack.push([a, other.second]);
+                    stack.push([a, b + 1]);
+                }
+            }
+        }
+        (self.stack, self.listed) = (stack, listed);
+    }
+
+    /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
+    /// have some.
+    pub fn pair(&self, gap: f32, strays: bool, pairs: &mut Vec<[u32; 2]>) {
+        pairs.clear();
+        for [one, other] in &self.listed {
+            let (pair, are_beside) = ([*one, *other & !BESIDE], *other & BESIDE != 0);
+            let [a, b] = pair.map(|at| at as usize);
+            if strays && !self.patches[a].has_strays && !self.patches[b].has_strays {
+                continue;
+            }
+            if a != b && !self.sweeps[a].meets(&self.sweeps[b], gap) {
+                continue;
+            }
+            if !are_beside || !self.is_quiet(pair) {
+                pairs.push(pair);
+            }
+        }
+    }
+
+    /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little.
+    fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
+        let (a, b) = (&self.patches[one as usize], &self.patches[other as usize]);
+        let cone = min(a.cone, b.cone);
+        if one == other || cone <= STEEP {
+            return cone > STEEP;
+        }
+        // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
+        let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
+        let side = (1.0 - half) * (1.0 - cone * cone);
+        let lean = half.sqrt() * cone - side.sqrt();
+        lean > STEEP
+    }
+
+    fn are_beside(&self, [one, other]: [u32; 2]) -> bool {
+        let [from, to] = self.patches[one as usize].beside;
+        one == other || self.beside[from as usize..to as usize].contains(&other)
+    }
+}

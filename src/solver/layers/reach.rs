@@ -1,0 +1,106 @@
+//! How far particles may get in all that is left of a tick, so that patches are paired once and not in each
+//! substep.
+//!
+//! Ways are told against how all move in the mean, so that a cloth that falls as a whole stays where it is.
+
+use super::motion::Motion;
+use super::spots::{Spot, drift, place};
+use super::sweep::Sweep;
+use crate::math::{max, min};
+use glam::Vec3;
+
+/// What particles may be moved by beyond where they go on to: a share of the mean rest length, and of how far they
+/// go on.
+const SPARE: f32 = 0.2;
+const SPARE_WAY: f32 = 0.25;
+
+/// Where particles may get.
+#[derive(Clone, Debug)]
+pub(super) struct Reach {
+    /// Where particles were.
+    base: Vec<Spot>,
+    /// The ways from there, against the mean, that each may have made.
+    from: Vec<Spot>,
+    to: Vec<Spot>,
+    /// Whether that is of this tick.
+    pub is_known: bool,
+    /// How all moved from the base to the start of the substep, and to where they are.
+    drifts: [Vec3; 2],
+}
+
+impl Reach {
+    pub fn new(capacity: usize) -> Self {
+        let [base, from, to] = [(); 3].map(|()| Vec::with_capacity(capacity));
+        Self { base, from, to, is_known: false, drifts: [Vec3::ZERO; 2] }
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        size_of::<Spot>() * (self.base.capacity() + self.from.capacity() + self.to.capacity())
+    }
+
+    /// Gives each particle room to go on for so many substeps, this one being the first.
+    pub fn look_ahead(&mut self, motion: &Motion, substeps: u32, spacing: f32) {
+        self.base.clone_from(&motion.start);
+        self.drifts = [Vec3::ZERO, motion.drift];
+        self.from.clear();
+        self.to.clear();
+        let (times, spare) = (substeps as f32, if substeps > 1 { spacing * SPARE } else { 0.0 });
+        for (at, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
+            let way = (place(now) - place(start) - motion.drift) * times;
+            let room = Vec3::splat(way.length() * SPARE_WAY + spare);
+            let (from, to) = (way.min(Vec3::ZERO) - room, way.max(Vec3::ZERO) + room);
+            let [least, most] = motion.ways(at).map(|way| way - motion.drift);
+            self.from.push(from.min(least).extend(0.0).to_array());
+            self.to.push(to.max(most).extend(0.0).to_array());
+        }
+        self.is_known = true;
+    }
+
+    /// Finds how all moved up to this substep.
+    pub fn follow(&mut self, motion: &Motion) {
+        let before = drift(&self.base, &motion.start);
+        self.drifts = [before, before + motion.drift];
+    }
+
+    /// Whether all particles stay where they were thought to get in this substep.
+    pub fn holds(&self, motion: &Motion) -> bool {
+        let mut is_within = true;
+        let rooms = self.from.iter().zip(&self.to);
+        for (at, ((base, start), (from, to))) in
+            self.base.iter().zip(&motion.start).zip(rooms).enumerate()
+        {
+            let way = place(start) - place(base);
+            let [least, most] = motion.ways(at);
+            let before = (way - self.drifts[0]).to_array();
+            let least = (way + least - self.drifts[1]).to_array();
+            let most = (way + most - self.drifts[1]).to_array();
+            for k in 0..3 {
+                is_within &=
+                    min(before[k], least[k]) >= from[k] && max(before[k], most[k]) <= to[k];
+            }
+        }
+        is_within
+    }
+
+    /// Gives a particle room to where it gets in this substep.
+    pub fn widen(&mut self, motion: &Motion, particle: u32) {
+        let at = particle as usize;
+        let way = place(&motion.start[at]) - place(&self.base[at]);
+        let ends = motion.ways(at).map(|end| way + end - self.drifts[1]);
+        for way in ends {
+            for (k, way) in way.to_array().into_iter().enumerate() {
+                self.from[at][k] = min(self.from[at][k], way);
+                self.to[at][k] = max(self.to[at][k], way);
+            }
+        }
+    }
+
+    /// Grows a sweep to hold a particle.
+    #[inline(always)]
+    pub fn add_to(&self, sweep: &mut Sweep, particle: u32) {
+        let at = particle as usize;
+        let base = self.base[at];
+        sweep.join(&Sweep { low: base, high: base, from: self.from[at], to: self.to[at] });
+    }
+}
