@@ -251,7 +251,7 @@ pub(crate) fn bend(
         rest: step.rest.map(|(rest, ways)| (&rest[2][..], &ways[2])),
     };
     if !step.is_first {
-        room.twist.solve(plates, x, w, from, false);
+        room.twist.solve(step.level, columns, x, w, from, false);
     }
     for axis in 0..3 {
         room.look(step, stiffness, columns, axis, x.all()[axis], false);
@@ -278,7 +278,7 @@ pub(crate) fn bend(
         move_on(step.level, &mut x[..count], way, given, step.is_first);
     }
     if step.is_first {
-        twist.solve(plates, x, w, from, true);
+        twist.solve(step.level, columns, x, w, from, true);
     }
 }
 

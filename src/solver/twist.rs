@@ -7,23 +7,29 @@
 //! ```
 //! The bands along all rows take what is long along them, those along the columns the rest. Saddles, which
 //! neither rows nor columns resist, so stay implicit as well.
+//!
+//! Every other band goes at once, since they share no particle. What is the same for all cells is done for the
+//! cells of all bands, and comes to naught where a band is not of them: so compilers make vectors of it.
 
+use super::pentads::Three;
 use crate::fabric::plates::Plates;
 use crate::math::columns::Columns;
-
-type V = [f32; 3];
+use crate::math::simd::{Level, leveled};
 
 /// Room to work in, and factors that stay as long as pins, masses and stiffness do.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Twist {
     /// Multipliers of this substep [kg m].
-    lambda: Vec<V>,
+    lambda: Three,
     /// Compliances [1/kg]; 0 where there is no cell.
     compliance: Vec<f32>,
+    /// Of the bands along rows; of the even and of the odd ones along columns, naught for the others.
     rows: Factor,
-    columns: Factor,
-    /// The multipliers of a band before they are known.
-    line: Vec<V>,
+    columns: [Factor; 2],
+    /// Where the substep began.
+    start: Vec<f32>,
+    /// What is not yet resisted, then what is added to the multipliers, behind a margin of naught.
+    own: Three,
 }
 
 /// L D Lᵀ of three diagonals.
@@ -57,12 +63,15 @@ impl Twist {
     pub fn new(plates: &Plates) -> Self {
         let count = plates.count();
         let factor = || Factor { inverse: vec![0.0; count], near: vec![0.0; count] };
+        let list = || vec![0.0; count];
+        let own = || vec![0.0; margin(plates.columns) + count];
         Self {
-            lambda: vec![[0.0; 3]; count],
-            compliance: vec![0.0; count],
+            lambda: [list(), list(), list()],
+            compliance: list(),
             rows: factor(),
-            columns: factor(),
-            line: vec![[0.0; 3]; plates.columns.max(plates.rows)],
+            columns: [factor(), factor()],
+            start: list(),
+            own: [own(), own(), own()],
         }
     }
 
@@ -71,59 +80,114 @@ impl Twist {
         for (compliance, weight) in self.compliance.iter_mut().zip(weight) {
             *compliance = if *weight > 0.0 { 1.0 / (weight * stiffness) } else { 0.0 };
         }
-        for band in along_rows(plates) {
+        let (columns, rows) = (plates.columns, plates.rows);
+        for first in (0..rows - 1).map(|row| row * columns) {
+            let band = Band { first, along: 1, across: columns, count: columns - 1 };
             self.rows.factor(band, &self.compliance, w);
         }
-        for band in along_columns(plates) {
-            self.columns.factor(band, &self.compliance, w);
+        for first in 0..columns - 1 {
+            let band = Band { first, along: columns, across: 1, count: rows - 1 };
+            self.columns[first % 2].factor(band, &self.compliance, w);
         }
     }
 
-    /// Along the rows and then the columns, beginning anew; or back.
+    /// Along the rows and then the columns, beginning anew; or back. Of each the even ones first, then the odd ones,
+    /// so that neither side of the sheet comes first.
     pub fn solve(
         &mut self,
-        plates: &Plates,
+        level: Level,
+        columns: usize,
         x: &mut Columns,
         w: &[f32],
         seen: Seen<'_>,
         is_first: bool,
     ) {
-        let Self { lambda, compliance, rows, columns, line } = self;
-        let mut cells = Cells { lambda, compliance, line, x, w, seen };
         if is_first {
-            cells.lambda.fill([0.0; 3]);
-            along_rows(plates).for_each(|band| cells.solve(band, rows));
-            along_columns(plates).for_each(|band| cells.solve(band, columns));
+            self.lambda.iter_mut().for_each(|lambda| lambda.fill(0.0));
+            for odd in 0..2 {
+                self.solve_rows(level, columns, x, w, seen, odd);
+            }
+            for odd in 0..2 {
+                self.solve_columns(level, columns, x, w, seen, odd);
+            }
         } else {
-            along_columns(plates).rev().for_each(|band| cells.solve(band, columns));
-            along_rows(plates).rev().for_each(|band| cells.solve(band, rows));
+            for odd in [1, 0] {
+                self.solve_columns(level, columns, x, w, seen, odd);
+            }
+            for odd in [1, 0] {
+                self.solve_rows(level, columns, x, w, seen, odd);
+            }
+        }
+    }
+
+    fn solve_rows(
+        &mut self,
+        level: Level,
+        columns: usize,
+        x: &mut Columns,
+        w: &[f32],
+        seen: Seen<'_>,
+        odd: usize,
+    ) {
+        let ways = [1, columns];
+        self.look(level, ways, x, seen);
+        self.rows.solve_rows(columns, odd, &mut self.own);
+        self.go_on(level, ways, x, w);
+    }
+
+    fn solve_columns(
+        &mut self,
+        level: Level,
+        columns: usize,
+        x: &mut Columns,
+        w: &[f32],
+        seen: Seen<'_>,
+        odd: usize,
+    ) {
+        let ways = [columns, 1];
+        self.look(level, ways, x, seen);
+        let factor = &self.columns[odd];
+        for own in &mut self.own {
+            down_and_up(level, &mut own[margin(columns)..], factor, columns);
+        }
+        self.go_on(level, ways, x, w);
+    }
+
+    /// Finds what cells do not resist yet.
+    fn look(&mut self, level: Level, ways: [usize; 2], x: &Columns, seen: Seen<'_>) {
+        let Self { lambda, compliance, start, own, .. } = self;
+        let (count, edge) = (start.len(), ways[0] + ways[1]);
+        let cells = count - edge;
+        let compliance = &compliance[..cells];
+        for (axis, (own, lambda)) in own.iter_mut().zip(lambda).enumerate() {
+            let own = &mut own[edge..][..cells];
+            twist(level, own, &x.all()[axis][..count], ways);
+            if seen.before > 0.0 {
+                let [to, way] = [seen.predicted, seen.way].map(|list| &list.all()[axis][..count]);
+                begin(level, start, to, way);
+                take_twist(level, own, start, ways, seen.before);
+            }
+            if let Some((rest, normals)) = seen.rest {
+                let normal = &normals.all()[axis][..cells];
+                take_rest(level, own, &rest[..cells], normal, 1.0 - seen.before);
+            }
+            resist(level, own, compliance, &lambda[..cells]);
+        }
+    }
+
+    /// Moves particles, and keeps what that took.
+    fn go_on(&mut self, level: Level, ways: [usize; 2], x: &mut Columns, w: &[f32]) {
+        let Self { lambda, own, .. } = self;
+        for ((lambda, own), x) in lambda.iter_mut().zip(own).zip(x.all_mut()) {
+            let count = lambda.len();
+            move_on(level, lambda, own, &mut x[..count], &w[..count], ways);
         }
     }
 }
 
-/// The even ones first, then the odd ones, so that neither side of the sheet comes first.
-fn in_turn(count: usize) -> impl DoubleEndedIterator<Item = usize> {
-    (0..count).step_by(2).chain((1..count).step_by(2))
-}
-
-fn along_rows(plates: &Plates) -> impl DoubleEndedIterator<Item = Band> {
-    let (columns, rows) = (plates.columns, plates.rows);
-    in_turn(rows - 1).map(move |row| Band {
-        first: row * columns,
-        along: 1,
-        across: columns,
-        count: columns - 1,
-    })
-}
-
-fn along_columns(plates: &Plates) -> impl DoubleEndedIterator<Item = Band> {
-    let (columns, rows) = (plates.columns, plates.rows);
-    in_turn(columns - 1).map(move |column| Band {
-        first: column,
-        along: columns,
-        across: 1,
-        count: rows - 1,
-    })
+/// What cells have before them, so that each has a cell before it, above it, and before that one.
+fn margin(columns: usize) -> usize {
+    columns + 1
 }
 
 impl Factor {
@@ -143,81 +207,149 @@ impl Factor {
             (last, had_one) = (d, true);
         }
     }
-}
 
-struct Cells<'a> {
-    lambda: &'a mut [V],
-    compliance: &'a [f32],
-    line: &'a mut [V],
-    x: &'a mut Columns,
-    w: &'a [f32],
-    seen: Seen<'a>,
-}
-
-impl Cells<'_> {
-    fn solve(&mut self, band: Band, factor: &Factor) {
-        let Band { first, along, across, count } = band;
-        let mut last = [0.0; 3];
-        for k in 0..count {
-            let i = first + k * along;
-            let twist = self.twist(i, along, across);
-            let (near, compliance, lambda) = (factor.near[i], self.compliance[i], self.lambda[i]);
-            for axis in 0..3 {
-                let right = -(twist[axis] + compliance * lambda[axis]);
-                last[axis] = right - near * last[axis];
+    /// Along every other row, from end to end and back; the others, and what is beyond the cells of a row, come to
+    /// naught.
+    fn solve_rows(&self, columns: usize, odd: usize, own: &mut Three) {
+        let [x, y, z] = own.each_mut().map(|own| own[margin(columns)..].chunks_exact_mut(columns));
+        let factors = self.inverse.chunks_exact(columns).zip(self.near.chunks_exact(columns));
+        for (row, (((x, y), z), (inverse, near))) in x.zip(y).zip(z).zip(factors).enumerate() {
+            if row % 2 != odd {
+                [x, y, z].into_iter().for_each(|own| own.fill(0.0));
+                continue;
             }
-            self.line[k] = last;
-        }
-        last = [0.0; 3];
-        let mut near_last = 0.0;
-        for k in (0..count).rev() {
-            let i = first + k * along;
-            let inverse = factor.inverse[i];
-            for axis in 0..3 {
-                last[axis] = self.line[k][axis] * inverse - near_last * last[axis];
-                self.lambda[i][axis] += last[axis];
+            let mut last = [0.0; 3];
+            for k in 0..columns - 1 {
+                let right = [x[k], y[k], z[k]];
+                for axis in 0..3 {
+                    last[axis] = right[axis] - near[k] * last[axis];
+                }
+                [x[k], y[k], z[k]] = last;
             }
-            self.line[k] = last;
-            near_last = factor.near[i];
-        }
-        let mut before = [0.0; 3];
-        for k in 0..=count {
-            let i = first + k * along;
-            let own = if k < count { self.line[k] } else { [0.0; 3] };
-            let (wa, wb) = (self.w[i], self.w[i + across]);
-            let columns = [&mut self.x.x, &mut self.x.y, &mut self.x.z];
-            for ((column, own), before) in columns.into_iter().zip(own).zip(before) {
-                let pull = own - before;
-                column[i] += wa * pull;
-                column[i + across] -= wb * pull;
+            (last, [x[columns - 1], y[columns - 1], z[columns - 1]]) = ([0.0; 3], [0.0; 3]);
+            let mut near_last = 0.0;
+            for k in (0..columns - 1).rev() {
+                let line = [x[k], y[k], z[k]];
+                for axis in 0..3 {
+                    last[axis] = line[axis] * inverse[k] - near_last * last[axis];
+                }
+                [x[k], y[k], z[k]] = last;
+                near_last = near[k];
             }
-            before = own;
         }
     }
+}
 
-    #[inline(always)]
-    fn twist(&self, i: usize, along: usize, across: usize) -> V {
-        let seen = &self.seen;
-        let mut twist = [0.0; 3];
-        for (axis, twist) in twist.iter_mut().enumerate() {
-            let x = self.x.all()[axis];
-            *twist = (x[i] - x[i + across]) - (x[i + along] - x[i + along + across]);
+leveled! {
+    /// What cells are twisted by.
+    fn twist(own: &mut [f32], x: &[f32], ways: [usize; 2]) = twist_lanes
+}
+
+#[inline(always)]
+fn twist_lanes(own: &mut [f32], x: &[f32], [along, across]: [usize; 2]) {
+    let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
+    for (own, ((a, b), (c, d))) in own.iter_mut().zip(corners) {
+        *own = (a - b) - (c - d);
+    }
+}
+
+leveled! {
+    /// Where the substep began.
+    fn begin(start: &mut [f32], to: &[f32], way: &[f32]) = begin_lanes
+}
+
+#[inline(always)]
+fn begin_lanes(start: &mut [f32], to: &[f32], way: &[f32]) {
+    for ((start, to), way) in start.iter_mut().zip(to).zip(way) {
+        *start = to - way;
+    }
+}
+
+leveled! {
+    /// Takes off a share of what cells were twisted by.
+    fn take_twist(own: &mut [f32], start: &[f32], ways: [usize; 2], share: f32) = take_twist_lanes
+}
+
+#[inline(always)]
+fn take_twist_lanes(own: &mut [f32], start: &[f32], [along, across]: [usize; 2], share: f32) {
+    let x = start;
+    let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
+    for (own, ((a, b), (c, d))) in own.iter_mut().zip(corners) {
+        *own -= ((a - b) - (c - d)) * share;
+    }
+}
+
+leveled! {
+    /// Takes off a share of what cells are twisted by at rest.
+    fn take_rest(own: &mut [f32], rest: &[f32], normal: &[f32], share: f32) = take_rest_lanes
+}
+
+#[inline(always)]
+fn take_rest_lanes(own: &mut [f32], rest: &[f32], normal: &[f32], share: f32) {
+    for ((own, rest), normal) in own.iter_mut().zip(rest).zip(normal) {
+        let less = *own - normal * (rest * share);
+        *own = if *rest != 0.0 { less } else { *own };
+    }
+}
+
+leveled! {
+    /// What is to be added for it.
+    fn resist(own: &mut [f32], compliance: &[f32], lambda: &[f32]) = resist_lanes
+}
+
+#[inline(always)]
+fn resist_lanes(own: &mut [f32], compliance: &[f32], lambda: &[f32]) {
+    for ((own, compliance), lambda) in own.iter_mut().zip(compliance).zip(lambda) {
+        *own = -(*own + compliance * lambda);
+    }
+}
+
+leveled! {
+    /// Along all columns that a factor is of, down and up again; the others come to naught.
+    fn down_and_up(own: &mut [f32], factor: &Factor, columns: usize) = down_and_up_lanes
+}
+
+#[inline(always)]
+fn down_and_up_lanes(own: &mut [f32], factor: &Factor, columns: usize) {
+    let cells = own.len() - columns;
+    for first in (columns..cells).step_by(columns) {
+        let (above, row) = own.split_at_mut(first);
+        let near = &factor.near[first..first + columns];
+        for ((own, near), last) in row.iter_mut().zip(near).zip(&above[first - columns..]) {
+            *own -= near * last;
         }
-        if seen.before > 0.0 {
-            for (axis, twist) in twist.iter_mut().enumerate() {
-                let (to, way) = (seen.predicted.all()[axis], seen.way.all()[axis]);
-                let x = |i: usize| to[i] - way[i];
-                let was = (x(i) - x(i + across)) - (x(i + along) - x(i + along + across));
-                *twist -= was * seen.before;
-            }
+    }
+    for (own, inverse) in own[..cells].iter_mut().zip(&factor.inverse) {
+        *own *= inverse;
+    }
+    for first in (0..cells - columns).step_by(columns).rev() {
+        let (row, below) = own[first..].split_at_mut(columns);
+        let near = &factor.near[first + columns..first + 2 * columns];
+        for ((own, near), last) in row.iter_mut().zip(near).zip(&*below) {
+            *own -= near * last;
         }
-        if let Some((rest, ways)) = seen.rest
-            && rest[i] != 0.0
-        {
-            let share = rest[i] * (1.0 - seen.before);
-            let n = ways.at(i).to_array();
-            twist.iter_mut().zip(n).for_each(|(twist, n)| *twist -= n * share);
-        }
-        twist
+    }
+}
+
+leveled! {
+    /// Moves particles by what is added to the multipliers of the cells around them.
+    fn move_on(lambda: &mut [f32], own: &[f32], x: &mut [f32], w: &[f32], ways: [usize; 2]) = move_on_lanes
+}
+
+#[inline(always)]
+fn move_on_lanes(
+    lambda: &mut [f32],
+    own: &[f32],
+    x: &mut [f32],
+    w: &[f32],
+    [along, across]: [usize; 2],
+) {
+    let near = own[across..].iter().zip(&own[along..]).zip(own);
+    let own = &own[along + across..];
+    for (((lambda, own), (x, w)), ((before, beside), beyond)) in
+        lambda.iter_mut().zip(own).zip(x.iter_mut().zip(w)).zip(near)
+    {
+        *lambda += own;
+        *x += w * ((own - before) - (beside - beyond));
     }
 }
