@@ -9,13 +9,12 @@
 
 use super::flaps::Flaps;
 use super::links::Order;
-use super::{World, elbows, flaps, hinges, links, packed, plates};
+use super::{World, elbows, flaps, hinges, links, packed, plates, ways};
 use crate::fabric::folds::{Lengths, Line2};
 use crate::fabric::hinges::Hinge;
 use crate::fabric::links::LinkKind;
 use crate::fabric::plates::{Each, Plates};
 use crate::math::columns::Columns;
-use crate::math::{TINY, max, min};
 use glam::Vec3;
 
 /// Room to work in.
@@ -106,8 +105,8 @@ fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let rest = if world.folds.are_any {
         let (normal, ways) = (&mut scratch.bend.normal, &mut scratch.bend.ways);
-        find_normals(plates, &p.x, normal);
-        find_ways(plates, &world.folds.offset, &p.x, normal, ways);
+        ways::find_normals(world.level, plates, &p.x, normal);
+        ways::find_ways(world.level, plates, &world.folds.offset, &p.x, normal, ways);
         Some((&world.folds.offset, &scratch.bend.ways))
     } else {
         None
@@ -137,7 +136,7 @@ pub(crate) fn yield_folds(world: &mut World) {
     }
     let (material, x) = (&world.material, &world.particles.x);
     if let Some(plates) = &world.plates {
-        find_normals(plates, x, &mut world.scratch.bend.normal);
+        ways::find_normals(world.level, plates, x, &mut world.scratch.bend.normal);
         world.folds.yield_plates(plates, material, x, &world.scratch.bend.normal);
     } else {
         world.folds.yield_hinges(&world.weave.hinges.all, material, world.spacing, x);
@@ -166,65 +165,6 @@ impl World {
         let (mesh, rest) = (&self.mesh, &self.rest);
         let at = |hinge: &Hinge| hinge.at.map(|v| rest[mesh.source[v as usize] as usize]);
         self.folds.crease_hinges(&self.weave.hinges.all, at, line, self.spacing, angle);
-    }
-}
-
-/// The unit normals of a grid: square to the ways from neighbour to neighbour, along and across.
-fn find_normals(plates: &Plates, x: &Columns, normal: &mut Columns) {
-    let (columns, rows) = (plates.columns, plates.rows);
-    for row in 0..rows {
-        let (above, below) = (row.saturating_sub(1), (row + 1).min(rows - 1));
-        for column in 0..columns {
-            let (left, right) = (column.saturating_sub(1), (column + 1).min(columns - 1));
-            let across = x.at(row * columns + right) - x.at(row * columns + left);
-            let down = x.at(below * columns + column) - x.at(above * columns + column);
-            let n = down.cross(across);
-            let length = n.length();
-            let n = if length > TINY { n * (1.0 / length) } else { Vec3::ZERO };
-            normal.set(row * columns + column, n);
-        }
-    }
-}
-
-/// From this share of its curvature at rest on an element is bent the way that it is, …
-const IS_BENT: f32 = 0.25;
-/// … wholly so from so much more on.
-const BENDS_OVER: f32 = 0.5;
-
-/// The way that each element of a grid is bent if it is bent at rest: along the normal while it is about flat, along
-/// its own curvature when it is folded, whichever way that has turned. So a fold pushes along what it shows, and turns
-/// neither itself nor the sheet.
-fn find_ways(
-    plates: &Plates,
-    offset: &Each<Vec<f32>>,
-    x: &Columns,
-    normal: &Columns,
-    ways: &mut Each<Columns>,
-) {
-    let columns = plates.columns;
-    for (kind, (offset, ways)) in offset.iter().zip(ways).enumerate() {
-        for (at, rest) in offset.iter().enumerate() {
-            if *rest == 0.0 || plates.share[kind][at] == 0.0 {
-                continue;
-            }
-            let x = |at: usize| x.at(at);
-            let curve = match kind {
-                0 => x(at - 1) + x(at + 1) - x(at) * 2.0,
-                1 => x(at - columns) + x(at + columns) - x(at) * 2.0,
-                _ => (x(at) - x(at + 1)) - (x(at + columns) - x(at + columns + 1)),
-            };
-            let (n, over) = (normal.at(at), 1.0 / rest);
-            let folded = (curve.dot(n) * over - IS_BENT) / BENDS_OVER;
-            let share = max(min(folded, 1.0), 0.0);
-            let way = if share > 0.0 {
-                let own = curve * (if over > 0.0 { 1.0 } else { -1.0 } / curve.length());
-                let way = n + (own - n) * share;
-                way * (1.0 / max(way.length(), TINY))
-            } else {
-                n
-            };
-            ways.set(at, way);
-        }
     }
 }
 

@@ -47,6 +47,7 @@ pub(crate) mod tethers;
 pub(crate) mod twist;
 pub(crate) mod velocities;
 pub(crate) mod vertices;
+pub(crate) mod ways;
 pub(crate) mod weights;
 
 use crate::fabric::cells::Cells;
