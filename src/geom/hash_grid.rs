@@ -66,41 +66,66 @@ impl HashGrid {
         self.cell = cell;
     }
 
-    /// Visits the points in the cell of a point and the 26 around it, those of cells that share their
-    /// places as well.
-    pub fn visit_near(&self, point: Vec3, mut visit: impl FnMut(Vec3, u32)) {
-        let [x, y, z] = self.place(point);
-        let last = (1 << self.bits[0]) - 1;
+    /// The points behind a point of the grid that are nearer to it than the root of `within`, no more than a cell's
+    /// side [m²]; in no order of theirs, in room that is there to be used again.
+    pub fn list_near<'a>(
+        &self,
+        point: u32,
+        x: Vec3,
+        within: f32,
+        room: &'a mut Vec<u32>,
+    ) -> &'a mut [u32] {
+        let mut parts = [(0, 0); 27];
+        let (mut count, mut all) = (0, 0);
+        self.visit_cells(self.cell[point as usize], |from, to| {
+            parts[count] = (from as usize, to as usize);
+            (count, all) = (count + 1, all + to as usize - from as usize);
+        });
+        if room.len() < all {
+            room.resize(all, 0);
+        }
+        // Who is near and who is not follows no rule that a processor could learn: so each is written down, and the
+        // next one over it if it is not.
+        let mut found = 0;
+        for (from, to) in &parts[..count] {
+            for (at, other) in &self.points[*from..*to] {
+                room[found] = *other;
+                let is_near = (*at - x).length_squared() < within;
+                found += usize::from(is_near & (*other > point));
+            }
+        }
+        &mut room[..found]
+    }
+
+    /// Visits where the points of a cell and of the 26 around it are, and those of cells that share their places.
+    #[inline(always)]
+    fn visit_cells(&self, cell: u32, mut visit: impl FnMut(u32, u32)) {
+        let [bx, by, _] = self.bits;
+        let of = |cell: u32, first: u32, bits: u32| cell >> first & ((1 << bits) - 1);
+        let (x, y, z) = (of(cell, 0, bx), of(cell, bx, by), cell >> (bx + by));
+        let last = (1 << bx) - 1;
         for (dy, dz) in (0..9).map(|k| (k % 3, k / 3)) {
             let row = |x: u32| {
-                let (y, z) =
-                    (y.wrapping_add(dy).wrapping_sub(1), z.wrapping_add(dz).wrapping_sub(1));
-                self.index([x, y, z]) as usize
+                let (y, z) = (y.wrapping_add(dy), z.wrapping_add(dz));
+                self.index([x, y.wrapping_sub(1), z.wrapping_sub(1)]) as usize
             };
-            let column = x & last;
-            if column > 0 && column < last {
+            if x > 0 && x < last {
                 // Three cells side by side.
-                let cells = row(x.wrapping_sub(1));
-                self.visit_range(self.first[cells], self.first[cells + 3], &mut visit);
+                let cells = row(x - 1);
+                visit(self.first[cells], self.first[cells + 3]);
             } else {
                 for x in [x.wrapping_sub(1), x, x.wrapping_add(1)] {
                     let cell = row(x);
-                    self.visit_range(self.first[cell], self.first[cell + 1], &mut visit);
+                    visit(self.first[cell], self.first[cell + 1]);
                 }
             }
         }
     }
 
-    #[inline(always)]
-    fn visit_range(&self, from: u32, to: u32, visit: &mut impl FnMut(Vec3, u32)) {
-        self.points[from as usize..to as usize].iter().for_each(|(at, point)| visit(*at, *point));
-    }
-
     /// The cell of a point along each axis, not wrapped yet.
     #[inline(always)]
     fn place(&self, point: Vec3) -> [u32; 3] {
-        // Of numbers that no i32 holds the conversion makes the nearest, of none 0.
-        point.to_array().map(|c| (c * self.per_length).floor() as i32 as u32)
+        point.to_array().map(|c| floor(c * self.per_length) as u32)
     }
 
     #[inline(always)]
@@ -111,12 +136,43 @@ impl HashGrid {
     }
 }
 
+/// The next integer below; the nearest one of what no i32 holds, of what is no number 0.
+#[inline(always)]
+fn floor(c: f32) -> i32 {
+    let toward_zero = c as i32;
+    toward_zero.saturating_sub(i32::from(toward_zero as f32 > c))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn all_points_within_a_cell_are_found_once() {
+    fn what_is_rounded_down_is_the_floor() {
+        for c in [
+            0.0,
+            -0.0,
+            0.5,
+            -0.5,
+            1.0,
+            -1.0,
+            -1.0e-30,
+            2.5e9,
+            -2.5e9,
+            8_388_607.5,
+            -8_388_607.5,
+            1.0e-9,
+        ] {
+            assert_eq!(floor(c), c.floor() as i32, "{c}");
+        }
+        assert_eq!(
+            [floor(f32::NAN), floor(f32::INFINITY), floor(-f32::INFINITY)],
+            [0, i32::MAX, i32::MIN]
+        );
+    }
+
+    #[test]
+    fn all_points_that_are_near_are_found_once() {
         let point = |i: u32| {
             let c = |k: u32| (i.wrapping_mul(k) % 1009) as f32 * 0.01 - 5.0;
             Vec3::new(c(7919), c(104_729), c(1299))
@@ -126,14 +182,13 @@ mod tests {
         for shift in [0.0, 1000.0] {
             let moved: Vec<Vec3> = points.iter().map(|p| *p + Vec3::splat(shift)).collect();
             grid.fill(&moved, 0.6);
+            let mut room = Vec::new();
             for (i, point) in moved.iter().enumerate() {
-                let mut found = Vec::new();
-                grid.visit_near(*point, |_, other| found.push(other));
+                let found = grid.list_near(i as u32, *point, 0.5 * 0.5, &mut room);
                 found.sort_unstable();
-                assert!(found.windows(2).all(|pair| pair[0] != pair[1]), "{i} sees one twice");
-                let near = |j: &u32| (moved[*j as usize] - *point).length() < 0.6;
-                let exact: Vec<u32> = (0..500).filter(near).collect();
-                assert!(exact.iter().all(|j| found.contains(j)), "{i} misses one");
+                let is_near = |j: &u32| (moved[*j as usize] - *point).length_squared() < 0.5 * 0.5;
+                let exact: Vec<u32> = (i as u32 + 1..500).filter(is_near).collect();
+                assert_eq!(found, exact, "{i}");
             }
         }
     }

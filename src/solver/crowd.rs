@@ -79,7 +79,7 @@ impl Crowd {
             // As many as balls that lie close have around them; of more, lists grow.
             pairs: Vec::with_capacity(16 * count),
             listed_at: Vec::with_capacity(capacity),
-            touching: Vec::with_capacity(8 * count),
+            touching: Vec::with_capacity(16 * count),
             near: Vec::with_capacity(256),
             pieces: pieces(&world.mesh, world.rest.len()),
             distance,
@@ -134,12 +134,7 @@ impl Crowd {
         pairs.clear();
         for (i, x) in listed_at.iter().enumerate() {
             let site = world.mesh.source[i] as usize;
-            near.clear();
-            grid.visit_near(*x, |at, j| {
-                if (at - *x).length_squared() < most * most && j as usize > i {
-                    near.push(j);
-                }
-            });
+            let near = grid.list_near(i as u32, *x, most * most, near);
             sort(near);
             for j in near.iter() {
                 let other = world.mesh.source[*j as usize] as usize;
@@ -218,13 +213,18 @@ pub(crate) fn solve(world: &mut World) {
         return;
     };
     let (p, distance) = (&mut world.particles, crowd.distance);
-    let is_near = |[i, j]: &&[u32; 2]| {
-        let span = p.x.at(*j as usize) - p.x.at(*i as usize);
-        span.length_squared() < distance * distance
-    };
-    crowd.touching.clear();
-    crowd.touching.extend(crowd.pairs.iter().filter(is_near));
-    for pair in &crowd.touching {
+    // As in `HashGrid::list_near`, each is written down.
+    let (pairs, touching) = (&crowd.pairs, &mut crowd.touching);
+    if touching.len() < pairs.len() {
+        touching.resize(pairs.len(), [0; 2]);
+    }
+    let mut count = 0;
+    for pair in pairs {
+        let [i, j] = pair.map(|particle| particle as usize);
+        touching[count] = *pair;
+        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
+    }
+    for pair in &touching[..count] {
         let [i, j] = pair.map(|particle| particle as usize);
         let span = p.x.at(j) - p.x.at(i);
         let length = span.length();

@@ -26,8 +26,12 @@ pub(crate) struct Twist {
     /// Of the bands along rows; of the even and of the odd ones along columns, naught for the others.
     rows: Factor,
     columns: [Factor; 2],
-    /// Where the substep began.
+    /// Where the substep began, and the share that is taken off of what cells were twisted by then, as rows and as
+    /// columns add it up.
     start: Vec<f32>,
+    before: [Three; 2],
+    /// What is taken off of them for what they are twisted by at rest.
+    rest: Three,
     /// What is not yet resisted, then what is added to the multipliers, behind a margin of naught.
     own: Three,
 }
@@ -71,6 +75,8 @@ impl Twist {
             rows: factor(),
             columns: [factor(), factor()],
             start: list(),
+            before: [[list(), list(), list()], [list(), list(), list()]],
+            rest: [list(), list(), list()],
             own: [own(), own(), own()],
         }
     }
@@ -102,35 +108,63 @@ impl Twist {
         seen: Seen<'_>,
         is_first: bool,
     ) {
+        self.begin(level, columns, seen);
         if is_first {
             self.lambda.iter_mut().for_each(|lambda| lambda.fill(0.0));
             for odd in 0..2 {
-                self.solve_rows(level, columns, x, w, seen, odd);
+                self.solve_rows(level, columns, x, w, odd);
             }
             for odd in 0..2 {
-                self.solve_columns(level, columns, x, w, seen, odd);
+                self.solve_columns(level, columns, x, w, odd);
             }
         } else {
             for odd in [1, 0] {
-                self.solve_columns(level, columns, x, w, seen, odd);
+                self.solve_columns(level, columns, x, w, odd);
             }
             for odd in [1, 0] {
-                self.solve_rows(level, columns, x, w, seen, odd);
+                self.solve_rows(level, columns, x, w, odd);
             }
         }
     }
 
-    fn solve_rows(
-        &mut self,
-        level: Level,
-        columns: usize,
-        x: &mut Columns,
-        w: &[f32],
-        seen: Seen<'_>,
-        odd: usize,
-    ) {
+    /// Finds what is taken off of what cells are twisted by.
+    fn begin(&mut self, level: Level, columns: usize, seen: Seen<'_>) {
+        let Self { start, before: [rows, across], rest, .. } = self;
+        let count = start.len();
+        let cells = count - columns - 1;
+        for axis in 0..3 {
+            if seen.before > 0.0 {
+                let [to, way] = [seen.predicted, seen.way].map(|list| &list.all()[axis][..count]);
+                begin(level, start, to, way);
+                share_of_twist(level, &mut rows[axis][..cells], start, [1, columns], seen.before);
+                share_of_twist(level, &mut across[axis][..cells], start, [columns, 1], seen.before);
+            } else {
+                rows[axis].fill(0.0);
+                across[axis].fill(0.0);
+            }
+            if let Some((by, ways)) = seen.rest {
+                let way = &ways.all()[axis][..cells];
+                share_of_rest(
+                    level,
+                    &mut rest[axis][..cells],
+                    &by[..cells],
+                    way,
+                    1.0 - seen.before,
+                );
+            } else {
+                rest[axis].fill(0.0);
+            }
+        }
+    }
+
+    fn solve_rows(&mut self, level: Level, columns: usize, x: &mut Columns, w: &[f32], odd: usize) {
         let ways = [1, columns];
-        self.look(level, ways, x, seen);
+        let last = self.start.len() / columns - 1;
+        for row in (odd..last).step_by(2) {
+            // The last cell of a row is none, and without factors.
+            let first = row * columns;
+            self.look(level, ways, x, [first, first + columns - 1], 0);
+        }
         self.rows.solve_rows(columns, odd, &mut self.own);
         self.go_on(level, ways, x, w);
     }
@@ -141,11 +175,11 @@ impl Twist {
         columns: usize,
         x: &mut Columns,
         w: &[f32],
-        seen: Seen<'_>,
         odd: usize,
     ) {
         let ways = [columns, 1];
-        self.look(level, ways, x, seen);
+        let cells = self.start.len() - columns - 1;
+        self.look(level, ways, x, [0, cells], 1);
         let factor = &self.columns[odd];
         for own in &mut self.own {
             down_and_up(level, &mut own[margin(columns)..], factor, columns);
@@ -153,25 +187,22 @@ impl Twist {
         self.go_on(level, ways, x, w);
     }
 
-    /// Finds what cells do not resist yet.
-    fn look(&mut self, level: Level, ways: [usize; 2], x: &Columns, seen: Seen<'_>) {
-        let Self { lambda, compliance, start, own, .. } = self;
-        let (count, edge) = (start.len(), ways[0] + ways[1]);
-        let cells = count - edge;
-        let compliance = &compliance[..cells];
+    /// Finds what some cells do not resist yet.
+    fn look(
+        &mut self,
+        level: Level,
+        ways: [usize; 2],
+        x: &Columns,
+        [from, to]: [usize; 2],
+        kind: usize,
+    ) {
+        let Self { lambda, compliance, before, rest, own, .. } = self;
+        let edge = ways[0] + ways[1];
         for (axis, (own, lambda)) in own.iter_mut().zip(lambda).enumerate() {
-            let own = &mut own[edge..][..cells];
-            twist(level, own, &x.all()[axis][..count], ways);
-            if seen.before > 0.0 {
-                let [to, way] = [seen.predicted, seen.way].map(|list| &list.all()[axis][..count]);
-                begin(level, start, to, way);
-                take_twist(level, own, start, ways, seen.before);
-            }
-            if let Some((rest, normals)) = seen.rest {
-                let normal = &normals.all()[axis][..cells];
-                take_rest(level, own, &rest[..cells], normal, 1.0 - seen.before);
-            }
-            resist(level, own, compliance, &lambda[..cells]);
+            let off = [&before[kind][axis][from..to], &rest[axis][from..to]];
+            let against = [&compliance[from..to], &lambda[from..to]];
+            let x = &x.all()[axis][from..to + edge];
+            look(level, &mut own[edge + from..edge + to], x, ways, off, against);
         }
     }
 
@@ -241,19 +272,6 @@ impl Factor {
 }
 
 leveled! {
-    /// What cells are twisted by.
-    fn twist(own: &mut [f32], x: &[f32], ways: [usize; 2]) = twist_lanes
-}
-
-#[inline(always)]
-fn twist_lanes(own: &mut [f32], x: &[f32], [along, across]: [usize; 2]) {
-    let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
-    for (own, ((a, b), (c, d))) in own.iter_mut().zip(corners) {
-        *own = (a - b) - (c - d);
-    }
-}
-
-leveled! {
     /// Where the substep began.
     fn begin(start: &mut [f32], to: &[f32], way: &[f32]) = begin_lanes
 }
@@ -266,41 +284,57 @@ fn begin_lanes(start: &mut [f32], to: &[f32], way: &[f32]) {
 }
 
 leveled! {
-    /// Takes off a share of what cells were twisted by.
-    fn take_twist(own: &mut [f32], start: &[f32], ways: [usize; 2], share: f32) = take_twist_lanes
+    /// A share of what cells are twisted by.
+    fn share_of_twist(out: &mut [f32], x: &[f32], ways: [usize; 2], share: f32) = share_of_twist_lanes
 }
 
 #[inline(always)]
-fn take_twist_lanes(own: &mut [f32], start: &[f32], [along, across]: [usize; 2], share: f32) {
-    let x = start;
+fn share_of_twist_lanes(out: &mut [f32], x: &[f32], [along, across]: [usize; 2], share: f32) {
     let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
-    for (own, ((a, b), (c, d))) in own.iter_mut().zip(corners) {
-        *own -= ((a - b) - (c - d)) * share;
+    for (out, ((a, b), (c, d))) in out.iter_mut().zip(corners) {
+        *out = ((a - b) - (c - d)) * share;
     }
 }
 
 leveled! {
-    /// Takes off a share of what cells are twisted by at rest.
-    fn take_rest(own: &mut [f32], rest: &[f32], normal: &[f32], share: f32) = take_rest_lanes
+    /// A share of what cells are twisted by at rest.
+    fn share_of_rest(out: &mut [f32], rest: &[f32], way: &[f32], share: f32) = share_of_rest_lanes
 }
 
 #[inline(always)]
-fn take_rest_lanes(own: &mut [f32], rest: &[f32], normal: &[f32], share: f32) {
-    for ((own, rest), normal) in own.iter_mut().zip(rest).zip(normal) {
-        let less = *own - normal * (rest * share);
-        *own = if *rest != 0.0 { less } else { *own };
+fn share_of_rest_lanes(out: &mut [f32], rest: &[f32], way: &[f32], share: f32) {
+    for ((out, rest), way) in out.iter_mut().zip(rest).zip(way) {
+        *out = way * (rest * share);
     }
 }
 
 leveled! {
-    /// What is to be added for it.
-    fn resist(own: &mut [f32], compliance: &[f32], lambda: &[f32]) = resist_lanes
+    /// What is to be added for what cells are twisted by and do not resist yet.
+    fn look(
+        own: &mut [f32],
+        x: &[f32],
+        ways: [usize; 2],
+        off: [&[f32]; 2],
+        against: [&[f32]; 2],
+    ) = look_lanes
 }
 
 #[inline(always)]
-fn resist_lanes(own: &mut [f32], compliance: &[f32], lambda: &[f32]) {
-    for ((own, compliance), lambda) in own.iter_mut().zip(compliance).zip(lambda) {
-        *own = -(*own + compliance * lambda);
+fn look_lanes(
+    own: &mut [f32],
+    x: &[f32],
+    [along, across]: [usize; 2],
+    [before, rest]: [&[f32]; 2],
+    [compliance, lambda]: [&[f32]; 2],
+) {
+    let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
+    let off = before.iter().zip(rest);
+    let against = compliance.iter().zip(lambda);
+    for (((own, ((a, b), (c, d))), (before, rest)), (compliance, lambda)) in
+        own.iter_mut().zip(corners).zip(off).zip(against)
+    {
+        let twist = ((a - b) - (c - d)) - before - rest;
+        *own = -(twist + compliance * lambda);
     }
 }
 

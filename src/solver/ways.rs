@@ -35,15 +35,17 @@ fn find_row_lanes(normal: [&mut [f32]; 3], [above, row, below]: [[&[f32]; 3]; 3]
     let (y, z) = (&y[..count], &z[..count]);
     let (ax, ay, az) = (&ax[..count], &ay[..count], &az[..count]);
     let (bx, by, bz) = (&bx[..count], &by[..count], &bz[..count]);
-    let down = |i: usize| [bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]];
-    let across =
-        |left: usize, right: usize| [x[right] - x[left], y[right] - y[left], z[right] - z[left]];
     let last = count - 1;
-    [nx[0], ny[0], nz[0]] = square(down(0), across(0, last.min(1)));
     for i in 1..last {
-        [nx[i], ny[i], nz[i]] = square(down(i), across(i - 1, i + 1));
+        let down = [bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]];
+        let across = [x[i + 1] - x[i - 1], y[i + 1] - y[i - 1], z[i + 1] - z[i - 1]];
+        [nx[i], ny[i], nz[i]] = square(down, across);
     }
-    [nx[last], ny[last], nz[last]] = square(down(last), across(last.max(1) - 1, last));
+    for (i, left, right) in [(0, 0, last.min(1)), (last, last.max(1) - 1, last)] {
+        let down = [bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]];
+        let across = [x[right] - x[left], y[right] - y[left], z[right] - z[left]];
+        [nx[i], ny[i], nz[i]] = square(down, across);
+    }
 }
 
 /// What is square to both, of length 1; naught if nothing is.
@@ -125,11 +127,9 @@ fn turn_lanes([x, y, z]: [&mut [f32]; 3], rest: &[f32], [nx, ny, nz]: [&[f32]; 3
         let wz = nz + (cz * own - nz) * share;
         let unit = 1.0 / max((wx * wx + wy * wy + wz * wz).sqrt(), TINY);
         let (is_flat, is_turned) = (rest[i] == 0.0, share > 0.0);
-        let pick = |way: f32, normal: f32| {
-            let way = if is_turned { way * unit } else { normal };
-            if is_flat { 0.0 } else { way }
-        };
-        (x[i], y[i], z[i]) = (pick(wx, nx), pick(wy, ny), pick(wz, nz));
+        let turned = [wx * unit, wy * unit, wz * unit];
+        let way = if is_turned { turned } else { [nx, ny, nz] };
+        [x[i], y[i], z[i]] = if is_flat { [0.0; 3] } else { way };
     }
 }
 
