@@ -22,7 +22,7 @@ use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::math::column::Column;
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, Simd, vectored};
+use crate::math::simd::{Base, Level, Simd, vectored};
 use crate::state::particles::Particles;
 use core::ops::Range;
 use glam::Vec3;
@@ -111,34 +111,40 @@ struct Pass {
 
 /// Functions for each law and pattern: together they would be too long for engines to compile well.
 macro_rules! kernels {
-    ($($name:ident: $solve:ident $law:ident $pattern:ident;)*) => {$(
+    ($solve:ident, $widest:ident; $($name:ident: $law:ident $pattern:ident;)*) => {$(
         vectored! {
             #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // there `vectored` says so
             fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
-                = $solve::<_, $law, $pattern>, Avx512, none
+                = $solve::<_, $law, $pattern>, $widest, none
         }
     )*};
 }
 
 kernels! {
-    soft_straight: solve_whole SOFT STRAIGHT;
-    soft_pairs: solve_whole SOFT PAIRS;
-    soft_quads: solve_whole SOFT QUADS;
-    rigid_straight: solve_whole RIGID STRAIGHT;
-    rigid_pairs: solve_whole RIGID PAIRS;
-    rigid_quads: solve_whole RIGID QUADS;
-    bound_straight: solve_whole BOUND STRAIGHT;
-    bound_pairs: solve_whole BOUND PAIRS;
-    bound_quads: solve_whole BOUND QUADS;
-    torn_soft_straight: solve_torn SOFT STRAIGHT;
-    torn_soft_pairs: solve_torn SOFT PAIRS;
-    torn_soft_quads: solve_torn SOFT QUADS;
-    torn_rigid_straight: solve_torn RIGID STRAIGHT;
-    torn_rigid_pairs: solve_torn RIGID PAIRS;
-    torn_rigid_quads: solve_torn RIGID QUADS;
-    torn_bound_straight: solve_torn BOUND STRAIGHT;
-    torn_bound_pairs: solve_torn BOUND PAIRS;
-    torn_bound_quads: solve_torn BOUND QUADS;
+    solve_whole, Avx512;
+    soft_straight: SOFT STRAIGHT;
+    soft_pairs: SOFT PAIRS;
+    soft_quads: SOFT QUADS;
+    rigid_straight: RIGID STRAIGHT;
+    rigid_pairs: RIGID PAIRS;
+    rigid_quads: RIGID QUADS;
+    bound_straight: BOUND STRAIGHT;
+    bound_pairs: BOUND PAIRS;
+    bound_quads: BOUND QUADS;
+}
+
+// Few rows are torn: what the widest vectors would save is not worth another copy.
+kernels! {
+    solve_torn, Avx2;
+    torn_soft_straight: SOFT STRAIGHT;
+    torn_soft_pairs: SOFT PAIRS;
+    torn_soft_quads: SOFT QUADS;
+    torn_rigid_straight: RIGID STRAIGHT;
+    torn_rigid_pairs: RIGID PAIRS;
+    torn_rigid_quads: RIGID QUADS;
+    torn_bound_straight: BOUND STRAIGHT;
+    torn_bound_pairs: BOUND PAIRS;
+    torn_bound_quads: BOUND QUADS;
 }
 
 /// Without vectors there are no chunks.
@@ -271,7 +277,7 @@ impl Spots for Sheet<'_> {
 /// # Safety
 /// As for `solve_chunk`.
 #[inline(always)]
-pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8>(
+unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     lists: &Lists,
     [start, spot]: [Spot; 2],
@@ -291,41 +297,33 @@ pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8>(
             let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
             chunk.finish_only::<LAW, PATTERN>(s, place, keep);
         } else {
-            solve_rest::<S, LAW, PATTERN>(s, lists, start, done, count, terms);
+            solve_last::<LAW, PATTERN>(lists, start, done, count, terms);
         }
     }
 }
 
-/// Solves links `done` to `count` of a row, fewer than a chunk, as one chunk that reaches back over
-/// links which are done.
+/// Solves links `done` to `count` of a row that nothing lies behind: by the fewest lanes at a time, the last
+/// ones as a chunk that reaches back over links which are done. So few rows are such that one way to go
+/// about it serves all machines.
 ///
 /// # Safety
 /// As for `solve_chunk`.
-#[inline(always)]
-unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
-    s: S,
+#[inline(never)]
+pub(crate) unsafe fn solve_last<const LAW: u8, const PATTERN: u8>(
     lists: &Lists,
     row: Spot,
     mut done: usize,
     count: usize,
     terms: Terms,
 ) {
-    // SAFETY: the caller's promise. Rows that go in chunks have links for the fewest lanes, so this
-    // ends.
+    let s = Base::new();
+    // SAFETY: the caller's promise; rows that go in chunks have links for the fewest lanes.
     unsafe {
-        if count < S::LANES {
-            let (half, few) = (s.half(), <S::Half as Simd>::LANES);
-            while done + few <= count {
-                let place = lists.place::<S::Half, PATTERN>(row.after::<PATTERN>(done));
-                solve_chunk::<_, LAW, PATTERN>(half, place, 0, terms);
-                done += few;
-            }
-            return solve_rest::<S::Half, LAW, PATTERN>(half, lists, row, done, count, terms);
-        }
-        if done < count {
-            let from = count - S::LANES;
-            let place = lists.place::<S, PATTERN>(row.after::<PATTERN>(from));
-            solve_chunk::<S, LAW, PATTERN>(s, place, done - from, terms);
+        while done < count {
+            let from = done.min(count - Base::LANES);
+            let place = lists.place::<Base, PATTERN>(row.after::<PATTERN>(from));
+            solve_chunk::<_, LAW, PATTERN>(s, place, done - from, terms);
+            done = from + Base::LANES;
         }
     }
 }
