@@ -16,7 +16,7 @@
 use super::alike::Alike;
 use super::chunk::{Chunk, Terms};
 use super::links::{BOUND, RIGID, SOFT, pull};
-use super::places::{Lists, Place, Spot, in_chunks, in_chunks_of};
+use super::places::{Lists, Spot, in_chunks, in_chunks_of};
 use super::spots::Spots;
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
@@ -195,23 +195,23 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     let lists = Lists::of(sheet);
     for row in rows.iter().filter(|row| row.is_torn) {
         let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
-        let start = lists.spot::<PATTERN>(row, count);
-        let (mut spot, end) = (start, start.link + count);
-        // SAFETY: the row was just found to lie within the lists.
+        let (start, mut done) = (lists.spot::<PATTERN>(row, count), 0);
+        // SAFETY: the row was just found to lie within the lists; there is room for whole chunks, or none is made.
         unsafe {
-            while spot.link + S::LANES <= end {
+            while S::LANES > Base::LANES && done < count {
+                let spot = start.after::<PATTERN>(done);
+                if !lists.have_room::<PATTERN>(spot, S::LANES) {
+                    break;
+                }
                 let place = lists.place::<S, PATTERN>(spot);
-                solve_chunk::<S, LAW, PATTERN>(s, place, 0, terms);
-                spot = spot.after::<PATTERN>(S::LANES);
+                let first = Chunk::first(s, S::LANES.min(count - done));
+                let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
+                let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
+                chunk.finish_only::<LAW, PATTERN>(s, place, keep);
+                done += S::LANES;
             }
+            solve_last::<LAW, PATTERN>(&lists, start, done, count, terms);
         }
-    }
-    for row in rows.iter().filter(|row| row.is_torn) {
-        let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
-        let start = lists.spot::<PATTERN>(row, count);
-        let spot = start.after::<PATTERN>(count - count % S::LANES);
-        // SAFETY: as above.
-        unsafe { solve_end::<S, LAW, PATTERN>(s, &lists, [start, spot], count, terms) };
     }
 }
 
@@ -272,42 +272,12 @@ impl Spots for Sheet<'_> {
     }
 }
 
-/// Solves the links of a row that begins at one spot from another spot on: fewer than a chunk.
+/// Solves links `done` to `count` of a row, if there are any: by the fewest lanes at a time, the last ones as a
+/// chunk that reaches back over links which are done, as nothing may lie behind. So few rows need it that one way
+/// to go about it serves all machines.
 ///
 /// # Safety
-/// As for `solve_chunk`.
-#[inline(always)]
-unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8>(
-    s: S,
-    lists: &Lists,
-    [start, spot]: [Spot; 2],
-    count: usize,
-    terms: Terms,
-) {
-    let done = spot.link - start.link;
-    if done == count {
-        return;
-    }
-    // SAFETY: the caller's promise; there is room for a whole chunk, or none is made.
-    unsafe {
-        if lists.have_room::<PATTERN>(spot, S::LANES) {
-            let place = lists.place::<S, PATTERN>(spot);
-            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
-            let first = Chunk::first(s, count - done);
-            let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
-            chunk.finish_only::<LAW, PATTERN>(s, place, keep);
-        } else {
-            solve_last::<LAW, PATTERN>(lists, start, done, count, terms);
-        }
-    }
-}
-
-/// Solves links `done` to `count` of a row that nothing lies behind: by the fewest lanes at a time, the last
-/// ones as a chunk that reaches back over links which are done. So few rows are such that one way to go
-/// about it serves all machines.
-///
-/// # Safety
-/// As for `solve_chunk`.
+/// The row lies within the lists, and has links for the fewest lanes if it has any.
 #[inline(never)]
 pub(crate) unsafe fn solve_last<const LAW: u8, const PATTERN: u8>(
     lists: &Lists,
@@ -317,32 +287,15 @@ pub(crate) unsafe fn solve_last<const LAW: u8, const PATTERN: u8>(
     terms: Terms,
 ) {
     let s = Base::new();
-    // SAFETY: the caller's promise; rows that go in chunks have links for the fewest lanes.
-    unsafe {
-        while done < count {
-            let from = done.min(count - Base::LANES);
+    while done < count {
+        let from = done.min(count - Base::LANES);
+        // SAFETY: the caller's promise.
+        unsafe {
             let place = lists.place::<Base, PATTERN>(row.after::<PATTERN>(from));
-            solve_chunk::<_, LAW, PATTERN>(s, place, done - from, terms);
-            done = from + Base::LANES;
+            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
+            let keep = Chunk::in_row(s, place, done - from);
+            chunk.finish_only::<LAW, PATTERN>(s, place, keep);
         }
-    }
-}
-
-/// As many links of a row as there are lanes, but only those that are still in it, and not the first
-/// `done`.
-///
-/// # Safety
-/// The row lies within the lists; so for all that follow.
-#[inline(always)]
-unsafe fn solve_chunk<S: Simd, const LAW: u8, const PATTERN: u8>(
-    s: S,
-    place: Place,
-    done: usize,
-    terms: Terms,
-) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
-        chunk.finish_only::<LAW, PATTERN>(s, place, Chunk::in_row(s, place, done));
+        done = from + Base::LANES;
     }
 }
