@@ -67,7 +67,7 @@ pub(crate) fn solve_rows<const LAW: u8>(
     sheet: &mut Sheet<'_>,
     scale: f32,
 ) {
-    if level == Level::Scalar {
+    if Level::HAS_SCALAR && level == Level::Scalar {
         return rows.iter().for_each(|row| solve_apart::<LAW>(row, 0, sheet, scale));
     }
     let mut left = rows;
@@ -216,7 +216,7 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
 }
 
 /// Links of a row one by one, from some link on.
-#[inline(always)]
+#[inline(never)]
 fn solve_apart<const LAW: u8>(row: &Row, from: usize, sheet: &mut Sheet<'_>, scale: f32) {
     let row = &sheet.own(row);
     for k in from..row.count as usize {
