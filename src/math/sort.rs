@@ -81,27 +81,52 @@ fn sort_simply<T>(list: &mut [T], is_less: &mut impl FnMut(&T, &T) -> bool) {
         }
         return;
     }
-    // Williams, Floyd, "Treesort 3", CACM 1964: first a heap is made, then its greatest is put behind it.
-    for step in (0..list.len() + list.len() / 2).rev() {
-        let (mut at, end) = if let Some(root) = step.checked_sub(list.len()) {
-            (root, list.len())
+    sort_as_heap(list.len(), &mut Entries { list, is_less });
+}
+
+/// A list as one way to sort them all sees it.
+trait Heap {
+    /// Which is the greatest of an entry, another one and what follows that before `end`.
+    fn greatest(&mut self, at: usize, child: usize, end: usize) -> usize;
+
+    fn swap(&mut self, a: usize, b: usize);
+}
+
+struct Entries<'a, T, F> {
+    list: &'a mut [T],
+    is_less: &'a mut F,
+}
+
+impl<T, F: FnMut(&T, &T) -> bool> Heap for Entries<'_, T, F> {
+    fn greatest(&mut self, at: usize, mut child: usize, end: usize) -> usize {
+        let list = &self.list[..end];
+        if child + 1 < end && (self.is_less)(&list[child], &list[child + 1]) {
+            child += 1;
+        }
+        if (self.is_less)(&list[at], &list[child]) { child } else { at }
+    }
+
+    fn swap(&mut self, a: usize, b: usize) {
+        self.list.swap(a, b);
+    }
+}
+
+/// Williams, Floyd, "Treesort 3", CACM 1964: first a heap is made, then its greatest is put behind it.
+fn sort_as_heap(count: usize, heap: &mut dyn Heap) {
+    for step in (0..count + count / 2).rev() {
+        let (mut at, end) = if let Some(root) = step.checked_sub(count) {
+            (root, count)
         } else {
-            list.swap(0, step);
+            heap.swap(0, step);
             (0, step)
         };
-        loop {
-            let mut child = 2 * at + 1;
-            if child >= end {
+        while 2 * at + 1 < end {
+            let greatest = heap.greatest(at, 2 * at + 1, end);
+            if greatest == at {
                 break;
             }
-            if child + 1 < end && is_less(&list[child], &list[child + 1]) {
-                child += 1;
-            }
-            if !is_less(&list[at], &list[child]) {
-                break;
-            }
-            list.swap(at, child);
-            at = child;
+            heap.swap(at, greatest);
+            at = greatest;
         }
     }
 }

@@ -9,7 +9,7 @@
 use super::chunk::{Chunk, Terms};
 use super::links::{BOUND, RIGID};
 use super::places::{Lists, Spot, in_chunks_of};
-use super::rows::{STRAIGHT, solve_end};
+use super::rows::{STRAIGHT, solve_last};
 use crate::fabric::rows::Row;
 use crate::math::simd::{MOST_LANES, Simd};
 use core::ops::Range;
@@ -123,7 +123,7 @@ impl Alike {
         (rows, chunks): (Range<usize>, Range<usize>),
         terms: Terms,
     ) {
-        let count = chunks.len();
+        let (count, mut rows_left) = (chunks.len(), rows.len());
         if count == 0 {
             return;
         }
@@ -137,20 +137,23 @@ impl Alike {
             let place = lists.place::<S, PATTERN>(spot);
             let mut chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, terms);
             let mut left = count;
-            for _ in 1..count * rows.len() {
+            while rows_left > 0 {
                 // Found anew each time, as there are too few registers to keep where all lies.
                 let place = lists.place::<S, PATTERN>(spot);
                 spot = spot.after::<PATTERN>(S::LANES);
                 left -= 1;
                 if left == 0 {
-                    (left, spot) = (count, spot.behind(step));
+                    (left, rows_left) = (count, rows_left - 1);
+                    // Behind the last one it is looked at once more, for nothing: to move it by code of its
+                    // own would take a third of all that there is.
+                    let one = Spot::default().after::<PATTERN>(S::LANES);
+                    spot = if rows_left > 0 { spot.behind(step) } else { spot.before(one) };
                 }
                 let next = lists.place::<S, PATTERN>(spot);
                 let next = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, next, terms);
                 chunk.finish::<LAW, PATTERN>(s, place);
                 chunk = next;
             }
-            chunk.finish::<LAW, PATTERN>(s, lists.place::<S, PATTERN>(spot));
         }
     }
 
@@ -191,21 +194,23 @@ impl Alike {
             if count > 0 {
                 let keep = s.load(&keep, 0);
                 let mut chunk = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, lists.place_of(spot), terms);
-                for _ in 1..count {
+                for number in 1..=count {
                     let place = lists.place_of(spot);
-                    spot = spot.behind(step);
+                    // The last one is looked at twice, as above.
+                    if number < count {
+                        spot = spot.behind(step);
+                    }
                     let next = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, lists.place_of(spot), terms);
                     chunk.finish_only::<LAW, PATTERN>(s, place, keep);
                     chunk = next;
                 }
-                chunk.finish_only::<LAW, PATTERN>(s, lists.place_of(spot), keep);
             }
             if BY_TWOS {
                 return rows.start + 2 * count;
             }
-            for number in rows.start + count..rows.end {
-                let ends = [self.row(number), end(number)];
-                solve_end::<S, LAW, PATTERN>(s, lists, ends, self.count, terms);
+            for number in roomy..rows.end {
+                let done = self.count - left;
+                solve_last::<LAW, PATTERN>(lists, self.row(number), done, self.count, terms);
             }
             rows.end
         }

@@ -51,7 +51,7 @@ pub(crate) fn draw_in(world: &mut World) {
 pub(crate) fn enforce(world: &mut World) {
     let allowance = world.settings.max_stretch;
     let (most, inner) = (1.0 + allowance, 1.0 + allowance * (1.0 - HAIR));
-    if over(world, inner).next().is_some() {
+    if first_over(world, inner).is_some() {
         draw_together(world, inner);
     }
     world.over_stretched = over(world, most).count() as u32;
@@ -85,7 +85,7 @@ fn draw_together(world: &mut World, most: f32) {
         }
         contacts::keep_out(world);
         leash::keep_in(world);
-        if over(world, most).next().is_none() {
+        if first_over(world, most).is_none() {
             break;
         }
     }
@@ -221,8 +221,13 @@ fn over(world: &World, most: f32) -> impl Iterator<Item = (usize, usize)> + '_ {
     })
 }
 
+#[inline(never)]
+fn first_over(world: &World, most: f32) -> Option<(usize, usize)> {
+    over(world, most).next()
+}
+
 fn tell(world: &mut World, most: f32) {
-    let Some((a, b)) = over(world, most).next() else {
+    let Some((a, b)) = first_over(world, most) else {
         return;
     };
     let middle = (world.particles.x.at(a) + world.particles.x.at(b)) * 0.5;

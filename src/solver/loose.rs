@@ -68,10 +68,9 @@ pub(crate) fn solve<const LAW: u8, P: Field>(
         return spots.solve_abreast(level, color, LAW, scale);
     }
     let count = color.a.len();
-    let one = |at| color.some::<_, P, LAW>(Scalar, at, spots, scale);
-    match order {
-        Order::Forward => (0..count).for_each(one),
-        Order::Backward => (0..count).rev().for_each(one),
+    for number in 0..count {
+        let at = if order == Order::Forward { number } else { count - 1 - number };
+        color.some::<_, P, LAW>(Scalar, at, spots, scale);
     }
 }
 

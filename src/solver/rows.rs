@@ -16,13 +16,13 @@
 use super::alike::Alike;
 use super::chunk::{Chunk, Terms};
 use super::links::{BOUND, RIGID, SOFT, pull};
-use super::places::{Lists, Place, Spot, in_chunks, in_chunks_of};
+use super::places::{Lists, Spot, in_chunks, in_chunks_of};
 use super::spots::Spots;
 use crate::fabric::links::Links;
 use crate::fabric::rows::{Pattern, Row, Rows};
 use crate::math::column::Column;
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, Simd, vectored};
+use crate::math::simd::{Base, Level, Simd, vectored};
 use crate::state::particles::Particles;
 use core::ops::Range;
 use glam::Vec3;
@@ -67,7 +67,7 @@ pub(crate) fn solve_rows<const LAW: u8>(
     sheet: &mut Sheet<'_>,
     scale: f32,
 ) {
-    if level == Level::Scalar {
+    if Level::HAS_SCALAR && level == Level::Scalar {
         return rows.iter().for_each(|row| solve_apart::<LAW>(row, 0, sheet, scale));
     }
     let mut left = rows;
@@ -111,34 +111,40 @@ struct Pass {
 
 /// Functions for each law and pattern: together they would be too long for engines to compile well.
 macro_rules! kernels {
-    ($($name:ident: $solve:ident $law:ident $pattern:ident;)*) => {$(
+    ($solve:ident, $widest:ident; $($name:ident: $law:ident $pattern:ident;)*) => {$(
         vectored! {
             #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // there `vectored` says so
             fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
-                = $solve::<_, $law, $pattern>, Avx512, none
+                = $solve::<_, $law, $pattern>, $widest, none
         }
     )*};
 }
 
 kernels! {
-    soft_straight: solve_whole SOFT STRAIGHT;
-    soft_pairs: solve_whole SOFT PAIRS;
-    soft_quads: solve_whole SOFT QUADS;
-    rigid_straight: solve_whole RIGID STRAIGHT;
-    rigid_pairs: solve_whole RIGID PAIRS;
-    rigid_quads: solve_whole RIGID QUADS;
-    bound_straight: solve_whole BOUND STRAIGHT;
-    bound_pairs: solve_whole BOUND PAIRS;
-    bound_quads: solve_whole BOUND QUADS;
-    torn_soft_straight: solve_torn SOFT STRAIGHT;
-    torn_soft_pairs: solve_torn SOFT PAIRS;
-    torn_soft_quads: solve_torn SOFT QUADS;
-    torn_rigid_straight: solve_torn RIGID STRAIGHT;
-    torn_rigid_pairs: solve_torn RIGID PAIRS;
-    torn_rigid_quads: solve_torn RIGID QUADS;
-    torn_bound_straight: solve_torn BOUND STRAIGHT;
-    torn_bound_pairs: solve_torn BOUND PAIRS;
-    torn_bound_quads: solve_torn BOUND QUADS;
+    solve_whole, Avx512;
+    soft_straight: SOFT STRAIGHT;
+    soft_pairs: SOFT PAIRS;
+    soft_quads: SOFT QUADS;
+    rigid_straight: RIGID STRAIGHT;
+    rigid_pairs: RIGID PAIRS;
+    rigid_quads: RIGID QUADS;
+    bound_straight: BOUND STRAIGHT;
+    bound_pairs: BOUND PAIRS;
+    bound_quads: BOUND QUADS;
+}
+
+// Few rows are torn: what the widest vectors would save is not worth another copy.
+kernels! {
+    solve_torn, Avx2;
+    torn_soft_straight: SOFT STRAIGHT;
+    torn_soft_pairs: SOFT PAIRS;
+    torn_soft_quads: SOFT QUADS;
+    torn_rigid_straight: RIGID STRAIGHT;
+    torn_rigid_pairs: RIGID PAIRS;
+    torn_rigid_quads: RIGID QUADS;
+    torn_bound_straight: BOUND STRAIGHT;
+    torn_bound_pairs: BOUND PAIRS;
+    torn_bound_quads: BOUND QUADS;
 }
 
 /// Without vectors there are no chunks.
@@ -189,28 +195,28 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     let lists = Lists::of(sheet);
     for row in rows.iter().filter(|row| row.is_torn) {
         let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
-        let start = lists.spot::<PATTERN>(row, count);
-        let (mut spot, end) = (start, start.link + count);
-        // SAFETY: the row was just found to lie within the lists.
+        let (start, mut done) = (lists.spot::<PATTERN>(row, count), 0);
+        // SAFETY: the row was just found to lie within the lists; there is room for whole chunks, or none is made.
         unsafe {
-            while spot.link + S::LANES <= end {
+            while S::LANES > Base::LANES && done < count {
+                let spot = start.after::<PATTERN>(done);
+                if !lists.have_room::<PATTERN>(spot, S::LANES) {
+                    break;
+                }
                 let place = lists.place::<S, PATTERN>(spot);
-                solve_chunk::<S, LAW, PATTERN>(s, place, 0, terms);
-                spot = spot.after::<PATTERN>(S::LANES);
+                let first = Chunk::first(s, S::LANES.min(count - done));
+                let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
+                let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
+                chunk.finish_only::<LAW, PATTERN>(s, place, keep);
+                done += S::LANES;
             }
+            solve_last::<LAW, PATTERN>(&lists, start, done, count, terms);
         }
-    }
-    for row in rows.iter().filter(|row| row.is_torn) {
-        let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
-        let start = lists.spot::<PATTERN>(row, count);
-        let spot = start.after::<PATTERN>(count - count % S::LANES);
-        // SAFETY: as above.
-        unsafe { solve_end::<S, LAW, PATTERN>(s, &lists, [start, spot], count, terms) };
     }
 }
 
 /// Links of a row one by one, from some link on.
-#[inline(always)]
+#[inline(never)]
 fn solve_apart<const LAW: u8>(row: &Row, from: usize, sheet: &mut Sheet<'_>, scale: f32) {
     let row = &sheet.own(row);
     for k in from..row.count as usize {
@@ -266,85 +272,30 @@ impl Spots for Sheet<'_> {
     }
 }
 
-/// Solves the links of a row that begins at one spot from another spot on: fewer than a chunk.
+/// Solves links `done` to `count` of a row, if there are any: by the fewest lanes at a time, the last ones as a
+/// chunk that reaches back over links which are done, as nothing may lie behind. So few rows need it that one way
+/// to go about it serves all machines.
 ///
 /// # Safety
-/// As for `solve_chunk`.
-#[inline(always)]
-pub(crate) unsafe fn solve_end<S: Simd, const LAW: u8, const PATTERN: u8>(
-    s: S,
-    lists: &Lists,
-    [start, spot]: [Spot; 2],
-    count: usize,
-    terms: Terms,
-) {
-    let done = spot.link - start.link;
-    if done == count {
-        return;
-    }
-    // SAFETY: the caller's promise; there is room for a whole chunk, or none is made.
-    unsafe {
-        if lists.have_room::<PATTERN>(spot, S::LANES) {
-            let place = lists.place::<S, PATTERN>(spot);
-            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
-            let first = Chunk::first(s, count - done);
-            let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
-            chunk.finish_only::<LAW, PATTERN>(s, place, keep);
-        } else {
-            solve_rest::<S, LAW, PATTERN>(s, lists, start, done, count, terms);
-        }
-    }
-}
-
-/// Solves links `done` to `count` of a row, fewer than a chunk, as one chunk that reaches back over
-/// links which are done.
-///
-/// # Safety
-/// As for `solve_chunk`.
-#[inline(always)]
-unsafe fn solve_rest<S: Simd, const LAW: u8, const PATTERN: u8>(
-    s: S,
+/// The row lies within the lists, and has links for the fewest lanes if it has any.
+#[inline(never)]
+pub(crate) unsafe fn solve_last<const LAW: u8, const PATTERN: u8>(
     lists: &Lists,
     row: Spot,
     mut done: usize,
     count: usize,
     terms: Terms,
 ) {
-    // SAFETY: the caller's promise. Rows that go in chunks have links for the fewest lanes, so this
-    // ends.
-    unsafe {
-        if count < S::LANES {
-            let (half, few) = (s.half(), <S::Half as Simd>::LANES);
-            while done + few <= count {
-                let place = lists.place::<S::Half, PATTERN>(row.after::<PATTERN>(done));
-                solve_chunk::<_, LAW, PATTERN>(half, place, 0, terms);
-                done += few;
-            }
-            return solve_rest::<S::Half, LAW, PATTERN>(half, lists, row, done, count, terms);
+    let s = Base::new();
+    while done < count {
+        let from = done.min(count - Base::LANES);
+        // SAFETY: the caller's promise.
+        unsafe {
+            let place = lists.place::<Base, PATTERN>(row.after::<PATTERN>(from));
+            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
+            let keep = Chunk::in_row(s, place, done - from);
+            chunk.finish_only::<LAW, PATTERN>(s, place, keep);
         }
-        if done < count {
-            let from = count - S::LANES;
-            let place = lists.place::<S, PATTERN>(row.after::<PATTERN>(from));
-            solve_chunk::<S, LAW, PATTERN>(s, place, done - from, terms);
-        }
-    }
-}
-
-/// As many links of a row as there are lanes, but only those that are still in it, and not the first
-/// `done`.
-///
-/// # Safety
-/// The row lies within the lists; so for all that follow.
-#[inline(always)]
-unsafe fn solve_chunk<S: Simd, const LAW: u8, const PATTERN: u8>(
-    s: S,
-    place: Place,
-    done: usize,
-    terms: Terms,
-) {
-    // SAFETY: the caller's promise.
-    unsafe {
-        let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
-        chunk.finish_only::<LAW, PATTERN>(s, place, Chunk::in_row(s, place, done));
+        done = from + Base::LANES;
     }
 }

@@ -315,20 +315,25 @@ fn farthest_of(
     length: &[f32],
     most: &mut f32,
 ) {
-    let count = length.len();
-    let ratio2 = |i: usize| {
-        let pin = pin(i);
-        let [dx, dy, dz] = [x[i] - pin[0], y[i] - pin[1], z[i] - pin[2]];
-        (dx * dx + dy * dy + dz * dz) / (length[i] * length[i])
-    };
+    let (count, x) = (length.len(), [&x[..], &y[..], &z[..]]);
     let mut lanes = [*most; LANES];
     let whole = count / LANES * LANES;
     for first in (0..whole).step_by(LANES) {
         for lane in 0..LANES {
             // A pin is no way from itself, which is no number here, and does not count.
-            lanes[lane] = max(ratio2(first + lane), lanes[lane]);
+            let i = first + lane;
+            lanes[lane] = max(ratio2(x, i, pin(i), length[i]), lanes[lane]);
         }
     }
-    let rest = (whole..count).map(ratio2);
-    *most = lanes.into_iter().chain(rest).fold(*most, |most, ratio2| max(ratio2, most));
+    for i in whole..count {
+        lanes[0] = max(ratio2(x, i, pin(i), length[i]), lanes[0]);
+    }
+    *most = lanes.into_iter().fold(*most, |most, ratio2| max(ratio2, most));
+}
+
+/// The square of how far a particle is from its pin over the way.
+#[inline(always)]
+fn ratio2([x, y, z]: [&[f32]; 3], i: usize, pin: [f32; 3], length: f32) -> f32 {
+    let [dx, dy, dz] = [x[i] - pin[0], y[i] - pin[1], z[i] - pin[2]];
+    (dx * dx + dy * dy + dz * dz) / (length * length)
 }

@@ -12,9 +12,9 @@ use crate::{c, files, shell};
 pub const NEEDS: &[&Need] = &[&setup::CXX, &setup::CMAKE, &setup::PKG_CONFIG];
 
 /// The shared library, stripped, is no larger than this [B].
-const MAX_SHARED: u64 = 1_912_000;
+const MAX_SHARED: u64 = 1_650_000;
 /// The example `hang.c` with the static library in it, stripped, is no larger than this [B].
-const MAX_STATIC: u64 = 1_540_000;
+const MAX_STATIC: u64 = 1_400_000;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 const MAJOR: &str = env!("CARGO_PKG_VERSION_MAJOR");

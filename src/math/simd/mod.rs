@@ -98,11 +98,6 @@ pub(crate) trait Simd: Arithmetic {
     /// A power of two, at least four but for `Scalar`, which deals nothing out.
     const LANES: usize;
 
-    /// What has half the lanes, or itself if there is no such thing.
-    type Half: Simd;
-
-    fn half(self) -> Self::Half;
-
     /// The numbers from a place on.
     ///
     /// # Safety
@@ -164,13 +159,6 @@ pub(crate) trait Simd: Arithmetic {
 
 impl Simd for Scalar {
     const LANES: usize = 1;
-
-    type Half = Self;
-
-    #[inline(always)]
-    fn half(self) -> Self {
-        self
-    }
 
     #[inline(always)]
     unsafe fn load_from(self, place: *const f32) -> f32 {

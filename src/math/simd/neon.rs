@@ -90,13 +90,6 @@ impl Arithmetic for Neon {
 impl Simd for Neon {
     const LANES: usize = 4;
 
-    type Half = Self;
-
-    #[inline(always)]
-    fn half(self) -> Self {
-        self
-    }
-
     #[inline(always)]
     unsafe fn load_from(self, place: *const f32) -> Four {
         // SAFETY: the caller's promise.

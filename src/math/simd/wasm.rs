@@ -81,13 +81,6 @@ impl Arithmetic for Simd128 {
 impl Simd for Simd128 {
     const LANES: usize = 4;
 
-    type Half = Self;
-
-    #[inline(always)]
-    fn half(self) -> Self {
-        self
-    }
-
     #[inline(always)]
     unsafe fn load_from(self, place: *const f32) -> Four {
         // SAFETY: the caller's promise.

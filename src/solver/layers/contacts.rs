@@ -117,14 +117,16 @@ fn told_apart(x: [Vec3; 4], closest: Closest) -> Closest {
     let normal = (q - p).cross(s - r);
     look(closest.share, normal);
     look(closest.share, -normal);
-    let at_end = |t: f32, u: f32| ([1.0 - t, t, u - 1.0, -u], p - r + (q - p) * t - (s - r) * u);
-    for (t, end) in [(0.0, p), (1.0, q)] {
-        let (share, way) = at_end(t, closest::of_segments([end; 2], [r, s]).1);
-        look(share, way);
-    }
-    for (u, end) in [(0.0, r), (1.0, s)] {
-        let (share, way) = at_end(closest::of_segments([p, q], [end; 2]).0, u);
-        look(share, way);
+    let ends = [
+        ([p; 2], [r, s], Some(0.0), None),
+        ([q; 2], [r, s], Some(1.0), None),
+        ([p, q], [r; 2], None, Some(0.0)),
+        ([p, q], [s; 2], None, Some(1.0)),
+    ];
+    for (one, other, at_one, at_other) in ends {
+        let (t, u) = closest::of_segments(one, other);
+        let (t, u) = (at_one.unwrap_or(t), at_other.unwrap_or(u));
+        look([1.0 - t, t, u - 1.0, -u], p - r + (q - p) * t - (s - r) * u);
     }
     best.1
 }
@@ -168,6 +170,12 @@ fn closest<const FIRST: Kind>(x: [Vec3; 4]) -> Closest {
     if FIRST == VERTEX { vertex_closest(x) } else { edge_closest(x) }
 }
 
+/// The same for the few pairs that were looked at before, so that it is not woven in for each of them.
+#[inline(never)]
+fn closest_again<const FIRST: Kind>(x: [Vec3; 4]) -> Closest {
+    closest::<FIRST>(x)
+}
+
 /// How far one side is from the other along a direction in the end, at least.
 #[inline(always)]
 fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) -> f32 {
@@ -183,7 +191,7 @@ fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) ->
 impl Contact {
     /// The distance of two sides.
     pub fn distance<const FIRST: Kind>(x: [Vec3; 4]) -> f32 {
-        closest::<FIRST>(x).distance
+        closest_again::<FIRST>(x).distance
     }
 
     /// The contact of two sides, if they may come nearer than `gap`; `own_gap` is what they keep, and no larger.
@@ -229,7 +237,7 @@ impl Contact {
         };
         let now = places(&motion.now, ids);
         if along(now, &contact) < gap {
-            contact.turn(closest::<FIRST>(now), start);
+            contact.turn(closest_again::<FIRST>(now), start);
             if is_told_apart(contact.n) && between(start, FIRST, contact.n) > NOTHING {
                 return None;
             }
@@ -247,9 +255,12 @@ impl Contact {
     }
 
     /// Finds another direction that tells sides apart, at the start and now.
+    #[inline(never)]
     pub(super) fn turn_to(&mut self, start: [Vec3; 4], x: &[Spot]) {
         let now = places(x, self.ids);
-        let now = if self.first == 1 { vertex_closest(now) } else { edge_closest(now) };
+        let is_vertex = self.first == VERTEX;
+        let now =
+            if is_vertex { closest_again::<VERTEX>(now) } else { closest_again::<EDGES>(now) };
         let before = *self;
         self.turn(now, start);
         self.prepare(start);

@@ -141,13 +141,6 @@ vector! {
 impl Simd for Sse2 {
     const LANES: usize = 4;
 
-    type Half = Self;
-
-    #[inline(always)]
-    fn half(self) -> Self {
-        self
-    }
-
     #[inline(always)]
     unsafe fn load_from(self, place: *const f32) -> Four {
         // SAFETY: the caller's promise, and see above.
@@ -209,13 +202,6 @@ impl Simd for Sse2 {
 
 impl Simd for Avx2 {
     const LANES: usize = 8;
-
-    type Half = Sse2;
-
-    #[inline(always)]
-    fn half(self) -> Sse2 {
-        Sse2(())
-    }
 
     #[inline(always)]
     unsafe fn load_from(self, place: *const f32) -> Eight {
@@ -288,13 +274,6 @@ impl Simd for Avx2 {
 
 impl Simd for Avx512 {
     const LANES: usize = 16;
-
-    type Half = Avx2;
-
-    #[inline(always)]
-    fn half(self) -> Avx2 {
-        Avx2(())
-    }
 
     #[inline(always)]
     unsafe fn load_from(self, place: *const f32) -> Sixteen {
