@@ -10,7 +10,7 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** What parts of the package weigh with gzip at most [B]. */
-const MOST = { "raw_bg.wasm": 332_000, "plain_bg.wasm": 312_000, "code.js": 397_000 };
+const MOST = { "raw_bg.wasm": 352_000, "plain_bg.wasm": 326_000, "code.js": 397_000 };
 
 /** The same of the scripts that every page loads. */
 const MOST_SCRIPTS = 14_600;
@@ -68,3 +68,13 @@ for (const name of ["raw_bg.wasm", "plain_bg.wasm"]) {
     assert.ok(longest < LONGEST, `one of ${lengths.length} functions takes ${longest} bytes`);
   });
 }
+
+test("loops have become vectors", async () => {
+  // f32x4.mul. What compilers make of plain loops is a good third of them, and flags that are meant for size can keep
+  // them from it unseen.
+  const PRODUCT = Buffer.from([0xfd, 0xe6, 0x01]);
+  const bytes = await read("raw_bg.wasm");
+  let count = 0;
+  for (let at = bytes.indexOf(PRODUCT); at >= 0; at = bytes.indexOf(PRODUCT, at + 3)) count += 1;
+  assert.ok(count > 2000, `only ${count} products of four numbers at once`);
+});
