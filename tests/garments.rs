@@ -2,9 +2,10 @@
 
 mod common;
 
+use common::crossings::crossings;
 use common::garments::{assert_whole, disc, moebius_strip, shirt, sleeve, wreck};
 use muslin::glam::Vec3;
-use muslin::{Cloth, Error, EventKind, Material, MeshDesc, Preset, Settings};
+use muslin::{Cloth, Error, EventKind, Material, MeshDesc, Preset, SelfCollision, Settings};
 use std::fmt::Write;
 
 /// The garments, of cotton in calm air.
@@ -60,6 +61,25 @@ fn they_hang_until_they_rest() {
             let off = cloth.positions()[*vertex as usize].distance(start[*vertex as usize]);
             assert!(off < 1.0e-6, "{name}: pinned vertex {vertex} is {off} m off");
         }
+    }
+}
+
+/// All but the shirt rest then: where its sides lie on each other they still shiver.
+#[test]
+fn nothing_of_them_goes_through_the_rest() {
+    for (name, mut desc) in garments() {
+        desc.settings.self_collision = SelfCollision::Surface;
+        let mut cloth = Cloth::mesh(&desc).unwrap();
+        let mut most = 0;
+        for _ in 0..20 {
+            cloth.step(30);
+            most = most.max(crossings(&cloth));
+        }
+        let speed = rms_speed(&cloth);
+        println!("{name}: {most} crossings, {speed:.6} m/s");
+        assert_eq!(most, 0, "{name} goes through itself");
+        let bound = if name == "shirt" { 0.03 } else { 1.0e-3 };
+        assert!(speed < bound, "{name} moves at {speed} m/s after ten seconds");
     }
 }
 
