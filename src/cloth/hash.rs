@@ -5,7 +5,7 @@ use crate::math::mix::Mixer;
 
 impl Cloth {
     /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, folds, pins, grabs, colliders, tethers and time.
+    /// triangles, folds, pins, grabs, colliders, tethers, what layers bear on each other with, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
@@ -60,6 +60,12 @@ impl Cloth {
                 mixer.floats(&pose.position.to_array());
                 mixer.floats(&pose.rotation.to_array());
             }
+        }
+        for load in world.loads.iter() {
+            mixer.words(&load.ids);
+            mixer.word(load.first);
+            mixer.floats(&[load.push]);
+            mixer.floats(&load.rub.to_array());
         }
         mixer.floats(&[world.tether_slack]);
         mixer.word(world.tick);

@@ -20,6 +20,7 @@ use crate::mesh::divide::Crossing;
 use crate::mesh::seams::Seams;
 use crate::mesh::{NONE, sound};
 use crate::solver::World;
+use crate::solver::layers::loads::Loads;
 use crate::solver::sleep::Sleep;
 use crate::state::attachments::{Attachments, Carrier, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
@@ -36,7 +37,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -61,6 +62,7 @@ struct Saved<'a> {
     attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
     leashes: Owned<'a, Leashes>,
+    loads: Owned<'a, Loads>,
     reference: Pose,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
@@ -104,6 +106,7 @@ impl Cloth {
             attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
             leashes: Owned::Borrowed(&world.leashes),
+            loads: Owned::Borrowed(&world.loads),
             reference: world.reference,
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
@@ -229,6 +232,9 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(saved.leashes.are_sound(count))?;
     world.leashes = saved.leashes.into_owned();
     world.reserve_leashes();
+    must(saved.loads.are_sound(count))?;
+    world.loads = saved.loads.into_owned();
+    world.loads.reserve(count);
     must(is_pose(&saved.reference))?;
     world.reference = saved.reference;
     must(restore_attachments(&mut world, saved.attachments.into_owned()))?;

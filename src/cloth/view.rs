@@ -406,6 +406,7 @@ impl Cloth {
             + world.tethers.bytes()
             + self.outputs.drawn.bytes()
             + world.crowd.as_ref().map_or(0, |crowd| crowd.bytes())
+            + world.loads.bytes()
             + world.layers.as_ref().map_or(0, |layers| layers.bytes());
         bytes as u64
     }

@@ -20,6 +20,7 @@ use crate::mesh::intake::{self, Intake};
 use crate::mesh::lattice::Lattice;
 use crate::mesh::report::MeshReport;
 use crate::mesh::{Mesh, NONE, after};
+use crate::solver::layers::loads::Loads;
 use crate::solver::profile::Profile;
 use crate::solver::sleep::Sleep;
 use crate::solver::{Scratch, World};
@@ -222,6 +223,7 @@ fn build(
         plates,
         folds,
         crowd: None,
+        loads: Loads::default(),
         layers: None,
     };
     world.pins.reserve(capacity);

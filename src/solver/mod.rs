@@ -153,6 +153,8 @@ pub(crate) struct World {
     pub sleep: Sleep,
     /// The particles that keep apart, while settings say so.
     pub crowd: Option<Box<crowd::Crowd>>,
+    /// What layers bore on each other with in the last substep, while they keep apart.
+    pub loads: layers::loads::Loads,
     /// The layers that keep apart, while settings say so.
     pub layers: Option<Box<layers::Layers>>,
 }

@@ -13,9 +13,8 @@ use crate::geom::closest;
 use crate::math::{TINY, max, min};
 use glam::Vec3;
 
-/// A fence leaves a share of their gap between two sides; if there was less, a little more than there was.
+/// A fence leaves a share of their gap between two sides; if there was less, what there was.
 const SLIT: f32 = 0.25;
-const MORE: f32 = 1.1;
 
 /// What is let be: so much of that, or of what there was.
 const ENOUGH: f32 = 0.2;
@@ -59,8 +58,11 @@ pub(super) struct Contact {
     pub least: f32,
     /// 1 over what all inverse masses make; 0 if nothing gives way.
     pub give: f32,
-    /// How they were pushed apart in this substep, per inverse mass.
+    /// How they were pushed apart in this substep, per inverse mass, and along the surface.
     pub push: f32,
+    pub rub: Vec3,
+    /// Whether they did not push each other in the substep before.
+    pub is_new: bool,
     /// Whether they stick to each other.
     pub sticks: bool,
 }
@@ -189,6 +191,25 @@ fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) ->
 }
 
 impl Contact {
+    /// Sides of which nothing is known.
+    pub fn of(ids: [u32; 4], first: Kind) -> Self {
+        Self {
+            ids,
+            first,
+            share: [0.0; 4],
+            n: Vec3::ZERO,
+            gap: 0.0,
+            aim: 0.0,
+            slit: -1.0,
+            least: -1.0,
+            give: 0.0,
+            push: 0.0,
+            rub: Vec3::ZERO,
+            is_new: true,
+            sticks: false,
+        }
+    }
+
     /// The distance of two sides.
     pub fn distance<const FIRST: Kind>(x: [Vec3; 4]) -> f32 {
         closest_again::<FIRST>(x).distance
@@ -222,19 +243,7 @@ impl Contact {
         if is_told_apart(then.n) && between(start, FIRST, then.n) > NOTHING {
             return None;
         }
-        let mut contact = Self {
-            ids,
-            first: FIRST,
-            share: then.share,
-            n: then.n,
-            gap,
-            aim: 0.0,
-            slit: -1.0,
-            least: -1.0,
-            give: 0.0,
-            push: 0.0,
-            sticks: false,
-        };
+        let mut contact = Self { share: then.share, n: then.n, gap, ..Self::of(ids, FIRST) };
         let now = places(&motion.now, ids);
         if along(now, &contact) < gap {
             contact.turn(closest_again::<FIRST>(now), start);
@@ -274,7 +283,7 @@ impl Contact {
         let apart = between(start, self.first, self.n);
         let most = self.gap * SLIT;
         (self.slit, self.least) = if apart > NOTHING {
-            (min(apart * MORE, most), min(apart * LEAST, most * ENOUGH))
+            (min(apart, most), min(apart * LEAST, most * ENOUGH))
         } else {
             (-1.0, -1.0)
         };

@@ -9,6 +9,7 @@ mod around;
 mod candidates;
 mod contacts;
 mod fence;
+pub(crate) mod loads;
 mod motion;
 mod pairing;
 mod patches;
@@ -25,6 +26,7 @@ use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
 use contacts::Contact;
+use loads::Finder;
 use motion::Motion;
 use patches::Patches;
 use reach::Reach;
@@ -54,9 +56,8 @@ pub(crate) struct Layers {
     around: Around,
     /// What the fence has in hand.
     frozen: Vec<u32>,
-    /// How many contacts each particle is from what bears the cloth.
-    levels: Vec<u8>,
     open: Vec<u32>,
+    finder: Finder,
     /// The piece that each site was part of before anything tore.
     pieces: Vec<u32>,
     slits: Slits,
@@ -78,8 +79,8 @@ impl Layers {
             active: Vec::with_capacity(24 * count),
             around: Around::new(capacity, 24 * count),
             frozen: Vec::with_capacity(capacity),
-            levels: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
+            finder: Finder::new(count),
             pieces,
             slits: Slits::new(capacity),
             gap: 0.0,
@@ -100,8 +101,8 @@ impl Layers {
             + self.around.bytes()
             + self.candidacy.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
+            + self.finder.bytes()
             + size_of::<u32>() * words
-            + self.levels.capacity()
     }
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
@@ -181,6 +182,11 @@ impl World {
     pub fn see_to_layers(&mut self) {
         let is_wanted = self.settings.self_collision == SelfCollision::Surface;
         self.layers = is_wanted.then(|| Box::new(Layers::new(self)));
+        if is_wanted {
+            self.loads.reserve(self.particles.len());
+        } else {
+            self.loads.clear();
+        }
     }
 
     /// How far layers keep apart [m].
@@ -216,11 +222,9 @@ pub(crate) fn pair(world: &mut World, number: u32) {
         return;
     };
     spots::gather(&mut layers.motion.now, &world.particles.x, &world.particles.w);
-    let Layers { motion, levels, .. } = &mut *layers;
-    levels.clear();
-    levels.extend(motion.now.iter().map(|spot| if spot[3] > 0.0 { push::FREE } else { 0 }));
     for touch in &world.scratch.contacts.touches {
-        levels[touch.particle as usize] = 0;
+        let at = touch.particle as usize;
+        layers.motion.now[at][3] = world.particles.w[at] * push::BORNE;
     }
     layers.find(world, world.settings.substeps - number);
     world.layers = Some(layers);
@@ -228,14 +232,15 @@ pub(crate) fn pair(world: &mut World, number: u32) {
 
 /// Layers push and rub, once and in a fixed order.
 pub(crate) fn solve(world: &mut World) {
-    let (h, friction) = (world.settings.scheme().h, world.material.friction);
+    let (scheme, friction) = (world.settings.scheme(), world.material.friction);
     let Some(layers) = &mut world.layers else {
         return;
     };
-    let Layers { contacts, active, open, levels, motion, .. } = &mut **layers;
+    let Layers { contacts, active, finder, motion, .. } = &mut **layers;
     let Motion { start, now, .. } = motion;
-    push::solve(contacts, active, open, levels, start, now, friction);
-    push::spread(contacts, active, now, &mut world.scratch.predicted, h);
+    let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
+    push::solve(contacts, active, (loads, finder), start, now, friction, force);
+    push::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
     spots::scatter(now, &mut world.particles.x);
 }
 
@@ -266,13 +271,16 @@ pub(crate) fn hold_at_last(world: &mut World) {
     hold(world);
 }
 
-/// After velocities were derived, those of layers that touch agree.
+/// After velocities were derived, those of layers that hit each other agree.
 pub(crate) fn calm(world: &mut World) {
-    let Some(layers) = &world.layers else {
+    let speed = world.settings.gravity.length() * world.settings.scheme().h;
+    let Some(layers) = &mut world.layers else {
         return;
     };
+    let Layers { contacts, active, open, motion, .. } = &mut **layers;
     let p = &mut world.particles;
-    for motion in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
-        push::calm(&layers.contacts, &layers.active, &layers.motion.now, motion);
+    push::find_hits(contacts, active, &p.v, speed, open);
+    for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
+        push::calm(contacts, open, &motion.now, columns);
     }
 }

@@ -1,6 +1,7 @@
 //! Layers push each other apart and rub on each other.
 
 use super::contacts::{Contact, along, places};
+use super::loads::{Finder, Loads};
 use super::spots::{Spot, place, shift};
 use crate::math::columns::Columns;
 use crate::math::{max, min};
@@ -9,11 +10,12 @@ use glam::Vec3;
 /// How often contacts are gone over in a substep, to and fro in turn.
 const SWEEPS: usize = 6;
 
-/// How much of its inverse mass counts of what touches a collider, of what lies on that, and so on.
-const LEVELS: [f32; 4] = [0.02, 0.06, 0.18, 0.5];
+/// How much of its inverse mass counts of what touches a collider, which bears what lies on it.
+pub(super) const BORNE: f32 = 0.02;
 
-/// The level of what nothing bears.
-pub(super) const FREE: u8 = u8::MAX;
+/// Sides that did not push before and come faster than what falls so long hit each other, and begin a new history
+/// [substeps].
+const HIT: f32 = 2.0;
 
 /// What is farther apart than this, in gaps, does not push: of vertices and triangles, and of edges, which have
 /// little to do where surfaces lie on each other.
@@ -34,27 +36,37 @@ fn press(x: &mut [Spot], contact: &Contact, by: Vec3) {
     }
 }
 
-/// Ends approach, and rubs; `active` gets the contacts that may push.
+/// Ends approach, and rubs, from what bore on what in the substep before; `active` gets the contacts that may push.
+/// `force` is what a push of a kilogram by a metre takes in a substep [1/s²].
 pub(super) fn solve(
     contacts: &mut [Contact],
     active: &mut Vec<u32>,
-    order: &mut Vec<u32>,
-    levels: &mut [u8],
+    (loads, finder): (&mut Loads, &mut Finder),
     start: &[Spot],
     x: &mut [Spot],
     friction: f32,
+    force: f32,
 ) {
     active.clear();
     for (at, contact) in contacts.iter_mut().enumerate() {
         contact.push = 0.0;
-        contact.sticks = false;
         let near = contact.gap * NEAR[contact.first as usize - 1];
         if along(places(x, contact.ids), contact) < near {
             contact.aim = min(along(places(start, contact.ids), contact), contact.gap);
+            contact.weigh(x);
             active.push(at as u32);
         }
     }
-    bear(contacts, active, order, x, levels);
+    finder.sort(loads);
+    for at in &*active {
+        let contact = &mut contacts[*at as usize];
+        if let Some(load) = finder.find(contact, loads) {
+            let rub = load.rub - contact.n * load.rub.dot(contact.n);
+            (contact.push, contact.rub) = (load.push / force, rub * (1.0 / force));
+            contact.is_new = false;
+            press(x, contact, contact.n * contact.push + contact.rub);
+        }
+    }
     for sweep in 0..SWEEPS {
         if sweep % 2 == 0 {
             active.iter().for_each(|at| part(&mut contacts[*at as usize], x));
@@ -63,47 +75,7 @@ pub(super) fn solve(
         }
     }
     active.iter().for_each(|at| rub(&mut contacts[*at as usize], start, x, friction));
-}
-
-/// What lies on something that bears it gives way less than what lies on top of that, so that layers find their
-/// places from below up; `levels` says how many contacts each is from what bears it all.
-fn bear(
-    contacts: &mut [Contact],
-    active: &mut [u32],
-    order: &mut Vec<u32>,
-    x: &mut [Spot],
-    levels: &mut [u8],
-) {
-    for pass in 0..LEVELS.len() {
-        let mut raise = |at: &u32| {
-            let ids = contacts[*at as usize].ids;
-            let least = ids.iter().map(|id| levels[*id as usize]).min().unwrap_or(FREE);
-            let next = least.saturating_add(1);
-            ids.iter().for_each(|id| levels[*id as usize] = levels[*id as usize].min(next));
-        };
-        if pass % 2 == 0 {
-            active.iter().for_each(&mut raise);
-        } else {
-            active.iter().rev().for_each(&mut raise);
-        }
-    }
-    for (spot, level) in x.iter_mut().zip(&*levels) {
-        if let Some(scale) = LEVELS.get(*level as usize) {
-            spot[3] *= scale;
-        }
-    }
-    order.clear();
-    let most = LEVELS.len() as u8;
-    for level in 0..=most {
-        let is_of = |at: &u32| {
-            let ids = contacts[*at as usize].ids;
-            let least = ids.iter().fold(most, |least, id| levels[*id as usize].min(least));
-            least == level
-        };
-        order.extend(active.iter().copied().filter(is_of));
-    }
-    active.copy_from_slice(order);
-    active.iter().for_each(|at| contacts[*at as usize].weigh(x));
+    loads.keep(contacts, active, force);
 }
 
 #[inline(always)]
@@ -120,18 +92,16 @@ fn part(contact: &mut Contact, x: &mut [Spot]) {
 /// What slid along the other side slides less, by what friction can hold.
 #[inline(always)]
 fn rub(contact: &mut Contact, start: &[Spot], x: &mut [Spot], friction: f32) {
-    if contact.push <= 0.0 {
+    if contact.push <= 0.0 && contact.rub == Vec3::ZERO {
         return;
     }
-    let slid = slid(contact, start, x);
-    let (length, most) = (slid.length(), friction * contact.push);
-    let needed = length * contact.give;
-    if needed <= most {
-        contact.sticks = true;
-        press(x, contact, slid * -contact.give);
-    } else {
-        press(x, contact, slid * (-most / length));
-    }
+    let wanted = contact.rub - slid(contact, start, x) * contact.give;
+    let (length, most) = (wanted.length(), friction * contact.push);
+    contact.sticks = length <= most;
+    let rub = if contact.sticks { wanted } else { wanted * (most / length) };
+    let by = rub - contact.rub;
+    contact.rub = rub;
+    press(x, contact, by);
 }
 
 /// How the closest points moved against each other along the surface.
@@ -167,17 +137,39 @@ pub(super) fn spread(
     }
 }
 
-/// Sides that were pushed apart have no velocity against each other but along the surface, and none at all
-/// where they stick.
-pub(super) fn calm(contacts: &[Contact], active: &[u32], x: &[Spot], motion: &mut Columns) {
-    for contact in active.iter().map(|at| &contacts[*at as usize]) {
-        if contact.push <= 0.0 {
-            continue;
-        }
-        let mut v = Vec3::ZERO;
-        for (id, share) in contact.ids.iter().zip(contact.share) {
-            v += motion.at(*id as usize) * share;
-        }
+/// Finds the contacts whose sides hit each other, with the velocities that they have; what falls for a substep
+/// gets a `speed`.
+pub(super) fn find_hits(
+    contacts: &[Contact],
+    active: &[u32],
+    v: &Columns,
+    speed: f32,
+    hits: &mut Vec<u32>,
+) {
+    let fast = (HIT * speed) * (HIT * speed);
+    let is_hit = |at: &&u32| {
+        let contact = &contacts[**at as usize];
+        contact.push > 0.0 && contact.is_new && against(contact, v).length_squared() > fast
+    };
+    hits.clear();
+    hits.extend(active.iter().filter(is_hit));
+}
+
+/// How sides move against each other.
+#[inline(always)]
+fn against(contact: &Contact, motion: &Columns) -> Vec3 {
+    let mut v = Vec3::ZERO;
+    for (id, share) in contact.ids.iter().zip(contact.share) {
+        v += motion.at(*id as usize) * share;
+    }
+    v
+}
+
+/// Sides that hit each other have no velocity against each other but along the surface, and none at all where they
+/// stick.
+pub(super) fn calm(contacts: &[Contact], hits: &[u32], x: &[Spot], motion: &mut Columns) {
+    for contact in hits.iter().map(|at| &contacts[*at as usize]) {
+        let v = against(contact, motion);
         let v = if contact.sticks { v } else { contact.n * v.dot(contact.n) };
         let by = v * -contact.give;
         for (id, share) in contact.ids.iter().zip(contact.share) {
