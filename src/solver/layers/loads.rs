@@ -56,7 +56,7 @@ impl Loads {
     }
 
     /// Keeps what contacts push with; `times` makes forces of it.
-    pub fn keep(&mut self, contacts: &[Contact], active: &[u32], times: f32) {
+    pub(super) fn keep(&mut self, contacts: &[Contact], active: &[u32], times: f32) {
         self.0.clear();
         let load = |contact: &Contact| Load {
             ids: contact.ids,
