@@ -3,18 +3,26 @@
 //! Space is wrapped around a block of cells, so that a table of fixed size holds points wherever they
 //! are. Cells that share a place in it are far from each other.
 
+use crate::math::columns::Columns;
+use crate::math::simd::{Level, MOST_LANES, Scalar, Simd, vectored};
+use core::ops::Range;
 use glam::Vec3;
 
 /// Fewer cells than this along a side, and a cell would be its own neighbour's neighbour.
 const LEAST_BITS: u32 = 2;
+
+/// The most parts of the grid that are ahead of a cell: one beside it, and three in each of four rows.
+const AHEAD: usize = 13;
 
 /// Points sorted into cells.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HashGrid {
     /// For each cell, where its points begin; and where the last ones end.
     first: Vec<u32>,
-    /// The points, cell by cell, lowest first in each, and where they are.
-    points: Vec<(Vec3, u32)>,
+    /// The points, cell by cell, lowest first in each, …
+    points: Vec<u32>,
+    /// … and where they are; behind the last there is room for a vector.
+    x: Columns,
     /// The cell of each point.
     cell: Vec<u32>,
     /// Cells along each side, as powers of two.
@@ -31,6 +39,7 @@ impl HashGrid {
         Self {
             first: vec![0; cells + 2],
             points: Vec::with_capacity(capacity),
+            x: Columns::with_capacity(capacity + MOST_LANES),
             cell: Vec::with_capacity(capacity),
             bits,
             per_length: 1.0,
@@ -39,8 +48,8 @@ impl HashGrid {
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * (self.first.len() + self.cell.capacity())
-            + size_of::<(Vec3, u32)>() * self.points.capacity()
+        let whole = self.first.len() + self.cell.capacity() + self.points.capacity();
+        size_of::<u32>() * whole + self.x.bytes()
     }
 
     /// Sorts points into cells of such a side [m].
@@ -57,69 +66,54 @@ impl HashGrid {
             self.first[at] += self.first[at - 1];
         }
         self.points.clear();
-        self.points.resize(cell.len(), (Vec3::ZERO, 0));
+        self.points.resize(cell.len(), 0);
+        self.x.resize(cell.len() + MOST_LANES);
         for (point, cell) in cell.iter().enumerate() {
             let next = &mut self.first[*cell as usize + 1];
-            self.points[*next as usize] = (points[point], point as u32);
+            self.points[*next as usize] = point as u32;
+            self.x.set(*next as usize, points[point]);
             *next += 1;
         }
         self.cell = cell;
     }
 
-    /// The points behind a point of the grid that are nearer to it than the root of `within`, no more than a cell's
-    /// side [m²]; in no order of theirs, in room that is there to be used again.
-    pub fn list_near<'a>(
-        &self,
-        point: u32,
-        x: Vec3,
-        within: f32,
-        room: &'a mut Vec<u32>,
-    ) -> &'a mut [u32] {
-        let mut parts = [(0, 0); 27];
-        let (mut count, mut all) = (0, 0);
-        self.visit_cells(self.cell[point as usize], |from, to| {
-            parts[count] = (from as usize, to as usize);
-            (count, all) = (count + 1, all + to as usize - from as usize);
-        });
-        if room.len() < all {
-            room.resize(all, 0);
-        }
-        // Who is near and who is not follows no rule that a processor could learn: so each is written down, and the
-        // next one over it if it is not.
-        let mut found = 0;
-        for (from, to) in &parts[..count] {
-            for (at, other) in &self.points[*from..*to] {
-                room[found] = *other;
-                let is_near = (*at - x).length_squared() < within;
-                found += usize::from(is_near & (*other > point));
-            }
-        }
-        &mut room[..found]
+    /// Adds the pairs of points that are nearer to each other than the root of `within`, no more than a cell's side
+    /// [m²], the lower one first; in no order of theirs.
+    pub fn list_pairs(&self, level: Level, within: f32, pairs: &mut Vec<[u32; 2]>) {
+        list_pairs(level, self, within, pairs);
     }
 
-    /// Visits where the points of a cell and of the 26 around it are, and those of cells that share their places.
+    /// Where the points are that are in cells ahead of one: in those that have it behind them where it has them
+    /// ahead, so that each two cells side by side meet once. As many as there are, of those that hold any.
     #[inline(always)]
-    fn visit_cells(&self, cell: u32, mut visit: impl FnMut(u32, u32)) {
+    fn look_ahead(&self, cell: u32, parts: &mut [(u32, u32); AHEAD]) -> usize {
         let [bx, by, _] = self.bits;
         let of = |cell: u32, first: u32, bits: u32| cell >> first & ((1 << bits) - 1);
         let (x, y, z) = (of(cell, 0, bx), of(cell, bx, by), cell >> (bx + by));
         let last = (1 << bx) - 1;
-        for (dy, dz) in (0..9).map(|k| (k % 3, k / 3)) {
-            let row = |x: u32| {
-                let (y, z) = (y.wrapping_add(dy), z.wrapping_add(dz));
-                self.index([x, y.wrapping_sub(1), z.wrapping_sub(1)]) as usize
-            };
+        let mut count = 0;
+        let mut add = |from: u32, cells: u32| {
+            let (from, to) = (self.first[from as usize], self.first[(from + cells) as usize]);
+            parts[count] = (from, to);
+            count += usize::from(from < to);
+        };
+        if x == last {
+            add(self.index([0, y, z]), 1);
+        } else {
+            add(cell + 1, 1);
+        }
+        for (dy, dz) in [(1, 0), (u32::MAX, 1), (0, 1), (1, 1)] {
+            let row = |x: u32| self.index([x, y.wrapping_add(dy), z.wrapping_add(dz)]);
             if x > 0 && x < last {
                 // Three cells side by side.
-                let cells = row(x - 1);
-                visit(self.first[cells], self.first[cells + 3]);
+                add(row(x - 1), 3);
             } else {
                 for x in [x.wrapping_sub(1), x, x.wrapping_add(1)] {
-                    let cell = row(x);
-                    visit(self.first[cell], self.first[cell + 1]);
+                    add(row(x), 1);
                 }
             }
         }
+        count
     }
 
     /// The cell of a point along each axis, not wrapped yet.
@@ -133,6 +127,64 @@ impl HashGrid {
         let [bx, by, bz] = self.bits;
         let wrap = |c: u32, bits: u32| c & ((1 << bits) - 1);
         (wrap(z, bz) << by | wrap(y, by)) << bx | wrap(x, bx)
+    }
+}
+
+vectored! {
+    /// As [`HashGrid::list_pairs`].
+    fn list_pairs(grid: &HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>)
+        = list_by_vectors, Avx2, list_by_numbers
+}
+
+#[inline(always)]
+fn list_by_numbers(grid: &HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
+    list_by_vectors(Scalar, grid, within, pairs);
+}
+
+#[inline(always)]
+fn list_by_vectors<S: Simd>(s: S, grid: &HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
+    let (mut parts, mut from) = ([(0, 0); AHEAD], 0);
+    while let Some(point) = grid.points.get(from) {
+        let cell = grid.cell[*point as usize];
+        let to = grid.first[cell as usize + 1] as usize;
+        let count = grid.look_ahead(cell, &mut parts);
+        for at in from..to {
+            list_one(s, grid, within, at, at + 1..to, pairs);
+            for (from, to) in &parts[..count] {
+                list_one(s, grid, within, at, *from as usize..*to as usize, pairs);
+            }
+        }
+        from = to;
+    }
+}
+
+/// Adds the pairs of the point at one place with those in a part of the grid.
+#[inline(always)]
+fn list_one<S: Simd>(
+    s: S,
+    grid: &HashGrid,
+    within: f32,
+    one: usize,
+    part: Range<usize>,
+    pairs: &mut Vec<[u32; 2]>,
+) {
+    let all = grid.x.all();
+    let x = all.map(|x| s.splat(x[one]));
+    let i = grid.points[one];
+    let (mut at, within) = (part.start, s.splat(within));
+    while at < part.end {
+        let [x, y, z] = [0, 1, 2].map(|axis| s.load(all[axis], at) - x[axis]);
+        let mut near = s.positives(within - (x * x + y * y + z * z));
+        let left = part.end - at;
+        if left < S::LANES {
+            near &= (1 << left) - 1;
+        }
+        while near != 0 {
+            let j = grid.points[at + near.trailing_zeros() as usize];
+            pairs.push([i.min(j), i.max(j)]);
+            near &= near - 1;
+        }
+        at += S::LANES;
     }
 }
 
@@ -182,13 +234,15 @@ mod tests {
         for shift in [0.0, 1000.0] {
             let moved: Vec<Vec3> = points.iter().map(|p| *p + Vec3::splat(shift)).collect();
             grid.fill(&moved, 0.6);
-            let mut room = Vec::new();
-            for (i, point) in moved.iter().enumerate() {
-                let found = grid.list_near(i as u32, *point, 0.5 * 0.5, &mut room);
-                found.sort_unstable();
-                let is_near = |j: &u32| (moved[*j as usize] - *point).length_squared() < 0.5 * 0.5;
-                let exact: Vec<u32> = (i as u32 + 1..500).filter(is_near).collect();
-                assert_eq!(found, exact, "{i}");
+            for level in Level::all() {
+                let mut pairs = Vec::new();
+                grid.list_pairs(level, 0.5 * 0.5, &mut pairs);
+                pairs.sort_unstable();
+                let all = (0..500).flat_map(|i| (i + 1..500).map(move |j| [i, j]));
+                let is_near = |[i, j]: &[u32; 2]| {
+                    (moved[*j as usize] - moved[*i as usize]).length_squared() < 0.5 * 0.5
+                };
+                assert_eq!(pairs, all.filter(is_near).collect::<Vec<_>>(), "{level:?}");
             }
         }
     }

@@ -11,7 +11,6 @@ use super::{World, layers};
 use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
-use crate::math::sort::sort;
 use crate::mesh::Mesh;
 use crate::state::settings::{SelfCollision, Settings};
 use glam::Vec3;
@@ -51,10 +50,10 @@ pub(crate) struct Crowd {
     pairs: Vec<[u32; 2]>,
     /// … where particles were when they were listed, …
     listed_at: Vec<Vec3>,
-    /// … and which of the pairs are too near.
+    /// … and which of the pairs are too near; room to sort them in before.
     touching: Vec<[u32; 2]>,
-    /// Whom one particle may meet.
-    near: Vec<u32>,
+    /// Where the pairs of each particle begin, while they are sorted.
+    firsts: Vec<u32>,
     /// The piece that each site was part of before anything tore.
     pieces: Vec<u32>,
     distance: f32,
@@ -80,7 +79,7 @@ impl Crowd {
             pairs: Vec::with_capacity(16 * count),
             listed_at: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(16 * count),
-            near: Vec::with_capacity(256),
+            firsts: Vec::with_capacity(capacity + 1),
             pieces: pieces(&world.mesh, world.rest.len()),
             distance,
             woven,
@@ -96,7 +95,7 @@ impl Crowd {
         self.grid.bytes()
             + size_of::<[u32; 2]>() * pairs
             + size_of::<Vec3>() * self.listed_at.capacity()
-            + size_of::<u32>() * (self.near.capacity() + self.pieces.capacity())
+            + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())
     }
 
     /// Sees to it that the list holds: that no particle moved farther than the margin since, but for what all did.
@@ -126,24 +125,53 @@ impl Crowd {
 
     fn list(&mut self, world: &World, margin: f32) {
         (self.margin, self.passes) = (margin, 0);
-        let Self { grid, pairs, listed_at, near, pieces, .. } = self;
+        let Self { grid, pairs, listed_at, touching, firsts, pieces, .. } = self;
         listed_at.clear();
         listed_at.extend(world.particles.x.iter());
         let most = self.distance + 2.0 * margin;
         grid.fill(listed_at, most);
         pairs.clear();
-        for (i, x) in listed_at.iter().enumerate() {
-            let site = world.mesh.source[i] as usize;
-            let near = grid.list_near(i as u32, *x, most * most, near);
-            sort(near);
-            for j in near.iter() {
-                let other = world.mesh.source[*j as usize] as usize;
-                let apart = (world.rest[other] - world.rest[site]).length_squared();
-                if pieces[site] != pieces[other] || apart > self.woven * self.woven {
-                    pairs.push([i as u32, *j]);
-                }
-            }
+        grid.list_pairs(world.level, most * most, pairs);
+        let mut count = 0;
+        for at in 0..pairs.len() {
+            let pair = pairs[at];
+            let [site, other] = pair.map(|particle| world.mesh.source[particle as usize] as usize);
+            let apart = (world.rest[other] - world.rest[site]).length_squared();
+            let is_woven = (pieces[site] == pieces[other]) & (apart <= self.woven * self.woven);
+            // Who is woven to whom follows no rule that a processor could learn: so each is written down, and the
+            // next one over it if it is.
+            pairs[count] = pair;
+            count += usize::from(!is_woven);
         }
+        pairs.truncate(count);
+        for end in [1, 0] {
+            sort_by_end(end, pairs, touching, firsts, listed_at.len());
+            core::mem::swap(pairs, touching);
+        }
+    }
+}
+
+/// Copies pairs into `sorted`, by one of their ends; those that have the same one there stay in order.
+fn sort_by_end(
+    end: usize,
+    pairs: &[[u32; 2]],
+    sorted: &mut Vec<[u32; 2]>,
+    firsts: &mut Vec<u32>,
+    particles: usize,
+) {
+    firsts.clear();
+    firsts.resize(particles + 1, 0);
+    for pair in pairs {
+        firsts[pair[end] as usize + 1] += 1;
+    }
+    for at in 1..firsts.len() {
+        firsts[at] += firsts[at - 1];
+    }
+    sorted.resize(pairs.len(), [0; 2]);
+    for pair in pairs {
+        let next = &mut firsts[pair[end] as usize];
+        sorted[*next as usize] = *pair;
+        *next += 1;
     }
 }
 
@@ -213,7 +241,7 @@ pub(crate) fn solve(world: &mut World) {
         return;
     };
     let (p, distance) = (&mut world.particles, crowd.distance);
-    // As in `HashGrid::list_near`, each is written down.
+    // As in `list`, each is written down.
     let (pairs, touching) = (&crowd.pairs, &mut crowd.touching);
     if touching.len() < pairs.len() {
         touching.resize(pairs.len(), [0; 2]);
