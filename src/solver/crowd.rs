@@ -27,11 +27,11 @@ const WOVEN: f32 = 1.5;
 /// How far particles may move before pairs are listed anew, in mean rest lengths.
 const MARGIN: f32 = 0.25;
 
-/// The same where all is in such motion that no list does for long: there short lists are the cheaper ones.
-const NARROW: f32 = 0.02;
-
-/// For fewer passes than this no long list is worth it.
+/// For fewer passes than this no list is worth a margin: then each pass makes one of its own.
 const PASSES: f32 = 4.0;
+
+/// How much longer cells are than what is looked for, which covers rounding.
+const CELL: f32 = 1.02;
 
 /// Listing anew begins a little before it must, which covers rounding, …
 const HASTE: f32 = 0.95;
@@ -59,9 +59,9 @@ pub(crate) struct Crowd {
     distance: f32,
     /// What lies no farther apart at rest in one piece does not count [m].
     woven: f32,
-    /// The margin of the list as it is, of long ones and of short ones [m].
+    /// The margin of the list as it is, 0 for one that does for a single pass, and of those that do for more [m].
     margin: f32,
-    margins: [f32; 2],
+    wide: f32,
     /// Passes that the list has been asked for.
     passes: u32,
 }
@@ -71,7 +71,7 @@ impl Crowd {
         let distance = distance(world);
         let wider = |a: f32, b: f32| if a > b { a } else { b };
         let woven = wider(WOVEN * world.spacing, distance);
-        let margins = [MARGIN, NARROW].map(|margin| margin * world.spacing);
+        let wide = MARGIN * world.spacing;
         let (capacity, count) = (world.capacity(), world.particles.len());
         Self {
             grid: HashGrid::new(capacity),
@@ -83,8 +83,8 @@ impl Crowd {
             pieces: pieces(&world.mesh, world.rest.len()),
             distance,
             woven,
-            margin: margins[0],
-            margins,
+            margin: wide,
+            wide,
             passes: 0,
         }
     }
@@ -102,13 +102,14 @@ impl Crowd {
     fn see_to_list(&mut self, world: &World) {
         let x = &world.particles.x;
         if self.listed_at.len() != world.particles.len() {
-            self.list(world, self.margins[0]);
+            self.list(world, self.wide);
             return;
         }
         let ways = || x.iter().zip(&self.listed_at).map(|(x, at)| x - *at);
         let drift = ways().fold(Vec3::ZERO, |sum, way| sum + way) * (1.0 / x.x.len() as f32);
-        let (most, far) = (HASTE * self.margin, FAR * self.margins[0]);
-        let (mut holds, mut farthest) = (drift.length_squared() <= far * far, 0.0);
+        let (most, far) = (HASTE * self.margin, FAR * self.wide);
+        let is_near = drift.length_squared() <= far * far;
+        let (mut holds, mut farthest) = (is_near && self.margin > 0.0, 0.0);
         for way in ways() {
             let moved = (way - drift).length_squared();
             holds &= moved <= most * most;
@@ -118,9 +119,9 @@ impl Crowd {
         if holds {
             return;
         }
-        let lasts = HASTE * self.margins[0] * self.passes as f32;
+        let lasts = HASTE * self.wide * self.passes as f32;
         let is_calm = farthest * (PASSES * PASSES) <= lasts * lasts;
-        self.list(world, self.margins[usize::from(!is_calm)]);
+        self.list(world, if is_calm { self.wide } else { 0.0 });
     }
 
     fn list(&mut self, world: &World, margin: f32) {
@@ -129,7 +130,7 @@ impl Crowd {
         listed_at.clear();
         listed_at.extend(world.particles.x.iter());
         let most = self.distance + 2.0 * margin;
-        grid.fill(listed_at, most);
+        grid.fill(listed_at, CELL * most);
         pairs.clear();
         grid.list_pairs(world.level, most * most, pairs);
         let mut count = 0;
