@@ -5,24 +5,37 @@
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, MOST_LANES, Scalar, Simd, vectored};
-use core::ops::Range;
 use glam::Vec3;
 
 /// Fewer cells than this along a side, and a cell would be its own neighbour's neighbour.
 const LEAST_BITS: u32 = 2;
 
-/// The most parts of the grid that are ahead of a cell: one beside it, and three in each of four rows.
-const AHEAD: usize = 13;
+/// The most parts of the grid that a cell looks at: itself, one beside it, and three in each of four rows.
+const PARTS: usize = 14;
+
+/// As many points are asked about at once as there are bits in a number.
+const ASKED: usize = u64::BITS as usize;
+
+/// The points of a cell and of those ahead of it, and where they are; behind the last there is room for a vector.
+#[derive(Clone, Debug, Default)]
+struct Around {
+    points: Vec<u32>,
+    x: Columns,
+}
+
+/// A number that much smaller ones are rounded to whole ones by, if they are added: those count its last bits up.
+const ROUNDS: f32 = 12_582_912.0;
 
 /// Points sorted into cells.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HashGrid {
     /// For each cell, where its points begin; and where the last ones end.
     first: Vec<u32>,
-    /// The points, cell by cell, lowest first in each, …
+    /// The points, cell by cell, lowest first in each, and where they are; behind the last there is room for a
+    /// vector.
     points: Vec<u32>,
-    /// … and where they are; behind the last there is room for a vector.
     x: Columns,
+    around: Around,
     /// The cell of each point.
     cell: Vec<u32>,
     /// Cells along each side, as powers of two.
@@ -33,13 +46,15 @@ pub(crate) struct HashGrid {
 impl HashGrid {
     /// A grid for so many points.
     pub fn new(capacity: usize) -> Self {
-        let all = capacity.next_power_of_two().trailing_zeros() + 2;
+        let all = capacity.next_power_of_two().trailing_zeros() + 1;
         let bits = [all.div_ceil(3), (all + 1) / 3, all / 3].map(|bits| bits.max(LEAST_BITS));
         let cells = 1_usize << bits.iter().sum::<u32>();
+        let room = capacity + MOST_LANES;
         Self {
             first: vec![0; cells + 2],
-            points: Vec::with_capacity(capacity),
-            x: Columns::with_capacity(capacity + MOST_LANES),
+            points: Vec::with_capacity(room),
+            x: Columns::with_capacity(room),
+            around: Around { points: Vec::with_capacity(room), x: Columns::with_capacity(room) },
             cell: Vec::with_capacity(capacity),
             bits,
             per_length: 1.0,
@@ -48,8 +63,9 @@ impl HashGrid {
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let whole = self.first.len() + self.cell.capacity() + self.points.capacity();
-        size_of::<u32>() * whole + self.x.bytes()
+        let points = self.points.capacity() + self.around.points.capacity();
+        let whole = self.first.len() + self.cell.capacity() + points;
+        size_of::<u32>() * whole + self.x.bytes() + self.around.x.bytes()
     }
 
     /// Sorts points into cells of such a side [m].
@@ -65,9 +81,13 @@ impl HashGrid {
         for at in 2..self.first.len() {
             self.first[at] += self.first[at - 1];
         }
-        self.points.clear();
-        self.points.resize(cell.len(), 0);
-        self.x.resize(cell.len() + MOST_LANES);
+        let room = cell.len() + MOST_LANES;
+        for (points, x) in
+            [(&mut self.points, &mut self.x), (&mut self.around.points, &mut self.around.x)]
+        {
+            points.resize(room, 0);
+            x.resize(room);
+        }
         for (point, cell) in cell.iter().enumerate() {
             let next = &mut self.first[*cell as usize + 1];
             self.points[*next as usize] = point as u32;
@@ -79,14 +99,14 @@ impl HashGrid {
 
     /// Adds the pairs of points that are nearer to each other than the root of `within`, no more than a cell's side
     /// [m²], the lower one first; in no order of theirs.
-    pub fn list_pairs(&self, level: Level, within: f32, pairs: &mut Vec<[u32; 2]>) {
+    pub fn list_pairs(&mut self, level: Level, within: f32, pairs: &mut Vec<[u32; 2]>) {
         list_pairs(level, self, within, pairs);
     }
 
-    /// Where the points are that are in cells ahead of one: in those that have it behind them where it has them
-    /// ahead, so that each two cells side by side meet once. As many as there are, of those that hold any.
+    /// Where the points of a cell are, and then those of cells ahead of it: of half of those around it, so that each
+    /// two cells side by side meet once. Says how many parts that are; none is empty.
     #[inline(always)]
-    fn look_ahead(&self, cell: u32, parts: &mut [(u32, u32); AHEAD]) -> usize {
+    fn look_ahead(&self, cell: u32, parts: &mut [(u32, u32); PARTS]) -> usize {
         let [bx, by, _] = self.bits;
         let of = |cell: u32, first: u32, bits: u32| cell >> first & ((1 << bits) - 1);
         let (x, y, z) = (of(cell, 0, bx), of(cell, bx, by), cell >> (bx + by));
@@ -98,9 +118,10 @@ impl HashGrid {
             count += usize::from(from < to);
         };
         if x == last {
+            add(cell, 1);
             add(self.index([0, y, z]), 1);
         } else {
-            add(cell + 1, 1);
+            add(cell, 2);
         }
         for (dy, dz) in [(1, 0), (u32::MAX, 1), (0, 1), (1, 1)] {
             let row = |x: u32| self.index([x, y.wrapping_add(dy), z.wrapping_add(dz)]);
@@ -119,7 +140,7 @@ impl HashGrid {
     /// The cell of a point along each axis, not wrapped yet.
     #[inline(always)]
     fn place(&self, point: Vec3) -> [u32; 3] {
-        point.to_array().map(|c| floor(c * self.per_length) as u32)
+        point.to_array().map(|c| (c * self.per_length + ROUNDS).to_bits())
     }
 
     #[inline(always)]
@@ -132,67 +153,86 @@ impl HashGrid {
 
 vectored! {
     /// As [`HashGrid::list_pairs`].
-    fn list_pairs(grid: &HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>)
+    fn list_pairs(grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>)
         = list_by_vectors, Avx2, list_by_numbers
 }
 
 #[inline(always)]
-fn list_by_numbers(grid: &HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
+fn list_by_numbers(grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
     list_by_vectors(Scalar, grid, within, pairs);
 }
 
 #[inline(always)]
-fn list_by_vectors<S: Simd>(s: S, grid: &HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
-    let (mut parts, mut from) = ([(0, 0); AHEAD], 0);
-    while let Some(point) = grid.points.get(from) {
-        let cell = grid.cell[*point as usize];
+fn list_by_vectors<S: Simd>(s: S, grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
+    let (mut parts, mut from) = ([(0, 0); PARTS], 0);
+    while from < grid.cell.len() {
+        let cell = grid.cell[grid.points[from] as usize];
         let to = grid.first[cell as usize + 1] as usize;
         let count = grid.look_ahead(cell, &mut parts);
-        for at in from..to {
-            list_one(s, grid, within, at, at + 1..to, pairs);
-            for (from, to) in &parts[..count] {
-                list_one(s, grid, within, at, *from as usize..*to as usize, pairs);
-            }
+        let all = grid.bring_together(s, &parts[..count]);
+        for one in 0..to - from {
+            grid.around.list_with(s, one, all, within, pairs);
         }
         from = to;
     }
 }
 
-/// Adds the pairs of the point at one place with those in a part of the grid.
-#[inline(always)]
-fn list_one<S: Simd>(
-    s: S,
-    grid: &HashGrid,
-    within: f32,
-    one: usize,
-    part: Range<usize>,
-    pairs: &mut Vec<[u32; 2]>,
-) {
-    let all = grid.x.all();
-    let x = all.map(|x| s.splat(x[one]));
-    let i = grid.points[one];
-    let (mut at, within) = (part.start, s.splat(within));
-    while at < part.end {
-        let [x, y, z] = [0, 1, 2].map(|axis| s.load(all[axis], at) - x[axis]);
-        let mut near = s.positives(within - (x * x + y * y + z * z));
-        let left = part.end - at;
-        if left < S::LANES {
-            near &= (1 << left) - 1;
+impl HashGrid {
+    /// Brings the points of some parts together, and says how many there are.
+    #[inline(always)]
+    fn bring_together<S: Simd>(&mut self, s: S, parts: &[(u32, u32)]) -> usize {
+        let Around { points, x } = &mut self.around;
+        let from = self.x.all();
+        let mut count = 0;
+        for part in parts {
+            let (mut at, mut end) = (part.0 as usize, count);
+            count += (part.1 - part.0) as usize;
+            while end < count {
+                for (axis, to) in x.all_mut().into_iter().enumerate() {
+                    s.store(to, end, s.load(from[axis], at));
+                }
+                points[end..end + S::LANES].copy_from_slice(&self.points[at..at + S::LANES]);
+                (at, end) = (at + S::LANES, end + S::LANES);
+            }
         }
-        while near != 0 {
-            let j = grid.points[at + near.trailing_zeros() as usize];
-            pairs.push([i.min(j), i.max(j)]);
-            near &= near - 1;
-        }
-        at += S::LANES;
+        count
     }
 }
 
-/// The next integer below; the nearest one of what no i32 holds, of what is no number 0.
-#[inline(always)]
-fn floor(c: f32) -> i32 {
-    let toward_zero = c as i32;
-    toward_zero.saturating_sub(i32::from(toward_zero as f32 > c))
+impl Around {
+    /// Adds the pairs of one of the points with those behind it.
+    #[inline(always)]
+    fn list_with<S: Simd>(
+        &self,
+        s: S,
+        one: usize,
+        all: usize,
+        within: f32,
+        pairs: &mut Vec<[u32; 2]>,
+    ) {
+        let (i, columns) = (self.points[one], self.x.all());
+        let x = columns.map(|column| s.splat(column[one]));
+        let (mut at, within) = (one + 1, s.splat(within));
+        while at < all {
+            // Who is near and who is not follows no rule that a processor could learn: so many are asked first.
+            let (mut near, mut asked) = (0, 0);
+            while asked < ASKED && at + asked < all {
+                let way = |axis: usize| s.load(columns[axis], at + asked) - x[axis];
+                let [x, y, z] = [way(0), way(1), way(2)];
+                near |= u64::from(s.positives(within - (x * x + y * y + z * z))) << asked;
+                asked += S::LANES;
+            }
+            if all - at < ASKED {
+                near &= (1 << (all - at)) - 1;
+            }
+            while near != 0 {
+                let j = self.points[at + near.trailing_zeros() as usize];
+                pairs.push([i.min(j), i.max(j)]);
+                near &= near - 1;
+            }
+            at += ASKED;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -200,27 +240,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_rounded_down_is_the_floor() {
-        for c in [
-            0.0,
-            -0.0,
-            0.5,
-            -0.5,
-            1.0,
-            -1.0,
-            -1.0e-30,
-            2.5e9,
-            -2.5e9,
-            8_388_607.5,
-            -8_388_607.5,
-            1.0e-9,
-        ] {
-            assert_eq!(floor(c), c.floor() as i32, "{c}");
+    fn cells_side_by_side_have_numbers_in_a_row() {
+        let mut grid = HashGrid::new(1);
+        grid.per_length = 1.0;
+        let number = |c: i32| grid.place(Vec3::splat(c as f32))[0];
+        for c in [-2_000_000, -77, -1, 0, 1, 5, 2_000_000] {
+            assert_eq!(number(c + 1), number(c) + 1, "{c}");
         }
-        assert_eq!(
-            [floor(f32::NAN), floor(f32::INFINITY), floor(-f32::INFINITY)],
-            [0, i32::MAX, i32::MIN]
-        );
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
 use crate::mesh::Mesh;
+use crate::state::particles::Particles;
 use crate::state::settings::{SelfCollision, Settings};
 use glam::Vec3;
 
@@ -242,18 +243,11 @@ pub(crate) fn solve(world: &mut World) {
         return;
     };
     let (p, distance) = (&mut world.particles, crowd.distance);
-    // As in `list`, each is written down.
     let (pairs, touching) = (&crowd.pairs, &mut crowd.touching);
-    if touching.len() < pairs.len() {
-        touching.resize(pairs.len(), [0; 2]);
-    }
-    let mut count = 0;
-    for pair in pairs {
-        let [i, j] = pair.map(|particle| particle as usize);
-        touching[count] = *pair;
-        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
-    }
-    for pair in &touching[..count] {
+    // A list without a margin holds no others.
+    let touching =
+        if crowd.margin > 0.0 { find_touching(pairs, touching, p, distance) } else { pairs };
+    for pair in touching {
         let [i, j] = pair.map(|particle| particle as usize);
         let span = p.x.at(j) - p.x.at(i);
         let length = span.length();
@@ -265,4 +259,24 @@ pub(crate) fn solve(world: &mut World) {
         p.x.add(i, -by);
         p.x.add(j, by);
     }
+}
+
+/// Finds out which pairs are too near.
+fn find_touching<'a>(
+    pairs: &[[u32; 2]],
+    touching: &'a mut Vec<[u32; 2]>,
+    p: &Particles,
+    distance: f32,
+) -> &'a [[u32; 2]] {
+    if touching.len() < pairs.len() {
+        touching.resize(pairs.len(), [0; 2]);
+    }
+    let mut count = 0;
+    // As in `list`, each is written down.
+    for pair in pairs {
+        let [i, j] = pair.map(|particle| particle as usize);
+        touching[count] = *pair;
+        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
+    }
+    &touching[..count]
 }
