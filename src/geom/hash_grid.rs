@@ -16,15 +16,15 @@ const PARTS: usize = 14;
 /// As many points are asked about at once as there are bits in a number.
 const ASKED: usize = u64::BITS as usize;
 
+/// A number that much smaller ones are rounded to whole ones by, if they are added: those count its last bits up.
+const ROUNDS: f32 = 12_582_912.0;
+
 /// The points of a cell and of those ahead of it, and where they are; behind the last there is room for a vector.
 #[derive(Clone, Debug, Default)]
 struct Around {
     points: Vec<u32>,
     x: Columns,
 }
-
-/// A number that much smaller ones are rounded to whole ones by, if they are added: those count its last bits up.
-const ROUNDS: f32 = 12_582_912.0;
 
 /// Points sorted into cells.
 #[derive(Clone, Debug, Default)]
