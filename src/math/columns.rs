@@ -32,6 +32,19 @@ impl Columns {
         }
     }
 
+    /// Makes it so long: by zeros, where it was shorter.
+    pub fn resize(&mut self, count: usize) {
+        for column in [&mut self.x, &mut self.y, &mut self.z] {
+            column.resize(count);
+        }
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let columns = [&self.x, &self.y, &self.z];
+        columns.iter().map(|column| size_of::<f32>() * column.capacity()).sum()
+    }
+
     pub fn push(&mut self, v: Vec3) {
         self.x.push(v.x);
         self.y.push(v.y);

@@ -11,8 +11,8 @@ use super::{World, layers};
 use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
-use crate::math::sort::sort;
 use crate::mesh::Mesh;
+use crate::state::particles::Particles;
 use crate::state::settings::{SelfCollision, Settings};
 use glam::Vec3;
 
@@ -28,11 +28,11 @@ const WOVEN: f32 = 1.5;
 /// How far particles may move before pairs are listed anew, in mean rest lengths.
 const MARGIN: f32 = 0.25;
 
-/// The same where all is in such motion that no list does for long: there short lists are the cheaper ones.
-const NARROW: f32 = 0.02;
-
-/// For fewer passes than this no long list is worth it.
+/// For fewer passes than this no list is worth a margin: then each pass makes one of its own.
 const PASSES: f32 = 4.0;
+
+/// How much longer cells are than what is looked for, which covers rounding.
+const CELL: f32 = 1.02;
 
 /// Listing anew begins a little before it must, which covers rounding, …
 const HASTE: f32 = 0.95;
@@ -51,18 +51,18 @@ pub(crate) struct Crowd {
     pairs: Vec<[u32; 2]>,
     /// … where particles were when they were listed, …
     listed_at: Vec<Vec3>,
-    /// … and which of the pairs are too near.
+    /// … and which of the pairs are too near; room to sort them in before.
     touching: Vec<[u32; 2]>,
-    /// Whom one particle may meet.
-    near: Vec<u32>,
+    /// Where the pairs of each particle begin, while they are sorted.
+    firsts: Vec<u32>,
     /// The piece that each site was part of before anything tore.
     pieces: Vec<u32>,
     distance: f32,
     /// What lies no farther apart at rest in one piece does not count [m].
     woven: f32,
-    /// The margin of the list as it is, of long ones and of short ones [m].
+    /// The margin of the list as it is, 0 for one that does for a single pass, and of those that do for more [m].
     margin: f32,
-    margins: [f32; 2],
+    wide: f32,
     /// Passes that the list has been asked for.
     passes: u32,
 }
@@ -72,7 +72,7 @@ impl Crowd {
         let distance = distance(world);
         let wider = |a: f32, b: f32| if a > b { a } else { b };
         let woven = wider(WOVEN * world.spacing, distance);
-        let margins = [MARGIN, NARROW].map(|margin| margin * world.spacing);
+        let wide = MARGIN * world.spacing;
         let (capacity, count) = (world.capacity(), world.particles.len());
         Self {
             grid: HashGrid::new(capacity),
@@ -80,12 +80,12 @@ impl Crowd {
             pairs: Vec::with_capacity(16 * count),
             listed_at: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(16 * count),
-            near: Vec::with_capacity(256),
+            firsts: Vec::with_capacity(capacity + 1),
             pieces: pieces(&world.mesh, world.rest.len()),
             distance,
             woven,
-            margin: margins[0],
-            margins,
+            margin: wide,
+            wide,
             passes: 0,
         }
     }
@@ -96,20 +96,21 @@ impl Crowd {
         self.grid.bytes()
             + size_of::<[u32; 2]>() * pairs
             + size_of::<Vec3>() * self.listed_at.capacity()
-            + size_of::<u32>() * (self.near.capacity() + self.pieces.capacity())
+            + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())
     }
 
     /// Sees to it that the list holds: that no particle moved farther than the margin since, but for what all did.
     fn see_to_list(&mut self, world: &World) {
         let x = &world.particles.x;
         if self.listed_at.len() != world.particles.len() {
-            self.list(world, self.margins[0]);
+            self.list(world, self.wide);
             return;
         }
         let ways = || x.iter().zip(&self.listed_at).map(|(x, at)| x - *at);
         let drift = ways().fold(Vec3::ZERO, |sum, way| sum + way) * (1.0 / x.x.len() as f32);
-        let (most, far) = (HASTE * self.margin, FAR * self.margins[0]);
-        let (mut holds, mut farthest) = (drift.length_squared() <= far * far, 0.0);
+        let (most, far) = (HASTE * self.margin, FAR * self.wide);
+        let is_near = drift.length_squared() <= far * far;
+        let (mut holds, mut farthest) = (is_near && self.margin > 0.0, 0.0);
         for way in ways() {
             let moved = (way - drift).length_squared();
             holds &= moved <= most * most;
@@ -119,31 +120,60 @@ impl Crowd {
         if holds {
             return;
         }
-        let lasts = HASTE * self.margins[0] * self.passes as f32;
+        let lasts = HASTE * self.wide * self.passes as f32;
         let is_calm = farthest * (PASSES * PASSES) <= lasts * lasts;
-        self.list(world, self.margins[usize::from(!is_calm)]);
+        self.list(world, if is_calm { self.wide } else { 0.0 });
     }
 
     fn list(&mut self, world: &World, margin: f32) {
         (self.margin, self.passes) = (margin, 0);
-        let Self { grid, pairs, listed_at, near, pieces, .. } = self;
+        let Self { grid, pairs, listed_at, touching, firsts, pieces, .. } = self;
         listed_at.clear();
         listed_at.extend(world.particles.x.iter());
         let most = self.distance + 2.0 * margin;
-        grid.fill(listed_at, most);
+        grid.fill(listed_at, CELL * most);
         pairs.clear();
-        for (i, x) in listed_at.iter().enumerate() {
-            let site = world.mesh.source[i] as usize;
-            let near = grid.list_near(i as u32, *x, most * most, near);
-            sort(near);
-            for j in near.iter() {
-                let other = world.mesh.source[*j as usize] as usize;
-                let apart = (world.rest[other] - world.rest[site]).length_squared();
-                if pieces[site] != pieces[other] || apart > self.woven * self.woven {
-                    pairs.push([i as u32, *j]);
-                }
-            }
+        grid.list_pairs(world.level, most * most, pairs);
+        let mut count = 0;
+        for at in 0..pairs.len() {
+            let pair = pairs[at];
+            let [site, other] = pair.map(|particle| world.mesh.source[particle as usize] as usize);
+            let apart = (world.rest[other] - world.rest[site]).length_squared();
+            let is_woven = (pieces[site] == pieces[other]) & (apart <= self.woven * self.woven);
+            // Who is woven to whom follows no rule that a processor could learn: so each is written down, and the
+            // next one over it if it is.
+            pairs[count] = pair;
+            count += usize::from(!is_woven);
         }
+        pairs.truncate(count);
+        for end in [1, 0] {
+            sort_by_end(end, pairs, touching, firsts, listed_at.len());
+            core::mem::swap(pairs, touching);
+        }
+    }
+}
+
+/// Copies pairs into `sorted`, by one of their ends; those that have the same one there stay in order.
+fn sort_by_end(
+    end: usize,
+    pairs: &[[u32; 2]],
+    sorted: &mut Vec<[u32; 2]>,
+    firsts: &mut Vec<u32>,
+    particles: usize,
+) {
+    firsts.clear();
+    firsts.resize(particles + 1, 0);
+    for pair in pairs {
+        firsts[pair[end] as usize + 1] += 1;
+    }
+    for at in 1..firsts.len() {
+        firsts[at] += firsts[at - 1];
+    }
+    sorted.resize(pairs.len(), [0; 2]);
+    for pair in pairs {
+        let next = &mut firsts[pair[end] as usize];
+        sorted[*next as usize] = *pair;
+        *next += 1;
     }
 }
 
@@ -213,18 +243,11 @@ pub(crate) fn solve(world: &mut World) {
         return;
     };
     let (p, distance) = (&mut world.particles, crowd.distance);
-    // As in `HashGrid::list_near`, each is written down.
     let (pairs, touching) = (&crowd.pairs, &mut crowd.touching);
-    if touching.len() < pairs.len() {
-        touching.resize(pairs.len(), [0; 2]);
-    }
-    let mut count = 0;
-    for pair in pairs {
-        let [i, j] = pair.map(|particle| particle as usize);
-        touching[count] = *pair;
-        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
-    }
-    for pair in &touching[..count] {
+    // A list without a margin holds no others.
+    let touching =
+        if crowd.margin > 0.0 { find_touching(pairs, touching, p, distance) } else { pairs };
+    for pair in touching {
         let [i, j] = pair.map(|particle| particle as usize);
         let span = p.x.at(j) - p.x.at(i);
         let length = span.length();
@@ -236,4 +259,24 @@ pub(crate) fn solve(world: &mut World) {
         p.x.add(i, -by);
         p.x.add(j, by);
     }
+}
+
+/// Finds out which pairs are too near.
+fn find_touching<'a>(
+    pairs: &[[u32; 2]],
+    touching: &'a mut Vec<[u32; 2]>,
+    p: &Particles,
+    distance: f32,
+) -> &'a [[u32; 2]] {
+    if touching.len() < pairs.len() {
+        touching.resize(pairs.len(), [0; 2]);
+    }
+    let mut count = 0;
+    // As in `list`, each is written down.
+    for pair in pairs {
+        let [i, j] = pair.map(|particle| particle as usize);
+        touching[count] = *pair;
+        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
+    }
+    &touching[..count]
 }

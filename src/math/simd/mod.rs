@@ -141,6 +141,9 @@ pub(crate) trait Simd: Arithmetic {
     /// Whether any number is above 0.
     fn is_any_positive(self, v: Self::F) -> bool;
 
+    /// Which numbers are above 0: a bit for each lane, the lowest for the first.
+    fn positives(self, v: Self::F) -> u32;
+
     /// Deals two vectors out by turns: the even and the odd numbers. In what order, `dealt` says.
     fn deal(self, low: Self::F, high: Self::F) -> (Self::F, Self::F);
 
@@ -180,6 +183,11 @@ impl Simd for Scalar {
     #[inline(always)]
     fn is_any_positive(self, v: f32) -> bool {
         v > 0.0
+    }
+
+    #[inline(always)]
+    fn positives(self, v: f32) -> u32 {
+        u32::from(v > 0.0)
     }
 
     #[inline(always)]

@@ -115,6 +115,15 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
+    fn positives(self, v: Four) -> u32 {
+        // SAFETY: see above; there are four bits to load.
+        unsafe {
+            let bits = vld1q_u32([1, 2, 4, 8].as_ptr());
+            vaddvq_u32(vandq_u32(vcgtq_f32(v.0, vdupq_n_f32(0.0)), bits))
+        }
+    }
+
+    #[inline(always)]
     fn deal(self, low: Four, high: Four) -> (Four, Four) {
         // SAFETY: see above.
         unsafe { (Four(vuzp1q_f32(low.0, high.0)), Four(vuzp2q_f32(low.0, high.0))) }

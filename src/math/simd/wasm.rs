@@ -104,6 +104,11 @@ impl Simd for Simd128 {
     }
 
     #[inline(always)]
+    fn positives(self, v: Four) -> u32 {
+        u32::from(i32x4_bitmask(f32x4_gt(v.0, f32x4_splat(0.0))))
+    }
+
+    #[inline(always)]
     fn deal(self, low: Four, high: Four) -> (Four, Four) {
         let even = i32x4_shuffle::<0, 2, 4, 6>(low.0, high.0);
         (Four(even), Four(i32x4_shuffle::<1, 3, 5, 7>(low.0, high.0)))

@@ -169,6 +169,12 @@ impl Simd for Sse2 {
     }
 
     #[inline(always)]
+    fn positives(self, v: Four) -> u32 {
+        // SAFETY: see above.
+        unsafe { _mm_movemask_ps(_mm_cmpgt_ps(v.0, _mm_setzero_ps())) as u32 }
+    }
+
+    #[inline(always)]
     fn deal(self, low: Four, high: Four) -> (Four, Four) {
         // SAFETY: see above.
         unsafe {
@@ -228,6 +234,12 @@ impl Simd for Avx2 {
     fn is_any_positive(self, v: Eight) -> bool {
         // SAFETY: see above.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(v.0, _mm256_setzero_ps())) != 0 }
+    }
+
+    #[inline(always)]
+    fn positives(self, v: Eight) -> u32 {
+        // SAFETY: see above.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(v.0, _mm256_setzero_ps())) as u32 }
     }
 
     #[inline(always)]
@@ -300,6 +312,12 @@ impl Simd for Avx512 {
     fn is_any_positive(self, v: Sixteen) -> bool {
         // SAFETY: see above.
         unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) != 0 }
+    }
+
+    #[inline(always)]
+    fn positives(self, v: Sixteen) -> u32 {
+        // SAFETY: see above.
+        u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) })
     }
 
     #[inline(always)]
