@@ -99,6 +99,11 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
             x[k] = V::new(turn(s, start, ids));
             rooms[k] = [V::new(turn(s, from, ids)), V::new(turn(s, to, ids))];
         }
+        let boxed = between_boxes::<S, FIRST>(s, x, rooms, gap);
+        if s.positives(boxed) == (1 << S::LANES) - 1 {
+            s.store(clear, at, boxed);
+            continue;
+        }
         let way = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
         let n = way.times(s.splat(1.0) / way.dot(way).sqrt());
         let mut before = [s.splat(0.0); 4];
@@ -118,8 +123,39 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
             (s.min(a, b) - Number::max(c, d), least - Number::max(r[1], t[1]))
         };
         let is_clear = s.min(then - s.splat(NOTHING), after - s.splat(gap));
-        s.store(clear, at, is_clear);
+        s.store(clear, at, Number::max(is_clear, boxed));
     }
+}
+
+/// How much farther apart than `gap` boxes around two sides stay, which go on together: above 0, so they cannot meet.
+/// What is not a number is everywhere.
+#[inline(always)]
+fn between_boxes<S: Simd, const FIRST: Kind>(
+    s: S,
+    x: [V<S::F>; 4],
+    rooms: [[V<S::F>; 2]; 4],
+    gap: f32,
+) -> S::F {
+    let (zero, gap) = (s.splat(0.0), s.splat(gap));
+    let mut clear = s.splat(f32::NEG_INFINITY);
+    for axis in 0..3 {
+        let mut low = [x[0].along(axis), x[2].along(axis)];
+        let mut high = low;
+        let [mut least, mut most] =
+            [0, 1].map(|end: usize| [rooms[0][end].along(axis), rooms[2][end].along(axis)]);
+        for (side, k) in [(1, 3), (2 - FIRST as usize, 1)] {
+            let (place, [from, to]) = (x[k].along(axis), rooms[k]);
+            low[side] = s.min(low[side], place);
+            high[side] = Number::max(high[side], place);
+            least[side] = s.min(least[side], from.along(axis));
+            most[side] = Number::max(most[side], to.along(axis));
+        }
+        let (back, ahead) = (most[1] - least[0], most[0] - least[1]);
+        let above = (low[0] - gap) - high[1] - Number::max(back, zero);
+        let below = low[1] - (high[0] + gap) - Number::max(ahead, zero);
+        clear = Number::max(Number::max(above, below), clear);
+    }
+    clear
 }
 
 /// From the closest point of a triangle to a vertex (as `geom::closest::of_triangle`).
@@ -205,6 +241,11 @@ impl<F: Number> V<F> {
     #[inline(always)]
     fn new([x, y, z, _]: [F; 4]) -> Self {
         Self { x, y, z }
+    }
+
+    #[inline(always)]
+    fn along(&self, axis: usize) -> F {
+        [self.x, self.y, self.z][axis]
     }
 
     #[inline(always)]

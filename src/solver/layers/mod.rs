@@ -14,6 +14,7 @@ mod motion;
 mod pairing;
 mod patches;
 mod push;
+mod quads;
 mod reach;
 mod sift;
 pub(crate) mod slits;
@@ -47,7 +48,7 @@ pub(crate) struct Layers {
     motion: Motion,
     reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
-    pairs: Vec<[u32; 2]>,
+    pairs: Vec<u32>,
     candidacy: Candidacy,
     contacts: Vec<Contact>,
     is_found: bool,
@@ -93,7 +94,7 @@ impl Layers {
             + self.open.capacity()
             + self.pieces.capacity()
             + self.frozen.capacity()
-            + 2 * self.pairs.capacity();
+            + self.pairs.capacity();
         self.patches.bytes()
             + self.motion.bytes()
             + self.reach.bytes()
@@ -117,7 +118,7 @@ impl Layers {
             reach.look_ahead(motion, substeps, world.spacing);
             patches.list(reach, *gap);
         }
-        Sift { world, pieces, patches, motion, candidacy, gap: *gap }.find(pairs, contacts);
+        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, contacts);
         self.is_found = true;
     }
 
@@ -132,7 +133,7 @@ impl Layers {
             all.filter(|at| motion.strays(*at)).for_each(|at| reach.widen(motion, at));
             patches.list(reach, *gap);
         }
-        Sift { world, pieces, patches, motion, candidacy, gap: *gap }.find_strays(pairs, contacts);
+        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find_strays(pairs, contacts);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.

@@ -31,6 +31,7 @@ impl Patches {
             }
             self.reaches[at] = all;
         }
+        self.patches.iter_mut().for_each(|patch| patch.is_split = false);
         let mut listed = core::mem::take(&mut self.listed);
         listed.clear();
         let mut stack = core::mem::take(&mut self.stack);
@@ -59,15 +60,17 @@ impl Patches {
                 }
             }
         }
+        self.quads.forget(listed.len());
         (self.stack, self.listed) = (stack, listed);
     }
 
     /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
-    /// have some.
-    pub fn pair(&self, gap: f32, strays: bool, pairs: &mut Vec<[u32; 2]>) {
+    /// have some. `pairs` gets their places in the list.
+    pub fn pair(&self, gap: f32, strays: bool, pairs: &mut Vec<u32>) {
         pairs.clear();
-        for [one, other] in &self.listed {
-            let (pair, are_beside) = ([*one, *other & !BESIDE], *other & BESIDE != 0);
+        for at in 0..self.listed.len() as u32 {
+            let pair = self.listed_pair(at);
+            let are_beside = self.listed[at as usize][1] & BESIDE != 0;
             let [a, b] = pair.map(|at| at as usize);
             if strays && !self.patches[a].has_strays && !self.patches[b].has_strays {
                 continue;
@@ -76,9 +79,21 @@ impl Patches {
                 continue;
             }
             if !are_beside || !self.is_quiet(pair) {
-                pairs.push(pair);
+                pairs.push(at);
             }
         }
+    }
+
+    /// The patches of listed pair `at`.
+    #[inline(always)]
+    pub fn listed_pair(&self, at: u32) -> [u32; 2] {
+        let [one, other] = self.listed[at as usize];
+        [one, other & !BESIDE]
+    }
+
+    /// Where what is in a patch may get in this tick.
+    pub fn reach_of(&self, patch: u32) -> &Sweep {
+        &self.reaches[self.patches[patch as usize].leaf as usize]
     }
 
     /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little.

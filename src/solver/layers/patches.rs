@@ -4,8 +4,9 @@
 //! follow the cloth.
 
 use super::motion::Motion;
+use super::quads::Quads;
 use super::spots::place;
-use super::sweep::{LANES, Sweep, Sweeps, meet};
+use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
 use crate::math::min;
 use crate::math::sort::{sort, sort_by};
@@ -32,15 +33,17 @@ pub(super) struct Patch {
     /// The mean normal, and the least cosine that a normal makes with it; -1 where a tear or a cut goes through.
     pub(super) normal: Vec3,
     pub(super) cone: f32,
-    /// Whether what is in it was told apart since it was fitted.
-    is_split: bool,
+    /// Whether what is in it was told apart since patches were listed.
+    pub(super) is_split: bool,
     /// Whether one of its vertices strayed.
     pub(super) has_strays: bool,
     /// The patches after it that share a vertex with it: from, to.
     pub(super) beside: [u32; 2],
     /// The piece that it is of, and where it is at rest.
-    piece: u32,
-    rest: Aabb,
+    pub(super) piece: u32,
+    pub(super) rest: Aabb,
+    /// The leaf that it is.
+    pub(super) leaf: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -53,14 +56,6 @@ pub(super) struct Node {
     pub(super) count: u32,
 }
 
-/// Some of what is in a patch: a bit for each, in order.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chosen {
-    pub vertices: u32,
-    pub triangles: u32,
-    pub edges: u32,
-}
-
 /// All patches of a cloth.
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
@@ -68,11 +63,13 @@ pub(super) struct Patches {
     /// Where what is below each node may get in this tick, and the pairs of patches that may meet in it.
     pub(super) reaches: Vec<Sweep>,
     pub(super) listed: Vec<[u32; 2]>,
-    /// Where each patch is and goes, and what is in it.
+    /// What may meet of those.
+    pub(super) quads: Quads,
+    /// Where each patch is and goes in a substep, and what is in it in the tick.
     pub(super) sweeps: Vec<Sweep>,
-    triangle_sweeps: Vec<Sweeps>,
-    vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
-    edge_sweeps: Vec<[Sweeps; BLOCKS]>,
+    pub(super) triangle_sweeps: Vec<Sweeps>,
+    pub(super) vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
+    pub(super) edge_sweeps: Vec<[Sweeps; BLOCKS]>,
     pub patches: Vec<Patch>,
     /// Triangles, patch by patch.
     pub triangles: Vec<u32>,
@@ -103,6 +100,7 @@ impl Patches {
             nodes: Vec::new(),
             reaches: Vec::new(),
             listed: Vec::with_capacity(8 * rest.len()),
+            quads: Quads::new(rest.len()),
             sweeps: Vec::new(),
             triangle_sweeps: Vec::new(),
             vertex_sweeps: Vec::new(),
@@ -162,6 +160,7 @@ impl Patches {
                 beside: [0; 2],
                 piece: 0,
                 rest: Aabb::EMPTY,
+                leaf: at as u32,
             });
         } else {
             let middle = if is_whole {
@@ -217,6 +216,7 @@ impl Patches {
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
             + self.frayed.capacity()
+            + self.quads.bytes()
     }
 
     /// Finds the vertices and the edges of all patches, after the mesh tore.
@@ -300,7 +300,7 @@ impl Patches {
             self.sweeps[at] = all;
             let (normal, cone) = self.lean(mesh, motion, &patch);
             let patch = &mut self.patches[at];
-            (patch.normal, patch.cone, patch.is_split) = (normal, cone, false);
+            (patch.normal, patch.cone) = (normal, cone);
         }
     }
 
@@ -315,70 +315,7 @@ impl Patches {
                     motion.add_to(all, *vertex);
                 }
             }
-            patch.is_split &= !patch.has_strays;
         }
-    }
-
-    /// Tells apart what is in a patch, unless that was done.
-    pub fn split(&mut self, patch: u32, mesh: &Mesh, motion: &Motion) {
-        let at = patch as usize;
-        let patch = &mut self.patches[at];
-        if patch.is_split {
-            return;
-        }
-        patch.is_split = true;
-        let [from, to] = patch.triangles;
-        let all = &mut self.triangle_sweeps[at];
-        *all = Sweeps::EMPTY;
-        for (lane, triangle) in self.triangles[from as usize..to as usize].iter().enumerate() {
-            all.set(lane, &motion.of(mesh.triangles[*triangle as usize]));
-        }
-        let [from, to, _] = patch.vertices;
-        let blocks = self.vertices[from as usize..to as usize].chunks(LANES);
-        for (all, block) in self.vertex_sweeps[at].iter_mut().zip(blocks) {
-            *all = Sweeps::EMPTY;
-            for (lane, vertex) in block.iter().enumerate() {
-                all.set(lane, &motion.one(*vertex));
-            }
-        }
-        let [from, to] = patch.edges;
-        let blocks = self.edges[from as usize..to as usize].chunks(LANES);
-        for (all, block) in self.edge_sweeps[at].iter_mut().zip(blocks) {
-            *all = Sweeps::EMPTY;
-            for (lane, ends) in block.iter().enumerate() {
-                all.set(lane, &motion.of(*ends));
-            }
-        }
-    }
-
-    /// Which own vertices of one patch may meet another one, which of its triangles, and which own edges: a bit
-    /// for each.
-    pub fn chosen(&self, one: u32, other: u32, gap: f32) -> Chosen {
-        let all = self.sweep(other);
-        let at = one as usize;
-        let Patch { vertices, triangles, edges, .. } = &self.patches[at];
-        let own = core::slice::from_ref(&self.triangle_sweeps[at]);
-        Chosen {
-            vertices: meet(&self.vertex_sweeps[at], vertices[1] - vertices[0], all, gap),
-            triangles: meet(own, triangles[1] - triangles[0], all, gap),
-            edges: meet(&self.edge_sweeps[at], edges[1] - edges[0], all, gap),
-        }
-    }
-
-    /// Whether what is in two patches may be near at rest, so that it keeps a smaller gap.
-    pub fn is_near_at_rest(&self, pair: [u32; 2], near: f32) -> bool {
-        let (a, b) = (&self.patches[pair[0] as usize], &self.patches[pair[1] as usize]);
-        a.piece == b.piece && a.rest.grown(near).meets(&b.rest)
-    }
-
-    /// The triangles of a patch, one in a lane.
-    pub fn triangle_sweeps(&self, patch: u32) -> &Sweeps {
-        &self.triangle_sweeps[patch as usize]
-    }
-
-    /// The edges of a patch that are of no patch before, in blocks of lanes.
-    pub fn edge_sweeps(&self, patch: u32) -> &[Sweeps; BLOCKS] {
-        &self.edge_sweeps[patch as usize]
     }
 
     /// The mean normal of a patch, and the least cosine that one makes with it.

@@ -99,8 +99,24 @@ impl Reach {
     /// Grows a sweep to hold a particle.
     #[inline(always)]
     pub fn add_to(&self, sweep: &mut Sweep, particle: u32) {
+        sweep.join(&self.one(particle));
+    }
+
+    /// How a particle goes.
+    #[inline(always)]
+    pub fn one(&self, particle: u32) -> Sweep {
         let at = particle as usize;
         let base = self.base[at];
-        sweep.join(&Sweep { low: base, high: base, from: self.from[at], to: self.to[at] });
+        Sweep { low: base, high: base, from: self.from[at], to: self.to[at] }
+    }
+
+    /// How particles go together.
+    #[inline(always)]
+    pub fn of<const COUNT: usize>(&self, particles: [u32; COUNT]) -> Sweep {
+        let mut all = self.one(particles[0]);
+        for particle in &particles[1..] {
+            all.join(&self.one(*particle));
+        }
+        all
     }
 }

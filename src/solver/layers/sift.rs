@@ -7,16 +7,14 @@
 use super::candidates::Candidates;
 use super::contacts::{Contact, EDGES, Kind, VERTEX};
 use super::motion::Motion;
-use super::patches::{Chosen, Patches};
+use super::patches::Patches;
+use super::reach::Reach;
 use super::slits::HAIR;
-use super::sweep::{LANES, places_of};
+use super::sweep::LANES;
 use crate::geom::aabb::Aabb;
 use crate::math::{max, min};
 use crate::solver::World;
 use glam::Vec3;
-
-/// The bits of a block of lanes.
-const LANE_BITS: u32 = (1 << LANES) - 1;
 
 /// Pairs of one piece keep no farther apart than this share of their distance at rest.
 const WOVEN: f32 = 0.5;
@@ -53,6 +51,7 @@ pub(super) struct Sift<'a> {
     pub pieces: &'a [u32],
     pub patches: &'a mut Patches,
     pub motion: &'a Motion,
+    pub reach: &'a Reach,
     pub candidacy: &'a mut Candidacy,
     /// How far layers keep apart [m].
     pub gap: f32,
@@ -60,7 +59,7 @@ pub(super) struct Sift<'a> {
 
 impl Sift<'_> {
     /// Finds all that may meet.
-    pub fn find(&mut self, pairs: &mut Vec<[u32; 2]>, contacts: &mut Vec<Contact>) {
+    pub fn find(&mut self, pairs: &mut Vec<u32>, contacts: &mut Vec<Contact>) {
         contacts.clear();
         self.patches.fit(&self.world.mesh, self.motion);
         self.patches.pair(self.gap, false, pairs);
@@ -68,41 +67,30 @@ impl Sift<'_> {
     }
 
     /// Adds what those may meet that strayed.
-    pub fn find_strays(&mut self, pairs: &mut Vec<[u32; 2]>, contacts: &mut Vec<Contact>) {
+    pub fn find_strays(&mut self, pairs: &mut Vec<u32>, contacts: &mut Vec<Contact>) {
         self.patches.follow_strays(self.motion);
         self.patches.pair(self.gap, true, pairs);
         self.look(pairs, true, contacts);
     }
 
-    fn look(&mut self, pairs: &[[u32; 2]], strays: bool, contacts: &mut Vec<Contact>) {
-        for [one, other] in pairs {
-            self.patches.split(*one, &self.world.mesh, self.motion);
-            self.patches.split(*other, &self.world.mesh, self.motion);
-            let ours = self.patches.chosen(*one, *other, self.gap);
-            let theirs =
-                if one == other { ours } else { self.patches.chosen(*other, *one, self.gap) };
-            let can_meet = |vertices, triangles| vertices != 0 && triangles != 0;
-            if !can_meet(ours.vertices, theirs.triangles)
-                && !can_meet(theirs.vertices, ours.triangles)
-                && !can_meet(ours.edges, theirs.edges)
-            {
-                continue;
-            }
-            let chosen = [ours, theirs];
-            let mut look = Look { sift: self, chosen, strays };
-            look.vertices([*one, *other], [0, 1]);
-            if one != other {
-                look.vertices([*other, *one], [1, 0]);
-            }
-            look.edges([*one, *other]);
-            let is_woven = self.patches.is_near_at_rest([*one, *other], self.gap / WOVEN);
+    fn look(&mut self, pairs: &[u32], strays: bool, contacts: &mut Vec<Contact>) {
+        let near = self.gap / WOVEN;
+        for at in pairs {
+            let run = self.patches.run(*at, &self.world.mesh, self.reach, self.gap, near);
             let Candidacy { vertices, edges, runs } = &mut *self.candidacy;
-            let counts = [vertices.len(), edges.len()];
-            let counts = counts.map(|count| count as u32);
+            let quads = &self.patches.quads;
+            for (to, from, [first, end]) in
+                [(&mut *vertices, &quads.vertices, run.vertices), (&mut *edges, &quads.edges, run.edges)]
+            {
+                let own = from[first as usize..end as usize].iter();
+                let own = own.filter(|ids| counts(self.motion, strays, **ids));
+                own.for_each(|ids| to.push(*ids));
+            }
+            let counts = [vertices.len() as u32, edges.len() as u32];
             if runs.last().map_or([0; 2], |(before, _)| *before) == counts {
                 continue;
             }
-            runs.push((counts, is_woven));
+            runs.push((counts, run.is_woven));
             if counts[0].max(counts[1]) > TOGETHER as u32 {
                 self.judge(contacts);
             }
@@ -160,74 +148,6 @@ impl Sift<'_> {
         // The sides of a slit are at the same place at rest, and a hair apart as they part.
         let least = self.world.spacing * (WOVEN * HAIR);
         min(self.gap, max(WOVEN * Contact::distance::<FIRST>(x), least))
-    }
-}
-
-/// A look at two patches.
-struct Look<'a, 'b> {
-    sift: &'a mut Sift<'b>,
-    chosen: [Chosen; 2],
-    /// Whether only those count that strayed.
-    strays: bool,
-}
-
-impl Look<'_, '_> {
-    /// The own vertices of one patch and the triangles of another one.
-    fn vertices(&mut self, [one, other]: [u32; 2], side: [usize; 2]) {
-        let (vertices, triangles) = (self.chosen[side[0]].vertices, self.chosen[side[1]].triangles);
-        if vertices == 0 || triangles == 0 {
-            return;
-        }
-        let Sift { patches, motion, world, candidacy, gap, .. } = &mut *self.sift;
-        let (patches, gap) = (&**patches, *gap);
-        let (from, first) = (
-            patches.patches[one as usize].vertices[0],
-            patches.patches[other as usize].triangles[0],
-        );
-        let each = patches.triangle_sweeps(other);
-        for at in places_of(vertices) {
-            let vertex = patches.vertices[(from + at) as usize];
-            for at in places_of(triangles & each.meet(&motion.one(vertex), gap)) {
-                let triangle = patches.triangles[(first + at) as usize];
-                let [a, b, c] = world.mesh.triangles[triangle as usize];
-                let ids = [vertex, a, b, c];
-                if vertex != a && vertex != b && vertex != c && counts(motion, self.strays, ids) {
-                    candidacy.vertices.push(ids);
-                }
-            }
-        }
-    }
-
-    /// The edges of two patches, each pair once.
-    fn edges(&mut self, [one, other]: [u32; 2]) {
-        let [chosen, others] = [self.chosen[0].edges, self.chosen[1].edges];
-        if chosen == 0 || others == 0 {
-            return;
-        }
-        let Sift { patches, motion, candidacy, gap, .. } = &mut *self.sift;
-        let (patches, gap) = (&**patches, *gap);
-        let (from, first) =
-            (patches.patches[one as usize].edges[0], patches.patches[other as usize].edges[0]);
-        let blocks = patches.edge_sweeps(other);
-        for i in places_of(chosen) {
-            let [p, q] = patches.edges[(from + i) as usize];
-            let own = motion.of([p, q]);
-            for (at, block) in blocks.iter().enumerate() {
-                let others = others >> (at * LANES) & LANE_BITS;
-                if others == 0 {
-                    continue;
-                }
-                for j in places_of(others & block.meet(&own, gap)) {
-                    let j = j + (at * LANES) as u32;
-                    let [r, s] = patches.edges[(first + j) as usize];
-                    let is_apart = p != r && p != s && q != r && q != s;
-                    let is_first = one != other || i < j;
-                    if is_apart && is_first && counts(motion, self.strays, [p, q, r, s]) {
-                        candidacy.edges.push([p, q, r, s]);
-                    }
-                }
-            }
-        }
     }
 }
 
