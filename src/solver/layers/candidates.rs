@@ -7,6 +7,7 @@ use super::contacts::{EDGES, Kind, NOTHING, VERTEX};
 use super::motion::Motion;
 use super::spots::Spot;
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
+use glam::Vec3;
 
 /// Lanes that lists are filled up to.
 const LANES: usize = 8;
@@ -15,18 +16,35 @@ const LANES: usize = 8;
 #[derive(Clone, Debug)]
 pub(super) struct Candidates {
     pub ids: [Vec<u32>; 4],
-    /// How clearly each was told apart; what is not above 0 may meet.
-    clear: Vec<f32>,
+    judged: Lanes<Vec<f32>>,
+}
+
+/// What was found of each pair.
+#[derive(Clone, Debug)]
+struct Lanes<T> {
+    /// How clearly it was told apart; what is not above 0 may meet.
+    clear: T,
+    /// The direction from the second side to the first where they were closest, and how far they are apart along it.
+    n: [T; 3],
+    distance: T,
+}
+
+/// A pair that may meet: the direction that it was apart along, and how far it is now.
+pub(super) struct Candidate {
+    pub ids: [u32; 4],
+    pub n: Vec3,
+    pub distance: f32,
 }
 
 impl Candidates {
     pub fn new(capacity: usize) -> Self {
         let ids = [(); 4].map(|()| Vec::with_capacity(capacity + LANES));
-        Self { ids, clear: Vec::with_capacity(capacity + LANES) }
+        let list = || Vec::with_capacity(capacity + LANES);
+        Self { ids, judged: Lanes { clear: list(), n: [list(), list(), list()], distance: list() } }
     }
 
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * 5 * self.clear.capacity()
+        size_of::<u32>() * 9 * self.judged.clear.capacity()
     }
 
     pub fn clear(&mut self) {
@@ -44,22 +62,35 @@ impl Candidates {
         }
     }
 
+    /// The particles of one.
+    #[inline(always)]
+    pub fn ids(&self, at: usize) -> [u32; 4] {
+        [0, 1, 2, 3].map(|k: usize| self.ids[k][at])
+    }
+
     /// Finds which are told apart by more than `gap` in the end; lists are filled up for that.
     pub fn judge<const FIRST: Kind>(&mut self, level: Level, motion: &Motion, gap: f32) {
         let count = self.len().next_multiple_of(LANES);
         self.ids.iter_mut().for_each(|list| list.resize(count, 0));
-        self.clear.resize(count, 0.0);
+        let Lanes { clear, n: [x, y, z], distance } = &mut self.judged;
+        [&mut *clear, x, y, z, distance].into_iter().for_each(|list| list.resize(count, 0.0));
         let [a, b, c, d] = &self.ids;
         let rooms = motion.rooms();
-        let judged = Judged { ids: [a, b, c, d], rooms, gap, clear: &mut self.clear };
+        let lanes = Lanes { clear: &mut clear[..], n: [&mut x[..], y, z], distance: &mut distance[..] };
+        let judged = Judged { ids: [a, b, c, d], rooms, gap, lanes };
         if FIRST == VERTEX { judge_vertices(level, judged) } else { judge_edges(level, judged) }
     }
 
-    /// Whether one may meet.
+    /// One that may meet.
     #[inline(always)]
-    pub fn may_meet(&self, at: usize) -> Option<[u32; 4]> {
-        let is_clear = self.clear[at] > 0.0;
-        (!is_clear).then(|| [0, 1, 2, 3].map(|k: usize| self.ids[k][at]))
+    pub fn may_meet(&self, at: usize) -> Option<Candidate> {
+        let Lanes { clear, n: [x, y, z], distance } = &self.judged;
+        let is_clear = clear[at] > 0.0;
+        (!is_clear).then(|| Candidate {
+            ids: self.ids(at),
+            n: Vec3::new(x[at], y[at], z[at]),
+            distance: distance[at],
+        })
     }
 }
 
@@ -68,7 +99,7 @@ struct Judged<'a> {
     ids: [&'a [u32]; 4],
     rooms: [&'a [Spot]; 3],
     gap: f32,
-    clear: &'a mut [f32],
+    lanes: Lanes<&'a mut [f32]>,
 }
 
 vectored! {
@@ -89,8 +120,8 @@ fn judge_edges_apart(judged: Judged<'_>) {
 
 #[inline(always)]
 fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
-    let Judged { ids, rooms: [start, from, to], gap, clear } = judged;
-    for at in (0..clear.len()).step_by(S::LANES) {
+    let Judged { ids, rooms: [start, from, to], gap, mut lanes } = judged;
+    for at in (0..lanes.clear.len()).step_by(S::LANES) {
         let own = at..at + S::LANES;
         let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
         let mut rooms = [[x[0]; 2]; 4];
@@ -101,16 +132,19 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         }
         let boxed = between_boxes::<S, FIRST>(s, x, rooms, gap);
         if s.positives(boxed) == (1 << S::LANES) - 1 {
-            s.store(clear, at, boxed);
+            s.store(lanes.clear, at, boxed);
             continue;
         }
-        let way = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
-        let n = way.times(s.splat(1.0) / way.dot(way).sqrt());
+        let (way, share) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
+        let length = way.dot(way).sqrt();
+        let n = way.times(s.splat(1.0) / length);
         let mut before = [s.splat(0.0); 4];
         let mut ends = [[s.splat(0.0); 2]; 4];
+        let mut now = s.splat(0.0);
         for k in 0..4 {
             before[k] = n.dot(x[k]);
             let [least, most] = ends_along(s, n, rooms[k]);
+            now = now + share[k] * (least + most);
             ends[k] = [before[k] + least, before[k] + most];
         }
         let [a, b, c, d] = before;
@@ -123,7 +157,12 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
             (s.min(a, b) - Number::max(c, d), least - Number::max(r[1], t[1]))
         };
         let is_clear = s.min(then - s.splat(NOTHING), after - s.splat(gap));
-        s.store(clear, at, Number::max(is_clear, boxed));
+        s.store(lanes.clear, at, Number::max(is_clear, boxed));
+        for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
+            s.store(list, at, n);
+        }
+        // Rooms are as large on all sides, so that particles are in the middle.
+        s.store(lanes.distance, at, length + s.splat(0.5) * now);
     }
 }
 
@@ -158,9 +197,10 @@ fn between_boxes<S: Simd, const FIRST: Kind>(
     clear
 }
 
-/// From the closest point of a triangle to a vertex (as `geom::closest::of_triangle`).
+/// From the closest point of a triangle to a vertex (as `geom::closest::of_triangle`), and what each particle counts
+/// for.
 #[inline(always)]
-fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> V<S::F> {
+fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     let [a, b, c] = [x[1].minus(x[0]), x[2].minus(x[0]), x[3].minus(x[0])];
     let (ab, ac) = (b.minus(a), c.minus(a));
@@ -185,12 +225,13 @@ fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> V<S::F> {
     let off = Number::max(a1, a2);
     let [v, w] = choose(s, off, weights, [zero; 2]);
     let to = a.plus(ab.times(v)).plus(ac.times(w));
-    to.times(zero - one)
+    (to.times(zero - one), [one, v + w - one, zero - v, zero - w])
 }
 
-/// From the closest point of the second edge to that of the first (as `geom::closest::of_segments`).
+/// From the closest point of the second edge to that of the first (as `geom::closest::of_segments`), and what each
+/// particle counts for.
 #[inline(always)]
-fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> V<S::F> {
+fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) {
     let (u, v, r) = (x[1].minus(x[0]), x[3].minus(x[2]), x[0].minus(x[2]));
     let (uu, vv, uv) = (u.dot(u), v.dot(v), u.dot(v));
     let (ur, vr) = (u.dot(r), v.dot(r));
@@ -201,7 +242,9 @@ fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> V<S::F> {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     let low = s.pick(zero - t, share(s, (zero - ur) / uu), amid);
     let along = s.pick(t - one, share(s, (uv - ur) / uu), low);
-    r.plus(u.times(along)).minus(v.times(share(s, t)))
+    let across = share(s, t);
+    let way = r.plus(u.times(along)).minus(v.times(across));
+    (way, [one - along, along, across - one, zero - across])
 }
 
 /// The least and the most that something gets along `n`.
@@ -292,7 +335,7 @@ mod tests {
                 let mut candidates = Candidates::new(1);
                 candidates.push([0, 1, 2, 3]);
                 candidates.judge::<VERTEX>(level, &motion, 0.001);
-                let found = candidates.may_meet(0);
+                let found = candidates.may_meet(0).map(|candidate| candidate.ids);
                 assert_eq!(found, may_meet.then_some([0, 1, 2, 3]), "{down} at {level:?}");
             }
         }
@@ -316,7 +359,7 @@ mod tests {
                     candidates.judge::<EDGES>(level, &motion, 0.01);
                 }
             }
-            all.map(|all| all.clear.iter().map(|clear| clear.to_bits()).collect::<Vec<u32>>())
+            all.map(|all| all.judged.clear.iter().map(|clear| clear.to_bits()).collect::<Vec<u32>>())
         };
         let alone = judged(Level::Scalar);
         let clear = alone

@@ -14,7 +14,7 @@ use crate::math::{TINY, max, min};
 use glam::Vec3;
 
 /// A fence leaves a share of their gap between two sides; if there was less, what there was.
-const SLIT: f32 = 0.25;
+pub(super) const SLIT: f32 = 0.25;
 
 /// What is let be: so much of that, or of what there was.
 const ENOUGH: f32 = 0.2;

@@ -8,6 +8,7 @@
 mod around;
 mod candidates;
 mod contacts;
+mod distant;
 mod fence;
 pub(crate) mod loads;
 mod motion;
@@ -27,6 +28,7 @@ use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
 use contacts::Contact;
+use distant::Distant;
 use loads::Finder;
 use motion::Motion;
 use patches::Patches;
@@ -51,6 +53,8 @@ pub(crate) struct Layers {
     pairs: Vec<u32>,
     candidacy: Candidacy,
     contacts: Vec<Contact>,
+    /// Pairs that may meet but are too far from each other to push.
+    distant: Vec<Distant>,
     is_found: bool,
     /// The contacts that push in this substep.
     active: Vec<u32>,
@@ -76,6 +80,7 @@ impl Layers {
             pairs: Vec::with_capacity(8 * count),
             candidacy: Candidacy::new(),
             contacts: Vec::with_capacity(24 * count),
+            distant: Vec::with_capacity(24 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
             around: Around::new(capacity, 24 * count),
@@ -102,13 +107,14 @@ impl Layers {
             + self.around.bytes()
             + self.candidacy.bytes()
             + size_of::<Contact>() * self.contacts.capacity()
+            + size_of::<Distant>() * self.distant.capacity()
             + self.finder.bytes()
             + size_of::<u32>() * words
     }
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
-        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, gap, .. } = self;
+        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, distant, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
         if reach.is_known {
             reach.follow(motion);
@@ -118,7 +124,7 @@ impl Layers {
             reach.look_ahead(motion, substeps, world.spacing);
             patches.list(reach, *gap);
         }
-        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, contacts);
+        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, contacts, distant);
         self.is_found = true;
     }
 
@@ -134,6 +140,13 @@ impl Layers {
             patches.list(reach, *gap);
         }
         Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find_strays(pairs, contacts);
+    }
+
+    /// Adds what of the distant is apart no more, or all of it.
+    fn find_distant(&mut self, world: &World, all: bool) {
+        let Self { motion, reach, patches, pieces, candidacy, contacts, distant, gap, .. } = self;
+        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }
+            .find_distant(distant, all, contacts);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
@@ -160,7 +173,8 @@ impl Layers {
         for look in 0..=LOOKS {
             let is_last = look == LOOKS;
             self.find_strays(world, may_go_back || is_last);
-            let Self { contacts, motion, frozen, open, around, .. } = self;
+            self.find_distant(world, may_go_back || is_last);
+            let Self { contacts, distant, motion, frozen, open, around, gap, .. } = self;
             around.call_from(known, contacts);
             known = contacts.len();
             let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
@@ -168,7 +182,8 @@ impl Layers {
                 fence::go_back(contacts, motion, around, frozen);
                 went_back = true;
             }
-            if (is_done || may_go_back) && motion.is_as_thought() {
+            let are_apart = || distant.iter().all(|pair| pair.is_apart(&motion.now, *gap));
+            if (is_done || may_go_back) && motion.is_as_thought() && are_apart() {
                 break;
             }
             // Whoever goes back must not get in the way of somebody else.
@@ -204,16 +219,19 @@ pub(crate) fn begin(world: &mut World) {
     let Some(mut layers) = world.layers.take() else {
         return;
     };
-    layers.gap = world.layer_gap();
+    let gap = world.layer_gap();
+    layers.reach.is_known &= gap == layers.gap;
+    layers.gap = gap;
     let p = &world.particles;
     let motion = &mut layers.motion;
-    if motion.start.len() != p.len() {
+    let is_same = motion.start.len() == p.len();
+    if !is_same {
         layers.patches.follow(&world.mesh);
     }
     spots::gather(&mut motion.start, &p.x, &p.w);
     motion.now.clone_from(&motion.start);
     layers.is_found = false;
-    layers.reach.is_known = false;
+    layers.reach.is_known &= is_same;
     world.layers = Some(layers);
 }
 
@@ -227,7 +245,7 @@ pub(crate) fn pair(world: &mut World, number: u32) {
         let at = touch.particle as usize;
         layers.motion.now[at][3] = world.particles.w[at] * push::BORNE;
     }
-    layers.find(world, world.settings.substeps - number);
+    layers.find(world, world.settings.substeps);
     world.layers = Some(layers);
 }
 

@@ -1,6 +1,7 @@
 //! What may meet of two patches, pair by pair, in all that is left of a tick: found when patches first come near
 //! each other, so that a substep has only to judge.
 
+use super::candidates::Candidates;
 use super::patches::Patches;
 use super::reach::Reach;
 use super::sweep::{LANES, Sweeps, meet, places_of};
@@ -8,9 +9,6 @@ use crate::mesh::Mesh;
 
 /// The bits of a block of lanes.
 const LANE_BITS: u32 = (1 << LANES) - 1;
-
-/// What a pair consists of: a vertex and a triangle, or two edges.
-pub(super) type Quad = [u32; 4];
 
 /// The pairs in two patches.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +23,8 @@ pub(super) struct Run {
 /// All pairs found so far.
 #[derive(Clone, Debug)]
 pub(super) struct Quads {
-    pub vertices: Vec<Quad>,
-    pub edges: Vec<Quad>,
+    pub vertices: Candidates,
+    pub edges: Candidates,
     /// Those of each listed pair of patches, once they are known.
     runs: Vec<Option<Run>>,
 }
@@ -41,14 +39,14 @@ struct Chosen {
 
 impl Quads {
     pub fn new(count: usize) -> Self {
-        let [vertices, edges] = [(); 2].map(|()| Vec::with_capacity(16 * count));
+        let [vertices, edges] = [(); 2].map(|()| Candidates::new(16 * count));
         Self { vertices, edges, runs: Vec::with_capacity(8 * count) }
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of::<Quad>() * (self.vertices.capacity() + self.edges.capacity())
-            + size_of::<Option<Run>>() * self.runs.capacity()
+        let runs = size_of::<Option<Run>>() * self.runs.capacity();
+        self.vertices.bytes() + self.edges.bytes() + runs
     }
 
     /// Nothing is known of so many pairs of patches.

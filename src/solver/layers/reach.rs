@@ -11,7 +11,7 @@ use glam::Vec3;
 
 /// What particles may be moved by beyond where they go on to: a share of the mean rest length, and of how far they
 /// go on.
-const SPARE: f32 = 0.2;
+const SPARE: f32 = 0.08;
 const SPARE_WAY: f32 = 0.25;
 
 /// Where particles may get.

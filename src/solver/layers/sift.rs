@@ -4,10 +4,13 @@
 //! (`sweep`), and what is left is looked at closely (`contacts`). All goes by where particles are, in the order
 //! of the mesh.
 
-use super::candidates::Candidates;
+use super::candidates::{Candidate, Candidates};
 use super::contacts::{Contact, EDGES, Kind, VERTEX};
 use super::motion::Motion;
+use super::distant::Distant;
 use super::patches::Patches;
+use super::push::NEAR;
+use super::quads::{Quads, Run};
 use super::reach::Reach;
 use super::slits::HAIR;
 use super::sweep::LANES;
@@ -58,33 +61,92 @@ pub(super) struct Sift<'a> {
 }
 
 impl Sift<'_> {
-    /// Finds all that may meet.
-    pub fn find(&mut self, pairs: &mut Vec<u32>, contacts: &mut Vec<Contact>) {
+    /// Finds all that may meet; of these `distant` gets what is too far from each other to push.
+    pub fn find(
+        &mut self,
+        pairs: &mut Vec<u32>,
+        contacts: &mut Vec<Contact>,
+        distant: &mut Vec<Distant>,
+    ) {
         contacts.clear();
+        distant.clear();
         self.patches.fit(&self.world.mesh, self.motion);
         self.patches.pair(self.gap, false, pairs);
-        self.look(pairs, false, contacts);
+        for at in &*pairs {
+            self.run(*at);
+        }
+        let Quads { vertices, edges, .. } = &mut self.patches.quads;
+        vertices.judge::<VERTEX>(self.world.level, self.motion, self.gap);
+        edges.judge::<EDGES>(self.world.level, self.motion, self.gap);
+        for at in &*pairs {
+            let run = self.run(*at);
+            let Quads { vertices, edges, .. } = &self.patches.quads;
+            self.tell_distant::<VERTEX>(vertices, run.vertices, run.is_woven, contacts, distant);
+            self.tell_distant::<EDGES>(edges, run.edges, run.is_woven, contacts, distant);
+        }
+    }
+
+    /// What may meet of a listed pair of patches.
+    fn run(&mut self, at: u32) -> Run {
+        let near = self.gap / WOVEN;
+        self.patches.run(at, &self.world.mesh, self.reach, self.gap, near)
+    }
+
+    #[inline(always)]
+    fn tell_distant<const FIRST: Kind>(
+        &self,
+        candidates: &Candidates,
+        [from, to]: [u32; 2],
+        is_woven: bool,
+        contacts: &mut Vec<Contact>,
+        distant: &mut Vec<Distant>,
+    ) {
+        let far = self.gap * NEAR[FIRST as usize - 1];
+        for candidate in (from..to).filter_map(|at| candidates.may_meet(at as usize)) {
+            let Candidate { ids, n, distance } = candidate;
+            if distance >= far {
+                distant.push(Distant { ids, first: FIRST, is_woven, n });
+            } else {
+                contacts.extend(self.contact::<FIRST>(ids, is_woven));
+            }
+        }
+    }
+
+    /// Adds what of the distant is apart no more, or all of it.
+    pub fn find_distant(
+        &mut self,
+        distant: &mut Vec<Distant>,
+        all: bool,
+        contacts: &mut Vec<Contact>,
+    ) {
+        distant.retain(|pair| {
+            let stays = !all && pair.is_apart(&self.motion.now, self.gap);
+            if !stays {
+                contacts.extend(if pair.first == VERTEX {
+                    self.contact::<VERTEX>(pair.ids, pair.is_woven)
+                } else {
+                    self.contact::<EDGES>(pair.ids, pair.is_woven)
+                });
+            }
+            stays
+        });
     }
 
     /// Adds what those may meet that strayed.
     pub fn find_strays(&mut self, pairs: &mut Vec<u32>, contacts: &mut Vec<Contact>) {
         self.patches.follow_strays(self.motion);
         self.patches.pair(self.gap, true, pairs);
-        self.look(pairs, true, contacts);
-    }
-
-    fn look(&mut self, pairs: &[u32], strays: bool, contacts: &mut Vec<Contact>) {
-        let near = self.gap / WOVEN;
-        for at in pairs {
-            let run = self.patches.run(*at, &self.world.mesh, self.reach, self.gap, near);
+        for at in &*pairs {
+            let run = self.run(*at);
             let Candidacy { vertices, edges, runs } = &mut *self.candidacy;
             let quads = &self.patches.quads;
-            for (to, from, [first, end]) in
-                [(&mut *vertices, &quads.vertices, run.vertices), (&mut *edges, &quads.edges, run.edges)]
-            {
-                let own = from[first as usize..end as usize].iter();
-                let own = own.filter(|ids| counts(self.motion, strays, **ids));
-                own.for_each(|ids| to.push(*ids));
+            for (to, from, [first, end]) in [
+                (&mut *vertices, &quads.vertices, run.vertices),
+                (&mut *edges, &quads.edges, run.edges),
+            ] {
+                let own = (first..end).map(|at| from.ids(at as usize));
+                own.filter(|ids| ids.iter().any(|id| self.motion.strays(*id)))
+                    .for_each(|ids| to.push(ids));
             }
             let counts = [vertices.len() as u32, edges.len() as u32];
             if runs.last().map_or([0; 2], |(before, _)| *before) == counts {
@@ -124,10 +186,15 @@ impl Sift<'_> {
         is_woven: bool,
         contacts: &mut Vec<Contact>,
     ) {
-        for ids in (from..to).filter_map(|at| candidates.may_meet(at as usize)) {
-            let gap = || if is_woven { self.own_gap::<FIRST>(ids) } else { self.gap };
-            contacts.extend(Contact::find::<FIRST>(ids, self.motion, self.gap, gap));
+        for candidate in (from..to).filter_map(|at| candidates.may_meet(at as usize)) {
+            contacts.extend(self.contact::<FIRST>(candidate.ids, is_woven));
         }
+    }
+
+    #[inline(always)]
+    fn contact<const FIRST: Kind>(&self, ids: [u32; 4], is_woven: bool) -> Option<Contact> {
+        let gap = || if is_woven { self.own_gap::<FIRST>(ids) } else { self.gap };
+        Contact::find::<FIRST>(ids, self.motion, self.gap, gap)
     }
 
     /// What is near at rest keeps a smaller gap.
@@ -149,10 +216,4 @@ impl Sift<'_> {
         let least = self.world.spacing * (WOVEN * HAIR);
         min(self.gap, max(WOVEN * Contact::distance::<FIRST>(x), least))
     }
-}
-
-/// Whether a pair counts, where only those may that strayed.
-#[inline(always)]
-fn counts(motion: &Motion, strays: bool, ids: [u32; 4]) -> bool {
-    !strays || ids.iter().any(|id| motion.strays(*id))
 }
