@@ -128,9 +128,9 @@ impl Layers {
         self.is_found = true;
     }
 
-    /// Adds what those may meet that are not where they were thought to be.
+    /// Adds to the distant what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, gap, .. } = self;
+        let Self { motion, reach, patches, pieces, pairs, candidacy, distant, gap, .. } = self;
         if !motion.look_again(world.spacing, *gap, may_go_back) {
             return;
         }
@@ -139,7 +139,7 @@ impl Layers {
             all.filter(|at| motion.strays(*at)).for_each(|at| reach.widen(motion, at));
             patches.list(reach, *gap);
         }
-        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find_strays(pairs, contacts);
+        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find_strays(pairs, distant);
     }
 
     /// Adds what of the distant is apart no more, or all of it.

@@ -11,7 +11,7 @@ use glam::Vec3;
 
 /// What particles may be moved by beyond where they go on to: a share of the mean rest length, and of how far they
 /// go on.
-const SPARE: f32 = 0.08;
+const SPARE: f32 = 0.04;
 const SPARE_WAY: f32 = 0.25;
 
 /// Where particles may get.
@@ -24,6 +24,9 @@ pub(super) struct Reach {
     to: Vec<Spot>,
     /// Whether that is of this tick.
     pub is_known: bool,
+    /// How many substeps were looked ahead, and for how many that was right.
+    ahead: u32,
+    lasted: u32,
     /// How all moved from the base to the start of the substep, and to where they are.
     drifts: [Vec3; 2],
 }
@@ -31,7 +34,7 @@ pub(super) struct Reach {
 impl Reach {
     pub fn new(capacity: usize) -> Self {
         let [base, from, to] = [(); 3].map(|()| Vec::with_capacity(capacity));
-        Self { base, from, to, is_known: false, drifts: [Vec3::ZERO; 2] }
+        Self { base, from, to, is_known: false, ahead: 1, lasted: 0, drifts: [Vec3::ZERO; 2] }
     }
 
     /// Bytes that it holds.
@@ -45,7 +48,7 @@ impl Reach {
         self.drifts = [Vec3::ZERO, motion.drift];
         self.from.clear();
         self.to.clear();
-        let (times, spare) = (substeps as f32, if substeps > 1 { spacing * SPARE } else { 0.0 });
+        let (times, spare) = (self.horizon(substeps) as f32, spacing * SPARE);
         for (at, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
             let way = (place(now) - place(start) - motion.drift) * times;
             let room = Vec3::splat(way.length() * SPARE_WAY + spare);
@@ -57,8 +60,16 @@ impl Reach {
         self.is_known = true;
     }
 
+    /// How many substeps are worth to be looked ahead: about as many as it was right about before.
+    fn horizon(&mut self, most: u32) -> u32 {
+        let lasted = core::mem::take(&mut self.lasted);
+        self.ahead = (if lasted < self.ahead { lasted } else { self.ahead + 1 }).clamp(1, most);
+        self.ahead
+    }
+
     /// Finds how all moved up to this substep.
     pub fn follow(&mut self, motion: &Motion) {
+        self.lasted += 1;
         let before = drift(&self.base, &motion.start);
         self.drifts = [before, before + motion.drift];
     }

@@ -132,8 +132,8 @@ impl Sift<'_> {
         });
     }
 
-    /// Adds what those may meet that strayed.
-    pub fn find_strays(&mut self, pairs: &mut Vec<u32>, contacts: &mut Vec<Contact>) {
+    /// Adds to the distant what those may meet that strayed.
+    pub fn find_strays(&mut self, pairs: &mut Vec<u32>, distant: &mut Vec<Distant>) {
         self.patches.follow_strays(self.motion);
         self.patches.pair(self.gap, true, pairs);
         for at in &*pairs {
@@ -154,41 +154,34 @@ impl Sift<'_> {
             }
             runs.push((counts, run.is_woven));
             if counts[0].max(counts[1]) > TOGETHER as u32 {
-                self.judge(contacts);
+                self.judge(distant);
             }
         }
-        self.judge(contacts);
+        self.judge(distant);
     }
 
-    /// Judges the pairs so far, and looks closely at those that are not told apart.
-    fn judge(&mut self, contacts: &mut Vec<Contact>) {
-        let Candidacy { vertices, edges, .. } = &mut *self.candidacy;
+    /// Judges the strays so far.
+    fn judge(&mut self, distant: &mut Vec<Distant>) {
+        let Candidacy { vertices, edges, runs } = &mut *self.candidacy;
         vertices.judge::<VERTEX>(self.world.level, self.motion, self.gap);
         edges.judge::<EDGES>(self.world.level, self.motion, self.gap);
-        let Candidacy { vertices, edges, runs } = &*self.candidacy;
         let mut from = [0; 2];
-        for (to, is_woven) in runs {
-            self.look_closely::<VERTEX>(vertices, [from[0], to[0]], *is_woven, contacts);
-            self.look_closely::<EDGES>(edges, [from[1], to[1]], *is_woven, contacts);
+        for (to, is_woven) in runs.iter() {
+            let both = [(VERTEX, &*vertices, from[0]..to[0]), (EDGES, &*edges, from[1]..to[1])];
+            for (first, candidates, own) in both {
+                let own = own.filter_map(|at| candidates.may_meet(at as usize));
+                distant.extend(own.map(|Candidate { ids, n, .. }| Distant {
+                    ids,
+                    first,
+                    is_woven: *is_woven,
+                    n,
+                }));
+            }
             from = *to;
         }
-        let Candidacy { vertices, edges, runs } = &mut *self.candidacy;
         vertices.clear();
         edges.clear();
         runs.clear();
-    }
-
-    #[inline(always)]
-    fn look_closely<const FIRST: Kind>(
-        &self,
-        candidates: &Candidates,
-        [from, to]: [u32; 2],
-        is_woven: bool,
-        contacts: &mut Vec<Contact>,
-    ) {
-        for candidate in (from..to).filter_map(|at| candidates.may_meet(at as usize)) {
-            contacts.extend(self.contact::<FIRST>(candidate.ids, is_woven));
-        }
     }
 
     #[inline(always)]
