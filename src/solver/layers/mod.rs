@@ -40,6 +40,10 @@ use slits::Slits;
 const THIN: f32 = 0.005;
 pub(super) const THICK: f32 = 0.5;
 
+/// How far particles may stray until what may meet is listed anew, patches and what is in them [mean rest lengths].
+const FAR: f32 = 0.2;
+const NEAR: f32 = 0.04;
+
 /// How often those are looked at again at most that strayed.
 const LOOKS: u32 = 8;
 
@@ -48,6 +52,7 @@ const LOOKS: u32 = 8;
 pub(crate) struct Layers {
     patches: Patches,
     motion: Motion,
+    far: Reach,
     reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<u32>,
@@ -76,6 +81,7 @@ impl Layers {
         Self {
             patches: Patches::new(&world.mesh, &world.rest, &pieces, capacity),
             motion: Motion::new(capacity),
+            far: Reach::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
             candidacy: Candidacy::new(),
@@ -102,6 +108,7 @@ impl Layers {
             + self.pairs.capacity();
         self.patches.bytes()
             + self.motion.bytes()
+            + self.far.bytes()
             + self.reach.bytes()
             + self.slits.bytes()
             + self.around.bytes()
@@ -114,15 +121,24 @@ impl Layers {
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
-        let Self { motion, reach, patches, pieces, pairs, candidacy, contacts, distant, gap, .. } = self;
+        let Self { motion, far, reach, patches, pieces, pairs, candidacy, contacts, distant, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
-        if reach.is_known {
-            reach.follow(motion);
-            reach.is_known = reach.holds(motion);
+        for reach in [&mut *far, &mut *reach] {
+            if reach.is_known {
+                reach.follow(motion);
+                reach.is_known = reach.holds(motion);
+            }
+        }
+        if !far.is_known {
+            far.look_ahead(motion, substeps, world.spacing * FAR);
+            patches.list(far, *gap);
+            reach.is_known = false;
         }
         if !reach.is_known {
-            reach.look_ahead(motion, substeps, world.spacing);
-            patches.list(reach, *gap);
+            let substeps = reach.horizon(substeps);
+            let few = patches.quads.len() < 4 * motion.now.len();
+            reach.look_ahead(motion, substeps, world.spacing * if few { 2.5 * NEAR } else { NEAR });
+            patches.forget_runs();
         }
         Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, contacts, distant);
         self.is_found = true;
@@ -130,14 +146,19 @@ impl Layers {
 
     /// Adds to the distant what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, reach, patches, pieces, pairs, candidacy, distant, gap, .. } = self;
+        let Self { motion, far, reach, patches, pieces, pairs, candidacy, distant, gap, .. } = self;
         if !motion.look_again(world.spacing, *gap, may_go_back) {
             return;
         }
-        if !reach.holds(motion) {
-            let all = 0..motion.now.len() as u32;
-            all.filter(|at| motion.strays(*at)).for_each(|at| reach.widen(motion, at));
-            patches.list(reach, *gap);
+        let all = 0..motion.now.len() as u32;
+        let strays = all.filter(|at| motion.strays(*at));
+        if !far.holds(motion) {
+            strays.clone().for_each(|at| far.widen(motion, at));
+            patches.list(far, *gap);
+            strays.for_each(|at| reach.widen(motion, at));
+        } else if !reach.holds(motion) {
+            strays.for_each(|at| reach.widen(motion, at));
+            patches.forget_runs();
         }
         Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find_strays(pairs, distant);
     }
@@ -220,7 +241,7 @@ pub(crate) fn begin(world: &mut World) {
         return;
     };
     let gap = world.layer_gap();
-    layers.reach.is_known &= gap == layers.gap;
+    layers.far.is_known &= gap == layers.gap;
     layers.gap = gap;
     let p = &world.particles;
     let motion = &mut layers.motion;
@@ -231,7 +252,7 @@ pub(crate) fn begin(world: &mut World) {
     spots::gather(&mut motion.start, &p.x, &p.w);
     motion.now.clone_from(&motion.start);
     layers.is_found = false;
-    layers.reach.is_known &= is_same;
+    layers.far.is_known &= is_same;
     world.layers = Some(layers);
 }
 

@@ -31,7 +31,6 @@ impl Patches {
             }
             self.reaches[at] = all;
         }
-        self.patches.iter_mut().for_each(|patch| patch.is_split = false);
         let mut listed = core::mem::take(&mut self.listed);
         listed.clear();
         let mut stack = core::mem::take(&mut self.stack);
@@ -60,8 +59,8 @@ impl Patches {
                 }
             }
         }
-        self.quads.forget(listed.len());
         (self.stack, self.listed) = (stack, listed);
+        self.forget_runs();
     }
 
     /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
@@ -89,11 +88,6 @@ impl Patches {
     pub fn listed_pair(&self, at: u32) -> [u32; 2] {
         let [one, other] = self.listed[at as usize];
         [one, other & !BESIDE]
-    }
-
-    /// Where what is in a patch may get in this tick.
-    pub fn reach_of(&self, patch: u32) -> &Sweep {
-        &self.reaches[self.patches[patch as usize].leaf as usize]
     }
 
     /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little.

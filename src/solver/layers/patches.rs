@@ -42,8 +42,6 @@ pub(super) struct Patch {
     /// The piece that it is of, and where it is at rest.
     pub(super) piece: u32,
     pub(super) rest: Aabb,
-    /// The leaf that it is.
-    pub(super) leaf: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +65,7 @@ pub(super) struct Patches {
     pub(super) quads: Quads,
     /// Where each patch is and goes in a substep, and what is in it in the tick.
     pub(super) sweeps: Vec<Sweep>,
+    pub(super) wholes: Vec<Sweep>,
     pub(super) triangle_sweeps: Vec<Sweeps>,
     pub(super) vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
     pub(super) edge_sweeps: Vec<[Sweeps; BLOCKS]>,
@@ -102,6 +101,7 @@ impl Patches {
             listed: Vec::with_capacity(8 * rest.len()),
             quads: Quads::new(rest.len()),
             sweeps: Vec::new(),
+            wholes: Vec::new(),
             triangle_sweeps: Vec::new(),
             vertex_sweeps: Vec::new(),
             edge_sweeps: Vec::new(),
@@ -118,6 +118,7 @@ impl Patches {
         patches.grow(&piece, &center, 0, count);
         patches.reaches = vec![Sweep::EMPTY; patches.nodes.len()];
         patches.sweeps = vec![Sweep::EMPTY; patches.patches.len()];
+        patches.wholes = patches.sweeps.clone();
         patches.triangle_sweeps = vec![Sweeps::EMPTY; patches.patches.len()];
         patches.vertex_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
         patches.edge_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
@@ -160,7 +161,6 @@ impl Patches {
                 beside: [0; 2],
                 piece: 0,
                 rest: Aabb::EMPTY,
-                leaf: at as u32,
             });
         } else {
             let middle = if is_whole {
@@ -211,7 +211,7 @@ impl Patches {
             + self.beside.capacity()
             + 2 * (self.edges.capacity() + self.stack.capacity() + self.listed.capacity());
         size_of::<Node>() * self.nodes.capacity()
-            + size_of::<Sweep>() * (self.sweeps.capacity() + self.reaches.capacity())
+            + size_of::<Sweep>() * (2 * self.sweeps.capacity() + self.reaches.capacity())
             + size_of::<Sweeps>() * (1 + 2 * BLOCKS) * self.triangle_sweeps.capacity()
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
@@ -341,10 +341,5 @@ impl Patches {
         }
         // Where there is no mean, nothing is known.
         (mean, if cone <= 1.0 { cone } else { -1.0 })
-    }
-
-    /// Where a patch is and goes.
-    pub fn sweep(&self, patch: u32) -> &Sweep {
-        &self.sweeps[patch as usize]
     }
 }

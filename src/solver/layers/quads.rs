@@ -4,7 +4,7 @@
 use super::candidates::Candidates;
 use super::patches::Patches;
 use super::reach::Reach;
-use super::sweep::{LANES, Sweeps, meet, places_of};
+use super::sweep::{LANES, Sweep, Sweeps, meet, places_of};
 use crate::mesh::Mesh;
 
 /// The bits of a block of lanes.
@@ -49,6 +49,11 @@ impl Quads {
         self.vertices.bytes() + self.edges.bytes() + runs
     }
 
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.vertices.len() + self.edges.len()
+    }
+
     /// Nothing is known of so many pairs of patches.
     pub fn forget(&mut self, pairs: usize) {
         self.vertices.clear();
@@ -59,6 +64,12 @@ impl Quads {
 }
 
 impl Patches {
+    /// What is in patches may get elsewhere than was known.
+    pub fn forget_runs(&mut self) {
+        self.quads.forget(self.listed.len());
+        self.patches.iter_mut().for_each(|patch| patch.is_split = false);
+    }
+
     /// What may meet of listed pair `at`; what is nearer at rest than `near` is woven.
     pub fn run(&mut self, at: u32, mesh: &Mesh, reach: &Reach, gap: f32, near: f32) -> Run {
         if let Some(run) = self.quads.runs[at as usize] {
@@ -93,10 +104,12 @@ impl Patches {
         }
         patch.is_split = true;
         let [from, to] = patch.triangles;
-        let all = &mut self.triangle_sweeps[at];
-        *all = Sweeps::EMPTY;
+        let (all, whole) = (&mut self.triangle_sweeps[at], &mut self.wholes[at]);
+        (*all, *whole) = (Sweeps::EMPTY, Sweep::EMPTY);
         for (lane, triangle) in self.triangles[from as usize..to as usize].iter().enumerate() {
-            all.set(lane, &reach.of(mesh.triangles[*triangle as usize]));
+            let own = reach.of(mesh.triangles[*triangle as usize]);
+            whole.join(&own);
+            all.set(lane, &own);
         }
         let [from, to, _] = patch.vertices;
         let blocks = self.vertices[from as usize..to as usize].chunks(LANES);
@@ -118,7 +131,7 @@ impl Patches {
 
     /// Which own vertices of one patch may meet another one, which of its triangles, and which own edges.
     fn chosen(&self, one: u32, other: u32, gap: f32) -> Chosen {
-        let all = self.reach_of(other);
+        let all = &self.wholes[other as usize];
         let at = one as usize;
         let patch = &self.patches[at];
         let (vertices, triangles, edges) = (patch.vertices, patch.triangles, patch.edges);

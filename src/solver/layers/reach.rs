@@ -11,7 +11,6 @@ use glam::Vec3;
 
 /// What particles may be moved by beyond where they go on to: a share of the mean rest length, and of how far they
 /// go on.
-const SPARE: f32 = 0.04;
 const SPARE_WAY: f32 = 0.25;
 
 /// Where particles may get.
@@ -43,12 +42,12 @@ impl Reach {
     }
 
     /// Gives each particle room to go on for so many substeps, this one being the first.
-    pub fn look_ahead(&mut self, motion: &Motion, substeps: u32, spacing: f32) {
+    pub fn look_ahead(&mut self, motion: &Motion, substeps: u32, spare: f32) {
         self.base.clone_from(&motion.start);
         self.drifts = [Vec3::ZERO, motion.drift];
         self.from.clear();
         self.to.clear();
-        let (times, spare) = (self.horizon(substeps) as f32, spacing * SPARE);
+        let times = substeps as f32;
         for (at, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
             let way = (place(now) - place(start) - motion.drift) * times;
             let room = Vec3::splat(way.length() * SPARE_WAY + spare);
@@ -61,7 +60,7 @@ impl Reach {
     }
 
     /// How many substeps are worth to be looked ahead: about as many as it was right about before.
-    fn horizon(&mut self, most: u32) -> u32 {
+    pub fn horizon(&mut self, most: u32) -> u32 {
         let lasted = core::mem::take(&mut self.lasted);
         self.ahead = (if lasted < self.ahead { lasted } else { self.ahead + 1 }).clamp(1, most);
         self.ahead
