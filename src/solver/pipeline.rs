@@ -102,7 +102,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, contacts::near::pair(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Hold, leash::keep(world, number));
-    timed!(world, Pairs, layers::pair(world, number));
+    timed!(world, Pairs, layers::pair(world));
     timed!(world, SelfContacts, layers::solve(world));
     timed!(world, SelfContacts, layers::hold(world));
     timed!(world, Velocities, velocities::derive(world));

@@ -15,6 +15,8 @@ pub(super) struct Around {
     /// Particles that moved since the last look, and whether each is among them.
     moved: Vec<u32>,
     has_moved: Vec<bool>,
+    /// Whether any moved since this was last set to false.
+    pub is_stirred: bool,
 }
 
 impl Around {
@@ -27,6 +29,7 @@ impl Around {
             due: Vec::with_capacity(contacts.div_ceil(64)),
             moved: Vec::with_capacity(capacity),
             has_moved: Vec::with_capacity(capacity),
+            is_stirred: false,
         }
     }
 
@@ -80,6 +83,7 @@ impl Around {
         let has_moved = &mut self.has_moved[particle as usize];
         if !*has_moved {
             *has_moved = true;
+            self.is_stirred = true;
             self.moved.push(particle);
         }
     }

@@ -12,18 +12,21 @@ use glam::Vec3;
 /// Lanes that lists are filled up to.
 const LANES: usize = 8;
 
+/// Bits in a word.
+const BITS: usize = 64;
+
 /// Pairs of one kind, a list for each of their particles.
 #[derive(Clone, Debug)]
 pub(super) struct Candidates {
     pub ids: [Vec<u32>; 4],
+    /// Which of them may meet: a bit for each.
+    may_meet: Vec<u64>,
     judged: Lanes<Vec<f32>>,
 }
 
 /// What was found of each pair.
 #[derive(Clone, Debug)]
 struct Lanes<T> {
-    /// How clearly it was told apart; what is not above 0 may meet.
-    clear: T,
     /// The direction from the second side to the first where they were closest, and how far they are apart along it.
     n: [T; 3],
     distance: T,
@@ -40,11 +43,15 @@ impl Candidates {
     pub fn new(capacity: usize) -> Self {
         let ids = [(); 4].map(|()| Vec::with_capacity(capacity + LANES));
         let list = || Vec::with_capacity(capacity + LANES);
-        Self { ids, judged: Lanes { clear: list(), n: [list(), list(), list()], distance: list() } }
+        Self {
+            ids,
+            may_meet: Vec::with_capacity(capacity / BITS + 1),
+            judged: Lanes { n: [list(), list(), list()], distance: list() },
+        }
     }
 
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * 9 * self.judged.clear.capacity()
+        size_of::<u32>() * 8 * self.judged.distance.capacity() + 8 * self.may_meet.capacity()
     }
 
     pub fn clear(&mut self) {
@@ -72,25 +79,41 @@ impl Candidates {
     pub fn judge<const FIRST: Kind>(&mut self, level: Level, motion: &Motion, gap: f32) {
         let count = self.len().next_multiple_of(LANES);
         self.ids.iter_mut().for_each(|list| list.resize(count, 0));
-        let Lanes { clear, n: [x, y, z], distance } = &mut self.judged;
-        [&mut *clear, x, y, z, distance].into_iter().for_each(|list| list.resize(count, 0.0));
+        self.may_meet.clear();
+        self.may_meet.resize(count.div_ceil(BITS), 0);
+        let Lanes { n: [x, y, z], distance } = &mut self.judged;
+        [&mut *x, y, z, distance].into_iter().for_each(|list| list.resize(count, 0.0));
         let [a, b, c, d] = &self.ids;
-        let rooms = motion.rooms();
-        let lanes = Lanes { clear: &mut clear[..], n: [&mut x[..], y, z], distance: &mut distance[..] };
-        let judged = Judged { ids: [a, b, c, d], rooms, gap, lanes };
+        let (rooms, may_meet) = (motion.rooms(), &mut self.may_meet[..]);
+        let lanes = Lanes { n: [&mut x[..], y, z], distance: &mut distance[..] };
+        let judged = Judged { ids: [a, b, c, d], rooms, gap, may_meet, lanes };
         if FIRST == VERTEX { judge_vertices(level, judged) } else { judge_edges(level, judged) }
     }
 
-    /// One that may meet.
+    /// Those of some that may meet, in order.
+    pub fn meeting(&self, from: u32, to: u32) -> impl Iterator<Item = Candidate> {
+        let (from, to) = (from as usize, to as usize);
+        let words = from / BITS..to.div_ceil(BITS);
+        let meeting = words.flat_map(move |word| {
+            let first = word * BITS;
+            let after = u64::MAX << from.saturating_sub(first);
+            let before = u64::MAX >> (first + BITS).saturating_sub(to);
+            let mut bits = self.may_meet[word] & after & before;
+            core::iter::from_fn(move || {
+                let place = bits.trailing_zeros() as usize;
+                (bits != 0).then(|| {
+                    bits &= bits - 1;
+                    first + place
+                })
+            })
+        });
+        meeting.map(|at| self.candidate(at))
+    }
+
     #[inline(always)]
-    pub fn may_meet(&self, at: usize) -> Option<Candidate> {
-        let Lanes { clear, n: [x, y, z], distance } = &self.judged;
-        let is_clear = clear[at] > 0.0;
-        (!is_clear).then(|| Candidate {
-            ids: self.ids(at),
-            n: Vec3::new(x[at], y[at], z[at]),
-            distance: distance[at],
-        })
+    fn candidate(&self, at: usize) -> Candidate {
+        let Lanes { n: [x, y, z], distance } = &self.judged;
+        Candidate { ids: self.ids(at), n: Vec3::new(x[at], y[at], z[at]), distance: distance[at] }
     }
 }
 
@@ -99,6 +122,7 @@ struct Judged<'a> {
     ids: [&'a [u32]; 4],
     rooms: [&'a [Spot]; 3],
     gap: f32,
+    may_meet: &'a mut [u64],
     lanes: Lanes<&'a mut [f32]>,
 }
 
@@ -120,8 +144,8 @@ fn judge_edges_apart(judged: Judged<'_>) {
 
 #[inline(always)]
 fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
-    let Judged { ids, rooms: [start, from, to], gap, mut lanes } = judged;
-    for at in (0..lanes.clear.len()).step_by(S::LANES) {
+    let Judged { ids, rooms: [start, from, to], gap, may_meet, mut lanes } = judged;
+    for at in (0..lanes.distance.len()).step_by(S::LANES) {
         let own = at..at + S::LANES;
         let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
         let mut rooms = [[x[0]; 2]; 4];
@@ -132,7 +156,6 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         }
         let boxed = between_boxes::<S, FIRST>(s, x, rooms, gap);
         if s.positives(boxed) == (1 << S::LANES) - 1 {
-            s.store(lanes.clear, at, boxed);
             continue;
         }
         let (way, share) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
@@ -157,7 +180,8 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
             (s.min(a, b) - Number::max(c, d), least - Number::max(r[1], t[1]))
         };
         let is_clear = s.min(then - s.splat(NOTHING), after - s.splat(gap));
-        s.store(lanes.clear, at, Number::max(is_clear, boxed));
+        let is_clear = s.positives(Number::max(is_clear, boxed));
+        may_meet[at / BITS] |= u64::from(is_clear ^ ((1 << S::LANES) - 1)) << (at % BITS);
         for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
             s.store(list, at, n);
         }
@@ -335,7 +359,7 @@ mod tests {
                 let mut candidates = Candidates::new(1);
                 candidates.push([0, 1, 2, 3]);
                 candidates.judge::<VERTEX>(level, &motion, 0.001);
-                let found = candidates.may_meet(0).map(|candidate| candidate.ids);
+                let found = candidates.meeting(0, 1).map(|candidate| candidate.ids).next();
                 assert_eq!(found, may_meet.then_some([0, 1, 2, 3]), "{down} at {level:?}");
             }
         }
@@ -359,13 +383,17 @@ mod tests {
                     candidates.judge::<EDGES>(level, &motion, 0.01);
                 }
             }
-            all.map(|all| all.judged.clear.iter().map(|clear| clear.to_bits()).collect::<Vec<u32>>())
+            all.map(|all| {
+                let bits = |candidate: Candidate| {
+                    let Candidate { ids, n, distance } = candidate;
+                    (ids, n.to_array().map(f32::to_bits), distance.to_bits())
+                };
+                all.meeting(0, 60).map(bits).collect::<Vec<_>>()
+            })
         };
         let alone = judged(Level::Scalar);
-        let clear = alone
-            .each_ref()
-            .map(|all| all.iter().filter(|bits| f32::from_bits(**bits) > 0.0).count());
-        assert!(clear.iter().all(|count| (1..60).contains(count)), "{clear:?} of 60 are clear");
+        let found = alone.each_ref().map(Vec::len);
+        assert!(found.iter().all(|count| (1..60).contains(count)), "{found:?} of 60 may meet");
         Level::all().into_iter().for_each(|level| assert_eq!(judged(level), alone, "{level:?}"));
     }
 }

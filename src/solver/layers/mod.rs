@@ -197,13 +197,15 @@ impl Layers {
             self.find_distant(world, may_go_back || is_last);
             let Self { contacts, distant, motion, frozen, open, around, gap, .. } = self;
             around.call_from(known, contacts);
+            around.is_stirred = false;
             known = contacts.len();
             let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
             if !is_done && (may_go_back || is_last) {
                 fence::go_back(contacts, motion, around, frozen);
                 went_back = true;
             }
-            let are_apart = || distant.iter().all(|pair| pair.is_apart(&motion.now, *gap));
+            let is_apart = |pair: &Distant| pair.is_apart(&motion.now, *gap);
+            let are_apart = || !around.is_stirred || distant.iter().all(is_apart);
             if (is_done || may_go_back) && motion.is_as_thought() && are_apart() {
                 break;
             }
@@ -256,8 +258,8 @@ pub(crate) fn begin(world: &mut World) {
     world.layers = Some(layers);
 }
 
-/// Finds what may meet in substep `number` of the tick.
-pub(crate) fn pair(world: &mut World, number: u32) {
+/// Finds what may meet in a substep.
+pub(crate) fn pair(world: &mut World) {
     let Some(mut layers) = world.layers.take() else {
         return;
     };

@@ -102,7 +102,7 @@ impl Sift<'_> {
         distant: &mut Vec<Distant>,
     ) {
         let far = self.gap * NEAR[FIRST as usize - 1];
-        for candidate in (from..to).filter_map(|at| candidates.may_meet(at as usize)) {
+        for candidate in candidates.meeting(from, to) {
             let Candidate { ids, n, distance } = candidate;
             if distance >= far {
                 distant.push(Distant { ids, first: FIRST, is_woven, n });
@@ -167,9 +167,8 @@ impl Sift<'_> {
         edges.judge::<EDGES>(self.world.level, self.motion, self.gap);
         let mut from = [0; 2];
         for (to, is_woven) in runs.iter() {
-            let both = [(VERTEX, &*vertices, from[0]..to[0]), (EDGES, &*edges, from[1]..to[1])];
-            for (first, candidates, own) in both {
-                let own = own.filter_map(|at| candidates.may_meet(at as usize));
+            for (first, candidates, k) in [(VERTEX, &*vertices, 0), (EDGES, &*edges, 1)] {
+                let own = candidates.meeting(from[k], to[k]);
                 distant.extend(own.map(|Candidate { ids, n, .. }| Distant {
                     ids,
                     first,
