@@ -27,7 +27,10 @@ const WORSE: f32 = 0.5;
 pub(super) const NOTHING: f32 = 1.0e-7;
 
 /// The share of their distance that a direction tells two edges apart by, unless they are too nearly parallel.
-const CLEAR: f32 = 0.9;
+pub(super) const CLEAR: f32 = 0.9;
+
+/// How well a way must lead along a normal that it is taken for it (the square of a cosine).
+pub(super) const SAME: f32 = 0.98;
 
 /// Where only such particles give way that count for next to nothing beside what is held, they are taken to make
 /// this share of an inverse mass, so that none is flung away.
@@ -138,7 +141,7 @@ fn told_apart(x: [Vec3; 4], closest: Closest) -> Closest {
 fn direction(way: Vec3, distance: f32, normal: Vec3) -> Vec3 {
     let along = way.dot(normal);
     let length = normal.length();
-    if along * along > 0.98 * distance * distance * length * length {
+    if along * along > SAME * distance * distance * length * length {
         normal * (if along > 0.0 { 1.0 } else { -1.0 } / length)
     } else {
         way * (1.0 / distance)
@@ -280,7 +283,12 @@ impl Contact {
 
     #[inline(always)]
     fn prepare(&mut self, start: [Vec3; 4]) {
-        let apart = between(start, self.first, self.n);
+        self.leave(between(start, self.first, self.n));
+    }
+
+    /// Finds what the fence leaves between sides that were so far apart along the direction.
+    #[inline(always)]
+    pub(super) fn leave(&mut self, apart: f32) {
         let most = self.gap * SLIT;
         (self.slit, self.least) = if apart > NOTHING {
             (min(apart, most), min(apart * LEAST, most * ENOUGH))

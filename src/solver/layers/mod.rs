@@ -7,11 +7,13 @@
 
 mod around;
 mod candidates;
+mod closest;
 mod contacts;
 mod distant;
 mod fence;
 pub(crate) mod loads;
 mod motion;
+mod near;
 mod pairing;
 mod patches;
 mod push;
@@ -31,6 +33,7 @@ use contacts::Contact;
 use distant::Distant;
 use loads::Finder;
 use motion::Motion;
+use near::Near;
 use patches::Patches;
 use reach::Reach;
 use sift::{Candidacy, Sift};
@@ -42,7 +45,7 @@ pub(super) const THICK: f32 = 0.5;
 
 /// How far particles may stray until what may meet is listed anew, patches and what is in them [mean rest lengths].
 const FAR: f32 = 0.2;
-const NEAR: f32 = 0.04;
+const CLOSE: f32 = 0.04;
 
 /// How often those are looked at again at most that strayed.
 const LOOKS: u32 = 8;
@@ -57,6 +60,8 @@ pub(crate) struct Layers {
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<u32>,
     candidacy: Candidacy,
+    /// Pairs that are near enough to push, by their kind.
+    near: [Near; 2],
     contacts: Vec<Contact>,
     /// Pairs that may meet but are too far from each other to push.
     distant: Vec<Distant>,
@@ -85,6 +90,7 @@ impl Layers {
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
             candidacy: Candidacy::new(),
+            near: [(); 2].map(|()| Near::new(8 * count)),
             contacts: Vec::with_capacity(24 * count),
             distant: Vec::with_capacity(24 * count),
             is_found: false,
@@ -113,6 +119,7 @@ impl Layers {
             + self.slits.bytes()
             + self.around.bytes()
             + self.candidacy.bytes()
+            + self.near.iter().map(Near::bytes).sum::<usize>()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<Distant>() * self.distant.capacity()
             + self.finder.bytes()
@@ -121,7 +128,7 @@ impl Layers {
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
-        let Self { motion, far, reach, patches, pieces, pairs, candidacy, contacts, distant, gap, .. } = self;
+        let Self { motion, far, reach, patches, pieces, pairs, candidacy, near, contacts, distant, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
         for reach in [&mut *far, &mut *reach] {
             if reach.is_known {
@@ -137,10 +144,10 @@ impl Layers {
         if !reach.is_known {
             let substeps = reach.horizon(substeps);
             let few = patches.quads.len() < 4 * motion.now.len();
-            reach.look_ahead(motion, substeps, world.spacing * if few { 2.5 * NEAR } else { NEAR });
+            reach.look_ahead(motion, substeps, world.spacing * if few { 2.5 * CLOSE } else { CLOSE });
             patches.forget_runs();
         }
-        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, contacts, distant);
+        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, near, contacts, distant);
         self.is_found = true;
     }
 

@@ -8,6 +8,7 @@ use super::candidates::{Candidate, Candidates};
 use super::contacts::{Contact, EDGES, Kind, VERTEX};
 use super::motion::Motion;
 use super::distant::Distant;
+use super::near::Near;
 use super::patches::Patches;
 use super::push::NEAR;
 use super::quads::{Quads, Run};
@@ -65,6 +66,7 @@ impl Sift<'_> {
     pub fn find(
         &mut self,
         pairs: &mut Vec<u32>,
+        near: &mut [Near; 2],
         contacts: &mut Vec<Contact>,
         distant: &mut Vec<Distant>,
     ) {
@@ -81,9 +83,16 @@ impl Sift<'_> {
         for at in &*pairs {
             let run = self.run(*at);
             let Quads { vertices, edges, .. } = &self.patches.quads;
-            self.tell_distant::<VERTEX>(vertices, run.vertices, run.is_woven, contacts, distant);
-            self.tell_distant::<EDGES>(edges, run.edges, run.is_woven, contacts, distant);
+            let is_woven = run.is_woven;
+            let [v, e] = &mut *near;
+            self.tell_distant::<VERTEX>(vertices, run.vertices, is_woven, v, contacts, distant);
+            self.tell_distant::<EDGES>(edges, run.edges, is_woven, e, contacts, distant);
         }
+        let (level, motion, gap) = (self.world.level, self.motion, self.gap);
+        let unsure = |ids| self.contact::<VERTEX>(ids, false);
+        near[0].finish::<VERTEX>(level, motion, gap, contacts, unsure);
+        let unsure = |ids| self.contact::<EDGES>(ids, false);
+        near[1].finish::<EDGES>(level, motion, gap, contacts, unsure);
     }
 
     /// What may meet of a listed pair of patches.
@@ -98,6 +107,7 @@ impl Sift<'_> {
         candidates: &Candidates,
         [from, to]: [u32; 2],
         is_woven: bool,
+        near: &mut Near,
         contacts: &mut Vec<Contact>,
         distant: &mut Vec<Distant>,
     ) {
@@ -106,6 +116,8 @@ impl Sift<'_> {
             let Candidate { ids, n, distance } = candidate;
             if distance >= far {
                 distant.push(Distant { ids, first: FIRST, is_woven, n });
+            } else if !is_woven {
+                near.push(ids, FIRST, contacts);
             } else {
                 contacts.extend(self.contact::<FIRST>(ids, is_woven));
             }

@@ -1,0 +1,207 @@
+//! Pairs that are near enough to push: where each is closest, many at once.
+//!
+//! As `Contact::find` does it one by one for what is near at rest, or hardly told apart.
+
+use super::closest::{V, between, from_edge, from_triangle};
+use super::contacts::{CLEAR, Contact, EDGES, Kind, NOTHING, SAME, VERTEX};
+use super::motion::Motion;
+use super::spots::Spot;
+use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
+use glam::Vec3;
+
+/// Lanes that lists are filled up to.
+const LANES: usize = 8;
+
+/// What says that a pair must be looked at by itself.
+const UNSURE: f32 = f32::NEG_INFINITY;
+
+/// Pairs of one kind.
+#[derive(Clone, Debug)]
+pub(super) struct Near {
+    ids: [Vec<u32>; 4],
+    /// The contact that each is.
+    contacts: Vec<u32>,
+    found: Lanes<Vec<f32>>,
+}
+
+/// Where pairs are closest: what each particle counts for, the direction from the second side to the first, and how
+/// far sides were apart along it.
+#[derive(Clone, Debug)]
+struct Lanes<T> {
+    share: [T; 4],
+    n: [T; 3],
+    apart: T,
+}
+
+impl Near {
+    pub fn new(capacity: usize) -> Self {
+        let list = || Vec::with_capacity(capacity + LANES);
+        Self {
+            ids: [(); 4].map(|()| Vec::with_capacity(capacity + LANES)),
+            contacts: Vec::with_capacity(capacity),
+            found: Lanes {
+                share: [(); 4].map(|()| list()),
+                n: [(); 3].map(|()| list()),
+                apart: list(),
+            },
+        }
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of::<u32>() * (12 * self.found.apart.capacity() + self.contacts.capacity())
+    }
+
+    /// Takes a pair, and has a contact made for it that does nothing until it is finished.
+    #[inline(always)]
+    pub fn push(&mut self, ids: [u32; 4], first: Kind, contacts: &mut Vec<Contact>) {
+        for (list, id) in self.ids.iter_mut().zip(ids) {
+            list.push(id);
+        }
+        self.contacts.push(contacts.len() as u32);
+        contacts.push(Contact::of(ids, first));
+    }
+
+    /// Finishes the contacts of all pairs, which keep `gap`; what is `unsure` is looked at by itself.
+    pub fn finish<const FIRST: Kind>(
+        &mut self,
+        level: Level,
+        motion: &Motion,
+        gap: f32,
+        contacts: &mut [Contact],
+        unsure: impl Fn([u32; 4]) -> Option<Contact>,
+    ) {
+        let count = self.contacts.len().next_multiple_of(LANES);
+        self.ids.iter_mut().for_each(|list| list.resize(count, 0));
+        let Lanes { share, n, apart } = &mut self.found;
+        let lists = share.iter_mut().chain(n.iter_mut()).chain([&mut *apart]);
+        lists.for_each(|list| list.resize(count, 0.0));
+        let [a, b, c, d] = &self.ids;
+        let ([e, f, g, h], [x, y, z]) = (share, n);
+        let lanes = Lanes { share: [&mut e[..], f, g, h], n: [&mut x[..], y, z], apart: &mut apart[..] };
+        let pairs = Pairs { ids: [a, b, c, d], start: &motion.start, now: &motion.now, gap, lanes };
+        if FIRST == VERTEX { find_vertices(level, pairs) } else { find_edges(level, pairs) }
+        let Lanes { share, n, apart } = &self.found;
+        for (at, contact) in self.contacts.iter().enumerate() {
+            let contact = &mut contacts[*contact as usize];
+            if apart[at] == UNSURE {
+                if let Some(found) = unsure(contact.ids) {
+                    *contact = found;
+                }
+                continue;
+            }
+            contact.share = [share[0][at], share[1][at], share[2][at], share[3][at]];
+            contact.n = Vec3::new(n[0][at], n[1][at], n[2][at]);
+            contact.gap = gap;
+            contact.leave(apart[at]);
+        }
+        self.contacts.clear();
+        self.ids.iter_mut().for_each(Vec::clear);
+    }
+}
+
+/// Pairs with where their particles were as the substep began and are now.
+struct Pairs<'a> {
+    ids: [&'a [u32]; 4],
+    start: &'a [Spot],
+    now: &'a [Spot],
+    gap: f32,
+    lanes: Lanes<&'a mut [f32]>,
+}
+
+vectored! {
+    fn find_vertices(pairs: Pairs<'_>) = find::<_, VERTEX>, Avx2, find_vertices_apart
+}
+
+vectored! {
+    fn find_edges(pairs: Pairs<'_>) = find::<_, EDGES>, Avx2, find_edges_apart
+}
+
+fn find_vertices_apart(pairs: Pairs<'_>) {
+    find::<_, VERTEX>(Scalar, pairs);
+}
+
+fn find_edges_apart(pairs: Pairs<'_>) {
+    find::<_, EDGES>(Scalar, pairs);
+}
+
+#[inline(always)]
+fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
+    let Pairs { ids, start, now, gap, lanes } = pairs;
+    let Lanes { share: mut shares, n: mut normals, apart: aparts } = lanes;
+    for at in (0..aparts.len()).step_by(S::LANES) {
+        let own = at..at + S::LANES;
+        let nothing = V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) };
+        let [mut then, mut x] = [[nothing; 4]; 2];
+        for k in 0..4 {
+            then[k] = V::new(turn(s, start, &ids[k][own.clone()]));
+            x[k] = V::new(turn(s, now, &ids[k][own.clone()]));
+        }
+        let before = closest::<S, FIRST>(s, then);
+        let after = closest::<S, FIRST>(s, x);
+        let mut apart = along::<S, FIRST>(s, then, before.n);
+        let turned = along::<S, FIRST>(s, then, after.n);
+        let mut is_sure = before.distance - s.splat(NOTHING);
+        if FIRST == EDGES {
+            is_sure = s.min(is_sure, apart - s.splat(CLEAR) * before.distance);
+        }
+        // What came nearer than the gap takes the direction that it has now, if that told sides apart before.
+        let mut distance = s.splat(0.0);
+        for k in 0..4 {
+            distance = distance + before.share[k] * before.n.dot(x[k]);
+        }
+        let is_near = s.min(turned, after.distance) - s.splat(NOTHING);
+        let turns = s.min(s.splat(gap) - distance, is_near);
+        apart = s.pick(turns, turned, apart);
+        let n = [before.n.x, before.n.y, before.n.z].into_iter();
+        let new = [after.n.x, after.n.y, after.n.z];
+        for ((list, old), new) in normals.iter_mut().zip(n).zip(new) {
+            s.store(list, at, s.pick(turns, new, old));
+        }
+        for (list, (old, new)) in shares.iter_mut().zip(before.share.into_iter().zip(after.share)) {
+            s.store(list, at, s.pick(turns, new, old));
+        }
+        s.store(aparts, at, s.pick(is_sure, apart, s.splat(UNSURE)));
+    }
+}
+
+/// A pair as it is closest.
+struct Closest<F> {
+    share: [F; 4],
+    n: V<F>,
+    distance: F,
+}
+
+#[inline(always)]
+fn closest<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4]) -> Closest<S::F> {
+    let zero = s.splat(0.0);
+    let (way, share) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
+    let distance = way.dot(way).sqrt();
+    // Inside of a triangle or of both edges the way is along the normal, which is more exact where it is short.
+    let (normal, inside) = if FIRST == VERTEX {
+        let most = Number::max(share[1], Number::max(share[2], share[3]));
+        (x[2].minus(x[1]).cross(x[3].minus(x[1])), zero - most)
+    } else {
+        let first = s.min(share[0], share[1]);
+        let second = Number::max(share[2], share[3]);
+        (x[1].minus(x[0]).cross(x[3].minus(x[2])), s.min(first, zero - second))
+    };
+    let (along, length) = (way.dot(normal), normal.dot(normal).sqrt());
+    let least = s.splat(SAME) * distance * distance * length * length;
+    let is_normal = s.min(inside, along * along - least);
+    let one = s.splat(1.0);
+    let side = s.pick(along, one, zero - one);
+    let by_normal = normal.times(side / length);
+    let by_way = way.times(one / distance);
+    let n = V {
+        x: s.pick(is_normal, by_normal.x, by_way.x),
+        y: s.pick(is_normal, by_normal.y, by_way.y),
+        z: s.pick(is_normal, by_normal.z, by_way.z),
+    };
+    Closest { share, n, distance }
+}
+
+/// How far one side is from the other along a direction, at least.
+#[inline(always)]
+fn along<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4], n: V<S::F>) -> S::F {
+    between::<S, FIRST>(s, [n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])])
+}
