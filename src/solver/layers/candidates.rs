@@ -4,7 +4,7 @@
 //! and, wherever they may get, in the end. What it does not is looked at one by one (`contacts`).
 
 use super::closest::{V, between, from_edge, from_triangle};
-use super::contacts::{EDGES, Kind, NOTHING, VERTEX};
+use super::contacts::{CLEAR, EDGES, Kind, NOTHING, VERTEX};
 use super::motion::Motion;
 use super::spots::Spot;
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
@@ -185,7 +185,12 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
             s.store(list, at, n);
         }
         // Rooms are as large on all sides, so that particles are in the middle.
-        s.store(lanes.distance, at, length + s.splat(0.5) * now);
+        let mut distance = length + s.splat(0.5) * now;
+        if FIRST == EDGES {
+            let is_clear = then - s.splat(CLEAR) * length;
+            distance = s.pick(is_clear, distance, s.splat(f32::INFINITY));
+        }
+        s.store(lanes.distance, at, distance);
     }
 }
 
