@@ -5,6 +5,7 @@
 
 use super::closest::{V, between, from_edge, from_triangle};
 use super::contacts::{CLEAR, EDGES, Kind, NOTHING, VERTEX};
+use super::distant::Distant;
 use super::motion::Motion;
 use super::spots::Spot;
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
@@ -19,7 +20,9 @@ const BITS: usize = 64;
 /// Pairs of one kind, a list for each of their particles.
 #[derive(Clone, Debug)]
 pub(super) struct Candidates {
-    pub ids: [Vec<u32>; 4],
+    ids: [Vec<u32>; 4],
+    /// How far each keeps apart [m].
+    gaps: Vec<f32>,
     /// Which of them may meet: a bit for each.
     may_meet: Vec<u64>,
     judged: Lanes<Vec<f32>>,
@@ -33,11 +36,20 @@ struct Lanes<T> {
     distance: T,
 }
 
-/// A pair that may meet: the direction that it was apart along, and how far it is now.
+/// A pair that may meet: how far it keeps apart, the direction that it was apart along, and how far it is now.
 pub(super) struct Candidate {
     pub ids: [u32; 4],
+    pub gap: f32,
     pub n: Vec3,
     pub distance: f32,
+}
+
+impl Candidate {
+    #[inline(always)]
+    pub fn as_distant(&self, first: Kind) -> Distant {
+        let Self { ids, gap, n, .. } = *self;
+        Distant { ids, first, gap, n }
+    }
 }
 
 impl Candidates {
@@ -46,17 +58,19 @@ impl Candidates {
         let list = || Vec::with_capacity(capacity + LANES);
         Self {
             ids,
+            gaps: list(),
             may_meet: Vec::with_capacity(capacity / BITS + 1),
             judged: Lanes { n: [list(), list(), list()], distance: list() },
         }
     }
 
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * 8 * self.judged.distance.capacity() + 8 * self.may_meet.capacity()
+        size_of::<u32>() * 9 * self.judged.distance.capacity() + 8 * self.may_meet.capacity()
     }
 
     pub fn clear(&mut self) {
         self.ids.iter_mut().for_each(Vec::clear);
+        self.gaps.clear();
     }
 
     pub fn len(&self) -> usize {
@@ -64,22 +78,25 @@ impl Candidates {
     }
 
     #[inline(always)]
-    pub fn push(&mut self, ids: [u32; 4]) {
+    pub fn push(&mut self, ids: [u32; 4], gap: f32) {
         for (list, id) in self.ids.iter_mut().zip(ids) {
             list.push(id);
         }
+        self.gaps.push(gap);
     }
 
-    /// The particles of one.
+    /// The particles of one, and how far it keeps apart.
     #[inline(always)]
-    pub fn ids(&self, at: usize) -> [u32; 4] {
-        [0, 1, 2, 3].map(|k: usize| self.ids[k][at])
+    pub fn pair(&self, at: usize) -> ([u32; 4], f32) {
+        let [a, b, c, d] = &self.ids;
+        ([a[at], b[at], c[at], d[at]], self.gaps[at])
     }
 
     /// Finds which are told apart by more than `gap` in the end; lists are filled up for that.
     pub fn judge<const FIRST: Kind>(&mut self, level: Level, motion: &Motion, gap: f32) {
         let count = self.len().next_multiple_of(LANES);
         self.ids.iter_mut().for_each(|list| list.resize(count, 0));
+        self.gaps.resize(count, gap);
         self.may_meet.clear();
         self.may_meet.resize(count.div_ceil(BITS), 0);
         let Lanes { n: [x, y, z], distance } = &mut self.judged;
@@ -113,8 +130,8 @@ impl Candidates {
 
     #[inline(always)]
     fn candidate(&self, at: usize) -> Candidate {
-        let Lanes { n: [x, y, z], distance } = &self.judged;
-        Candidate { ids: self.ids(at), n: Vec3::new(x[at], y[at], z[at]), distance: distance[at] }
+        let (Lanes { n: [x, y, z], distance }, (ids, gap)) = (&self.judged, self.pair(at));
+        Candidate { ids, gap, n: Vec3::new(x[at], y[at], z[at]), distance: distance[at] }
     }
 }
 
@@ -255,7 +272,7 @@ mod tests {
             for (down, may_meet) in [(0.0, false), (0.05, false), (0.15, true), (f32::NAN, true)] {
                 let motion = above(down);
                 let mut candidates = Candidates::new(1);
-                candidates.push([0, 1, 2, 3]);
+                candidates.push([0, 1, 2, 3], 0.001);
                 candidates.judge::<VERTEX>(level, &motion, 0.001);
                 let found = candidates.meeting(0, 1).map(|candidate| candidate.ids).next();
                 assert_eq!(found, may_meet.then_some([0, 1, 2, 3]), "{down} at {level:?}");
@@ -274,7 +291,7 @@ mod tests {
         let judged = |level| {
             let mut all = [(); 2].map(|()| Candidates::new(60));
             for (k, candidates) in all.iter_mut().enumerate() {
-                (0..60).for_each(|i| candidates.push([i, i + 1, i + 2, i + 3]));
+                (0..60).for_each(|i| candidates.push([i, i + 1, i + 2, i + 3], 0.01));
                 if k == 0 {
                     candidates.judge::<VERTEX>(level, &motion, 0.01);
                 } else {
@@ -283,7 +300,7 @@ mod tests {
             }
             all.map(|all| {
                 let bits = |candidate: Candidate| {
-                    let Candidate { ids, n, distance } = candidate;
+                    let Candidate { ids, n, distance, .. } = candidate;
                     (ids, n.to_array().map(f32::to_bits), distance.to_bits())
                 };
                 all.meeting(0, 60).map(bits).collect::<Vec<_>>()

@@ -224,7 +224,7 @@ impl Contact {
         ids: [u32; 4],
         motion: &Motion,
         gap: f32,
-        own_gap: impl Fn() -> f32,
+        own_gap: f32,
     ) -> Option<Self> {
         let start = places(&motion.start, ids);
         let mut then = closest::<FIRST>(start);
@@ -241,7 +241,7 @@ impl Contact {
             then = told_apart(start, then);
         }
         // What a direction tells apart before and after did not cross, whatever went on.
-        let gap = own_gap();
+        let gap = own_gap;
         let is_told_apart = |n: Vec3| between_at_end::<FIRST>(motion, ids, n) > gap;
         if is_told_apart(then.n) && between(start, FIRST, then.n) > NOTHING {
             return None;

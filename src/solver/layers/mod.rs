@@ -23,12 +23,14 @@ mod sift;
 pub(crate) mod slits;
 mod spots;
 mod sweep;
+mod weave;
 
 use super::World;
 use super::crowd;
 use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
+use candidates::Candidates;
 use contacts::Contact;
 use distant::Distant;
 use loads::Finder;
@@ -36,8 +38,9 @@ use motion::Motion;
 use near::Near;
 use patches::Patches;
 use reach::Reach;
-use sift::{Candidacy, Sift};
+use sift::{Found, Sift};
 use slits::Slits;
+use weave::Weave;
 
 /// Gap of a cloth without thickness, in mean rest lengths; and the most that any has.
 const THIN: f32 = 0.005;
@@ -59,7 +62,8 @@ pub(crate) struct Layers {
     reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<u32>,
-    candidacy: Candidacy,
+    /// Pairs of both kinds that strayed.
+    strays: [Candidates; 2],
     /// Pairs that are near enough to push, by their kind.
     near: [Near; 2],
     contacts: Vec<Contact>,
@@ -89,7 +93,7 @@ impl Layers {
             far: Reach::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
-            candidacy: Candidacy::new(),
+            strays: [(); 2].map(|()| Candidates::new(2 * count)),
             near: [(); 2].map(|()| Near::new(8 * count)),
             contacts: Vec::with_capacity(24 * count),
             distant: Vec::with_capacity(24 * count),
@@ -118,7 +122,7 @@ impl Layers {
             + self.reach.bytes()
             + self.slits.bytes()
             + self.around.bytes()
-            + self.candidacy.bytes()
+            + self.strays.iter().map(Candidates::bytes).sum::<usize>()
             + self.near.iter().map(Near::bytes).sum::<usize>()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<Distant>() * self.distant.capacity()
@@ -128,7 +132,7 @@ impl Layers {
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
-        let Self { motion, far, reach, patches, pieces, pairs, candidacy, near, contacts, distant, gap, .. } = self;
+        let Self { motion, far, reach, patches, pieces, pairs, near, contacts, distant, gap, .. } = self;
         motion.look_ahead(world.spacing, *gap);
         for reach in [&mut *far, &mut *reach] {
             if reach.is_known {
@@ -147,34 +151,30 @@ impl Layers {
             reach.look_ahead(motion, substeps, world.spacing * if few { 2.5 * CLOSE } else { CLOSE });
             patches.forget_runs();
         }
-        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find(pairs, near, contacts, distant);
+        let weave = Weave { world, pieces, gap: *gap };
+        let mut found = Found { contacts, distant };
+        Sift { weave, patches, motion, reach }.find(pairs, near, &mut found);
         self.is_found = true;
     }
 
     /// Adds to the distant what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, far, reach, patches, pieces, pairs, candidacy, distant, gap, .. } = self;
+        let Self { motion, far, reach, patches, pieces, pairs, strays, distant, gap, .. } = self;
         if !motion.look_again(world.spacing, *gap, may_go_back) {
             return;
         }
         let all = 0..motion.now.len() as u32;
-        let strays = all.filter(|at| motion.strays(*at));
+        let strayed = all.filter(|at| motion.strays(*at));
         if !far.holds(motion) {
-            strays.clone().for_each(|at| far.widen(motion, at));
+            strayed.clone().for_each(|at| far.widen(motion, at));
             patches.list(far, *gap);
-            strays.for_each(|at| reach.widen(motion, at));
+            strayed.for_each(|at| reach.widen(motion, at));
         } else if !reach.holds(motion) {
-            strays.for_each(|at| reach.widen(motion, at));
+            strayed.for_each(|at| reach.widen(motion, at));
             patches.forget_runs();
         }
-        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }.find_strays(pairs, distant);
-    }
-
-    /// Adds what of the distant is apart no more, or all of it.
-    fn find_distant(&mut self, world: &World, all: bool) {
-        let Self { motion, reach, patches, pieces, candidacy, contacts, distant, gap, .. } = self;
-        Sift { world, pieces, patches, motion, reach, candidacy, gap: *gap }
-            .find_distant(distant, all, contacts);
+        let weave = Weave { world, pieces, gap: *gap };
+        Sift { weave, patches, motion, reach }.find_strays(pairs, strays, distant);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
@@ -201,8 +201,8 @@ impl Layers {
         for look in 0..=LOOKS {
             let is_last = look == LOOKS;
             self.find_strays(world, may_go_back || is_last);
-            self.find_distant(world, may_go_back || is_last);
             let Self { contacts, distant, motion, frozen, open, around, gap, .. } = self;
+            distant::call(distant, may_go_back || is_last, motion, *gap, contacts);
             around.call_from(known, contacts);
             around.is_stirred = false;
             known = contacts.len();
@@ -211,7 +211,7 @@ impl Layers {
                 fence::go_back(contacts, motion, around, frozen);
                 went_back = true;
             }
-            let is_apart = |pair: &Distant| pair.is_apart(&motion.now, *gap);
+            let is_apart = |pair: &Distant| pair.is_apart(&motion.now);
             let are_apart = || !around.is_stirred || distant.iter().all(is_apart);
             if (is_done || may_go_back) && motion.is_as_thought() && are_apart() {
                 break;

@@ -1,6 +1,6 @@
 //! Pairs that are near enough to push: where each is closest, many at once.
 //!
-//! As `Contact::find` does it one by one for what is near at rest, or hardly told apart.
+//! As `Contact::find` does it one by one for what no direction tells apart well.
 
 use super::closest::{V, between, from_edge, from_triangle};
 use super::contacts::{CLEAR, Contact, EDGES, Kind, NOTHING, SAME, VERTEX};
@@ -19,6 +19,8 @@ const UNSURE: f32 = f32::NEG_INFINITY;
 #[derive(Clone, Debug)]
 pub(super) struct Near {
     ids: [Vec<u32>; 4],
+    /// How far each keeps apart [m].
+    gaps: Vec<f32>,
     /// The contact that each is.
     contacts: Vec<u32>,
     found: Lanes<Vec<f32>>,
@@ -38,6 +40,7 @@ impl Near {
         let list = || Vec::with_capacity(capacity + LANES);
         Self {
             ids: [(); 4].map(|()| Vec::with_capacity(capacity + LANES)),
+            gaps: list(),
             contacts: Vec::with_capacity(capacity),
             found: Lanes {
                 share: [(); 4].map(|()| list()),
@@ -48,52 +51,55 @@ impl Near {
     }
 
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * (12 * self.found.apart.capacity() + self.contacts.capacity())
+        size_of::<u32>() * (13 * self.found.apart.capacity() + self.contacts.capacity())
     }
 
     /// Takes a pair, and has a contact made for it that does nothing until it is finished.
     #[inline(always)]
-    pub fn push(&mut self, ids: [u32; 4], first: Kind, contacts: &mut Vec<Contact>) {
+    pub fn push(&mut self, ids: [u32; 4], first: Kind, gap: f32, contacts: &mut Vec<Contact>) {
         for (list, id) in self.ids.iter_mut().zip(ids) {
             list.push(id);
         }
+        self.gaps.push(gap);
         self.contacts.push(contacts.len() as u32);
         contacts.push(Contact::of(ids, first));
     }
 
-    /// Finishes the contacts of all pairs, which keep `gap`; what is `unsure` is looked at by itself.
+    /// Finishes the contacts of all pairs.
     pub fn finish<const FIRST: Kind>(
         &mut self,
         level: Level,
         motion: &Motion,
-        gap: f32,
         contacts: &mut [Contact],
-        unsure: impl Fn([u32; 4]) -> Option<Contact>,
     ) {
         let count = self.contacts.len().next_multiple_of(LANES);
         self.ids.iter_mut().for_each(|list| list.resize(count, 0));
+        self.gaps.resize(count, 0.0);
         let Lanes { share, n, apart } = &mut self.found;
         let lists = share.iter_mut().chain(n.iter_mut()).chain([&mut *apart]);
         lists.for_each(|list| list.resize(count, 0.0));
         let [a, b, c, d] = &self.ids;
         let ([e, f, g, h], [x, y, z]) = (share, n);
         let lanes = Lanes { share: [&mut e[..], f, g, h], n: [&mut x[..], y, z], apart: &mut apart[..] };
-        let pairs = Pairs { ids: [a, b, c, d], start: &motion.start, now: &motion.now, gap, lanes };
+        let (gaps, Motion { start, now, .. }) = (&self.gaps[..], motion);
+        let pairs = Pairs { ids: [a, b, c, d], gaps, start, now, lanes };
         if FIRST == VERTEX { find_vertices(level, pairs) } else { find_edges(level, pairs) }
         let Lanes { share, n, apart } = &self.found;
         for (at, contact) in self.contacts.iter().enumerate() {
             let contact = &mut contacts[*contact as usize];
             if apart[at] == UNSURE {
-                if let Some(found) = unsure(contact.ids) {
+                let gap = self.gaps[at];
+                if let Some(found) = Contact::find::<FIRST>(contact.ids, motion, gap, gap) {
                     *contact = found;
                 }
                 continue;
             }
             contact.share = [share[0][at], share[1][at], share[2][at], share[3][at]];
             contact.n = Vec3::new(n[0][at], n[1][at], n[2][at]);
-            contact.gap = gap;
+            contact.gap = self.gaps[at];
             contact.leave(apart[at]);
         }
+        self.gaps.clear();
         self.contacts.clear();
         self.ids.iter_mut().for_each(Vec::clear);
     }
@@ -104,7 +110,7 @@ struct Pairs<'a> {
     ids: [&'a [u32]; 4],
     start: &'a [Spot],
     now: &'a [Spot],
-    gap: f32,
+    gaps: &'a [f32],
     lanes: Lanes<&'a mut [f32]>,
 }
 
@@ -126,7 +132,7 @@ fn find_edges_apart(pairs: Pairs<'_>) {
 
 #[inline(always)]
 fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
-    let Pairs { ids, start, now, gap, lanes } = pairs;
+    let Pairs { ids, start, now, gaps, lanes } = pairs;
     let Lanes { share: mut shares, n: mut normals, apart: aparts } = lanes;
     for at in (0..aparts.len()).step_by(S::LANES) {
         let own = at..at + S::LANES;
@@ -150,7 +156,7 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
             distance = distance + before.share[k] * before.n.dot(x[k]);
         }
         let is_near = s.min(turned, after.distance) - s.splat(NOTHING);
-        let turns = s.min(s.splat(gap) - distance, is_near);
+        let turns = s.min(s.load(gaps, at) - distance, is_near);
         apart = s.pick(turns, turned, apart);
         let n = [before.n.x, before.n.y, before.n.z].into_iter();
         let new = [after.n.x, after.n.y, after.n.z];

@@ -2,9 +2,11 @@
 //! each other, so that a substep has only to judge.
 
 use super::candidates::Candidates;
+use super::contacts::{EDGES, Kind, VERTEX};
 use super::patches::Patches;
 use super::reach::Reach;
 use super::sweep::{LANES, Sweep, Sweeps, meet, places_of};
+use super::weave::Weave;
 use crate::mesh::Mesh;
 
 /// The bits of a block of lanes.
@@ -16,8 +18,6 @@ pub(super) struct Run {
     /// Vertices with triangles, and edges with edges: from, to.
     pub vertices: [u32; 2],
     pub edges: [u32; 2],
-    /// Whether they may be near at rest, so that they keep a smaller gap.
-    pub is_woven: bool,
 }
 
 /// All pairs found so far.
@@ -35,6 +35,21 @@ struct Chosen {
     vertices: u32,
     triangles: u32,
     edges: u32,
+}
+
+/// A look at two patches.
+struct Look<'a> {
+    weave: &'a Weave<'a>,
+    reach: &'a Reach,
+    /// Whether what is in them may be near at rest, so that it keeps a smaller gap.
+    may_be_woven: bool,
+}
+
+impl Look<'_> {
+    #[inline(always)]
+    fn gap_of<const FIRST: Kind>(&self, ids: [u32; 4]) -> f32 {
+        if self.may_be_woven { self.weave.gap_of::<FIRST>(ids) } else { self.weave.gap }
+    }
 }
 
 impl Quads {
@@ -70,26 +85,26 @@ impl Patches {
         self.patches.iter_mut().for_each(|patch| patch.is_split = false);
     }
 
-    /// What may meet of listed pair `at`; what is nearer at rest than `near` is woven.
-    pub fn run(&mut self, at: u32, mesh: &Mesh, reach: &Reach, gap: f32, near: f32) -> Run {
+    /// What may meet of listed pair `at`.
+    pub fn run(&mut self, at: u32, weave: &Weave<'_>, reach: &Reach) -> Run {
         if let Some(run) = self.quads.runs[at as usize] {
             return run;
         }
-        let pair = self.listed_pair(at);
+        let (pair, mesh) = (self.listed_pair(at), &weave.world.mesh);
         pair.into_iter().for_each(|patch| self.split(patch, mesh, reach));
         let from = [self.quads.vertices.len() as u32, self.quads.edges.len() as u32];
         let [one, other] = pair;
-        let ours = self.chosen(one, other, gap);
-        let theirs = if one == other { ours } else { self.chosen(other, one, gap) };
-        self.find_vertices(pair, [ours.vertices, theirs.triangles], mesh, reach, gap);
+        let ours = self.chosen(one, other, weave.gap);
+        let theirs = if one == other { ours } else { self.chosen(other, one, weave.gap) };
+        let look = Look { weave, reach, may_be_woven: self.are_near_at_rest(pair, weave.near()) };
+        self.find_vertices(pair, [ours.vertices, theirs.triangles], &look);
         if one != other {
-            self.find_vertices([other, one], [theirs.vertices, ours.triangles], mesh, reach, gap);
+            self.find_vertices([other, one], [theirs.vertices, ours.triangles], &look);
         }
-        self.find_edges(pair, [ours.edges, theirs.edges], reach, gap);
+        self.find_edges(pair, [ours.edges, theirs.edges], &look);
         let run = Run {
             vertices: [from[0], self.quads.vertices.len() as u32],
             edges: [from[1], self.quads.edges.len() as u32],
-            is_woven: self.is_near_at_rest(pair, near),
         };
         self.quads.runs[at as usize] = Some(run);
         run
@@ -148,23 +163,23 @@ impl Patches {
         &mut self,
         [one, other]: [u32; 2],
         [vertices, triangles]: [u32; 2],
-        mesh: &Mesh,
-        reach: &Reach,
-        gap: f32,
+        look: &Look<'_>,
     ) {
         if triangles == 0 {
             return;
         }
+        let Look { weave, reach, .. } = look;
         let from = self.patches[one as usize].vertices[0];
         let first = self.patches[other as usize].triangles[0];
         let each = &self.triangle_sweeps[other as usize];
         for at in places_of(vertices) {
             let vertex = self.vertices[(from + at) as usize];
-            for at in places_of(triangles & each.meet(&reach.one(vertex), gap)) {
+            for at in places_of(triangles & each.meet(&reach.one(vertex), weave.gap)) {
                 let triangle = self.triangles[(first + at) as usize];
-                let [a, b, c] = mesh.triangles[triangle as usize];
+                let [a, b, c] = weave.world.mesh.triangles[triangle as usize];
                 if vertex != a && vertex != b && vertex != c {
-                    self.quads.vertices.push([vertex, a, b, c]);
+                    let ids = [vertex, a, b, c];
+                    self.quads.vertices.push(ids, look.gap_of::<VERTEX>(ids));
                 }
             }
         }
@@ -175,12 +190,12 @@ impl Patches {
         &mut self,
         [one, other]: [u32; 2],
         [chosen, others]: [u32; 2],
-        reach: &Reach,
-        gap: f32,
+        look: &Look<'_>,
     ) {
         if others == 0 {
             return;
         }
+        let Look { weave, reach, .. } = look;
         let from = self.patches[one as usize].edges[0];
         let first = self.patches[other as usize].edges[0];
         let blocks = &self.edge_sweeps[other as usize];
@@ -192,12 +207,13 @@ impl Patches {
                 if others == 0 {
                     continue;
                 }
-                for j in places_of(others & block.meet(&own, gap)) {
+                for j in places_of(others & block.meet(&own, weave.gap)) {
                     let j = j + (at * LANES) as u32;
                     let [r, s] = self.edges[(first + j) as usize];
                     let is_apart = p != r && p != s && q != r && q != s;
                     if is_apart && (one != other || i < j) {
-                        self.quads.edges.push([p, q, r, s]);
+                        let ids = [p, q, r, s];
+                        self.quads.edges.push(ids, look.gap_of::<EDGES>(ids));
                     }
                 }
             }
@@ -205,7 +221,7 @@ impl Patches {
     }
 
     /// Whether what is in two patches may be near at rest.
-    fn is_near_at_rest(&self, pair: [u32; 2], near: f32) -> bool {
+    fn are_near_at_rest(&self, pair: [u32; 2], near: f32) -> bool {
         let (a, b) = (&self.patches[pair[0] as usize], &self.patches[pair[1] as usize]);
         a.piece == b.piece && a.rest.grown(near).meets(&b.rest)
     }
