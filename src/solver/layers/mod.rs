@@ -146,9 +146,8 @@ impl Layers {
             reach.is_known = false;
         }
         if !reach.is_known {
-            let substeps = reach.horizon(substeps);
-            let few = patches.quads.len() < 4 * motion.now.len();
-            reach.look_ahead(motion, substeps, world.spacing * if few { 2.5 * CLOSE } else { CLOSE });
+            let (substeps, room) = reach.learn(substeps);
+            reach.look_ahead(motion, substeps, world.spacing * room);
             patches.forget_runs();
         }
         let weave = Weave { world, pieces, gap: *gap };

@@ -25,6 +25,7 @@ pub(super) struct Reach {
     pub is_known: bool,
     /// How many substeps were looked ahead, and for how many that was right.
     ahead: u32,
+    room: f32,
     lasted: u32,
     /// How all moved from the base to the start of the substep, and to where they are.
     drifts: [Vec3; 2],
@@ -33,7 +34,7 @@ pub(super) struct Reach {
 impl Reach {
     pub fn new(capacity: usize) -> Self {
         let [base, from, to] = [(); 3].map(|()| Vec::with_capacity(capacity));
-        Self { base, from, to, is_known: false, ahead: 1, lasted: 0, drifts: [Vec3::ZERO; 2] }
+        Self { base, from, to, is_known: false, ahead: 1, room: 0.04, lasted: 0, drifts: [Vec3::ZERO; 2] }
     }
 
     /// Bytes that it holds.
@@ -50,20 +51,28 @@ impl Reach {
         let times = substeps as f32;
         for (at, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
             let way = (place(now) - place(start) - motion.drift) * times;
-            let room = Vec3::splat(way.length() * SPARE_WAY + spare);
+            let room = Vec3::splat(way.length() * SPARE_WAY);
             let (from, to) = (way.min(Vec3::ZERO) - room, way.max(Vec3::ZERO) + room);
             let [least, most] = motion.ways(at).map(|way| way - motion.drift);
-            self.from.push(from.min(least).extend(0.0).to_array());
-            self.to.push(to.max(most).extend(0.0).to_array());
+            self.from.push((from.min(least) - spare).extend(0.0).to_array());
+            self.to.push((to.max(most) + spare).extend(0.0).to_array());
         }
         self.is_known = true;
     }
 
-    /// How many substeps are worth to be looked ahead: about as many as it was right about before.
-    pub fn horizon(&mut self, most: u32) -> u32 {
+    /// How many substeps are worth to be looked ahead, and how much room to be given: as was right before. No
+    /// result depends on it.
+    pub fn learn(&mut self, most: u32) -> (u32, f32) {
         let lasted = core::mem::take(&mut self.lasted);
         self.ahead = (if lasted < self.ahead { lasted } else { self.ahead + 1 }).clamp(1, most);
-        self.ahead
+        self.room *= match lasted {
+            0..2 => 0.9,
+            2..6 => 1.2,
+            6..16 => 1.0,
+            _ => 0.7,
+        };
+        self.room = min(max(self.room, 0.01), 0.1);
+        (self.ahead, self.room)
     }
 
     /// Finds how all moved up to this substep.
