@@ -48,7 +48,7 @@ pub(super) const THICK: f32 = 0.5;
 
 /// How far particles may stray until what may meet is listed anew, patches and what is in them [mean rest lengths].
 const FAR: f32 = 0.2;
-const CLOSE: f32 = 0.04;
+const MANY: usize = 10;
 
 /// How often those are looked at again at most that strayed.
 const LOOKS: u32 = 8;
@@ -146,7 +146,8 @@ impl Layers {
             reach.is_known = false;
         }
         if !reach.is_known {
-            let (substeps, room) = reach.learn(substeps);
+            let are_many = patches.quads.len() > MANY * motion.now.len();
+            let (substeps, room) = reach.learn(substeps, are_many);
             reach.look_ahead(motion, substeps, world.spacing * room);
             patches.forget_runs();
         }

@@ -62,16 +62,16 @@ impl Reach {
 
     /// How many substeps are worth to be looked ahead, and how much room to be given: as was right before. No
     /// result depends on it.
-    pub fn learn(&mut self, most: u32) -> (u32, f32) {
+    pub fn learn(&mut self, most: u32, are_many: bool) -> (u32, f32) {
         let lasted = core::mem::take(&mut self.lasted);
         self.ahead = (if lasted < self.ahead { lasted } else { self.ahead + 1 }).clamp(1, most);
         self.room *= match lasted {
-            0..2 => 0.9,
-            2..6 => 1.2,
+            0..2 if are_many => 0.8,
+            0..6 => 1.25,
             6..16 => 1.0,
             _ => 0.7,
         };
-        self.room = min(max(self.room, 0.01), 0.1);
+        self.room = min(max(self.room, 0.01), 0.12);
         (self.ahead, self.room)
     }
 
