@@ -235,8 +235,8 @@ fn between_boxes<S: Simd, const FIRST: Kind>(
             most[side] = Number::max(most[side], to.along(axis));
         }
         let (back, ahead) = (most[1] - least[0], most[0] - least[1]);
-        let above = (low[0] - gap) - high[1] - Number::max(back, zero);
-        let below = low[1] - (high[0] + gap) - Number::max(ahead, zero);
+        let above = (low[0] - gap) - high[1] - Number::max(zero, back);
+        let below = low[1] - (high[0] + gap) - Number::max(zero, ahead);
         clear = Number::max(Number::max(above, below), clear);
     }
     clear

@@ -93,13 +93,13 @@ impl Layers {
             far: Reach::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
-            strays: [(); 2].map(|()| Candidates::new(2 * count)),
+            strays: [(); 2].map(|()| Candidates::new(8 * count)),
             near: [(); 2].map(|()| Near::new(8 * count)),
-            contacts: Vec::with_capacity(24 * count),
-            distant: Vec::with_capacity(24 * count),
+            contacts: Vec::with_capacity(16 * count),
+            distant: Vec::with_capacity(16 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
-            around: Around::new(capacity, 24 * count),
+            around: Around::new(capacity, 16 * count),
             frozen: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
             finder: Finder::new(count),
@@ -132,7 +132,9 @@ impl Layers {
 
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
-        let Self { motion, far, reach, patches, pieces, pairs, near, contacts, distant, gap, .. } = self;
+        let Self {
+            motion, far, reach, patches, pieces, pairs, near, contacts, distant, gap, ..
+        } = self;
         motion.look_ahead(world.spacing, *gap);
         for reach in [&mut *far, &mut *reach] {
             if reach.is_known {

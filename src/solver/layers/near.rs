@@ -80,10 +80,15 @@ impl Near {
         lists.for_each(|list| list.resize(count, 0.0));
         let [a, b, c, d] = &self.ids;
         let ([e, f, g, h], [x, y, z]) = (share, n);
-        let lanes = Lanes { share: [&mut e[..], f, g, h], n: [&mut x[..], y, z], apart: &mut apart[..] };
+        let lanes =
+            Lanes { share: [&mut e[..], f, g, h], n: [&mut x[..], y, z], apart: &mut apart[..] };
         let (gaps, Motion { start, now, .. }) = (&self.gaps[..], motion);
         let pairs = Pairs { ids: [a, b, c, d], gaps, start, now, lanes };
-        if FIRST == VERTEX { find_vertices(level, pairs) } else { find_edges(level, pairs) }
+        if FIRST == VERTEX {
+            find_vertices(level, pairs)
+        } else {
+            find_edges(level, pairs)
+        }
         let Lanes { share, n, apart } = &self.found;
         for (at, contact) in self.contacts.iter().enumerate() {
             let contact = &mut contacts[*contact as usize];

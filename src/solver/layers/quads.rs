@@ -54,7 +54,7 @@ impl Look<'_> {
 
 impl Quads {
     pub fn new(count: usize) -> Self {
-        let [vertices, edges] = [(); 2].map(|()| Candidates::new(16 * count));
+        let [vertices, edges] = [16, 48].map(|each| Candidates::new(each * count));
         Self { vertices, edges, runs: Vec::with_capacity(8 * count) }
     }
 
@@ -186,12 +186,7 @@ impl Patches {
     }
 
     /// The edges of two patches, each pair once.
-    fn find_edges(
-        &mut self,
-        [one, other]: [u32; 2],
-        [chosen, others]: [u32; 2],
-        look: &Look<'_>,
-    ) {
+    fn find_edges(&mut self, [one, other]: [u32; 2], [chosen, others]: [u32; 2], look: &Look<'_>) {
         if others == 0 {
             return;
         }

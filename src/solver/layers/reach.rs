@@ -34,7 +34,16 @@ pub(super) struct Reach {
 impl Reach {
     pub fn new(capacity: usize) -> Self {
         let [base, from, to] = [(); 3].map(|()| Vec::with_capacity(capacity));
-        Self { base, from, to, is_known: false, ahead: 1, room: 0.04, lasted: 0, drifts: [Vec3::ZERO; 2] }
+        Self {
+            base,
+            from,
+            to,
+            is_known: false,
+            ahead: 1,
+            room: 0.04,
+            lasted: 0,
+            drifts: [Vec3::ZERO; 2],
+        }
     }
 
     /// Bytes that it holds.
