@@ -93,7 +93,7 @@ impl Layers {
             far: Reach::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
-            strays: [(); 2].map(|()| Candidates::new(8 * count)),
+            strays: [(); 2].map(|()| sift::room_for_strays()),
             near: [(); 2].map(|()| Near::new(8 * count)),
             contacts: Vec::with_capacity(16 * count),
             distant: Vec::with_capacity(16 * count),

@@ -14,7 +14,17 @@ use super::patches::Patches;
 use super::push::NEAR;
 use super::quads::{Quads, Run};
 use super::reach::Reach;
+use super::sweep::LANES;
 use super::weave::Weave;
+
+/// So many strays are judged together; two patches make at most `MANY` more.
+const TOGETHER: usize = 1024;
+const MANY: usize = (3 * LANES) * (3 * LANES);
+
+/// Room for strays of one kind.
+pub(super) fn room_for_strays() -> Candidates {
+    Candidates::new(TOGETHER + MANY)
+}
 
 /// A look at where particles are.
 pub(super) struct Sift<'a> {
@@ -61,9 +71,8 @@ impl Sift<'_> {
         strays: &mut [Candidates; 2],
         distant: &mut Vec<Distant>,
     ) {
-        let Weave { world, gap, .. } = self.weave;
         self.patches.follow_strays(self.motion);
-        self.patches.pair(gap, true, pairs);
+        self.patches.pair(self.weave.gap, true, pairs);
         for at in &*pairs {
             let run = self.run(*at);
             let Quads { vertices, edges, .. } = &self.patches.quads;
@@ -76,9 +85,16 @@ impl Sift<'_> {
                     }
                 }
             }
+            if strays.iter().any(|strays| strays.len() > TOGETHER) {
+                self.judge_strays(strays, distant);
+            }
         }
-        let counts = [strays[0].len(), strays[1].len()];
-        let [vertices, edges] = strays;
+        self.judge_strays(strays, distant);
+    }
+
+    fn judge_strays(&self, [vertices, edges]: &mut [Candidates; 2], distant: &mut Vec<Distant>) {
+        let Weave { world, gap, .. } = self.weave;
+        let counts = [vertices.len(), edges.len()];
         vertices.judge::<VERTEX>(world.level, self.motion, gap);
         edges.judge::<EDGES>(world.level, self.motion, gap);
         for (first, strays, count) in [(VERTEX, vertices, counts[0]), (EDGES, edges, counts[1])] {
