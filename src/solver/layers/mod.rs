@@ -62,8 +62,8 @@ pub(crate) struct Layers {
     reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
     pairs: Vec<u32>,
-    /// Pairs of both kinds that strayed.
-    strays: [Candidates; 2],
+    /// Pairs that strayed.
+    strays: Candidates,
     /// Pairs that are near enough to push, by their kind.
     near: [Near; 2],
     contacts: Vec<Contact>,
@@ -93,13 +93,13 @@ impl Layers {
             far: Reach::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
-            strays: [(); 2].map(|()| sift::room_for_strays()),
+            strays: sift::room_for_strays(),
             near: [(); 2].map(|()| Near::new(8 * count)),
-            contacts: Vec::with_capacity(16 * count),
+            contacts: Vec::with_capacity(24 * count),
             distant: Vec::with_capacity(16 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
-            around: Around::new(capacity, 16 * count),
+            around: Around::new(capacity, 24 * count),
             frozen: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
             finder: Finder::new(count),
@@ -122,7 +122,7 @@ impl Layers {
             + self.reach.bytes()
             + self.slits.bytes()
             + self.around.bytes()
-            + self.strays.iter().map(Candidates::bytes).sum::<usize>()
+            + self.strays.bytes()
             + self.near.iter().map(Near::bytes).sum::<usize>()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<Distant>() * self.distant.capacity()

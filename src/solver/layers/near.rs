@@ -85,9 +85,9 @@ impl Near {
         let (gaps, Motion { start, now, .. }) = (&self.gaps[..], motion);
         let pairs = Pairs { ids: [a, b, c, d], gaps, start, now, lanes };
         if FIRST == VERTEX {
-            find_vertices(level, pairs)
+            find_vertices(level, pairs);
         } else {
-            find_edges(level, pairs)
+            find_edges(level, pairs);
         }
         let Lanes { share, n, apart } = &self.found;
         for (at, contact) in self.contacts.iter().enumerate() {

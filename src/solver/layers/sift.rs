@@ -21,7 +21,7 @@ use super::weave::Weave;
 const TOGETHER: usize = 1024;
 const MANY: usize = (3 * LANES) * (3 * LANES);
 
-/// Room for strays of one kind.
+/// Room for strays.
 pub(super) fn room_for_strays() -> Candidates {
     Candidates::new(TOGETHER + MANY)
 }
@@ -68,39 +68,43 @@ impl Sift<'_> {
     pub fn find_strays(
         &mut self,
         pairs: &mut Vec<u32>,
-        strays: &mut [Candidates; 2],
+        strays: &mut Candidates,
         distant: &mut Vec<Distant>,
     ) {
         self.patches.follow_strays(self.motion);
         self.patches.pair(self.weave.gap, true, pairs);
         for at in &*pairs {
-            let run = self.run(*at);
-            let Quads { vertices, edges, .. } = &self.patches.quads;
-            let both = [(vertices, run.vertices), (edges, run.edges)];
-            for (strays, (all, [from, to])) in strays.iter_mut().zip(both) {
-                for at in from..to {
-                    let (ids, gap) = all.pair(at as usize);
-                    if ids.iter().any(|id| self.motion.strays(*id)) {
-                        strays.push(ids, gap);
-                    }
-                }
-            }
-            if strays.iter().any(|strays| strays.len() > TOGETHER) {
-                self.judge_strays(strays, distant);
-            }
+            self.run(*at);
         }
-        self.judge_strays(strays, distant);
+        // One kind after the other, so that lots make no difference to the order.
+        self.judge_strays::<VERTEX>(pairs, strays, distant);
+        self.judge_strays::<EDGES>(pairs, strays, distant);
     }
 
-    fn judge_strays(&self, [vertices, edges]: &mut [Candidates; 2], distant: &mut Vec<Distant>) {
+    fn judge_strays<const FIRST: Kind>(
+        &mut self,
+        pairs: &[u32],
+        strays: &mut Candidates,
+        distant: &mut Vec<Distant>,
+    ) {
         let Weave { world, gap, .. } = self.weave;
-        let counts = [vertices.len(), edges.len()];
-        vertices.judge::<VERTEX>(world.level, self.motion, gap);
-        edges.judge::<EDGES>(world.level, self.motion, gap);
-        for (first, strays, count) in [(VERTEX, vertices, counts[0]), (EDGES, edges, counts[1])] {
-            let all = strays.meeting(0, count as u32);
-            distant.extend(all.map(|candidate| candidate.as_distant(first)));
-            strays.clear();
+        for (number, at) in pairs.iter().enumerate() {
+            let run = self.run(*at);
+            let Quads { vertices, edges, .. } = &self.patches.quads;
+            let (all, [from, to]) =
+                if FIRST == VERTEX { (vertices, run.vertices) } else { (edges, run.edges) };
+            for at in from..to {
+                let (ids, gap) = all.pair(at as usize);
+                if ids.iter().any(|id| self.motion.strays(*id)) {
+                    strays.push(ids, gap);
+                }
+            }
+            if strays.len() > TOGETHER || number + 1 == pairs.len() {
+                let count = strays.len() as u32;
+                strays.judge::<FIRST>(world.level, self.motion, gap);
+                distant.extend(strays.meeting(0, count).map(|stray| stray.as_distant(FIRST)));
+                strays.clear();
+            }
         }
     }
 
