@@ -90,18 +90,21 @@ impl Patches {
         [one, other & !BESIDE]
     }
 
-    /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little.
+    /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little as a substep begins and
+    /// as it ends.
     fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
-        let (a, b) = (&self.patches[one as usize], &self.patches[other as usize]);
-        let cone = min(a.cone, b.cone);
-        if one == other || cone <= STEEP {
-            return cone > STEEP;
-        }
-        // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
-        let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
-        let side = (1.0 - half) * (1.0 - cone * cone);
-        let lean = half.sqrt() * cone - side.sqrt();
-        lean > STEEP
+        let (ours, theirs) =
+            (&self.patches[one as usize].leans, &self.patches[other as usize].leans);
+        ours.iter().zip(theirs).all(|(a, b)| {
+            let cone = min(a.cone, b.cone);
+            if one == other || cone <= STEEP {
+                return cone > STEEP;
+            }
+            // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
+            let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
+            let side = (1.0 - half) * (1.0 - cone * cone);
+            half.sqrt() * cone - side.sqrt() > STEEP
+        })
     }
 
     fn are_beside(&self, [one, other]: [u32; 2]) -> bool {

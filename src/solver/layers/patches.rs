@@ -5,7 +5,7 @@
 
 use super::motion::Motion;
 use super::quads::Quads;
-use super::spots::place;
+use super::spots::{Spot, place};
 use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
 use crate::math::min;
@@ -19,6 +19,9 @@ const PATCH: usize = LANES;
 /// Blocks of lanes that its vertices take at most, and its edges.
 const BLOCKS: usize = 3 * PATCH / LANES;
 
+/// Triangles whose vertices move less than this against each other in a substep turn little [mean rest lengths].
+const TURNING: f32 = 0.12;
+
 /// Some triangles beside each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patch {
@@ -30,9 +33,8 @@ pub(super) struct Patch {
     pub edges: [u32; 2],
     /// Whether a tear or a cut goes through it, so that its triangles may meet each other.
     is_frayed: bool,
-    /// The mean normal, and the least cosine that a normal makes with it; -1 where a tear or a cut goes through.
-    pub(super) normal: Vec3,
-    pub(super) cone: f32,
+    /// How its triangles lean as a substep begins, and as it ends.
+    pub(super) leans: [Lean; 2],
     /// Whether what is in it was told apart since patches were listed.
     pub(super) is_split: bool,
     /// Whether one of its vertices strayed.
@@ -42,6 +44,17 @@ pub(super) struct Patch {
     /// The piece that it is of, and where it is at rest.
     pub(super) piece: u32,
     pub(super) rest: Aabb,
+}
+
+/// The mean normal of triangles, and the least cosine that one makes with it; -1 where nothing is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lean {
+    pub normal: Vec3,
+    pub cone: f32,
+}
+
+impl Lean {
+    const UNKNOWN: Self = Self { normal: Vec3::ZERO, cone: -1.0 };
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -154,8 +167,7 @@ impl Patches {
                 vertices: [0; 3],
                 edges: [0; 2],
                 is_frayed: false,
-                normal: Vec3::ZERO,
-                cone: -1.0,
+                leans: [Lean::UNKNOWN; 2],
                 is_split: false,
                 has_strays: false,
                 beside: [0; 2],
@@ -291,40 +303,46 @@ impl Patches {
     }
 
     /// Fits boxes around where vertices are and get to, and finds which patches are flat.
-    pub fn fit(&mut self, mesh: &Mesh, motion: &Motion) {
+    pub fn fit(&mut self, mesh: &Mesh, motion: &Motion, spacing: f32) {
+        let turning = spacing * TURNING;
         for at in 0..self.patches.len() {
             let patch = self.patches[at];
             let mut all = Sweep::EMPTY;
             let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
             self.vertices[own].iter().for_each(|v| motion.add_to(&mut all, *v));
             self.sweeps[at] = all;
-            let (normal, cone) = self.lean(mesh, motion, &patch);
-            let patch = &mut self.patches[at];
-            (patch.normal, patch.cone) = (normal, cone);
+            let start = self.lean(mesh, &motion.start, &patch);
+            let is_stiff = all.most_against() <= turning;
+            let end = if is_stiff { start } else { self.lean(mesh, &motion.now, &patch) };
+            self.patches[at].leans = [start, end];
         }
     }
 
     /// Fits boxes around where vertices get to that strayed.
-    pub fn follow_strays(&mut self, motion: &Motion) {
-        for (patch, all) in self.patches.iter_mut().zip(&mut self.sweeps) {
+    pub fn follow_strays(&mut self, mesh: &Mesh, motion: &Motion) {
+        for at in 0..self.patches.len() {
+            let patch = &mut self.patches[at];
             patch.has_strays = false;
             let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
             for vertex in &self.vertices[own] {
                 if motion.strays(*vertex) {
                     patch.has_strays = true;
-                    motion.add_to(all, *vertex);
+                    motion.add_to(&mut self.sweeps[at], *vertex);
                 }
+            }
+            if patch.has_strays {
+                let patch = *patch;
+                self.patches[at].leans[1] = self.lean(mesh, &motion.now, &patch);
             }
         }
     }
 
-    /// The mean normal of a patch, and the least cosine that one makes with it.
-    fn lean(&self, mesh: &Mesh, motion: &Motion, patch: &Patch) -> (Vec3, f32) {
+    /// How the triangles of a patch lean where particles are at `x`.
+    fn lean(&self, mesh: &Mesh, x: &[Spot], patch: &Patch) -> Lean {
         if patch.is_frayed {
-            return (Vec3::ZERO, -1.0);
+            return Lean::UNKNOWN;
         }
         let triangles = &self.triangles[patch.triangles[0] as usize..patch.triangles[1] as usize];
-        let x = &motion.start;
         let mut normals = [Vec3::ZERO; PATCH];
         let mut sum = Vec3::ZERO;
         for (normal, triangle) in normals.iter_mut().zip(triangles) {
@@ -340,6 +358,6 @@ impl Patches {
             cone = min(normal.dot(mean), cone);
         }
         // Where there is no mean, nothing is known.
-        (mean, if cone <= 1.0 { cone } else { -1.0 })
+        Lean { normal: mean, cone: if cone <= 1.0 { cone } else { -1.0 } }
     }
 }

@@ -46,7 +46,7 @@ impl Sift<'_> {
         found.contacts.clear();
         found.distant.clear();
         let Weave { world, gap, .. } = self.weave;
-        self.patches.fit(&world.mesh, self.motion);
+        self.patches.fit(&world.mesh, self.motion, world.spacing);
         self.patches.pair(gap, false, pairs);
         for at in &*pairs {
             self.run(*at);
@@ -71,7 +71,7 @@ impl Sift<'_> {
         strays: &mut Candidates,
         distant: &mut Vec<Distant>,
     ) {
-        self.patches.follow_strays(self.motion);
+        self.patches.follow_strays(&self.weave.world.mesh, self.motion);
         self.patches.pair(self.weave.gap, true, pairs);
         for at in &*pairs {
             self.run(*at);

@@ -57,6 +57,12 @@ impl Sweep {
         !is_apart
     }
 
+    /// The most that parts of it move against each other, along an axis.
+    pub fn most_against(&self) -> f32 {
+        let along = |k: usize| self.to[k] - self.from[k];
+        max(along(0), max(along(1), along(2)))
+    }
+
     /// The most that one moves against the other.
     #[inline(always)]
     pub fn way_against(&self, other: &Self) -> f32 {
