@@ -219,7 +219,7 @@ impl Contact {
     }
 
     /// The contact of two sides, if they may come nearer than `gap`; `own_gap` is what they keep, and no larger.
-    #[inline(always)]
+    #[inline(never)]
     pub fn find<const FIRST: Kind>(
         ids: [u32; 4],
         motion: &Motion,
@@ -227,7 +227,7 @@ impl Contact {
         own_gap: f32,
     ) -> Option<Self> {
         let start = places(&motion.start, ids);
-        let mut then = closest::<FIRST>(start);
+        let mut then = closest_again::<FIRST>(start);
         let [a, b, c, d] = ids;
         let way = if FIRST == VERTEX {
             motion.one(a).way_against(&motion.of([b, c, d]))
