@@ -41,6 +41,13 @@ pub(super) type Kind = u32;
 pub(super) const VERTEX: Kind = 1;
 pub(super) const EDGES: Kind = 2;
 
+/// The inverse mass of a particle [1/kg], and how much of it counts against the other side of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weight {
+    pub w: f32,
+    pub yields: f32,
+}
+
 /// Two sides that may meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
@@ -59,7 +66,9 @@ pub(super) struct Contact {
     pub slit: f32,
     /// The least of it that is let be [m].
     pub least: f32,
-    /// 1 over what all inverse masses make; 0 if nothing gives way.
+    /// How far a push of 1 takes each particle, against the direction on the second side [1/kg].
+    pub weights: [f32; 4],
+    /// 1 over what all of that makes; 0 if nothing gives way.
     pub give: f32,
     /// How they were pushed apart in this substep, per inverse mass, and along the surface.
     pub push: f32,
@@ -205,6 +214,7 @@ impl Contact {
             aim: 0.0,
             slit: -1.0,
             least: -1.0,
+            weights: [0.0; 4],
             give: 0.0,
             push: 0.0,
             rub: Vec3::ZERO,
@@ -299,13 +309,21 @@ impl Contact {
 
     /// Finds out how it gives way, which changes with what touches a collider.
     #[inline(always)]
-    pub(super) fn weigh(&mut self, x: &[Spot]) {
-        let (mut sum, mut most) = (0.0, 0.0);
-        for (id, share) in self.ids.iter().zip(self.share) {
-            let w = x[*id as usize][3];
-            sum += w * share * share;
-            most = max(most, w);
+    pub(super) fn weigh(&mut self, weights: &[Weight]) {
+        let all = self.ids.map(|id| weights[id as usize]);
+        let mut sides = [0.0; 2];
+        for (k, (share, weight)) in self.share.iter().zip(all).enumerate() {
+            sides[usize::from(k >= self.first as usize)] += share.abs() * weight.yields;
         }
-        self.give = if sum > 0.0 { 1.0 / max(sum, most * SLIGHT) } else { 0.0 };
+        let most = max(sides[0], sides[1]);
+        let (mut sum, mut heaviest) = (0.0, 0.0);
+        for k in 0..4 {
+            let side = sides[usize::from(k >= self.first as usize)];
+            let w = all[k].w * (side / most);
+            self.weights[k] = self.share[k] * w;
+            sum += w * self.share[k] * self.share[k];
+            heaviest = max(heaviest, w);
+        }
+        self.give = if sum > 0.0 { 1.0 / max(sum, heaviest * SLIGHT) } else { 0.0 };
     }
 }
