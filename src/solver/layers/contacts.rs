@@ -20,6 +20,9 @@ pub(super) const SLIT: f32 = 0.25;
 const ENOUGH: f32 = 0.2;
 const LEAST: f32 = 0.998;
 
+/// Sides that are nearer than what is let be come apart by this much of how far they are in a substep.
+const MORE: f32 = 1.1;
+
 /// Another direction that would let sides come nearer than this share of what they may is not taken.
 const WORSE: f32 = 0.5;
 
@@ -301,7 +304,9 @@ impl Contact {
     pub(super) fn leave(&mut self, apart: f32) {
         let most = self.gap * SLIT;
         (self.slit, self.least) = if apart > NOTHING {
-            (min(apart, most), min(apart * LEAST, most * ENOUGH))
+            // What is hardly apart gets a little more, or rounding would take it all.
+            let more = if apart < most * ENOUGH { MORE } else { 1.0 };
+            (min(apart * more, most), min(apart * LEAST, most * ENOUGH))
         } else {
             (-1.0, -1.0)
         };

@@ -23,7 +23,7 @@ pub(super) const NEAR: [f32; 2] = [1.1, 1.02];
 
 /// The share of what sides are too near that they come apart by in a substep, which is no motion; at most
 /// so fast [m/s].
-const PART: f32 = 0.1;
+const PART: f32 = 0.05;
 const RISE: f32 = 0.25;
 
 /// How long it takes about until sides that push each other move as one [s].
