@@ -13,6 +13,7 @@ fn crumpled(side: u32, seed: u32, ticks: u32) -> Cloth {
     let spacing = 1.0 / side as f32;
     let settings = Settings { self_collision: SURFACE, ..Settings::default() };
     let desc = GridDesc { columns: side, rows: side, spacing, settings, ..GridDesc::default() };
+    let desc = GridDesc { extra_particles: 2 * side * side, ..desc };
     let mut cloth = Cloth::grid(&GridDesc { pin_mode: PinMode::None, ..desc }).unwrap();
     let floor = ColliderDesc { position: Vec3::Y * -1.05, ..ColliderDesc::default() };
     cloth.add_collider(&floor).unwrap();

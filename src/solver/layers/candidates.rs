@@ -202,7 +202,7 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
             s.store(list, at, n);
         }
         // Rooms are as large on all sides, so that particles are in the middle.
-        let mut distance = length + s.splat(0.5) * now;
+        let mut distance = s.min(length, length + s.splat(0.5) * now);
         if FIRST == EDGES {
             let is_clear = then - s.splat(CLEAR) * length;
             distance = s.pick(is_clear, distance, s.splat(f32::INFINITY));

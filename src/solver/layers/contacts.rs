@@ -20,6 +20,9 @@ pub(super) const SLIT: f32 = 0.25;
 const ENOUGH: f32 = 0.2;
 const LEAST: f32 = 0.998;
 
+/// Sides that are nearer than what is let be come apart by this much of how far they are in a substep.
+const MORE: f32 = 1.1;
+
 /// Another direction that would let sides come nearer than this share of what they may is not taken.
 const WORSE: f32 = 0.5;
 
@@ -41,6 +44,13 @@ pub(super) type Kind = u32;
 pub(super) const VERTEX: Kind = 1;
 pub(super) const EDGES: Kind = 2;
 
+/// The inverse mass of a particle [1/kg], and how much of it counts against the other side of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weight {
+    pub w: f32,
+    pub yields: f32,
+}
+
 /// Two sides that may meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
@@ -59,7 +69,9 @@ pub(super) struct Contact {
     pub slit: f32,
     /// The least of it that is let be [m].
     pub least: f32,
-    /// 1 over what all inverse masses make; 0 if nothing gives way.
+    /// How far a push of 1 takes each particle, against the direction on the second side [1/kg].
+    pub weights: [f32; 4],
+    /// 1 over what all of that makes; 0 if nothing gives way.
     pub give: f32,
     /// How they were pushed apart in this substep, per inverse mass, and along the surface.
     pub push: f32,
@@ -205,6 +217,7 @@ impl Contact {
             aim: 0.0,
             slit: -1.0,
             least: -1.0,
+            weights: [0.0; 4],
             give: 0.0,
             push: 0.0,
             rub: Vec3::ZERO,
@@ -219,7 +232,7 @@ impl Contact {
     }
 
     /// The contact of two sides, if they may come nearer than `gap`; `own_gap` is what they keep, and no larger.
-    #[inline(always)]
+    #[inline(never)]
     pub fn find<const FIRST: Kind>(
         ids: [u32; 4],
         motion: &Motion,
@@ -227,7 +240,7 @@ impl Contact {
         own_gap: f32,
     ) -> Option<Self> {
         let start = places(&motion.start, ids);
-        let mut then = closest::<FIRST>(start);
+        let mut then = closest_again::<FIRST>(start);
         let [a, b, c, d] = ids;
         let way = if FIRST == VERTEX {
             motion.one(a).way_against(&motion.of([b, c, d]))
@@ -291,7 +304,9 @@ impl Contact {
     pub(super) fn leave(&mut self, apart: f32) {
         let most = self.gap * SLIT;
         (self.slit, self.least) = if apart > NOTHING {
-            (min(apart, most), min(apart * LEAST, most * ENOUGH))
+            // What is hardly apart gets a little more, or rounding would take it all.
+            let more = if apart < most * ENOUGH { MORE } else { 1.0 };
+            (min(apart * more, most), min(apart * LEAST, most * ENOUGH))
         } else {
             (-1.0, -1.0)
         };
@@ -299,13 +314,21 @@ impl Contact {
 
     /// Finds out how it gives way, which changes with what touches a collider.
     #[inline(always)]
-    pub(super) fn weigh(&mut self, x: &[Spot]) {
-        let (mut sum, mut most) = (0.0, 0.0);
-        for (id, share) in self.ids.iter().zip(self.share) {
-            let w = x[*id as usize][3];
-            sum += w * share * share;
-            most = max(most, w);
+    pub(super) fn weigh(&mut self, weights: &[Weight]) {
+        let all = self.ids.map(|id| weights[id as usize]);
+        let mut sides = [0.0; 2];
+        for (k, (share, weight)) in self.share.iter().zip(all).enumerate() {
+            sides[usize::from(k >= self.first as usize)] += share.abs() * weight.yields;
         }
-        self.give = if sum > 0.0 { 1.0 / max(sum, most * SLIGHT) } else { 0.0 };
+        let most = max(sides[0], sides[1]);
+        let (mut sum, mut heaviest) = (0.0, 0.0);
+        for k in 0..4 {
+            let side = sides[usize::from(k >= self.first as usize)];
+            let w = all[k].w * (side / most);
+            self.weights[k] = self.share[k] * w;
+            sum += w * self.share[k] * self.share[k];
+            heaviest = max(heaviest, w);
+        }
+        self.give = if sum > 0.0 { 1.0 / max(sum, heaviest * SLIGHT) } else { 0.0 };
     }
 }

@@ -8,7 +8,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Room for so many of a particle.
-const EACH: usize = 4;
+const EACH: usize = 8;
 
 /// Two sides, and the forces that the first gets from the second [N].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -31,7 +31,7 @@ use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
 use candidates::Candidates;
-use contacts::Contact;
+use contacts::{Contact, Weight};
 use distant::Distant;
 use loads::Finder;
 use motion::Motion;
@@ -40,6 +40,7 @@ use patches::Patches;
 use reach::Reach;
 use sift::{Found, Sift};
 use slits::Slits;
+use spots::Spot;
 use weave::Weave;
 
 /// Gap of a cloth without thickness, in mean rest lengths; and the most that any has.
@@ -58,6 +59,9 @@ const LOOKS: u32 = 8;
 pub(crate) struct Layers {
     patches: Patches,
     motion: Motion,
+    weights: Vec<Weight>,
+    /// How particles move, in some unit.
+    ways: Vec<Spot>,
     far: Reach,
     reach: Reach,
     /// The patches and the pairs in them that may meet, and whether they still are those that may.
@@ -90,6 +94,8 @@ impl Layers {
         Self {
             patches: Patches::new(&world.mesh, &world.rest, &pieces, capacity),
             motion: Motion::new(capacity),
+            weights: Vec::with_capacity(capacity),
+            ways: Vec::with_capacity(capacity),
             far: Reach::new(capacity),
             reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
@@ -124,6 +130,8 @@ impl Layers {
             + self.around.bytes()
             + self.strays.bytes()
             + self.near.iter().map(Near::bytes).sum::<usize>()
+            + size_of::<Weight>() * self.weights.capacity()
+            + size_of::<Spot>() * self.ways.capacity()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<Distant>() * self.distant.capacity()
             + self.finder.bytes()
@@ -273,9 +281,12 @@ pub(crate) fn pair(world: &mut World) {
         return;
     };
     spots::gather(&mut layers.motion.now, &world.particles.x, &world.particles.w);
+    layers.weights.clear();
+    layers.weights.extend(world.particles.w.iter().map(|w| Weight { w: *w, yields: 1.0 }));
     for touch in &world.scratch.contacts.touches {
         let at = touch.particle as usize;
         layers.motion.now[at][3] = world.particles.w[at] * push::BORNE;
+        layers.weights[at].yields = push::BORNE;
     }
     layers.find(world, world.settings.substeps);
     world.layers = Some(layers);
@@ -287,10 +298,10 @@ pub(crate) fn solve(world: &mut World) {
     let Some(layers) = &mut world.layers else {
         return;
     };
-    let Layers { contacts, active, finder, motion, .. } = &mut **layers;
+    let Layers { contacts, active, finder, motion, weights, .. } = &mut **layers;
     let Motion { start, now, .. } = motion;
     let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
-    push::solve(contacts, active, (loads, finder), start, now, friction, force);
+    push::solve(contacts, active, (loads, finder), weights, start, now, friction, force);
     push::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
     spots::scatter(now, &mut world.particles.x);
 }
@@ -322,16 +333,32 @@ pub(crate) fn hold_at_last(world: &mut World) {
     hold(world);
 }
 
-/// After velocities were derived, those of layers that hit each other agree.
+/// After velocities were derived, those of layers that hit each other agree, and those of what pushes each other
+/// come nearer.
 pub(crate) fn calm(world: &mut World) {
-    let speed = world.settings.gravity.length() * world.settings.scheme().h;
-    let Some(layers) = &mut world.layers else {
+    let h = world.settings.scheme().h;
+    let speed = world.settings.gravity.length() * h;
+    let Some(mut layers) = world.layers.take() else {
         return;
     };
-    let Layers { contacts, active, open, motion, .. } = &mut **layers;
+    let Layers { contacts, active, open, weights, motion, ways, .. } = &mut *layers;
+    let is_free = world.scratch.contacts.touches.is_empty() && spots::middle(&motion.now).is_some();
     let p = &mut world.particles;
     push::find_hits(contacts, active, &p.v, speed, open);
     for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
-        push::calm(contacts, open, &motion.now, columns);
+        push::calm(contacts, open, columns);
+        if !active.is_empty() {
+            spots::gather(ways, columns, &p.w);
+            let whole = spots::whole(&motion.now, ways);
+            for (way, x) in ways.iter_mut().zip(&motion.now) {
+                spots::shift(way, -whole.at(spots::place(x)));
+            }
+            push::soothe(contacts, active, weights, ways, h, !is_free);
+            for (way, x) in ways.iter_mut().zip(&motion.now) {
+                spots::shift(way, whole.at(spots::place(x)));
+            }
+            spots::scatter(ways, columns);
+        }
     }
+    world.layers = Some(layers);
 }

@@ -1,12 +1,13 @@
 //! Which patches may meet: in a tick by the tree, and of those in a substep.
 
-use super::patches::Patches;
+use super::patches::{Lean, Patches};
 use super::reach::Reach;
 use super::sweep::Sweep;
 use crate::math::min;
 use crate::mesh::NONE;
+use glam::Vec3;
 
-/// The bit of a listed pair whose patches share a vertex, or are the same.
+/// The bit of a listed pair whose patches are beside each other, or the same.
 const BESIDE: u32 = 1 << 31;
 
 /// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
@@ -93,22 +94,57 @@ impl Patches {
     /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little as a substep begins and
     /// as it ends.
     fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
-        let (ours, theirs) =
-            (&self.patches[one as usize].leans, &self.patches[other as usize].leans);
-        ours.iter().zip(theirs).all(|(a, b)| {
-            let cone = min(a.cone, b.cone);
-            if one == other || cone <= STEEP {
-                return cone > STEEP;
-            }
-            // Seen from amid both means: a cone of the half of what they are apart and of what normals lean.
-            let half = min((1.0 + a.normal.dot(b.normal)) * 0.5, 1.0);
-            let side = (1.0 - half) * (1.0 - cone * cone);
-            half.sqrt() * cone - side.sqrt() > STEEP
-        })
+        let leans = |patch: u32| &self.patches[patch as usize].leans;
+        let (ours, theirs) = (leans(one), leans(other));
+        if one == other {
+            return ours.iter().all(|lean| lean.cone > STEEP);
+        }
+        if !ours.iter().zip(theirs).all(|(a, b)| a.is_along(b)) {
+            return false;
+        }
+        // Around a common vertex all may lean alike that lie on each other, if what is between them is turned over.
+        let between = self.between([one, other]);
+        between == NONE
+            || ours
+                .iter()
+                .zip(theirs)
+                .zip(leans(between))
+                .all(|((a, b), c)| c.faces(a.normal + b.normal))
     }
 
     fn are_beside(&self, [one, other]: [u32; 2]) -> bool {
-        let [from, to] = self.patches[one as usize].beside;
-        one == other || self.beside[from as usize..to as usize].contains(&other)
+        one == other || self.beside(one).iter().any(|[patch, _]| *patch == other)
     }
+
+    /// The patch between two that share no more than a vertex.
+    fn between(&self, [one, other]: [u32; 2]) -> u32 {
+        let beside = self.beside(one).iter().find(|[patch, _]| *patch == other);
+        beside.map_or(NONE, |[_, between]| *between)
+    }
+
+    fn beside(&self, patch: u32) -> &[[u32; 2]] {
+        let [from, to] = self.patches[patch as usize].beside;
+        &self.beside[from as usize..to as usize]
+    }
+}
+
+impl Lean {
+    /// Whether all normals lean little, seen from amid two means: by the half of what those are apart, and what normals
+    /// lean from them.
+    fn is_along(&self, other: &Self) -> bool {
+        let cone = min(self.cone, other.cone);
+        let half = min((1.0 + self.normal.dot(other.normal)) * 0.5, 1.0);
+        cone > STEEP && cosine_of_sum(half.sqrt(), cone) > STEEP
+    }
+
+    /// Whether all normals are on the side that a way leads to.
+    fn faces(&self, way: Vec3) -> bool {
+        let cosine = self.normal.dot(way) / way.length();
+        cosine > 0.0 && self.cone > 0.0 && cosine_of_sum(min(cosine, 1.0), self.cone) > 0.0
+    }
+}
+
+/// The cosine of the sum of two angles up to a right one, of their cosines.
+fn cosine_of_sum(a: f32, b: f32) -> f32 {
+    a * b - ((1.0 - a * a) * (1.0 - b * b)).sqrt()
 }

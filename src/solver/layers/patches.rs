@@ -39,7 +39,7 @@ pub(super) struct Patch {
     pub(super) is_split: bool,
     /// Whether one of its vertices strayed.
     pub(super) has_strays: bool,
-    /// The patches after it that share a vertex with it: from, to.
+    /// The patches beside it that come after it: from, to.
     pub(super) beside: [u32; 2],
     /// The piece that it is of, and where it is at rest.
     pub(super) piece: u32,
@@ -87,8 +87,8 @@ pub(super) struct Patches {
     pub triangles: Vec<u32>,
     pub vertices: Vec<u32>,
     pub edges: Vec<[u32; 2]>,
-    /// Patches that share a vertex with one before.
-    pub(super) beside: Vec<u32>,
+    /// Patches beside one before, and which one is between them if they share no more than a vertex.
+    pub(super) beside: Vec<[u32; 2]>,
     /// The patch of each triangle.
     patch_of: Vec<u32>,
     /// The last patch that had each vertex.
@@ -220,8 +220,10 @@ impl Patches {
             + self.vertices.capacity()
             + self.patch_of.capacity()
             + self.seen_in.capacity()
-            + self.beside.capacity()
-            + 2 * (self.edges.capacity() + self.stack.capacity() + self.listed.capacity());
+            + 2 * (self.beside.capacity()
+                + self.edges.capacity()
+                + self.stack.capacity()
+                + self.listed.capacity());
         size_of::<Node>() * self.nodes.capacity()
             + size_of::<Sweep>() * (2 * self.sweeps.capacity() + self.reaches.capacity())
             + size_of::<Sweeps>() * (1 + 2 * BLOCKS) * self.triangle_sweeps.capacity()
@@ -280,6 +282,7 @@ impl Patches {
         }
     }
 
+    /// Finds the patches after each that share edges with it, or a vertex and a patch between them around that.
     fn find_neighbours(&mut self) {
         let mut around: Vec<[u32; 2]> = Vec::new();
         for (at, patch) in self.patches.iter().enumerate() {
@@ -287,17 +290,43 @@ impl Patches {
             around.extend(self.vertices[from..to].iter().map(|v| [*v, at as u32]));
         }
         sort(&mut around);
-        let mut beside: Vec<[u32; 2]> = Vec::new();
-        for of_vertex in around.chunk_by(|a, b| a[0] == b[0]) {
+        let of_vertices = || around.chunk_by(|a, b| a[0] == b[0]);
+        let mut common: Vec<[u32; 2]> = Vec::new();
+        for of_vertex in of_vertices() {
             for (at, [_, one]) in of_vertex.iter().enumerate() {
-                beside.extend(of_vertex[at + 1..].iter().map(|[_, other]| [*one, *other]));
+                common.extend(of_vertex[at + 1..].iter().map(|[_, other]| [*one, *other]));
+            }
+        }
+        sort(&mut common);
+        // Two vertices are an edge, or as good as one.
+        let edges: Vec<[u32; 2]> = common
+            .chunk_by(|a, b| a == b)
+            .filter(|same| same.len() > 1)
+            .map(|same| same[0])
+            .collect();
+        let share_edges =
+            |one: u32, other: u32| edges.binary_search(&[one.min(other), one.max(other)]).is_ok();
+        let mut beside: Vec<[u32; 3]> =
+            edges.iter().map(|[one, other]| [*one, *other, NONE]).collect();
+        for of_vertex in of_vertices() {
+            for (at, [_, one]) in of_vertex.iter().enumerate() {
+                for [_, other] in &of_vertex[at + 1..] {
+                    let is_between = |[_, patch]: &&[u32; 2]| {
+                        share_edges(*one, *patch) && share_edges(*patch, *other)
+                    };
+                    let between = of_vertex.iter().find(is_between);
+                    if !share_edges(*one, *other)
+                        && let Some([_, between]) = between
+                    {
+                        beside.push([*one, *other, *between]);
+                    }
+                }
             }
         }
         sort(&mut beside);
-        beside.dedup();
         for of_patch in beside.chunk_by(|a, b| a[0] == b[0]) {
             let from = self.beside.len() as u32;
-            self.beside.extend(of_patch.iter().map(|[_, other]| *other));
+            self.beside.extend(of_patch.iter().map(|[_, other, between]| [*other, *between]));
             self.patches[of_patch[0][0] as usize].beside = [from, self.beside.len() as u32];
         }
     }

@@ -1,6 +1,6 @@
 //! Layers push each other apart and rub on each other.
 
-use super::contacts::{Contact, along, places};
+use super::contacts::{Contact, Weight, along, places};
 use super::loads::{Finder, Loads};
 use super::spots::{Spot, place, shift};
 use crate::math::columns::Columns;
@@ -23,16 +23,17 @@ pub(super) const NEAR: [f32; 2] = [1.1, 1.02];
 
 /// The share of what sides are too near that they come apart by in a substep, which is no motion; at most
 /// so fast [m/s].
-const PART: f32 = 0.3;
+const PART: f32 = 0.05;
 const RISE: f32 = 0.25;
+
+/// How long it takes about until sides that push each other move as one [s].
+const REST: f32 = 0.01;
 
 /// Moves the particles of a contact along `by`, by how they count.
 #[inline(always)]
 fn press(x: &mut [Spot], contact: &Contact, by: Vec3) {
-    for (id, share) in contact.ids.iter().zip(contact.share) {
-        let spot = &mut x[*id as usize];
-        let weight = spot[3] * share;
-        shift(spot, by * weight);
+    for (id, weight) in contact.ids.iter().zip(contact.weights) {
+        shift(&mut x[*id as usize], by * weight);
     }
 }
 
@@ -42,6 +43,7 @@ pub(super) fn solve(
     contacts: &mut [Contact],
     active: &mut Vec<u32>,
     (loads, finder): (&mut Loads, &mut Finder),
+    weights: &[Weight],
     start: &[Spot],
     x: &mut [Spot],
     friction: f32,
@@ -51,9 +53,10 @@ pub(super) fn solve(
     for (at, contact) in contacts.iter_mut().enumerate() {
         contact.push = 0.0;
         let near = contact.gap * NEAR[contact.first as usize - 1];
-        if along(places(x, contact.ids), contact) < near {
-            contact.aim = min(along(places(start, contact.ids), contact), contact.gap);
-            contact.weigh(x);
+        let before = along(places(start, contact.ids), contact);
+        if min(before, along(places(x, contact.ids), contact)) < near {
+            contact.aim = min(before, contact.gap);
+            contact.weigh(weights);
             active.push(at as u32);
         }
     }
@@ -128,10 +131,9 @@ pub(super) fn spread(
             continue;
         }
         let by = min(missing * PART, RISE * h) * contact.give;
-        for (id, share) in contact.ids.iter().zip(contact.share) {
-            let spot = &mut x[*id as usize];
-            let by = contact.n * (by * spot[3] * share);
-            shift(spot, by);
+        for (id, weight) in contact.ids.iter().zip(contact.weights) {
+            let by = contact.n * (by * weight);
+            shift(&mut x[*id as usize], by);
             predicted.add(*id as usize, by);
         }
     }
@@ -167,13 +169,69 @@ fn against(contact: &Contact, motion: &Columns) -> Vec3 {
 
 /// Sides that hit each other have no velocity against each other but along the surface, and none at all where they
 /// stick.
-pub(super) fn calm(contacts: &[Contact], hits: &[u32], x: &[Spot], motion: &mut Columns) {
+pub(super) fn calm(contacts: &[Contact], hits: &[u32], motion: &mut Columns) {
     for contact in hits.iter().map(|at| &contacts[*at as usize]) {
         let v = against(contact, motion);
         let v = if contact.sticks { v } else { contact.n * v.dot(contact.n) };
         let by = v * -contact.give;
-        for (id, share) in contact.ids.iter().zip(contact.share) {
-            motion.add(*id as usize, by * (share * x[*id as usize][3]));
+        for (id, weight) in contact.ids.iter().zip(contact.weights) {
+            motion.add(*id as usize, by * weight);
         }
     }
+}
+
+/// Sides that push each other come to rest against each other, as cloth does that is full of air and of fibres that
+/// rub: they come no nearer nor part, and where they stick move as one. With `turns` they do not turn by themselves
+/// either, which gives their spin to what holds or bears the cloth. `v` is how particles move against the whole cloth,
+/// in some unit, `h` the length of the substep [s].
+pub(super) fn soothe(
+    contacts: &[Contact],
+    active: &[u32],
+    weights: &[Weight],
+    v: &mut [Spot],
+    h: f32,
+    turns: bool,
+) {
+    let share = h / (h + REST);
+    for contact in active.iter().map(|at| &contacts[*at as usize]) {
+        if contact.push <= 0.0 {
+            continue;
+        }
+        if turns {
+            let (one, other) = contact.ids.split_at(contact.first as usize);
+            [one, other].into_iter().for_each(|side| join(side, weights, v, share));
+        }
+        let way = way_against(contact, v);
+        let way = if contact.sticks { way } else { contact.n * way.dot(contact.n) };
+        press(v, contact, way * (-contact.give * share));
+    }
+}
+
+/// How some particles move comes nearer to how their middle does.
+#[inline(always)]
+fn join(side: &[u32], weights: &[Weight], v: &mut [Spot], share: f32) {
+    let (mut sum, mut mass) = (Vec3::ZERO, 0.0);
+    for id in side {
+        let w = weights[*id as usize].w;
+        if w <= 0.0 {
+            return;
+        }
+        sum += place(&v[*id as usize]) * (1.0 / w);
+        mass += 1.0 / w;
+    }
+    let mean = sum * (1.0 / mass);
+    for id in side {
+        let spot = &mut v[*id as usize];
+        shift(spot, (mean - place(spot)) * share);
+    }
+}
+
+/// How the closest points move against each other.
+#[inline(always)]
+fn way_against(contact: &Contact, v: &[Spot]) -> Vec3 {
+    let mut way = Vec3::ZERO;
+    for (id, share) in contact.ids.iter().zip(contact.share) {
+        way += place(&v[*id as usize]) * share;
+    }
+    way
 }
