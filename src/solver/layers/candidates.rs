@@ -36,7 +36,8 @@ struct Lanes<T> {
     distance: T,
 }
 
-/// A pair that may meet: how far it keeps apart, the direction that it was apart along, and how far it is now.
+/// A pair that may meet: how far it keeps apart, the direction that it was apart along, and how near it is
+/// then or now, whichever is less.
 pub(super) struct Candidate {
     pub ids: [u32; 4],
     pub gap: f32,
@@ -201,7 +202,8 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
             s.store(list, at, n);
         }
-        // Rooms are as large on all sides, so that particles are in the middle.
+        // Rooms are as large on all sides, so that particles are in the middle. What others push back to where it came
+        // from is as near as it was.
         let mut distance = s.min(length, length + s.splat(0.5) * now);
         if FIRST == EDGES {
             let is_clear = then - s.splat(CLEAR) * length;

@@ -49,6 +49,8 @@ pub(super) const THICK: f32 = 0.5;
 
 /// How far particles may stray until what may meet is listed anew, patches and what is in them [mean rest lengths].
 const FAR: f32 = 0.2;
+
+/// More pairs than so many of a particle are worth to be listed more often, with less room.
 const MANY: usize = 10;
 
 /// How often those are looked at again at most that strayed.

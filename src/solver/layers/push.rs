@@ -17,8 +17,8 @@ pub(super) const BORNE: f32 = 0.02;
 /// [substeps].
 const HIT: f32 = 2.0;
 
-/// What is farther apart than this, in gaps, does not push: of vertices and triangles, and of edges, which have
-/// little to do where surfaces lie on each other.
+/// What is farther apart than this, in gaps, as a substep begins and before pushes, does not push: of vertices and
+/// triangles, and of edges, which have little to do where surfaces lie on each other.
 pub(super) const NEAR: [f32; 2] = [1.1, 1.02];
 
 /// The share of what sides are too near that they come apart by in a substep, which is no motion; at most
