@@ -4,10 +4,10 @@ use crate::Effort;
 use crate::measure::seconds;
 use crate::table::{Table, number, times};
 use muslin::glam::Vec3;
-use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, SelfCollision, Settings};
+use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, SelfCollision, Settings, Shape};
 use std::hint::black_box;
 
-/// A sheet that falls on a floor.
+/// A sheet that falls on a floor, or on a ball on it.
 struct Fall {
     name: &'static str,
     columns: u32,
@@ -16,12 +16,25 @@ struct Fall {
     down: Vec3,
     /// The height that it hangs at before it falls [m].
     height: f32,
+    /// The radius of a ball under its middle, which stands on the floor [m]; 0 for none.
+    ball: f32,
     settings: fn() -> Settings,
     /// The parts of the fall that are measured, in ticks.
     parts: [(&'static str, u32, u32); 2],
 }
 
-const FALLS: [Fall; 3] = [
+const FALLS: [Fall; 4] = [
+    Fall {
+        name: "64 x 64 on a ball",
+        columns: 64,
+        rows: 64,
+        spacing: 1.0 / 64.0,
+        down: Vec3::Z,
+        height: 0.6,
+        ball: 0.25,
+        settings: Settings::default,
+        parts: [("falling and draping", 0, 60), ("coming to rest", 60, 300)],
+    },
     Fall {
         name: "64 x 64 on its side",
         columns: 64,
@@ -29,6 +42,7 @@ const FALLS: [Fall; 3] = [
         spacing: 1.0 / 64.0,
         down: Vec3::new(0.0, -0.5, 0.866),
         height: 0.6,
+        ball: 0.0,
         settings: Settings::default,
         parts: [("falling and landing", 0, 40), ("lying", 100, 140)],
     },
@@ -39,6 +53,7 @@ const FALLS: [Fall; 3] = [
         spacing: 1.0 / 64.0,
         down: Vec3::NEG_Y,
         height: 1.02,
+        ball: 0.0,
         settings: Settings::default,
         parts: [("crumpling", 0, 40), ("lying", 200, 220)],
     },
@@ -49,6 +64,7 @@ const FALLS: [Fall; 3] = [
         spacing: 0.12,
         down: Vec3::NEG_Y,
         height: 7.6,
+        ball: 0.0,
         settings: || Settings {
             tick: 1.0 / 120.0,
             substeps: 8,
@@ -118,6 +134,16 @@ impl Fall {
         })
         .expect("a grid of the benchmark's own");
         cloth.add_collider(&ColliderDesc::default()).expect("a floor of the benchmark's own");
+        if self.ball > 0.0 {
+            let middle = 0.5 * self.spacing * (self.columns - 1) as f32;
+            let ball = ColliderDesc {
+                shape: Shape::Sphere,
+                radius: self.ball,
+                position: Vec3::new(middle, self.ball, middle),
+                ..ColliderDesc::default()
+            };
+            cloth.add_collider(&ball).expect("a ball of the benchmark's own");
+        }
         // Nothing is so flat that it crumples in its own plane.
         for i in (0..self.columns * self.rows).step_by(7) {
             let away = Vec3::Z * (0.05 * ((i % 5) as f32 - 2.0));
