@@ -17,14 +17,14 @@ use glam::Vec3;
 pub(super) const SLIT: f32 = 0.25;
 
 /// What is let be: so much of that, or of what there was.
-const ENOUGH: f32 = 0.2;
+pub(super) const ENOUGH: f32 = 0.2;
 const LEAST: f32 = 0.998;
 
 /// Sides that are nearer than what is let be come apart by this much of how far they are in a substep.
 const MORE: f32 = 1.1;
 
 /// Another direction that would let sides come nearer than this share of what they may is not taken.
-const WORSE: f32 = 0.5;
+pub(super) const WORSE: f32 = 0.5;
 
 /// Nearer than this no direction tells sides apart [m].
 pub(super) const NOTHING: f32 = 1.0e-7;
@@ -271,10 +271,13 @@ impl Contact {
         Some(contact)
     }
 
-    /// Takes the direction of where sides are closest now, if it told them apart before.
+    /// Takes the direction of where sides are closest now, if it told them apart before, and not much less.
     #[inline(always)]
     fn turn(&mut self, now: Closest, start: [Vec3; 4]) {
-        if now.distance > NOTHING && between(start, self.first, now.n) > NOTHING {
+        let enough = self.gap * (SLIT * ENOUGH);
+        let before = min(between(start, self.first, self.n), enough);
+        let then = between(start, self.first, now.n);
+        if now.distance > NOTHING && then > NOTHING && min(then, enough) > WORSE * before {
             (self.share, self.n) = (now.share, now.n);
         }
     }

@@ -3,7 +3,7 @@
 //! As `Contact::find` does it one by one for what no direction tells apart well.
 
 use super::closest::{V, between, from_edge, from_triangle};
-use super::contacts::{CLEAR, Contact, EDGES, Kind, NOTHING, SAME, VERTEX};
+use super::contacts::{CLEAR, Contact, EDGES, ENOUGH, Kind, NOTHING, SAME, SLIT, VERTEX, WORSE};
 use super::motion::Motion;
 use super::spots::Spot;
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
@@ -155,13 +155,17 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
         if FIRST == EDGES {
             is_sure = s.min(is_sure, apart - s.splat(CLEAR) * before.distance);
         }
-        // What came nearer than the gap takes the direction that it has now, if that told sides apart before.
+        // What came nearer than the gap takes the direction that it has now, if that told sides apart before, and not
+        // much less.
         let mut distance = s.splat(0.0);
         for k in 0..4 {
             distance = distance + before.share[k] * before.n.dot(x[k]);
         }
         let is_near = s.min(turned, after.distance) - s.splat(NOTHING);
-        let turns = s.min(s.load(gaps, at) - distance, is_near);
+        let gap = s.load(gaps, at);
+        let enough = gap * s.splat(SLIT * ENOUGH);
+        let is_better = s.min(turned, enough) - s.splat(WORSE) * s.min(apart, enough);
+        let turns = s.min(s.min(gap - distance, is_near), is_better);
         apart = s.pick(turns, turned, apart);
         let n = [before.n.x, before.n.y, before.n.z].into_iter();
         let new = [after.n.x, after.n.y, after.n.z];
