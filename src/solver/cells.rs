@@ -343,7 +343,7 @@ fn take<S: Simd, G: Give, const TORN: bool>(
     let (quarter, half) = (s.splat(G::part(area)), s.splat(G::part(2.0 * area)));
     // Where the cell below falls, all diagonals around meet here.
     let meets = s.load(&BY_TURNS, usize::from(!falls(row.number as u32, first as u32)));
-    let (shared, own) = (s.pick(meets, quarter, zero), s.pick(meets, quarter, half));
+    let (shared, own) = (s.keep(meets, quarter), s.pick(meets, quarter, half));
     let ([above, below], mut sums) = (seen, [zero; 3]);
     add::<S, TORN>(s, above, first, 2, shared, &mut sums);
     add::<S, TORN>(s, above, first, 4, own, &mut sums);
@@ -369,7 +369,7 @@ fn add<S: Simd, const TORN: bool>(
     sums: &mut [S::F; 3],
 ) {
     if TORN && seen.is_torn {
-        part = s.pick(s.load(seen.kept[corner], from), part, s.splat(0.0));
+        part = s.keep(s.load(seen.kept[corner], from), part);
     }
     for axis in 0..3 {
         sums[axis] = sums[axis] + s.load(seen.by[corner / 3 * 3 + axis], from) * part;

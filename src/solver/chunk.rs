@@ -90,7 +90,7 @@ impl<F: Number> Chunk<F> {
     #[inline(always)]
     pub unsafe fn in_row(s: impl Simd<F = F>, place: Place, done: usize) -> F {
         // SAFETY: the caller's promise.
-        unsafe { s.pick(s.load(&COUNTS, MOST_LANES - done), s.load_from(place.mask), s.splat(0.0)) }
+        unsafe { s.keep(s.load(&COUNTS, MOST_LANES - done), s.load_from(place.mask)) }
     }
 
     /// The first `count` links.

@@ -156,14 +156,14 @@ impl Pressure {
         let facing = ux * nx + uy * ny + uz * nz;
         let head_on = s.pick(facing, facing, zero - facing);
         // The pressure acts on the triangle as it is now, shared out as its mass is.
-        let stretch = s.min(s.splat(0.5) * double_area / rest_area.max(tiny), s.splat(4.0));
+        let stretch = Number::min(s.splat(0.5) * double_area / rest_area.max(tiny), s.splat(4.0));
         let most = s.splat(self.most);
-        let push = s.min(s.splat(self.drag) * head_on, most) * facing * stretch;
+        let push = Number::min(s.splat(self.drag) * head_on, most) * facing * stretch;
         let mut force = [nx * push, ny * push, nz * push];
         if LIFT {
             let speed2 = ux * ux + uy * uy + uz * uz;
             let sign = s.pick(zero - facing, s.splat(-1.0), s.splat(1.0));
-            let rate = s.min(s.splat(self.lift) * head_on, most) * sign * stretch;
+            let rate = Number::min(s.splat(self.lift) * head_on, most) * sign * stretch;
             let share = rate / speed2.sqrt().max(tiny);
             force[0] = force[0] + (nx * speed2 - ux * facing) * share;
             force[1] = force[1] + (ny * speed2 - uy * facing) * share;

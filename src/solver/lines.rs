@@ -64,7 +64,7 @@ struct Step {
     /// … their lengths as a share of what they are to be, and one over the latter.
     ratio: Lanes,
     over: Lanes,
-    /// What each link has to do with the one before.
+    /// How each link hangs on the one before: less what it has to do with it in the system.
     before: Lanes,
     /// One over its pivot, and the right side of the system.
     inverse: Lanes,
@@ -144,24 +144,83 @@ fn solve_all<S: Simd, const SOFT: bool>(
     scale: f32,
 ) {
     for steps in lines.blocks() {
-        for first in (0..LANES).step_by(S::LANES) {
-            let run = Run { s, first, steps };
-            run.eliminate::<SOFT>(links, room, scale);
-            run.pull::<SOFT>(links, room);
-            run.go(room);
+        for first in (0..LANES).step_by(2 * S::LANES) {
+            let runs = [first, first + S::LANES].map(|first| Run { s, first });
+            solve_lanes::<_, SOFT>(runs, steps, links, room, scale);
+        }
+    }
+}
+
+/// Two runs through a block go side by side, if it has lanes for both: each step waits for the one before, so that
+/// one run by itself leaves the processor idle.
+#[inline(always)]
+fn solve_lanes<S: Simd, const SOFT: bool>(
+    [run, other]: [Run<S>; 2],
+    steps: &[abreast::Step],
+    links: &mut Links,
+    room: &mut Scratch,
+    scale: f32,
+) {
+    let is_double = 2 * S::LANES <= LANES;
+    let [mut there, mut other_there] = [run.begin(), other.begin()];
+    let Scratch { points, starts, steps: room } = room;
+    let starts = if SOFT { &[][..] } else { &starts[..points.len()] };
+    for (laid, step) in steps.iter().zip(&mut *room) {
+        run.eliminate::<SOFT>(&mut there, [&*points, starts], (laid, step), links, scale);
+        if is_double {
+            other.eliminate::<SOFT>(
+                &mut other_there,
+                [&*points, starts],
+                (laid, step),
+                links,
+                scale,
+            );
+        }
+    }
+    let [mut back, mut other_back] = [run.turn(), other.turn()];
+    for (laid, step) in steps.iter().zip(&mut *room).rev() {
+        run.pull::<SOFT>(&mut back, (laid, step), links);
+        if is_double {
+            other.pull::<SOFT>(&mut other_back, (laid, step), links);
+        }
+    }
+    let mut ways = [[run.s.splat(0.0); 3]; 2];
+    for (laid, step) in steps.iter().zip(&*room) {
+        run.go(&mut ways[0], (laid, step), points);
+        if is_double {
+            other.go(&mut ways[1], (laid, step), points);
         }
     }
 }
 
 /// As many lanes of a block as go at once.
-struct Run<'a, S> {
+#[derive(Clone, Copy)]
+struct Run<S> {
     s: S,
     /// The first one's number in the block.
     first: usize,
-    steps: &'a [abreast::Step],
 }
 
-impl<S: Simd> Run<'_, S> {
+/// What a step needs of the one before, on the way there.
+struct There<F> {
+    last: [F; 4],
+    start: [F; 4],
+    n: [F; 3],
+    inverse: F,
+    right: F,
+}
+
+/// What a step needs of the one after, on the way back.
+struct Back<F> {
+    after: F,
+    coupling: F,
+    /// What the link after pulls with at its beginning: of itself, …
+    m: [F; 3],
+    /// … and against going there.
+    hold: F,
+}
+
+impl<S: Simd> Run<S> {
     /// What these lanes have of a step of the block.
     #[inline(always)]
     fn own<'b, T>(&self, step: &'b [T; LANES]) -> &'b [T] {
@@ -190,54 +249,70 @@ impl<S: Simd> Run<'_, S> {
         self.store(&mut lanes[2], z);
     }
 
-    /// The way there: what each link has to do with the one before goes out of the first system. Where a
+    /// In front of the first step.
+    #[inline(always)]
+    fn begin(&self) -> There<S::F> {
+        let zero = self.s.splat(0.0);
+        There { last: [zero; 4], start: [zero; 4], n: [zero; 3], inverse: zero, right: zero }
+    }
+
+    /// Behind the last step.
+    #[inline(always)]
+    fn turn(&self) -> Back<S::F> {
+        let zero = self.s.splat(0.0);
+        Back { after: zero, coupling: zero, m: [zero; 3], hold: zero }
+    }
+
+    /// A step there: what each link has to do with the one before goes out of the first system. Where a
     /// piece begins, and behind the last, there is a link that neither pulls nor is pulled.
     #[inline(always)]
-    fn eliminate<const SOFT: bool>(&self, links: &Links, room: &mut Scratch, scale: f32) {
+    fn eliminate<const SOFT: bool>(
+        &self,
+        there: &mut There<S::F>,
+        [points, starts]: [&[[f32; 4]]; 2],
+        (laid, step): (&abreast::Step, &mut Step),
+        links: &Links,
+        scale: f32,
+    ) {
         let s = self.s;
-        let (zero, one, tiny) = (s.splat(0.0), s.splat(1.0), s.splat(TINY));
-        let (mut last, mut start) = ([zero; 4], [zero; 4]);
-        let (mut n, mut inverse, mut right) = ([zero; 3], zero, zero);
-        for (laid, step) in self.steps.iter().zip(&mut room.steps) {
-            let (to, rest) = (self.own(&laid.to), self.load(&laid.rest));
-            let next = turn(s, &room.points, to);
-            let mut aim = rest;
-            if !SOFT {
-                // What they were when the substep began, mended a little.
-                let was = turn(s, &room.starts, to);
-                aim = rest + (length(s, &start, &was) - rest) * s.splat(1.0 - MEND);
-                start = was;
-            }
-            let (dx, dy, dz) = (next[0] - last[0], next[1] - last[1], next[2] - last[2]);
-            let length = (dx * dx + dy * dy + dz * dz).sqrt().max(tiny);
-            let over = one / length;
-            let (nx, ny, nz) = (dx * over, dy * over, dz * over);
-            let along = nx * n[0] + ny * n[1] + nz * n[2];
-            n = [nx, ny, nz];
-            let before = s.pick(rest, s.splat(-0.0) - last[3] * along, zero);
-            let both = last[3] + next[3];
-            // Between two that are held there is nothing to solve.
-            let least = (both * s.splat(GIVE)).max(tiny);
-            let least = s.pick(both, least, s.splat(f32::INFINITY));
-            let least = s.pick(rest, least, s.splat(f32::INFINITY));
-            let mut weight = both * s.splat(1.0 + GIVE);
-            if SOFT {
-                weight = weight + self.softness(links, self.own(&laid.links), scale);
-            }
-            let share = before * inverse;
-            inverse = one / (weight - share * before).max(least);
-            right = length - aim - share * right;
-            let over = one / aim.max(tiny);
-            self.store(&mut step.before, before);
-            self.store(&mut step.over, over);
-            self.store(&mut step.ratio, length * over);
-            self.store3(&mut step.to, [next[0], next[1], next[2]]);
-            self.store(&mut step.w, next[3]);
-            self.store3(&mut step.n, n);
-            self.store(&mut step.inverse, inverse);
-            self.store(&mut step.right, right);
-            last = next;
+        let (one, tiny) = (s.splat(1.0), s.splat(TINY));
+        let (to, rest) = (self.own(&laid.to), self.load(&laid.rest));
+        let next = turn(s, points, to);
+        let mut aim = rest;
+        if !SOFT {
+            // What they were when the substep began, mended a little.
+            let was = turn(s, starts, to);
+            aim = rest + (length(s, &there.start, &was) - rest) * s.splat(1.0 - MEND);
+            there.start = was;
         }
+        let last = there.last;
+        let (dx, dy, dz) = (next[0] - last[0], next[1] - last[1], next[2] - last[2]);
+        let length = (dx * dx + dy * dy + dz * dz).sqrt().max(tiny);
+        let over = one / length;
+        let (nx, ny, nz) = (dx * over, dy * over, dz * over);
+        let along = nx * there.n[0] + ny * there.n[1] + nz * there.n[2];
+        there.n = [nx, ny, nz];
+        let before = s.keep(rest, last[3] * along);
+        let both = last[3] + next[3];
+        let mut weight = both * s.splat(1.0 + GIVE);
+        if SOFT {
+            weight = weight + self.softness(links, self.own(&laid.links), scale);
+        }
+        let share = before * there.inverse;
+        let pivot = (weight - share * before).max(both * s.splat(GIVE));
+        // Between two that are held there is nothing to solve.
+        there.inverse = s.keep(both.min(rest), one / pivot);
+        there.right = length - aim + share * there.right;
+        there.last = next;
+        let over = one / aim;
+        self.store(&mut step.before, before);
+        self.store(&mut step.over, over);
+        self.store(&mut step.ratio, length * over);
+        self.store3(&mut step.to, [next[0], next[1], next[2]]);
+        self.store(&mut step.w, next[3]);
+        self.store3(&mut step.n, there.n);
+        self.store(&mut step.inverse, there.inverse);
+        self.store(&mut step.right, there.right);
     }
 
     #[inline(always)]
@@ -251,58 +326,61 @@ impl<S: Simd> Run<'_, S> {
         self.s.load(&softness, 0)
     }
 
-    /// The way back: the multipliers, and with them what each particle has to do with the one after
-    /// goes out of the second system.
+    /// A step back: the multipliers, and with them what each particle has to do with the one after goes
+    /// out of the second system.
     #[inline(always)]
-    fn pull<const SOFT: bool>(&self, links: &mut Links, room: &mut Scratch) {
+    fn pull<const SOFT: bool>(
+        &self,
+        back: &mut Back<S::F>,
+        (laid, step): (&abreast::Step, &mut Step),
+        links: &mut Links,
+    ) {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
-        let (mut after, mut coupling) = (zero, zero);
-        // What the link after pulls with at its beginning: of itself, and against going there.
-        let (mut m, mut hold) = ([zero; 3], zero);
-        for (laid, step) in self.steps.iter().zip(&mut room.steps).rev() {
-            after = (self.load(&step.right) - coupling * after) * self.load(&step.inverse);
-            let q = s.pick(after, after * self.load(&step.over), zero);
-            let tension = s.pick(after, after * self.load(&step.ratio), after);
-            let w = self.load(&step.w);
-            let give = w / (one + w * (q + hold));
-            let share = give * q;
-            let n = self.load3(&step.n);
-            let mut own = [zero; 3];
-            for axis in 0..3 {
-                let pull = n[axis] * tension;
-                own[axis] = (m[axis] - pull) * give;
-                m[axis] = pull + q * own[axis];
-            }
-            hold = q * (one - share);
-            self.store3(&mut step.own, own);
-            self.store(&mut step.share, share);
-            coupling = self.load(&step.before);
-            if SOFT {
-                let mut lambda = [0.0; LANES];
-                s.store(&mut lambda, 0, after);
-                for (link, lambda) in self.own(&laid.links).iter().zip(lambda) {
-                    if *link != NONE {
-                        links.lambda[*link as usize] = -lambda;
-                    }
+        let after =
+            (self.load(&step.right) + back.coupling * back.after) * self.load(&step.inverse);
+        let q = s.keep(after, after * self.load(&step.over));
+        let tension = s.pick(after, after * self.load(&step.ratio), after);
+        let w = self.load(&step.w);
+        let give = w / (one + w * (q + back.hold));
+        let share = give * q;
+        let n = self.load3(&step.n);
+        let mut own = [zero; 3];
+        for axis in 0..3 {
+            let pull = n[axis] * tension;
+            own[axis] = (back.m[axis] - pull) * give;
+            back.m[axis] = pull + q * own[axis];
+        }
+        back.hold = q * (one - share);
+        back.after = after;
+        back.coupling = self.load(&step.before);
+        self.store3(&mut step.own, own);
+        self.store(&mut step.share, share);
+        if SOFT {
+            let mut lambda = [0.0; LANES];
+            s.store(&mut lambda, 0, after);
+            for (link, lambda) in self.own(&laid.links).iter().zip(lambda) {
+                if *link != NONE {
+                    links.lambda[*link as usize] = -lambda;
                 }
             }
         }
     }
 
-    /// There again: the particles go.
+    /// A step there again: the particles go.
     #[inline(always)]
-    fn go(&self, room: &mut Scratch) {
-        let s = self.s;
-        let mut way = [s.splat(0.0); 3];
-        for (laid, step) in self.steps.iter().zip(&room.steps) {
-            let (share, own) = (self.load(&step.share), self.load3(&step.own));
-            way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];
-            let moved = self.limited(way, &laid.rest);
-            let [x, y, z] = self.load3(&step.to);
-            let there = [moved[0] + x, moved[1] + y, moved[2] + z, self.load(&step.w)];
-            turn_back(s, &mut room.points, self.own(&laid.to), there);
-        }
+    fn go(
+        &self,
+        way: &mut [S::F; 3],
+        (laid, step): (&abreast::Step, &Step),
+        points: &mut [[f32; 4]],
+    ) {
+        let (share, own) = (self.load(&step.share), self.load3(&step.own));
+        *way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];
+        let moved = self.limited(*way, &laid.rest);
+        let [x, y, z] = self.load3(&step.to);
+        let there = [moved[0] + x, moved[1] + y, moved[2] + z, self.load(&step.w)];
+        turn_back(self.s, points, self.own(&laid.to), there);
     }
 
     /// Ways that are no longer than `most`, see `limit`.

@@ -5,7 +5,7 @@ use super::{PARTICLES, World};
 use crate::fabric::links::LinkKind;
 use crate::math::columns::Columns;
 use crate::math::max;
-use crate::math::simd::{Simd, leveled, vectored};
+use crate::math::simd::{Number, Scalar, Simd, leveled, vectored};
 use glam::Vec3;
 
 /// Positions, one a vertex.
@@ -27,7 +27,7 @@ pub(crate) fn hand_out(world: &World, of_particles: &Columns, out: &mut Vec<Vec3
 /// Normals of the surface at `x`, one a particle, so that no seam shows: the mean of the triangles around,
 /// weighted by area. Zero where there is none.
 pub(crate) fn normals(world: &World, x: &Columns, sums: &mut Columns) {
-    sums.copy_from(x);
+    sums.resize(x.x.len());
     sums.fill(Vec3::ZERO);
     let surface = Surface {
         triangles: &world.mesh.triangles,
@@ -68,21 +68,39 @@ vectored! {
         = surface::sum, Avx2, surface::sum_apart
 }
 
-leveled! {
-    fn normalize(sums: [&mut [f32]; 3]) = normalize_lanes
+vectored! {
+    fn normalize(sums: [&mut [f32]; 3]) = normalize_lanes, Avx512, normalize_apart
 }
 
 #[inline(always)]
-fn normalize_lanes([x, y, z]: [&mut [f32]; 3]) {
-    for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
-        let length = (*x * *x + *y * *y + *z * *z).sqrt();
-        // Where numbers end there is no normal either.
-        let is_one = length > 0.0 && length < f32::INFINITY;
-        let inverse = if is_one { 1.0 / length } else { 0.0 };
-        *x = if is_one { *x * inverse } else { 0.0 };
-        *y = if is_one { *y * inverse } else { 0.0 };
-        *z = if is_one { *z * inverse } else { 0.0 };
+fn normalize_lanes<S: Simd>(s: S, [x, y, z]: [&mut [f32]; 3]) {
+    let count = x.len();
+    let (y, z) = (&mut y[..count], &mut z[..count]);
+    let mut at = 0;
+    while at + S::LANES <= count {
+        let sum = [s.load(x, at), s.load(y, at), s.load(z, at)];
+        let one = normalized(s, sum);
+        s.store(x, at, one[0]);
+        s.store(y, at, one[1]);
+        s.store(z, at, one[2]);
+        at += S::LANES;
     }
+    normalize_apart([&mut x[at..], &mut y[at..], &mut z[at..]]);
+}
+
+fn normalize_apart([x, y, z]: [&mut [f32]; 3]) {
+    for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
+        [*x, *y, *z] = normalized(Scalar, [*x, *y, *z]);
+    }
+}
+
+#[inline(always)]
+fn normalized<S: Simd>(s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
+    let length = (x * x + y * y + z * z).sqrt();
+    let inverse = s.splat(1.0) / length;
+    // Where numbers end there is no normal either.
+    let is_one = length.min(s.splat(f32::INFINITY) - length);
+    [s.keep(is_one, x * inverse), s.keep(is_one, y * inverse), s.keep(is_one, z * inverse)]
 }
 
 /// A triangle's normal, as long as twice its area.

@@ -18,6 +18,7 @@ use super::pentads::{Factor, Line, Three};
 use super::stiffest;
 use super::twist::{Seen, Twist};
 use crate::fabric::plates::{Each, Plates};
+use crate::math::are_same;
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 
@@ -103,7 +104,7 @@ impl Scratch {
         let is_torn = w.len() > count;
         let (w, mass) = (&w[..count], &mass[..count]);
         let is_same = self.revision == plates.revision;
-        if is_same && !(differ(&self.w, w) || differ(&self.mass, mass)) {
+        if is_same && are_same(&self.w, w) && are_same(&self.mass, mass) {
             return false;
         }
         self.revision = plates.revision;
@@ -179,25 +180,18 @@ fn descend(
         let Scratch { weight, curve, seen: pull, force, given, w, mass, .. } = &mut *room;
         let (force, way) = (&mut force[axis][..], &mut given[axis][..]);
         let x = &mut x[..way.len()];
-        way.fill(0.0);
-        for (at, share) in descent.steps().iter().enumerate() {
-            if at == 0 {
-                pull.fill(0.0);
-            } else {
-                find_curves(step.level, way, weight, curve, columns);
-                find_twists(step.level, way, &weight[2], &mut curve[2], columns);
-                gather(step.level, curve, stiffness, pull, columns);
-            }
+        let [[_, take], rest @ ..] = descent.steps() else {
+            way.fill(0.0);
+            continue;
+        };
+        set_out(step.level, *take, w, force, way, x);
+        for share in rest {
+            find_curves(step.level, way, weight, curve, columns);
+            find_twists(step.level, way, &weight[2], &mut curve[2], columns);
+            gather(step.level, curve, stiffness, pull, columns);
             step_down(step.level, *share, [&pull[..], &w[..], &mass[..]], force, way, x);
         }
     }
-}
-
-/// Whether two lists of the same length differ.
-fn differ(a: &[f32], b: &[f32]) -> bool {
-    // Without a way out in the middle of a chunk, so that compilers compare many at once.
-    let differ = |a: &[f32], b: &[f32]| a.iter().zip(b).fold(false, |any, (a, b)| any | (a != b));
-    a.chunks(64).zip(b.chunks(64)).any(|(a, b)| differ(a, b))
 }
 
 /// How many times as stiff an element is whose middle is held: where the cloth goes on into a clamp, only
@@ -415,6 +409,22 @@ fn gather_lanes(
         let down = (2.0 * warp[1][i] - warp[0][i]) - warp[2][i];
         let turn = (twist[3][i] - twist[2][i]) - (twist[1][i] - twist[0][i]);
         force[i] = ((along + down) - turn) * stiffness;
+    }
+}
+
+leveled! {
+    /// The first step of a descent, which has no way behind it.
+    fn set_out(take: f32, w: &[f32], force: &mut [f32], way: &mut [f32], x: &mut [f32])
+        = set_out_lanes
+}
+
+#[inline(always)]
+fn set_out_lanes(take: f32, w: &[f32], force: &mut [f32], way: &mut [f32], x: &mut [f32]) {
+    for (((x, way), force), w) in x.iter_mut().zip(way).zip(force).zip(w) {
+        // As `step_down` would with no way: naught and less than naught are told apart.
+        *force += 0.0;
+        *way = 0.0 + *force * w * take;
+        *x += *way;
     }
 }
 

@@ -205,7 +205,7 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
                 }
                 let place = lists.place::<S, PATTERN>(spot);
                 let first = Chunk::first(s, S::LANES.min(count - done));
-                let keep = s.pick(first, Chunk::in_row(s, place, 0), s.splat(0.0));
+                let keep = s.keep(first, Chunk::in_row(s, place, 0));
                 let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
                 chunk.finish_only::<LAW, PATTERN>(s, place, keep);
                 done += S::LANES;

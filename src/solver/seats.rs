@@ -61,8 +61,11 @@ vectored! {
 
 #[inline(always)]
 fn seat_lanes<S: Simd>(s: S, [x, y, z]: [&[f32]; 3], w: &[f32], seats: &mut [[f32; 4]]) {
+    // One length for all, so that one check does.
+    let count = seats.len();
+    let (x, y, z, w) = (&x[..count], &y[..count], &z[..count], &w[..count]);
     let mut first = 0;
-    while first + S::LANES <= seats.len() {
+    while first + S::LANES <= count {
         let numbers = [s.load(x, first), s.load(y, first), s.load(z, first), s.load(w, first)];
         turn_back(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
         first += S::LANES;
@@ -78,8 +81,10 @@ fn seat_apart([x, y, z]: [&[f32]; 3], w: &[f32], seats: &mut [[f32; 4]]) {
 
 #[inline(always)]
 fn seat_back_lanes<S: Simd>(s: S, to: [&[f32]; 3], way: [&[f32]; 3], seats: &mut [[f32; 4]]) {
+    let count = seats.len();
+    let [to, way] = [to, way].map(|columns| columns.map(|column| &column[..count]));
     let mut first = 0;
-    while first + S::LANES <= seats.len() {
+    while first + S::LANES <= count {
         let mut numbers = [s.splat(0.0); 4];
         for axis in 0..3 {
             numbers[axis] = s.load(to[axis], first) - s.load(way[axis], first);
@@ -101,9 +106,11 @@ fn seat_back_apart(to: [&[f32]; 3], way: [&[f32]; 3], seats: &mut [[f32; 4]]) {
 
 #[inline(always)]
 fn unseat_lanes<S: Simd>(s: S, seats: &[[f32; 4]], columns: [&mut [f32]; 3]) {
-    let mut first = 0;
+    let count = seats.len();
     let [x, y, z] = columns;
-    while first + S::LANES <= seats.len() {
+    let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
+    let mut first = 0;
+    while first + S::LANES <= count {
         let numbers = turn(s, &seats[first..first + S::LANES], &IN_TURN);
         s.store(x, first, numbers[0]);
         s.store(y, first, numbers[1]);

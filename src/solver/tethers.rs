@@ -4,7 +4,7 @@ use super::packed::Packed;
 use super::{PARTICLES, World};
 use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Level, leveled};
+use crate::math::simd::{Level, MOST_LANES, Number, Scalar, Simd, vectored};
 use crate::math::threads::Threads;
 use crate::math::{max, min};
 use crate::state::pins::Pin;
@@ -20,12 +20,15 @@ const SAFETY: f32 = 4.0;
 
 /// Looks up where the pins are, after they moved.
 pub(crate) fn look(world: &mut World) {
-    let x = &world.particles.x;
+    let [x, y, z] = world.particles.x.all();
+    let (y, z) = (&y[..x.len()], &z[..x.len()]);
     for set in world.tethers.sets().iter().filter(|set| set.only.is_none()) {
         let found = &mut world.scratch.anchor;
-        for (to, from) in [(&mut found.x, &x.x), (&mut found.y, &x.y), (&mut found.z, &x.z)] {
-            to.clear();
-            to.extend(set.anchor.iter().map(|anchor| from[*anchor as usize]));
+        found.resize(set.anchor.len());
+        let [to_x, to_y, to_z] = found.all_mut();
+        for (((anchor, to_x), to_y), to_z) in set.anchor.iter().zip(to_x).zip(to_y).zip(to_z) {
+            let at = *anchor as usize;
+            (*to_x, *to_y, *to_z) = (x[at], y[at], z[at]);
         }
     }
 }
@@ -50,15 +53,17 @@ pub(crate) fn measure_slack(world: &mut World) {
 
 /// How far the cloth is from its pins now: the distance over the way, at most.
 fn farthest(world: &World) -> f32 {
-    let (level, x) = (world.level, &world.particles.x);
+    let (level, x) = (world.level, world.particles.x.all());
     let mut most = 0.0;
     for set in world.tethers.sets() {
         match set.only {
             Some(pin) => {
-                let pin = x.at(pin as usize).to_array();
+                let pin = world.particles.x.at(pin as usize).to_array();
                 farthest_from_one(level, x, pin, &set.length, &mut most);
             }
-            None => farthest_from_many(level, x, &world.scratch.anchor, &set.length, &mut most),
+            None => {
+                farthest_from_many(level, x, world.scratch.anchor.all(), &set.length, &mut most);
+            }
         }
     }
     most.sqrt()
@@ -184,8 +189,9 @@ fn packed_to_one(
 ) {
     for ((point, length), w) in points.iter_mut().zip(length).zip(w) {
         let [x, y, z, _] = *point;
-        let [x, y, z] = within([x, y, z], [px, py, pz], length * slack, *w);
-        *point = [x, y, z, 0.0];
+        if let Some([x, y, z]) = within(Scalar, [x, y, z], [px, py, pz], length * slack, *w) {
+            *point = [x, y, z, 0.0];
+        }
     }
 }
 
@@ -199,8 +205,9 @@ fn packed_to_many(
     let pins = px.iter().zip(py).zip(pz);
     for (((point, length), w), ((px, py), pz)) in points.iter_mut().zip(length).zip(w).zip(pins) {
         let [x, y, z, _] = *point;
-        let [x, y, z] = within([x, y, z], [*px, *py, *pz], length * slack, *w);
-        *point = [x, y, z, 0.0];
+        if let Some([x, y, z]) = within(Scalar, [x, y, z], [*px, *py, *pz], length * slack, *w) {
+            *point = [x, y, z, 0.0];
+        }
     }
 }
 
@@ -230,45 +237,99 @@ fn pull_set(
     }
 }
 
-leveled! {
+vectored! {
     fn pull_to_one(x: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32])
-        = to_one
+        = to_one, Avx512, to_one_apart
 }
 
-leveled! {
+vectored! {
     fn pull_to_many(
         x: [&mut [f32]; 3],
         pins: [&[f32]; 3],
         length: &[f32],
         slack: f32,
         w: &[f32],
-    ) = to_many
+    ) = to_many, Avx512, to_many_apart
 }
 
-leveled! {
-    fn farthest_from_one(x: &Columns, pin: [f32; 3], length: &[f32], most: &mut f32) = from_one
+vectored! {
+    /// The square of how far a particle is from its pin over the way, if that is more than `most`.
+    fn farthest_from_one(x: [&[f32]; 3], pin: [f32; 3], length: &[f32], most: &mut f32)
+        = from_one, Avx2, from_one_apart
 }
 
-leveled! {
-    fn farthest_from_many(x: &Columns, pins: &Columns, length: &[f32], most: &mut f32) = from_many
+vectored! {
+    fn farthest_from_many(x: [&[f32]; 3], pins: [&[f32]; 3], length: &[f32], most: &mut f32)
+        = from_many, Avx2, from_many_apart
 }
 
 #[inline(always)]
-fn to_one(
+fn to_one<S: Simd>(
+    s: S,
     [x, y, z]: [&mut [f32]; 3],
-    [px, py, pz]: [f32; 3],
+    pin: [f32; 3],
     length: &[f32],
     slack: f32,
     w: &[f32],
 ) {
+    let pins = [s.splat(pin[0]), s.splat(pin[1]), s.splat(pin[2])];
+    // One length for all, so that one check does.
+    let count = length.len();
+    let (x, y, z, w) = (&mut x[..count], &mut y[..count], &mut z[..count], &w[..count]);
+    let mut at = 0;
+    while at + S::LANES <= count {
+        let reach = s.load(length, at) * s.splat(slack);
+        let from = [s.load(x, at), s.load(y, at), s.load(z, at)];
+        if let Some(near) = within(s, from, pins, reach, s.load(w, at)) {
+            s.store(x, at, near[0]);
+            s.store(y, at, near[1]);
+            s.store(z, at, near[2]);
+        }
+        at += S::LANES;
+    }
+    let x = [&mut x[at..], &mut y[at..], &mut z[at..]];
+    to_one_apart(x, pin, &length[at..], slack, &w[at..]);
+}
+
+fn to_one_apart([x, y, z]: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32]) {
     let particles = x.iter_mut().zip(y).zip(z);
     for ((((x, y), z), length), w) in particles.zip(length).zip(w) {
-        [*x, *y, *z] = within([*x, *y, *z], [px, py, pz], length * slack, *w);
+        if let Some(near) = within(Scalar, [*x, *y, *z], pin, length * slack, *w) {
+            [*x, *y, *z] = near;
+        }
     }
 }
 
 #[inline(always)]
-fn to_many(
+fn to_many<S: Simd>(
+    s: S,
+    [x, y, z]: [&mut [f32]; 3],
+    [px, py, pz]: [&[f32]; 3],
+    length: &[f32],
+    slack: f32,
+    w: &[f32],
+) {
+    // As in `to_one`.
+    let count = length.len();
+    let (x, y, z, w) = (&mut x[..count], &mut y[..count], &mut z[..count], &w[..count]);
+    let (px, py, pz) = (&px[..count], &py[..count], &pz[..count]);
+    let mut at = 0;
+    while at + S::LANES <= count {
+        let pins = [s.load(px, at), s.load(py, at), s.load(pz, at)];
+        let reach = s.load(length, at) * s.splat(slack);
+        let from = [s.load(x, at), s.load(y, at), s.load(z, at)];
+        if let Some(near) = within(s, from, pins, reach, s.load(w, at)) {
+            s.store(x, at, near[0]);
+            s.store(y, at, near[1]);
+            s.store(z, at, near[2]);
+        }
+        at += S::LANES;
+    }
+    let (x, pins) = ([&mut x[at..], &mut y[at..], &mut z[at..]], [&px[at..], &py[at..], &pz[at..]]);
+    to_many_apart(x, pins, &length[at..], slack, &w[at..]);
+}
+
+fn to_many_apart(
     [x, y, z]: [&mut [f32]; 3],
     [px, py, pz]: [&[f32]; 3],
     length: &[f32],
@@ -278,62 +339,100 @@ fn to_many(
     let particles = x.iter_mut().zip(y).zip(z);
     let pins = px.iter().zip(py).zip(pz);
     for (((((x, y), z), ((px, py), pz)), length), w) in particles.zip(pins).zip(length).zip(w) {
-        [*x, *y, *z] = within([*x, *y, *z], [*px, *py, *pz], length * slack, *w);
+        if let Some(near) = within(Scalar, [*x, *y, *z], [*px, *py, *pz], length * slack, *w) {
+            [*x, *y, *z] = near;
+        }
     }
 }
 
-/// `x` if it is held or within `reach` of `pin`, else as far towards it as that.
+/// `x` where it is held or within `reach` of `pin`, else as far towards it as that; nothing if all are where they
+/// may be.
 #[inline(always)]
-fn within(x: [f32; 3], pin: [f32; 3], reach: f32, w: f32) -> [f32; 3] {
+fn within<S: Simd>(s: S, x: [S::F; 3], pin: [S::F; 3], reach: S::F, w: S::F) -> Option<[S::F; 3]> {
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     let length2 = dx * dx + dy * dy + dz * dz;
-    let is_far = length2 > reach * reach && w > 0.0;
+    let is_far = (length2 - reach * reach).min(w);
+    if !s.is_any_positive(is_far) {
+        return None;
+    }
     let share = reach / length2.sqrt();
-    let take = |pulled: f32, x: f32| if is_far { pulled } else { x };
-    [
-        take(pin[0] + dx * share, x[0]),
-        take(pin[1] + dy * share, x[1]),
-        take(pin[2] + dz * share, x[2]),
-    ]
+    Some([
+        s.pick(is_far, pin[0] + dx * share, x[0]),
+        s.pick(is_far, pin[1] + dy * share, x[1]),
+        s.pick(is_far, pin[2] + dz * share, x[2]),
+    ])
 }
 
 #[inline(always)]
-fn from_one(columns: &Columns, pin: [f32; 3], length: &[f32], most: &mut f32) {
-    farthest_of(columns, |_| pin, length, most);
+fn from_one<S: Simd>(s: S, [x, y, z]: [&[f32]; 3], pin: [f32; 3], length: &[f32], most: &mut f32) {
+    let mut far = s.splat(*most);
+    let pins = [s.splat(pin[0]), s.splat(pin[1]), s.splat(pin[2])];
+    let count = length.len();
+    let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
+    let mut at = 0;
+    while at + S::LANES <= count {
+        let x = [s.load(x, at), s.load(y, at), s.load(z, at)];
+        far = ratio2(x, pins, s.load(length, at)).max(far);
+        at += S::LANES;
+    }
+    *most = greatest(s, far);
+    from_one_apart([&x[at..], &y[at..], &z[at..]], pin, &length[at..], most);
+}
+
+fn from_one_apart([x, y, z]: [&[f32]; 3], pin: [f32; 3], length: &[f32], most: &mut f32) {
+    for (((x, y), z), length) in x.iter().zip(y).zip(z).zip(length) {
+        *most = max(ratio2([*x, *y, *z], pin, *length), *most);
+    }
 }
 
 #[inline(always)]
-fn from_many(columns: &Columns, pins: &Columns, length: &[f32], most: &mut f32) {
-    farthest_of(columns, |i| [pins.x[i], pins.y[i], pins.z[i]], length, most);
-}
-
-/// The square of how far a particle is from its pin over the way, if that is more than `most`.
-#[inline(always)]
-fn farthest_of(
-    Columns { x, y, z }: &Columns,
-    pin: impl Fn(usize) -> [f32; 3],
+fn from_many<S: Simd>(
+    s: S,
+    [x, y, z]: [&[f32]; 3],
+    [px, py, pz]: [&[f32]; 3],
     length: &[f32],
     most: &mut f32,
 ) {
-    let (count, x) = (length.len(), [&x[..], &y[..], &z[..]]);
-    let mut lanes = [*most; LANES];
-    let whole = count / LANES * LANES;
-    for first in (0..whole).step_by(LANES) {
-        for lane in 0..LANES {
-            // A pin is no way from itself, which is no number here, and does not count.
-            let i = first + lane;
-            lanes[lane] = max(ratio2(x, i, pin(i), length[i]), lanes[lane]);
-        }
+    let mut far = s.splat(*most);
+    let count = length.len();
+    let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
+    let (px, py, pz) = (&px[..count], &py[..count], &pz[..count]);
+    let mut at = 0;
+    while at + S::LANES <= count {
+        let x = [s.load(x, at), s.load(y, at), s.load(z, at)];
+        let pins = [s.load(px, at), s.load(py, at), s.load(pz, at)];
+        far = ratio2(x, pins, s.load(length, at)).max(far);
+        at += S::LANES;
     }
-    for i in whole..count {
-        lanes[0] = max(ratio2(x, i, pin(i), length[i]), lanes[0]);
-    }
-    *most = lanes.into_iter().fold(*most, |most, ratio2| max(ratio2, most));
+    *most = greatest(s, far);
+    let pins = [&px[at..], &py[at..], &pz[at..]];
+    from_many_apart([&x[at..], &y[at..], &z[at..]], pins, &length[at..], most);
 }
 
-/// The square of how far a particle is from its pin over the way.
+fn from_many_apart(
+    [x, y, z]: [&[f32]; 3],
+    [px, py, pz]: [&[f32]; 3],
+    length: &[f32],
+    most: &mut f32,
+) {
+    let pins = px.iter().zip(py).zip(pz);
+    for ((((x, y), z), ((px, py), pz)), length) in x.iter().zip(y).zip(z).zip(pins).zip(length) {
+        *most = max(ratio2([*x, *y, *z], [*px, *py, *pz], *length), *most);
+    }
+}
+
+/// The greatest number of all lanes.
 #[inline(always)]
-fn ratio2([x, y, z]: [&[f32]; 3], i: usize, pin: [f32; 3], length: f32) -> f32 {
-    let [dx, dy, dz] = [x[i] - pin[0], y[i] - pin[1], z[i] - pin[2]];
+fn greatest<S: Simd>(s: S, numbers: S::F) -> f32 {
+    let mut lanes = [0.0; MOST_LANES];
+    s.store(&mut lanes, 0, numbers);
+    lanes.into_iter().fold(0.0, max)
+}
+
+/// The square of how far a particle is from its pin over the way. A pin is no way from itself, which is no
+/// number here, and counts for nothing.
+#[inline(always)]
+fn ratio2<F: Number>(x: [F; 3], pin: [F; 3], length: F) -> F {
+    let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     (dx * dx + dy * dy + dz * dz) / (length * length)
 }

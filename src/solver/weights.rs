@@ -8,6 +8,7 @@ use super::World;
 use super::links::{is_rigid, over_mean};
 use crate::fabric::links::{LinkKind, Links};
 use crate::fabric::rows::Rows;
+use crate::math::are_same;
 use crate::math::column::Column;
 use core::ops::Range;
 
@@ -42,7 +43,7 @@ pub(crate) fn weigh(world: &mut World) {
     let w = &world.particles.w;
     let rows_are_weighed = weave.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
     let are_weighed = weave.loose.is_weighed() && rows_are_weighed;
-    if weights.w == *w && weights.rigid == rigid && are_weighed {
+    if are_same(&weights.w, w) && weights.rigid == rigid && are_weighed {
         return;
     }
     weights.w.clear();

@@ -51,6 +51,9 @@ pub(crate) trait Number:
 
     /// The larger; `other` if either is not a number.
     fn max(self, other: Self) -> Self;
+
+    /// The smaller; `other` if either is not a number.
+    fn min(self, other: Self) -> Self;
 }
 
 impl Number for f32 {
@@ -62,6 +65,11 @@ impl Number for f32 {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         super::max(self, other)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        super::min(self, other)
     }
 }
 
@@ -132,11 +140,8 @@ pub(crate) trait Simd: Arithmetic {
     /// `new` where `keep` is above 0, else `old`.
     fn pick(self, keep: Self::F, new: Self::F, old: Self::F) -> Self::F;
 
-    /// The smaller; `b` if either is not a number.
-    #[inline(always)]
-    fn min(self, a: Self::F, b: Self::F) -> Self::F {
-        self.pick(b - a, a, b)
-    }
+    /// `v` where `keep` is above 0, else 0.
+    fn keep(self, keep: Self::F, v: Self::F) -> Self::F;
 
     /// Whether any number is above 0.
     fn is_any_positive(self, v: Self::F) -> bool;
@@ -178,6 +183,11 @@ impl Simd for Scalar {
     #[inline(always)]
     fn pick(self, keep: f32, new: f32, old: f32) -> f32 {
         if keep > 0.0 { new } else { old }
+    }
+
+    #[inline(always)]
+    fn keep(self, keep: f32, v: f32) -> f32 {
+        if keep > 0.0 { v } else { 0.0 }
     }
 
     #[inline(always)]

@@ -75,6 +75,12 @@ impl Number for Four {
         // SAFETY: see above.
         Self(unsafe { vbslq_f32(vcgtq_f32(self.0, other.0), self.0, other.0) })
     }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { vbslq_f32(vcltq_f32(self.0, other.0), self.0, other.0) })
+    }
 }
 
 impl Arithmetic for Neon {
@@ -106,6 +112,15 @@ impl Simd for Neon {
     fn pick(self, keep: Four, new: Four, old: Four) -> Four {
         // SAFETY: see above.
         unsafe { Four(vbslq_f32(vcgtq_f32(keep.0, vdupq_n_f32(0.0)), new.0, old.0)) }
+    }
+
+    #[inline(always)]
+    fn keep(self, keep: Four, v: Four) -> Four {
+        // SAFETY: see above.
+        unsafe {
+            let kept = vcgtq_f32(keep.0, vdupq_n_f32(0.0));
+            Four(vreinterpretq_f32_u32(vandq_u32(vreinterpretq_u32_f32(v.0), kept)))
+        }
     }
 
     #[inline(always)]

@@ -67,6 +67,12 @@ impl Number for Four {
         // `pmax(a, b)` is b where a < b, and a otherwise.
         Self(f32x4_pmax(other.0, self.0))
     }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // `pmin(a, b)` is b where b < a, and a otherwise.
+        Self(f32x4_pmin(other.0, self.0))
+    }
 }
 
 impl Arithmetic for Simd128 {
@@ -96,6 +102,11 @@ impl Simd for Simd128 {
     #[inline(always)]
     fn pick(self, keep: Four, new: Four, old: Four) -> Four {
         Four(v128_bitselect(new.0, old.0, f32x4_gt(keep.0, f32x4_splat(0.0))))
+    }
+
+    #[inline(always)]
+    fn keep(self, keep: Four, v: Four) -> Four {
+        Four(v128_and(v.0, f32x4_gt(keep.0, f32x4_splat(0.0))))
     }
 
     #[inline(always)]

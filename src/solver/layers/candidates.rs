@@ -185,7 +185,7 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         let mut now = s.splat(0.0);
         for k in 0..4 {
             before[k] = n.dot(x[k]);
-            let [least, most] = ends_along(s, n, rooms[k]);
+            let [least, most] = ends_along(n, rooms[k]);
             now = now + share[k] * (least + most);
             ends[k] = [before[k] + least, before[k] + most];
         }
@@ -193,10 +193,10 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         let after = if FIRST == VERTEX {
             p[0] - Number::max(q[1], Number::max(r[1], t[1]))
         } else {
-            s.min(p[0], q[0]) - Number::max(r[1], t[1])
+            Number::min(p[0], q[0]) - Number::max(r[1], t[1])
         };
-        let then = between::<S, FIRST>(s, before);
-        let is_clear = s.min(then - s.splat(NOTHING), after - s.splat(gap));
+        let then = between::<_, FIRST>(before);
+        let is_clear = Number::min(then - s.splat(NOTHING), after - s.splat(gap));
         let is_clear = s.positives(Number::max(is_clear, boxed));
         may_meet[at / BITS] |= u64::from(is_clear ^ ((1 << S::LANES) - 1)) << (at % BITS);
         for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
@@ -204,7 +204,7 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         }
         // Rooms are as large on all sides, so that particles are in the middle. What others push back to where it came
         // from is as near as it was.
-        let mut distance = s.min(length, length + s.splat(0.5) * now);
+        let mut distance = Number::min(length, length + s.splat(0.5) * now);
         if FIRST == EDGES {
             let is_clear = then - s.splat(CLEAR) * length;
             distance = s.pick(is_clear, distance, s.splat(f32::INFINITY));
@@ -231,9 +231,9 @@ fn between_boxes<S: Simd, const FIRST: Kind>(
             [0, 1].map(|end: usize| [rooms[0][end].along(axis), rooms[2][end].along(axis)]);
         for (side, k) in [(1, 3), (2 - FIRST as usize, 1)] {
             let (place, [from, to]) = (x[k].along(axis), rooms[k]);
-            low[side] = s.min(low[side], place);
+            low[side] = Number::min(low[side], place);
             high[side] = Number::max(high[side], place);
-            least[side] = s.min(least[side], from.along(axis));
+            least[side] = Number::min(least[side], from.along(axis));
             most[side] = Number::max(most[side], to.along(axis));
         }
         let (back, ahead) = (most[1] - least[0], most[0] - least[1]);
@@ -246,10 +246,10 @@ fn between_boxes<S: Simd, const FIRST: Kind>(
 
 /// The least and the most that something gets along `n`.
 #[inline(always)]
-fn ends_along<S: Simd>(s: S, n: V<S::F>, [from, to]: [V<S::F>; 2]) -> [S::F; 2] {
+fn ends_along<F: Number>(n: V<F>, [from, to]: [V<F>; 2]) -> [F; 2] {
     let (ax, ay, az) = (n.x * from.x, n.y * from.y, n.z * from.z);
     let (bx, by, bz) = (n.x * to.x, n.y * to.y, n.z * to.z);
-    let least = s.min(ax, bx) + s.min(ay, by) + s.min(az, bz);
+    let least = Number::min(ax, bx) + Number::min(ay, by) + Number::min(az, bz);
     [least, Number::max(ax, bx) + Number::max(ay, by) + Number::max(az, bz)]
 }
 

@@ -55,11 +55,11 @@ pub(super) fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) 
 
 /// How far one side is from the other along a direction, at least; `x` is how far each particle is along it.
 #[inline(always)]
-pub(super) fn between<S: Simd, const FIRST: Kind>(s: S, [a, b, c, d]: [S::F; 4]) -> S::F {
+pub(super) fn between<F: Number, const FIRST: Kind>([a, b, c, d]: [F; 4]) -> F {
     if FIRST == VERTEX {
         a - Number::max(b, Number::max(c, d))
     } else {
-        s.min(a, b) - Number::max(c, d)
+        Number::min(a, b) - Number::max(c, d)
     }
 }
 
@@ -76,7 +76,7 @@ fn beyond<F: Number>(p: F, q: F, r: F) -> F {
 /// Between 0 and 1.
 #[inline(always)]
 fn share<S: Simd>(s: S, t: S::F) -> S::F {
-    s.min(Number::max(t, s.splat(0.0)), s.splat(1.0))
+    Number::min(Number::max(t, s.splat(0.0)), s.splat(1.0))
 }
 
 /// A vector in each lane.

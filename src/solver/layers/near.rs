@@ -149,11 +149,11 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
         }
         let before = closest::<S, FIRST>(s, then);
         let after = closest::<S, FIRST>(s, x);
-        let mut apart = along::<S, FIRST>(s, then, before.n);
-        let turned = along::<S, FIRST>(s, then, after.n);
+        let mut apart = along::<_, FIRST>(then, before.n);
+        let turned = along::<_, FIRST>(then, after.n);
         let mut is_sure = before.distance - s.splat(NOTHING);
         if FIRST == EDGES {
-            is_sure = s.min(is_sure, apart - s.splat(CLEAR) * before.distance);
+            is_sure = Number::min(is_sure, apart - s.splat(CLEAR) * before.distance);
         }
         // What came nearer than the gap takes the direction that it has now, if that told sides apart before, and not
         // much less.
@@ -161,11 +161,11 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
         for k in 0..4 {
             distance = distance + before.share[k] * before.n.dot(x[k]);
         }
-        let is_near = s.min(turned, after.distance) - s.splat(NOTHING);
+        let is_near = Number::min(turned, after.distance) - s.splat(NOTHING);
         let gap = s.load(gaps, at);
         let enough = gap * s.splat(SLIT * ENOUGH);
-        let is_better = s.min(turned, enough) - s.splat(WORSE) * s.min(apart, enough);
-        let turns = s.min(s.min(gap - distance, is_near), is_better);
+        let is_better = Number::min(turned, enough) - s.splat(WORSE) * Number::min(apart, enough);
+        let turns = Number::min(Number::min(gap - distance, is_near), is_better);
         apart = s.pick(turns, turned, apart);
         let n = [before.n.x, before.n.y, before.n.z].into_iter();
         let new = [after.n.x, after.n.y, after.n.z];
@@ -196,13 +196,13 @@ fn closest<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4]) -> Closest<S::F> {
         let most = Number::max(share[1], Number::max(share[2], share[3]));
         (x[2].minus(x[1]).cross(x[3].minus(x[1])), zero - most)
     } else {
-        let first = s.min(share[0], share[1]);
+        let first = Number::min(share[0], share[1]);
         let second = Number::max(share[2], share[3]);
-        (x[1].minus(x[0]).cross(x[3].minus(x[2])), s.min(first, zero - second))
+        (x[1].minus(x[0]).cross(x[3].minus(x[2])), Number::min(first, zero - second))
     };
     let (along, length) = (way.dot(normal), normal.dot(normal).sqrt());
     let least = s.splat(SAME) * distance * distance * length * length;
-    let is_normal = s.min(inside, along * along - least);
+    let is_normal = Number::min(inside, along * along - least);
     let one = s.splat(1.0);
     let side = s.pick(along, one, zero - one);
     let by_normal = normal.times(side / length);
@@ -217,6 +217,6 @@ fn closest<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4]) -> Closest<S::F> {
 
 /// How far one side is from the other along a direction, at least.
 #[inline(always)]
-fn along<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4], n: V<S::F>) -> S::F {
-    between::<S, FIRST>(s, [n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])])
+fn along<F: Number, const FIRST: Kind>(x: [V<F>; 4], n: V<F>) -> F {
+    between::<_, FIRST>([n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])])
 }

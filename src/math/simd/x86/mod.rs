@@ -48,7 +48,7 @@ impl Avx512 {
 macro_rules! vector {
     (
         $token:ident, $vector:ident($raw:ty), $set:ident, $add:ident, $sub:ident, $mul:ident,
-        $div:ident, $sqrt:ident, $max:ident
+        $div:ident, $sqrt:ident, $max:ident, $min:ident
     ) => {
         /// Numbers in lanes.
         #[derive(Clone, Copy, Debug)]
@@ -106,6 +106,12 @@ macro_rules! vector {
                 // SAFETY: as for `add`.
                 Self(unsafe { $max(self.0, other.0) })
             }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                // SAFETY: as for `add`.
+                Self(unsafe { $min(self.0, other.0) })
+            }
         }
 
         impl Arithmetic for $token {
@@ -122,17 +128,17 @@ macro_rules! vector {
 
 vector! {
     Sse2, Four(__m128), _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps,
-    _mm_div_ps, _mm_sqrt_ps, _mm_max_ps
+    _mm_div_ps, _mm_sqrt_ps, _mm_max_ps, _mm_min_ps
 }
 
 vector! {
     Avx2, Eight(__m256), _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps,
-    _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps
+    _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps, _mm256_min_ps
 }
 
 vector! {
     Avx512, Sixteen(__m512), _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps,
-    _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps
+    _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps, _mm512_min_ps
 }
 
 // SAFETY of all that follows: a token says that the machine has the instructions, and loads and stores
@@ -160,6 +166,12 @@ impl Simd for Sse2 {
             let keep = _mm_cmpgt_ps(keep.0, _mm_setzero_ps());
             Four(_mm_or_ps(_mm_and_ps(keep, new.0), _mm_andnot_ps(keep, old.0)))
         }
+    }
+
+    #[inline(always)]
+    fn keep(self, keep: Four, v: Four) -> Four {
+        // SAFETY: see above.
+        Four(unsafe { _mm_and_ps(v.0, _mm_cmpgt_ps(keep.0, _mm_setzero_ps())) })
     }
 
     #[inline(always)]
@@ -227,6 +239,15 @@ impl Simd for Avx2 {
         unsafe {
             let keep = _mm256_cmp_ps::<_CMP_GT_OQ>(keep.0, _mm256_setzero_ps());
             Eight(_mm256_blendv_ps(old.0, new.0, keep))
+        }
+    }
+
+    #[inline(always)]
+    fn keep(self, keep: Eight, v: Eight) -> Eight {
+        // SAFETY: see above.
+        unsafe {
+            let keep = _mm256_cmp_ps::<_CMP_GT_OQ>(keep.0, _mm256_setzero_ps());
+            Eight(_mm256_and_ps(v.0, keep))
         }
     }
 
@@ -305,6 +326,15 @@ impl Simd for Avx512 {
         unsafe {
             let keep = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(keep.0, _mm512_setzero_ps());
             Sixteen(_mm512_mask_blend_ps(keep, old.0, new.0))
+        }
+    }
+
+    #[inline(always)]
+    fn keep(self, keep: Sixteen, v: Sixteen) -> Sixteen {
+        // SAFETY: see above.
+        unsafe {
+            let keep = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(keep.0, _mm512_setzero_ps());
+            Sixteen(_mm512_maskz_mov_ps(keep, v.0))
         }
     }
 
