@@ -2,12 +2,12 @@
 //!
 //! By the formula of `Scheme`, with a limit on what a violent yank may do.
 
-use super::rigid::RigidMotion;
+use super::rigid::{Free, RigidMotion};
+use super::tethers::within;
 use super::{PARTICLES, World};
-use crate::math::simd::leveled;
+use crate::math::simd::{Scalar, Simd, leveled, vectored};
 use crate::state::settings::Scheme;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glam::Vec3;
 
 /// Moves every free particle; `scratch` keeps the way it went and where it came to.
 pub(crate) fn advance(world: &mut World) {
@@ -88,19 +88,20 @@ fn go_column(x: &mut [f32], way: &[f32], predicted: &mut [f32]) {
 /// absorbed and yet a cloth may fall, fly and spin as fast as it likes. One that nothing holds keeps
 /// its momentum and its spin: what this takes from some particles goes to all.
 fn clamp_displacement(world: &mut World, reach: f32) {
-    let p = &world.particles;
+    let (level, p) = (world.level, &world.particles);
     let way = &mut world.scratch.way;
-    let free = || (0..p.len()).filter(|i| p.w[*i] > 0.0);
-    let rigid = RigidMotion::fit(free, &p.x, |i| way.at(i), &p.mass);
-    let particles = (way.all_mut(), p.x.all(), &p.w[..]);
+    let (x, mass, w) = (p.x.all(), &p.mass[..], &p.w[..]);
+    let rigid = RigidMotion::of_free(level, Free { x, way: way.all(), mass, w });
     let is_clamped = AtomicBool::new(false);
-    world.threads.over(particles, PARTICLES, |(way, x, w)| {
-        if clamp(way, x, w, rigid, reach) {
+    world.threads.over((way.all_mut(), x, w), PARTICLES, |(way, x, w)| {
+        let mut is_one_clamped = false;
+        clamp(level, way, [x[0], x[1], x[2], w], rigid, reach, &mut is_one_clamped);
+        if is_one_clamped {
             is_clamped.store(true, Ordering::Relaxed);
         }
     });
     if is_clamped.into_inner() && p.w.iter().all(|w| *w > 0.0) {
-        let left = RigidMotion::fit(free, &p.x, |i| way.at(i), &p.mass);
+        let left = RigidMotion::of_free(level, Free { x, way: way.all(), mass, w });
         for i in 0..p.len() {
             let x = p.x.at(i);
             way.add(i, rigid.at(x) - left.at(x));
@@ -108,29 +109,59 @@ fn clamp_displacement(world: &mut World, reach: f32) {
     }
 }
 
-/// Whether any way was too long.
-fn clamp(
-    way: [&mut [f32]; 3],
-    [x, y, z]: [&[f32]; 3],
-    w: &[f32],
+vectored! {
+    /// Whether any way was too long, or one before.
+    fn clamp(
+        way: [&mut [f32]; 3],
+        from: [&[f32]; 4],
+        rigid: RigidMotion,
+        reach: f32,
+        is_clamped: &mut bool,
+    ) = clamp_lanes, Avx2, clamp_apart
+}
+
+#[inline(always)]
+fn clamp_lanes<S: Simd>(
+    s: S,
+    [way_x, way_y, way_z]: [&mut [f32]; 3],
+    [x, y, z, w]: [&[f32]; 4],
     rigid: RigidMotion,
     reach: f32,
-) -> bool {
-    let mut is_clamped = false;
-    let [way_x, way_y, way_z] = way;
-    let ways = way_x.iter_mut().zip(way_y).zip(way_z);
-    let particles = x.iter().zip(y).zip(z).zip(w).zip(ways);
-    for ((((x, y), z), w), ((way_x, way_y), way_z)) in particles {
-        if *w <= 0.0 {
-            continue;
+    is_clamped: &mut bool,
+) {
+    // One length for all, so that one check does.
+    let count = w.len();
+    let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
+    let (way_x, way_y, way_z) = (&mut way_x[..count], &mut way_y[..count], &mut way_z[..count]);
+    let mut at = 0;
+    while at + S::LANES <= count {
+        let from = [s.load(x, at), s.load(y, at), s.load(z, at)];
+        let way = [s.load(way_x, at), s.load(way_y, at), s.load(way_z, at)];
+        if let Some(clamped) = within(s, way, rigid.ways(s, from), s.splat(reach), s.load(w, at)) {
+            s.store(way_x, at, clamped[0]);
+            s.store(way_y, at, clamped[1]);
+            s.store(way_z, at, clamped[2]);
+            *is_clamped = true;
         }
-        let common = rigid.at(Vec3::new(*x, *y, *z));
-        let own = Vec3::new(*way_x, *way_y, *way_z) - common;
-        let length2 = own.length_squared();
-        if length2 > reach * reach {
-            [*way_x, *way_y, *way_z] = (common + own * (reach / length2.sqrt())).to_array();
-            is_clamped = true;
+        at += S::LANES;
+    }
+    let way = [&mut way_x[at..], &mut way_y[at..], &mut way_z[at..]];
+    clamp_apart(way, [&x[at..], &y[at..], &z[at..], &w[at..]], rigid, reach, is_clamped);
+}
+
+fn clamp_apart(
+    [way_x, way_y, way_z]: [&mut [f32]; 3],
+    [x, y, z, w]: [&[f32]; 4],
+    rigid: RigidMotion,
+    reach: f32,
+    is_clamped: &mut bool,
+) {
+    let ways = way_x.iter_mut().zip(way_y).zip(way_z);
+    for ((((x, y), z), w), ((way_x, way_y), way_z)) in x.iter().zip(y).zip(z).zip(w).zip(ways) {
+        let (way, common) = ([*way_x, *way_y, *way_z], rigid.ways(Scalar, [*x, *y, *z]));
+        if let Some(clamped) = within(Scalar, way, common, reach, *w) {
+            [*way_x, *way_y, *way_z] = clamped;
+            *is_clamped = true;
         }
     }
-    is_clamped
 }

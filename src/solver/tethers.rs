@@ -348,7 +348,13 @@ fn to_many_apart(
 /// `x` where it is held or within `reach` of `pin`, else as far towards it as that; nothing if all are where they
 /// may be.
 #[inline(always)]
-fn within<S: Simd>(s: S, x: [S::F; 3], pin: [S::F; 3], reach: S::F, w: S::F) -> Option<[S::F; 3]> {
+pub(super) fn within<S: Simd>(
+    s: S,
+    x: [S::F; 3],
+    pin: [S::F; 3],
+    reach: S::F,
+    w: S::F,
+) -> Option<[S::F; 3]> {
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     let length2 = dx * dx + dy * dy + dz * dz;
     let is_far = (length2 - reach * reach).min(w);

@@ -27,6 +27,7 @@ mod weave;
 
 use super::World;
 use super::crowd;
+use super::rigid::{Free, RigidMotion};
 use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
@@ -351,7 +352,8 @@ pub(crate) fn calm(world: &mut World) {
         push::calm(contacts, open, columns);
         if !active.is_empty() {
             spots::gather(ways, columns, &p.w);
-            let whole = spots::whole(&motion.now, ways);
+            let particles = Free { x: p.x.all(), way: columns.all(), mass: &p.mass, w: &p.w };
+            let whole = RigidMotion::of_free(world.level, particles);
             for (way, x) in ways.iter_mut().zip(&motion.now) {
                 spots::shift(way, -whole.at(spots::place(x)));
             }

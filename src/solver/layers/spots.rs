@@ -1,7 +1,6 @@
 //! Particles one after the other, x, y, z and inverse mass of each together: what pairs of anything want.
 
 use crate::math::columns::Columns;
-use crate::solver::rigid::RigidMotion;
 use glam::Vec3;
 
 /// Where a particle is, and its inverse mass.
@@ -68,12 +67,4 @@ pub(super) fn middle(spots: &[Spot]) -> Option<Vec3> {
         }
     }
     Some(Vec3::from_array(sum.map(|sum| (sum / all) as f32)))
-}
-
-/// How all move as a solid body, of the ways that particles at `x` go; what is held does not count.
-pub(super) fn whole(x: &[Spot], ways: &[Spot]) -> RigidMotion {
-    RigidMotion::of_points(|| {
-        let free = x.iter().zip(ways).filter(|(_, way)| way[3] > 0.0);
-        free.map(|(x, way)| (place(x), place(way), 1.0 / way[3]))
-    })
 }
