@@ -1,5 +1,11 @@
 //! Stage `Outputs`: what a renderer reads, from what the solver keeps.
 
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
 use super::surface::{self, Band, Give, Surface, V, in_bands};
 use super::{PARTICLES, World};
 use crate::fabric::links::LinkKind;

@@ -2,6 +2,12 @@
 //!
 //! By the formula of `Scheme`, with a limit on what a violent yank may do.
 
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
 use super::rigid::{Free, RigidMotion};
 use super::tethers::within;
 use super::{PARTICLES, World};

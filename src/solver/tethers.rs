@@ -1,5 +1,11 @@
 //! Stage `Tethers`: no particle gets farther from a pin than its way along the cloth.
 
+// Where there are no vectors, all goes number by number.
+#![cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
+    allow(dead_code)
+)]
+
 use super::packed::Packed;
 use super::{PARTICLES, World};
 use crate::fabric::tethers::TetherSet;
