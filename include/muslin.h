@@ -60,10 +60,11 @@
  * with the material's friction. A thickness counts up to half of the mean rest length. What is nearer than
  * two thicknesses in the weave keeps half of that distance. The two sides of a slit part by a
  * thousandth of the mean rest length as it opens, so that they keep from each other too. What pins or grabs
- * hold takes along what is in its way, and what is caught between two such may be forced through; what
- * crosses from the start, or where particles are placed, stays crossed. It costs about as
- * much as the rest of a tick while little touches, several times that where layers lie on each other, and
- * from twenty to hundreds of times where sheets of thousands of particles crumple.
+ * hold takes along what is in its way, and what is caught between two such may be forced through. What
+ * crosses all the same, from the start, as this is switched on or where particles are placed, is drawn out
+ * again unless it is held: the smaller part goes back to the side of the rest, mostly within a second. It
+ * costs about as much as the rest of a tick while little touches, several times that where layers lie on
+ * each other, and from twenty to hundreds of times where sheets of thousands of particles crumple.
  */
 #define MUSLIN_SELF_COLLISION_SURFACE 1
 

@@ -5,7 +5,7 @@ use crate::math::mix::Mixer;
 
 impl Cloth {
     /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, folds, pins, grabs, colliders, tethers, what layers bear on each other with, and time.
+    /// triangles, folds, pins, grabs, colliders, tethers, what layers bear on each other with and whether they cross, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
@@ -66,6 +66,9 @@ impl Cloth {
             mixer.word(load.first);
             mixer.floats(&[load.push]);
             mixer.floats(&load.rub.to_array());
+        }
+        if world.layers.is_some() && world.is_tangled {
+            mixer.word(1);
         }
         mixer.floats(&[world.tether_slack]);
         mixer.word(world.tick);

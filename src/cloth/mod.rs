@@ -200,6 +200,7 @@ impl Cloth {
                 world.see_to_crowd();
                 world.see_to_layers();
                 if is_new {
+                    world.is_tangled = true;
                     let count = world.particles.len() as u32;
                     slits::part(world, 0..count);
                 }
@@ -333,6 +334,7 @@ impl Cloth {
             world.place(at, position, v);
             world.particles.x_last.set(at, position);
             world.bring_pin(particle, position);
+            world.is_tangled = true;
         });
         self.changed_state();
         Ok(())

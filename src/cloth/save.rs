@@ -37,7 +37,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -63,6 +63,7 @@ struct Saved<'a> {
     grabs: Owned<'a, Grabs>,
     leashes: Owned<'a, Leashes>,
     loads: Owned<'a, Loads>,
+    is_tangled: bool,
     reference: Pose,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
@@ -107,6 +108,7 @@ impl Cloth {
             grabs: Owned::Borrowed(&world.grabs),
             leashes: Owned::Borrowed(&world.leashes),
             loads: Owned::Borrowed(&world.loads),
+            is_tangled: world.is_tangled,
             reference: world.reference,
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
@@ -235,6 +237,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(saved.loads.are_sound(count))?;
     world.loads = saved.loads.into_owned();
     world.loads.reserve(count);
+    world.is_tangled = saved.is_tangled;
     must(is_pose(&saved.reference))?;
     world.reference = saved.reference;
     must(restore_attachments(&mut world, saved.attachments.into_owned()))?;

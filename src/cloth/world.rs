@@ -224,6 +224,7 @@ fn build(
         folds,
         crowd: None,
         loads: Loads::default(),
+        is_tangled: true,
         layers: None,
     };
     world.pins.reserve(capacity);

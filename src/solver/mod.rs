@@ -155,6 +155,8 @@ pub(crate) struct World {
     pub crowd: Option<Box<crowd::Crowd>>,
     /// What layers bore on each other with in the last substep, while they keep apart.
     pub loads: layers::loads::Loads,
+    /// Whether its surface may go through itself, as far as is known.
+    pub is_tangled: bool,
     /// The layers that keep apart, while settings say so.
     pub layers: Option<Box<layers::Layers>>,
 }

@@ -63,10 +63,11 @@ pub enum SelfCollision {
     /// friction. A thickness counts up to half of the mean rest length. What is nearer than two thicknesses in
     /// the weave keeps half of that distance. The two sides of a slit part by a thousandth of the mean rest
     /// length as it opens, so that they keep from each other too. What pins or grabs hold takes along what is in
-    /// its way, and what is caught between two such may be forced through; what crosses from the start, or
-    /// where particles are placed, stays crossed. It costs about as much as the rest of a tick while little
-    /// touches, several times that where layers lie on each other, and from twenty to hundreds of times where
-    /// sheets of thousands of particles crumple.
+    /// its way, and what is caught between two such may be forced through. What crosses all the same, from the
+    /// start, as this is switched on or where particles are placed, is drawn out again unless it is held: the smaller
+    /// part goes back to the side of the rest, mostly within a second. It costs about as much as the rest of a tick
+    /// while little touches, several times that where layers lie on each other, and from twenty to hundreds of
+    /// times where sheets of thousands of particles crumple.
     Surface = 1,
     /// Particles from particles, as if they were balls: cheap, without friction, and a fold may slip through
     /// where particles are farther apart than `self_distance`. Those that are woven into one piece nearer

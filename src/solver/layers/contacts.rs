@@ -315,6 +315,11 @@ impl Contact {
         };
     }
 
+    /// Neither pushes nor holds anything back.
+    pub(super) fn let_be(&mut self) {
+        (self.gap, self.slit, self.least) = (f32::NEG_INFINITY, -1.0, -1.0);
+    }
+
     /// Finds out how it gives way, which changes with what touches a collider.
     #[inline(always)]
     pub(super) fn weigh(&mut self, weights: &[Weight]) {

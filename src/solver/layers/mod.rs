@@ -23,6 +23,7 @@ mod sift;
 pub(crate) mod slits;
 mod spots;
 mod sweep;
+mod tangles;
 mod weave;
 
 use super::World;
@@ -42,6 +43,7 @@ use reach::Reach;
 use sift::{Found, Sift};
 use slits::Slits;
 use spots::Spot;
+use tangles::Tangles;
 use weave::Weave;
 
 /// Gap of a cloth without thickness, in mean rest lengths; and the most that any has.
@@ -87,6 +89,9 @@ pub(crate) struct Layers {
     /// The piece that each site was part of before anything tore.
     pieces: Vec<u32>,
     slits: Slits,
+    tangles: Tangles,
+    /// Whether no substep of the tick began yet.
+    is_new_tick: bool,
     gap: f32,
 }
 
@@ -114,6 +119,8 @@ impl Layers {
             finder: Finder::new(count),
             pieces,
             slits: Slits::new(capacity),
+            tangles: Tangles::default(),
+            is_new_tick: false,
             gap: 0.0,
         }
     }
@@ -130,6 +137,7 @@ impl Layers {
             + self.far.bytes()
             + self.reach.bytes()
             + self.slits.bytes()
+            + self.tangles.bytes()
             + self.around.bytes()
             + self.strays.bytes()
             + self.near.iter().map(Near::bytes).sum::<usize>()
@@ -168,6 +176,21 @@ impl Layers {
         let mut found = Found { contacts, distant };
         Sift { weave, patches, motion, reach }.find(pairs, near, &mut found);
         self.is_found = true;
+        self.find_tangles(world);
+    }
+
+    /// Finds where the surface goes through itself, and lets be what would keep it so.
+    fn find_tangles(&mut self, world: &World) {
+        let Self { motion, patches, pairs, contacts, distant, tangles, gap, .. } = self;
+        let (mesh, start) = (&world.mesh, &motion.start);
+        tangles.clear();
+        let looks = core::mem::take(&mut self.is_new_tick);
+        if world.is_tangled || looks && tangles.look_round(mesh, patches, pairs, start, world.tick)
+        {
+            let sizes = [*gap, world.spacing, world.settings.scheme().h];
+            tangles.find(mesh, (patches, pairs), start, sizes);
+            tangles.let_be(contacts, distant);
+        }
     }
 
     /// Adds to the distant what those may meet that are not where they were thought to be.
@@ -214,7 +237,8 @@ impl Layers {
         for look in 0..=LOOKS {
             let is_last = look == LOOKS;
             self.find_strays(world, may_go_back || is_last);
-            let Self { contacts, distant, motion, frozen, open, around, gap, .. } = self;
+            let Self { contacts, distant, motion, frozen, open, around, tangles, gap, .. } = self;
+            tangles.let_be(&mut [], distant);
             distant::call(distant, may_go_back || is_last, motion, *gap, contacts);
             around.call_from(known, contacts);
             around.is_stirred = false;
@@ -274,6 +298,7 @@ pub(crate) fn begin(world: &mut World) {
     spots::gather(&mut motion.start, &p.x, &p.w);
     motion.now.clone_from(&motion.start);
     layers.is_found = false;
+    layers.is_new_tick = true;
     layers.far.is_known &= is_same;
     world.layers = Some(layers);
 }
@@ -292,6 +317,7 @@ pub(crate) fn pair(world: &mut World) {
         layers.weights[at].yields = push::BORNE;
     }
     layers.find(world, world.settings.substeps);
+    world.is_tangled = !layers.tangles.is_empty();
     world.layers = Some(layers);
 }
 
@@ -301,12 +327,13 @@ pub(crate) fn solve(world: &mut World) {
     let Some(layers) = &mut world.layers else {
         return;
     };
-    let Layers { contacts, active, finder, motion, weights, .. } = &mut **layers;
-    let Motion { start, now, .. } = motion;
+    let Layers { contacts, active, finder, motion, weights, tangles, .. } = &mut **layers;
+    let Motion { start, now, .. } = &mut *motion;
     let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
     push::solve(contacts, active, (loads, finder), weights, start, now, friction, force);
     push::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
-    spots::scatter(now, &mut world.particles.x);
+    tangles.draw_out(motion, &mut world.scratch.predicted);
+    spots::scatter(&motion.now, &mut world.particles.x);
 }
 
 /// After all else moved, nothing crosses.
@@ -344,12 +371,13 @@ pub(crate) fn calm(world: &mut World) {
     let Some(mut layers) = world.layers.take() else {
         return;
     };
-    let Layers { contacts, active, open, weights, motion, ways, .. } = &mut *layers;
+    let Layers { contacts, active, open, weights, motion, ways, tangles, .. } = &mut *layers;
     let is_free = world.scratch.contacts.touches.is_empty() && spots::middle(&motion.now).is_some();
     let p = &mut world.particles;
     push::find_hits(contacts, active, &p.v, speed, open);
     for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
         push::calm(contacts, open, columns);
+        tangles.calm(weights, columns);
         if !active.is_empty() {
             spots::gather(ways, columns, &p.w);
             let particles = Free { x: p.x.all(), way: columns.all(), mass: &p.mass, w: &p.w };

@@ -38,3 +38,31 @@ pub fn crumpled_in_layers(trace: &mut Trace) -> Result<()> {
     trace.look(&mut copy);
     Ok(())
 }
+
+/// A sheet falls on its lower edge and goes through itself; its surface is drawn out again, is saved amid that, and a
+/// corner of it is put elsewhere.
+pub fn drawn_out_of_itself(trace: &mut Trace) -> Result<()> {
+    let (columns, rows) = (13, 15);
+    let mut desc = GridDesc { columns, rows, spacing: 0.0625, ..GridDesc::default() };
+    desc.pin_mode = PinMode::None;
+    let mut cloth = Cloth::grid(&desc)?;
+    cloth.add_collider(&ColliderDesc { position: -Vec3::Y, ..ColliderDesc::default() })?;
+    for particle in (0..columns * rows).step_by(7) {
+        let away = along(Vec3::Z * -0.125, Vec3::Z * 0.0625, particle % 5);
+        cloth.set_velocity(particle, away)?;
+    }
+    trace.run(&mut cloth, 45);
+    desc.settings.self_collision = SelfCollision::Surface;
+    cloth.set_settings(desc.settings)?;
+    trace.run(&mut cloth, 4);
+    let mut copy = Cloth::restore(&cloth.save())?;
+    assert_eq!(copy.state_hash(), cloth.state_hash());
+    trace.run(&mut copy, 30);
+    for particle in [0, 1, columns, columns + 1, 2 * columns] {
+        let place = copy.positions()[particle as usize] + Vec3::new(0.125, -0.25, 0.0625);
+        copy.set_position(particle, place)?;
+    }
+    trace.run(&mut copy, 30);
+    trace.look(&mut copy);
+    Ok(())
+}

@@ -39,6 +39,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "thrown-on-hills", play: touch::thrown_on_hills },
     Scene { name: "crumpled-by-particles", play: crowd::crumpled_by_particles },
     Scene { name: "crumpled-in-layers", play: layers::crumpled_in_layers },
+    Scene { name: "drawn-out-of-itself", play: layers::drawn_out_of_itself },
     Scene { name: "procession-of-pins", play: hands::procession_of_pins },
     Scene { name: "rays-and-grabs", play: hands::rays_and_grabs },
     Scene { name: "garment-on-a-moving-body", play: worn::garment_on_a_moving_body },
