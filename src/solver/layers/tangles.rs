@@ -94,8 +94,7 @@ impl Tangles {
         start: &[Spot],
         tick: u32,
     ) -> bool {
-        let is_due = |patch: u32| patch % ROUND == tick % ROUND;
-        self.list(mesh, patches, pairs, start, is_due);
+        self.list(mesh, patches, pairs, start, Some(tick % ROUND));
         !self.is_empty()
     }
 
@@ -108,7 +107,7 @@ impl Tangles {
         start: &[Spot],
         [gap, spacing, h]: [f32; 3],
     ) {
-        self.list(mesh, patches, pairs, start, |_| true);
+        self.list(mesh, patches, pairs, start, None);
         if self.is_empty() {
             return;
         }
@@ -125,19 +124,20 @@ impl Tangles {
         }
     }
 
-    /// Lists the crossings in pairs of patches whose first is wanted.
+    /// Lists the crossings in pairs of patches whose first is due, or in all.
+    #[inline(never)]
     fn list(
         &mut self,
         mesh: &Mesh,
         patches: &Patches,
         pairs: &[u32],
         x: &[Spot],
-        is_wanted: impl Fn(u32) -> bool,
+        due: Option<u32>,
     ) {
         self.crossings.clear();
         for at in pairs {
             let [one, other] = patches.listed_pair(*at);
-            if is_wanted(one) {
+            if due.is_none_or(|due| one % ROUND == due) {
                 self.look(mesh, patches, [one, other], x);
                 if one != other {
                     self.look(mesh, patches, [other, one], x);
@@ -147,6 +147,7 @@ impl Tangles {
     }
 
     /// Finds the own edges of one patch that go through triangles of the other.
+    #[inline(never)]
     fn look(&mut self, mesh: &Mesh, patches: &Patches, [one, other]: [u32; 2], x: &[Spot]) {
         let at = |id: u32| place(&x[id as usize]);
         let [from, to] = patches.patches[one as usize].edges;
@@ -319,6 +320,7 @@ impl Tangles {
 
     /// What leads further in stops. All count by their masses: were what a collider bears heavier here, what is crumpled
     /// there would gain by it.
+    #[inline(never)]
     pub fn calm(&self, weights: &[Weight], motion: &mut Columns) {
         for Crossing { ids, share, way, .. } in &self.crossings {
             let all = ids.map(|id| id as usize).into_iter().zip(*share);
