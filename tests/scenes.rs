@@ -1,5 +1,8 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
+mod common;
+
+use common::crossings::crossings;
 use muslin_scenes::{Cast, Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SheetOnBall};
 
 fn keeps_its_promise<S: Scene>() -> Cast {
@@ -28,6 +31,12 @@ fn the_flag_streams_and_waves() {
 #[test]
 fn the_sheet_lies_on_its_ball() {
     keeps_its_promise::<SheetOnBall>();
+    // Its folds lie on each other, and not in each other.
+    let mut cast = SheetOnBall::build();
+    for _ in 0..40 {
+        cast.step(15);
+        assert_eq!(crossings(&cast.cloths[0]), 0);
+    }
 }
 
 #[test]
@@ -54,6 +63,7 @@ fn the_curtain_lets_its_ball_through() {
     for second in 0..14 {
         cast.step(60);
         Curtain::check(&cast).unwrap_or_else(|what| panic!("after {second} s: {what}"));
+        assert_eq!(crossings(&cast.cloths[0]), 0, "after {second} s");
         for x in cast.cloths[0].positions() {
             (front, back) = (front.max(x.z), back.min(x.z));
         }

@@ -1,8 +1,8 @@
 //! A sheet that falls on a ball: it lands, slides into folds and lies.
 
-use crate::{Cast, Scene};
+use crate::{Cast, Scene, apart};
 use glam::Vec3;
-use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Shape, Wind};
+use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings, Shape, Wind};
 
 /// A square sheet that nothing holds, over a ball.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +28,7 @@ impl SheetOnBall {
             origin: Self::CENTRE + Vec3::new(-half, Self::DROP, -half),
             down: Vec3::Z,
             pin_mode: PinMode::None,
+            settings: apart(Settings::default(), particles_a_side * particles_a_side),
             ..GridDesc::default()
         }
     }

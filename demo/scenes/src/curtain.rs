@@ -1,6 +1,6 @@
 //! The curtain: it hangs on rings at a rod, gathered, and a ball rolls to and fro through it.
 
-use crate::{Cast, FLOOR, Roll, Scene};
+use crate::{Cast, FLOOR, Roll, Scene, apart};
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings};
 use std::f32::consts::TAU;
@@ -38,14 +38,15 @@ impl Curtain {
     /// The descriptor of a curtain with so many particles across, spread flat.
     pub fn desc(particles_across: u32) -> GridDesc {
         let [columns, rows] = Self::weave(particles_across);
+        // The ball pulls at few rings at a time, and comes a long way in a substep.
+        let settings = Settings { substeps: 8, max_stretch: 0.02, ..Settings::default() };
         GridDesc {
             columns,
             rows,
             spacing: Self::spacing(particles_across),
             origin: Self::ROD + Vec3::new(-0.5 * Self::SIZE.x, -Self::DROP, 0.0),
             pin_mode: PinMode::None,
-            // The ball pulls at few rings at a time, and comes a long way in a substep.
-            settings: Settings { substeps: 8, max_stretch: 0.02, ..Settings::default() },
+            settings: apart(settings, columns * rows),
             ..GridDesc::default()
         }
     }

@@ -20,6 +20,14 @@ pub use hanging_sheet::HangingSheet;
 pub use receipt::{Receipt, Sheet};
 pub use squeeze::Squeeze;
 
+use muslin::{SelfCollision, Settings};
+
+/// So many particles keep apart by their surface in real time, on a page as well.
+const MOST_BY_SURFACE: u32 = 2500;
+
+/// How far layers keep apart, so that they are drawn apart [m].
+const GAP: f32 = 0.004;
+
 /// Height of the floor [m]; where a scene is drawn larger than it is, in what it is drawn in.
 pub const FLOOR: f32 = -1.4;
 
@@ -38,6 +46,16 @@ pub trait Scene {
     /// # Errors
     /// A sentence that says what is not.
     fn check(cast: &Cast) -> Result<(), String>;
+}
+
+/// The same settings for a cloth of so many particles that folds onto itself: it keeps apart by its surface, or by
+/// its particles where that would take too long.
+fn apart(settings: Settings, particles: u32) -> Settings {
+    if particles <= MOST_BY_SURFACE {
+        Settings { self_collision: SelfCollision::Surface, self_distance: GAP, ..settings }
+    } else {
+        Settings { self_collision: SelfCollision::Particles, ..settings }
+    }
 }
 
 /// A scene after `ticks` ticks.
