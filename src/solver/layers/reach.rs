@@ -6,6 +6,7 @@
 use super::motion::Motion;
 use super::spots::{Spot, drift, place};
 use super::sweep::Sweep;
+use crate::math::simd::{Arithmetic, Base, Number, Simd};
 use crate::math::{max, min};
 use glam::Vec3;
 
@@ -93,20 +94,37 @@ impl Reach {
 
     /// Whether all particles stay where they were thought to get in this substep.
     pub fn holds(&self, motion: &Motion) -> bool {
+        let simd = Base::new();
+        let [starts, leasts, mosts] = motion.rooms();
+        let drifts = self.drifts.map(|drift| drift.extend(0.0).to_array());
+        // Inverse masses are no ways.
+        let is_way = [1.0, 1.0, 1.0, 0.0];
         let mut is_within = true;
-        let rooms = self.from.iter().zip(&self.to);
-        for (at, ((base, start), (from, to))) in
-            self.base.iter().zip(&motion.start).zip(rooms).enumerate()
-        {
-            let way = place(start) - place(base);
-            let [least, most] = motion.ways(at);
-            let before = (way - self.drifts[0]).to_array();
-            let least = (way + least - self.drifts[1]).to_array();
-            let most = (way + most - self.drifts[1]).to_array();
-            for k in 0..3 {
-                is_within &=
-                    min(before[k], least[k]) >= from[k] && max(before[k], most[k]) <= to[k];
+        for k in (0..4).step_by(Base::LANES) {
+            let [before_drift, after_drift] = drifts.map(|drift| simd.load(&drift, k));
+            let is_way = simd.load(&is_way, k);
+            let zero = simd.splat(0.0);
+            let (mut room, mut sound) = (simd.splat(f32::INFINITY), zero);
+            let rooms = self.from.iter().zip(&self.to);
+            let ways = starts.iter().zip(leasts).zip(mosts);
+            for (((start, least), most), (base, (from, to))) in
+                ways.zip(self.base.iter().zip(rooms))
+            {
+                let way = (simd.load(start, k) - simd.load(base, k)) * is_way;
+                let before = way - before_drift;
+                let least = Number::min(before, way + simd.load(least, k) - after_drift);
+                let most = Number::max(before, way + simd.load(most, k) - after_drift);
+                let left = Number::min(least - simd.load(from, k), simd.load(to, k) - most);
+                room = Number::min(room, left);
+                // What is no number leaves none here.
+                sound = sound + (least + most) * zero;
             }
+            let mut ends = [[0.0; 4]; 2];
+            simd.store(&mut ends[0], k, room);
+            simd.store(&mut ends[1], k, sound);
+            let [room, sound] = ends.each_ref().map(|end| &end[k..k + Base::LANES]);
+            is_within &= room.iter().all(|room| *room >= 0.0);
+            is_within &= sound.iter().all(|sound| *sound == 0.0);
         }
         is_within
     }
