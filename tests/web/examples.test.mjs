@@ -94,7 +94,7 @@ async function drag(page, top, pace) {
   for (let step = 1; step <= STEPS; step++) {
     await page.mouse.move(...on.map((from, i) => from + (step / STEPS) * (beside[i] - from)));
     // Or it is torn out of the cloth rather than pulled: a page that draws slowly is slow to follow, too.
-    await Promise.all([page.waitForTimeout(pace), pictures(page, 4)]);
+    await Promise.all([page.waitForTimeout(pace), pictures(page, 8)]);
   }
   await becomes(page, beside, background, true);
   return [beside, background];
