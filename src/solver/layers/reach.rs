@@ -115,9 +115,8 @@ impl Reach {
                 let least = Number::min(before, way + simd.load(least, k) - after_drift);
                 let most = Number::max(before, way + simd.load(most, k) - after_drift);
                 let left = Number::min(least - simd.load(from, k), simd.load(to, k) - most);
-                room = Number::min(room, left);
-                // What is no number leaves none here.
-                sound = sound + (least + most) * zero;
+                // What is no number leaves none in the second.
+                (room, sound) = (Number::min(room, left), sound + (least + most) * zero);
             }
             let mut ends = [[0.0; 4]; 2];
             simd.store(&mut ends[0], k, room);
