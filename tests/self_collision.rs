@@ -44,6 +44,17 @@ fn each_of_two_particles_makes_up_four_tenths_of_what_is_missing() {
 }
 
 #[test]
+fn of_unequal_masses_the_lighter_particle_makes_up_more_and_their_middle_stays() {
+    let mut cloth = tip_to_tip(&[]);
+    cloth.set_mass_scales(&[0, 3], &[3.0, 1.0]).unwrap();
+    cloth.step(1);
+    let [left, right] = [0, 3].map(|tip| cloth.positions()[tip]);
+    // Eight tenths of 2 cm, in parts of one to three.
+    assert!((left - Vec3::X * -0.004).length() < 1.0e-6, "the left one is at {left}");
+    assert!((right - Vec3::X * 0.042).length() < 1.0e-6, "the right one is at {right}");
+}
+
+#[test]
 fn particles_that_are_held_are_passed_by() {
     let mut cloth = tip_to_tip(&[0]);
     let start = cloth.positions().to_vec();

@@ -3,11 +3,12 @@
 //! ```text
 //! i ◀── 0.4 o ── ●   ● ── 0.4 o ──▶ j        o = distance - |j - i|
 //! ```
+//! Of unequal masses the lighter one moves farther, in proportion, so that nothing drives itself along.
 //! The plain scheme of many demos, once a substep: what is held does not count, nor do neighbours in the
 //! weave, and triangles may still cross. Only pairs that are too near when the pass begins are moved, so
 //! that it makes no difference to the bits when the list of those that may be was made.
 
-use super::{World, layers};
+use super::{World, layers, spin};
 use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
@@ -40,8 +41,8 @@ const HASTE: f32 = 0.95;
 /// … so long as all did not move together by more than so many margins.
 const FAR: f32 = 1000.0;
 
-/// What each of two particles that are too near moves by, as a share of what is missing.
-const SHARE: f32 = 0.4;
+/// What two particles that are too near move by together, as a share of what is missing.
+const SHARE: f32 = 0.8;
 
 /// The particles of a cloth that keep apart.
 #[derive(Clone, Debug)]
@@ -65,6 +66,7 @@ pub(crate) struct Crowd {
     wide: f32,
     /// Passes that the list has been asked for.
     passes: u32,
+    pub spin: spin::Scratch,
 }
 
 impl Crowd {
@@ -87,6 +89,7 @@ impl Crowd {
             margin: wide,
             wide,
             passes: 0,
+            spin: spin::Scratch::new(capacity),
         }
     }
 
@@ -94,6 +97,7 @@ impl Crowd {
     pub fn bytes(&self) -> usize {
         let pairs = self.pairs.capacity() + self.touching.capacity();
         self.grid.bytes()
+            + self.spin.bytes()
             + size_of::<[u32; 2]>() * pairs
             + size_of::<Vec3>() * self.listed_at.capacity()
             + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())
@@ -256,8 +260,9 @@ pub(crate) fn solve(world: &mut World) {
             continue;
         }
         let by = span * (SHARE * (distance - length) / length);
-        p.x.add(i, -by);
-        p.x.add(j, by);
+        let lightness = p.w[j] / (p.w[i] + p.w[j]);
+        p.x.add(i, by * (lightness - 1.0));
+        p.x.add(j, by * lightness);
     }
 }
 

@@ -36,6 +36,7 @@ mod rigid;
 pub(crate) mod rows;
 pub(crate) mod seats;
 pub(crate) mod sleep;
+mod spin;
 pub(crate) mod spots;
 pub(crate) mod stage;
 pub(crate) mod stiffest;

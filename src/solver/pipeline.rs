@@ -3,7 +3,7 @@
 use super::stage::Stage;
 use super::{
     World, bend, brake, contacts, crowd, forces, guard, hold, layers, leash, limit, lines, links,
-    packed, predict, sleep, tear, tethers, velocities,
+    packed, predict, sleep, spin, tear, tethers, velocities,
 };
 use crate::fabric::links::LinkKind;
 use links::Order;
@@ -99,6 +99,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Bend, packed::unpack(world));
     timed!(world, Pairs, crowd::pair(world));
     timed!(world, SelfContacts, crowd::solve(world));
+    timed!(world, SelfContacts, spin::keep(world));
     timed!(world, Pairs, contacts::near::pair(world));
     timed!(world, Contacts, contacts::solve(world, number));
     timed!(world, Hold, leash::keep(world, number));

@@ -95,3 +95,38 @@ impl Squeeze {
         self.fingers.into_iter().try_for_each(|(grab, ..)| cloth.release(grab))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Sheet;
+
+    const TICK: f32 = 1.0 / 120.0;
+
+    /// Paper that is squeezed after so many ticks and let fall.
+    fn squeezed(small: bool, after: u32) -> Cloth {
+        let mut cloth = Sheet::Paper.hang(small).unwrap();
+        cloth.step(after);
+        let mut squeeze =
+            Squeeze::new(&mut cloth, Sheet::Paper.weave(small), Sheet::Paper.unit()).unwrap();
+        while squeeze.tick(TICK, &mut cloth).unwrap() {
+            cloth.step(1);
+        }
+        cloth.unpin_all();
+        cloth
+    }
+
+    #[test]
+    fn what_was_squeezed_comes_to_rest() {
+        // On small screens or others, squeezed after so many ticks.
+        for (small, after) in [(false, 60), (false, 90), (true, 60), (true, 75), (true, 90)] {
+            let mut cloth = squeezed(small, after);
+            cloth.step(600);
+            let before = cloth.positions().to_vec();
+            cloth.step(120);
+            let moved = cloth.positions().iter().zip(&before).map(|(x, at)| x.distance(*at));
+            let most = moved.fold(0.0, f32::max) / Sheet::Paper.unit();
+            assert!(most < 0.03, "{small}, {after}: within a second one moves by {most} units");
+        }
+    }
+}
