@@ -138,27 +138,20 @@ impl Sheet {
         let mut cloth = Cloth::grid(&self.desc(small))?;
         cloth.add_collider(&self.floor())?;
         cloth.set_wind(self.wind(false))?;
-        self.curl(&mut cloth, small)?;
+        self.finish(&mut cloth, small)?;
         Ok(cloth)
     }
 
-    /// Gives paper that is as it was made the curl of the roll that it came off: forward, towards its end.
+    /// Gives a cloth that is as its descriptor made it what that cannot say: particles of the brief's sheet are
+    /// equally heavy, and paper has the curl of the roll that it came off.
     ///
     /// # Errors
-    /// As [`Cloth::crease`].
-    pub fn curl(self, cloth: &mut Cloth, small: bool) -> Result<()> {
-        if self == Self::Brief {
-            return Ok(());
+    /// As [`Cloth::set_mass_scales`] and [`Cloth::crease`].
+    pub fn finish(self, cloth: &mut Cloth, small: bool) -> Result<()> {
+        match self {
+            Self::Brief => weigh_alike(cloth),
+            Self::Paper => curl(cloth, &self.desc(small)),
         }
-        let desc = self.desc(small);
-        let end = (desc.rows - 1) as f32;
-        let across = Vec3::X * (desc.columns as f32 * desc.spacing);
-        for row in 1..desc.rows - 1 {
-            let share = row as f32 / end;
-            let from = desc.origin - across * 0.1 - Vec3::Y * (row as f32 * desc.spacing);
-            cloth.crease(from, from + across * 1.2, CURL * share * share / end)?;
-        }
-        Ok(())
     }
 
     /// The other one.
@@ -170,7 +163,28 @@ impl Sheet {
     }
 }
 
-/// Particles of equal mass and nothing but links between them.
+/// Makes all particles as heavy as those amid the sheet.
+fn weigh_alike(cloth: &mut Cloth) -> Result<()> {
+    let all: Vec<u32> = (0..cloth.positions().len() as u32).collect();
+    let masses: Vec<f32> = all.iter().filter_map(|particle| cloth.mass(*particle)).collect();
+    let amid = masses.iter().copied().fold(0.0, f32::max);
+    let scales: Vec<f32> = masses.into_iter().map(|mass| amid / mass).collect();
+    cloth.set_mass_scales(&all, &scales)
+}
+
+/// Curls it forward, towards its end.
+fn curl(cloth: &mut Cloth, desc: &GridDesc) -> Result<()> {
+    let end = (desc.rows - 1) as f32;
+    let across = Vec3::X * (desc.columns as f32 * desc.spacing);
+    for row in 1..desc.rows - 1 {
+        let share = row as f32 / end;
+        let from = desc.origin - across * 0.1 - Vec3::Y * (row as f32 * desc.spacing);
+        cloth.crease(from, from + across * 1.2, CURL * share * share / end)?;
+    }
+    Ok(())
+}
+
+/// Nothing but links between particles.
 fn brief_material() -> Material {
     Material {
         stretch_stiffness_warp: 0.0,
@@ -315,6 +329,19 @@ mod tests {
         let (c, r) = (columns, rows);
         let cells = (c - 1) * (r - 1);
         assert_eq!(counts, [(c - 1) * r, c * (r - 1), cells, cells, (c - 2) * r, c * (r - 2)]);
+    }
+
+    #[test]
+    fn all_particles_of_the_briefs_sheet_weigh_the_same() {
+        for small in [false, true] {
+            let cloth = Sheet::Brief.hang(small).unwrap();
+            let [columns, rows] = Sheet::Brief.weave(small);
+            let amid = cloth.mass(columns + 1).unwrap();
+            for particle in 0..columns * rows {
+                let mass = cloth.mass(particle).unwrap();
+                assert!((mass / amid - 1.0).abs() < 1.0e-6, "{particle} weighs {mass} kg");
+            }
+        }
     }
 
     #[test]

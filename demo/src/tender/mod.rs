@@ -385,9 +385,9 @@ impl Tender {
     fn settle(&mut self) {
         self.cloth.reset();
         self.forget();
-        // Creases are gone, those of the roll too.
-        if let Err(error) = self.settings.sheet.curl(&mut self.cloth, self.small) {
-            unreachable!("the scene's own curl: {error}");
+        // Creases are gone, those of the roll too, and the brief's masses.
+        if let Err(error) = self.settings.sheet.finish(&mut self.cloth, self.small) {
+            unreachable!("the scene's own sheet: {error}");
         }
     }
 
