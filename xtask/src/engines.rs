@@ -10,6 +10,9 @@ use crate::{c, files, picture, shell, sources};
 pub const NEEDS: &[&Need] =
     &[&setup::CXX, &setup::PKG_CONFIG, &setup::XVFB, &setup::RAYLIB, &setup::OGRE, &setup::PYTHON];
 
+/// What the one in Bevy needs beside Rust.
+const BEVY_NEEDS: &[&Need] = &[&setup::XVFB, &setup::VULKAN, &setup::X11];
+
 /// No example takes more lines than this, …
 const LINES: usize = 149;
 /// … and no more than this from nothing to a first frame.
@@ -31,12 +34,31 @@ pub fn test() -> Result {
     c::build()?;
     files::make(&dir())?;
     for name in ["raylib.c", "ogre.cpp", "viewer.py"] {
-        check_length(name)?;
+        check_length(&example(name))?;
     }
+    check_length(&bevy_dir().join("src/main.rs"))?;
     check_first_frame("raylib.c")?;
     viewer()?;
     raylib()?;
     ogre()
+}
+
+/// Builds the example in Bevy, draws its picture and looks at it. Not a part of the tests: it builds four hundred
+/// crates, which takes as long as all of the tests.
+pub fn bevy() -> Result {
+    setup::ensure(BEVY_NEEDS)?;
+    files::make(&dir())?;
+    let target = files::target().join("bevy");
+    let mut cargo = shell::cargo(&["build", "--release", "--locked"]);
+    cargo.current_dir(bevy_dir()).arg("--target-dir").arg(&target);
+    shell::run(&mut cargo)?;
+    draw(&target.join("release/muslin-bevy"), &["--shot"], "bevy.png")?;
+    println!("the picture is {}", dir().join("bevy.png").display());
+    Ok(())
+}
+
+fn bevy_dir() -> PathBuf {
+    files::root().join("bindings/bevy")
 }
 
 fn dir() -> PathBuf {
@@ -47,9 +69,10 @@ fn example(name: &str) -> PathBuf {
     files::root().join("bindings/c/examples").join(name)
 }
 
-fn check_length(name: &str) -> Result {
-    let lines = files::read(&example(name))?.lines().count();
+fn check_length(file: &Path) -> Result {
+    let lines = files::read(file)?.lines().count();
     if lines > LINES {
+        let name = file.display();
         return Err(Failure::new(format!("{name} takes {lines} lines, {LINES} are meant")));
     }
     Ok(())

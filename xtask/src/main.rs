@@ -48,6 +48,7 @@ cargo xtask js                      build the npm package into dist/js
 cargo xtask c                       build the C library, compile and run what is written against it
 cargo xtask package                 pack the C library as others install it, into dist/c
   --js                              pack the npm package instead, into dist, and say what it weighs
+cargo xtask bevy                    build the example in Bevy and draw its picture
 cargo xtask examples                serve the example pages of the npm package
 cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
                                     kernels, ticks, shreds, layers, scenes, receipt, node, page, peers
@@ -86,6 +87,7 @@ fn run(args: &[String]) -> Result {
         "c" => alone(chore, rest, c::check),
         "package" if rest == ["--js"] => clients::pack(),
         "package" => alone(chore, rest, package::build),
+        "bevy" => alone(chore, rest, engines::bevy),
         "examples" => alone(chore, rest, examples::serve),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");

@@ -77,6 +77,17 @@ pub const XVFB: Need = Need {
     },
 };
 
+/// Vulkan with a driver, which may be one that draws without a graphics card.
+pub const VULKAN: Need = Need {
+    name: "Vulkan with a driver",
+    packages: &["libvulkan1", "mesa-vulkan-drivers"],
+    is_there: || {
+        let drivers = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"].map(Path::new);
+        let has_loader = library_dirs().iter().any(|dir| dir.join("libvulkan.so.1").exists());
+        cfg!(not(target_os = "linux")) || has_loader && drivers.iter().any(|dir| dir.exists())
+    },
+};
+
 /// What raylib is built with.
 pub const RAYLIB: Need = Need {
     name: "the headers of X11",
