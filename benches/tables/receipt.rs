@@ -20,7 +20,7 @@ const STATES: [(&str, f32, Deed); 5] = [
     ("at rest", 2.0, Deed::Nothing),
     ("in wind", 2.0, Deed::Wind),
     ("dragged about by its hem", 1.0, Deed::Drag),
-    ("crumpled in a fist", 1.2, Deed::Fist),
+    ("crumpled in a fist", 1.1, Deed::Fist),
     ("crumpled, let go, on the floor", 4.0, Deed::Nothing),
 ];
 
@@ -44,8 +44,8 @@ pub fn print(effort: Effort) {
         }
     }
     println!(
-        "\nReceipt: ms of one thread for a whole tick of 1/{RATE} s with normals, of 40 x 60 particles that push each \
-         other apart;\nleast and median of {ROUNDS} rounds of {TICKS} ticks, one state after the other.\n"
+        "\nReceipt: ms of one thread for a whole tick of 1/{RATE} s with normals, of 40 x 60 particles, where the \
+         brief's push each other\napart and paper keeps from itself by its surface; least and median of {ROUNDS} rounds of {TICKS} ticks, one state after the other.\n"
     );
     println!("{table}");
 }
@@ -69,7 +69,7 @@ fn measure(
         .then(|| (cloth.grab_particle(hem).expect("it hangs"), cloth.positions()[hem as usize]));
     let mut fist = matches!(deed, Deed::Fist).then(|| {
         cloth.unpin_all();
-        Squeeze::new(cloth, FULL, sheet.unit()).expect("no hand holds it")
+        Squeeze::new(cloth, sheet.unit()).expect("no hand holds it")
     });
     let mut seconds_gone = 0.0_f32;
     let mut run = |cloth: &mut Cloth, count: u32| {
@@ -83,7 +83,7 @@ fn measure(
             }
             // Closed, the fingers only stay where they are.
             if let Some(fist) = &mut fist
-                && seconds_gone < Squeeze::HELD - 0.1
+                && seconds_gone < Squeeze::CLOSING
             {
                 fist.tick(1.0 / RATE, cloth).expect("it holds");
             }

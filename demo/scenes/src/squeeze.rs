@@ -1,88 +1,100 @@
-//! Crumpling: two hands gather the whole sheet into a fist and let go of it.
+//! Crumpling: hands close around a whole sheet, loosen, close again, and let go of it.
 
-use glam::Vec3;
-use muslin::{Cloth, Error, Grab, Result};
+use glam::{Quat, Vec3};
+use muslin::{Cloth, Collider, ColliderDesc, Result};
 
-/// Fingers down and across the sheet.
-const FINGERS: [u32; 2] = [8, 6];
-/// How long they take to close [s], and how long they stay closed.
-const CLOSING: f32 = 1.1;
-const CLOSED: f32 = 0.6;
-/// Radius of what they close to, in units.
-const FIST: f32 = 0.65;
-/// How high over the floor they close at least, in units.
+/// So many palms close all around it. With fewer, paper is pinched where they meet.
+const PALMS: u32 = 32;
+/// How often they do.
+const TIMES: u32 = 2;
+/// How long they stay closed, and how long they are open until they close again [s].
+const CLOSED: f32 = 0.1;
+const LOOSE: f32 = 0.12;
+/// How far from the middle of the ball they close to, in units.
+const BALL: f32 = 1.15;
+/// How high over the floor that is at least, in units.
 const HEIGHT: f32 = 2.2;
+/// Their friction: paper slides under them rather than being drawn out.
+const FRICTION: f32 = 0.2;
 
-/// Fingers that close.
+/// Hands that close.
 #[derive(Debug)]
 pub struct Squeeze {
-    /// Each with where it takes hold and where it goes [m].
-    fingers: Vec<(Grab, Vec3, Vec3)>,
+    palms: Vec<Palm>,
+    /// Where the ball will be, and how far from there they close to [m].
+    middle: Vec3,
+    ball: f32,
+    unit: f32,
+    /// How long they have been closing or open [s], and how many times they will close again.
     age: f32,
+    again: u32,
+}
+
+/// A plane that faces the middle.
+#[derive(Debug)]
+struct Palm {
+    collider: Collider,
+    /// The way out, and how far out it was at first [m].
+    out: Vec3,
+    from: f32,
 }
 
 impl Squeeze {
-    /// How long the fingers hold it [s].
-    pub const HELD: f32 = CLOSING + CLOSED;
+    /// How long hands take to close [s].
+    pub const CLOSING: f32 = 1.0;
 
-    /// Takes hold all over a sheet of so many particles, where a unit is so long [m].
+    /// Puts palms all around a sheet, just outside, where a unit is so long [m].
     ///
     /// # Errors
-    /// As [`Cloth::grab_particle`].
-    pub fn new(cloth: &mut Cloth, [columns, rows]: [u32; 2], unit: f32) -> Result<Self> {
-        let positions = cloth.positions();
-        let middle = positions.iter().sum::<Vec3>() / positions.len() as f32;
-        let floor = (crate::receipt::FLOOR + HEIGHT) * unit;
-        let fist = middle.with_y(middle.y.max(floor));
-        let mut fingers = Vec::new();
-        let [down, across] = FINGERS;
-        for i in 0..down {
-            for j in 0..across {
-                let row = (i * (rows - 1)) / (down - 1);
-                let column = (j * (columns - 1)) / (across - 1);
-                let particle = row * columns + column;
-                let from = cloth.positions()[particle as usize];
-                let grab = match cloth.grab_particle(particle) {
-                    Ok(grab) => grab,
-                    // Other hands hold all that can be held.
-                    Err(Error::Full { .. }) => break,
-                    Err(error) => return Err(error),
-                };
-                // By turns to the front and to the back, so that it buckles between the fingers; and each
-                // row a little askew of the one before.
-                let side = if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
-                let flat = Vec3::new(
-                    j as f32 / (across - 1) as f32 - 0.5,
-                    0.5 - i as f32 / (down - 1) as f32,
-                    0.0,
-                );
-                let turned = Vec3::new(
-                    flat.x + 0.12 * (1.9 * i as f32).sin(),
-                    flat.y + 0.12 * (2.3 * j as f32).cos(),
-                    side * (0.38 + 0.06 * (1.3 * (i * across + j) as f32).sin()),
-                );
-                fingers.push((grab, from, fist + turned.clamp_length_max(1.0) * (FIST * unit)));
-            }
-        }
-        Ok(Self { fingers, age: 0.0 })
+    /// As [`Cloth::add_collider`].
+    pub fn new(cloth: &mut Cloth, unit: f32) -> Result<Self> {
+        let (middle, ball) = (Vec3::ZERO, BALL * unit);
+        let palms = Vec::with_capacity(PALMS as usize);
+        let mut hands = Self { palms, middle, ball, unit, age: 0.0, again: TIMES - 1 };
+        hands.spread(cloth)?;
+        Ok(hands)
     }
 
-    /// Closes for one tick, and says whether the fingers still hold; they have let go otherwise.
+    fn spread(&mut self, cloth: &mut Cloth) -> Result<()> {
+        let positions = cloth.positions();
+        let middle = positions.iter().sum::<Vec3>() / positions.len() as f32;
+        let floor = (crate::receipt::FLOOR + HEIGHT) * self.unit;
+        self.middle = middle.with_y(middle.y.max(floor));
+        for at in 0..PALMS {
+            let out = around(at);
+            let far = |x: &Vec3| (*x - self.middle).dot(out);
+            let from = cloth.positions().iter().map(far).fold(self.ball, f32::max);
+            let desc = ColliderDesc {
+                position: self.middle + out * from,
+                rotation: facing_in(out),
+                friction: FRICTION,
+                ..ColliderDesc::default()
+            };
+            self.palms.push(Palm { collider: cloth.add_collider(&desc)?, out, from });
+        }
+        Ok(())
+    }
+
+    /// Goes on for one tick, and says whether there is more to do; hands have let go otherwise.
     ///
     /// # Errors
-    /// As [`Cloth::move_grab`].
+    /// As [`Cloth::move_collider`].
     pub fn tick(&mut self, seconds: f32, cloth: &mut Cloth) -> Result<bool> {
         self.age += seconds;
-        if self.age > Self::HELD {
-            for (grab, ..) in self.fingers.drain(..) {
-                cloth.release(grab)?;
+        if self.age > Self::CLOSING + CLOSED {
+            self.open(cloth)?;
+            if self.again > 0 && self.age > Self::CLOSING + CLOSED + LOOSE {
+                (self.age, self.again) = (0.0, self.again - 1);
+                self.spread(cloth)?;
+                return Ok(true);
             }
-            return Ok(false);
+            return Ok(self.again > 0);
         }
-        let share = (self.age / CLOSING).min(1.0);
+        let share = (self.age / Self::CLOSING).min(1.0);
         let share = share * share * (3.0 - 2.0 * share);
-        for (grab, from, to) in &self.fingers {
-            cloth.move_grab(*grab, from.lerp(*to, share))?;
+        for Palm { collider, out, from } in &self.palms {
+            let at = self.middle + *out * (from + share * (self.ball - from));
+            cloth.move_collider(*collider, at, facing_in(*out))?;
         }
         Ok(true)
     }
@@ -90,10 +102,26 @@ impl Squeeze {
     /// Lets go before the time.
     ///
     /// # Errors
-    /// As [`Cloth::release`].
-    pub fn release(self, cloth: &mut Cloth) -> Result<()> {
-        self.fingers.into_iter().try_for_each(|(grab, ..)| cloth.release(grab))
+    /// As [`Cloth::remove_collider`].
+    pub fn release(mut self, cloth: &mut Cloth) -> Result<()> {
+        self.open(cloth)
     }
+
+    fn open(&mut self, cloth: &mut Cloth) -> Result<()> {
+        self.palms.drain(..).try_for_each(|palm| cloth.remove_collider(palm.collider))
+    }
+}
+
+/// Directions spread evenly over a ball, each turned on by the golden angle.
+fn around(at: u32) -> Vec3 {
+    let y = 1.0 - (2 * at + 1) as f32 / PALMS as f32;
+    let (sin, cos) = (2.399_963 * at as f32).sin_cos();
+    let flat = (1.0 - y * y).sqrt();
+    Vec3::new(flat * cos, y, flat * sin)
+}
+
+fn facing_in(out: Vec3) -> Quat {
+    Quat::from_rotation_arc(Vec3::Y, -out)
 }
 
 #[cfg(test)]
@@ -107,19 +135,18 @@ mod tests {
     fn squeezed(small: bool, after: u32) -> Cloth {
         let mut cloth = Sheet::Paper.hang(small).unwrap();
         cloth.step(after);
-        let mut squeeze =
-            Squeeze::new(&mut cloth, Sheet::Paper.weave(small), Sheet::Paper.unit()).unwrap();
+        cloth.unpin_all();
+        let mut squeeze = Squeeze::new(&mut cloth, Sheet::Paper.unit()).unwrap();
         while squeeze.tick(TICK, &mut cloth).unwrap() {
             cloth.step(1);
         }
-        cloth.unpin_all();
         cloth
     }
 
     #[test]
     fn what_was_squeezed_comes_to_rest() {
         // On small screens or others, squeezed after so many ticks.
-        for (small, after) in [(false, 60), (false, 90), (true, 60), (true, 75), (true, 90)] {
+        for (small, after) in [(false, 60), (true, 60), (true, 75), (true, 90)] {
             let mut cloth = squeezed(small, after);
             cloth.step(600);
             let before = cloth.positions().to_vec();

@@ -32,6 +32,9 @@ pub use settings::{Action, Control, Settings};
 /// Length of a tick [s], and the longest frame that ticks are run for.
 pub const TICK: f32 = 1.0 / 120.0;
 const LONGEST_FRAME: f32 = 0.033;
+/// What the ticks of a frame may take [s]: where they take longer, as paper does in a fist, time runs slower
+/// rather than in jerks.
+const PATIENCE: f64 = 0.025;
 
 /// How much farther than the paper reaches a hand may pull until it comes off a pin.
 const HOLD: f32 = 1.02;
@@ -258,9 +261,11 @@ impl Tender {
             self.owed += step;
             let ticks = (self.owed / TICK) as u32;
             self.owed -= ticks as f32 * TICK;
-            let start = (self.clock)();
-            self.play(ticks)?;
-            self.meter.simulated((self.clock)() - start);
+            let (clock, start) = (self.clock, (self.clock)());
+            if self.play_while(ticks, || clock() - start < PATIENCE)? < ticks {
+                self.owed = 0.0;
+            }
+            self.meter.simulated(clock() - start);
         }
         self.meter.frame(seconds);
         self.governor.frame(seconds);
@@ -272,11 +277,19 @@ impl Tender {
     /// # Errors
     /// As [`Cloth::move_grab`].
     pub fn play(&mut self, ticks: u32) -> Result<()> {
+        self.play_while(ticks, || true).map(|_| ())
+    }
+
+    /// Runs so many ticks or fewer, as long as there is time, and says how many; one at least.
+    fn play_while(&mut self, ticks: u32, has_time: impl Fn() -> bool) -> Result<u32> {
         if ticks > 0 {
             let (hands, mut table) = self.hands();
             hands.follow(&mut table)?;
         }
-        for _ in 0..ticks {
+        for tick in 0..ticks {
+            if tick > 0 && !has_time() {
+                return Ok(tick);
+            }
             self.hands.tick(TICK, &mut self.cloth)?;
             self.pull_off()?;
             if let Some(mut squeeze) = self.squeeze.take()
@@ -291,7 +304,7 @@ impl Tender {
             }
             self.cloth.step(1);
         }
-        Ok(())
+        Ok(ticks)
     }
 
     /// Times every stage of a frame from now on, or no longer.
@@ -408,8 +421,7 @@ impl Tender {
         hands.open(&mut table)?;
         self.cloth.unpin_all();
         let unit = self.settings.sheet.unit();
-        let weave = self.weave();
-        self.squeeze = Some(Squeeze::new(&mut self.cloth, weave, unit)?);
+        self.squeeze = Some(Squeeze::new(&mut self.cloth, unit)?);
         Ok(())
     }
 

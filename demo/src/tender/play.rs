@@ -13,7 +13,7 @@ use super::settings::Action;
 pub enum Gesture {
     /// Two hands lift the lower edge to the upper one; the bend is pressed into a crease; they let go.
     Fold,
-    /// Two hands gather the sheet into a ball and drop it.
+    /// Two hands press the sheet to a ball, twice, and drop it.
     Crumple,
     /// Two hands fold it on the floor, in half and in half again, and let go.
     Letter,
