@@ -63,34 +63,49 @@ const STATES = [
   },
   {
     name: "crumpled in a fist",
-    seconds: 1.2,
+    seconds: 1.1,
     begin(cloth) {
       cloth.unpinAll();
-      this.fingers = fingers(cloth);
+      this.palms = palms(cloth);
     },
     act(tick) {
-      const closed = Math.min(tick / RATE / 1.1, 1);
+      // Closed, they stay where they are.
+      const closed = (tick + 1) / RATE;
+      if (closed >= 1) return;
       const share = closed * closed * (3 - 2 * closed);
-      for (const { grab, from, to } of this.fingers) grab.moveTo(from.map((x, i) => x + (to[i] - x) * share));
+      for (const { collider, out, from, rotation } of this.palms)
+        collider.moveTo(at(out, from + share * (BALL - from)), rotation);
     },
     end() {
-      for (const { grab } of this.fingers) grab.release();
+      for (const { collider } of this.palms) collider.remove();
     },
   },
   { name: "crumpled, let go, on the floor", seconds: 4 },
 ];
 
-/** Eight rows of six fingers that hold it, each with where it takes hold and where in a fist it goes. */
-function fingers(cloth) {
-  const [down, across, radius] = [8, 6, 0.65];
-  const middle = [0, -1, 0];
-  return Array.from({ length: down * across }, (_, finger) => {
-    const [i, j] = [Math.floor(finger / across), finger % across];
-    const [row, column] = [Math.floor((i * (ROWS - 1)) / (down - 1)), Math.floor((j * (COLUMNS - 1)) / (across - 1))];
-    const grab = cloth.grabParticle(row * COLUMNS + column);
-    // By turns to the front and to the back, so that it buckles between the fingers.
-    const to = [j / (across - 1) - 0.5, 0.5 - i / (down - 1), (i + j) % 2 ? -0.38 : 0.38];
-    return { grab, from: grab.position, to: to.map((x, axis) => middle[axis] + radius * x) };
+/** So many palms close all around a place, so far from it, as the demo's do. */
+const [PALMS, MIDDLE, BALL] = [32, [0, -1, 0], 1.15];
+
+const at = (out, distance) => MIDDLE.map((x, axis) => x + out[axis] * distance);
+
+/** Planes just outside, in directions each turned on by the golden angle: each with its way out, and how far out it is. */
+function palms(cloth) {
+  const { positions } = cloth;
+  return Array.from({ length: PALMS }, (_, palm) => {
+    const y = 1 - (2 * palm + 1) / PALMS;
+    const [flat, turned] = [Math.sqrt(1 - y * y), 2.399963 * palm];
+    const out = [flat * Math.cos(turned), y, flat * Math.sin(turned)];
+    let from = BALL;
+    for (let i = 0; i < positions.length; i += 3) {
+      const way = out.reduce((sum, n, axis) => sum + n * (positions[i + axis] - MIDDLE[axis]), 0);
+      from = Math.max(from, way);
+    }
+    // The shortest turn from up to inwards.
+    const [x, z, w] = [-out[2], out[0], 1 - y];
+    const length = Math.hypot(x, z, w);
+    const rotation = [x / length, 0, z / length, w / length];
+    const collider = cloth.addCollider({ shape: "plane", position: at(out, from), rotation, friction: 0.2 });
+    return { collider, out, from, rotation };
   });
 }
 
