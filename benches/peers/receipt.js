@@ -63,14 +63,14 @@ const STATES = [
   },
   {
     name: "crumpled in a fist",
-    seconds: 1.1,
+    seconds: 1,
     begin(cloth) {
       cloth.unpinAll();
       this.palms = palms(cloth);
     },
     act(tick) {
       // Closed, they stay where they are.
-      const closed = (tick + 1) / RATE;
+      const closed = (tick + 1) / RATE / CLOSING;
       if (closed >= 1) return;
       const share = closed * closed * (3 - 2 * closed);
       for (const { collider, out, from, rotation } of this.palms)
@@ -83,8 +83,8 @@ const STATES = [
   { name: "crumpled, let go, on the floor", seconds: 4 },
 ];
 
-/** So many palms close all around a place, so far from it, as the demo's do. */
-const [PALMS, MIDDLE, BALL] = [32, [0, -1, 0], 1.15];
+/** So many palms close all around a place, so far from it, in so many seconds, as the demo's do. */
+const [PALMS, MIDDLE, BALL, CLOSING] = [32, [0, -1, 0], 1.15, 0.8];
 
 const at = (out, distance) => MIDDLE.map((x, axis) => x + out[axis] * distance);
 

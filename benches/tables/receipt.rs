@@ -20,7 +20,7 @@ const STATES: [(&str, f32, Deed); 5] = [
     ("at rest", 2.0, Deed::Nothing),
     ("in wind", 2.0, Deed::Wind),
     ("dragged about by its hem", 1.0, Deed::Drag),
-    ("crumpled in a fist", 1.1, Deed::Fist),
+    ("crumpled in a fist", 1.0, Deed::Fist),
     ("crumpled, let go, on the floor", 4.0, Deed::Nothing),
 ];
 

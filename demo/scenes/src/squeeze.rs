@@ -1,4 +1,4 @@
-//! Crumpling: hands close around a whole sheet, loosen, close again, and let go of it.
+//! Crumpling: hands close around a whole sheet, again and again, and let go of it.
 
 use glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Result};
@@ -6,7 +6,7 @@ use muslin::{Cloth, Collider, ColliderDesc, Result};
 /// So many palms close all around it. With fewer, paper is pinched where they meet.
 const PALMS: u32 = 32;
 /// How often they do.
-const TIMES: u32 = 2;
+const TIMES: u32 = 3;
 /// How long they stay closed, and how long they are open until they close again [s].
 const CLOSED: f32 = 0.1;
 const LOOSE: f32 = 0.12;
@@ -41,7 +41,7 @@ struct Palm {
 
 impl Squeeze {
     /// How long hands take to close [s].
-    pub const CLOSING: f32 = 1.0;
+    pub const CLOSING: f32 = 0.8;
 
     /// Puts palms all around a sheet, just outside, where a unit is so long [m].
     ///

@@ -13,7 +13,7 @@ use super::settings::Action;
 pub enum Gesture {
     /// Two hands lift the lower edge to the upper one; the bend is pressed into a crease; they let go.
     Fold,
-    /// Two hands press the sheet to a ball, twice, and drop it.
+    /// Hands press the sheet to a ball, again and again, and drop it.
     Crumple,
     /// Two hands fold it on the floor, in half and in half again, and let go.
     Letter,
@@ -48,7 +48,7 @@ const FOLD: Score = Score {
     deeds: &[(250, Deed::Crease([0.5, 0.40])), (290, Deed::Crease([0.5, 0.40]))],
 };
 
-const CRUMPLE: Score = Score { ticks: 600, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
+const CRUMPLE: Score = Score { ticks: 660, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
 
 const LETTER: Score = Score { ticks: 1080, ways: &[], deeds: &[(1, Deed::Act(Action::Fold))] };
 

@@ -305,7 +305,8 @@ fn crumpled_paper_is_a_ball_and_stays_one() {
     let x = tender.cloth().positions();
     let middle = x.iter().sum::<Vec3>() / x.len() as f32;
     let widest = x.iter().map(|at| at.distance(middle) / unit).fold(0.0, f32::max);
-    assert!(widest < 2.4, "it is {widest} units wide");
+    // Flat, its corners are 4.2 away.
+    assert!(widest < 2.6, "it reaches {widest} units from its middle");
     assert!(heights(&tender)[0] > FLOOR - 1.0e-3);
     assert!(speed(&tender) < 0.05, "it still moves at {} units/s", speed(&tender));
     assert_eq!(crossings(tender.cloth()), 0);
