@@ -45,7 +45,8 @@ pub fn print(effort: Effort) {
     }
     println!(
         "\nReceipt: ms of one thread for a whole tick of 1/{RATE} s with normals, of 40 x 60 particles, where the \
-         brief's push each other\napart and paper keeps from itself by its surface; least and median of {ROUNDS} rounds of {TICKS} ticks, one state after the other.\n"
+         brief's push each other\napart and paper keeps from itself by its surface; least and median of \
+         {ROUNDS} rounds of {TICKS} ticks,\none state after the other.\n"
     );
     println!("{table}");
 }

@@ -43,7 +43,7 @@ pub fn test() -> Result {
     ogre()
 }
 
-/// Builds the example in Bevy, draws its picture and looks at it. Not a part of the tests: it builds four hundred
+/// Builds the example in Bevy, draws its picture and looks at it. Not a part of the tests: it builds hundreds of
 /// crates, which takes as long as all of the tests.
 pub fn bevy() -> Result {
     setup::ensure(BEVY_NEEDS)?;

@@ -21,9 +21,8 @@ const FRICTION: f32 = 0.2;
 #[derive(Debug)]
 pub struct Squeeze {
     palms: Vec<Palm>,
-    /// Where the ball will be, and how far from there they close to [m].
+    /// Where the ball will be, and how long a unit is [m].
     middle: Vec3,
-    ball: f32,
     unit: f32,
     /// How long they have been closing or open [s], and how many times they will close again.
     age: f32,
@@ -48,9 +47,8 @@ impl Squeeze {
     /// # Errors
     /// As [`Cloth::add_collider`].
     pub fn new(cloth: &mut Cloth, unit: f32) -> Result<Self> {
-        let (middle, ball) = (Vec3::ZERO, BALL * unit);
-        let palms = Vec::with_capacity(PALMS as usize);
-        let mut hands = Self { palms, middle, ball, unit, age: 0.0, again: TIMES - 1 };
+        let (palms, middle) = (Vec::with_capacity(PALMS as usize), Vec3::ZERO);
+        let mut hands = Self { palms, middle, unit, age: 0.0, again: TIMES - 1 };
         hands.spread(cloth)?;
         Ok(hands)
     }
@@ -63,7 +61,7 @@ impl Squeeze {
         for at in 0..PALMS {
             let out = around(at);
             let far = |x: &Vec3| (*x - self.middle).dot(out);
-            let from = cloth.positions().iter().map(far).fold(self.ball, f32::max);
+            let from = cloth.positions().iter().map(far).fold(BALL * self.unit, f32::max);
             let desc = ColliderDesc {
                 position: self.middle + out * from,
                 rotation: facing_in(out),
@@ -93,7 +91,7 @@ impl Squeeze {
         let share = (self.age / Self::CLOSING).min(1.0);
         let share = share * share * (3.0 - 2.0 * share);
         for Palm { collider, out, from } in &self.palms {
-            let at = self.middle + *out * (from + share * (self.ball - from));
+            let at = self.middle + *out * (from + share * (BALL * self.unit - from));
             cloth.move_collider(*collider, at, facing_in(*out))?;
         }
         Ok(true)

@@ -262,9 +262,7 @@ impl Tender {
             let ticks = (self.owed / TICK) as u32;
             self.owed -= ticks as f32 * TICK;
             let (clock, start) = (self.clock, (self.clock)());
-            if self.play_while(ticks, || clock() - start < PATIENCE)? < ticks {
-                self.owed = 0.0;
-            }
+            self.play_while(ticks, || clock() - start < PATIENCE)?;
             self.meter.simulated(clock() - start);
         }
         self.meter.frame(seconds);
@@ -277,18 +275,18 @@ impl Tender {
     /// # Errors
     /// As [`Cloth::move_grab`].
     pub fn play(&mut self, ticks: u32) -> Result<()> {
-        self.play_while(ticks, || true).map(|_| ())
+        self.play_while(ticks, || true)
     }
 
-    /// Runs so many ticks or fewer, as long as there is time, and says how many; one at least.
-    fn play_while(&mut self, ticks: u32, has_time: impl Fn() -> bool) -> Result<u32> {
+    /// Runs so many ticks, one at least, as long as there is time.
+    fn play_while(&mut self, ticks: u32, has_time: impl Fn() -> bool) -> Result<()> {
         if ticks > 0 {
             let (hands, mut table) = self.hands();
             hands.follow(&mut table)?;
         }
         for tick in 0..ticks {
             if tick > 0 && !has_time() {
-                return Ok(tick);
+                return Ok(());
             }
             self.hands.tick(TICK, &mut self.cloth)?;
             self.pull_off()?;
@@ -304,7 +302,7 @@ impl Tender {
             }
             self.cloth.step(1);
         }
-        Ok(ticks)
+        Ok(())
     }
 
     /// Times every stage of a frame from now on, or no longer.
