@@ -52,6 +52,12 @@ fn is_elastic(world: &World) -> bool {
     world.material.bend_stiffness > 0.0 && world.material.bend_stiffness < 1.0
 }
 
+/// Whether bending may turn a cloth as a whole. One round of it leaves a rest of what it should do, and damping
+/// counts from where the substep began: neither is free of torque where there is something to bend.
+pub(crate) fn may_turn(world: &World) -> bool {
+    is_elastic(world) && (world.folds.are_any || world.material.bend_damping > 0.0)
+}
+
 /// The first round of a substep.
 pub(crate) fn begin(world: &mut World) {
     if is_elastic(world) {

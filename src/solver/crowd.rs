@@ -8,7 +8,7 @@
 //! weave, and triangles may still cross. Only pairs that are too near when the pass begins are moved, so
 //! that it makes no difference to the bits when the list of those that may be was made.
 
-use super::{World, layers, spin};
+use super::{World, layers};
 use crate::error::{Result, check};
 use crate::geom::hash_grid::HashGrid;
 use crate::math::TINY;
@@ -66,7 +66,6 @@ pub(crate) struct Crowd {
     wide: f32,
     /// Passes that the list has been asked for.
     passes: u32,
-    pub spin: spin::Scratch,
 }
 
 impl Crowd {
@@ -89,7 +88,6 @@ impl Crowd {
             margin: wide,
             wide,
             passes: 0,
-            spin: spin::Scratch::new(capacity),
         }
     }
 
@@ -97,7 +95,6 @@ impl Crowd {
     pub fn bytes(&self) -> usize {
         let pairs = self.pairs.capacity() + self.touching.capacity();
         self.grid.bytes()
-            + self.spin.bytes()
             + size_of::<[u32; 2]>() * pairs
             + size_of::<Vec3>() * self.listed_at.capacity()
             + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())

@@ -8,42 +8,19 @@
 //! and pulls at itself, as crumpled paper does, something is left that would turn it for ever. By `Scheme` the
 //! sum above is what the spin grew by, so it is turned back by that.
 
-use super::World;
 use super::rigid::{Free, RigidMotion};
-use crate::math::columns::Columns;
+use super::{World, bend};
 
-/// Room to work in.
-#[derive(Clone, Debug)]
-pub(crate) struct Scratch {
-    /// Where the velocity of each particle counts from, and how far the substep moved it [m].
-    from: Columns,
-    moves: Columns,
-}
-
-impl Scratch {
-    /// Room for `capacity` particles.
-    pub fn new(capacity: usize) -> Self {
-        Self { from: Columns::with_capacity(capacity), moves: Columns::with_capacity(capacity) }
-    }
-
-    /// Bytes that it holds.
-    pub fn bytes(&self) -> usize {
-        self.from.bytes() + self.moves.bytes()
-    }
-}
-
-/// Turns the cloth back by what keeping apart turned it.
+/// Turns the cloth back by what its own stages turned it.
 pub(crate) fn keep(world: &mut World) {
-    if world.pieces != 1 || is_held(world) {
+    let may_turn = world.crowd.is_some() || bend::may_turn(world);
+    if !may_turn || world.pieces != 1 || is_held(world) {
         return;
     }
-    let Some(crowd) = &mut world.crowd else {
-        return;
-    };
     let scheme = world.settings.scheme();
-    let Scratch { from, moves } = &mut crowd.spin;
-    let (p, scratch) = (&mut world.particles, &world.scratch);
-    from.resize(p.len());
+    let (p, scratch) = (&mut world.particles, &mut world.scratch);
+    // Air counts once in a tick, and what nothing holds has no anchors.
+    let (from, moves) = (&mut scratch.air, &mut scratch.anchor);
     moves.resize(p.len());
     let start = p.x.all().into_iter().zip(scratch.predicted.all());
     let ways = scratch.way.all().into_iter().zip(p.moved.all());
