@@ -214,7 +214,7 @@ impl Form {
     /// Cheap to compute, and never more than the distance of a point outside.
     pub fn bound(&self) -> Bound {
         match self {
-            Self::HalfSpace(_) => Bound::Below(0.0),
+            Self::HalfSpace(_) => Bound::Plane,
             Self::Terrain(terrain) => Bound::Below(terrain.bounds().high.y),
             Self::Ball(ball) => Bound::Ball(ball.radius),
             Self::Capsule(capsule) => {
@@ -233,6 +233,8 @@ impl Form {
 /// See `Form::bound`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Bound {
+    /// The plane that all of it is below: what ends above it has touched nothing, however it came there.
+    Plane,
     /// How high it reaches.
     Below(f32),
     /// Its radius.

@@ -155,6 +155,11 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Frame; 2], is_bare: bool)
         };
         place.gap += near.bulge;
         let (clear, lifts) = (&mut contacts.clear, &mut contacts.lifts);
+        if !near.faces.is_empty() || clear.len() != place.w.len() {
+            // Corners of triangles that nobody looks at are near.
+            clear.clear();
+            clear.resize(place.w.len(), 0.0);
+        }
         points::solve(world.level, form, &mut place, near.blocks, &near.sharp, clear);
         if is_bare {
             continue;

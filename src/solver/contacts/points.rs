@@ -17,24 +17,24 @@ const STEPS: u32 = 24;
 /// Ways out that point apart no more than this (its cosine) belong to one side of a shape.
 const SAME_SIDE: f32 = 0.7;
 
-/// Pushes the particles of some blocks out of a shape; `clear` then holds how far each is from it at
-/// least; 0 where nobody looked.
+/// Pushes the particles of some blocks out of a shape; `clear` then holds how far each of them is from it at
+/// least, and is as it was where nobody looked.
 pub(super) fn solve(
     level: Level,
     form: &Form,
     place: &mut Place<'_>,
     blocks: &[u32],
     sharp: &Sharp<'_>,
-    clear: &mut Vec<f32>,
+    clear: &mut [f32],
 ) {
     let count = place.w.len();
-    clear.clear();
-    clear.resize(count, 0.0);
     let bound = form.bound();
     for block in blocks {
         let first = *block as usize * BLOCK;
         let range = first..(first + BLOCK).min(count);
-        sight::look(level, place, bound, range.clone(), clear);
+        if !sight::look(level, place, bound, range.clone(), clear) {
+            continue;
+        }
         for i in range {
             // Negated, so that what is not a number is looked at.
             if place.w[i] <= 0.0 || clear[i] > place.gap {
