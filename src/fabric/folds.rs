@@ -217,7 +217,7 @@ impl Folds {
             let curve = hinge.curve(corners).dot(normal(corners)) - hinge.rest;
             let q = angle_of(curve / hinge.length);
             let worn = if wears { self.worn[at] } else { 0.0 };
-            let limit = yields.harden(yields.angle * hinge.width / over, worn);
+            let limit = yields.harden(yields.angle * hinge.reach() / over, worn);
             let rest = self.angle[0][at];
             if let Some([new, ..]) = yields.follow([q, 0.0, 0.0], [rest, 0.0, 0.0], limit) {
                 self.bend(0, at, new, &Lengths::Hinges(&hinges.all));
