@@ -2,8 +2,8 @@
 
 use muslin::glam::{Quat, Vec3};
 use muslin::{
-    Attribute, Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Shape, Stream,
-    VertexFormat, Wind, WriteDesc,
+    Attribute, Cloth, ColliderDesc, GridDesc, Material, MeshDesc, PinMode, SelfCollision, Shape,
+    Stream, VertexFormat, Wind, WriteDesc,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -95,6 +95,27 @@ fn a_mesh_allocates_nothing_once_it_is_made() {
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
     assert_allocates_nothing(Cloth::mesh(&desc).unwrap(), 20);
+}
+
+#[test]
+fn folds_that_wear_allocate_nothing() {
+    let mut grid = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
+    let mut mesh: MeshDesc = common::irregular_mesh();
+    for (material, settings) in
+        [(&mut grid.material, &mut grid.settings), (&mut mesh.material, &mut mesh.settings)]
+    {
+        settings.tearing = true;
+        *material = Material { tear_stretch: 1.2, yield_angle: 0.05, ..material.clone() };
+        (material.yield_hardening, material.yield_weakening) = (0.5, 2.0);
+    }
+    for (mut cloth, particle) in
+        [(Cloth::grid(&grid).unwrap(), 230), (Cloth::mesh(&mesh).unwrap(), 20)]
+    {
+        let hash = cloth.state_hash();
+        cloth.crease(Vec3::new(0.3, -9.0, 0.0), Vec3::new(0.35, 9.0, 0.0), 0.5).unwrap();
+        assert_ne!(cloth.state_hash(), hash, "nothing was creased");
+        assert_allocates_nothing(cloth, particle);
+    }
 }
 
 #[test]

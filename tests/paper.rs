@@ -2,87 +2,10 @@
 
 mod common;
 
+use common::folding::{ARC, SIZE, fold_and_release, sheet, spacing};
 use common::strip::speed;
 use muslin::glam::Vec3;
-use muslin::{Cloth, GridDesc, Material, PinMode, Preset, SelfCollision, Settings};
-
-const SIZE: f32 = 0.2;
-
-/// Half of what is between the hands that fold a strip, so that it all counts as one fold [m].
-const ARC: f32 = 0.012;
-
-/// A sheet of something like paper in the x–z plane, in no gravity.
-fn sheet(nodes: u32, across: u32, yield_angle: f32) -> GridDesc {
-    let material = Material {
-        bend_stiffness: 4.0e-4,
-        density: 0.08,
-        drag: 0.0,
-        yield_angle,
-        fold_length: 0.03,
-        ..Material::default()
-    };
-    let settings = Settings { gravity: Vec3::ZERO, damping: 6.0, ..Settings::default() };
-    GridDesc {
-        columns: nodes,
-        rows: across,
-        spacing: SIZE / (nodes - 1) as f32,
-        down: Vec3::Z,
-        pin_mode: PinMode::None,
-        material,
-        settings,
-        ..GridDesc::default()
-    }
-}
-
-/// Folds a strip by turning what is farther than `arc` from its middle, slowly, and lets go; then says by how
-/// much its ends are turned against each other.
-fn fold_and_release(cloth: &mut Cloth, nodes: u32, arc: f32, angle: f32) -> f32 {
-    let rest: Vec<Vec3> = cloth.positions().to_vec();
-    let middle = SIZE / 2.0;
-    let place = |i: u32| {
-        let (row, column) = (i / nodes, i % nodes);
-        Vec3::new(column as f32 * SIZE / (nodes - 1) as f32, 0.0, row as f32 * rest_spacing(nodes))
-    };
-    let held: Vec<u32> =
-        (0..rest.len() as u32).filter(|i| (place(*i).x - middle).abs() > arc).collect();
-    for tick in 0..=240 {
-        let turned = angle * (tick as f32 / 240.0);
-        let targets: Vec<Vec3> = held
-            .iter()
-            .map(|i| {
-                let at = place(*i) - Vec3::X * middle;
-                // Along an arc between the hands the sheet is as long as it was.
-                let half = 0.5 * turned;
-                let side = if at.x > 0.0 { 1.0 } else { -1.0 };
-                let (reach, lift) = if half > 1.0e-4 {
-                    let radius = arc / half;
-                    (radius * half.sin(), radius * (1.0 - half.cos()))
-                } else {
-                    (arc, 0.0)
-                };
-                let beyond = at.x.abs() - arc;
-                let x = side * (reach + beyond * half.cos());
-                Vec3::new(middle + x, lift + beyond * half.sin(), at.z)
-            })
-            .collect();
-        cloth.set_pin_targets(&held, &targets).unwrap();
-        cloth.step(1);
-    }
-    cloth.unpin_all();
-    let mut ticks = 0;
-    while ticks < 60 || (speed(cloth) > 1.0e-3 && ticks < 900) {
-        cloth.step(1);
-        ticks += 1;
-    }
-    let at = |column: u32| cloth.positions()[(nodes + column) as usize];
-    let left = at(0) - at(3);
-    let right = at(nodes - 1) - at(nodes - 4);
-    core::f32::consts::PI - left.angle_between(right)
-}
-
-fn rest_spacing(nodes: u32) -> f32 {
-    SIZE / (nodes - 1) as f32
-}
+use muslin::{Cloth, Material, Preset, SelfCollision};
 
 #[test]
 fn a_fold_beyond_the_yield_angle_keeps_the_rest() {
@@ -123,13 +46,13 @@ fn cloth_that_does_not_yield_opens_again() {
 fn measure_crease(cloth: &Cloth, nodes: u32, from: Vec3, to: Vec3) -> f32 {
     let along = (to - from).normalize();
     let side = Vec3::Y.cross(along);
-    let spacing = rest_spacing(nodes);
+    let cell = spacing(nodes);
     let (mut sums, mut counts) = ([Vec3::ZERO; 2], [0.0_f32; 2]);
     for triangle in common::triangles(cloth) {
-        let place = |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * spacing;
+        let place = |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * cell;
         let middle = triangle.map(place).iter().sum::<Vec3>() / 3.0;
         let off = (middle - from).dot(side);
-        if off.abs() < 3.0 * spacing {
+        if off.abs() < 3.0 * cell {
             continue;
         }
         let [a, b, c] = triangle.map(|i| cloth.positions()[i as usize]);
@@ -231,7 +154,7 @@ fn a_sheet_of_paper_that_was_folded_twice_and_let_go_keeps_both_creases() {
         desc.settings.self_distance = 0.003;
         let mut cloth = Cloth::grid(&desc).unwrap();
         let place =
-            |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * rest_spacing(nodes);
+            |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * spacing(nodes);
         let is_held =
             |i: &u32| LETTER.iter().all(|(at, _)| (place(*i).x - at * SIZE).abs() > LETTER_ARC);
         let held: Vec<u32> = (0..nodes * 9).filter(is_held).collect();

@@ -114,6 +114,8 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         ("material.yield_angle", |m| m.yield_angle = -1.0),
         ("material.yield_creep", |m| m.yield_creep = 1.5),
         ("material.fold_length", |m| m.fold_length = f32::NAN),
+        ("material.yield_hardening", |m| m.yield_hardening = -0.5),
+        ("material.yield_weakening", |m| m.yield_weakening = f32::INFINITY),
         ("material.bend_damping", |m| m.bend_damping = -0.1),
         ("material.stretch_damping", |m| m.stretch_damping = f32::INFINITY),
     ];

@@ -13,7 +13,7 @@ impl Cloth {
     ///
     /// The line need not follow the mesh: the fold is shared out over the cells beside it. It bends no more
     /// than `bend_stiffness` can make it, and stays until [`Cloth::reset`]; folding by −`angle` along the
-    /// same line takes it away. Where the line is not on the cloth nothing is folded.
+    /// same line takes it away, but not what `yield_hardening` and `yield_weakening` count. Where the line is not on the cloth nothing is folded.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) for a number that is not finite, for `to` equal to

@@ -5,7 +5,7 @@ use crate::math::mix::Mixer;
 
 impl Cloth {
     /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, folds, pins, grabs, colliders, tethers, what layers bear on each other with and whether they cross, and time.
+    /// triangles, folds and how much they gave way, pins, grabs, colliders, tethers, what layers bear on each other with and whether they cross, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut mixer) = (&self.world, Mixer::new(0));
         let p = &world.particles;
@@ -25,6 +25,7 @@ impl Cloth {
         if world.folds.are_any {
             world.folds.angle.iter().for_each(|angle| mixer.floats(angle));
         }
+        mixer.floats(world.folds.wear.kept());
         for pin in world.pins.iter() {
             mixer.word(pin.particle);
             mixer.floats(&pin.from.to_array());

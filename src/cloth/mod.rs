@@ -143,6 +143,7 @@ impl Cloth {
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
         fresh.settings = self.world.settings.clone();
         fresh.material = self.world.material.clone();
+        fresh.folds.reserve_wear(&fresh.material);
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
         fresh.threads = self.world.threads;
@@ -236,6 +237,7 @@ impl Cloth {
         let reweigh = material.density != world.material.density;
         world.scratch.contacts.near.forget();
         world.material = material;
+        world.folds.reserve_wear(&world.material);
         guarded(|| {
             world.weave.stiffen(&world.material);
             if reweigh {

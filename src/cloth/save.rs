@@ -37,7 +37,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"MUSLINSV";
-const FORMAT: u32 = 8;
+const FORMAT: u32 = 9;
 const HEADER: usize = 20;
 
 /// All that cannot be derived.
@@ -56,6 +56,8 @@ struct Saved<'a> {
     /// What tears made of tethers; none where measuring gives the same.
     tethers: Vec<TetherSet>,
     folds: Each<Vec<f32>>,
+    /// What folds gave way by; none if nothing did.
+    wear: Vec<f32>,
     particles: Owned<'a, Particles>,
     mass_scales: Owned<'a, MassScales>,
     pins: Owned<'a, Pins>,
@@ -101,6 +103,7 @@ impl Cloth {
             links: world.weave.changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.kept(),
+            wear: world.folds.wear.kept().to_vec(),
             particles: Owned::Borrowed(&world.particles),
             mass_scales: Owned::Borrowed(&world.mass_scales),
             pins: Owned::Borrowed(&world.pins),
@@ -228,7 +231,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(world.weave.change(&world.mesh, &saved.links, &world.material))?;
     world.weave.stiffen(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
-    must(world.take_folds(saved.folds))?;
+    must(world.take_folds(saved.folds) && world.take_wear(saved.wear))?;
     world.reserve_for_tears();
     world.gather();
     must(saved.leashes.are_sound(count))?;

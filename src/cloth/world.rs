@@ -176,10 +176,11 @@ fn build(
     weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
     let max_tears = settings.most_tears(triangle_capacity);
-    let folds = match &plates {
+    let mut folds = match &plates {
         Some(plates) => Folds::of_plates(plates),
-        None => Folds::of_hinges(&weave.hinges.all),
+        None => Folds::of_hinges(&weave.hinges),
     };
+    folds.reserve_wear(material);
     let mut world = World {
         spacing: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, capacity),

@@ -130,17 +130,54 @@ impl Facets {
         Self(facets)
     }
 
-    /// What triangles resist whose hinges hold in part, where some particles are held. Where a mesh goes on into
-    /// a clamp only the half of a hinge outside bends, and has all of the angle.
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The hinges of each.
+    pub fn hinges(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
+        let is_one = |hinge: &u32| *hinge != NONE;
+        self.0
+            .iter()
+            .map(move |facet| facet.hinges.into_iter().filter(is_one).map(|at| at as usize))
+    }
+
+    /// The curvature of one that is flat [1/m], if its hinges were bent by so much [rad].
+    pub fn curve(&self, at: usize, hinges: &[Hinge], bent: impl Fn(usize) -> f32) -> f32 {
+        let facet = &self.0[at];
+        let (mut times, mut shown) = ([0.0; 3], [0.0; 3]);
+        for (slot, hinge) in facet.hinges.into_iter().enumerate() {
+            if hinge != NONE {
+                (times[slot], shown[slot]) =
+                    (1.0, bent(hinge as usize) * hinges[hinge as usize].length);
+            }
+        }
+        if shown == [0.0; 3] {
+            return 0.0;
+        }
+        let element = facet.element(times);
+        let own = element.own.into_iter().zip(shown).map(|(own, c)| own * (c * c));
+        let pairs = element.between.into_iter().zip(PAIRS);
+        let between = pairs.map(|(between, [p, q])| 2.0 * between * (shown[p] * shown[q]));
+        // A |S|², where the slopes know A.
+        let energy = own.sum::<f32>() + between.sum::<f32>();
+        2.0 * facet.slope * max(energy, 0.0).sqrt()
+    }
+
+    /// What triangles resist whose hinges hold in part, where some particles are held; `left` is what there is
+    /// left of a triangle's stiffness. Where a mesh goes on into a clamp only the half of a hinge outside bends,
+    /// and has all of the angle.
     pub fn resist(
         &self,
         hinges: &[Hinge],
         holds: impl Fn(usize) -> bool,
         is_held: impl Fn(u32) -> bool,
+        left: impl Fn(usize) -> f32,
         elements: &mut Vec<Element>,
     ) {
         elements.clear();
-        elements.extend(self.0.iter().map(|facet| {
+        elements.extend(self.0.iter().enumerate().map(|(at, facet)| {
             let mut times = [0.0; 3];
             for (slot, times) in times.iter_mut().enumerate() {
                 let hinge = facet.hinges[slot] as usize;
@@ -154,7 +191,10 @@ impl Facets {
                     };
                 }
             }
-            facet.element(times)
+            let (mut element, left) = (facet.element(times), left(at));
+            let terms = element.own.iter_mut().chain(&mut element.between);
+            terms.for_each(|term| *term *= left);
+            element
         }));
     }
 

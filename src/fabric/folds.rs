@@ -3,11 +3,13 @@
 //! Real sheets are bent for good where they are bent sharply. A fold of given angle lies on one element
 //! or on several, as the mesh has it, so that none of them can tell by itself: what counts is the angle
 //! along some length of the sheet. With φ that angle and φ_y the material's, a fold that is let go keeps
-//! φ − φ_y; each element keeps its part of it.
+//! φ − φ_y; each element keeps its part of it. If the material hardens or weakens, φ_y grows by H for each angle that
+//! the fold gives way by, see `wear`, so that of one folded for the first time (φ − φ_y) / (1 + H) stays.
 
-use crate::fabric::hinges::{Hinge, normal};
+use crate::fabric::hinges::{Hinge, Hinges, normal};
 use crate::fabric::material::Material;
 use crate::fabric::plates::{Each, Plates};
+use crate::fabric::wear::Wear;
 use crate::math::columns::Columns;
 use crate::math::trig::{arcsine, sin};
 use crate::math::{max, min};
@@ -30,10 +32,16 @@ pub(crate) struct Folds {
     pub offset: Each<Vec<f32>>,
     /// Whether there is any.
     pub are_any: bool,
+    /// How much folds have given way so far.
+    pub wear: Wear,
     /// How bent each particle of a grid is, or was at rest [rad].
     bent: Vec<f32>,
     /// What each particle's cells are to be twisted by more [rad].
     more: Vec<f32>,
+    /// If that counts: how each particle of a grid or hinge rested before it gave way [rad], and what each hinge
+    /// had given way by in all.
+    was: Vec<[f32; 3]>,
+    worn: Vec<f32>,
 }
 
 impl Folds {
@@ -41,15 +49,23 @@ impl Folds {
     pub fn of_plates(plates: &Plates) -> Self {
         let list = || vec![0.0; plates.count()];
         let each = || [list(), list(), list()];
-        Self { angle: each(), offset: each(), are_any: false, bent: list(), more: list() }
+        Self {
+            angle: each(),
+            offset: each(),
+            bent: list(),
+            more: list(),
+            wear: Wear::of(plates.count()),
+            ..Self::default()
+        }
     }
 
-    /// Those of so many hinges.
-    pub fn of_hinges(hinges: &[Hinge]) -> Self {
-        let list = || vec![0.0; hinges.len()];
+    /// Those of a mesh with these hinges.
+    pub fn of_hinges(hinges: &Hinges) -> Self {
+        let list = || vec![0.0; hinges.all.len()];
         Self {
             angle: [list(), Vec::new(), Vec::new()],
             offset: [list(), Vec::new(), Vec::new()],
+            wear: Wear::of(hinges.facets.count()),
             ..Self::default()
         }
     }
@@ -73,6 +89,15 @@ impl Folds {
             }
         }
         true
+    }
+
+    /// Makes room for how much folds give way, if the material counts it.
+    pub fn reserve_wear(&mut self, material: &Material) {
+        self.wear.reserve(material);
+        if material.wears() {
+            self.was.resize(self.angle[0].len(), [0.0; 3]);
+            self.worn.resize(if self.bent.is_empty() { self.angle[0].len() } else { 0 }, 0.0);
+        }
     }
 
     /// The angles to keep; none if all is flat.
@@ -110,12 +135,16 @@ impl Folds {
             let (q, rest) = (now.tensor(at), self.tensor(plates, at));
             *bent = max(norm(q), norm(rest));
             is_any |= *bent > TINY_ANGLE;
+            if material.wears() {
+                self.was[at] = rest;
+            }
         }
         if is_any {
+            let mut gives_way = false;
             self.more.fill(0.0);
             for at in 0..count {
                 if bent[at] > TINY_ANGLE {
-                    self.yield_plate(&now, &yields, &bent, at);
+                    gives_way |= self.yield_plate(&now, &yields, &bent, at);
                 }
             }
             for at in 0..count - columns - 1 {
@@ -125,18 +154,39 @@ impl Folds {
                     self.bend(2, at, self.angle[2][at] + more, &Lengths::Grid(plates.spacing));
                 }
             }
+            if gives_way && material.wears() {
+                self.wear_plates(plates);
+            }
         }
         self.bent = bent;
     }
 
-    fn yield_plate(&mut self, now: &Now<'_>, yields: &Yield, bent: &[f32], at: usize) {
+    /// Takes note of how a grid rests, before it gives way.
+    fn remember(&mut self, plates: &Plates) {
+        for at in 0..plates.count() {
+            self.was[at] = self.tensor(plates, at);
+        }
+    }
+
+    /// Counts by how much a grid rests otherwise than it was.
+    fn wear_plates(&mut self, plates: &Plates) {
+        for at in 0..plates.count() {
+            let (is, was) = (self.tensor(plates, at), self.was[at]);
+            let by = norm([is[0] - was[0], is[1] - was[1], is[2] - was[2]]);
+            self.wear.grow(at, by / plates.spacing);
+        }
+    }
+
+    /// Lets the elements of a particle follow; whether they do.
+    fn yield_plate(&mut self, now: &Now<'_>, yields: &Yield, bent: &[f32], at: usize) -> bool {
         let plates = now.plates;
         let (q, rest) = (now.tensor(at), self.tensor(plates, at));
         let larger = if norm(q) > norm(rest) { q } else { rest };
         let fold = sum_across(plates, yields.over, bent, larger, at);
         // This element's part of what the whole fold may give way by.
         let limit = yields.angle * bent[at] / max(fold, bent[at]);
-        let Some(new) = yields.follow(q, rest, limit) else { return };
+        let limit = yields.harden(limit, self.wear.at(at) * plates.spacing);
+        let Some(new) = yields.follow(q, rest, limit) else { return false };
         let lengths = Lengths::Grid(plates.spacing);
         for kind in 0..2 {
             if plates.share[kind][at] > 0.0 {
@@ -144,6 +194,7 @@ impl Folds {
             }
         }
         self.more[at] = new[2] - rest[2];
+        true
     }
 
     fn tensor(&self, plates: &Plates, at: usize) -> [f32; 3] {
@@ -154,23 +205,57 @@ impl Folds {
     }
 
     /// Lets the folds at hinges follow where they are bent beyond what their material bears.
-    pub fn yield_hinges(&mut self, hinges: &[Hinge], material: &Material, mean: f32, x: &Columns) {
+    pub fn yield_hinges(&mut self, hinges: &Hinges, material: &Material, mean: f32, x: &Columns) {
+        let (wears, mut gives_way) = (material.wears(), false);
+        if wears {
+            self.remember_hinges(hinges);
+        }
         let yields = Yield::new(material, mean);
         let over = max(material.fold_length, 3.0 * mean);
-        for (at, hinge) in hinges.iter().enumerate() {
+        for (at, hinge) in hinges.all.iter().enumerate() {
             let corners = hinge.at.map(|vertex| x.at(vertex as usize));
             let curve = hinge.curve(corners).dot(normal(corners)) - hinge.rest;
             let q = angle_of(curve / hinge.length);
-            let limit = yields.angle * hinge.width / over;
+            let worn = if wears { self.worn[at] } else { 0.0 };
+            let limit = yields.harden(yields.angle * hinge.reach() / over, worn);
             let rest = self.angle[0][at];
             if let Some([new, ..]) = yields.follow([q, 0.0, 0.0], [rest, 0.0, 0.0], limit) {
-                self.bend(0, at, new, &Lengths::Hinges(hinges));
+                self.bend(0, at, new, &Lengths::Hinges(&hinges.all));
+                gives_way = true;
             }
+        }
+        if gives_way && wears {
+            self.wear_hinges(hinges);
+        }
+    }
+
+    /// Takes note of how hinges rest before they give way, and of what each has given way by: half of what both its
+    /// triangles have, over what a fold along it has of them.
+    fn remember_hinges(&mut self, hinges: &Hinges) {
+        for (was, rest) in self.was.iter_mut().zip(&self.angle[0]) {
+            *was = [*rest, 0.0, 0.0];
+        }
+        self.worn.fill(0.0);
+        for (triangle, own) in hinges.facets.hinges().enumerate() {
+            let curve = 0.5 * self.wear.at(triangle);
+            own.for_each(|hinge| self.worn[hinge] += curve * hinges.all[hinge].reach());
+        }
+    }
+
+    /// Counts by how much triangles rest otherwise than they did.
+    fn wear_hinges(&mut self, hinges: &Hinges) {
+        for triangle in 0..hinges.facets.count() {
+            let more = |hinge: usize| self.angle[0][hinge] - self.was[hinge][0];
+            let by = hinges.facets.curve(triangle, &hinges.all, more);
+            self.wear.grow(triangle, by);
         }
     }
 
     /// Adds a fold along a line of a grid, in the grid's own plane [m].
-    pub fn crease_plates(&mut self, plates: &Plates, line: Line2, angle: f32) {
+    pub fn crease_plates(&mut self, plates: &Plates, line: Line2, angle: f32, wears: bool) {
+        if wears {
+            self.remember(plates);
+        }
         let (spacing, columns) = (plates.spacing, plates.columns);
         let lengths = Lengths::Grid(spacing);
         let ([nx, ny], width) = (line.normal, spacing * line.widest());
@@ -187,19 +272,26 @@ impl Folds {
                 }
             }
         }
+        if wears {
+            self.wear_plates(plates);
+        }
     }
 
     /// Adds a fold along a line of any mesh at rest [m]; `corners` are where each hinge's particles are.
     pub fn crease_hinges(
         &mut self,
-        hinges: &[Hinge],
+        hinges: &Hinges,
         corners: impl Fn(&Hinge) -> [Vec3; 4],
         [from, to]: [Vec3; 2],
         width: f32,
         angle: f32,
+        wears: bool,
     ) {
+        if wears {
+            self.remember_hinges(hinges);
+        }
         let (length, along) = ((to - from).length(), (to - from).normalize_or_zero());
-        for (at, hinge) in hinges.iter().enumerate() {
+        for (at, hinge) in hinges.all.iter().enumerate() {
             let x = corners(hinge);
             let middle = (x[0] + x[1]) * 0.5 - from;
             let side = normal(x).cross(along).normalize_or_zero();
@@ -215,7 +307,10 @@ impl Folds {
             });
             let curve = 0.5 * density * terms.sum::<f32>();
             let more = angle_of(curve / hinge.length);
-            self.bend(0, at, self.angle[0][at] + more, &Lengths::Hinges(hinges));
+            self.bend(0, at, self.angle[0][at] + more, &Lengths::Hinges(&hinges.all));
+        }
+        if wears {
+            self.wear_hinges(hinges);
         }
     }
 }
@@ -265,6 +360,7 @@ impl Line2 {
 struct Yield {
     angle: f32,
     keeps: f32,
+    hardens: f32,
     /// Elements in a row that count as one fold.
     over: usize,
 }
@@ -275,27 +371,34 @@ impl Yield {
         Self {
             angle: material.yield_angle,
             keeps: material.yield_creep,
+            hardens: material.hardens(),
             over: over.clamp(LEAST, MOST_IN_A_ROW),
         }
     }
 
-    /// What the angle at rest becomes; nothing if it stays.
+    /// How far an element bends and still opens, of which that is `limit` before it has given way by `worn`.
+    fn harden(&self, limit: f32, worn: f32) -> f32 {
+        if worn > 0.0 { limit + self.hardens * worn } else { limit }
+    }
+
+    /// What the angle at rest becomes; nothing if it stays. The limit grows with what this adds to it.
     fn follow(&self, q: [f32; 3], rest: [f32; 3], limit: f32) -> Option<[f32; 3]> {
         let by = [q[0] - rest[0], q[1] - rest[1], q[2] - rest[2]];
         let (strain, size) = (norm(by), norm(q));
         if strain <= limit {
             return None;
         }
+        let grows = 1.0 + self.keeps * self.hardens;
         if dot(by, q) > 0.0 {
             // Folded more: it keeps a share of all that is beyond the limit, and no less than before.
             if size <= limit {
                 return None;
             }
             let kept = self.keeps * (size - limit) - dot(rest, q) / size;
-            let share = kept / size;
+            let share = kept / (size * grows);
             return (kept > 0.0).then(|| core::array::from_fn(|k| rest[k] + q[k] * share));
         }
-        let share = self.keeps * (1.0 - limit / strain);
+        let share = self.keeps * (1.0 - limit / strain) / grows;
         Some(core::array::from_fn(|k| rest[k] + by[k] * share))
     }
 }

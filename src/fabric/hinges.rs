@@ -47,6 +47,11 @@ impl Hinge {
         x[0] * p + x[1] * q + x[2] * a + x[3] * b
     }
 
+    /// How much of the sheet across it bends as it does where a fold goes along it [m].
+    pub fn reach(&self) -> f32 {
+        1.5 * self.width
+    }
+
     /// A hinge between two triangles, from where its corners are at rest; none if one has no area. Also
     /// what a cylinder gives it on average and should, each over ½ D κ², and what it shows of a curvature.
     fn flap(at: [u32; 4], [p, q, a, b]: [Vec3; 4]) -> Option<(Self, [f32; 2], Shows)> {

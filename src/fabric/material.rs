@@ -49,6 +49,16 @@ pub struct Material {
     /// only bent, and stays bent beyond a curvature of `yield_angle` over this. Three cells count at least.
     /// At least 0.
     pub fold_length: f32,
+    /// How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of
+    /// one that is folded by φ for the first time (φ − `yield_angle`) / (1 + this) stays, and to fold it on takes
+    /// as much more. At least 0. What gives way or is creased while this and `yield_weakening` are 0 is not
+    /// counted.
+    pub yield_hardening: f32,
+    /// How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by A in all, to either side,
+    /// `fold_length` of the sheet bends as if `bend_stiffness` were divided by 1 + this · A, by at most a
+    /// thousand; pressed flat, it stays as weak. It gives way under the same moment as before, so that it opens
+    /// again by more: `yield_angle` · this counts as `yield_hardening` too. At least 0.
+    pub yield_weakening: f32,
 }
 
 /// The fabrics that come with Muslin.
@@ -89,6 +99,8 @@ impl Default for Material {
             yield_angle: 0.0,
             yield_creep: 1.0,
             fold_length: 0.01,
+            yield_hardening: 0.0,
+            yield_weakening: 0.0,
         }
     }
 }
@@ -124,6 +136,16 @@ impl Material {
         }
     }
 
+    /// Whether it matters what folds have given way by.
+    pub(crate) fn wears(&self) -> bool {
+        self.yield_hardening > 0.0 || self.yield_weakening > 0.0
+    }
+
+    /// How much more a fold opens again for each angle that it has given way by.
+    pub(crate) fn hardens(&self) -> f32 {
+        self.yield_hardening + self.yield_weakening * self.yield_angle
+    }
+
     /// Refuses figures that no fabric has.
     pub(crate) fn check(&self) -> Result<()> {
         let not_negative = |v: f32| v.is_finite() && v >= 0.0;
@@ -146,6 +168,8 @@ impl Material {
             (self.stretch_damping, "material.stretch_damping"),
             (self.yield_angle, "material.yield_angle"),
             (self.fold_length, "material.fold_length"),
+            (self.yield_hardening, "material.yield_hardening"),
+            (self.yield_weakening, "material.yield_weakening"),
         ] {
             check(not_negative(value), field, "be at least 0 and finite")?;
         }

@@ -21,4 +21,5 @@ pub(crate) mod rows;
 pub(crate) mod strays;
 pub(crate) mod tethers;
 pub(crate) mod tips;
+pub(crate) mod wear;
 pub(crate) mod weave;

@@ -126,6 +126,7 @@ fn bend_plates(world: &mut World, step: hinges::Step, order: Order) {
         predicted: &scratch.predicted,
         way: &scratch.way,
         rest,
+        softening: world.folds.wear.softens(&world.material),
     };
     let mass = inertia.as_deref().unwrap_or(&p.mass);
     plates::bend(plates, &mut scratch.bend.plates, step, &mut p.x, &p.w, mass);
@@ -145,7 +146,7 @@ pub(crate) fn yield_folds(world: &mut World) {
         ways::find_normals(world.level, plates, x, &mut world.scratch.bend.normal);
         world.folds.yield_plates(plates, material, x, &world.scratch.bend.normal);
     } else {
-        world.folds.yield_hinges(&world.weave.hinges.all, material, world.spacing, x);
+        world.folds.yield_hinges(&world.weave.hinges, material, world.spacing, x);
     }
 }
 
@@ -159,10 +160,18 @@ impl World {
         self.folds.take_over(angle, &lengths)
     }
 
+    /// Takes over what folds gave way by; false if that does not fit.
+    pub fn take_wear(&mut self, curve: Vec<f32>) -> bool {
+        let fits = self.folds.wear.take_over(curve);
+        self.folds.reserve_wear(&self.material);
+        fits
+    }
+
     /// Folds a grid along a line in its plane [m].
     pub fn crease_flat(&mut self, from: [f32; 2], to: [f32; 2], angle: f32) {
         if let (Some(plates), true) = (&self.plates, from != to) {
-            self.folds.crease_plates(plates, Line2::new(from, to), angle);
+            let wears = self.material.wears();
+            self.folds.crease_plates(plates, Line2::new(from, to), angle, wears);
         }
     }
 
@@ -170,7 +179,8 @@ impl World {
     pub fn crease_across(&mut self, line: [Vec3; 2], angle: f32) {
         let (mesh, rest) = (&self.mesh, &self.rest);
         let at = |hinge: &Hinge| hinge.at.map(|v| rest[mesh.source[v as usize] as usize]);
-        self.folds.crease_hinges(&self.weave.hinges.all, at, line, self.spacing, angle);
+        let (hinges, wears) = (&self.weave.hinges, self.material.wears());
+        self.folds.crease_hinges(hinges, at, line, self.spacing, angle, wears);
     }
 }
 
@@ -186,6 +196,7 @@ fn bend_elbows(world: &mut World, step: hinges::Step) {
         predicted: &scratch.predicted,
         way: &scratch.way,
         rest: world.folds.are_any.then_some([weft, warp]),
+        softening: world.folds.wear.softens(&world.material),
     };
     elbows::bend(world.level, step, &mut world.particles);
 }
@@ -219,6 +230,7 @@ fn bend_hinges(world: &mut World, step: hinges::Step, order: Order) {
         hinges: &world.weave.hinges,
         active: &world.weave.links.active,
         folds: world.folds.are_any.then_some(&world.folds.offset[0][..]),
+        softening: world.folds.wear.softens(&world.material),
         step,
         over_mass: step.stiffness / (world.material.density * cell * cell),
         is_first: order == Order::Forward,

@@ -7,6 +7,7 @@
 
 use super::spots::{Sheet, Spots, fetch, put};
 use crate::fabric::elbows::Elbows;
+use crate::fabric::wear::Softening;
 use crate::math::TINY;
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Level, Number, Scalar, Simd, vectored};
@@ -26,6 +27,8 @@ pub(crate) struct Step<'a> {
     pub way: &'a Columns,
     /// What elements are bent by at rest along the weft and along the warp [m]; none if none is.
     pub rest: Option<[&'a [f32]; 2]>,
+    /// How much softer elements are by what gave way, if they are.
+    pub softening: Option<Softening<'a>>,
 }
 
 /// Bends all of them once.
@@ -93,7 +96,14 @@ fn bend_some<S: Simd, P: Spots>(
     // A middle that is held is stiffer between one end that is held and one that is not, see `plates`.
     let lean = s.pick(wa, zero, one) - s.pick(wb, zero, one);
     let clamped = s.pick(wm, one, one + lean * lean);
-    let stiffness = s.load(&elbows.share, first) * clamped * s.splat(step.stiffness);
+    let mut stiffness = s.load(&elbows.share, first) * clamped * s.splat(step.stiffness);
+    if let Some(softening) = step.softening {
+        let mut left = [0.0; LANES];
+        for (left, at) in left.iter_mut().zip(woven) {
+            *left = softening.left(softening.curve[*at as usize]);
+        }
+        stiffness = stiffness * s.load(&left, 0);
+    }
     let weight = (wa + wb) + s.splat(4.0) * wm;
     let pull = stiffness / (weight * stiffness + one);
     let (to_a, to_middle, to_b) = (wa * pull, s.splat(2.0) * wm * pull, wb * pull);

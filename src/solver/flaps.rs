@@ -13,6 +13,7 @@ use super::spots::Spots;
 use super::stiffness::Stiffness;
 use crate::fabric::facets::{Element, PAIRS};
 use crate::fabric::hinges::{Hinge, Hinges, normal};
+use crate::fabric::wear::Softening;
 use crate::math::TINY;
 use glam::{Vec3, Vec4};
 
@@ -36,6 +37,8 @@ pub(crate) struct Scratch {
     elements: Vec<Element>,
     stiffness: Stiffness,
     revision: u32,
+    /// Of what made triangles softer.
+    softer: Option<(u32, f32)>,
     /// The steps that are enough as long as masses and `of_stiffness` stay too; none if there are too many.
     descent: Option<Descent>,
     of_stiffness: f32,
@@ -64,6 +67,7 @@ impl Scratch {
             elements: Vec::with_capacity(triangles),
             stiffness: Stiffness::with_capacity(capacity),
             revision: 0,
+            softer: None,
             descent: None,
             of_stiffness: 0.0,
             bow: Vec::with_capacity(hinges),
@@ -88,6 +92,8 @@ pub(crate) struct Flaps<'a> {
     pub active: &'a [bool],
     /// What folds add to how each is bent at rest [m]; none if there are none.
     pub folds: Option<&'a [f32]>,
+    /// How much softer triangles are by what gave way, if they are.
+    pub softening: Option<Softening<'a>>,
     pub step: Step,
     /// Stiffness over mass of hinges as far apart as edges are long.
     pub over_mass: f32,
@@ -130,8 +136,9 @@ impl Flaps<'_> {
     /// Room for so many particles; whether they, links or stiffness have changed.
     fn make_room(&self, room: &mut Scratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
-        let is_known = (room.revision, room.of_stiffness) == (revision, stiffness);
-        if is_known && room.w.len() == count {
+        let softer = self.softening.map(|softening| softening.key());
+        let known = (room.revision, room.of_stiffness, room.softer);
+        if known == (revision, stiffness, softer) && room.w.len() == count {
             return false;
         }
         for numbers in [&mut room.w, &mut room.mass, &mut room.over] {
@@ -141,17 +148,22 @@ impl Flaps<'_> {
         let more = [&mut room.change, &mut room.way, &mut room.pull];
         vectors.into_iter().chain(more).for_each(|vectors| vectors.resize(count, Vec4::ZERO));
         room.bow.resize(self.hinges.all.len(), Vec4::ZERO);
-        (room.revision, room.of_stiffness) = (revision, stiffness);
+        (room.revision, room.of_stiffness, room.softer) = (revision, stiffness, softer);
         true
     }
 
     /// Takes up links, stiffness and what is held.
     fn take_up(&self, room: &mut Scratch, count: usize) {
         let Scratch { elements, stiffness, w, mass, over, .. } = room;
+        let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
+        let left = |triangle: usize| match &self.softening {
+            Some(softening) => softening.left(softening.curve[triangle]),
+            None => 1.0,
+        };
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
-        self.hinges.facets.resist(&self.hinges.all, holds, is_held, elements);
-        stiffness.assemble(&self.hinges.all, elements, self.step.stiffness, count);
+        self.hinges.facets.resist(all, holds, is_held, left, elements);
+        stiffness.assemble(all, elements, self.step.stiffness, count);
         let each = over.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.own());
         for (((over, w), mass), own) in each {
             *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };

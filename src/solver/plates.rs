@@ -18,6 +18,7 @@ use super::pentads::{Factor, Line, Three};
 use super::stiffest;
 use super::twist::{Seen, Twist};
 use crate::fabric::plates::{Each, Plates};
+use crate::fabric::wear::Softening;
 use crate::math::are_same;
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
@@ -48,6 +49,8 @@ pub(crate) struct Scratch {
     w: Vec<f32>,
     mass: Vec<f32>,
     revision: u32,
+    /// Of what made elements softer.
+    softer: Option<(u32, f32)>,
 }
 
 /// Factors for one shift.
@@ -76,6 +79,8 @@ pub(crate) struct Step<'a> {
     pub way: &'a Columns,
     /// What each element is curved by at rest [m], and which way.
     pub rest: Option<(&'a Each<Vec<f32>>, &'a Each<Columns>)>,
+    /// How much softer elements are by what gave way, if they are.
+    pub softening: Option<Softening<'a>>,
 }
 
 impl Scratch {
@@ -95,19 +100,27 @@ impl Scratch {
             w: vec![-1.0; count],
             mass: list(),
             revision: plates.revision,
+            softer: None,
         }
     }
 
     /// Whether pins, masses or elements have changed; then takes them up.
-    fn take_up(&mut self, plates: &Plates, w: &[f32], mass: &[f32]) -> bool {
+    fn take_up(
+        &mut self,
+        plates: &Plates,
+        softening: Option<Softening<'_>>,
+        w: &[f32],
+        mass: &[f32],
+    ) -> bool {
         let count = plates.count();
         let is_torn = w.len() > count;
         let (w, mass) = (&w[..count], &mass[..count]);
-        let is_same = self.revision == plates.revision;
+        let softer = softening.map(|softening| softening.key());
+        let is_same = (self.revision, self.softer) == (plates.revision, softer);
         if is_same && are_same(&self.w, w) && are_same(&self.mass, mass) {
             return false;
         }
-        self.revision = plates.revision;
+        (self.revision, self.softer) = (plates.revision, softer);
         self.w.copy_from_slice(w);
         self.mass.copy_from_slice(mass);
         for (weight, share) in self.weight.iter_mut().zip(&plates.share) {
@@ -120,6 +133,9 @@ impl Scratch {
                     weight[at] *= clamped(w[at - step], w[at + step]);
                 }
             }
+        }
+        if let Some(softening) = softening {
+            softening.soften(plates.columns, &mut self.weight);
         }
         self.most = if is_torn {
             let room = (&mut self.seen[..], &mut self.curve);
@@ -212,7 +228,7 @@ pub(crate) fn bend(
     let (count, columns) = (plates.count(), plates.columns);
     let stiffness =
         if step.stiffness < MOST * step.mass { step.stiffness } else { MOST * step.mass };
-    let has_changed = step.is_first && room.take_up(plates, w, mass);
+    let has_changed = step.is_first && room.take_up(plates, step.softening, w, mass);
     if let Some(descent) = Descent::new(room.most * stiffness) {
         if step.is_first {
             // What was factored may be of other pins and masses.

@@ -44,6 +44,32 @@ static void an_older_program_makes_the_same_cloth(void) {
   CHECK(hash_after(cloth, 30) == expected());
 }
 
+/* Materials as the first header had them, whose folds neither harden nor weaken. */
+enum { OLD_MATERIAL = offsetof(MuslinMaterial, yield_hardening) };
+
+static void an_older_program_changes_what_it_knows_of_a_material(void) {
+  struct {
+    unsigned char known[OLD_MATERIAL];
+    unsigned char beyond[16];
+  } old;
+  memset(&old, 0xee, sizeof old);
+  MuslinMaterial *seen = (MuslinMaterial *)(void *)&old, now;
+  DONE(muslin_material_init_sized(seen, OLD_MATERIAL));
+  CHECK(seen->struct_size == OLD_MATERIAL && seen->fold_length == 0.01f);
+  MuslinGridDesc desc;
+  MuslinCloth cloth = {0};
+  muslin_grid_desc_init(&desc);
+  desc.material.yield_weakening = 2;
+  DONE(muslin_cloth_create_grid(&desc, &cloth));
+  DONE(muslin_cloth_get_material(cloth, seen));
+  DONE(muslin_cloth_set_material(cloth, seen));
+  for (size_t i = 0; i < sizeof old.beyond; i++) CHECK(old.beyond[i] == 0xee);
+  muslin_material_init(&now);
+  DONE(muslin_cloth_get_material(cloth, &now));
+  CHECK(now.struct_size == sizeof now && now.yield_hardening == 0 && now.yield_weakening == 0);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
 /* A header to come: the material has a new field, which moves the settings; they and the whole have
  * one too. */
 typedef struct NewMaterial {
@@ -200,6 +226,7 @@ static void sizes_that_no_version_has_are_refused(void) {
 
 int main(void) {
   TEST(an_older_program_makes_the_same_cloth);
+  TEST(an_older_program_changes_what_it_knows_of_a_material);
   TEST(a_newer_program_makes_the_same_cloth);
   TEST(a_newer_program_is_refused_what_this_version_lacks);
   TEST(a_gap_at_the_end_may_hold_anything);

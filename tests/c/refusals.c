@@ -178,6 +178,8 @@ static void grids_are_refused_by_field(void) {
   BAD_GRID(extra_particles, UINT32_MAX - 1, "extra_particles");
   BAD_GRID(material.density, -1, "material.density");
   BAD_GRID(material.tear_stretch, 0.5f, "material.tear_stretch");
+  BAD_GRID(material.yield_hardening, INFINITY, "material.yield_hardening");
+  BAD_GRID(material.yield_weakening, -1, "material.yield_weakening");
   BAD_GRID(settings.tick, 0, "settings.tick");
   BAD_GRID(settings.tethers, 2, "settings.tethers");
 }
@@ -313,6 +315,12 @@ static void settings_material_and_wind_are_refused_by_field(void) {
   REFUSED(muslin_cloth_set_material(cloth, &material), BAD_VALUE, "`material.friction`");
   REFUSED(muslin_material_preset(&material, 6), BAD_VALUE, "`preset`");
   CHECK(material.friction == -1);
+  muslin_material_init(&material);
+  material.yield_hardening = -0.5f;
+  REFUSED(muslin_cloth_set_material(cloth, &material), BAD_VALUE, "`material.yield_hardening`");
+  muslin_material_init(&material);
+  material.yield_weakening = NAN;
+  REFUSED(muslin_cloth_set_material(cloth, &material), BAD_VALUE, "`material.yield_weakening`");
   wind.model = 2;
   REFUSED(muslin_cloth_set_wind(cloth, &wind), BAD_VALUE, "`wind.model`");
   wind.model = MUSLIN_WIND_SINE_FIELD;

@@ -3,6 +3,7 @@
 
 pub mod crossings;
 pub mod elastica;
+pub mod folding;
 pub mod garments;
 pub mod shapes;
 pub mod strip;

@@ -109,7 +109,14 @@ for (const key of ["thickness", "stretchStiffnessWarp", "stretchStiffnessWeft", 
 for (const key of ["bendStiffness", "friction", "drag", "lift"]) {
   material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
-for (const key of ["bendDamping", "stretchDamping", "yieldAngle", "foldLength"]) {
+for (const key of [
+  "bendDamping",
+  "stretchDamping",
+  "yieldAngle",
+  "foldLength",
+  "yieldHardening",
+  "yieldWeakening",
+]) {
   material[key] = [...NOT_NUMBERS, -1, Infinity];
 }
 for (const [key, values] of Object.entries(material)) {

@@ -10,7 +10,7 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** What parts of the package weigh with gzip at most [B]. */
-const MOST = { "raw_bg.wasm": 373_000, "plain_bg.wasm": 347_000, "code.js": 422_000 };
+const MOST = { "raw_bg.wasm": 375_000, "plain_bg.wasm": 349_000, "code.js": 425_000 };
 
 /** The same of the scripts that every page loads. */
 const MOST_SCRIPTS = 14_600;

@@ -236,7 +236,7 @@ macro_rules! growing {
 
 growing! {
     MuslinSettings from tearing[4] to sleep_speed[4], "muslin_settings_init";
-    MuslinMaterial from yield_creep[4] to fold_length[4], "muslin_material_init";
+    MuslinMaterial from yield_creep[4] to yield_weakening[4], "muslin_material_init";
     MuslinWind from seed[4] to seed[4], "muslin_wind_init";
     MuslinColliderDesc from restitution[4] to heights[size_of::<*const f32>()],
         "muslin_collider_desc_init";

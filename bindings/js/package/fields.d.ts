@@ -114,6 +114,19 @@ export interface Material {
    * bent, and stays bent beyond a curvature of `yieldAngle` over this. Three cells count at least. At least 0.
    */
   foldLength: number;
+  /**
+   * How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of one that
+   * is folded by φ for the first time (φ − `yieldAngle`) / (1 + this) stays, and to fold it on takes as much more. At
+   * least 0. What gives way or is creased while this and `yieldWeakening` are 0 is not counted.
+   */
+  yieldHardening: number;
+  /**
+   * How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by A in all, to either side,
+   * `foldLength` of the sheet bends as if `bendStiffness` were divided by 1 + this · A, by at most a thousand; pressed
+   * flat, it stays as weak. It gives way under the same moment as before, so that it opens again by more:
+   * `yieldAngle` · this counts as `yieldHardening` too. At least 0.
+   */
+  yieldWeakening: number;
 }
 
 /** The fabrics that come with Muslin. */

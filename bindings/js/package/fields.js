@@ -59,6 +59,8 @@ export const MATERIAL = {
   yieldAngle: NUMBER,
   yieldCreep: NUMBER,
   foldLength: NUMBER,
+  yieldHardening: NUMBER,
+  yieldWeakening: NUMBER,
 };
 
 export const WIND = {

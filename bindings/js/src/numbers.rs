@@ -128,6 +128,8 @@ pub(crate) fn read_material(list: &[f64]) -> Material {
         yield_angle: list.number(),
         yield_creep: list.number(),
         fold_length: list.number(),
+        yield_hardening: list.number(),
+        yield_weakening: list.number(),
     }
 }
 
@@ -151,6 +153,8 @@ pub(crate) fn write_material(material: &Material) -> Vec<f64> {
         material.yield_angle,
         material.yield_creep,
         material.fold_length,
+        material.yield_hardening,
+        material.yield_weakening,
     ]);
     list.0
 }

@@ -98,6 +98,12 @@ static void call_set_material(void) {
   MuslinMaterial material;
   muslin_material_init(&material);
   judge(MATERIAL_PRESET, muslin_material_preset(is_sane() ? &material : NULL, below(6)));
+  if (byte() % 4 == 0) {
+    /* Folds that give way soon, and change as they do. */
+    material.yield_angle = at_least_0() / 16;
+    material.yield_hardening = at_least_0();
+    material.yield_weakening = at_least_0();
+  }
   poke(&material, sizeof material);
   const MuslinMaterial *given = is_sane() ? told(&material, sizeof material) : NULL;
   judge(SET_MATERIAL, muslin_cloth_set_material(cloth, given));

@@ -67,6 +67,16 @@ pub struct MuslinMaterial {
     /// only bent, and stays bent beyond a curvature of `yield_angle` over this. Three cells count at least.
     /// At least 0.
     pub fold_length: f32,
+    /// How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of
+    /// one that is folded by an angle for the first time (angle - `yield_angle`) / (1 + this) stays, and to fold it
+    /// on takes as much more. At least 0. What gives way or is creased while this and `yield_weakening` are 0 is
+    /// not counted.
+    pub yield_hardening: f32,
+    /// How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by an angle in all, to either
+    /// side, `fold_length` of the sheet bends as if `bend_stiffness` were divided by 1 + this times angle, by at
+    /// most a thousand; pressed flat, it stays as weak. It gives way under the same moment as before, so that it
+    /// opens again by more: `yield_angle` times this counts as `yield_hardening` too. At least 0.
+    pub yield_weakening: f32,
 }
 
 impl Default for MuslinMaterial {
@@ -96,6 +106,8 @@ impl From<&Material> for MuslinMaterial {
             yield_angle: material.yield_angle,
             yield_creep: material.yield_creep,
             fold_length: material.fold_length,
+            yield_hardening: material.yield_hardening,
+            yield_weakening: material.yield_weakening,
         }
     }
 }
@@ -120,6 +132,8 @@ impl From<MuslinMaterial> for Material {
             yield_angle: material.yield_angle,
             yield_creep: material.yield_creep,
             fold_length: material.fold_length,
+            yield_hardening: material.yield_hardening,
+            yield_weakening: material.yield_weakening,
         }
     }
 }

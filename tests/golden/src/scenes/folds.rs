@@ -77,3 +77,48 @@ pub fn patch_creased(trace: &mut Trace) -> Result<()> {
     trace.look(&mut cloth);
     Ok(())
 }
+
+/// Paper and the same as a mesh in disorder harden and weaken where they are folded, creased, torn and cut.
+pub fn folds_worn(trace: &mut Trace) -> Result<()> {
+    let (yield_hardening, yield_weakening) = (0.5, 2.0);
+    let paper = Material { yield_angle: 0.25, drag: 0.25, ..Material::preset(Preset::Paper) };
+    let paper = Material { yield_hardening, yield_weakening, ..paper };
+    let mut grid = Cloth::grid(&GridDesc {
+        columns: COLUMNS,
+        rows: ROWS,
+        spacing: 0.015625,
+        down: Vec3::Z,
+        material: paper.clone(),
+        settings: Settings { damping: 2.0, ..Settings::default() },
+        ..GridDesc::default()
+    })?;
+    grid.crease(Vec3::new(0.0625, 0.0, -0.125), Vec3::new(0.1875, 0.0, 0.25), 1.0)?;
+    trace.run(&mut grid, 60);
+    grid.tear_edge(2 * COLUMNS + 12, 3 * COLUMNS + 12)?;
+    trace.run(&mut grid, 30);
+
+    let mut desc = mesh::disorder(13, 12);
+    desc.settings.damping = 1.0;
+    desc.material = Material { bend_stiffness: 0.25, density: 0.5, ..paper };
+    let mut patch = Cloth::mesh(&desc)?;
+    trace.run(&mut patch, 30);
+    patch.crease(Vec3::new(-0.125, -0.25, 0.0), Vec3::new(1.0, -0.375, 0.0), -1.25)?;
+    trace.run(&mut patch, 30);
+    let (from, to) = (Vec3::new(0.25, -0.5, -1.0), Vec3::new(0.5625, -0.5, -1.0));
+    patch.cut(from, to, Vec3::Z * 2.0)?;
+    trace.run(&mut patch, 30);
+
+    for mut cloth in [grid, patch] {
+        let mut restored = Cloth::restore(&cloth.save())?;
+        let firm = Material { yield_weakening: 0.0, ..cloth.material().clone() };
+        let hash = cloth.state_hash();
+        for cloth in [&mut cloth, &mut restored] {
+            cloth.set_material(firm.clone())?;
+            trace.run(cloth, 20);
+        }
+        assert_eq!(cloth.state_hash(), restored.state_hash(), "what gave way is to be kept");
+        assert_ne!(cloth.state_hash(), hash, "it is to go on");
+        trace.look(&mut cloth);
+    }
+    Ok(())
+}

@@ -29,6 +29,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "patch-torn-by-a-grab", play: mesh::patch_torn_by_a_grab },
     Scene { name: "paper-folded-and-creased", play: folds::paper_folded_and_creased },
     Scene { name: "patch-creased", play: folds::patch_creased },
+    Scene { name: "folds-worn", play: folds::folds_worn },
     Scene { name: "vest-ripped-at-a-seam", play: garment::vest_ripped_at_a_seam },
     Scene { name: "sheet-torn-to-pieces", play: tears::sheet_torn_to_pieces },
     Scene { name: "tears-use-up-their-room", play: tears::tears_use_up_their_room },
