@@ -37,6 +37,8 @@ fn go_back_lanes(to: &[f32], way: &[f32], start: &mut [f32]) {
     }
 }
 
+// What has loops of its own is a function of its own: in long ones engines run out of registers.
+
 /// Fetches where the particles are, and their inverse mass.
 pub(crate) fn fetch(strip: Strip, x: &Columns, w: &[f32], room: &mut [Step]) {
     let [x, y, z] = x.all();
@@ -58,6 +60,7 @@ pub(crate) fn fetch(strip: Strip, x: &Columns, w: &[f32], room: &mut [Step]) {
 
 /// # Safety
 /// The whole strip lies within the columns; so for all that follow.
+#[inline(never)]
 unsafe fn fetch_straight(strip: Strip, columns: [*const f32; 4], room: &mut [Step]) {
     let (s, mut at) = (Base::new(), strip.at(0, 0));
     for step in room {
@@ -75,6 +78,7 @@ unsafe fn fetch_straight(strip: Strip, columns: [*const f32; 4], room: &mut [Ste
 
 /// # Safety
 /// As above; there are four steps at least.
+#[inline(never)]
 unsafe fn fetch_turned(strip: Strip, columns: [*const f32; 4], room: &mut [Step]) {
     let s = Base::new();
     for start in fours(room.len()) {
@@ -139,6 +143,7 @@ pub(crate) fn aim(strip: Strip, starts: &Columns, laid: &[abreast::Step], room: 
 
 /// # Safety
 /// As above.
+#[inline(never)]
 unsafe fn aim_straight(
     strip: Strip,
     [x, y, z]: [*const f32; 3],
@@ -166,6 +171,7 @@ unsafe fn aim_straight(
 
 /// # Safety
 /// As above, of what is behind the first numbers; there are four steps at least.
+#[inline(never)]
 unsafe fn aim_turned(
     strip: Strip,
     [x, y, z]: [*const f32; 3],
@@ -234,6 +240,7 @@ pub(crate) fn put(strip: Strip, laid: &[abreast::Step], room: &[Step], x: &mut C
 ///
 /// # Safety
 /// As above.
+#[inline(never)]
 unsafe fn put_straight(
     strip: Strip,
     laid: &[abreast::Step],
@@ -268,6 +275,7 @@ unsafe fn put_straight(
 ///
 /// # Safety
 /// As above; there are four steps at least.
+#[inline(never)]
 unsafe fn put_turned(
     strip: Strip,
     laid: &[abreast::Step],
