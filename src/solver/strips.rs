@@ -5,7 +5,7 @@
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
-    allow(dead_code)
+    allow(dead_code, unused_imports)
 )]
 
 use super::lines::{Step, excess, length, limited, longest, size};
