@@ -321,7 +321,9 @@ impl World {
         if self.weave.rows.is_none() {
             self.scratch.packed.reserve(capacity);
         }
-        self.scratch.lines = lines::Scratch::new(self.weave.lines.abreast.most_steps(), capacity);
+        let has_strips = self.weave.rows.is_some();
+        let steps = self.weave.lines.abreast.most_steps();
+        self.scratch.lines = lines::Scratch::new(steps, capacity, has_strips);
         self.scratch.bend = bend::Scratch::new(self, capacity);
         let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.scratch.brake = brake::Scratch::new(self.weave.links.len(), extra);

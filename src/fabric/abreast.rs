@@ -27,6 +27,17 @@ pub(crate) struct Step {
 
 const NO_STEP: Step = Step { links: [NONE; LANES], to: [NOBODY; LANES], rest: [0.0; LANES] };
 
+/// Lines whose particles lie evenly: by so many apart along a line, and from one line to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Strip {
+    /// The first particle of the first line.
+    pub first: usize,
+    pub along: usize,
+    pub across: usize,
+    /// How many lines.
+    pub lines: usize,
+}
+
 /// Up to eight lines that share no particle.
 #[derive(Clone, Debug)]
 struct Block {
@@ -34,6 +45,8 @@ struct Block {
     first_step: usize,
     steps: usize,
     is_stale: bool,
+    /// If all its lines are whole, as long as each other, and lie as those of a grid do.
+    strip: Option<Strip>,
 }
 
 /// Lines in blocks, laid side by side.
@@ -49,6 +62,8 @@ pub(crate) struct Abreast {
     block_of: Vec<u32>,
     /// Whether any block is stale.
     is_stale: bool,
+    /// Whether all blocks are strips.
+    are_strips: bool,
 }
 
 impl Abreast {
@@ -64,7 +79,7 @@ impl Abreast {
                 starts[lane + 1..].fill(laid.members.len() as u32);
             }
             laid.starts.push(starts);
-            laid.blocks.push(Block { first_step: steps, steps: 0, is_stale: true });
+            laid.blocks.push(Block { first_step: steps, steps: 0, is_stale: true, strip: None });
             // Each piece has a beginning, and a link at least.
             let longest = lines.iter().map(|line| line.len()).max().unwrap_or(0);
             steps += if breaks { 2 * longest } else { longest + 1 };
@@ -78,6 +93,19 @@ impl Abreast {
     /// The steps of each block, in the order that these are to be solved in.
     pub fn blocks(&self) -> impl Iterator<Item = &[Step]> {
         self.blocks.iter().map(|block| &self.steps[block.first_step..][..block.steps])
+    }
+
+    /// Whether all blocks are strips.
+    pub fn are_strips(&self) -> bool {
+        self.are_strips
+    }
+
+    /// The blocks that are strips, as these.
+    pub fn strips(&self) -> impl Iterator<Item = (Strip, &[Step])> {
+        self.blocks
+            .iter()
+            .zip(self.blocks())
+            .filter_map(|(block, steps)| Some((block.strip?, steps)))
     }
 
     /// How many steps there may be in a block.
@@ -120,8 +148,11 @@ impl Abreast {
             for at in 0..self.blocks.len() {
                 if core::mem::take(&mut self.blocks[at].is_stale) {
                     self.lay_block(links, at);
+                    let block = &mut self.blocks[at];
+                    block.strip = Strip::of(&self.steps[block.first_step..][..block.steps]);
                 }
             }
+            self.are_strips = self.blocks.iter().all(|block| block.strip.is_some());
         }
     }
 
@@ -156,6 +187,30 @@ impl Abreast {
             + size_of::<Member>() * self.members.len()
             + size_of::<[u32; LANES + 1]>() * self.starts.len()
             + size_of::<u32>() * self.block_of.len()
+    }
+}
+
+impl Strip {
+    /// What the steps of a block are, if that is a strip. Those too short to be turned in fours are none.
+    fn of(steps: &[Step]) -> Option<Self> {
+        let first = steps.first()?.to;
+        let lines = first.iter().take_while(|to| **to != NOBODY).count();
+        let across = if lines > 1 { first[1].checked_sub(first[0])? } else { 1 };
+        let along = steps.get(3)?.to[0].checked_sub(first[0])? / 3;
+        let lies = |(at, step): (usize, &Step)| {
+            let seat = |lane: usize| first[0] + at as u32 * along + lane as u32 * across;
+            let to = |lane: usize| if lane < lines { seat(lane) } else { NOBODY };
+            (0..LANES).all(|lane| {
+                step.to[lane] == to(lane) && (step.rest[lane] > 0.0) == (lane < lines && at > 0)
+            })
+        };
+        let is_strip = lines > 0 && (along == 1 || across == 1);
+        (is_strip && steps.iter().enumerate().all(lies)).then_some(Self {
+            first: (first[0] - 1) as usize,
+            along: along as usize,
+            across: across as usize,
+            lines,
+        })
     }
 }
 

@@ -187,7 +187,7 @@ fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabric::abreast::NOBODY;
+    use crate::fabric::abreast::{NOBODY, Strip};
     use crate::fabric::weave::Weave;
     use crate::mesh::Mesh;
     use crate::mesh::grid::{self, Frame};
@@ -234,6 +234,24 @@ mod tests {
         // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
         let lengths: Vec<usize> = lines.abreast.blocks().map(<[_]>::len).collect();
         assert_eq!(lengths, [19, 19, 11, 11, 11]);
+    }
+
+    #[test]
+    fn lines_of_a_grid_are_strips_until_one_breaks() {
+        let (mesh, rest) = sheet(11, 19);
+        let mut weave = Weave::grid(11, 19, 0.1, &mesh, 0);
+        let mut lines = Lines::find(&weave.links, &rest, true);
+        let strip = |first, along, across, lines| Strip { first, along, across, lines };
+        let columns = [strip(0, 11, 1, 8), strip(8, 11, 1, 3)];
+        let rows = [strip(0, 1, 11, 8), strip(88, 1, 11, 8), strip(176, 1, 11, 3)];
+        assert!(lines.abreast.are_strips());
+        let strips: Vec<Strip> = lines.abreast.strips().map(|(strip, _)| strip).collect();
+        assert_eq!(strips, [&columns[..], &rows[..]].concat());
+        weave.links.active[17] = false;
+        lines.abreast.forget(17);
+        lines.abreast.lay(&weave.links);
+        assert!(!lines.abreast.are_strips());
+        assert_eq!(lines.abreast.strips().count(), 4);
     }
 
     #[test]

@@ -131,28 +131,17 @@ impl Alike {
         // From behind the last of a row to the first of the next; of a row alone, wherever that is.
         let done = Spot::default().after::<PATTERN>(count * S::LANES);
         let step = self.step.before(done);
-        // Links are looked at before those that come before them move, see `Chunk`.
         // SAFETY: the caller's promise.
         unsafe {
-            let place = lists.place::<S, PATTERN>(spot);
-            let mut chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, terms);
-            let mut left = count;
             while rows_left > 0 {
-                // Found anew each time, as there are too few registers to keep where all lies.
-                let place = lists.place::<S, PATTERN>(spot);
-                spot = spot.after::<PATTERN>(S::LANES);
-                left -= 1;
-                if left == 0 {
-                    (left, rows_left) = (count, rows_left - 1);
-                    // Behind the last one it is looked at once more, for nothing: to move it by code of its
-                    // own would take a third of all that there is.
-                    let one = Spot::default().after::<PATTERN>(S::LANES);
-                    spot = if rows_left > 0 { spot.behind(step) } else { spot.before(one) };
+                for _ in 0..count {
+                    let place = lists.place::<S, PATTERN>(spot);
+                    let chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, terms);
+                    chunk.finish::<LAW, PATTERN>(s, place);
+                    spot = spot.after::<PATTERN>(S::LANES);
                 }
-                let next = lists.place::<S, PATTERN>(spot);
-                let next = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, next, terms);
-                chunk.finish::<LAW, PATTERN>(s, place);
-                chunk = next;
+                spot = spot.behind(step);
+                rows_left -= 1;
             }
         }
     }
@@ -193,16 +182,11 @@ impl Alike {
         unsafe {
             if count > 0 {
                 let keep = s.load(&keep, 0);
-                let mut chunk = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, lists.place_of(spot), terms);
-                for number in 1..=count {
+                for _ in 0..count {
                     let place = lists.place_of(spot);
-                    // The last one is looked at twice, as above.
-                    if number < count {
-                        spot = spot.behind(step);
-                    }
-                    let next = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, lists.place_of(spot), terms);
+                    let chunk = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, place, terms);
                     chunk.finish_only::<LAW, PATTERN>(s, place, keep);
-                    chunk = next;
+                    spot = spot.behind(step);
                 }
             }
             if BY_TWOS {

@@ -23,13 +23,15 @@ pub(crate) struct Terms {
     pub rest: f32,
 }
 
-/// Links that are about to be solved: what leads from their lower to their upper ends, the shares of it that these
-/// are to move by, and the links' multipliers then; as dealt.
+/// Links that are about to be solved: where their ends are, what leads from the lower to the upper ones, the shares
+/// of it that these are to move by, and the links' multipliers then; as dealt but for the ends.
 ///
-/// Finding that out takes long, most of it spent waiting for a division, so kernels find out about the next links
-/// before they move the ends of these: where those are is read anew then, as there are too few registers to keep it.
+/// Chunks have nothing to do with each other, so processors go on with the next while they wait for a division.
+/// Engines run out of registers if code says so too.
 #[derive(Clone, Copy)]
 pub(crate) struct Chunk<F> {
+    /// The positions of both halves of all ends, as they lie in memory.
+    ends: [[F; 2]; 3],
     span: [F; 3],
     /// Lower ends move along the span, upper ones against it.
     shares: [F; 2],
@@ -60,11 +62,13 @@ impl<F: Number> Chunk<F> {
                 compliance = in_order::<_, PATTERN>(s, s.load_from(place.compliance));
                 lambda = in_order::<_, PATTERN>(s, s.load_from(place.lambda));
             }
-            let (xa, xb) = load::<_, PATTERN>(s, fixed(place.x));
-            let (ya, yb) = load::<_, PATTERN>(s, fixed(place.y));
-            let (za, zb) = load::<_, PATTERN>(s, fixed(place.z));
+            let x = halves(s, fixed(place.x));
+            let y = halves(s, fixed(place.y));
+            let z = halves(s, fixed(place.z));
+            let ((xa, xb), (ya, yb)) = (dealt::<_, PATTERN>(s, x), dealt::<_, PATTERN>(s, y));
+            let (za, zb) = dealt::<_, PATTERN>(s, z);
             let weights = if LAW == BOUND {
-                load::<_, PATTERN>(s, place.w).into()
+                dealt::<_, PATTERN>(s, halves(s, place.w)).into()
             } else if IS_EVEN {
                 // Those of rigid links are 1 then.
                 let one = s.splat(1.0);
@@ -82,7 +86,7 @@ impl<F: Number> Chunk<F> {
             let span = [xb - xa, yb - ya, zb - za];
             let (shares, lambda) =
                 correct::<LAW, _>(s, span, weights, rest, compliance, lambda, scale);
-            Self { span, shares, lambda }
+            Self { ends: [x, y, z], span, shares, lambda }
         }
     }
 
@@ -130,7 +134,7 @@ impl<F: Number> Chunk<F> {
         place: Place,
         keep: F,
     ) {
-        let Self { span: [dx, dy, dz], shares, lambda } = self;
+        let Self { ends: [x, y, z], span: [dx, dy, dz], shares, lambda } = self;
         // SAFETY: the caller's promise.
         unsafe {
             if LAW == SOFT {
@@ -143,9 +147,13 @@ impl<F: Number> Chunk<F> {
                 let lambda = if PATTERN == STRAIGHT { lambda } else { s.undealt(lambda) };
                 s.store_to(place.lambda, lambda);
             }
-            push::<_, PATTERN, CHOOSY>(s, place.x, dx, shares, keep);
-            push::<_, PATTERN, CHOOSY>(s, place.y, dy, shares, keep);
-            push::<_, PATTERN, CHOOSY>(s, place.z, dz, shares, keep);
+            let x = pushed::<_, PATTERN, CHOOSY>(s, x, dx, shares, keep);
+            let y = pushed::<_, PATTERN, CHOOSY>(s, y, dy, shares, keep);
+            let z = pushed::<_, PATTERN, CHOOSY>(s, z, dz, shares, keep);
+            for (to, [low, high]) in [(place.x, x), (place.y, y), (place.z, z)] {
+                s.store_to(to[0], low);
+                s.store_to(to[1], high);
+            }
         }
     }
 }
@@ -172,50 +180,45 @@ fn fixed([a, b]: [*mut f32; 2]) -> [*const f32; 2] {
     [a, b]
 }
 
-/// One column at both ends of a chunk's links.
+/// Both halves of one column at the ends of a chunk's links.
 ///
 /// # Safety
 /// As for `Chunk::of`.
 #[inline(always)]
-unsafe fn load<S: Simd, const PATTERN: u8>(s: S, [a, b]: [*const f32; 2]) -> (S::F, S::F) {
+unsafe fn halves<S: Simd>(s: S, [a, b]: [*const f32; 2]) -> [S::F; 2] {
     // SAFETY: the caller's promise.
-    unsafe {
-        if PATTERN == STRAIGHT {
-            return (s.load_from(a), s.load_from(b));
-        }
-        let (low, high) = (s.load_from(a), s.load_from(b));
-        if PATTERN == PAIRS { s.deal(low, high) } else { s.deal_twos(low, high) }
+    unsafe { [s.load_from(a), s.load_from(b)] }
+}
+
+/// The same dealt out to lower and upper ends.
+#[inline(always)]
+fn dealt<S: Simd, const PATTERN: u8>(s: S, [low, high]: [S::F; 2]) -> (S::F, S::F) {
+    match PATTERN {
+        STRAIGHT => (low, high),
+        PAIRS => s.deal(low, high),
+        _ => s.deal_twos(low, high),
     }
 }
 
-/// Moves both ends of a chunk's links in one column: lower ones along a span by their share, upper ones against it.
-///
-/// # Safety
-/// As for `Chunk::of`.
+/// Both halves of one column, moved: lower ends along a span by their share, upper ones against it.
 #[inline(always)]
-unsafe fn push<S: Simd, const PATTERN: u8, const CHOOSY: bool>(
+fn pushed<S: Simd, const PATTERN: u8, const CHOOSY: bool>(
     s: S,
-    [a, b]: [*mut f32; 2],
+    [low, high]: [S::F; 2],
     span: S::F,
     [to_a, to_b]: [S::F; 2],
     keep: S::F,
-) {
+) -> [S::F; 2] {
     // What changes no number at all, not even a zero's sign, when it is added, and when it is taken.
     let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
     let chosen = |v: S::F, nothing: S::F| if CHOOSY { s.pick(keep, v, nothing) } else { v };
-    // SAFETY: the caller's promise.
-    unsafe {
-        if PATTERN == STRAIGHT {
-            let (added, taken) = (chosen(span * to_a, nothing), chosen(span * to_b, zero));
-            s.store_to(a, s.load_from(a) + added);
-            s.store_to(b, s.load_from(b) - taken);
-            return;
-        }
-        let against = to_b * s.splat(-1.0);
-        let (to_a, to_b) = (chosen(span * to_a, nothing), chosen(span * against, nothing));
-        let (low, high) =
-            if PATTERN == PAIRS { s.gather_up(to_a, to_b) } else { s.deal_twos(to_a, to_b) };
-        s.store_to(a, s.load_from(a) + low);
-        s.store_to(b, s.load_from(b) + high);
+    if PATTERN == STRAIGHT {
+        let (added, taken) = (chosen(span * to_a, nothing), chosen(span * to_b, zero));
+        return [low + added, high - taken];
     }
+    let against = to_b * s.splat(-1.0);
+    let (to_a, to_b) = (chosen(span * to_a, nothing), chosen(span * against, nothing));
+    let (to_low, to_high) =
+        if PATTERN == PAIRS { s.gather_up(to_a, to_b) } else { s.deal_twos(to_a, to_b) };
+    [low + to_low, high + to_high]
 }

@@ -22,10 +22,11 @@
 //! Eight lines lie side by side; each lane is a line of its own, so that lanes change no bits.
 
 use super::links::is_rigid;
-use super::{World, seats};
-use crate::fabric::abreast::{self, Abreast};
+use super::{World, seats, strips};
+use crate::fabric::abreast;
 use crate::fabric::links::{LinkKind, Links};
-use crate::math::simd::{LANES, Lanes, Number, Scalar, Simd, turn, turn_back, vectored};
+use crate::math::columns::Columns;
+use crate::math::simd::{LANES, Lanes, Level, Number, Scalar, Simd, vectored};
 use crate::math::{TINY, max};
 use crate::mesh::NONE;
 
@@ -49,38 +50,40 @@ pub(crate) struct Scratch {
     pub points: Vec<[f32; 4]>,
     /// Where each particle was when the substep began.
     pub starts: Vec<[f32; 4]>,
-    /// What is known of each step of a block.
+    /// The same in columns, for strips, after one that is nobody's.
+    pub columns: Columns,
+    /// What is known of each step of a block, after one that is none.
     steps: Vec<Step>,
 }
 
-/// Eight links side by side, and the particles that they run to.
+/// Eight links side by side, and the particles that they run to. What is not needed any more makes room: the
+/// nearest memory holds a block just so.
 #[derive(Clone, Copy, Debug, Default)]
-struct Step {
-    to: Lanes3,
-    /// Inverse mass of the particles.
-    w: Lanes,
-    /// The links' directions, …
+pub(crate) struct Step {
+    /// Where the particles are, and their inverse mass.
+    pub to: [Lanes; 4],
+    /// What the links are to be long; then how long they are as a share of that.
+    pub aim: Lanes,
+    /// One over what they are to be long.
+    pub over: Lanes,
+    /// Their directions; then how the particles move beside what those before do.
     n: Lanes3,
-    /// … their lengths as a share of what they are to be, and one over the latter.
-    ratio: Lanes,
-    over: Lanes,
     /// How each link hangs on the one before: less what it has to do with it in the system.
     before: Lanes,
-    /// One over its pivot, and the right side of the system.
+    /// One over its pivot.
     inverse: Lanes,
+    /// The right side of the system; then the share that the particles move by of what those before do.
     right: Lanes,
-    /// How a particle moves: by `share` of what the one before does, and by `own`.
-    share: Lanes,
-    own: Lanes3,
 }
 
 impl Scratch {
-    /// Room for blocks of so many steps, and so many particles.
-    pub fn new(steps: usize, particles: usize) -> Self {
+    /// Room for blocks of so many steps, and so many particles, which strips may run over.
+    pub fn new(steps: usize, particles: usize, has_strips: bool) -> Self {
         Self {
             points: Vec::with_capacity(particles + 1),
             starts: Vec::with_capacity(particles + 1),
-            steps: vec![Step::default(); steps],
+            columns: Columns::with_capacity(if has_strips { particles + 1 } else { 0 }),
+            steps: vec![Step::default(); steps + 1],
         }
     }
 }
@@ -102,93 +105,138 @@ pub(crate) fn are_used(world: &World) -> bool {
 /// Solves all lines.
 pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(world, LinkKind::Stretch);
-    seats::take(world, is_rigid);
     let step = world.settings.scheme().step;
-    let (lines, links) = (&mut world.weave.lines.abreast, &mut world.weave.links);
-    lines.lay(links);
-    let s = &mut world.scratch.lines;
-    if is_rigid {
-        solve_rigid(world.level, lines, links, s, 0.0);
+    let scale = if is_rigid { None } else { Some(1.0 / (step * step)) };
+    world.weave.lines.abreast.lay(&world.weave.links);
+    let are_in_columns = world.level != Level::Scalar && !world.scratch.packed.is_current;
+    if are_in_columns && world.weave.lines.abreast.are_strips() {
+        solve_strips(world, scale);
     } else {
-        solve_soft(world.level, lines, links, s, 1.0 / (step * step));
+        seats::take(world, is_rigid);
+        solve_blocks(world, scale);
+        seats::leave(world);
     }
-    seats::leave(world);
+}
+
+/// By seats, wherever the particles of a line are.
+fn solve_blocks(world: &mut World, scale: Option<f32>) {
+    let (lines, links) = (&world.weave.lines.abreast, &mut world.weave.links);
+    let Scratch { points, starts, steps: room, .. } = &mut world.scratch.lines;
+    for laid in lines.blocks() {
+        let room = &mut room[..=laid.len()];
+        seats::fetch(world.level, laid, points, &mut room[1..]);
+        if scale.is_none() {
+            seats::aim(world.level, laid, starts, &mut room[1..]);
+        } else {
+            aim_at_rest(laid, &mut room[1..]);
+        }
+        solve_block(world.level, laid, room, links, scale);
+        seats::put(world.level, laid, &room[1..], points);
+    }
+}
+
+/// Straight from the columns.
+fn solve_strips(world: &mut World, scale: Option<f32>) {
+    let (level, scratch, p) = (world.level, &mut world.scratch, &mut world.particles);
+    let (lines, links) = (&world.weave.lines.abreast, &mut world.weave.links);
+    let Scratch { columns: starts, steps: room, .. } = &mut scratch.lines;
+    if scale.is_none() {
+        strips::find_starts(level, &scratch.predicted, &scratch.way, starts);
+    }
+    for (strip, laid) in lines.strips() {
+        let room = &mut room[..=laid.len()];
+        strips::fetch(strip, &p.x, &p.w, &mut room[1..]);
+        if scale.is_none() {
+            strips::aim(strip, starts, laid, &mut room[1..]);
+        } else {
+            aim_at_rest(laid, &mut room[1..]);
+        }
+        solve_block(level, laid, room, links, scale);
+        strips::put(strip, laid, &room[1..], &mut p.x);
+    }
+}
+
+/// Links that give way are to be as long as at rest.
+fn aim_at_rest(laid: &[abreast::Step], room: &mut [Step]) {
+    for (step, laid) in room.iter_mut().zip(laid) {
+        step.aim = laid.rest;
+        for (over, rest) in step.over.iter_mut().zip(laid.rest) {
+            *over = 1.0 / rest;
+        }
+    }
+}
+
+/// Solves the lines of a block: finds how its particles move. Links that give way have a scale of their compliance.
+fn solve_block(
+    level: Level,
+    laid: &[abreast::Step],
+    room: &mut [Step],
+    links: &mut Links,
+    scale: Option<f32>,
+) {
+    match scale {
+        None => solve_rigid(level, laid, room, links, 0.0),
+        Some(scale) => solve_soft(level, laid, room, links, scale),
+    }
 }
 
 vectored! {
-    fn solve_rigid(lines: &Abreast, links: &mut Links, room: &mut Scratch, scale: f32)
-        = solve_all::<_, false>, Avx2, solve_apart::<false>
+    fn solve_rigid(
+        laid: &[abreast::Step],
+        room: &mut [Step],
+        links: &mut Links,
+        scale: f32,
+    ) = solve_lanes::<_, false>, Avx2, solve_apart::<false>
 }
 
 vectored! {
-    fn solve_soft(lines: &Abreast, links: &mut Links, room: &mut Scratch, scale: f32)
-        = solve_all::<_, true>, Avx2, solve_apart::<true>
+    fn solve_soft(
+        laid: &[abreast::Step],
+        room: &mut [Step],
+        links: &mut Links,
+        scale: f32,
+    ) = solve_lanes::<_, true>, Avx2, solve_apart::<true>
 }
 
 /// Line by line.
 fn solve_apart<const SOFT: bool>(
-    lines: &Abreast,
+    laid: &[abreast::Step],
+    room: &mut [Step],
     links: &mut Links,
-    room: &mut Scratch,
     scale: f32,
 ) {
-    solve_all::<_, SOFT>(Scalar, lines, links, room, scale);
-}
-
-#[inline(always)]
-fn solve_all<S: Simd, const SOFT: bool>(
-    s: S,
-    lines: &Abreast,
-    links: &mut Links,
-    room: &mut Scratch,
-    scale: f32,
-) {
-    for steps in lines.blocks() {
-        for first in (0..LANES).step_by(2 * S::LANES) {
-            let runs = [first, first + S::LANES].map(|first| Run { s, first });
-            solve_lanes::<_, SOFT>(runs, steps, links, room, scale);
-        }
-    }
+    solve_lanes::<_, SOFT>(Scalar, laid, room, links, scale);
 }
 
 /// Two runs through a block go side by side, if it has lanes for both: each step waits for the one before, so that
 /// one run by itself leaves the processor idle.
 #[inline(always)]
 fn solve_lanes<S: Simd, const SOFT: bool>(
-    [run, other]: [Run<S>; 2],
-    steps: &[abreast::Step],
+    s: S,
+    laid: &[abreast::Step],
+    room: &mut [Step],
     links: &mut Links,
-    room: &mut Scratch,
     scale: f32,
 ) {
+    let Some((none, room)) = room.split_first_mut() else { return };
     let is_double = 2 * S::LANES <= LANES;
-    let [mut there, mut other_there] = [run.begin(), other.begin()];
-    let Scratch { points, starts, steps: room } = room;
-    let starts = if SOFT { &[][..] } else { &starts[..points.len()] };
-    for (laid, step) in steps.iter().zip(&mut *room) {
-        run.eliminate::<SOFT>(&mut there, [&*points, starts], (laid, step), links, scale);
-        if is_double {
-            other.eliminate::<SOFT>(
-                &mut other_there,
-                [&*points, starts],
-                (laid, step),
-                links,
-                scale,
-            );
+    for first in (0..LANES).step_by(2 * S::LANES) {
+        let (run, other) = (Run { s, first }, Run { s, first: first + S::LANES });
+        let (mut there, mut other_there) = (run.begin(), run.begin());
+        let mut last = &*none;
+        for (laid, step) in laid.iter().zip(&mut *room) {
+            run.eliminate::<SOFT>(&mut there, last, (laid, step), links, scale);
+            if is_double {
+                other.eliminate::<SOFT>(&mut other_there, last, (laid, step), links, scale);
+            }
+            last = step;
         }
-    }
-    let [mut back, mut other_back] = [run.turn(), other.turn()];
-    for (laid, step) in steps.iter().zip(&mut *room).rev() {
-        run.pull::<SOFT>(&mut back, (laid, step), links);
-        if is_double {
-            other.pull::<SOFT>(&mut other_back, (laid, step), links);
-        }
-    }
-    let mut ways = [[run.s.splat(0.0); 3]; 2];
-    for (laid, step) in steps.iter().zip(&*room) {
-        run.go(&mut ways[0], (laid, step), points);
-        if is_double {
-            other.go(&mut ways[1], (laid, step), points);
+        let (mut back, mut other_back) = (run.turn(), run.turn());
+        for (laid, step) in laid.iter().zip(&mut *room).rev() {
+            run.pull::<SOFT>(&mut back, (laid, step), links);
+            if is_double {
+                other.pull::<SOFT>(&mut other_back, (laid, step), links);
+            }
         }
     }
 }
@@ -201,19 +249,16 @@ struct Run<S> {
     first: usize,
 }
 
-/// What a step needs of the one before, on the way there.
+/// What a step needs of the one before, on the way there, beside what that one keeps: registers are few.
 struct There<F> {
-    last: [F; 4],
-    start: [F; 4],
-    n: [F; 3],
     inverse: F,
     right: F,
 }
 
 /// What a step needs of the one after, on the way back.
 struct Back<F> {
+    /// What the link after adds to the right side.
     after: F,
-    coupling: F,
     /// What the link after pulls with at its beginning: of itself, …
     m: [F; 3],
     /// … and against going there.
@@ -253,14 +298,14 @@ impl<S: Simd> Run<S> {
     #[inline(always)]
     fn begin(&self) -> There<S::F> {
         let zero = self.s.splat(0.0);
-        There { last: [zero; 4], start: [zero; 4], n: [zero; 3], inverse: zero, right: zero }
+        There { inverse: zero, right: zero }
     }
 
     /// Behind the last step.
     #[inline(always)]
     fn turn(&self) -> Back<S::F> {
         let zero = self.s.splat(0.0);
-        Back { after: zero, coupling: zero, m: [zero; 3], hold: zero }
+        Back { after: zero, m: [zero; 3], hold: zero }
     }
 
     /// A step there: what each link has to do with the one before goes out of the first system. Where a
@@ -269,31 +314,30 @@ impl<S: Simd> Run<S> {
     fn eliminate<const SOFT: bool>(
         &self,
         there: &mut There<S::F>,
-        [points, starts]: [&[[f32; 4]]; 2],
+        last: &Step,
         (laid, step): (&abreast::Step, &mut Step),
         links: &Links,
         scale: f32,
     ) {
         let s = self.s;
         let (one, tiny) = (s.splat(1.0), s.splat(TINY));
-        let (to, rest) = (self.own(&laid.to), self.load(&laid.rest));
-        let next = turn(s, points, to);
-        let mut aim = rest;
-        if !SOFT {
-            // What they were when the substep began, mended a little.
-            let was = turn(s, starts, to);
-            aim = rest + (length(s, &there.start, &was) - rest) * s.splat(1.0 - MEND);
-            there.start = was;
-        }
-        let last = there.last;
-        let (dx, dy, dz) = (next[0] - last[0], next[1] - last[1], next[2] - last[2]);
+        let [to_x, to_y, to_z, to_w] = &step.to;
+        let [from_x, from_y, from_z, from_w] = &last.to;
+        let dx = self.load(to_x) - self.load(from_x);
+        let dy = self.load(to_y) - self.load(from_y);
+        let dz = self.load(to_z) - self.load(from_z);
         let length = (dx * dx + dy * dy + dz * dz).sqrt().max(tiny);
         let over = one / length;
-        let (nx, ny, nz) = (dx * over, dy * over, dz * over);
-        let along = nx * there.n[0] + ny * there.n[1] + nz * there.n[2];
-        there.n = [nx, ny, nz];
-        let before = s.keep(rest, last[3] * along);
-        let both = last[3] + next[3];
+        let n = [dx * over, dy * over, dz * over];
+        self.store3(&mut step.n, n);
+        let before = self.load3(&last.n);
+        let along = n[0] * before[0] + n[1] * before[1] + n[2] * before[2];
+        let short = length - self.load(&step.aim);
+        self.store(&mut step.aim, length * self.load(&step.over));
+        let (rest, last_w) = (self.load(&laid.rest), self.load(from_w));
+        let before = s.keep(rest, last_w * along);
+        self.store(&mut step.before, before);
+        let both = last_w + self.load(to_w);
         let mut weight = both * s.splat(1.0 + GIVE);
         if SOFT {
             weight = weight + self.softness(links, self.own(&laid.links), scale);
@@ -302,15 +346,7 @@ impl<S: Simd> Run<S> {
         let pivot = (weight - share * before).max(both * s.splat(GIVE));
         // Between two that are held there is nothing to solve.
         there.inverse = s.keep(both.min(rest), one / pivot);
-        there.right = length - aim + share * there.right;
-        there.last = next;
-        let over = one / aim;
-        self.store(&mut step.before, before);
-        self.store(&mut step.over, over);
-        self.store(&mut step.ratio, length * over);
-        self.store3(&mut step.to, [next[0], next[1], next[2]]);
-        self.store(&mut step.w, next[3]);
-        self.store3(&mut step.n, there.n);
+        there.right = short + share * there.right;
         self.store(&mut step.inverse, there.inverse);
         self.store(&mut step.right, there.right);
     }
@@ -337,11 +373,10 @@ impl<S: Simd> Run<S> {
     ) {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
-        let after =
-            (self.load(&step.right) + back.coupling * back.after) * self.load(&step.inverse);
+        let after = (self.load(&step.right) + back.after) * self.load(&step.inverse);
         let q = s.keep(after, after * self.load(&step.over));
-        let tension = s.pick(after, after * self.load(&step.ratio), after);
-        let w = self.load(&step.w);
+        let tension = s.pick(after, after * self.load(&step.aim), after);
+        let w = self.load(&step.to[3]);
         let give = w / (one + w * (q + back.hold));
         let share = give * q;
         let n = self.load3(&step.n);
@@ -352,10 +387,9 @@ impl<S: Simd> Run<S> {
             back.m[axis] = pull + q * own[axis];
         }
         back.hold = q * (one - share);
-        back.after = after;
-        back.coupling = self.load(&step.before);
-        self.store3(&mut step.own, own);
-        self.store(&mut step.share, share);
+        back.after = self.load(&step.before) * after;
+        self.store3(&mut step.n, own);
+        self.store(&mut step.right, share);
         if SOFT {
             let mut lambda = [0.0; LANES];
             s.store(&mut lambda, 0, after);
@@ -366,66 +400,70 @@ impl<S: Simd> Run<S> {
             }
         }
     }
+}
 
-    /// A step there again: the particles go.
+impl Step {
+    /// Sets what links are to be long that were so long when the substep began: a little of it mended.
     #[inline(always)]
-    fn go(
-        &self,
-        way: &mut [S::F; 3],
-        (laid, step): (&abreast::Step, &Step),
-        points: &mut [[f32; 4]],
-    ) {
-        let (share, own) = (self.load(&step.share), self.load3(&step.own));
-        *way = [share * way[0] + own[0], share * way[1] + own[1], share * way[2] + own[2]];
-        let moved = self.limited(*way, &laid.rest);
-        let [x, y, z] = self.load3(&step.to);
-        let there = [moved[0] + x, moved[1] + y, moved[2] + z, self.load(&step.w)];
-        turn_back(self.s, points, self.own(&laid.to), there);
+    pub fn mend<S: Simd>(&mut self, s: S, first: usize, was: S::F, rest: &Lanes) {
+        let rest = s.load(rest, first);
+        let aim = rest + (was - rest) * s.splat(1.0 - MEND);
+        s.store(&mut self.aim, first, aim);
+        s.store(&mut self.over, first, s.splat(1.0) / aim);
     }
 
-    /// Ways that are no longer than `most`, see `limit`.
+    /// The way that particles go, from that of those before. It leads no farther than `limited` says.
     #[inline(always)]
-    fn limited(&self, way: [S::F; 3], most: &Lanes) -> [S::F; 3] {
-        let at_most = self.load(most);
-        let length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-        if !self.s.is_any_positive(length2 - at_most * at_most) {
-            return way;
-        }
-        let mut ways = self.spread(way);
-        for lane in 0..S::LANES {
-            let one = [ways[0][lane], ways[1][lane], ways[2][lane]];
-            let limited = limit(one, most[self.first + lane].abs());
-            (0..3).for_each(|axis| ways[axis][lane] = limited[axis]);
-        }
-        self.take_up(&ways)
+    pub fn way<S: Simd>(&self, s: S, first: usize, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
+        [
+            self.way_along(s, 0, first, x),
+            self.way_along(s, 1, first, y),
+            self.way_along(s, 2, first, z),
+        ]
     }
 
-    /// Lanes as lists, and back.
+    /// The same along one axis.
     #[inline(always)]
-    fn spread(&self, v: [S::F; 3]) -> Lanes3 {
-        let mut lists = [[0.0; LANES]; 3];
-        for (list, v) in lists.iter_mut().zip(v) {
-            self.s.store(list, 0, v);
-        }
-        lists
+    pub fn way_along<S: Simd>(&self, s: S, axis: usize, first: usize, before: S::F) -> S::F {
+        s.load(&self.right, first) * before + s.load(&self.n[axis], first)
     }
 
+    /// Where particles get to that go a way.
     #[inline(always)]
-    fn take_up(&self, [x, y, z]: &Lanes3) -> [S::F; 3] {
-        [self.s.load(x, 0), self.s.load(y, 0), self.s.load(z, 0)]
+    pub fn there<S: Simd>(&self, s: S, first: usize, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
+        let [to_x, to_y, to_z, _] = &self.to;
+        [x + s.load(to_x, first), y + s.load(to_y, first), z + s.load(to_z, first)]
     }
 }
 
-/// How far it is from some points to others.
+/// The size of a number.
 #[inline(always)]
-fn length<S: Simd>(_: S, from: &[S::F; 4], to: &[S::F; 4]) -> S::F {
-    let (dx, dy, dz) = (to[0] - from[0], to[1] - from[1], to[2] - from[2]);
-    (dx * dx + dy * dy + dz * dz).sqrt()
+pub(super) fn size<S: Simd>(s: S, v: S::F) -> S::F {
+    v.max(s.splat(0.0) - v)
+}
+
+/// Above 0 if a way may be too long whose longest component this is: one that is too long has a component longer
+/// than 0.577 of what it may be. Squares would tell for sure, but where the cloth rests they are so small that
+/// processors take long for them.
+#[inline(always)]
+pub(super) fn excess<S: Simd>(s: S, longest: S::F, most: &Lanes, first: usize) -> S::F {
+    longest - size(s, s.load(most, first)) * s.splat(0.577)
+}
+
+/// The longest component of a way.
+#[inline(always)]
+pub(super) fn longest<S: Simd>(s: S, [x, y, z]: [S::F; 3]) -> S::F {
+    size(s, x).max(size(s, y)).max(size(s, z))
+}
+
+#[inline(always)]
+pub(super) fn length<S: Simd>(_: S, [x, y, z]: [S::F; 3]) -> S::F {
+    (x * x + y * y + z * z).sqrt()
 }
 
 /// A way that is no longer than `most`: lines that cannot be right would fling their particles.
 #[inline(always)]
-fn limit([x, y, z]: [f32; 3], most: f32) -> [f32; 3] {
+pub(super) fn limited([x, y, z]: [f32; 3], most: f32) -> [f32; 3] {
     let length2 = x * x + y * y + z * z;
     let share = if length2 > most * most { most / length2.sqrt() } else { 1.0 };
     [x * share, y * share, z * share]

@@ -41,6 +41,7 @@ pub(crate) mod spots;
 pub(crate) mod stage;
 pub(crate) mod stiffest;
 mod stiffness;
+pub(crate) mod strips;
 pub(crate) mod surface;
 pub(crate) mod tangents;
 pub(crate) mod tear;

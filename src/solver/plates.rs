@@ -348,8 +348,9 @@ fn find_curves_lanes(
 ) {
     let (count, edge) = (x.len(), columns + 1);
     let out = to_weft[edge + 1..edge + count - 1].iter_mut().zip(&weft[1..count - 1]);
-    for (((out, weight), (a, m)), b) in out.zip(x[..count - 2].iter().zip(&x[1..])).zip(&x[2..]) {
-        *out = ((a + b) - 2.0 * m) * weight;
+    // Windows: what lies side by side is found by one address.
+    for ((out, weight), x) in out.zip(x.windows(3)) {
+        *out = ((x[0] + x[2]) - 2.0 * x[1]) * weight;
     }
     let inner = columns..count - columns;
     let out = to_warp[edge + columns..edge + count - columns].iter_mut().zip(&warp[inner.clone()]);
@@ -369,10 +370,8 @@ fn find_twists_lanes(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usiz
     let cells = x.len() - columns - 1;
     let edge = columns + 1;
     let out = twist[edge..edge + cells].iter_mut().zip(&weight[..cells]);
-    let upper = x[..cells].iter().zip(&x[1..]);
-    let lower = x[columns..].iter().zip(&x[columns + 1..]);
-    for (((out, weight), (a, b)), (c, d)) in out.zip(upper).zip(lower) {
-        *out = ((a - b) - (c - d)) * weight;
+    for (((out, weight), upper), lower) in out.zip(x.windows(2)).zip(x[columns..].windows(2)) {
+        *out = ((upper[0] - upper[1]) - (lower[0] - lower[1])) * weight;
     }
 }
 
@@ -412,19 +411,16 @@ fn gather_lanes(
     columns: usize,
 ) {
     let (count, edge) = (force.len(), columns + 1);
-    let weft = [&weft[edge - 1..][..count], &weft[edge..][..count], &weft[edge + 1..][..count]];
-    let warp = [&warp[1..][..count], &warp[edge..][..count], &warp[edge + columns..][..count]];
-    let twist = [
-        &twist[..count],
-        &twist[1..][..count],
-        &twist[columns..][..count],
-        &twist[edge..][..count],
-    ];
-    for i in 0..count {
-        let along = (2.0 * weft[1][i] - weft[0][i]) - weft[2][i];
-        let down = (2.0 * warp[1][i] - warp[0][i]) - warp[2][i];
-        let turn = (twist[3][i] - twist[2][i]) - (twist[1][i] - twist[0][i]);
-        force[i] = ((along + down) - turn) * stiffness;
+    let weft = weft[edge - 1..].windows(3);
+    let warp = warp[1..][..count].iter().zip(&warp[edge..]).zip(&warp[edge + columns..]);
+    let twist = twist[..count + 1].windows(2).zip(twist[columns..].windows(2));
+    for (((force, weft), ((above, warp), below)), (upper, lower)) in
+        force.iter_mut().zip(weft).zip(warp).zip(twist)
+    {
+        let along = (2.0 * weft[1] - weft[0]) - weft[2];
+        let down = (2.0 * warp - above) - below;
+        let turn = (lower[1] - lower[0]) - (upper[1] - upper[0]);
+        *force = ((along + down) - turn) * stiffness;
     }
 }
 

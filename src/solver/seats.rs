@@ -8,7 +8,9 @@
 )]
 
 use super::World;
-use crate::math::simd::{LANES, Simd, turn, turn_back, vectored};
+use super::lines::{Step, excess, length, limited, longest};
+use crate::fabric::abreast;
+use crate::math::simd::{LANES, Level, Number, Scalar, Simd, turn, turn_back, vectored};
 
 /// Copies the particles to their seats.
 pub(crate) fn take(world: &mut World, is_rigid: bool) {
@@ -24,9 +26,106 @@ pub(crate) fn take(world: &mut World, is_rigid: bool) {
     } else {
         seat(level, p.x.all(), &p.w, &mut s.points[1..]);
     }
+    s.starts.clear();
     if is_rigid {
         s.starts.resize(p.len() + 1, [0.0; 4]);
         seat_back(level, scratch.predicted.all(), scratch.way.all(), &mut s.starts[1..]);
+    }
+}
+
+vectored! {
+    /// Fetches where the particles of a block are, and their inverse mass.
+    pub(crate) fn fetch(laid: &[abreast::Step], points: &[[f32; 4]], room: &mut [Step])
+        = fetch_lanes, Avx2, fetch_apart
+}
+
+vectored! {
+    /// Finds what links that do not give way are to be long, from where the substep began.
+    pub(crate) fn aim(laid: &[abreast::Step], starts: &[[f32; 4]], room: &mut [Step])
+        = aim_lanes, Avx2, aim_apart
+}
+
+/// Has the particles of a block go their ways.
+pub(crate) fn put(level: Level, laid: &[abreast::Step], room: &[Step], points: &mut [[f32; 4]]) {
+    let mut is_far = false;
+    put_at_once(level, laid, room, points, &mut is_far);
+    if is_far {
+        put_apart(laid, room, points, &mut is_far);
+    }
+}
+
+vectored! {
+    /// The same as long as no way may be too long; else finds that.
+    fn put_at_once(
+        laid: &[abreast::Step],
+        room: &[Step],
+        points: &mut [[f32; 4]],
+        is_far: &mut bool,
+    ) = put_lanes, Avx2, put_apart
+}
+
+fn fetch_apart(laid: &[abreast::Step], points: &[[f32; 4]], room: &mut [Step]) {
+    fetch_lanes(Scalar, laid, points, room);
+}
+
+fn aim_apart(laid: &[abreast::Step], starts: &[[f32; 4]], room: &mut [Step]) {
+    aim_lanes(Scalar, laid, starts, room);
+}
+
+#[inline(always)]
+fn fetch_lanes<S: Simd>(s: S, laid: &[abreast::Step], points: &[[f32; 4]], room: &mut [Step]) {
+    for (laid, step) in laid.iter().zip(room) {
+        for first in (0..LANES).step_by(S::LANES) {
+            let to = turn(s, points, &laid.to[first..]);
+            for (lanes, to) in step.to.iter_mut().zip(to) {
+                s.store(lanes, first, to);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn aim_lanes<S: Simd>(s: S, laid: &[abreast::Step], starts: &[[f32; 4]], room: &mut [Step]) {
+    for first in (0..LANES).step_by(S::LANES) {
+        let mut last = [s.splat(0.0); 4];
+        for (laid, step) in laid.iter().zip(&mut *room) {
+            let start = turn(s, starts, &laid.to[first..]);
+            let was = length(s, [start[0] - last[0], start[1] - last[1], start[2] - last[2]]);
+            step.mend(s, first, was, &laid.rest);
+            last = start;
+        }
+    }
+}
+
+#[inline(always)]
+fn put_lanes<S: Simd>(
+    s: S,
+    laid: &[abreast::Step],
+    room: &[Step],
+    points: &mut [[f32; 4]],
+    is_far: &mut bool,
+) {
+    for first in (0..LANES).step_by(S::LANES) {
+        let (mut way, mut most) = ([s.splat(0.0); 3], s.splat(0.0));
+        for (laid, step) in laid.iter().zip(room) {
+            way = step.way(s, first, way);
+            most = excess(s, longest(s, way), &laid.rest, first).max(most);
+            let [x, y, z] = step.there(s, first, way);
+            turn_back(s, points, &laid.to[first..], [x, y, z, s.load(&step.to[3], first)]);
+        }
+        *is_far |= s.is_any_positive(most);
+    }
+}
+
+#[inline(never)]
+fn put_apart(laid: &[abreast::Step], room: &[Step], points: &mut [[f32; 4]], _: &mut bool) {
+    for lane in 0..LANES {
+        let mut way = [0.0; 3];
+        for (laid, step) in laid.iter().zip(room) {
+            way = step.way(Scalar, lane, way);
+            let [x, y, z] = step.there(Scalar, lane, limited(way, laid.rest[lane].abs()));
+            points[laid.to[lane] as usize] = [x, y, z, step.to[3][lane]];
+        }
     }
 }
 

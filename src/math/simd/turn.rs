@@ -65,9 +65,9 @@ pub(crate) fn turn_back<S: Simd>(s: S, points: &mut [[f32; 4]], at: &[u32], numb
     }
 }
 
-/// Four by four numbers turned; done twice it changes nothing.
+/// Four by four numbers turned, of vectors of four lanes; done twice it changes nothing.
 #[inline(always)]
-fn turned<S: Simd>(s: S, [a, b, c, d]: [S::F; 4]) -> [S::F; 4] {
+pub(crate) fn turned<S: Simd>(s: S, [a, b, c, d]: [S::F; 4]) -> [S::F; 4] {
     let ((ab_low, ab_high), (cd_low, cd_high)) = (s.gather_up(a, b), s.gather_up(c, d));
     let ((x, y), (z, w)) = (s.deal_twos(ab_low, cd_low), s.deal_twos(ab_high, cd_high));
     [x, y, z, w]
