@@ -22,6 +22,7 @@
 //! Eight lines lie side by side; each lane is a line of its own, so that lanes change no bits.
 
 use super::links::is_rigid;
+use super::seats::Seats;
 use super::{World, seats, strips};
 use crate::fabric::abreast;
 use crate::fabric::links::{LinkKind, Links};
@@ -118,20 +119,28 @@ pub(crate) fn solve(world: &mut World) {
     }
 }
 
+/// Whether what a block asks of its particles is fetched before it is solved: engines run out of registers in long
+/// loops. Elsewhere it is fetched step by step, while the step before is waited for.
+const IS_FETCHED_FIRST: bool = cfg!(target_arch = "wasm32");
+
 /// By seats, wherever the particles of a line are.
 fn solve_blocks(world: &mut World, scale: Option<f32>) {
-    let (lines, links) = (&world.weave.lines.abreast, &mut world.weave.links);
+    let (level, lines) = (world.level, &world.weave.lines.abreast);
+    let links = &mut world.weave.links;
     let Scratch { points, starts, steps: room, .. } = &mut world.scratch.lines;
     for laid in lines.blocks() {
         let room = &mut room[..=laid.len()];
-        seats::fetch(world.level, laid, points, &mut room[1..]);
-        if scale.is_none() {
-            seats::aim(world.level, laid, starts, &mut room[1..]);
-        } else {
-            aim_at_rest(laid, &mut room[1..]);
+        let seats = Seats { points, starts };
+        match scale {
+            None if IS_FETCHED_FIRST => seats::fetch_rigid(level, laid, seats, &mut room[1..]),
+            Some(_) if IS_FETCHED_FIRST => seats::fetch_soft(level, laid, seats, &mut room[1..]),
+            None => solve_rigid_seats(level, laid, seats, room, links, 0.0),
+            Some(scale) => solve_soft_seats(level, laid, seats, room, links, scale),
         }
-        solve_block(world.level, laid, room, links, scale);
-        seats::put(world.level, laid, &room[1..], points);
+        if IS_FETCHED_FIRST {
+            solve_block(level, laid, room, links, scale);
+        }
+        seats::put(level, laid, &room[1..], points);
     }
 }
 
@@ -159,14 +168,12 @@ fn solve_strips(world: &mut World, scale: Option<f32>) {
 /// Links that give way are to be as long as at rest.
 fn aim_at_rest(laid: &[abreast::Step], room: &mut [Step]) {
     for (step, laid) in room.iter_mut().zip(laid) {
-        step.aim = laid.rest;
-        for (over, rest) in step.over.iter_mut().zip(laid.rest) {
-            *over = 1.0 / rest;
-        }
+        (0..LANES).for_each(|lane| step.rest(Scalar, lane, &laid.rest));
     }
 }
 
-/// Solves the lines of a block: finds how its particles move. Links that give way have a scale of their compliance.
+/// Solves the lines of a block that was fetched: finds how its particles move. Links that give way have a scale of
+/// their compliance.
 fn solve_block(
     level: Level,
     laid: &[abreast::Step],
@@ -174,46 +181,51 @@ fn solve_block(
     links: &mut Links,
     scale: Option<f32>,
 ) {
+    let nobody = Seats { points: &[], starts: &[] };
     match scale {
-        None => solve_rigid(level, laid, room, links, 0.0),
-        Some(scale) => solve_soft(level, laid, room, links, scale),
+        None => solve_rigid(level, laid, nobody, room, links, 0.0),
+        Some(scale) => solve_soft(level, laid, nobody, room, links, scale),
     }
 }
 
-vectored! {
-    fn solve_rigid(
-        laid: &[abreast::Step],
-        room: &mut [Step],
-        links: &mut Links,
-        scale: f32,
-    ) = solve_lanes::<_, false>, Avx2, solve_apart::<false>
+/// Names what solves a block, with links that give way or not, fetched before or from its seats.
+macro_rules! solving {
+    ($name:ident, $soft:literal, $seated:literal) => {
+        vectored! {
+            fn $name(
+                laid: &[abreast::Step],
+                seats: Seats<'_>,
+                room: &mut [Step],
+                links: &mut Links,
+                scale: f32,
+            ) = solve_lanes::<_, $soft, $seated>, Avx2, solve_apart::<$soft, $seated>
+        }
+    };
 }
 
-vectored! {
-    fn solve_soft(
-        laid: &[abreast::Step],
-        room: &mut [Step],
-        links: &mut Links,
-        scale: f32,
-    ) = solve_lanes::<_, true>, Avx2, solve_apart::<true>
-}
+solving!(solve_rigid, false, false);
+solving!(solve_soft, true, false);
+solving!(solve_rigid_seats, false, true);
+solving!(solve_soft_seats, true, true);
 
 /// Line by line.
-fn solve_apart<const SOFT: bool>(
+fn solve_apart<const SOFT: bool, const SEATED: bool>(
     laid: &[abreast::Step],
+    seats: Seats<'_>,
     room: &mut [Step],
     links: &mut Links,
     scale: f32,
 ) {
-    solve_lanes::<_, SOFT>(Scalar, laid, room, links, scale);
+    solve_lanes::<_, SOFT, SEATED>(Scalar, laid, seats, room, links, scale);
 }
 
 /// Two runs through a block go side by side, if it has lanes for both: each step waits for the one before, so that
 /// one run by itself leaves the processor idle.
 #[inline(always)]
-fn solve_lanes<S: Simd, const SOFT: bool>(
+fn solve_lanes<S: Simd, const SOFT: bool, const SEATED: bool>(
     s: S,
     laid: &[abreast::Step],
+    seats: Seats<'_>,
     room: &mut [Step],
     links: &mut Links,
     scale: f32,
@@ -223,10 +235,17 @@ fn solve_lanes<S: Simd, const SOFT: bool>(
     for first in (0..LANES).step_by(2 * S::LANES) {
         let (run, other) = (Run { s, first }, Run { s, first: first + S::LANES });
         let (mut there, mut other_there) = (run.begin(), run.begin());
+        let (mut was, mut other_was) = ([s.splat(0.0); 4], [s.splat(0.0); 4]);
         let mut last = &*none;
         for (laid, step) in laid.iter().zip(&mut *room) {
+            if SEATED {
+                seats.bring::<S, SOFT>(s, run.first, &mut was, laid, step);
+            }
             run.eliminate::<SOFT>(&mut there, last, (laid, step), links, scale);
             if is_double {
+                if SEATED {
+                    seats.bring::<S, SOFT>(s, other.first, &mut other_was, laid, step);
+                }
                 other.eliminate::<SOFT>(&mut other_there, last, (laid, step), links, scale);
             }
             last = step;
@@ -403,6 +422,14 @@ impl<S: Simd> Run<S> {
 }
 
 impl Step {
+    /// Sets what links are to be long that give way: as long as at rest.
+    #[inline(always)]
+    pub fn rest<S: Simd>(&mut self, s: S, first: usize, rest: &Lanes) {
+        let aim = s.load(rest, first);
+        s.store(&mut self.aim, first, aim);
+        s.store(&mut self.over, first, s.splat(1.0) / aim);
+    }
+
     /// Sets what links are to be long that were so long when the substep began: a little of it mended.
     #[inline(always)]
     pub fn mend<S: Simd>(&mut self, s: S, first: usize, was: S::F, rest: &Lanes) {

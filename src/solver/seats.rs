@@ -33,16 +33,68 @@ pub(crate) fn take(world: &mut World, is_rigid: bool) {
     }
 }
 
-vectored! {
-    /// Fetches where the particles of a block are, and their inverse mass.
-    pub(crate) fn fetch(laid: &[abreast::Step], points: &[[f32; 4]], room: &mut [Step])
-        = fetch_lanes, Avx2, fetch_apart
+/// Where particles sit, and where they sat when the substep began, if links do not give way.
+#[derive(Clone, Copy)]
+pub(crate) struct Seats<'a> {
+    pub points: &'a [[f32; 4]],
+    pub starts: &'a [[f32; 4]],
+}
+
+impl Seats<'_> {
+    /// Brings what some lanes of a step ask of their particles: where they are, their inverse mass, and what links
+    /// are to be long. `was` goes along, where the particles of the step before were.
+    #[inline(always)]
+    pub fn bring<S: Simd, const SOFT: bool>(
+        &self,
+        s: S,
+        first: usize,
+        was: &mut [S::F; 4],
+        laid: &abreast::Step,
+        step: &mut Step,
+    ) {
+        let to = turn(s, self.points, &laid.to[first..]);
+        for (lanes, to) in step.to.iter_mut().zip(to) {
+            s.store(lanes, first, to);
+        }
+        if SOFT {
+            return step.rest(s, first, &laid.rest);
+        }
+        let start = turn(s, self.starts, &laid.to[first..]);
+        let span = [start[0] - was[0], start[1] - was[1], start[2] - was[2]];
+        step.mend(s, first, length(s, span), &laid.rest);
+        *was = start;
+    }
 }
 
 vectored! {
-    /// Finds what links that do not give way are to be long, from where the substep began.
-    pub(crate) fn aim(laid: &[abreast::Step], starts: &[[f32; 4]], room: &mut [Step])
-        = aim_lanes, Avx2, aim_apart
+    /// Brings all that a block asks, if links do not give way.
+    pub(crate) fn fetch_rigid(laid: &[abreast::Step], seats: Seats<'_>, room: &mut [Step])
+        = fetch_lanes::<_, false>, Avx2, fetch_apart::<false>
+}
+
+vectored! {
+    /// The same, if they do.
+    pub(crate) fn fetch_soft(laid: &[abreast::Step], seats: Seats<'_>, room: &mut [Step])
+        = fetch_lanes::<_, true>, Avx2, fetch_apart::<true>
+}
+
+fn fetch_apart<const SOFT: bool>(laid: &[abreast::Step], seats: Seats<'_>, room: &mut [Step]) {
+    fetch_lanes::<_, SOFT>(Scalar, laid, seats, room);
+}
+
+#[inline(always)]
+fn fetch_lanes<S: Simd, const SOFT: bool>(
+    s: S,
+    laid: &[abreast::Step],
+    seats: Seats<'_>,
+    room: &mut [Step],
+) {
+    for first in (0..LANES).step_by(S::LANES) {
+        let mut was = [s.splat(0.0); 4];
+        for (laid, step) in laid.iter().zip(&mut *room) {
+            seats.bring::<S, SOFT>(s, first, &mut was, laid, step);
+        }
+    }
 }
 
 /// Has the particles of a block go their ways.
@@ -62,39 +114,6 @@ vectored! {
         points: &mut [[f32; 4]],
         is_far: &mut bool,
     ) = put_lanes, Avx2, put_apart
-}
-
-fn fetch_apart(laid: &[abreast::Step], points: &[[f32; 4]], room: &mut [Step]) {
-    fetch_lanes(Scalar, laid, points, room);
-}
-
-fn aim_apart(laid: &[abreast::Step], starts: &[[f32; 4]], room: &mut [Step]) {
-    aim_lanes(Scalar, laid, starts, room);
-}
-
-#[inline(always)]
-fn fetch_lanes<S: Simd>(s: S, laid: &[abreast::Step], points: &[[f32; 4]], room: &mut [Step]) {
-    for (laid, step) in laid.iter().zip(room) {
-        for first in (0..LANES).step_by(S::LANES) {
-            let to = turn(s, points, &laid.to[first..]);
-            for (lanes, to) in step.to.iter_mut().zip(to) {
-                s.store(lanes, first, to);
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn aim_lanes<S: Simd>(s: S, laid: &[abreast::Step], starts: &[[f32; 4]], room: &mut [Step]) {
-    for first in (0..LANES).step_by(S::LANES) {
-        let mut last = [s.splat(0.0); 4];
-        for (laid, step) in laid.iter().zip(&mut *room) {
-            let start = turn(s, starts, &laid.to[first..]);
-            let was = length(s, [start[0] - last[0], start[1] - last[1], start[2] - last[2]]);
-            step.mend(s, first, was, &laid.rest);
-            last = start;
-        }
-    }
 }
 
 #[inline(always)]
