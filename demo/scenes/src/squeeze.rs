@@ -16,7 +16,7 @@ const CLOSED: f32 = 0.2;
 /// They yield to that much of it then, in so much time, or in as much when they let go at last [s].
 const YIELDS: f32 = 1.15;
 const YIELDING: f32 = 0.2;
-const LETS_GO: f32 = 0.3;
+const LETS_GO: f32 = 0.5;
 /// How long they are off until they close again [s].
 const LOOSE: f32 = 0.12;
 /// How far they are turned from one time to the next [rad], and what about.
