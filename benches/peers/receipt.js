@@ -83,8 +83,8 @@ const STATES = [
   { name: "crumpled, let go, on the floor", seconds: 4 },
 ];
 
-/** So many palms close all around a place, so far from it, in so many seconds, as the demo's do. */
-const [PALMS, MIDDLE, BALL, CLOSING] = [32, [0, -1, 0], 1.15, 0.8];
+/** So many palms close all around a place, so far from it, in so many seconds, as the demo's do the first time. */
+const [PALMS, MIDDLE, BALL, CLOSING] = [32, [0, -1, 0], 1.1, 1];
 
 const at = (out, distance) => MIDDLE.map((x, axis) => x + out[axis] * distance);
 

@@ -72,6 +72,12 @@ impl RigidMotion {
         Self { center, shift, turn: solve(&inertia, Vec3::new(spin_x, spin_y, spin_z)) }
     }
 
+    /// The part of it that leaves a body on a floor with this normal.
+    pub fn along(self, normal: Vec3) -> Self {
+        let Self { center, shift, turn } = self;
+        Self { center, shift: shift - normal * shift.dot(normal), turn: normal * turn.dot(normal) }
+    }
+
     /// How far points move with the body, as `at` has it.
     #[inline(always)]
     pub fn ways<S: Simd>(&self, s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {

@@ -17,19 +17,17 @@ pub(crate) fn keep(world: &mut World) {
     if !may_turn || world.pieces != 1 || is_held(world) {
         return;
     }
-    let scheme = world.settings.scheme();
+    list_starts(world);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    // Air counts once in a tick, and what nothing holds has no anchors.
-    let (from, moves) = (&mut scratch.air, &mut scratch.anchor);
+    let moves = &mut scratch.anchor;
     moves.resize(p.len());
-    let start = p.x.all().into_iter().zip(scratch.predicted.all());
-    let ways = scratch.way.all().into_iter().zip(p.moved.all());
-    let write = from.all_mut().into_iter().zip(moves.all_mut());
-    for (((x, predicted), (way, moved)), (from, by)) in start.zip(ways).zip(write) {
-        let back = scheme.trail / scheme.lead;
-        list(x, [predicted, way, moved], back, from, by);
+    let all = p.x.all().into_iter().zip(scratch.predicted.all()).zip(moves.all_mut());
+    for ((x, predicted), moves) in all {
+        for ((x, predicted), by) in x.iter().zip(predicted).zip(moves) {
+            *by = x - predicted;
+        }
     }
-    let free = Free { x: from.all(), way: moves.all(), mass: &p.mass, w: &p.w };
+    let free = Free { x: scratch.air.all(), way: moves.all(), mass: &p.mass, w: &p.w };
     let whole = RigidMotion::of_free(world.level, free);
     for i in 0..p.len() {
         p.x.add(i, -whole.at(p.x.at(i)));
@@ -37,21 +35,22 @@ pub(crate) fn keep(world: &mut World) {
 }
 
 /// Whether anything else than itself may have moved it so far in this substep.
-fn is_held(world: &World) -> bool {
+pub(super) fn is_held(world: &World) -> bool {
     world.pins.are_any_soft() || world.particles.w.iter().any(|w| *w <= 0.0)
 }
 
-/// Lists, along one axis, where velocities count from and the moves.
-fn list(
-    x: &[f32],
-    [predicted, way, moved]: [&[f32]; 3],
-    back: f32,
-    from: &mut [f32],
-    moves: &mut [f32],
-) {
-    let read = x.iter().zip(predicted).zip(way).zip(moved);
-    for ((((x, predicted), way), moved), (from, by)) in read.zip(from.iter_mut().zip(moves)) {
-        *from = predicted - way + moved * back;
-        *by = x - predicted;
+/// Lists where velocities count from. Air counts once in a tick, and what nothing holds has no anchors: so
+/// starts are in the one and moves in the other.
+pub(super) fn list_starts(world: &mut World) {
+    let scheme = world.settings.scheme();
+    let back = scheme.trail / scheme.lead;
+    let (p, scratch) = (&world.particles, &mut world.scratch);
+    let ways = scratch.way.all().into_iter().zip(p.moved.all());
+    let read = scratch.predicted.all().into_iter().zip(ways);
+    for ((predicted, (way, moved)), from) in read.zip(scratch.air.all_mut()) {
+        let read = predicted.iter().zip(way).zip(moved);
+        for (((predicted, way), moved), from) in read.zip(from.iter_mut()) {
+            *from = predicted - way + moved * back;
+        }
     }
 }

@@ -217,6 +217,8 @@ fn paper_material() -> Material {
     Material {
         // The lower end of what is measured of such paper.
         bend_stiffness: 2.7e-4,
+        // What is folded and let go does not swing.
+        bend_damping: 0.003,
         lift: 0.4,
         ..Material::preset(Preset::Paper)
     }

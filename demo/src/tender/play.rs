@@ -48,7 +48,7 @@ const FOLD: Score = Score {
     deeds: &[(250, Deed::Crease([0.5, 0.40])), (290, Deed::Crease([0.5, 0.40]))],
 };
 
-const CRUMPLE: Score = Score { ticks: 660, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
+const CRUMPLE: Score = Score { ticks: 960, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
 
 const LETTER: Score = Score { ticks: 1080, ways: &[], deeds: &[(1, Deed::Act(Action::Fold))] };
 

@@ -22,6 +22,7 @@ mod reach;
 mod sift;
 pub(crate) mod slits;
 mod spots;
+mod still;
 mod sweep;
 mod tangles;
 mod weave;
@@ -324,16 +325,21 @@ pub(crate) fn pair(world: &mut World) {
 /// Layers push and rub, once and in a fixed order.
 pub(crate) fn solve(world: &mut World) {
     let (scheme, friction) = (world.settings.scheme(), world.material.friction);
-    let Some(layers) = &mut world.layers else {
+    let Some(mut layers) = world.layers.take() else {
         return;
     };
-    let Layers { contacts, active, finder, motion, weights, tangles, .. } = &mut **layers;
+    let Layers { contacts, active, finder, motion, weights, ways, tangles, .. } = &mut *layers;
     let Motion { start, now, .. } = &mut *motion;
     let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
+    ways.clone_from(now);
     push::solve(contacts, active, (loads, finder), weights, start, now, friction, force);
+    if !active.is_empty() {
+        still::keep(world, ways, now);
+    }
     push::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
     tangles.draw_out(motion, &mut world.scratch.predicted);
     spots::scatter(&motion.now, &mut world.particles.x);
+    world.layers = Some(layers);
 }
 
 /// After all else moved, nothing crosses.
