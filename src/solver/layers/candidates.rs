@@ -17,10 +17,10 @@ const LANES: usize = 8;
 /// Bits in a word.
 const BITS: usize = 64;
 
-/// Pairs of one kind, a list for each of their particles.
+/// Pairs of one kind.
 #[derive(Clone, Debug)]
 pub(super) struct Candidates {
-    ids: [Vec<u32>; 4],
+    ids: Vec<[u32; 4]>,
     /// How far each keeps apart [m].
     gaps: Vec<f32>,
     /// Which of them may meet: a bit for each.
@@ -55,7 +55,7 @@ impl Candidate {
 
 impl Candidates {
     pub fn new(capacity: usize) -> Self {
-        let ids = [(); 4].map(|()| Vec::with_capacity(capacity + LANES));
+        let ids = Vec::with_capacity(capacity + LANES);
         let list = || Vec::with_capacity(capacity + LANES);
         Self {
             ids,
@@ -70,42 +70,32 @@ impl Candidates {
     }
 
     pub fn clear(&mut self) {
-        self.ids.iter_mut().for_each(Vec::clear);
+        self.ids.clear();
         self.gaps.clear();
     }
 
     pub fn len(&self) -> usize {
-        self.ids[0].len()
+        self.ids.len()
     }
 
     #[inline(always)]
     pub fn push(&mut self, ids: [u32; 4], gap: f32) {
-        for (list, id) in self.ids.iter_mut().zip(ids) {
-            list.push(id);
-        }
+        self.ids.push(ids);
         self.gaps.push(gap);
-    }
-
-    /// The particles of one, and how far it keeps apart.
-    #[inline(always)]
-    pub fn pair(&self, at: usize) -> ([u32; 4], f32) {
-        let [a, b, c, d] = &self.ids;
-        ([a[at], b[at], c[at], d[at]], self.gaps[at])
     }
 
     /// Finds which are told apart by more than `gap` in the end; lists are filled up for that.
     pub fn judge<const FIRST: Kind>(&mut self, level: Level, motion: &Motion, gap: f32) {
         let count = self.len().next_multiple_of(LANES);
-        self.ids.iter_mut().for_each(|list| list.resize(count, 0));
+        self.ids.resize(count, [0; 4]);
         self.gaps.resize(count, gap);
         self.may_meet.clear();
         self.may_meet.resize(count.div_ceil(BITS), 0);
         let Lanes { n: [x, y, z], distance } = &mut self.judged;
         [&mut *x, y, z, distance].into_iter().for_each(|list| list.resize(count, 0.0));
-        let [a, b, c, d] = &self.ids;
-        let (rooms, may_meet) = (motion.rooms(), &mut self.may_meet[..]);
+        let (ids, rooms, may_meet) = (&self.ids[..], motion.rooms(), &mut self.may_meet[..]);
         let lanes = Lanes { n: [&mut x[..], y, z], distance: &mut distance[..] };
-        let judged = Judged { ids: [a, b, c, d], rooms, gap, may_meet, lanes };
+        let judged = Judged { ids, rooms, gap, may_meet, lanes };
         if FIRST == VERTEX { judge_vertices(level, judged) } else { judge_edges(level, judged) }
     }
 
@@ -131,14 +121,15 @@ impl Candidates {
 
     #[inline(always)]
     fn candidate(&self, at: usize) -> Candidate {
-        let (Lanes { n: [x, y, z], distance }, (ids, gap)) = (&self.judged, self.pair(at));
+        let Lanes { n: [x, y, z], distance } = &self.judged;
+        let (ids, gap) = (self.ids[at], self.gaps[at]);
         Candidate { ids, gap, n: Vec3::new(x[at], y[at], z[at]), distance: distance[at] }
     }
 }
 
 /// Pairs with where their particles are at the start, and from where to where they get.
 struct Judged<'a> {
-    ids: [&'a [u32]; 4],
+    ids: &'a [[u32; 4]],
     rooms: [&'a [Spot]; 3],
     gap: f32,
     may_meet: &'a mut [u64],
@@ -165,13 +156,12 @@ fn judge_edges_apart(judged: Judged<'_>) {
 fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
     let Judged { ids, rooms: [start, from, to], gap, may_meet, mut lanes } = judged;
     for at in (0..lanes.distance.len()).step_by(S::LANES) {
-        let own = at..at + S::LANES;
+        let ids = turned::<S>(&ids[at..]);
         let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
         let mut rooms = [[x[0]; 2]; 4];
         for k in 0..4 {
-            let ids = &ids[k][own.clone()];
-            x[k] = V::new(turn(s, start, ids));
-            rooms[k] = [V::new(turn(s, from, ids)), V::new(turn(s, to, ids))];
+            x[k] = V::new(turn(s, start, &ids[k]));
+            rooms[k] = [V::new(turn(s, from, &ids[k])), V::new(turn(s, to, &ids[k]))];
         }
         let boxed = between_boxes::<S, FIRST>(s, x, rooms, gap);
         if s.positives(boxed) == (1 << S::LANES) - 1 {
@@ -211,6 +201,19 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         }
         s.store(lanes.distance, at, distance);
     }
+}
+
+/// The particles of the first pairs, a list for each of the four.
+#[inline(always)]
+pub(super) fn turned<S: Simd>(pairs: &[[u32; 4]]) -> [[u32; LANES]; 4] {
+    let pairs = &pairs[..S::LANES];
+    let mut all = [[0; LANES]; 4];
+    for (lane, ids) in pairs.iter().enumerate() {
+        for k in 0..4 {
+            all[k][lane] = ids[k];
+        }
+    }
+    all
 }
 
 /// How much farther apart than `gap` boxes around two sides stay, which go on together: above 0, so they cannot meet.

@@ -1,10 +1,15 @@
 //! Pairs that may meet in a substep but are too far from each other to push: a direction told them apart as it
 //! began, and the fence asks whether it still does.
 
-use super::contacts::{Contact, EDGES, Kind, SLIT, VERTEX, between, places};
+use super::closest::{V, between};
+use super::contacts::{Contact, EDGES, Kind, SLIT, VERTEX};
 use super::motion::Motion;
 use super::spots::Spot;
+use crate::math::simd::{Level, Scalar, Simd, turn, vectored};
 use glam::Vec3;
+
+/// Pairs that are looked at together.
+const LANES: usize = 8;
 
 /// A pair that is left to the fence.
 #[derive(Clone, Copy, Debug)]
@@ -18,24 +23,81 @@ pub(super) struct Distant {
     pub n: Vec3,
 }
 
-impl Distant {
-    /// Whether sides are apart by more than a fence leaves between them.
-    #[inline(always)]
-    pub fn is_apart(&self, now: &[Spot]) -> bool {
-        between(places(now, self.ids), self.first, self.n) > self.gap * SLIT
+/// Finds which pairs are apart by more than a fence leaves between them: a bit for each.
+fn find_apart(level: Level, distant: &[Distant], now: &[Spot], apart: &mut Vec<u8>) {
+    apart.clear();
+    apart.resize(distant.len().div_ceil(LANES), 0);
+    look(level, distant, now, apart);
+}
+
+/// Whether all pairs are apart by more than a fence leaves between them.
+pub(super) fn are_apart(
+    level: Level,
+    distant: &[Distant],
+    now: &[Spot],
+    apart: &mut Vec<u8>,
+) -> bool {
+    find_apart(level, distant, now, apart);
+    count(apart) == distant.len()
+}
+
+fn count(apart: &[u8]) -> usize {
+    apart.iter().map(|bits| bits.count_ones() as usize).sum()
+}
+
+vectored! {
+    fn look(distant: &[Distant], now: &[Spot], apart: &mut [u8]) = look_at, Avx2, look_alone
+}
+
+fn look_alone(distant: &[Distant], now: &[Spot], apart: &mut [u8]) {
+    look_at(Scalar, distant, now, apart);
+}
+
+#[inline(always)]
+fn look_at<S: Simd>(s: S, distant: &[Distant], now: &[Spot], apart: &mut [u8]) {
+    for (pairs, bits) in distant.chunks(LANES).zip(apart) {
+        let mut ids = [[0; LANES]; 4];
+        let mut n = [[0.0; LANES]; 3];
+        let (mut slits, mut edges) = ([f32::INFINITY; LANES], [0.0; LANES]);
+        for (lane, pair) in pairs.iter().enumerate() {
+            for k in 0..4 {
+                ids[k][lane] = pair.ids[k];
+            }
+            [n[0][lane], n[1][lane], n[2][lane]] = pair.n.to_array();
+            slits[lane] = pair.gap * SLIT;
+            edges[lane] = if pair.first == VERTEX { 0.0 } else { 1.0 };
+        }
+        for at in (0..LANES).step_by(S::LANES) {
+            let n = V { x: s.load(&n[0], at), y: s.load(&n[1], at), z: s.load(&n[2], at) };
+            let mut along = [s.splat(0.0); 4];
+            for k in 0..4 {
+                along[k] = n.dot(V::new(turn(s, now, &ids[k][at..])));
+            }
+            let vertices = between::<_, VERTEX>(along);
+            let distance = s.pick(s.load(&edges, at), between::<_, EDGES>(along), vertices);
+            *bits |= (s.positives(distance - s.load(&slits, at)) << at) as u8;
+        }
     }
 }
 
-/// Makes contacts of what is apart no more, or of all. None keep more than `most` [m].
+/// Makes contacts of what is apart no more, or of all. `apart` is room to work in. None keep more than `most` [m].
 pub(super) fn call(
+    level: Level,
     distant: &mut Vec<Distant>,
+    apart: &mut Vec<u8>,
     all: bool,
     motion: &Motion,
     most: f32,
     contacts: &mut Vec<Contact>,
 ) {
+    find_apart(level, distant, &motion.now, apart);
+    if !all && count(apart) == distant.len() {
+        return;
+    }
+    let mut at = 0;
     distant.retain(|pair| {
-        let stays = !all && pair.is_apart(&motion.now);
+        let stays = !all && apart[at / LANES] & (1 << (at % LANES)) != 0;
+        at += 1;
         if !stays {
             let Distant { ids, gap, .. } = *pair;
             contacts.extend(if pair.first == VERTEX {

@@ -23,6 +23,7 @@ mod sift;
 pub(crate) mod slits;
 mod spots;
 mod still;
+mod stock;
 mod sweep;
 mod tangles;
 mod weave;
@@ -41,7 +42,7 @@ use motion::Motion;
 use near::Near;
 use patches::Patches;
 use reach::Reach;
-use sift::{Found, Sift};
+use sift::{Found, Picked, Sift};
 use slits::Slits;
 use spots::Spot;
 use tangles::Tangles;
@@ -51,11 +52,8 @@ use weave::Weave;
 const THIN: f32 = 0.005;
 pub(super) const THICK: f32 = 0.5;
 
-/// How far particles may stray until what may meet is listed anew, patches and what is in them [mean rest lengths].
+/// How far particles may stray until patches that may meet are listed anew [mean rest lengths].
 const FAR: f32 = 0.2;
-
-/// More pairs than so many of a particle are worth to be listed more often, with less room.
-const MANY: usize = 10;
 
 /// How often those are looked at again at most that strayed.
 const LOOKS: u32 = 8;
@@ -69,16 +67,18 @@ pub(crate) struct Layers {
     /// How particles move, in some unit.
     ways: Vec<Spot>,
     far: Reach,
-    reach: Reach,
-    /// The patches and the pairs in them that may meet, and whether they still are those that may.
+    /// Pairs of patches that may meet in this substep.
     pairs: Vec<u32>,
-    /// Pairs that strayed.
+    /// Pairs that may meet in this substep, and those of them that strayed.
+    picked: Picked,
     strays: Candidates,
     /// Pairs that are near enough to push, by their kind.
     near: [Near; 2],
     contacts: Vec<Contact>,
     /// Pairs that may meet but are too far from each other to push.
     distant: Vec<Distant>,
+    /// A bit for each of those that is apart.
+    apart: Vec<u8>,
     is_found: bool,
     /// The contacts that push in this substep.
     active: Vec<u32>,
@@ -106,12 +106,13 @@ impl Layers {
             weights: Vec::with_capacity(capacity),
             ways: Vec::with_capacity(capacity),
             far: Reach::new(capacity),
-            reach: Reach::new(capacity),
             pairs: Vec::with_capacity(8 * count),
+            picked: Picked::new(count),
             strays: sift::room_for_strays(),
             near: [(); 2].map(|()| Near::new(8 * count)),
             contacts: Vec::with_capacity(24 * count),
             distant: Vec::with_capacity(16 * count),
+            apart: Vec::with_capacity(2 * count),
             is_found: false,
             active: Vec::with_capacity(24 * count),
             around: Around::new(capacity, 24 * count),
@@ -136,16 +137,17 @@ impl Layers {
         self.patches.bytes()
             + self.motion.bytes()
             + self.far.bytes()
-            + self.reach.bytes()
             + self.slits.bytes()
             + self.tangles.bytes()
             + self.around.bytes()
             + self.strays.bytes()
+            + self.picked.bytes()
             + self.near.iter().map(Near::bytes).sum::<usize>()
             + size_of::<Weight>() * self.weights.capacity()
             + size_of::<Spot>() * self.ways.capacity()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<Distant>() * self.distant.capacity()
+            + self.apart.capacity()
             + self.finder.bytes()
             + size_of::<u32>() * words
     }
@@ -153,29 +155,23 @@ impl Layers {
     /// Finds what may meet in this substep, as particles are now, with so many substeps of the tick to go.
     fn find(&mut self, world: &World, substeps: u32) {
         let Self {
-            motion, far, reach, patches, pieces, pairs, near, contacts, distant, gap, ..
+            motion, far, patches, pieces, pairs, picked, near, contacts, distant, gap, ..
         } = self;
         motion.look_ahead(world.spacing, *gap);
-        for reach in [&mut *far, &mut *reach] {
-            if reach.is_known {
-                reach.follow(motion);
-                reach.is_known = reach.holds(motion);
-            }
+        let is_known = far.is_known;
+        if is_known {
+            far.follow(motion);
         }
-        if !far.is_known {
+        if !is_known || !far.holds(motion) {
             far.look_ahead(motion, substeps, world.spacing * FAR);
             patches.list(far, *gap);
-            reach.is_known = false;
         }
-        if !reach.is_known {
-            let are_many = patches.quads.len() > MANY * motion.now.len();
-            let (substeps, room) = reach.learn(substeps, are_many);
-            reach.look_ahead(motion, substeps, world.spacing * room);
+        if !is_known {
             patches.forget_runs();
         }
         let weave = Weave { world, pieces, gap: *gap };
         let mut found = Found { contacts, distant };
-        Sift { weave, patches, motion, reach }.find(pairs, near, &mut found);
+        Sift { weave, patches, motion }.find(pairs, picked, near, &mut found);
         self.is_found = true;
         self.find_tangles(world);
     }
@@ -196,22 +192,18 @@ impl Layers {
 
     /// Adds to the distant what those may meet that are not where they were thought to be.
     fn find_strays(&mut self, world: &World, may_go_back: bool) {
-        let Self { motion, far, reach, patches, pieces, pairs, strays, distant, gap, .. } = self;
+        let Self { motion, far, patches, pieces, pairs, strays, distant, gap, .. } = self;
         if !motion.look_again(world.spacing, *gap, may_go_back) {
             return;
         }
         let all = 0..motion.now.len() as u32;
         let strayed = all.filter(|at| motion.strays(*at));
         if !far.holds(motion) {
-            strayed.clone().for_each(|at| far.widen(motion, at));
+            strayed.for_each(|at| far.widen(motion, at));
             patches.list(far, *gap);
-            strayed.for_each(|at| reach.widen(motion, at));
-        } else if !reach.holds(motion) {
-            strayed.for_each(|at| reach.widen(motion, at));
-            patches.forget_runs();
         }
         let weave = Weave { world, pieces, gap: *gap };
-        Sift { weave, patches, motion, reach }.find_strays(pairs, strays, distant);
+        Sift { weave, patches, motion }.find_strays(pairs, strays, distant);
     }
 
     /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
@@ -238,9 +230,12 @@ impl Layers {
         for look in 0..=LOOKS {
             let is_last = look == LOOKS;
             self.find_strays(world, may_go_back || is_last);
-            let Self { contacts, distant, motion, frozen, open, around, tangles, gap, .. } = self;
+            let Self {
+                contacts, distant, apart, motion, frozen, open, around, tangles, gap, ..
+            } = self;
             tangles.let_be(&mut [], distant);
-            distant::call(distant, may_go_back || is_last, motion, *gap, contacts);
+            let all = may_go_back || is_last;
+            distant::call(world.level, distant, apart, all, motion, *gap, contacts);
             around.call_from(known, contacts);
             around.is_stirred = false;
             known = contacts.len();
@@ -249,8 +244,9 @@ impl Layers {
                 fence::go_back(contacts, motion, around, frozen);
                 went_back = true;
             }
-            let is_apart = |pair: &Distant| pair.is_apart(&motion.now);
-            let are_apart = || !around.is_stirred || distant.iter().all(is_apart);
+            let mut are_apart = || {
+                !around.is_stirred || distant::are_apart(world.level, distant, &motion.now, apart)
+            };
             if (is_done || may_go_back) && motion.is_as_thought() && are_apart() {
                 break;
             }

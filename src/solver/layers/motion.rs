@@ -110,6 +110,20 @@ impl Motion {
         sweep.join(&self.one(particle));
     }
 
+    /// Where particles are together as the substep begins.
+    #[inline(always)]
+    pub fn still<const COUNT: usize>(&self, particles: [u32; COUNT]) -> Sweep {
+        let mut all = Sweep::EMPTY;
+        for particle in particles {
+            let start = &self.start[particle as usize];
+            for k in 0..4 {
+                all.low[k] = min(all.low[k], start[k]);
+                all.high[k] = max(all.high[k], start[k]);
+            }
+        }
+        Sweep { from: [0.0; 4], to: [0.0; 4], ..all }
+    }
+
     /// How a particle goes.
     #[inline(always)]
     pub fn one(&self, particle: u32) -> Sweep {

@@ -3,12 +3,15 @@
 use super::patches::{Lean, Patches};
 use super::reach::Reach;
 use super::sweep::Sweep;
-use crate::math::min;
+use crate::math::{max, min};
 use crate::mesh::NONE;
 use glam::Vec3;
 
 /// The bit of a listed pair whose patches are beside each other, or the same.
 const BESIDE: u32 = 1 << 31;
+
+/// What covers rounding in ways.
+const ROUNDING: f32 = 1.001;
 
 /// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
 /// (cosine of 60°).
@@ -33,7 +36,7 @@ impl Patches {
             self.reaches[at] = all;
         }
         let mut listed = core::mem::take(&mut self.listed);
-        listed.clear();
+        self.quads.begin_list(&mut listed);
         let mut stack = core::mem::take(&mut self.stack);
         stack.clear();
         stack.push([0, 0]);
@@ -60,8 +63,8 @@ impl Patches {
                 }
             }
         }
+        self.quads.end_list(&listed, self.patches.len());
         (self.stack, self.listed) = (stack, listed);
-        self.forget_runs();
     }
 
     /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
@@ -82,6 +85,27 @@ impl Patches {
                 pairs.push(at);
             }
         }
+    }
+
+    /// The most that what is in a listed pair goes against each other in this substep, together with `more` [m].
+    #[inline(always)]
+    pub fn ways_of(&self, at: u32, more: f32) -> f32 {
+        let [one, other] = self.listed_pair(at).map(|at| at as usize);
+        let ways = self.sweeps[one].way_against(&self.sweeps[other]) * ROUNDING + more;
+        if ways < f32::INFINITY { ways } else { f32::INFINITY }
+    }
+
+    /// The most that what is in a listed pair went against each other since patches were fitted before [m].
+    #[inline(always)]
+    pub fn step_of(&self, at: u32) -> f32 {
+        let [one, other] = self.listed_pair(at).map(|at| at as usize);
+        let ([from, to], [least, most]) = (&self.steps[one], &self.steps[other]);
+        let mut sum = 0.0;
+        for k in 0..3 {
+            let way = max(to[k] - least[k], most[k] - from[k]);
+            sum += way * way;
+        }
+        sum.sqrt() * ROUNDING
     }
 
     /// The patches of listed pair `at`.

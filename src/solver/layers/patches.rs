@@ -8,8 +8,8 @@ use super::quads::Quads;
 use super::spots::{Spot, place};
 use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
-use crate::math::min;
 use crate::math::sort::{sort, sort_by};
+use crate::math::{max, min};
 use crate::mesh::{Mesh, NONE, after};
 use glam::Vec3;
 
@@ -35,7 +35,7 @@ pub(super) struct Patch {
     is_frayed: bool,
     /// How its triangles lean as a substep begins, and as it ends.
     pub(super) leans: [Lean; 2],
-    /// Whether what is in it was told apart since patches were listed.
+    /// Whether what is in it was told apart in this substep.
     pub(super) is_split: bool,
     /// Whether one of its vertices strayed.
     pub(super) has_strays: bool,
@@ -78,6 +78,9 @@ pub(super) struct Patches {
     pub(super) quads: Quads,
     /// Where each patch is and goes in a substep, and what is in it in the tick.
     pub(super) sweeps: Vec<Sweep>,
+    /// How its vertices moved since patches were fitted before: from, to; and where all vertices were then.
+    pub(super) steps: Vec<[Spot; 2]>,
+    before: Vec<Spot>,
     pub(super) wholes: Vec<Sweep>,
     pub(super) triangle_sweeps: Vec<Sweeps>,
     pub(super) vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
@@ -114,6 +117,8 @@ impl Patches {
             listed: Vec::with_capacity(8 * rest.len()),
             quads: Quads::new(rest.len()),
             sweeps: Vec::new(),
+            steps: Vec::new(),
+            before: Vec::with_capacity(capacity),
             wholes: Vec::new(),
             triangle_sweeps: Vec::new(),
             vertex_sweeps: Vec::new(),
@@ -131,6 +136,7 @@ impl Patches {
         patches.grow(&piece, &center, 0, count);
         patches.reaches = vec![Sweep::EMPTY; patches.nodes.len()];
         patches.sweeps = vec![Sweep::EMPTY; patches.patches.len()];
+        patches.steps = vec![[[0.0; 4]; 2]; patches.patches.len()];
         patches.wholes = patches.sweeps.clone();
         patches.triangle_sweeps = vec![Sweeps::EMPTY; patches.patches.len()];
         patches.vertex_sweeps = vec![[Sweeps::EMPTY; BLOCKS]; patches.patches.len()];
@@ -226,6 +232,8 @@ impl Patches {
                 + self.listed.capacity());
         size_of::<Node>() * self.nodes.capacity()
             + size_of::<Sweep>() * (2 * self.sweeps.capacity() + self.reaches.capacity())
+            + size_of::<[Spot; 2]>() * self.steps.capacity()
+            + size_of::<Spot>() * self.before.capacity()
             + size_of::<Sweeps>() * (1 + 2 * BLOCKS) * self.triangle_sweeps.capacity()
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
@@ -333,18 +341,38 @@ impl Patches {
 
     /// Fits boxes around where vertices are and get to, and finds which patches are flat.
     pub fn fit(&mut self, mesh: &Mesh, motion: &Motion, spacing: f32) {
+        if self.before.len() != motion.start.len() {
+            self.before.clone_from(&motion.start);
+        }
         let turning = spacing * TURNING;
         for at in 0..self.patches.len() {
             let patch = self.patches[at];
             let mut all = Sweep::EMPTY;
             let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-            self.vertices[own].iter().for_each(|v| motion.add_to(&mut all, *v));
-            self.sweeps[at] = all;
+            let mut step = [[f32::INFINITY; 4], [f32::NEG_INFINITY; 4]];
+            let mut is_sound = true;
+            for vertex in &self.vertices[own] {
+                motion.add_to(&mut all, *vertex);
+                let (now, before) =
+                    (&motion.start[*vertex as usize], &self.before[*vertex as usize]);
+                for k in 0..3 {
+                    let way = now[k] - before[k];
+                    step[0][k] = min(way, step[0][k]);
+                    step[1][k] = max(way, step[1][k]);
+                    is_sound &= way.is_finite();
+                }
+            }
+            if !is_sound {
+                step = [[f32::NEG_INFINITY; 4], [f32::INFINITY; 4]];
+            }
+            (self.sweeps[at], self.steps[at]) = (all, step);
             let start = self.lean(mesh, &motion.start, &patch);
             let is_stiff = all.most_against() <= turning;
             let end = if is_stiff { start } else { self.lean(mesh, &motion.now, &patch) };
             self.patches[at].leans = [start, end];
+            self.patches[at].is_split = false;
         }
+        self.before.clone_from(&motion.start);
     }
 
     /// Fits boxes around where vertices get to that strayed.

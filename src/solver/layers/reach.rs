@@ -24,10 +24,6 @@ pub(super) struct Reach {
     to: Vec<Spot>,
     /// Whether that is of this tick.
     pub is_known: bool,
-    /// How many substeps were looked ahead, and for how many that was right.
-    ahead: u32,
-    room: f32,
-    lasted: u32,
     /// How all moved from the base to the start of the substep, and to where they are.
     drifts: [Vec3; 2],
 }
@@ -35,16 +31,7 @@ pub(super) struct Reach {
 impl Reach {
     pub fn new(capacity: usize) -> Self {
         let [base, from, to] = [(); 3].map(|()| Vec::with_capacity(capacity));
-        Self {
-            base,
-            from,
-            to,
-            is_known: false,
-            ahead: 1,
-            room: 0.04,
-            lasted: 0,
-            drifts: [Vec3::ZERO; 2],
-        }
+        Self { base, from, to, is_known: false, drifts: [Vec3::ZERO; 2] }
     }
 
     /// Bytes that it holds.
@@ -70,24 +57,8 @@ impl Reach {
         self.is_known = true;
     }
 
-    /// How many substeps are worth to be looked ahead, and how much room to be given: as was right before. No
-    /// result depends on it.
-    pub fn learn(&mut self, most: u32, are_many: bool) -> (u32, f32) {
-        let lasted = core::mem::take(&mut self.lasted);
-        self.ahead = (if lasted < self.ahead { lasted } else { self.ahead + 1 }).clamp(1, most);
-        self.room *= match lasted {
-            0..2 if are_many => 0.8,
-            0..6 => 1.25,
-            6..16 => 1.0,
-            _ => 0.7,
-        };
-        self.room = min(max(self.room, 0.01), 0.12);
-        (self.ahead, self.room)
-    }
-
     /// Finds how all moved up to this substep.
     pub fn follow(&mut self, motion: &Motion) {
-        self.lasted += 1;
         let before = drift(&self.base, &motion.start);
         self.drifts = [before, before + motion.drift];
     }
@@ -153,15 +124,5 @@ impl Reach {
         let at = particle as usize;
         let base = self.base[at];
         Sweep { low: base, high: base, from: self.from[at], to: self.to[at] }
-    }
-
-    /// How particles go together.
-    #[inline(always)]
-    pub fn of<const COUNT: usize>(&self, particles: [u32; COUNT]) -> Sweep {
-        let mut all = self.one(particles[0]);
-        for particle in &particles[1..] {
-            all.join(&self.one(*particle));
-        }
-        all
     }
 }

@@ -1,7 +1,7 @@
 //! The vertices, triangles and edges that may meet in a substep.
 //!
-//! Patches that may meet come from a tree (`patches`), the pairs in them are listed as they come near (`quads`),
-//! and told apart many at once (`candidates`). Of what is left, what is near enough to push is found closely
+//! Patches that may meet come from a tree (`patches`), the pairs in them are found as they come near (`quads`), those
+//! picked that may have gone far enough since (`stock`), and told apart many at once (`candidates`). Of what is left, what is near enough to push is found closely
 //! (`near`), and the rest is left to the fence (`distant`). All goes by where particles are, in the order of the
 //! mesh; when something was listed makes no difference.
 
@@ -12,14 +12,15 @@ use super::motion::Motion;
 use super::near::Near;
 use super::patches::Patches;
 use super::push::NEAR;
-use super::quads::{Quads, Run};
-use super::reach::Reach;
 use super::sweep::LANES;
 use super::weave::Weave;
 
 /// So many strays are judged together; two patches make at most `MANY` more.
 const TOGETHER: usize = 1024;
 const MANY: usize = (3 * LANES) * (3 * LANES);
+
+/// What is farther apart than it can go, by this much, is not looked at, which covers rounding [mean rest lengths].
+const HAIR: f32 = 1.0e-4;
 
 /// Room for strays.
 pub(super) fn room_for_strays() -> Candidates {
@@ -31,7 +32,27 @@ pub(super) struct Sift<'a> {
     pub weave: Weave<'a>,
     pub patches: &'a mut Patches,
     pub motion: &'a Motion,
-    pub reach: &'a Reach,
+}
+
+/// Pairs that may meet in a substep, by their kind.
+#[derive(Clone, Debug)]
+pub(super) struct Picked {
+    kinds: [Candidates; 2],
+    /// How many of each kind come before those of each pair of patches.
+    before: Vec<[u32; 2]>,
+}
+
+impl Picked {
+    /// For so many particles.
+    pub fn new(count: usize) -> Self {
+        let kinds = [4, 12].map(|each| Candidates::new(each * count));
+        Self { kinds, before: Vec::with_capacity(8 * count) }
+    }
+
+    pub fn bytes(&self) -> usize {
+        let kinds: usize = self.kinds.iter().map(Candidates::bytes).sum();
+        kinds + size_of::<[u32; 2]>() * self.before.capacity()
+    }
 }
 
 /// What may meet: what is near enough to push, and what is not.
@@ -41,22 +62,34 @@ pub(super) struct Found<'a> {
 }
 
 impl Sift<'_> {
-    /// Finds all that may meet. `pairs` and `near` are room to work in.
-    pub fn find(&mut self, pairs: &mut Vec<u32>, near: &mut [Near; 2], found: &mut Found<'_>) {
+    /// Finds all that may meet. `pairs`, `picked` and `near` are room to work in.
+    pub fn find(
+        &mut self,
+        pairs: &mut Vec<u32>,
+        picked: &mut Picked,
+        near: &mut [Near; 2],
+        found: &mut Found<'_>,
+    ) {
         found.contacts.clear();
         found.distant.clear();
         let Weave { world, gap, .. } = self.weave;
         self.patches.fit(&world.mesh, self.motion, world.spacing);
+        self.patches.spend();
         self.patches.pair(gap, false, pairs);
+        self.find_runs(pairs);
+        let (Picked { kinds: [vertices, edges], before }, more) = (picked, self.more());
+        [&mut *vertices, edges].into_iter().for_each(Candidates::clear);
+        before.clear();
         for at in &*pairs {
-            self.run(*at);
+            before.push([vertices.len() as u32, edges.len() as u32]);
+            self.patches.pick::<VERTEX>(*at, more, vertices, |_| true);
+            self.patches.pick::<EDGES>(*at, more, edges, |_| true);
         }
-        let Quads { vertices, edges, .. } = &mut self.patches.quads;
+        before.push([vertices.len() as u32, edges.len() as u32]);
         vertices.judge::<VERTEX>(world.level, self.motion, gap);
         edges.judge::<EDGES>(world.level, self.motion, gap);
-        for at in &*pairs {
-            let Run { vertices: [from, to], edges: [first, end] } = self.run(*at);
-            let Quads { vertices, edges, .. } = &self.patches.quads;
+        for own in before.windows(2) {
+            let ([from, first], [to, end]) = (own[0], own[1]);
             sort_out::<VERTEX>(vertices.meeting(from, to), &mut near[0], found);
             sort_out::<EDGES>(edges.meeting(first, end), &mut near[1], found);
         }
@@ -73,9 +106,7 @@ impl Sift<'_> {
     ) {
         self.patches.follow_strays(&self.weave.world.mesh, self.motion);
         self.patches.pair(self.weave.gap, true, pairs);
-        for at in &*pairs {
-            self.run(*at);
-        }
+        self.find_runs(pairs);
         // One kind after the other, so that lots make no difference to the order.
         self.judge_strays::<VERTEX>(pairs, strays, distant);
         self.judge_strays::<EDGES>(pairs, strays, distant);
@@ -89,16 +120,8 @@ impl Sift<'_> {
     ) {
         let Weave { world, gap, .. } = self.weave;
         for (number, at) in pairs.iter().enumerate() {
-            let run = self.run(*at);
-            let Quads { vertices, edges, .. } = &self.patches.quads;
-            let (all, [from, to]) =
-                if FIRST == VERTEX { (vertices, run.vertices) } else { (edges, run.edges) };
-            for at in from..to {
-                let (ids, gap) = all.pair(at as usize);
-                if ids.iter().any(|id| self.motion.strays(*id)) {
-                    strays.push(ids, gap);
-                }
-            }
+            let has_strayed = |ids: &[u32; 4]| ids.iter().any(|id| self.motion.strays(*id));
+            self.patches.pick::<FIRST>(*at, self.more(), strays, has_strayed);
             if strays.len() > TOGETHER || number + 1 == pairs.len() {
                 let count = strays.len() as u32;
                 strays.judge::<FIRST>(world.level, self.motion, gap);
@@ -108,9 +131,19 @@ impl Sift<'_> {
         }
     }
 
-    /// What may meet of a listed pair of patches.
-    fn run(&mut self, at: u32) -> Run {
-        self.patches.run(at, &self.weave, self.reach)
+    /// Finds what may meet of listed pairs of patches.
+    fn find_runs(&mut self, pairs: &[u32]) {
+        let more = self.more();
+        for at in pairs {
+            self.patches.find_run(*at, &self.weave, self.motion, more);
+        }
+        self.patches.quads.measure(self.weave.world.level, &self.motion.start);
+    }
+
+    /// What pairs may be apart beyond all ways that they can have gone, and may meet still [m].
+    fn more(&self) -> f32 {
+        let Weave { world, gap, .. } = self.weave;
+        NEAR[0] * gap + world.spacing * HAIR
     }
 }
 

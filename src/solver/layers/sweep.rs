@@ -47,14 +47,19 @@ impl Sweep {
     /// everywhere.
     #[inline(always)]
     pub fn meets(&self, other: &Self, gap: f32) -> bool {
-        let (a, b) = (self, other);
-        let mut is_apart = false;
-        for k in 0..3 {
-            let down = min(a.from[k] - b.to[k], 0.0);
-            let up = max(a.to[k] - b.from[k], 0.0);
-            is_apart |= a.low[k] + down > b.high[k] + gap || a.high[k] + up < b.low[k] - gap;
+        let (simd, a, b) = (Base::new(), self, other);
+        let (zero, gap) = (simd.splat(0.0), simd.splat(gap));
+        let mut apart = 0;
+        for k in (0..4).step_by(Base::LANES) {
+            let load = |all: &Spot| simd.load(all, k);
+            let down = Number::min(load(&a.from) - load(&b.to), zero);
+            let up = Number::max(load(&a.to) - load(&b.from), zero);
+            let below = load(&a.low) + down - (load(&b.high) + gap);
+            let above = load(&b.low) - gap - (load(&a.high) + up);
+            apart |= (simd.positives(below) | simd.positives(above)) << k;
         }
-        !is_apart
+        // Inverse masses are no places.
+        apart & 0b111 == 0
     }
 
     /// The most that parts of it move against each other, along an axis.
