@@ -59,8 +59,9 @@ pub fn drawn_out_of_itself(trace: &mut Trace) -> Result<()> {
     assert_eq!(copy.state_hash(), cloth.state_hash());
     trace.run(&mut copy, 30);
     for particle in [0, 1, columns, columns + 1, 2 * columns] {
-        let place = copy.positions()[particle as usize] + Vec3::new(0.125, -0.25, 0.0625);
-        copy.set_position(particle, place)?;
+        // In whole 1024ths of a metre, which add up exactly however a host rounds.
+        let place = (copy.positions()[particle as usize] * 1024.0).round() / 1024.0;
+        copy.set_position(particle, place + Vec3::new(0.125, -0.25, 0.0625))?;
     }
     trace.run(&mut copy, 30);
     trace.look(&mut copy);

@@ -2,7 +2,7 @@
 //!
 //! Every number that a scene gives to a cloth is written down, or is a whole number times a power of
 //! two: exact, so that a host that rounds another way still asks for the same. None comes from
-//! `sin`, and none from what a cloth answered.
+//! `sin`, and from what a cloth answered only what was made such a number.
 
 mod air;
 mod crowd;
