@@ -220,6 +220,18 @@ fn a_cut_cloth_hangs_as_calmly_as_a_whole_one() {
 }
 
 #[test]
+fn a_sheet_whose_first_row_lost_all_its_links_goes_on() {
+    let mut cloth = Cloth::grid(&bare_grid(10, 8, 0.1, PinMode::TopEdge)).unwrap();
+    for column in 0..9 {
+        let x = (column as f32 + 0.5) * 0.1;
+        slice(&mut cloth, [x, 0.05], [x, -0.15]).unwrap();
+    }
+    cloth.step(60);
+    assert!(cloth.positions().iter().all(|x| x.is_finite()));
+    assert!(cloth.stats().max_stretch < 0.05, "{}", cloth.stats().max_stretch);
+}
+
+#[test]
 fn a_cut_that_does_not_fit_changes_nothing() {
     let mut desc = bare_grid(10, 8, 0.1, PinMode::TopEdge);
     desc.extra_particles = 12;

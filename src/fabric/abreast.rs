@@ -194,6 +194,8 @@ impl Strip {
     /// What the steps of a block are, if that is a strip. Those too short to be turned in fours are none.
     fn of(steps: &[Step]) -> Option<Self> {
         let first = steps.first()?.to;
+        // Where the first line has no link left, no strip begins.
+        let before_first = first[0].checked_sub(1)?;
         let lines = first.iter().take_while(|to| **to != NOBODY).count();
         let across = if lines > 1 { first[1].checked_sub(first[0])? } else { 1 };
         let along = steps.get(3)?.to[0].checked_sub(first[0])? / 3;
@@ -204,9 +206,9 @@ impl Strip {
                 step.to[lane] == to(lane) && (step.rest[lane] > 0.0) == (lane < lines && at > 0)
             })
         };
-        let is_strip = lines > 0 && (along == 1 || across == 1);
-        (is_strip && steps.iter().enumerate().all(lies)).then_some(Self {
-            first: (first[0] - 1) as usize,
+        let is_strip = (along == 1 || across == 1) && steps.iter().enumerate().all(lies);
+        is_strip.then_some(Self {
+            first: before_first as usize,
             along: along as usize,
             across: across as usize,
             lines,
