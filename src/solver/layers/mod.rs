@@ -11,6 +11,7 @@ mod closest;
 mod contacts;
 mod distant;
 mod fence;
+mod leans;
 pub(crate) mod loads;
 mod motion;
 mod near;

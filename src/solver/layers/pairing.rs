@@ -1,21 +1,13 @@
 //! Which patches may meet: in a tick by the tree, and of those in a substep.
 
-use super::patches::{Lean, Patches};
+use super::patches::Patches;
 use super::reach::Reach;
 use super::sweep::Sweep;
-use crate::math::{max, min};
+use crate::math::max;
 use crate::mesh::NONE;
-use glam::Vec3;
-
-/// The bit of a listed pair whose patches are beside each other, or the same.
-const BESIDE: u32 = 1 << 31;
 
 /// What covers rounding in ways.
 const ROUNDING: f32 = 1.001;
-
-/// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
-/// (cosine of 60°).
-const STEEP: f32 = 0.5;
 
 impl Patches {
     /// Lists the pairs of patches that may come nearer than `gap` in this tick, the lower first: always in the same
@@ -36,6 +28,8 @@ impl Patches {
             self.reaches[at] = all;
         }
         let mut listed = core::mem::take(&mut self.listed);
+        let mut places = core::mem::take(&mut self.places);
+        places.clear();
         self.quads.begin_list(&mut listed);
         let mut stack = core::mem::take(&mut self.stack);
         stack.clear();
@@ -48,12 +42,13 @@ impl Patches {
                     stack.push([a + 1, one.second]);
                     stack.push([a + 1, a + 1]);
                 } else {
-                    listed.push([one.patch, one.patch | BESIDE]);
+                    listed.push([one.patch; 2]);
+                    places.push(NONE);
                 }
             } else if self.reaches[a as usize].meets(&self.reaches[b as usize], gap) {
                 if one.patch != NONE && other.patch != NONE {
-                    let beside = self.are_beside([one.patch, other.patch]);
-                    listed.push([one.patch, other.patch | if beside { BESIDE } else { 0 }]);
+                    listed.push([one.patch, other.patch]);
+                    places.push(self.place_beside([one.patch, other.patch]));
                 } else if one.patch == NONE && one.count >= other.count {
                     stack.push([one.second, b]);
                     stack.push([a + 1, b]);
@@ -64,25 +59,33 @@ impl Patches {
             }
         }
         self.quads.end_list(&listed, self.patches.len());
-        (self.stack, self.listed) = (stack, listed);
+        (self.stack, self.listed, self.places) = (stack, listed, places);
     }
 
     /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
     /// have some. `pairs` gets their places in the list.
     pub fn pair(&self, gap: f32, strays: bool, pairs: &mut Vec<u32>) {
         pairs.clear();
-        for at in 0..self.listed.len() as u32 {
-            let pair = self.listed_pair(at);
-            let are_beside = self.listed[at as usize][1] & BESIDE != 0;
-            let [a, b] = pair.map(|at| at as usize);
+        for (at, ([one, other], place)) in self.listed.iter().zip(&self.places).enumerate() {
+            let is_quiet = if one == other {
+                self.leans.is_flat(*one)
+            } else if strays {
+                false
+            } else {
+                *place != NONE && self.leans.is_quiet(*place)
+            };
+            if is_quiet {
+                continue;
+            }
+            let [a, b] = [*one as usize, *other as usize];
             if strays && !self.patches[a].has_strays && !self.patches[b].has_strays {
                 continue;
             }
             if a != b && !self.sweeps[a].meets(&self.sweeps[b], gap) {
                 continue;
             }
-            if !are_beside || !self.is_quiet(pair) {
-                pairs.push(at);
+            if !strays || *place == NONE || !self.leans.is_quiet_again(*place) {
+                pairs.push(at as u32);
             }
         }
     }
@@ -111,64 +114,13 @@ impl Patches {
     /// The patches of listed pair `at`.
     #[inline(always)]
     pub fn listed_pair(&self, at: u32) -> [u32; 2] {
-        let [one, other] = self.listed[at as usize];
-        [one, other & !BESIDE]
+        self.listed[at as usize]
     }
 
-    /// Whether triangles cannot meet of a patch or of two neighbours, since they lean little as a substep begins and
-    /// as it ends.
-    fn is_quiet(&self, [one, other]: [u32; 2]) -> bool {
-        let leans = |patch: u32| &self.patches[patch as usize].leans;
-        let (ours, theirs) = (leans(one), leans(other));
-        if one == other {
-            return ours.iter().all(|lean| lean.cone > STEEP);
-        }
-        if !ours.iter().zip(theirs).all(|(a, b)| a.is_along(b)) {
-            return false;
-        }
-        // Around a common vertex all may lean alike that lie on each other, if what is between them is turned over.
-        let between = self.between([one, other]);
-        between == NONE
-            || ours
-                .iter()
-                .zip(theirs)
-                .zip(leans(between))
-                .all(|((a, b), c)| c.faces(a.normal + b.normal))
+    /// The place of a pair among those beside each other, or `NONE`.
+    fn place_beside(&self, [one, other]: [u32; 2]) -> u32 {
+        let [from, to] = self.patches[one as usize].beside;
+        let beside = &self.beside[from as usize..to as usize];
+        beside.iter().find(|[patch, _]| *patch == other).map_or(NONE, |[_, place]| *place)
     }
-
-    fn are_beside(&self, [one, other]: [u32; 2]) -> bool {
-        one == other || self.beside(one).iter().any(|[patch, _]| *patch == other)
-    }
-
-    /// The patch between two that share no more than a vertex.
-    fn between(&self, [one, other]: [u32; 2]) -> u32 {
-        let beside = self.beside(one).iter().find(|[patch, _]| *patch == other);
-        beside.map_or(NONE, |[_, between]| *between)
-    }
-
-    fn beside(&self, patch: u32) -> &[[u32; 2]] {
-        let [from, to] = self.patches[patch as usize].beside;
-        &self.beside[from as usize..to as usize]
-    }
-}
-
-impl Lean {
-    /// Whether all normals lean little, seen from amid two means: by the half of what those are apart, and what normals
-    /// lean from them.
-    fn is_along(&self, other: &Self) -> bool {
-        let cone = min(self.cone, other.cone);
-        let half = min((1.0 + self.normal.dot(other.normal)) * 0.5, 1.0);
-        cone > STEEP && cosine_of_sum(half.sqrt(), cone) > STEEP
-    }
-
-    /// Whether all normals are on the side that a way leads to.
-    fn faces(&self, way: Vec3) -> bool {
-        let cosine = self.normal.dot(way) / way.length();
-        cosine > 0.0 && self.cone > 0.0 && cosine_of_sum(min(cosine, 1.0), self.cone) > 0.0
-    }
-}
-
-/// The cosine of the sum of two angles up to a right one, of their cosines.
-fn cosine_of_sum(a: f32, b: f32) -> f32 {
-    a * b - ((1.0 - a * a) * (1.0 - b * b)).sqrt()
 }

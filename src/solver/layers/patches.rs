@@ -3,18 +3,20 @@
 //! The tree is made of the mesh and its rest shape alone, so patches always come in the same order; its boxes
 //! follow the cloth.
 
+use super::leans::Leans;
 use super::motion::Motion;
 use super::quads::Quads;
-use super::spots::{Spot, place};
+use super::spots::Spot;
 use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
+use crate::math::simd::Level;
 use crate::math::sort::{sort, sort_by};
 use crate::math::{max, min};
 use crate::mesh::{Mesh, NONE, after};
 use glam::Vec3;
 
 /// Triangles in a patch at most.
-const PATCH: usize = LANES;
+pub(super) const PATCH: usize = LANES;
 
 /// Blocks of lanes that its vertices take at most, and its edges.
 const BLOCKS: usize = 3 * PATCH / LANES;
@@ -33,8 +35,6 @@ pub(super) struct Patch {
     pub edges: [u32; 2],
     /// Whether a tear or a cut goes through it, so that its triangles may meet each other.
     is_frayed: bool,
-    /// How its triangles lean as a substep begins, and as it ends.
-    pub(super) leans: [Lean; 2],
     /// Whether what is in it was told apart in this substep.
     pub(super) is_split: bool,
     /// Whether one of its vertices strayed.
@@ -44,17 +44,6 @@ pub(super) struct Patch {
     /// The piece that it is of, and where it is at rest.
     pub(super) piece: u32,
     pub(super) rest: Aabb,
-}
-
-/// The mean normal of triangles, and the least cosine that one makes with it; -1 where nothing is known.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lean {
-    pub normal: Vec3,
-    pub cone: f32,
-}
-
-impl Lean {
-    const UNKNOWN: Self = Self { normal: Vec3::ZERO, cone: -1.0 };
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -74,6 +63,9 @@ pub(super) struct Patches {
     /// Where what is below each node may get in this tick, and the pairs of patches that may meet in it.
     pub(super) reaches: Vec<Sweep>,
     pub(super) listed: Vec<[u32; 2]>,
+    /// The place of each among the pairs that are beside each other; `NONE` for others.
+    pub(super) places: Vec<u32>,
+    pub(super) leans: Leans,
     /// What may meet of those.
     pub(super) quads: Quads,
     /// Where each patch is and goes in a substep, and what is in it in the tick.
@@ -90,7 +82,7 @@ pub(super) struct Patches {
     pub triangles: Vec<u32>,
     pub vertices: Vec<u32>,
     pub edges: Vec<[u32; 2]>,
-    /// Patches beside one before, and which one is between them if they share no more than a vertex.
+    /// Patches beside one before, and the place of each such pair among all.
     pub(super) beside: Vec<[u32; 2]>,
     /// The patch of each triangle.
     patch_of: Vec<u32>,
@@ -115,6 +107,8 @@ impl Patches {
             nodes: Vec::new(),
             reaches: Vec::new(),
             listed: Vec::with_capacity(8 * rest.len()),
+            places: Vec::with_capacity(8 * rest.len()),
+            leans: Leans::new(0, &mut []),
             quads: Quads::new(rest.len()),
             sweeps: Vec::new(),
             steps: Vec::new(),
@@ -149,8 +143,9 @@ impl Patches {
             patch.rest = Aabb::around(all.map(|site| rest[site as usize]));
             patch.piece = piece(own[0]);
         }
-        patches.follow(mesh);
+        patches.find_parts(mesh);
         patches.find_neighbours();
+        patches.set_leans(mesh);
         patches
     }
 
@@ -173,7 +168,6 @@ impl Patches {
                 vertices: [0; 3],
                 edges: [0; 2],
                 is_frayed: false,
-                leans: [Lean::UNKNOWN; 2],
                 is_split: false,
                 has_strays: false,
                 beside: [0; 2],
@@ -229,7 +223,8 @@ impl Patches {
             + 2 * (self.beside.capacity()
                 + self.edges.capacity()
                 + self.stack.capacity()
-                + self.listed.capacity());
+                + self.listed.capacity())
+            + self.places.capacity();
         size_of::<Node>() * self.nodes.capacity()
             + size_of::<Sweep>() * (2 * self.sweeps.capacity() + self.reaches.capacity())
             + size_of::<[Spot; 2]>() * self.steps.capacity()
@@ -239,10 +234,25 @@ impl Patches {
             + size_of::<u32>() * words
             + self.frayed.capacity()
             + self.quads.bytes()
+            + self.leans.bytes()
     }
 
-    /// Finds the vertices and the edges of all patches, after the mesh tore.
+    /// Finds what is in all patches, after the mesh tore.
     pub fn follow(&mut self, mesh: &Mesh) {
+        self.find_parts(mesh);
+        self.set_leans(mesh);
+    }
+
+    fn set_leans(&mut self, mesh: &Mesh) {
+        for (at, patch) in self.patches.iter().enumerate() {
+            let [from, to] = patch.triangles.map(|t| t as usize);
+            let own = if patch.is_frayed { &[] } else { &self.triangles[from..to] };
+            self.leans.set(at, own.iter().map(|triangle| mesh.triangles[*triangle as usize]));
+        }
+    }
+
+    /// Finds the vertices and the edges of all patches.
+    fn find_parts(&mut self, mesh: &Mesh) {
         mesh.find_frayed(&mut self.frayed);
         self.vertices.clear();
         self.edges.clear();
@@ -314,8 +324,8 @@ impl Patches {
             .collect();
         let share_edges =
             |one: u32, other: u32| edges.binary_search(&[one.min(other), one.max(other)]).is_ok();
-        let mut beside: Vec<[u32; 3]> =
-            edges.iter().map(|[one, other]| [*one, *other, NONE]).collect();
+        let mut beside: Vec<([u32; 2], Option<u32>, u32)> =
+            edges.iter().map(|pair| (*pair, None, NONE)).collect();
         for of_vertex in of_vertices() {
             for (at, [_, one]) in of_vertex.iter().enumerate() {
                 for [_, other] in &of_vertex[at + 1..] {
@@ -326,21 +336,22 @@ impl Patches {
                     if !share_edges(*one, *other)
                         && let Some([_, between]) = between
                     {
-                        beside.push([*one, *other, *between]);
+                        beside.push(([*one, *other], Some(*between), NONE));
                     }
                 }
             }
         }
         sort(&mut beside);
-        for of_patch in beside.chunk_by(|a, b| a[0] == b[0]) {
+        self.leans = Leans::new(self.patches.len(), &mut beside);
+        for of_patch in beside.chunk_by(|(a, ..), (b, ..)| a[0] == b[0]) {
             let from = self.beside.len() as u32;
-            self.beside.extend(of_patch.iter().map(|[_, other, between]| [*other, *between]));
-            self.patches[of_patch[0][0] as usize].beside = [from, self.beside.len() as u32];
+            self.beside.extend(of_patch.iter().map(|([_, other], _, place)| [*other, *place]));
+            self.patches[of_patch[0].0[0] as usize].beside = [from, self.beside.len() as u32];
         }
     }
 
     /// Fits boxes around where vertices are and get to, and finds which patches are flat.
-    pub fn fit(&mut self, mesh: &Mesh, motion: &Motion, spacing: f32) {
+    pub fn fit(&mut self, level: Level, motion: &Motion, spacing: f32) {
         if self.before.len() != motion.start.len() {
             self.before.clone_from(&motion.start);
         }
@@ -366,17 +377,16 @@ impl Patches {
                 step = [[f32::NEG_INFINITY; 4], [f32::INFINITY; 4]];
             }
             (self.sweeps[at], self.steps[at]) = (all, step);
-            let start = self.lean(mesh, &motion.start, &patch);
             let is_stiff = all.most_against() <= turning;
-            let end = if is_stiff { start } else { self.lean(mesh, &motion.now, &patch) };
-            self.patches[at].leans = [start, end];
+            self.leans.set_turning(at, !is_stiff);
             self.patches[at].is_split = false;
         }
         self.before.clone_from(&motion.start);
+        self.leans.find(level, &motion.start, &motion.now);
     }
 
     /// Fits boxes around where vertices get to that strayed.
-    pub fn follow_strays(&mut self, mesh: &Mesh, motion: &Motion) {
+    pub fn follow_strays(&mut self, level: Level, motion: &Motion) {
         for at in 0..self.patches.len() {
             let patch = &mut self.patches[at];
             patch.has_strays = false;
@@ -387,34 +397,8 @@ impl Patches {
                     motion.add_to(&mut self.sweeps[at], *vertex);
                 }
             }
-            if patch.has_strays {
-                let patch = *patch;
-                self.patches[at].leans[1] = self.lean(mesh, &motion.now, &patch);
-            }
+            self.leans.set_turning(at, patch.has_strays);
         }
-    }
-
-    /// How the triangles of a patch lean where particles are at `x`.
-    fn lean(&self, mesh: &Mesh, x: &[Spot], patch: &Patch) -> Lean {
-        if patch.is_frayed {
-            return Lean::UNKNOWN;
-        }
-        let triangles = &self.triangles[patch.triangles[0] as usize..patch.triangles[1] as usize];
-        let mut normals = [Vec3::ZERO; PATCH];
-        let mut sum = Vec3::ZERO;
-        for (normal, triangle) in normals.iter_mut().zip(triangles) {
-            let [a, b, c] = mesh.triangles[*triangle as usize];
-            let (a, b, c) = (place(&x[a as usize]), place(&x[b as usize]), place(&x[c as usize]));
-            let doubled = (b - a).cross(c - a);
-            *normal = doubled * (1.0 / doubled.length());
-            sum += *normal;
-        }
-        let mean = sum * (1.0 / sum.length());
-        let mut cone = 1.0;
-        for normal in &normals[..triangles.len()] {
-            cone = min(normal.dot(mean), cone);
-        }
-        // Where there is no mean, nothing is known.
-        Lean { normal: mean, cone: if cone <= 1.0 { cone } else { -1.0 } }
+        self.leans.find_again(level, &motion.now);
     }
 }

@@ -73,7 +73,7 @@ impl Sift<'_> {
         found.contacts.clear();
         found.distant.clear();
         let Weave { world, gap, .. } = self.weave;
-        self.patches.fit(&world.mesh, self.motion, world.spacing);
+        self.patches.fit(world.level, self.motion, world.spacing);
         self.patches.spend();
         self.patches.pair(gap, false, pairs);
         self.find_runs(pairs);
@@ -104,7 +104,7 @@ impl Sift<'_> {
         strays: &mut Candidates,
         distant: &mut Vec<Distant>,
     ) {
-        self.patches.follow_strays(&self.weave.world.mesh, self.motion);
+        self.patches.follow_strays(self.weave.world.level, self.motion);
         self.patches.pair(self.weave.gap, true, pairs);
         self.find_runs(pairs);
         // One kind after the other, so that lots make no difference to the order.
