@@ -9,9 +9,8 @@ use super::quads::Quads;
 use super::spots::Spot;
 use super::sweep::{LANES, Sweep, Sweeps};
 use crate::geom::aabb::Aabb;
-use crate::math::simd::Level;
+use crate::math::simd::{Arithmetic, Base, Level, Number, Simd};
 use crate::math::sort::{sort, sort_by};
-use crate::math::{max, min};
 use crate::mesh::{Mesh, NONE, after};
 use glam::Vec3;
 
@@ -355,31 +354,32 @@ impl Patches {
         if self.before.len() != motion.start.len() {
             self.before.clone_from(&motion.start);
         }
-        let turning = spacing * TURNING;
-        for at in 0..self.patches.len() {
-            let patch = self.patches[at];
-            let mut all = Sweep::EMPTY;
+        let (simd, turning) = (Base::new(), spacing * TURNING);
+        for (at, patch) in self.patches.iter_mut().enumerate() {
+            let (mut all, mut step) = (Sweep::EMPTY, [Sweep::EMPTY.low, Sweep::EMPTY.high]);
+            let mut sound = [0.0; 4];
             let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-            let mut step = [[f32::INFINITY; 4], [f32::NEG_INFINITY; 4]];
-            let mut is_sound = true;
             for vertex in &self.vertices[own] {
                 motion.add_to(&mut all, *vertex);
                 let (now, before) =
                     (&motion.start[*vertex as usize], &self.before[*vertex as usize]);
-                for k in 0..3 {
-                    let way = now[k] - before[k];
-                    step[0][k] = min(way, step[0][k]);
-                    step[1][k] = max(way, step[1][k]);
-                    is_sound &= way.is_finite();
+                for k in (0..4).step_by(Base::LANES) {
+                    let way = simd.load(now, k) - simd.load(before, k);
+                    let [least, most] = step.each_ref().map(|end| simd.load(end, k));
+                    simd.store(&mut step[0], k, Number::min(way, least));
+                    simd.store(&mut step[1], k, Number::max(way, most));
+                    // What is no number, or has no end, leaves none.
+                    let still = simd.load(&sound, k) + way * simd.splat(0.0);
+                    simd.store(&mut sound, k, still);
                 }
             }
-            if !is_sound {
+            if sound[..3].iter().any(|sound| *sound != 0.0) {
                 step = [[f32::NEG_INFINITY; 4], [f32::INFINITY; 4]];
             }
             (self.sweeps[at], self.steps[at]) = (all, step);
             let is_stiff = all.most_against() <= turning;
             self.leans.set_turning(at, !is_stiff);
-            self.patches[at].is_split = false;
+            patch.is_split = false;
         }
         self.before.clone_from(&motion.start);
         self.leans.find(level, &motion.start, &motion.now);
