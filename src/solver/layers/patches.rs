@@ -354,28 +354,10 @@ impl Patches {
         if self.before.len() != motion.start.len() {
             self.before.clone_from(&motion.start);
         }
-        let (simd, turning) = (Base::new(), spacing * TURNING);
+        let turning = spacing * TURNING;
         for (at, patch) in self.patches.iter_mut().enumerate() {
-            let (mut all, mut step) = (Sweep::EMPTY, [Sweep::EMPTY.low, Sweep::EMPTY.high]);
-            let mut sound = [0.0; 4];
             let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-            for vertex in &self.vertices[own] {
-                motion.add_to(&mut all, *vertex);
-                let (now, before) =
-                    (&motion.start[*vertex as usize], &self.before[*vertex as usize]);
-                for k in (0..4).step_by(Base::LANES) {
-                    let way = simd.load(now, k) - simd.load(before, k);
-                    let [least, most] = step.each_ref().map(|end| simd.load(end, k));
-                    simd.store(&mut step[0], k, Number::min(way, least));
-                    simd.store(&mut step[1], k, Number::max(way, most));
-                    // What is no number, or has no end, leaves none.
-                    let still = simd.load(&sound, k) + way * simd.splat(0.0);
-                    simd.store(&mut sound, k, still);
-                }
-            }
-            if sound[..3].iter().any(|sound| *sound != 0.0) {
-                step = [[f32::NEG_INFINITY; 4], [f32::INFINITY; 4]];
-            }
+            let (all, step) = around(&self.vertices[own], motion, &self.before);
             (self.sweeps[at], self.steps[at]) = (all, step);
             let is_stiff = all.most_against() <= turning;
             self.leans.set_turning(at, !is_stiff);
@@ -401,4 +383,38 @@ impl Patches {
         }
         self.leans.find_again(level, &motion.now);
     }
+}
+
+/// A box around vertices and one around how they go, and around how they went since they were where they were
+/// `before`: from, to.
+#[inline(always)]
+fn around(vertices: &[u32], motion: &Motion, before: &[Spot]) -> (Sweep, [Spot; 2]) {
+    let (simd, [start, from, to]) = (Base::new(), motion.rooms());
+    let (mut all, mut step) = (Sweep::EMPTY, [[0.0; 4]; 2]);
+    let mut sound = [0.0; 4];
+    for k in (0..4).step_by(Base::LANES) {
+        let [none, endless] = [f32::INFINITY, f32::NEG_INFINITY].map(|end| simd.splat(end));
+        let [mut low, mut first, mut least] = [none; 3];
+        let [mut high, mut last, mut most] = [endless; 3];
+        let mut still = simd.splat(0.0);
+        for vertex in vertices {
+            let load = |spots: &[Spot]| simd.load(&spots[*vertex as usize], k);
+            let now = load(start);
+            (low, high) = (Number::min(low, now), Number::max(high, now));
+            (first, last) = (Number::min(first, load(from)), Number::max(last, load(to)));
+            let way = now - load(before);
+            (least, most) = (Number::min(way, least), Number::max(way, most));
+            // What is no number, or has no end, leaves none.
+            still = still + way * simd.splat(0.0);
+        }
+        let ends = [&mut all.low, &mut all.high, &mut all.from, &mut all.to];
+        ends.into_iter().zip([low, high, first, last]).for_each(|(end, v)| simd.store(end, k, v));
+        simd.store(&mut step[0], k, least);
+        simd.store(&mut step[1], k, most);
+        simd.store(&mut sound, k, still);
+    }
+    if sound[..3].iter().any(|still| *still != 0.0) {
+        step = [[f32::NEG_INFINITY; 4], [f32::INFINITY; 4]];
+    }
+    (all, step)
 }
