@@ -18,8 +18,12 @@ use crate::mesh::{Mesh, NONE};
 const LANE_BITS: u32 = (1 << LANES) - 1;
 
 /// How far patches may go against each other until the pairs in them are found anew: so many mean rest lengths, or
-/// so much of how far they may go in a substep.
-const ROOM: f32 = 0.1;
+/// so much of how far they may go in a substep. In a crowd, with so many pairs of patches listed for each patch, it
+/// takes longer to look at many pairs than to find the few anew.
+const ROOM: f32 = 0.4;
+const ROOM_WAY: f32 = 0.25;
+const CROWD: usize = 12;
+const CROWDED: f32 = 0.1;
 
 /// Pairs that are no more, beyond as many as there are, are let be until they are so many.
 const WASTE: usize = 1024;
@@ -217,7 +221,9 @@ impl Patches {
         pair.into_iter().for_each(|patch| self.split(patch, mesh, motion));
         let from = [self.quads.vertices.len() as u32, self.quads.edges.len() as u32];
         let [one, other] = pair;
-        let room = ways + max(weave.world.spacing * ROOM, ways * ROOM);
+        let is_crowded = self.listed.len() > CROWD * self.patches.len();
+        let [share, of_way] = if is_crowded { [CROWDED; 2] } else { [ROOM, ROOM_WAY] };
+        let room = ways + max(weave.world.spacing * share, ways * of_way);
         let ours = self.chosen(one, other, room);
         let theirs = if one == other { ours } else { self.chosen(other, one, room) };
         let may_be_woven = self.are_near_at_rest(pair, weave.near());
