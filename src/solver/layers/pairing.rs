@@ -21,9 +21,8 @@ impl Patches {
                 all.join(&self.reaches[node.second as usize]);
             } else {
                 let patch = &self.patches[node.patch as usize];
-                all = Sweep::EMPTY;
                 let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-                self.vertices[own].iter().for_each(|v| reach.add_to(&mut all, *v));
+                all = Sweep::around(&self.vertices[own], reach.rooms());
             }
             self.reaches[at] = all;
         }

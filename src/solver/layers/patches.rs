@@ -357,7 +357,8 @@ impl Patches {
         let turning = spacing * TURNING;
         for (at, patch) in self.patches.iter_mut().enumerate() {
             let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-            let (all, step) = around(&self.vertices[own], motion, &self.before);
+            let all = Sweep::around(&self.vertices[own.clone()], motion.rooms());
+            let step = step_of(&self.vertices[own], &motion.start, &self.before);
             (self.sweeps[at], self.steps[at]) = (all, step);
             let is_stiff = all.most_against() <= turning;
             self.leans.set_turning(at, !is_stiff);
@@ -385,30 +386,22 @@ impl Patches {
     }
 }
 
-/// A box around vertices and one around how they go, and around how they went since they were where they were
-/// `before`: from, to.
+/// How vertices went since they were where they were `before`: from, to.
 #[inline(always)]
-fn around(vertices: &[u32], motion: &Motion, before: &[Spot]) -> (Sweep, [Spot; 2]) {
-    let (simd, [start, from, to]) = (Base::new(), motion.rooms());
-    let (mut all, mut step) = (Sweep::EMPTY, [[0.0; 4]; 2]);
-    let mut sound = [0.0; 4];
+fn step_of(vertices: &[u32], now: &[Spot], before: &[Spot]) -> [Spot; 2] {
+    let (simd, mut step, mut sound) = (Base::new(), [[0.0; 4]; 2], [0.0; 4]);
     for k in (0..4).step_by(Base::LANES) {
-        let [none, endless] = [f32::INFINITY, f32::NEG_INFINITY].map(|end| simd.splat(end));
-        let [mut low, mut first, mut least] = [none; 3];
-        let [mut high, mut last, mut most] = [endless; 3];
-        let mut still = simd.splat(0.0);
+        let zero = simd.splat(0.0);
+        let mut still = zero;
+        let [mut least, mut most] =
+            [f32::INFINITY, f32::NEG_INFINITY].map(|endless| simd.splat(endless));
         for vertex in vertices {
             let load = |spots: &[Spot]| simd.load(&spots[*vertex as usize], k);
-            let now = load(start);
-            (low, high) = (Number::min(low, now), Number::max(high, now));
-            (first, last) = (Number::min(first, load(from)), Number::max(last, load(to)));
-            let way = now - load(before);
+            let way = load(now) - load(before);
             (least, most) = (Number::min(way, least), Number::max(way, most));
             // What is no number, or has no end, leaves none.
-            still = still + way * simd.splat(0.0);
+            still = still + way * zero;
         }
-        let ends = [&mut all.low, &mut all.high, &mut all.from, &mut all.to];
-        ends.into_iter().zip([low, high, first, last]).for_each(|(end, v)| simd.store(end, k, v));
         simd.store(&mut step[0], k, least);
         simd.store(&mut step[1], k, most);
         simd.store(&mut sound, k, still);
@@ -416,5 +409,5 @@ fn around(vertices: &[u32], motion: &Motion, before: &[Spot]) -> (Sweep, [Spot; 
     if sound[..3].iter().any(|still| *still != 0.0) {
         step = [[f32::NEG_INFINITY; 4], [f32::INFINITY; 4]];
     }
-    (all, step)
+    step
 }

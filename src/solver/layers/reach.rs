@@ -5,7 +5,6 @@
 
 use super::motion::Motion;
 use super::spots::{Spot, drift, place};
-use super::sweep::Sweep;
 use crate::math::simd::{Arithmetic, Base, Number, Simd};
 use crate::math::{max, min};
 use glam::Vec3;
@@ -112,17 +111,8 @@ impl Reach {
         }
     }
 
-    /// Grows a sweep to hold a particle.
-    #[inline(always)]
-    pub fn add_to(&self, sweep: &mut Sweep, particle: u32) {
-        sweep.join(&self.one(particle));
-    }
-
-    /// How a particle goes.
-    #[inline(always)]
-    pub fn one(&self, particle: u32) -> Sweep {
-        let at = particle as usize;
-        let base = self.base[at];
-        Sweep { low: base, high: base, from: self.from[at], to: self.to[at] }
+    /// Where particles were, and the ways from there that each may have made, from and to.
+    pub fn rooms(&self) -> [&[Spot]; 3] {
+        [&self.base, &self.from, &self.to]
     }
 }

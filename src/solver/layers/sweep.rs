@@ -43,6 +43,27 @@ impl Sweep {
         }
     }
 
+    /// What holds some particles: where they are, and from where to where they go.
+    #[inline(always)]
+    pub fn around(particles: &[u32], [places, from, to]: [&[Spot]; 3]) -> Self {
+        let (simd, mut all) = (Base::new(), Self::EMPTY);
+        for k in (0..4).step_by(Base::LANES) {
+            let [none, endless] = [f32::INFINITY, f32::NEG_INFINITY].map(|end| simd.splat(end));
+            let ([mut low, mut first], [mut high, mut last]) = ([none; 2], [endless; 2]);
+            for particle in particles {
+                let load = |spots: &[Spot]| simd.load(&spots[*particle as usize], k);
+                let place = load(places);
+                (low, high) = (Number::min(low, place), Number::max(high, place));
+                (first, last) = (Number::min(first, load(from)), Number::max(last, load(to)));
+            }
+            simd.store(&mut all.low, k, low);
+            simd.store(&mut all.high, k, high);
+            simd.store(&mut all.from, k, first);
+            simd.store(&mut all.to, k, last);
+        }
+        all
+    }
+
     /// Whether some point of one may come nearer than `gap` to one of the other. What is not a number is
     /// everywhere.
     #[inline(always)]
