@@ -53,18 +53,20 @@ pub(super) fn drift(from: &[Spot], to: &[Spot]) -> Vec3 {
     all * (1.0 / from.len() as f32)
 }
 
-/// The middle of all mass, if nothing is held.
-pub(super) fn middle(spots: &[Spot]) -> Option<Vec3> {
+/// Whether any is held.
+pub(super) fn is_any_held(spots: &[Spot]) -> bool {
+    spots.iter().any(|spot| spot[3] <= 0.0)
+}
+
+/// The middle of all mass, of places and inverse masses.
+pub(super) fn middle(spots: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
     let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
-    for spot in spots {
-        if spot[3] <= 0.0 {
-            return None;
-        }
-        let mass = 1.0 / f64::from(spot[3]);
+    for (x, w) in spots {
+        let mass = 1.0 / f64::from(w);
         all += mass;
-        for (sum, x) in sum.iter_mut().zip(spot) {
-            *sum += mass * f64::from(*x);
+        for (sum, x) in sum.iter_mut().zip(x.to_array()) {
+            *sum += mass * f64::from(x);
         }
     }
-    Some(Vec3::from_array(sum.map(|sum| (sum / all) as f32)))
+    Vec3::from_array(sum.map(|sum| (sum / all) as f32))
 }
