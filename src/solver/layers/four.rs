@@ -1,6 +1,6 @@
 //! Four numbers side by side, as particles have them: in one vector where there are any.
 
-use super::spots::Spot;
+use super::spots::{Spot, place};
 use crate::math::simd::{Arithmetic, Base, Number, Simd};
 use core::array;
 use core::ops::{Add, Mul, Sub};
@@ -45,6 +45,31 @@ impl Four {
         for (k, part) in self.0.into_iter().enumerate() {
             Base::new().store(spot, k * Base::LANES, part);
         }
+    }
+
+    /// Without the last.
+    #[inline(always)]
+    pub fn ways(self) -> Self {
+        let are_ways = Self::of(&[1.0, 1.0, 1.0, 0.0]);
+        Self(array::from_fn(|k| Base::new().keep(are_ways.0[k], self.0[k])))
+    }
+
+    /// Without the last, as a vector.
+    #[inline(always)]
+    pub fn vector(self) -> Vec3 {
+        place(&self.spot())
+    }
+
+    /// The sum of the first three products, in order.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> f32 {
+        let [x, y, z, _] = (self * other).spot();
+        x + y + z
+    }
+
+    #[inline(always)]
+    pub fn times(self, value: f32) -> Self {
+        self * Self::all(value)
     }
 
     #[inline(always)]

@@ -36,12 +36,13 @@ use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
 use candidates::Candidates;
-use contacts::{Contact, Weight};
+use contacts::Contact;
 use distant::Distant;
 use loads::Finder;
 use motion::Motion;
 use near::Near;
 use patches::Patches;
+use push::{Push, Weight};
 use reach::Reach;
 use sift::{Found, Picked, Sift};
 use slits::Slits;
@@ -81,8 +82,8 @@ pub(crate) struct Layers {
     /// A bit for each of those that is apart.
     apart: Vec<u8>,
     is_found: bool,
-    /// The contacts that push in this substep.
-    active: Vec<u32>,
+    /// What pushes in this substep.
+    active: Vec<Push>,
     around: Around,
     /// What the fence has in hand.
     frozen: Vec<u32>,
@@ -130,8 +131,7 @@ impl Layers {
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let words = self.active.capacity()
-            + self.open.capacity()
+        let words = self.open.capacity()
             + self.pieces.capacity()
             + self.frozen.capacity()
             + self.pairs.capacity();
@@ -147,6 +147,7 @@ impl Layers {
             + size_of::<Weight>() * self.weights.capacity()
             + size_of::<Spot>() * self.ways.capacity()
             + size_of::<Contact>() * self.contacts.capacity()
+            + size_of::<Push>() * self.active.capacity()
             + size_of::<Distant>() * self.distant.capacity()
             + self.apart.capacity()
             + self.finder.bytes()
@@ -334,11 +335,15 @@ pub(crate) fn solve(world: &mut World) {
     };
     let Layers { contacts, active, finder, motion, weights, ways, tangles, .. } = &mut *layers;
     let Motion { start, now, .. } = &mut *motion;
+    push::list(contacts, active, weights, start, now);
+    let floor = if active.is_empty() { None } else { still::floor(world) };
+    if floor.is_some() {
+        ways.clone_from(now);
+    }
     let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
-    ways.clone_from(now);
-    push::solve(contacts, active, (loads, finder), weights, start, now, friction, force);
-    if !active.is_empty() {
-        still::keep(world, ways, now);
+    push::solve(contacts, active, (loads, finder), start, now, friction, force);
+    if let Some(floor) = floor {
+        still::keep(world, floor, ways, now);
     }
     push::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
     tangles.draw_out(motion, &mut world.scratch.predicted);
@@ -385,7 +390,7 @@ pub(crate) fn calm(world: &mut World) {
     let p = &mut world.particles;
     push::find_hits(contacts, active, &p.v, speed, open);
     for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
-        push::calm(contacts, open, columns);
+        push::calm(contacts, active, open, columns);
         tangles.calm(weights, columns);
         if !active.is_empty() {
             spots::gather(ways, columns, &p.w);

@@ -1,5 +1,6 @@
 //! Particles one after the other, x, y, z and inverse mass of each together: what pairs of anything want.
 
+use super::four::Four;
 use crate::math::columns::Columns;
 use glam::Vec3;
 
@@ -18,6 +19,12 @@ pub(super) fn shift(spot: &mut Spot, by: Vec3) {
     spot[0] += by.x;
     spot[1] += by.y;
     spot[2] += by.z;
+}
+
+/// Moves a particle, and leaves its mass.
+#[inline(always)]
+pub(super) fn push(spot: &mut Spot, by: Four) {
+    (Four::of(spot) + by.ways()).put(spot);
 }
 
 /// Makes it the list of these particles.

@@ -13,12 +13,14 @@ use glam::Vec3;
 /// Normals that have this cosine at least are those of one floor.
 const FLAT: f32 = 0.999;
 
+/// The floor that a cloth lies on which is kept still, zero if there is none; nothing if it is not.
+pub(super) fn floor(world: &World) -> Option<Vec3> {
+    let is_free = world.pieces == 1 && !spin::is_held(world);
+    if is_free { normal(&world.scratch.contacts.touches) } else { None }
+}
+
 /// Moves all back as a whole by what they were moved by since they were at `before`.
-pub(super) fn keep(world: &mut World, before: &[Spot], now: &mut [Spot]) {
-    if world.pieces != 1 || spin::is_held(world) {
-        return;
-    }
-    let Some(floor) = floor(&world.scratch.contacts.touches) else { return };
+pub(super) fn keep(world: &mut World, floor: Vec3, before: &[Spot], now: &mut [Spot]) {
     spin::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
     scratch.anchor.resize(p.len());
@@ -34,7 +36,7 @@ pub(super) fn keep(world: &mut World, before: &[Spot], now: &mut [Spot]) {
 }
 
 /// The normal of the floor that all touches are with, zero if there is none; nothing if they are with more.
-fn floor(touches: &[Touch]) -> Option<Vec3> {
+fn normal(touches: &[Touch]) -> Option<Vec3> {
     let Some(first) = touches.first() else { return Some(Vec3::ZERO) };
     touches.iter().all(|touch| touch.normal.dot(first.normal) > FLAT).then_some(first.normal)
 }
