@@ -385,25 +385,18 @@ pub(crate) fn calm(world: &mut World) {
         return;
     };
     let Layers { contacts, active, open, weights, motion, ways, tangles, .. } = &mut *layers;
-    let start = &motion.start;
-    let is_free = world.scratch.contacts.touches.is_empty() && !spots::is_any_held(start);
+    let is_free = world.scratch.contacts.touches.is_empty() && !spots::is_any_held(&motion.start);
     let p = &mut world.particles;
     push::find_hits(contacts, active, &p.v, speed, open);
     for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
         push::calm(contacts, active, open, columns);
         tangles.calm(weights, columns);
         if !active.is_empty() {
-            spots::gather(ways, columns, &p.w);
             let particles = Free { x: p.x.all(), way: columns.all(), mass: &p.mass, w: &p.w };
             let whole = RigidMotion::of_free(world.level, particles);
-            for (way, x) in ways.iter_mut().zip(start) {
-                spots::shift(way, -whole.at(spots::place(x)));
-            }
+            spots::gather_against(&whole, &p.x, columns, ways);
             push::soothe(contacts, active, weights, ways, h, !is_free);
-            for (way, x) in ways.iter_mut().zip(start) {
-                spots::shift(way, whole.at(spots::place(x)));
-            }
-            spots::scatter(ways, columns);
+            spots::scatter_along(&whole, &p.x, ways, columns);
         }
     }
     world.layers = Some(layers);

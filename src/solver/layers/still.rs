@@ -5,7 +5,7 @@
 //! left of pushes that act along directions of when the substep began. So what layers moved is made good for all of
 //! it, but for what they push off the floor with: that it bears. What touches several ways is left as it is.
 
-use super::spots::{Spot, place, shift};
+use super::spots::{self, Spot};
 use crate::solver::rigid::{Free, RigidMotion};
 use crate::solver::{World, contacts::touch::Touch, spin};
 use glam::Vec3;
@@ -23,16 +23,11 @@ pub(super) fn floor(world: &World) -> Option<Vec3> {
 pub(super) fn keep(world: &mut World, floor: Vec3, before: &[Spot], now: &mut [Spot]) {
     spin::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    scratch.anchor.resize(p.len());
-    for (i, (before, now)) in before.iter().zip(&*now).enumerate() {
-        scratch.anchor.set(i, place(now) - place(before));
-    }
+    spots::list_ways(before, now, &mut scratch.anchor);
     let free = Free { x: scratch.air.all(), way: scratch.anchor.all(), mass: &p.mass, w: &p.w };
     let whole = RigidMotion::of_free(world.level, free);
     let whole = if floor == Vec3::ZERO { whole } else { whole.along(floor) };
-    for spot in now {
-        shift(spot, -whole.at(place(spot)));
-    }
+    spots::take_back(now, &whole);
 }
 
 /// The normal of the floor that all touches are with, zero if there is none; nothing if they are with more.
