@@ -15,8 +15,9 @@ pub(super) struct Around {
     /// Particles that moved since the last look, and whether each is among them.
     moved: Vec<u32>,
     has_moved: Vec<bool>,
-    /// Whether any moved since this was last set to false.
+    /// Whether any moved since this was last set to false, and since all began.
     pub is_stirred: bool,
+    pub was_stirred: bool,
 }
 
 impl Around {
@@ -30,6 +31,7 @@ impl Around {
             moved: Vec::with_capacity(capacity),
             has_moved: Vec::with_capacity(capacity),
             is_stirred: false,
+            was_stirred: false,
         }
     }
 
@@ -42,12 +44,11 @@ impl Around {
     /// Nothing moved among so many particles, and contacts are to be sorted in anew.
     pub fn begin(&mut self, particles: usize) {
         self.count = 0;
-        self.starts.clear();
         self.starts.resize(particles + 1, 0);
-        self.moved.clear();
-        self.has_moved.clear();
+        self.moved.drain(..).for_each(|at| self.has_moved[at as usize] = false);
         self.has_moved.resize(particles, false);
         self.due.clear();
+        self.was_stirred = false;
     }
 
     /// Sorts contacts in by their particles, unless that was done.
@@ -83,7 +84,7 @@ impl Around {
         let has_moved = &mut self.has_moved[particle as usize];
         if !*has_moved {
             *has_moved = true;
-            self.is_stirred = true;
+            (self.is_stirred, self.was_stirred) = (true, true);
             self.moved.push(particle);
         }
     }

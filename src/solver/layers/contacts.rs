@@ -7,6 +7,7 @@
 //!                                  the plane went meanwhile.
 //! ```
 
+use super::four::Four;
 use super::motion::Motion;
 use super::spots::{Spot, place};
 use crate::geom::closest;
@@ -35,21 +36,10 @@ pub(super) const CLEAR: f32 = 0.9;
 /// How well a way must lead along a normal that it is taken for it (the square of a cosine).
 pub(super) const SAME: f32 = 0.98;
 
-/// Where only such particles give way that count for next to nothing beside what is held, they are taken to make
-/// this share of an inverse mass, so that none is flung away.
-const SLIGHT: f32 = 0.005;
-
 /// What meets, by how many particles the first side has: a vertex and a triangle, or two edges.
 pub(super) type Kind = u32;
 pub(super) const VERTEX: Kind = 1;
 pub(super) const EDGES: Kind = 2;
-
-/// The inverse mass of a particle [1/kg], and how much of it counts against the other side of a contact.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Weight {
-    pub w: f32,
-    pub yields: f32,
-}
 
 /// Two sides that may meet.
 #[derive(Clone, Copy, Debug)]
@@ -61,25 +51,13 @@ pub(super) struct Contact {
     pub share: [f32; 4],
     /// From the second side to the first.
     pub n: Vec3,
-    /// How far they keep apart [m], and at least so far at the end of the substep by their own motion.
+    /// How far they keep apart [m].
     pub gap: f32,
-    pub aim: f32,
     /// All particles of the first side stay so far from all of the second along `n`; negative if
     /// nothing keeps them [m].
     pub slit: f32,
     /// The least of it that is let be [m].
     pub least: f32,
-    /// How far a push of 1 takes each particle, against the direction on the second side [1/kg].
-    pub weights: [f32; 4],
-    /// 1 over what all of that makes; 0 if nothing gives way.
-    pub give: f32,
-    /// How they were pushed apart in this substep, per inverse mass, and along the surface.
-    pub push: f32,
-    pub rub: Vec3,
-    /// Whether they did not push each other in the substep before.
-    pub is_new: bool,
-    /// Whether they stick to each other.
-    pub sticks: bool,
 }
 
 /// A pair as it is closest: what each particle counts for, from where to where.
@@ -176,9 +154,10 @@ pub(super) fn places(x: &[Spot], ids: [u32; 4]) -> [Vec3; 4] {
 
 /// How far the closest points are from each other along `n`.
 #[inline(always)]
-pub(super) fn along(x: [Vec3; 4], contact: &Contact) -> f32 {
-    let [a, b, c, d] = contact.share;
-    contact.n.dot(x[0] * a + x[1] * b + x[2] * c + x[3] * d)
+pub(super) fn along(x: &[Spot], contact: &Contact) -> f32 {
+    let [a, b, c, d] = contact.ids.map(|id| Four::of(&x[id as usize]));
+    let [p, q, r, s] = contact.share;
+    Four::way(contact.n).dot(a.times(p) + b.times(q) + c.times(r) + d.times(s))
 }
 
 /// Where a pair is closest.
@@ -208,22 +187,7 @@ fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) ->
 impl Contact {
     /// Sides of which nothing is known.
     pub fn of(ids: [u32; 4], first: Kind) -> Self {
-        Self {
-            ids,
-            first,
-            share: [0.0; 4],
-            n: Vec3::ZERO,
-            gap: 0.0,
-            aim: 0.0,
-            slit: -1.0,
-            least: -1.0,
-            weights: [0.0; 4],
-            give: 0.0,
-            push: 0.0,
-            rub: Vec3::ZERO,
-            is_new: true,
-            sticks: false,
-        }
+        Self { ids, first, share: [0.0; 4], n: Vec3::ZERO, gap: 0.0, slit: -1.0, least: -1.0 }
     }
 
     /// The distance of two sides.
@@ -261,7 +225,7 @@ impl Contact {
         }
         let mut contact = Self { share: then.share, n: then.n, gap, ..Self::of(ids, FIRST) };
         let now = places(&motion.now, ids);
-        if along(now, &contact) < gap {
+        if along(&motion.now, &contact) < gap {
             contact.turn(closest_again::<FIRST>(now), start);
             if is_told_apart(contact.n) && between(start, FIRST, contact.n) > NOTHING {
                 return None;
@@ -318,25 +282,5 @@ impl Contact {
     /// Neither pushes nor holds anything back.
     pub(super) fn let_be(&mut self) {
         (self.gap, self.slit, self.least) = (f32::NEG_INFINITY, -1.0, -1.0);
-    }
-
-    /// Finds out how it gives way, which changes with what touches a collider.
-    #[inline(always)]
-    pub(super) fn weigh(&mut self, weights: &[Weight]) {
-        let all = self.ids.map(|id| weights[id as usize]);
-        let mut sides = [0.0; 2];
-        for (k, (share, weight)) in self.share.iter().zip(all).enumerate() {
-            sides[usize::from(k >= self.first as usize)] += share.abs() * weight.yields;
-        }
-        let most = max(sides[0], sides[1]);
-        let (mut sum, mut heaviest) = (0.0, 0.0);
-        for k in 0..4 {
-            let side = sides[usize::from(k >= self.first as usize)];
-            let w = all[k].w * (side / most);
-            self.weights[k] = self.share[k] * w;
-            sum += w * self.share[k] * self.share[k];
-            heaviest = max(heaviest, w);
-        }
-        self.give = if sum > 0.0 { 1.0 / max(sum, heaviest * SLIGHT) } else { 0.0 };
     }
 }

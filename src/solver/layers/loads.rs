@@ -4,6 +4,7 @@
 //! that begin at what they found last go on finding it (Catto, "Iterative dynamics with temporal coherence", 2005).
 
 use super::contacts::{Contact, Kind};
+use super::push::Push;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -56,16 +57,13 @@ impl Loads {
     }
 
     /// Keeps what contacts push with; `times` makes forces of it.
-    pub(super) fn keep(&mut self, contacts: &[Contact], active: &[u32], times: f32) {
+    pub(super) fn keep(&mut self, contacts: &[Contact], active: &[Push], times: f32) {
         self.0.clear();
-        let load = |contact: &Contact| Load {
-            ids: contact.ids,
-            first: contact.first,
-            push: contact.push * times,
-            rub: contact.rub * times,
+        let load = |push: &Push| {
+            let Contact { ids, first, .. } = contacts[push.contact as usize];
+            Load { ids, first, push: push.push * times, rub: push.rub * times }
         };
-        let all = active.iter().map(|at| load(&contacts[*at as usize]));
-        self.0.extend(all.filter(Load::is_sound));
+        self.0.extend(active.iter().map(load).filter(Load::is_sound));
     }
 }
 

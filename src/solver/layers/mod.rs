@@ -11,6 +11,7 @@ mod closest;
 mod contacts;
 mod distant;
 mod fence;
+mod four;
 mod leans;
 pub(crate) mod loads;
 mod motion;
@@ -36,12 +37,13 @@ use crate::math::{max, min};
 use crate::state::settings::SelfCollision;
 use around::Around;
 use candidates::Candidates;
-use contacts::{Contact, Weight};
+use contacts::Contact;
 use distant::Distant;
 use loads::Finder;
 use motion::Motion;
 use near::Near;
 use patches::Patches;
+use push::{Push, Weight};
 use reach::Reach;
 use sift::{Found, Picked, Sift};
 use slits::Slits;
@@ -81,8 +83,8 @@ pub(crate) struct Layers {
     /// A bit for each of those that is apart.
     apart: Vec<u8>,
     is_found: bool,
-    /// The contacts that push in this substep.
-    active: Vec<u32>,
+    /// What pushes in this substep.
+    active: Vec<Push>,
     around: Around,
     /// What the fence has in hand.
     frozen: Vec<u32>,
@@ -130,8 +132,7 @@ impl Layers {
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let words = self.active.capacity()
-            + self.open.capacity()
+        let words = self.open.capacity()
             + self.pieces.capacity()
             + self.frozen.capacity()
             + self.pairs.capacity();
@@ -147,6 +148,7 @@ impl Layers {
             + size_of::<Weight>() * self.weights.capacity()
             + size_of::<Spot>() * self.ways.capacity()
             + size_of::<Contact>() * self.contacts.capacity()
+            + size_of::<Push>() * self.active.capacity()
             + size_of::<Distant>() * self.distant.capacity()
             + self.apart.capacity()
             + self.finder.bytes()
@@ -191,11 +193,12 @@ impl Layers {
         }
     }
 
-    /// Adds to the distant what those may meet that are not where they were thought to be.
-    fn find_strays(&mut self, world: &World, may_go_back: bool) {
+    /// Adds to the distant what those may meet that are not where they were thought to be; says whether all are by now.
+    fn find_strays(&mut self, world: &World, may_go_back: bool) -> bool {
         let Self { motion, far, patches, pieces, pairs, strays, distant, gap, .. } = self;
-        if !motion.look_again(world.spacing, *gap, may_go_back) {
-            return;
+        let [any, are_within] = motion.look_again(world.spacing, *gap, may_go_back);
+        if !any {
+            return are_within;
         }
         let all = 0..motion.now.len() as u32;
         let strayed = all.filter(|at| motion.strays(*at));
@@ -205,19 +208,21 @@ impl Layers {
         }
         let weave = Weave { world, pieces, gap: *gap };
         Sift { weave, patches, motion }.find_strays(pairs, strays, distant);
+        are_within
     }
 
-    /// Nothing crosses any more. Of a cloth that nothing holds or touches, the momentum stays.
-    fn hold(&mut self, world: &World) {
-        let is_free = world.scratch.contacts.touches.is_empty();
-        let before = if is_free { spots::middle(&self.motion.now) } else { None };
-        if !self.fence(world) {
-            return;
+    /// Nothing crosses any more; says whether anything moved. Of a cloth that nothing holds or touches, the momentum
+    /// stays.
+    fn hold(&mut self, world: &World) -> bool {
+        let went_back = self.fence(world);
+        let now = &mut self.motion.now;
+        if went_back && world.scratch.contacts.touches.is_empty() && !spots::is_any_held(now) {
+            let w = now.iter().map(|spot| spot[3]);
+            let before = spots::middle(world.particles.x.iter().zip(w));
+            let after = spots::middle(now.iter().map(|spot| (spots::place(spot), spot[3])));
+            now.iter_mut().for_each(|spot| spots::shift(spot, before - after));
         }
-        if let (Some(before), Some(after)) = (before, spots::middle(&self.motion.now)) {
-            let by = before - after;
-            self.motion.now.iter_mut().for_each(|spot| spots::shift(spot, by));
-        }
+        self.around.was_stirred
     }
 
     /// Says whether anything went back to where it was.
@@ -230,7 +235,7 @@ impl Layers {
         let mut known = 0;
         for look in 0..=LOOKS {
             let is_last = look == LOOKS;
-            self.find_strays(world, may_go_back || is_last);
+            let were_within = self.find_strays(world, may_go_back || is_last);
             let Self {
                 contacts, distant, apart, motion, frozen, open, around, tangles, gap, ..
             } = self;
@@ -245,10 +250,15 @@ impl Layers {
                 fence::go_back(contacts, motion, around, frozen);
                 went_back = true;
             }
-            let mut are_apart = || {
-                !around.is_stirred || distant::are_apart(world.level, distant, &motion.now, apart)
+            let mut is_good = || {
+                if around.is_stirred {
+                    motion.is_as_thought()
+                        && distant::are_apart(world.level, distant, &motion.now, apart)
+                } else {
+                    were_within
+                }
             };
-            if (is_done || may_go_back) && motion.is_as_thought() && are_apart() {
+            if (is_done || may_go_back) && is_good() {
                 break;
             }
             // Whoever goes back must not get in the way of somebody else.
@@ -294,7 +304,6 @@ pub(crate) fn begin(world: &mut World) {
         layers.patches.follow(&world.mesh);
     }
     spots::gather(&mut motion.start, &p.x, &p.w);
-    motion.now.clone_from(&motion.start);
     layers.is_found = false;
     layers.is_new_tick = true;
     layers.far.is_known &= is_same;
@@ -327,11 +336,15 @@ pub(crate) fn solve(world: &mut World) {
     };
     let Layers { contacts, active, finder, motion, weights, ways, tangles, .. } = &mut *layers;
     let Motion { start, now, .. } = &mut *motion;
+    push::list(contacts, active, weights, start, now);
+    let floor = if active.is_empty() { None } else { still::floor(world) };
+    if floor.is_some() {
+        ways.clone_from(now);
+    }
     let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
-    ways.clone_from(now);
-    push::solve(contacts, active, (loads, finder), weights, start, now, friction, force);
-    if !active.is_empty() {
-        still::keep(world, ways, now);
+    push::solve(contacts, active, (loads, finder), start, now, friction, force);
+    if let Some(floor) = floor {
+        still::keep(world, floor, ways, now);
     }
     push::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
     tangles.draw_out(motion, &mut world.scratch.predicted);
@@ -344,13 +357,12 @@ pub(crate) fn hold(world: &mut World) {
     let Some(mut layers) = world.layers.take() else {
         return;
     };
-    for (spot, x) in layers.motion.now.iter_mut().zip(world.particles.x.iter()) {
-        [spot[0], spot[1], spot[2]] = x.to_array();
+    if layers.hold(world) {
+        spots::scatter(&layers.motion.now, &mut world.particles.x);
     }
-    layers.hold(world);
-    spots::scatter(&layers.motion.now, &mut world.particles.x);
+    // The next substep starts from here; where it leads to, it finds anew.
     let Motion { start, now, .. } = &mut layers.motion;
-    start.clone_from(now);
+    core::mem::swap(start, now);
     world.layers = Some(layers);
 }
 
@@ -358,10 +370,9 @@ pub(crate) fn hold(world: &mut World) {
 pub(crate) fn hold_at_last(world: &mut World) {
     let (pulled, w) = (&world.scratch.pulled, &world.particles.w);
     if let Some(layers) = &mut world.layers {
-        for (spot, w) in layers.motion.now.iter_mut().zip(w.iter()) {
-            spot[3] = *w;
-        }
-        pulled.iter().for_each(|i| layers.motion.now[*i as usize][3] = 0.0);
+        let now = &mut layers.motion.now;
+        spots::gather(now, &world.particles.x, w);
+        pulled.iter().for_each(|i| now[*i as usize][3] = 0.0);
     }
     hold(world);
 }
@@ -375,24 +386,18 @@ pub(crate) fn calm(world: &mut World) {
         return;
     };
     let Layers { contacts, active, open, weights, motion, ways, tangles, .. } = &mut *layers;
-    let is_free = world.scratch.contacts.touches.is_empty() && spots::middle(&motion.now).is_some();
+    let is_free = world.scratch.contacts.touches.is_empty() && !spots::is_any_held(&motion.start);
     let p = &mut world.particles;
     push::find_hits(contacts, active, &p.v, speed, open);
     for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
-        push::calm(contacts, open, columns);
+        push::calm(contacts, active, open, columns);
         tangles.calm(weights, columns);
         if !active.is_empty() {
-            spots::gather(ways, columns, &p.w);
             let particles = Free { x: p.x.all(), way: columns.all(), mass: &p.mass, w: &p.w };
             let whole = RigidMotion::of_free(world.level, particles);
-            for (way, x) in ways.iter_mut().zip(&motion.now) {
-                spots::shift(way, -whole.at(spots::place(x)));
-            }
+            spots::gather_against(&whole, &p.x, columns, ways);
             push::soothe(contacts, active, weights, ways, h, !is_free);
-            for (way, x) in ways.iter_mut().zip(&motion.now) {
-                spots::shift(way, whole.at(spots::place(x)));
-            }
-            spots::scatter(ways, columns);
+            spots::scatter_along(&whole, &p.x, ways, columns);
         }
     }
     world.layers = Some(layers);

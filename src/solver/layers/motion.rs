@@ -1,6 +1,7 @@
 //! Where particles are in a substep, and how far each may still get.
 
 use super::closest::V;
+use super::four::{Four, WAYS};
 use super::spots::{Spot, drift, place};
 use super::sweep::Sweep;
 use crate::math::simd::{Level, MOST_LANES, Number, Scalar, Simd, turn, turn_back, vectored};
@@ -53,26 +54,33 @@ impl Motion {
     }
 
     /// Gives those room that strayed from what they had, to where they are and, if they may, back to where they
-    /// were; says whether there are any.
-    pub fn look_again(&mut self, spacing: f32, gap: f32, may_go_back: bool) -> bool {
+    /// were; says whether there are any, and whether all are where they are thought to be by that.
+    pub fn look_again(&mut self, spacing: f32, gap: f32, may_go_back: bool) -> [bool; 2] {
         let spare = min(spacing * SPARE, gap * SPARE_GAP);
-        let mut any = false;
+        let drift = Four::way(self.drift);
+        let (mut any, mut are_within) = (false, true);
         self.strays.clear();
-        let rooms = self.from.iter_mut().zip(&mut self.to);
-        for ((start, now), (from, to)) in self.start.iter().zip(&self.now).zip(rooms) {
+        self.strays.resize(self.now.len(), false);
+        let rooms = self.from.iter_mut().zip(&mut self.to).zip(&mut self.strays);
+        for ((start, now), ((from, to), strays)) in self.start.iter().zip(&self.now).zip(rooms) {
+            if surely_holds(from, to, Four::of(now) - Four::of(start))
+                && (!may_go_back || surely_holds(from, to, drift))
+            {
+                continue;
+            }
             let way = place(now) - place(start);
-            let mut strays = !holds(from, to, way);
-            if strays {
+            *strays = !holds(from, to, way);
+            if *strays {
                 extend(from, to, way, way.distance(self.drift) * SPARE_WAY + spare);
             }
             if may_go_back && !holds(from, to, self.drift) {
                 extend(from, to, self.drift, spare);
-                strays = true;
+                *strays = true;
             }
-            self.strays.push(strays);
-            any |= strays;
+            any |= *strays;
+            are_within &= holds(from, to, way);
         }
-        any
+        [any, are_within]
     }
 
     /// Whether a particle strayed.
@@ -83,12 +91,11 @@ impl Motion {
 
     /// Whether all are where they were thought to be in the end.
     pub fn is_as_thought(&self) -> bool {
-        let mut is_within = true;
         let rooms = self.from.iter().zip(&self.to);
-        for ((start, now), (from, to)) in self.start.iter().zip(&self.now).zip(rooms) {
-            is_within &= holds(from, to, place(now) - place(start));
-        }
-        is_within
+        self.start.iter().zip(&self.now).zip(rooms).all(|((start, now), (from, to))| {
+            surely_holds(from, to, Four::of(now) - Four::of(start))
+                || holds(from, to, place(now) - place(start))
+        })
     }
 
     /// Where particles were as the substep began, and the ways that each may have made in the end, from and to.
@@ -205,6 +212,12 @@ fn give_some_room<S: Simd>(
 fn holds(from: &Spot, to: &Spot, way: Vec3) -> bool {
     let way = way.to_array();
     (0..3).all(|k| way[k] >= from[k] && way[k] <= to[k])
+}
+
+/// The same, but it may miss what is just within.
+#[inline(always)]
+fn surely_holds(from: &Spot, to: &Spot, way: Four) -> bool {
+    (way - Four::of(from)).min(Four::of(to) - way).positives() & WAYS == WAYS
 }
 
 #[inline(always)]

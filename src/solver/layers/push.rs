@@ -1,8 +1,9 @@
 //! Layers push each other apart and rub on each other.
 
-use super::contacts::{Contact, Weight, along, places};
+use super::contacts::{Contact, along};
+use super::four::Four;
 use super::loads::{Finder, Loads};
-use super::spots::{Spot, place, shift};
+use super::spots::{Spot, push};
 use crate::math::columns::Columns;
 use crate::math::{max, min};
 use glam::Vec3;
@@ -29,111 +30,177 @@ const RISE: f32 = 0.25;
 /// How long it takes about until sides that push each other move as one [s].
 const REST: f32 = 0.01;
 
-/// Moves the particles of a contact along `by`, by how they count.
-#[inline(always)]
-fn press(x: &mut [Spot], contact: &Contact, by: Vec3) {
-    for (id, weight) in contact.ids.iter().zip(contact.weights) {
-        shift(&mut x[*id as usize], by * weight);
+/// Where only such particles give way that count for next to nothing beside what is held, they are taken to make
+/// this share of an inverse mass, so that none is flung away.
+const SLIGHT: f32 = 0.005;
+
+/// The inverse mass of a particle [1/kg], and how much of it counts against the other side of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weight {
+    pub w: f32,
+    pub yields: f32,
+}
+
+/// How a contact pushes in a substep.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Push {
+    pub contact: u32,
+    /// How far its sides are at least in the end, by their own motion [m].
+    aim: f32,
+    /// How far a push of 1 takes each particle, against the direction on the second side [1/kg].
+    weights: [f32; 4],
+    /// 1 over what all of that makes; 0 if nothing gives way.
+    give: f32,
+    /// How sides were pushed apart, per inverse mass, and along the surface.
+    pub push: f32,
+    pub rub: Vec3,
+    /// Whether they did not push each other in the substep before.
+    is_new: bool,
+    /// Whether they stick to each other.
+    sticks: bool,
+}
+
+impl Push {
+    /// Finds out how a contact gives way, which changes with what touches a collider.
+    #[inline(always)]
+    fn new(at: u32, contact: &Contact, aim: f32, weights: &[Weight]) -> Self {
+        let all = contact.ids.map(|id| weights[id as usize]);
+        let mut sides = [0.0; 2];
+        for (k, (share, weight)) in contact.share.iter().zip(all).enumerate() {
+            sides[usize::from(k >= contact.first as usize)] += share.abs() * weight.yields;
+        }
+        let most = max(sides[0], sides[1]);
+        let (mut sum, mut heaviest, mut weights) = (0.0, 0.0, [0.0; 4]);
+        for k in 0..4 {
+            let (side, share) = (sides[usize::from(k >= contact.first as usize)], contact.share[k]);
+            let w = all[k].w * (side / most);
+            weights[k] = share * w;
+            sum += w * share * share;
+            heaviest = max(heaviest, w);
+        }
+        let give = if sum > 0.0 { 1.0 / max(sum, heaviest * SLIGHT) } else { 0.0 };
+        let (push, rub) = (0.0, Vec3::ZERO);
+        Self { contact: at, aim, weights, give, push, rub, is_new: true, sticks: false }
+    }
+
+    /// Moves the particles of its contact along `by`, by how they count.
+    #[inline(always)]
+    fn press(&self, contact: &Contact, x: &mut [Spot], by: Four) {
+        for (id, weight) in contact.ids.into_iter().zip(self.weights) {
+            push(&mut x[id as usize], by.times(weight));
+        }
     }
 }
 
-/// Ends approach, and rubs, from what bore on what in the substep before; `active` gets the contacts that may push.
-/// `force` is what a push of a kilogram by a metre takes in a substep [1/s²].
-pub(super) fn solve(
-    contacts: &mut [Contact],
-    active: &mut Vec<u32>,
-    (loads, finder): (&mut Loads, &mut Finder),
+/// Lists what may push.
+pub(super) fn list(
+    contacts: &[Contact],
+    active: &mut Vec<Push>,
     weights: &[Weight],
+    start: &[Spot],
+    x: &[Spot],
+) {
+    active.clear();
+    for (at, contact) in contacts.iter().enumerate() {
+        let near = contact.gap * NEAR[contact.first as usize - 1];
+        let before = along(start, contact);
+        if min(before, along(x, contact)) < near {
+            active.push(Push::new(at as u32, contact, min(before, contact.gap), weights));
+        }
+    }
+}
+
+/// Ends approach, and rubs, from what bore on what in the substep before. `force` is what a push of a kilogram by a
+/// metre takes in a substep [1/s²].
+pub(super) fn solve(
+    contacts: &[Contact],
+    active: &mut [Push],
+    (loads, finder): (&mut Loads, &mut Finder),
     start: &[Spot],
     x: &mut [Spot],
     friction: f32,
     force: f32,
 ) {
-    active.clear();
-    for (at, contact) in contacts.iter_mut().enumerate() {
-        contact.push = 0.0;
-        let near = contact.gap * NEAR[contact.first as usize - 1];
-        let before = along(places(start, contact.ids), contact);
-        if min(before, along(places(x, contact.ids), contact)) < near {
-            contact.aim = min(before, contact.gap);
-            contact.weigh(weights);
-            active.push(at as u32);
-        }
-    }
     finder.sort(loads);
-    for at in &*active {
-        let contact = &mut contacts[*at as usize];
+    for push in &mut *active {
+        let contact = &contacts[push.contact as usize];
         if let Some(load) = finder.find(contact, loads) {
             let rub = load.rub - contact.n * load.rub.dot(contact.n);
-            (contact.push, contact.rub) = (load.push / force, rub * (1.0 / force));
-            contact.is_new = false;
-            press(x, contact, contact.n * contact.push + contact.rub);
+            (push.push, push.rub) = (load.push / force, rub * (1.0 / force));
+            push.is_new = false;
+            push.press(contact, x, Four::way(contact.n * push.push + push.rub));
         }
     }
     for sweep in 0..SWEEPS {
         if sweep % 2 == 0 {
-            active.iter().for_each(|at| part(&mut contacts[*at as usize], x));
+            active.iter_mut().for_each(|push| part(&contacts[push.contact as usize], push, x));
         } else {
-            active.iter().rev().for_each(|at| part(&mut contacts[*at as usize], x));
+            let back = active.iter_mut().rev();
+            back.for_each(|push| part(&contacts[push.contact as usize], push, x));
         }
     }
-    active.iter().for_each(|at| rub(&mut contacts[*at as usize], start, x, friction));
+    for push in &mut *active {
+        rub(&contacts[push.contact as usize], push, start, x, friction);
+    }
     loads.keep(contacts, active, force);
 }
 
 #[inline(always)]
-fn part(contact: &mut Contact, x: &mut [Spot]) {
-    let missing = contact.aim - along(places(x, contact.ids), contact);
-    let push = max(contact.push + missing * contact.give, 0.0);
-    let by = push - contact.push;
+fn part(contact: &Contact, push: &mut Push, x: &mut [Spot]) {
+    let missing = push.aim - along(x, contact);
+    let new = max(push.push + missing * push.give, 0.0);
+    let by = new - push.push;
     if by != 0.0 {
-        contact.push = push;
-        press(x, contact, contact.n * by);
+        push.push = new;
+        push.press(contact, x, Four::way(contact.n).times(by));
     }
 }
 
 /// What slid along the other side slides less, by what friction can hold.
 #[inline(always)]
-fn rub(contact: &mut Contact, start: &[Spot], x: &mut [Spot], friction: f32) {
-    if contact.push <= 0.0 && contact.rub == Vec3::ZERO {
+fn rub(contact: &Contact, push: &mut Push, start: &[Spot], x: &mut [Spot], friction: f32) {
+    if push.push <= 0.0 && push.rub == Vec3::ZERO {
         return;
     }
-    let wanted = contact.rub - slid(contact, start, x) * contact.give;
-    let (length, most) = (wanted.length(), friction * contact.push);
-    contact.sticks = length <= most;
-    let rub = if contact.sticks { wanted } else { wanted * (most / length) };
-    let by = rub - contact.rub;
-    contact.rub = rub;
-    press(x, contact, by);
+    let wanted = push.rub - slid(contact, start, x) * push.give;
+    let (length, most) = (wanted.length(), friction * push.push);
+    push.sticks = length <= most;
+    let rub = if push.sticks { wanted } else { wanted * (most / length) };
+    let by = rub - push.rub;
+    push.rub = rub;
+    push.press(contact, x, Four::way(by));
 }
 
 /// How the closest points moved against each other along the surface.
 #[inline(always)]
 fn slid(contact: &Contact, start: &[Spot], x: &[Spot]) -> Vec3 {
-    let mut way = Vec3::ZERO;
+    let mut way = Four::all(0.0);
     for (id, share) in contact.ids.iter().zip(contact.share) {
-        way += (place(&x[*id as usize]) - place(&start[*id as usize])) * share;
+        let [x, start] = [x, start].map(|all| Four::of(&all[*id as usize]));
+        way = way + (x - start).times(share);
     }
+    let way = way.vector();
     way - contact.n * way.dot(contact.n)
 }
 
 /// What is too near comes apart, without getting velocity from it.
 pub(super) fn spread(
     contacts: &[Contact],
-    active: &[u32],
+    active: &[Push],
     x: &mut [Spot],
     predicted: &mut Columns,
     h: f32,
 ) {
-    for contact in active.iter().map(|at| &contacts[*at as usize]) {
-        let missing = contact.gap - along(places(x, contact.ids), contact);
+    for Push { contact, weights, give, .. } in active {
+        let contact = &contacts[*contact as usize];
+        let missing = contact.gap - along(x, contact);
         if missing <= 0.0 {
             continue;
         }
-        let by = min(missing * PART, RISE * h) * contact.give;
-        for (id, weight) in contact.ids.iter().zip(contact.weights) {
+        let by = min(missing * PART, RISE * h) * give;
+        for (id, weight) in contact.ids.iter().zip(weights) {
             let by = contact.n * (by * weight);
-            shift(&mut x[*id as usize], by);
+            push(&mut x[*id as usize], Four::way(by));
             predicted.add(*id as usize, by);
         }
     }
@@ -143,18 +210,18 @@ pub(super) fn spread(
 /// gets a `speed`.
 pub(super) fn find_hits(
     contacts: &[Contact],
-    active: &[u32],
+    active: &[Push],
     v: &Columns,
     speed: f32,
     hits: &mut Vec<u32>,
 ) {
     let fast = (HIT * speed) * (HIT * speed);
-    let is_hit = |at: &&u32| {
-        let contact = &contacts[**at as usize];
-        contact.push > 0.0 && contact.is_new && against(contact, v).length_squared() > fast
+    let is_hit = |push: &Push| {
+        let speed = || against(&contacts[push.contact as usize], v);
+        push.push > 0.0 && push.is_new && speed().length_squared() > fast
     };
     hits.clear();
-    hits.extend(active.iter().filter(is_hit));
+    hits.extend((0..).zip(active).filter(|(_, push)| is_hit(push)).map(|(at, _)| at));
 }
 
 /// How sides move against each other.
@@ -169,12 +236,13 @@ fn against(contact: &Contact, motion: &Columns) -> Vec3 {
 
 /// Sides that hit each other have no velocity against each other but along the surface, and none at all where they
 /// stick.
-pub(super) fn calm(contacts: &[Contact], hits: &[u32], motion: &mut Columns) {
-    for contact in hits.iter().map(|at| &contacts[*at as usize]) {
+pub(super) fn calm(contacts: &[Contact], active: &[Push], hits: &[u32], motion: &mut Columns) {
+    for push in hits.iter().map(|at| &active[*at as usize]) {
+        let contact = &contacts[push.contact as usize];
         let v = against(contact, motion);
-        let v = if contact.sticks { v } else { contact.n * v.dot(contact.n) };
-        let by = v * -contact.give;
-        for (id, weight) in contact.ids.iter().zip(contact.weights) {
+        let v = if push.sticks { v } else { contact.n * v.dot(contact.n) };
+        let by = v * -push.give;
+        for (id, weight) in contact.ids.iter().zip(push.weights) {
             motion.add(*id as usize, by * weight);
         }
     }
@@ -186,52 +254,54 @@ pub(super) fn calm(contacts: &[Contact], hits: &[u32], motion: &mut Columns) {
 /// in some unit, `h` the length of the substep [s].
 pub(super) fn soothe(
     contacts: &[Contact],
-    active: &[u32],
+    active: &[Push],
     weights: &[Weight],
     v: &mut [Spot],
     h: f32,
     turns: bool,
 ) {
     let share = h / (h + REST);
-    for contact in active.iter().map(|at| &contacts[*at as usize]) {
-        if contact.push <= 0.0 {
+    for push in active {
+        if push.push <= 0.0 {
             continue;
         }
+        let contact = &contacts[push.contact as usize];
         if turns {
             let (one, other) = contact.ids.split_at(contact.first as usize);
             [one, other].into_iter().for_each(|side| join(side, weights, v, share));
         }
         let way = way_against(contact, v);
-        let way = if contact.sticks { way } else { contact.n * way.dot(contact.n) };
-        press(v, contact, way * (-contact.give * share));
+        let n = Four::way(contact.n);
+        let way = if push.sticks { way } else { n.times(way.dot(n)) };
+        push.press(contact, v, way.times(-push.give * share));
     }
 }
 
 /// How some particles move comes nearer to how their middle does.
 #[inline(always)]
 fn join(side: &[u32], weights: &[Weight], v: &mut [Spot], share: f32) {
-    let (mut sum, mut mass) = (Vec3::ZERO, 0.0);
+    let (mut sum, mut mass) = (Four::all(0.0), 0.0);
     for id in side {
         let w = weights[*id as usize].w;
         if w <= 0.0 {
             return;
         }
-        sum += place(&v[*id as usize]) * (1.0 / w);
+        sum = sum + Four::of(&v[*id as usize]).times(1.0 / w);
         mass += 1.0 / w;
     }
-    let mean = sum * (1.0 / mass);
+    let mean = sum.times(1.0 / mass);
     for id in side {
         let spot = &mut v[*id as usize];
-        shift(spot, (mean - place(spot)) * share);
+        push(spot, (mean - Four::of(spot)).times(share));
     }
 }
 
 /// How the closest points move against each other.
 #[inline(always)]
-fn way_against(contact: &Contact, v: &[Spot]) -> Vec3 {
-    let mut way = Vec3::ZERO;
+fn way_against(contact: &Contact, v: &[Spot]) -> Four {
+    let mut way = Four::all(0.0);
     for (id, share) in contact.ids.iter().zip(contact.share) {
-        way += place(&v[*id as usize]) * share;
+        way = way + Four::of(&v[*id as usize]).times(share);
     }
     way
 }

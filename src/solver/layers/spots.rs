@@ -1,6 +1,10 @@
 //! Particles one after the other, x, y, z and inverse mass of each together: what pairs of anything want.
 
+use super::four::Four;
 use crate::math::columns::Columns;
+use crate::math::simd::{Arithmetic, Base, Scalar, Simd, turned};
+use crate::solver::rigid::RigidMotion;
+use core::array;
 use glam::Vec3;
 
 /// Where a particle is, and its inverse mass.
@@ -20,20 +24,122 @@ pub(super) fn shift(spot: &mut Spot, by: Vec3) {
     spot[2] += by.z;
 }
 
+/// Moves a particle, and leaves its mass.
+#[inline(always)]
+pub(super) fn push(spot: &mut Spot, by: Four) {
+    (Four::of(spot) + by.ways()).put(spot);
+}
+
+/// Does something to so many particles, some side by side: as many from a place on as there are lanes.
+macro_rules! each {
+    ($count:expr, |$simd:ident, $at:ident| $work:expr) => {
+        let whole = $count / Base::LANES * Base::LANES;
+        let $simd = Base::new();
+        for $at in (0..whole).step_by(Base::LANES) {
+            $work;
+        }
+        let $simd = Scalar;
+        for $at in whole..$count {
+            $work;
+        }
+    };
+}
+
+/// Particles from a place on, turned so that each number has its lanes, of which there are four or one.
+#[inline(always)]
+fn fetch<S: Simd>(s: S, spots: &[Spot], at: usize) -> [S::F; 4] {
+    let spots = &spots[at..at + S::LANES];
+    if S::LANES == 1 {
+        return array::from_fn(|k| s.load(&spots[0], k));
+    }
+    turned(s, array::from_fn(|k| s.load(&spots[k], 0)))
+}
+
+/// Puts them back.
+#[inline(always)]
+fn put<S: Simd>(s: S, spots: &mut [Spot], at: usize, numbers: [S::F; 4]) {
+    let spots = &mut spots[at..at + S::LANES];
+    if S::LANES == 1 {
+        numbers.into_iter().enumerate().for_each(|(k, number)| s.store(&mut spots[0], k, number));
+        return;
+    }
+    for (spot, row) in spots.iter_mut().zip(turned(s, numbers)) {
+        s.store(spot, 0, row);
+    }
+}
+
 /// Makes it the list of these particles.
 pub(super) fn gather(spots: &mut Vec<Spot>, x: &Columns, w: &[f32]) {
+    spots.resize(w.len(), [0.0; 4]);
     let [x, y, z] = x.all();
-    spots.clear();
-    let all = x.iter().zip(y).zip(z).zip(w);
-    spots.extend(all.map(|(((x, y), z), w)| [*x, *y, *z, *w]));
+    each!(w.len(), |s, at| {
+        put(s, spots, at, [s.load(x, at), s.load(y, at), s.load(z, at), s.load(w, at)])
+    });
 }
 
 /// Puts particles back.
 pub(super) fn scatter(spots: &[Spot], x: &mut Columns) {
     let [x, y, z] = x.all_mut();
-    for (((x, y), z), spot) in x.iter_mut().zip(y).zip(z).zip(spots) {
-        [*x, *y, *z] = [spot[0], spot[1], spot[2]];
-    }
+    each!(spots.len(), |s, at| {
+        let [new_x, new_y, new_z, _] = fetch(s, spots, at);
+        s.store(x, at, new_x);
+        s.store(y, at, new_y);
+        s.store(z, at, new_z);
+    });
+}
+
+/// The ways from one state to another.
+pub(super) fn list_ways(from: &[Spot], to: &[Spot], ways: &mut Columns) {
+    ways.resize(to.len());
+    let [x, y, z] = ways.all_mut();
+    each!(to.len(), |s, at| {
+        let (from, to) = (fetch(s, from, at), fetch(s, to, at));
+        s.store(x, at, to[0] - from[0]);
+        s.store(y, at, to[1] - from[1]);
+        s.store(z, at, to[2] - from[2]);
+    });
+}
+
+/// Moves all back by how they move with the whole.
+pub(super) fn take_back(spots: &mut [Spot], whole: &RigidMotion) {
+    each!(spots.len(), |s, at| {
+        let [x, y, z, w] = fetch(s, spots, at);
+        let by = whole.ways(s, [x, y, z]);
+        put(s, spots, at, [x - by[0], y - by[1], z - by[2], w])
+    });
+}
+
+/// Lists how particles at `x` move against the whole.
+pub(super) fn gather_against(
+    whole: &RigidMotion,
+    x: &Columns,
+    motion: &Columns,
+    ways: &mut Vec<Spot>,
+) {
+    let [x, y, z] = x.all();
+    let motion = motion.all();
+    ways.resize(x.len(), [0.0; 4]);
+    each!(x.len(), |s, at| {
+        let by = whole.ways(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
+        let mut way = [s.splat(0.0); 4];
+        for axis in 0..3 {
+            way[axis] = s.load(motion[axis], at) - by[axis];
+        }
+        put(s, ways, at, way)
+    });
+}
+
+/// Takes back what that did, after `ways` changed.
+pub(super) fn scatter_along(whole: &RigidMotion, x: &Columns, ways: &[Spot], motion: &mut Columns) {
+    let [x, y, z] = x.all();
+    let motion = motion.all_mut();
+    each!(x.len(), |s, at| {
+        let by = whole.ways(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
+        let way = fetch(s, ways, at);
+        for axis in 0..3 {
+            s.store(motion[axis], at, way[axis] + by[axis]);
+        }
+    });
 }
 
 /// How all moved from one state to another, in the mean.
@@ -53,18 +159,20 @@ pub(super) fn drift(from: &[Spot], to: &[Spot]) -> Vec3 {
     all * (1.0 / from.len() as f32)
 }
 
-/// The middle of all mass, if nothing is held.
-pub(super) fn middle(spots: &[Spot]) -> Option<Vec3> {
+/// Whether any is held.
+pub(super) fn is_any_held(spots: &[Spot]) -> bool {
+    spots.iter().any(|spot| spot[3] <= 0.0)
+}
+
+/// The middle of all mass, of places and inverse masses.
+pub(super) fn middle(spots: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
     let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
-    for spot in spots {
-        if spot[3] <= 0.0 {
-            return None;
-        }
-        let mass = 1.0 / f64::from(spot[3]);
+    for (x, w) in spots {
+        let mass = 1.0 / f64::from(w);
         all += mass;
-        for (sum, x) in sum.iter_mut().zip(spot) {
-            *sum += mass * f64::from(*x);
+        for (sum, x) in sum.iter_mut().zip(x.to_array()) {
+            *sum += mass * f64::from(x);
         }
     }
-    Some(Vec3::from_array(sum.map(|sum| (sum / all) as f32)))
+    Vec3::from_array(sum.map(|sum| (sum / all) as f32))
 }

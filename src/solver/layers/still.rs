@@ -5,7 +5,7 @@
 //! left of pushes that act along directions of when the substep began. So what layers moved is made good for all of
 //! it, but for what they push off the floor with: that it bears. What touches several ways is left as it is.
 
-use super::spots::{Spot, place, shift};
+use super::spots::{self, Spot};
 use crate::solver::rigid::{Free, RigidMotion};
 use crate::solver::{World, contacts::touch::Touch, spin};
 use glam::Vec3;
@@ -13,28 +13,25 @@ use glam::Vec3;
 /// Normals that have this cosine at least are those of one floor.
 const FLAT: f32 = 0.999;
 
+/// The floor that a cloth lies on which is kept still, zero if there is none; nothing if it is not.
+pub(super) fn floor(world: &World) -> Option<Vec3> {
+    let is_free = world.pieces == 1 && !spin::is_held(world);
+    if is_free { normal(&world.scratch.contacts.touches) } else { None }
+}
+
 /// Moves all back as a whole by what they were moved by since they were at `before`.
-pub(super) fn keep(world: &mut World, before: &[Spot], now: &mut [Spot]) {
-    if world.pieces != 1 || spin::is_held(world) {
-        return;
-    }
-    let Some(floor) = floor(&world.scratch.contacts.touches) else { return };
+pub(super) fn keep(world: &mut World, floor: Vec3, before: &[Spot], now: &mut [Spot]) {
     spin::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    scratch.anchor.resize(p.len());
-    for (i, (before, now)) in before.iter().zip(&*now).enumerate() {
-        scratch.anchor.set(i, place(now) - place(before));
-    }
+    spots::list_ways(before, now, &mut scratch.anchor);
     let free = Free { x: scratch.air.all(), way: scratch.anchor.all(), mass: &p.mass, w: &p.w };
     let whole = RigidMotion::of_free(world.level, free);
     let whole = if floor == Vec3::ZERO { whole } else { whole.along(floor) };
-    for spot in now {
-        shift(spot, -whole.at(place(spot)));
-    }
+    spots::take_back(now, &whole);
 }
 
 /// The normal of the floor that all touches are with, zero if there is none; nothing if they are with more.
-fn floor(touches: &[Touch]) -> Option<Vec3> {
+fn normal(touches: &[Touch]) -> Option<Vec3> {
     let Some(first) = touches.first() else { return Some(Vec3::ZERO) };
     touches.iter().all(|touch| touch.normal.dot(first.normal) > FLAT).then_some(first.normal)
 }

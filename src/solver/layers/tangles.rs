@@ -13,10 +13,11 @@
 //! only along itself: what leads off it, where surfaces hardly cross, is little else than noise. What tells sides
 //! apart would keep them crossed, so that much of it is let be meanwhile.
 
-use super::contacts::{Contact, NOTHING, Weight};
+use super::contacts::{Contact, NOTHING};
 use super::distant::Distant;
 use super::motion::Motion;
 use super::patches::Patches;
+use super::push::Weight;
 use super::spots::{Spot, place, shift};
 use crate::geom::aabb::Aabb;
 use crate::math::columns::Columns;
