@@ -112,8 +112,13 @@ impl Leans {
         let [first, last] = &mut self.ends;
         find_ends(level, &self.blocks, start, first);
         last.clone_from(first);
-        find_turned(level, &self.blocks, now, last);
+        let mut blocks = self.blocks.iter();
+        let are_turning = blocks.any(|block| block.turning.iter().any(|turns| *turns > 0.0));
+        if are_turning {
+            find_turned(level, &self.blocks, now, last);
+        }
         let ends = [&self.ends[0][..], &self.ends[1]];
+        let ends = if are_turning { &ends[..] } else { &ends[..1] };
         find_quiet(level, &self.pairs, self.first_parted, ends, &mut self.quiet);
     }
 
@@ -145,7 +150,7 @@ impl Leans {
         });
         let mut quiet = [0];
         let first_parted = usize::from(block < self.first_parted);
-        look(Scalar, &[own], first_parted, [&self.ends[0], &self.ends[1]], &mut quiet);
+        look(Scalar, &[own], first_parted, &[&self.ends[0], &self.ends[1]], &mut quiet);
         quiet[0] & 1 != 0
     }
 }
@@ -159,7 +164,7 @@ vectored! {
 }
 
 vectored! {
-    fn find_quiet(pairs: &[Pairs], first_parted: usize, ends: [&[Lean]; 2], quiet: &mut [u8])
+    fn find_quiet(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8])
         = look, Avx2, find_quiet_apart
 }
 
@@ -171,7 +176,7 @@ fn find_turned_apart(blocks: &[Block], x: &[Spot], leans: &mut [Lean]) {
     lean::<_, true>(Scalar, blocks, x, leans);
 }
 
-fn find_quiet_apart(pairs: &[Pairs], first_parted: usize, ends: [&[Lean]; 2], quiet: &mut [u8]) {
+fn find_quiet_apart(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8]) {
     look(Scalar, pairs, first_parted, ends, quiet);
 }
 
@@ -224,7 +229,7 @@ fn lean<S: Simd, const TURNING: bool>(s: S, blocks: &[Block], x: &[Spot], leans:
 
 /// Finds which pairs cannot meet: all normals lean little as seen from amid the means of both.
 #[inline(always)]
-fn look<S: Simd>(s: S, pairs: &[Pairs], first_parted: usize, ends: [&[Lean]; 2], quiet: &mut [u8]) {
+fn look<S: Simd>(s: S, pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8]) {
     let all = (1 << S::LANES) - 1;
     for (number, ([one, other, between], quiet)) in pairs.iter().zip(quiet).enumerate() {
         let mut bits = 0;

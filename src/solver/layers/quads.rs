@@ -47,6 +47,8 @@ pub(super) struct Quads {
     /// Those of each listed pair of patches, once they are known, and how many all of those are.
     runs: Vec<Option<Run>>,
     live: usize,
+    /// Whether any is known.
+    is_any_known: bool,
     /// What was listed before, and of that the first for each patch and the next after each.
     before: Before,
     /// Room to put runs in order.
@@ -97,7 +99,15 @@ impl Quads {
             next: Vec::with_capacity(8 * count),
         };
         let runs = Vec::with_capacity(8 * count);
-        Self { vertices, edges, runs, live: 0, before, order: Vec::with_capacity(8 * count) }
+        Self {
+            vertices,
+            edges,
+            runs,
+            live: 0,
+            is_any_known: false,
+            before,
+            order: Vec::with_capacity(8 * count),
+        }
     }
 
     /// Bytes that it holds.
@@ -113,7 +123,7 @@ impl Quads {
     fn forget(&mut self, pairs: usize) {
         self.vertices.clear();
         self.edges.clear();
-        self.live = 0;
+        (self.live, self.is_any_known) = (0, false);
         self.runs.clear();
         self.runs.resize(pairs, None);
     }
@@ -136,7 +146,7 @@ impl Quads {
         for (at, [one, _]) in old.iter().enumerate().rev() {
             next[at] = core::mem::replace(&mut first[*one as usize], at as u32);
         }
-        self.live = 0;
+        (self.live, self.is_any_known) = (0, false);
         for [one, other] in listed {
             let mut at = first[*one as usize];
             while at != NONE && old[at as usize][1] != *other {
@@ -144,6 +154,7 @@ impl Quads {
             }
             let run = if at == NONE { None } else { runs[at as usize] };
             self.live += run.as_ref().map_or(0, Run::len);
+            self.is_any_known |= run.is_some();
             self.runs.push(run);
         }
     }
@@ -196,6 +207,9 @@ impl Patches {
 
     /// What was found of listed pairs of patches holds the less the more those went against each other.
     pub fn spend(&mut self) {
+        if !self.quads.is_any_known {
+            return;
+        }
         for at in 0..self.listed.len() {
             if self.quads.runs[at].is_some() {
                 let step = self.step_of(at as u32);
@@ -241,6 +255,7 @@ impl Patches {
         };
         self.quads.live += run.len();
         self.quads.runs[at as usize] = Some(run);
+        self.quads.is_any_known = true;
     }
 
     /// Adds what may meet of a kind in listed pair `at` in this substep to candidates.
