@@ -12,13 +12,18 @@ pub(super) struct Around {
     count: usize,
     /// A bit for each contact that is due, in order.
     due: Vec<u64>,
-    /// Particles that moved since the last look, and whether each is among them.
+    /// Particles that moved since contacts were last called for it, those that did since all were last at rest, and
+    /// which of both each is among.
     moved: Vec<u32>,
-    has_moved: Vec<bool>,
-    /// Whether any moved since this was last set to false, and since all began.
-    pub is_stirred: bool,
+    stirred: Vec<u32>,
+    states: Vec<u8>,
+    /// Whether any moved since all began.
     pub was_stirred: bool,
 }
+
+/// What a particle is.
+const MOVED: u8 = 1;
+const STIRRED: u8 = 2;
 
 impl Around {
     /// Of so many particles there may be; contacts that there is room for.
@@ -29,24 +34,26 @@ impl Around {
             count: 0,
             due: Vec::with_capacity(contacts.div_ceil(64)),
             moved: Vec::with_capacity(capacity),
-            has_moved: Vec::with_capacity(capacity),
-            is_stirred: false,
+            stirred: Vec::with_capacity(capacity),
+            states: Vec::with_capacity(capacity),
             was_stirred: false,
         }
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let words = self.starts.capacity() + self.contacts.capacity() + self.moved.capacity();
-        4 * words + 8 * self.due.capacity() + self.has_moved.capacity()
+        let lists = [&self.starts, &self.contacts, &self.moved, &self.stirred];
+        let words: usize = lists.iter().map(|list| list.capacity()).sum();
+        4 * words + 8 * self.due.capacity() + self.states.capacity()
     }
 
     /// Nothing moved among so many particles, and contacts are to be sorted in anew.
     pub fn begin(&mut self, particles: usize) {
         self.count = 0;
         self.starts.resize(particles + 1, 0);
-        self.moved.drain(..).for_each(|at| self.has_moved[at as usize] = false);
-        self.has_moved.resize(particles, false);
+        self.rest();
+        self.moved.drain(..).for_each(|at| self.states[at as usize] = 0);
+        self.states.resize(particles, 0);
         self.due.clear();
         self.was_stirred = false;
     }
@@ -81,12 +88,31 @@ impl Around {
     /// Notes that a particle moved.
     #[inline(always)]
     pub fn moves(&mut self, particle: u32) {
-        let has_moved = &mut self.has_moved[particle as usize];
-        if !*has_moved {
-            *has_moved = true;
-            (self.is_stirred, self.was_stirred) = (true, true);
+        let state = core::mem::replace(&mut self.states[particle as usize], MOVED | STIRRED);
+        if state & MOVED == 0 {
             self.moved.push(particle);
         }
+        if state & STIRRED == 0 {
+            self.stirred.push(particle);
+            self.was_stirred = true;
+        }
+    }
+
+    /// All are at rest.
+    pub fn rest(&mut self) {
+        self.stirred.drain(..).for_each(|at| self.states[at as usize] &= !STIRRED);
+    }
+
+    /// Those that moved since.
+    pub fn stirred(&self) -> &[u32] {
+        &self.stirred
+    }
+
+    /// Whether any of these did.
+    #[inline(always)]
+    pub fn are_stirred(&self, particles: [u32; 4]) -> bool {
+        let states = particles.map(|at| self.states[at as usize]);
+        states.into_iter().fold(0, |all, state| all | state) & STIRRED != 0
     }
 
     /// Whether any particle moved.
@@ -108,7 +134,7 @@ impl Around {
         }
         self.sort(contacts);
         while let Some(particle) = self.moved.pop() {
-            self.has_moved[particle as usize] = false;
+            self.states[particle as usize] &= !MOVED;
             self.call(particle);
         }
     }

@@ -1,6 +1,7 @@
 //! Pairs that may meet in a substep but are too far from each other to push: a direction told them apart as it
 //! began, and the fence asks whether it still does.
 
+use super::around::Around;
 use super::closest::{V, between};
 use super::contacts::{Contact, EDGES, Kind, SLIT, VERTEX};
 use super::motion::Motion;
@@ -30,15 +31,28 @@ fn find_apart(level: Level, distant: &[Distant], now: &[Spot], apart: &mut Vec<u
     look(level, distant, now, apart);
 }
 
-/// Whether all pairs are apart by more than a fence leaves between them.
-pub(super) fn are_apart(
-    level: Level,
-    distant: &[Distant],
-    now: &[Spot],
-    apart: &mut Vec<u8>,
-) -> bool {
-    find_apart(level, distant, now, apart);
-    count(apart) == distant.len()
+/// Whether all pairs are apart by more than a fence leaves between them, as they were before some particles were
+/// stirred.
+pub(super) fn are_apart(level: Level, distant: &[Distant], now: &[Spot], around: &Around) -> bool {
+    let Some(first) = distant.first() else { return true };
+    let (mut some, mut count) = ([*first; LANES], 0);
+    let are_apart = |some: &[Distant]| {
+        let mut apart = [0];
+        look(level, some, now, &mut apart);
+        apart[0].count_ones() as usize == some.len()
+    };
+    let is_stirred = |pair: &&Distant| around.are_stirred(pair.ids);
+    for pair in distant.iter().filter(is_stirred) {
+        some[count] = *pair;
+        count += 1;
+        if count == LANES {
+            if !are_apart(&some) {
+                return false;
+            }
+            count = 0;
+        }
+    }
+    are_apart(&some[..count])
 }
 
 fn count(apart: &[u8]) -> usize {

@@ -243,22 +243,22 @@ impl Layers {
             let all = may_go_back || is_last;
             distant::call(world.level, distant, apart, all, motion, *gap, contacts);
             around.call_from(known, contacts);
-            around.is_stirred = false;
+            around.rest();
             known = contacts.len();
             let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
             if !is_done && (may_go_back || is_last) {
                 fence::go_back(contacts, motion, around, frozen);
                 went_back = true;
             }
-            let mut is_good = || {
-                if around.is_stirred {
-                    motion.is_as_thought()
-                        && distant::are_apart(world.level, distant, &motion.now, apart)
+            let are_as_thought = || {
+                if were_within {
+                    motion.are_as_thought(around.stirred().iter().copied())
                 } else {
-                    were_within
+                    motion.are_as_thought(0..motion.now.len() as u32)
                 }
             };
-            if (is_done || may_go_back) && is_good() {
+            let are_apart = || distant::are_apart(world.level, distant, &motion.now, around);
+            if (is_done || may_go_back) && are_as_thought() && are_apart() {
                 break;
             }
             // Whoever goes back must not get in the way of somebody else.
@@ -342,7 +342,7 @@ pub(crate) fn solve(world: &mut World) {
         ways.clone_from(now);
     }
     let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
-    push::solve(contacts, active, (loads, finder), start, now, friction, force);
+    push::solve(world.level, contacts, active, (loads, finder), start, now, friction, force);
     if let Some(floor) = floor {
         still::keep(world, floor, ways, now);
     }

@@ -5,6 +5,7 @@ use super::four::Four;
 use super::loads::{Finder, Loads};
 use super::spots::{Spot, push};
 use crate::math::columns::Columns;
+use crate::math::simd::{Level, leveled};
 use crate::math::{max, min};
 use glam::Vec3;
 
@@ -113,6 +114,7 @@ pub(super) fn list(
 /// Ends approach, and rubs, from what bore on what in the substep before. `force` is what a push of a kilogram by a
 /// metre takes in a substep [1/s²].
 pub(super) fn solve(
+    level: Level,
     contacts: &[Contact],
     active: &mut [Push],
     (loads, finder): (&mut Loads, &mut Finder),
@@ -131,18 +133,28 @@ pub(super) fn solve(
             push.press(contact, x, Four::way(contact.n * push.push + push.rub));
         }
     }
-    for sweep in 0..SWEEPS {
-        if sweep % 2 == 0 {
-            active.iter_mut().for_each(|push| part(&contacts[push.contact as usize], push, x));
-        } else {
-            let back = active.iter_mut().rev();
-            back.for_each(|push| part(&contacts[push.contact as usize], push, x));
-        }
-    }
+    part_all(level, contacts, active, x);
     for push in &mut *active {
         rub(&contacts[push.contact as usize], push, start, x, friction);
     }
     loads.keep(contacts, active, force);
+}
+
+leveled! {
+    /// Ends approach.
+    fn part_all(contacts: &[Contact], active: &mut [Push], x: &mut [Spot]) = part_each
+}
+
+#[inline(always)]
+fn part_each(contacts: &[Contact], active: &mut [Push], x: &mut [Spot]) {
+    for _ in 0..SWEEPS / 2 {
+        for push in &mut *active {
+            part(&contacts[push.contact as usize], push, x);
+        }
+        for push in active.iter_mut().rev() {
+            part(&contacts[push.contact as usize], push, x);
+        }
+    }
 }
 
 #[inline(always)]
