@@ -279,3 +279,74 @@ fn cosine_of_sum<S: Arithmetic>(s: S, a: S::F, b: S::F) -> S::F {
     let one = s.splat(1.0);
     a * b - ((one - a * a) * (one - b * b)).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Patches side by side along a strip, a square of two triangles each, the square after each turned by an
+    /// angle [rad] against it; each pair of neighbours is beside each other.
+    fn strip(turns: &[f32]) -> (Leans, Vec<Spot>) {
+        let (mut x, mut angle, mut at) = (Vec::new(), 0.0_f32, [0.0, 0.0]);
+        for turn in [0.0].iter().chain(turns) {
+            x.extend([[at[0], at[1], 0.0, 1.0], [at[0], at[1], 1.0, 1.0]]);
+            angle += turn;
+            at = [at[0] + angle.cos(), at[1] + angle.sin()];
+        }
+        x.extend([[at[0], at[1], 0.0, 1.0], [at[0], at[1], 1.0, 1.0]]);
+        let count = turns.len() + 1;
+        let mut beside: Vec<_> = (1..count as u32).map(|i| ([i - 1, i], None, u32::MAX)).collect();
+        let mut leans = Leans::new(count, &mut beside);
+        assert!(beside.iter().enumerate().all(|(at, (.., place))| *place == at as u32));
+        for patch in 0..count {
+            let a = 2 * patch as u32;
+            leans.set(patch, [[a, a + 1, a + 2], [a + 3, a + 2, a + 1]].into_iter());
+        }
+        (leans, x)
+    }
+
+    #[test]
+    fn what_leans_alike_is_quiet_and_what_is_bent_is_not() {
+        for level in Level::all() {
+            let (mut leans, x) = strip(&[0.0, 0.5, 1.5, 2.5, 0.1, 0.0, 0.0, 2.0, 0.0, 0.0]);
+            leans.find(level, &x, &x);
+            let quiet: Vec<bool> = (0..10).map(|pair| leans.is_quiet(pair)).collect();
+            let expected = [0.0, 0.5, 1.5, 2.5, 0.1, 0.0, 0.0, 2.0, 0.0, 0.0]
+                .map(|angle: f32| angle < 2.0 * STEEP.acos());
+            assert_eq!(quiet, expected, "{level:?}");
+            assert!((0..10).all(|pair| leans.is_quiet_again(pair) == quiet[pair as usize]));
+            assert!((0..11).all(|patch| leans.is_flat(patch)), "{level:?}");
+        }
+    }
+
+    #[test]
+    fn a_patch_that_turns_within_a_substep_is_seen_as_it_ends() {
+        for level in Level::all() {
+            let (mut leans, start) = strip(&[0.0, 0.0]);
+            let (_, end) = strip(&[3.0, 0.0]);
+            leans.find(level, &start, &end);
+            assert!(leans.is_quiet(0), "none is said to turn at {level:?}");
+            leans.set_turning(1, true);
+            leans.find(level, &start, &end);
+            assert!(!leans.is_quiet(0) && !leans.is_quiet_again(0), "{level:?}");
+            leans.find(level, &start, &start);
+            leans.find_again(level, &end);
+            assert!(leans.is_quiet(0) && !leans.is_quiet_again(0), "{level:?}");
+        }
+    }
+
+    #[test]
+    fn of_triangles_without_an_area_nothing_is_known() {
+        for level in Level::all() {
+            let (mut leans, mut x) = strip(&[0.0, 0.0, 0.0]);
+            x[2] = x[0];
+            leans.find(level, &x, &x);
+            assert!(!leans.is_flat(0) && !leans.is_quiet(0), "{level:?}");
+            assert!(leans.is_flat(2) && leans.is_quiet(2), "{level:?}");
+            let (mut leans, x) = strip(&[0.0]);
+            leans.set(0, [].into_iter());
+            leans.find(level, &x, &x);
+            assert!(!leans.is_flat(0) && !leans.is_quiet(0) && leans.is_flat(1), "{level:?}");
+        }
+    }
+}
