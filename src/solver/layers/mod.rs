@@ -243,6 +243,9 @@ impl Layers {
             distant::call(world.level, distant, apart, all, motion, *gap, contacts);
             around.call_from(known, contacts);
             around.rest();
+            if !is_last {
+                fence::let_go(world.level, contacts, known, &motion.now, around);
+            }
             known = contacts.len();
             let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
             if !is_done && (may_go_back || is_last) {
