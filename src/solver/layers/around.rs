@@ -21,6 +21,9 @@ pub(super) struct Around {
     pub was_stirred: bool,
 }
 
+/// Bits in a word.
+pub(super) const BITS: usize = 64;
+
 /// What a particle is.
 const MOVED: u8 = 1;
 const STIRRED: u8 = 2;
@@ -124,6 +127,11 @@ impl Around {
     pub fn call_from(&mut self, first: usize, contacts: &[Contact]) {
         self.due.resize(contacts.len().div_ceil(64), 0);
         (first..contacts.len()).for_each(|at| self.due[at / 64] |= 1 << (at % 64));
+    }
+
+    /// Those of a word are due no more that have a bit.
+    pub fn let_go(&mut self, word: usize, bits: u64) {
+        self.due[word] &= !bits;
     }
 
     /// Those are due whose particles moved.

@@ -60,7 +60,8 @@ fn count(apart: &[u8]) -> usize {
 }
 
 vectored! {
-    fn look(distant: &[Distant], now: &[Spot], apart: &mut [u8]) = look_at, Avx2, look_alone
+    /// Sets a bit for each pair that is apart.
+    pub(super) fn look(distant: &[Distant], now: &[Spot], apart: &mut [u8]) = look_at, Avx2, look_alone
 }
 
 fn look_alone(distant: &[Distant], now: &[Spot], apart: &mut [u8]) {

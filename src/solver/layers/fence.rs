@@ -5,10 +5,12 @@
 //! they were, but for how all moved, and with them whom that gets in the way of. What is held does not: it takes
 //! along what it would cross.
 
-use super::around::Around;
-use super::contacts::{Contact, between, places};
+use super::around::{Around, BITS};
+use super::contacts::{Contact, SLIT, VERTEX, between, places};
+use super::distant::{Distant, look};
 use super::motion::Motion;
 use super::spots::{Spot, place, shift};
+use crate::math::simd::Level;
 
 /// How often those that would cross are moved before some go back.
 const ROUNDS: u32 = 48;
@@ -78,6 +80,29 @@ pub(super) fn draw_apart(
                 draw(contact, now, around);
             }
         }
+    }
+}
+
+/// Those are due no more that surely are apart already.
+pub(super) fn let_go(
+    level: Level,
+    contacts: &[Contact],
+    first: usize,
+    now: &[Spot],
+    around: &mut Around,
+) {
+    let pair = |contact: &Contact| {
+        let Contact { ids, first, n, slit, .. } = *contact;
+        // As if it were a pair with a slit so wide.
+        let gap = if slit < 0.0 { f32::NEG_INFINITY } else { slit * HAIR / SLIT };
+        Distant { ids, first, gap, n }
+    };
+    let mut pairs = [pair(&Contact::of([0; 4], VERTEX)); BITS];
+    for (word, contacts) in contacts.chunks(BITS).enumerate().skip(first / BITS) {
+        pairs.iter_mut().zip(contacts).for_each(|(own, contact)| *own = pair(contact));
+        let mut apart = [0; BITS / 8];
+        look(level, &pairs[..contacts.len()], now, &mut apart);
+        around.let_go(word, u64::from_le_bytes(apart));
     }
 }
 

@@ -244,6 +244,9 @@ impl Layers {
             distant::call(world.level, distant, apart, all, motion, *gap, contacts);
             around.call_from(known, contacts);
             around.rest();
+            if !is_last {
+                fence::let_go(world.level, contacts, known, &motion.now, around);
+            }
             known = contacts.len();
             let is_done = !is_last && fence::draw_apart(contacts, motion, around, open);
             if !is_done && (may_go_back || is_last) {
@@ -352,6 +355,13 @@ pub(crate) fn solve(world: &mut World) {
     world.layers = Some(layers);
 }
 
+/// Finds where others moved particles to since a tick or a part of it began.
+fn follow(world: &mut World) {
+    if let Some(layers) = &mut world.layers {
+        spots::gather(&mut layers.motion.now, &world.particles.x, &world.particles.w);
+    }
+}
+
 /// After all else moved, nothing crosses.
 pub(crate) fn hold(world: &mut World) {
     let Some(mut layers) = world.layers.take() else {
@@ -368,11 +378,10 @@ pub(crate) fn hold(world: &mut World) {
 
 /// Once more at the end of a tick, after other stages moved particles; what leashes pulled stays where that is.
 pub(crate) fn hold_at_last(world: &mut World) {
-    let (pulled, w) = (&world.scratch.pulled, &world.particles.w);
+    follow(world);
+    let pulled = &world.scratch.pulled;
     if let Some(layers) = &mut world.layers {
-        let now = &mut layers.motion.now;
-        spots::gather(now, &world.particles.x, w);
-        pulled.iter().for_each(|i| now[*i as usize][3] = 0.0);
+        pulled.iter().for_each(|i| layers.motion.now[*i as usize][3] = 0.0);
     }
     hold(world);
 }

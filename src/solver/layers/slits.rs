@@ -241,6 +241,7 @@ pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
             world.particles.x.add(*vertex as usize, *way);
             world.particles.x_last.add(*vertex as usize, *way);
         }
+        super::follow(world);
         super::hold(world);
     }
     if let Some(layers) = &mut world.layers {

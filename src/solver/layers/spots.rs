@@ -30,17 +30,25 @@ pub(super) fn push(spot: &mut Spot, by: Four) {
     (Four::of(spot) + by.ways()).put(spot);
 }
 
-/// Does something to so many particles, some side by side: as many from a place on as there are lanes.
+/// Does something for each of so many particles, some side by side: as many from a place on as there are lanes. For
+/// some it is done twice.
 macro_rules! each {
     ($count:expr, |$simd:ident, $at:ident| $work:expr) => {
-        let whole = $count / Base::LANES * Base::LANES;
-        let $simd = Base::new();
-        for $at in (0..whole).step_by(Base::LANES) {
-            $work;
-        }
-        let $simd = Scalar;
-        for $at in whole..$count {
-            $work;
+        if $count < Base::LANES {
+            let $simd = Scalar;
+            for $at in 0..$count {
+                $work;
+            }
+        } else {
+            let ($simd, last) = (Base::new(), $count - Base::LANES);
+            let mut $at = 0;
+            loop {
+                $work;
+                if $at == last {
+                    break;
+                }
+                $at = last.min($at + Base::LANES);
+            }
         }
     };
 }
@@ -73,7 +81,7 @@ pub(super) fn gather(spots: &mut Vec<Spot>, x: &Columns, w: &[f32]) {
     spots.resize(w.len(), [0.0; 4]);
     let [x, y, z] = x.all();
     each!(w.len(), |s, at| {
-        put(s, spots, at, [s.load(x, at), s.load(y, at), s.load(z, at), s.load(w, at)])
+        put(s, spots, at, [s.load(x, at), s.load(y, at), s.load(z, at), s.load(w, at)]);
     });
 }
 
@@ -100,12 +108,12 @@ pub(super) fn list_ways(from: &[Spot], to: &[Spot], ways: &mut Columns) {
     });
 }
 
-/// Moves all back by how they move with the whole.
-pub(super) fn take_back(spots: &mut [Spot], whole: &RigidMotion) {
+/// Where all are without how they move with the whole.
+pub(super) fn take_back(spots: &[Spot], whole: &RigidMotion, to: &mut [Spot]) {
     each!(spots.len(), |s, at| {
         let [x, y, z, w] = fetch(s, spots, at);
         let by = whole.ways(s, [x, y, z]);
-        put(s, spots, at, [x - by[0], y - by[1], z - by[2], w])
+        put(s, to, at, [x - by[0], y - by[1], z - by[2], w]);
     });
 }
 
@@ -125,7 +133,7 @@ pub(super) fn gather_against(
         for axis in 0..3 {
             way[axis] = s.load(motion[axis], at) - by[axis];
         }
-        put(s, ways, at, way)
+        put(s, ways, at, way);
     });
 }
 
@@ -175,4 +183,53 @@ pub(super) fn middle(spots: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
         }
     }
     Vec3::from_array(sum.map(|sum| (sum / all) as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_by_fours_do_as_each_alone_however_many_there_are() {
+        for count in 0..10 {
+            let number = |i: usize, k: usize| ((i * 7 + k * 13) % 31) as f32 / 7.0 - 2.0;
+            let vector = |i: usize, k: usize| Vec3::new(number(i, k), number(i, k + 1), -0.0);
+            let [mut x, mut motion, mut ways] = [(); 3].map(|()| Columns::filled(count));
+            let w: Vec<f32> = (0..count).map(|i| number(i, 5)).collect();
+            for i in 0..count {
+                x.set(i, vector(i, 0));
+                motion.set(i, vector(i, 3));
+            }
+            let points = || (0..count).map(|i| (vector(i, 0), vector(i, 3), 1.0));
+            let whole = RigidMotion::of_points(points);
+            let [mut spots, mut turned] = [(); 2].map(|()| Vec::new());
+            gather(&mut spots, &x, &w);
+            gather_against(&whole, &x, &motion, &mut turned);
+            list_ways(&spots, &turned, &mut ways);
+            for i in 0..count {
+                let against = vector(i, 3) - whole.at(vector(i, 0));
+                assert_eq!(spots[i].map(f32::to_bits), with(vector(i, 0), w[i]), "{i} of {count}");
+                assert_eq!(turned[i].map(f32::to_bits), with(against, 0.0), "{i} of {count}");
+                assert_eq!(bits(ways.at(i)), bits(against - vector(i, 0)), "{i} of {count}");
+            }
+            scatter_along(&whole, &x, &turned, &mut motion);
+            take_back(&spots, &whole, &mut turned);
+            scatter(&turned, &mut ways);
+            for i in 0..count {
+                let at = whole.at(vector(i, 0));
+                let along = (vector(i, 3) - at) + at;
+                assert_eq!(bits(motion.at(i)), bits(along), "{i} of {count}");
+                assert_eq!(bits(ways.at(i)), bits(vector(i, 0) - at), "{i} of {count}");
+                assert_eq!(turned[i][3].to_bits(), w[i].to_bits(), "{i} of {count}");
+            }
+        }
+    }
+
+    fn bits(v: Vec3) -> [u32; 3] {
+        v.to_array().map(f32::to_bits)
+    }
+
+    fn with(v: Vec3, w: f32) -> [u32; 4] {
+        v.extend(w).to_array().map(f32::to_bits)
+    }
 }

@@ -19,15 +19,16 @@ pub(super) fn floor(world: &World) -> Option<Vec3> {
     if is_free { normal(&world.scratch.contacts.touches) } else { None }
 }
 
-/// Moves all back as a whole by what they were moved by since they were at `before`.
-pub(super) fn keep(world: &mut World, floor: Vec3, before: &[Spot], now: &mut [Spot]) {
+/// Moves all back as a whole by what they were moved by since they were at `before`, which is room to work in then.
+pub(super) fn keep(world: &mut World, floor: Vec3, before: &mut Vec<Spot>, now: &mut Vec<Spot>) {
     spin::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
     spots::list_ways(before, now, &mut scratch.anchor);
     let free = Free { x: scratch.air.all(), way: scratch.anchor.all(), mass: &p.mass, w: &p.w };
     let whole = RigidMotion::of_free(world.level, free);
     let whole = if floor == Vec3::ZERO { whole } else { whole.along(floor) };
-    spots::take_back(now, &whole);
+    spots::take_back(now, &whole, before);
+    core::mem::swap(now, before);
 }
 
 /// The normal of the floor that all touches are with, zero if there is none; nothing if they are with more.
