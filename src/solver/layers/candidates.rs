@@ -267,7 +267,7 @@ mod tests {
         motion.start.extend(start.map(|[x, y, z]: [f32; 3]| [x, y, z, 1.0]));
         motion.now.clone_from(&motion.start);
         motion.now[0][1] -= down;
-        motion.look_ahead(Level::best(), 0.01, 0.01);
+        motion.look_ahead(0.01, 0.01);
         motion
     }
 
@@ -292,7 +292,7 @@ mod tests {
         let spot = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2), 1.0];
         motion.start.extend((0..64).map(spot));
         motion.now.extend(motion.start.iter().map(|[x, y, z, w]| [*x, y - z, z + x, *w]));
-        motion.look_ahead(Level::best(), 0.1, 0.01);
+        motion.look_ahead(0.1, 0.01);
         let judged = |level| {
             let mut all = [(); 2].map(|()| Candidates::new(60));
             for (k, candidates) in all.iter_mut().enumerate() {

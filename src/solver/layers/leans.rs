@@ -110,12 +110,12 @@ impl Leans {
     /// Finds how all patches lean, with particles as the substep begins and now.
     pub fn find(&mut self, level: Level, start: &[Spot], now: &[Spot]) {
         let [first, last] = &mut self.ends;
-        find_ends(level, &self.blocks, start, first);
+        find_leans(level, &self.blocks, start, first, false);
         last.clone_from(first);
         let mut blocks = self.blocks.iter();
         let are_turning = blocks.any(|block| block.turning.iter().any(|turns| *turns > 0.0));
         if are_turning {
-            find_turned(level, &self.blocks, now, last);
+            find_leans(level, &self.blocks, now, last, true);
         }
         let ends = [&self.ends[0][..], &self.ends[1]];
         let ends = if are_turning { &ends[..] } else { &ends[..1] };
@@ -124,7 +124,7 @@ impl Leans {
 
     /// Finds anew how those lean that are set to turn, with particles as they are now.
     pub fn find_again(&mut self, level: Level, now: &[Spot]) {
-        find_turned(level, &self.blocks, now, &mut self.ends[1]);
+        find_leans(level, &self.blocks, now, &mut self.ends[1], true);
     }
 
     /// Whether triangles of a patch cannot meet each other.
@@ -156,11 +156,8 @@ impl Leans {
 }
 
 vectored! {
-    fn find_ends(blocks: &[Block], x: &[Spot], leans: &mut [Lean]) = lean::<_, false>, Avx2, find_ends_apart
-}
-
-vectored! {
-    fn find_turned(blocks: &[Block], x: &[Spot], leans: &mut [Lean]) = lean::<_, true>, Avx2, find_turned_apart
+    fn find_leans(blocks: &[Block], x: &[Spot], leans: &mut [Lean], turning: bool)
+        = lean, Avx2, find_leans_apart
 }
 
 vectored! {
@@ -168,12 +165,8 @@ vectored! {
         = look, Avx2, find_quiet_apart
 }
 
-fn find_ends_apart(blocks: &[Block], x: &[Spot], leans: &mut [Lean]) {
-    lean::<_, false>(Scalar, blocks, x, leans);
-}
-
-fn find_turned_apart(blocks: &[Block], x: &[Spot], leans: &mut [Lean]) {
-    lean::<_, true>(Scalar, blocks, x, leans);
+fn find_leans_apart(blocks: &[Block], x: &[Spot], leans: &mut [Lean], turning: bool) {
+    lean(Scalar, blocks, x, leans, turning);
 }
 
 fn find_quiet_apart(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8]) {
@@ -182,12 +175,12 @@ fn find_quiet_apart(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quie
 
 /// Finds how patches lean, or only those that turn.
 #[inline(always)]
-fn lean<S: Simd, const TURNING: bool>(s: S, blocks: &[Block], x: &[Spot], leans: &mut [Lean]) {
+fn lean<S: Simd>(s: S, blocks: &[Block], x: &[Spot], leans: &mut [Lean], only_turning: bool) {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     for (number, block) in blocks.iter().enumerate() {
         for at in (0..LANES).step_by(S::LANES) {
             let turning = s.load(&block.turning, at);
-            if TURNING && !s.is_any_positive(turning) {
+            if only_turning && !s.is_any_positive(turning) {
                 continue;
             }
             let counts = s.load(&block.counts, at);
@@ -216,7 +209,7 @@ fn lean<S: Simd, const TURNING: bool>(s: S, blocks: &[Block], x: &[Spot], leans:
             let ids: [u32; LANES] =
                 core::array::from_fn(|lane| (number * LANES + at + lane) as u32);
             let mut found = [mean.x, mean.y, mean.z, cone];
-            if TURNING {
+            if only_turning {
                 let before = turn(s, leans, &ids);
                 for (found, before) in found.iter_mut().zip(before) {
                     *found = s.pick(turning, *found, before);

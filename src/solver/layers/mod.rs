@@ -160,7 +160,7 @@ impl Layers {
         let Self {
             motion, far, patches, pieces, pairs, picked, near, contacts, distant, gap, ..
         } = self;
-        motion.look_ahead(world.level, world.spacing, *gap);
+        motion.look_ahead(world.spacing, *gap);
         let is_known = far.is_known;
         if is_known {
             far.follow(motion);

@@ -1,10 +1,8 @@
 //! Where particles are in a substep, and how far each may still get.
 
-use super::closest::V;
 use super::four::{Four, WAYS};
-use super::spots::{Spot, drift, place};
+use super::spots::{self, Spot, drift, place};
 use super::sweep::Sweep;
-use crate::math::simd::{Level, MOST_LANES, Number, Scalar, Simd, turn, turn_back, vectored};
 use crate::math::{max, min};
 use glam::Vec3;
 
@@ -44,13 +42,13 @@ impl Motion {
     }
 
     /// Gives each particle room around where it is.
-    pub fn look_ahead(&mut self, level: Level, spacing: f32, gap: f32) {
+    pub fn look_ahead(&mut self, spacing: f32, gap: f32) {
         let Self { start, now, from, to, .. } = self;
         self.drift = drift(start, now);
         from.resize(start.len(), [0.0; 4]);
         to.resize(start.len(), [0.0; 4]);
         let spare = min(spacing * SPARE, gap * SPARE_GAP);
-        give_room(level, [start, now], [from, to], self.drift, spare);
+        spots::give_room([start, now], [from, to], self.drift, [SPARE_WAY, spare]);
     }
 
     /// Gives those room that strayed from what they had, to where they are and, if they may, back to where they
@@ -158,53 +156,6 @@ impl Motion {
             start + max(a.x, b.x) + max(a.y, b.y) + max(a.z, b.z),
         ]
     }
-}
-
-vectored! {
-    fn give_room(ends: [&[Spot]; 2], rooms: [&mut [Spot]; 2], drift: Vec3, spare: f32)
-        = give_all_room, Avx2, give_room_apart
-}
-
-fn give_room_apart(ends: [&[Spot]; 2], rooms: [&mut [Spot]; 2], drift: Vec3, spare: f32) {
-    give_all_room(Scalar, ends, rooms, drift, spare);
-}
-
-#[inline(always)]
-fn give_all_room<S: Simd>(
-    s: S,
-    ends: [&[Spot]; 2],
-    [from, to]: [&mut [Spot]; 2],
-    drift: Vec3,
-    spare: f32,
-) {
-    let count = from.len();
-    let whole = count - count % S::LANES;
-    for at in (0..whole).step_by(S::LANES) {
-        give_some_room(s, at, ends, [from, to], drift, spare);
-    }
-    for at in whole..count {
-        give_some_room(Scalar, at, ends, [from, to], drift, spare);
-    }
-}
-
-/// Gives those in lanes room around the way that each made, by how far it got against the drift.
-#[inline(always)]
-fn give_some_room<S: Simd>(
-    s: S,
-    at: usize,
-    [start, now]: [&[Spot]; 2],
-    [from, to]: [&mut [Spot]; 2],
-    drift: Vec3,
-    spare: f32,
-) {
-    let ids: [u32; MOST_LANES] = core::array::from_fn(|lane| (at + lane) as u32);
-    let way = V::new(turn(s, now, &ids)).minus(V::new(turn(s, start, &ids)));
-    let [x, y, z] = drift.to_array().map(|drift| s.splat(drift));
-    let against = way.minus(V { x, y, z });
-    let room = against.dot(against).sqrt() * s.splat(SPARE_WAY) + s.splat(spare);
-    let V { x, y, z } = way;
-    turn_back(s, from, &ids, [x - room, y - room, z - room, s.splat(0.0)]);
-    turn_back(s, to, &ids, [x + room, y + room, z + room, s.splat(0.0)]);
 }
 
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::four::Four;
 use crate::math::columns::Columns;
-use crate::math::simd::{Arithmetic, Base, Scalar, Simd, turned};
+use crate::math::simd::{Arithmetic, Base, Number, Scalar, Simd, turned};
 use crate::solver::rigid::RigidMotion;
 use core::array;
 use glam::Vec3;
@@ -165,6 +165,26 @@ pub(super) fn drift(from: &[Spot], to: &[Spot]) -> Vec3 {
     let rest = rest.fold(Vec3::ZERO, |sum, (from, to)| sum + (place(to) - place(from)));
     let all = sums.iter().fold(rest, |sum, part| sum + place(part));
     all * (1.0 / from.len() as f32)
+}
+
+/// Gives each room around the way that it made from one state to another: `share` of how far it got against the drift,
+/// and `spare` more. The ways that it may make so are from, to.
+pub(super) fn give_room(
+    [start, now]: [&[Spot]; 2],
+    [from, to]: [&mut [Spot]; 2],
+    drift: Vec3,
+    [share, spare]: [f32; 2],
+) {
+    each!(now.len(), |s, at| {
+        let (before, after) = (fetch(s, start, at), fetch(s, now, at));
+        let way = [0, 1, 2].map(|axis| after[axis] - before[axis]);
+        let [x, y, z] = [0, 1, 2].map(|axis| way[axis] - s.splat(drift[axis]));
+        let against = (x * x + y * y + z * z).sqrt();
+        let room = against * s.splat(share) + s.splat(spare);
+        let [x, y, z] = way;
+        put(s, from, at, [x - room, y - room, z - room, s.splat(0.0)]);
+        put(s, to, at, [x + room, y + room, z + room, s.splat(0.0)]);
+    });
 }
 
 /// Whether any is held.
