@@ -12,9 +12,9 @@ use crate::{c, files, shell};
 pub const NEEDS: &[&Need] = &[&setup::CXX, &setup::CMAKE, &setup::PKG_CONFIG];
 
 /// The shared library, stripped, is no larger than this [B].
-const MAX_SHARED: u64 = 1_910_000;
+const MAX_SHARED: u64 = 1_920_000;
 /// The example `hang.c` with the static library in it, stripped, is no larger than this [B].
-const MAX_STATIC: u64 = 1_570_000;
+const MAX_STATIC: u64 = 1_580_000;
 
 /// So many multiplications of eight numbers at once are in the shared library at least: what compilers make of plain
 /// loops is no small part of them, and flags that are meant for size can keep them from it unseen.
