@@ -398,9 +398,9 @@ fn step_of(vertices: &[u32], now: &[Spot], before: &[Spot]) -> [Spot; 2] {
         for vertex in vertices {
             let load = |spots: &[Spot]| simd.load(&spots[*vertex as usize], k);
             let way = load(now) - load(before);
-            (least, most) = (Number::min(way, least), Number::max(way, most));
-            // What is no number, or has no end, leaves none.
-            still = still + way * zero;
+            // What is no number, or has no end, leaves none in the last.
+            (least, most, still) =
+                (Number::min(way, least), Number::max(way, most), still + way * zero);
         }
         simd.store(&mut step[0], k, least);
         simd.store(&mut step[1], k, most);

@@ -179,7 +179,7 @@ pub(super) fn give_room(
         let (before, after) = (fetch(s, start, at), fetch(s, now, at));
         let way = [0, 1, 2].map(|axis| after[axis] - before[axis]);
         let [x, y, z] = [0, 1, 2].map(|axis| way[axis] - s.splat(drift[axis]));
-        let against = (x * x + y * y + z * z).sqrt();
+        let against = Number::sqrt(x * x + y * y + z * z);
         let room = against * s.splat(share) + s.splat(spare);
         let [x, y, z] = way;
         put(s, from, at, [x - room, y - room, z - room, s.splat(0.0)]);
