@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 /// Each module's floor, lowest first.
 const FLOORS: [&[&str]; 6] = [
     &["error", "math", "arena"],
-    &["geom"],
-    &["mesh", "fabric"],
+    &["geometry"],
+    &["mesh", "model"],
     &["state"],
     &["solver"],
     &["cloth"],

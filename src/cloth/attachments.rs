@@ -1,10 +1,10 @@
 //! Pins that a moving transform carries.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Result, check_index};
 use crate::math::finite;
 use crate::math::float_env::guarded;
-use crate::solver::World;
+use crate::solver::world::World;
 use crate::state::attachments::{Attachment, Carrier};
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};

@@ -1,6 +1,6 @@
 //! What a renderer must upload again: the parts of its lists that tears and cuts changed.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use core::ops::Range;
 
 /// The parts of a cloth's lists that changed with its triangles since some revision.

@@ -1,6 +1,6 @@
 //! What a cloth may touch: added, moved and removed.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::Result;
 use crate::math::float_env::guarded;
 use crate::state::collider_desc::ColliderDesc;

@@ -1,6 +1,6 @@
 //! Folding along a line.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
 use crate::math::float_env::guarded;
 use crate::mesh::grid::Frame;

@@ -1,11 +1,11 @@
 //! Cutting with a blade.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_finite};
-use crate::geom::blade::Blade;
+use crate::geometry::blade::Blade;
 use crate::math::float_env::guarded;
-use crate::solver::cut;
-use crate::solver::layers::slits;
+use crate::solver::self_collide::surface::split_separation;
+use crate::solver::topology::cut;
 use glam::Vec3;
 
 impl Cloth {
@@ -51,7 +51,7 @@ impl Cloth {
             self.world.see_to_crowd();
             self.world.see_to_layers();
             let count = self.world.particles.len() as u32;
-            slits::part(&mut self.world, 0..count);
+            split_separation::part(&mut self.world, 0..count);
         });
         self.changed_topology();
         self.changed_state();

@@ -1,7 +1,7 @@
 //! What a cloth is made from: a grid, or any triangle mesh.
 
 use crate::error::{Result, check, check_finite, check_index};
-use crate::fabric::material::Material;
+use crate::model::material::Material;
 use crate::state::settings::Settings;
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};

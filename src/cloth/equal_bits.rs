@@ -1,9 +1,9 @@
 //! Tests: the kernels of a grid give the bits of the general ones, at every level of instructions.
 
-use super::Cloth;
-use super::desc::{GridDesc, PinMode};
-use crate::fabric::material::{Material, Preset};
+use crate::cloth::Cloth;
+use crate::cloth::desc::{GridDesc, PinMode};
 use crate::math::simd::Level;
+use crate::model::material::{Material, Preset};
 use crate::state::wind::Wind;
 use glam::Vec3;
 

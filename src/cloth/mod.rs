@@ -1,46 +1,48 @@
 //! The public noun: takes edits, runs ticks, hands out what a renderer reads.
 
+mod anchors;
 mod attachments;
-mod bytes;
+mod blended_surface;
+mod build;
 pub(crate) mod changes;
 mod colliders;
 mod crease;
 mod cut;
 pub(crate) mod desc;
-mod drawn;
 #[cfg(test)]
 mod equal_bits;
-mod hash;
-mod leashes;
-mod masses;
+mod mass_scales;
 mod pins;
+mod postcard;
 pub(crate) mod query;
 mod save;
-pub(crate) mod stream;
+mod state_hash;
 mod tear;
 mod teleport;
 #[cfg(feature = "parallel")]
 mod threads;
+pub(crate) mod vertex_stream;
 pub(crate) mod view;
-mod world;
-pub(crate) mod write;
+pub(crate) mod write_vertices;
 
 use crate::error::{Result, check, check_finite, check_index};
-use crate::fabric::material::Material;
 use crate::math::float_env::guarded;
 use crate::mesh::report::MeshReport;
-use crate::solver::layers::slits;
+use crate::model::material::Material;
+use crate::solver::pipeline;
 use crate::solver::profile::Clock;
-use crate::solver::{World, pipeline};
+use crate::solver::self_collide::surface::split_separation;
+
+use crate::cloth::build::Origin;
+use crate::cloth::changes::History;
+use crate::cloth::desc::{GridDesc, MeshDesc};
+use crate::cloth::view::Outputs;
+use crate::solver::world::World;
 use crate::state::events::Event;
 use crate::state::grabs::{Grab, Held};
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
-use changes::History;
-use desc::{GridDesc, MeshDesc};
 use glam::Vec3;
-use view::Outputs;
-use world::Origin;
 
 /// A piece of cloth.
 ///
@@ -203,7 +205,7 @@ impl Cloth {
                 if is_new {
                     world.is_tangled = true;
                     let count = world.particles.len() as u32;
-                    slits::part(world, 0..count);
+                    split_separation::part(world, 0..count);
                 }
             });
         }

@@ -1,6 +1,6 @@
 //! Particles are pinned, hard or soft, and let go.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::math::float_env::guarded;
 use glam::Vec3;

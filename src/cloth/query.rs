@@ -1,10 +1,10 @@
 //! Questions to a cloth: what rays hit and take hold of, which links hold.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
-use crate::fabric::links::LinkKind;
-use crate::geom::ray::Ray;
+use crate::geometry::ray::Ray;
 use crate::math::float_env::guarded;
+use crate::model::links::LinkKind;
 use crate::state::grabs::Grab;
 use glam::Vec3;
 

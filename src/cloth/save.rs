@@ -3,30 +3,30 @@
 //! Layout: "MUSLINSV", format version (u32, little-endian), checksum of the rest (u64), then what
 //! `Saved` holds in the postcard format.
 
-use super::Cloth;
-use super::bytes;
-use super::changes::History;
-use super::view::Outputs;
-use super::world::Origin;
+use crate::cloth::Cloth;
+use crate::cloth::build::Origin;
+use crate::cloth::changes::History;
+use crate::cloth::postcard;
+use crate::cloth::view::Outputs;
 use crate::error::{Error, Result};
-use crate::fabric::extra::Changes;
-use crate::fabric::material::Material;
-use crate::fabric::plates::Each;
-use crate::fabric::tethers::TetherSet;
 use crate::math::columns::Columns;
 use crate::math::float_env::guarded;
-use crate::math::mix::Mixer;
-use crate::mesh::divide::Crossing;
+use crate::math::mixer::Mixer;
 use crate::mesh::seams::Seams;
-use crate::mesh::{NONE, sound};
-use crate::solver::World;
-use crate::solver::layers::loads::Loads;
-use crate::solver::sleep::Sleep;
+use crate::mesh::split_edge::Crossing;
+use crate::mesh::{NONE, validate};
+use crate::model::dynamic_links::Changes;
+use crate::model::material::Material;
+use crate::model::plate_elements::Each;
+use crate::model::tethers::TetherSet;
+use crate::solver::integrate::sleep::Sleep;
+use crate::solver::self_collide::surface::warm_start::Loads;
+use crate::solver::world::World;
+use crate::state::anchors::Leashes;
 use crate::state::attachments::{Attachments, Carrier, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
-use crate::state::leashes::Leashes;
 use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
@@ -131,7 +131,7 @@ impl Cloth {
         bytes.extend_from_slice(&FORMAT.to_le_bytes());
         bytes.extend_from_slice(&[0; 8]);
         // Writing to memory fails for no value that a cloth can hold.
-        bytes = bytes::write(&saved, bytes).unwrap_or_default();
+        bytes = postcard::write(&saved, bytes).unwrap_or_default();
         let sum = checksum(&bytes[HEADER..]).to_le_bytes();
         bytes[HEADER - 8..HEADER].copy_from_slice(&sum);
         bytes
@@ -154,7 +154,7 @@ impl Cloth {
         if header[12..] != checksum(body).to_le_bytes() {
             return Err(bad("it was damaged"));
         }
-        let saved: Saved<'_> = bytes::read(body).map_err(|_| bad("it cannot be read"))?;
+        let saved: Saved<'_> = postcard::read(body).map_err(|_| bad("it cannot be read"))?;
         guarded(|| rebuild(saved))
     }
 }
@@ -204,7 +204,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
 
     let rest: Vec<Vec3> = sources.iter().map(|site| world.rest[*site as usize]).collect();
     let original_count = world.mesh.original_count;
-    let mesh = sound::mesh(triangles, &rest, capacity).map_err(|_| bad())?;
+    let mesh = validate::mesh(triangles, &rest, capacity).map_err(|_| bad())?;
     must(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
     let fresh = core::mem::replace(&mut world.mesh, mesh);
     world.mesh.original_count = original_count;

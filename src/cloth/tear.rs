@@ -1,9 +1,9 @@
 //! Tearing by hand.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_index};
 use crate::math::float_env::guarded;
-use crate::solver::tear;
+use crate::solver::topology::tear;
 
 impl Cloth {
     /// Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded

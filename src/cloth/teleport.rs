@@ -1,10 +1,10 @@
 //! A cloth goes along with a body that jumps, or runs.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Result, check};
-use crate::geom::frame::Frame;
+use crate::geometry::transform::Frame;
 use crate::math::float_env::guarded;
-use crate::solver::World;
+use crate::solver::world::World;
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};
 

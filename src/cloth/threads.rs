@@ -1,6 +1,6 @@
 //! How many threads a cloth may use.
 
-use super::Cloth;
+use crate::cloth::Cloth;
 use crate::error::{Result, check};
 use crate::math::threads::Threads;
 

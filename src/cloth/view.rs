@@ -1,15 +1,17 @@
 //! What a renderer reads: positions, normals, uvs, triangles, numbers about the cloth.
 
-use super::Cloth;
-use super::changes::{Change, differing};
-use super::drawn::Drawn;
-use super::world::Origin;
-use crate::fabric::cells::Cells;
+use crate::cloth::Cloth;
+use crate::cloth::blended_surface::Drawn;
+use crate::cloth::build::Origin;
+use crate::cloth::changes::{Change, differing};
 use crate::math::float_env::guarded;
-use crate::mesh::divide::Crossing;
 use crate::mesh::report::MeshReport;
+use crate::mesh::split_edge::Crossing;
+use crate::model::grid_cells::Cells;
+use crate::solver::output::normals;
 use crate::solver::stage::Stage;
-use crate::solver::{World, outputs};
+
+use crate::solver::world::World;
 use core::ops::Range;
 use glam::{Vec2, Vec3};
 
@@ -144,7 +146,7 @@ impl Outputs {
 
     /// Follows a change of positions.
     pub fn follow(&mut self, world: &World) {
-        outputs::positions(world, &mut self.positions);
+        normals::positions(world, &mut self.positions);
         self.normals_current = false;
         self.drawn.moved();
     }
@@ -212,7 +214,7 @@ impl Outputs {
     fn follow_normals(&mut self, world: &World) {
         if !self.normals_current {
             self.drawn.follow(world, 1.0, None);
-            outputs::hand_out(world, &self.drawn.normals, &mut self.normals);
+            normals::hand_out(world, &self.drawn.normals, &mut self.normals);
             self.normals_current = true;
         }
     }
@@ -360,7 +362,7 @@ impl Cloth {
     pub fn stats(&self) -> Stats {
         let world = &self.world;
         let ((max_stretch, mean_stretch), kinetic_energy) =
-            guarded(|| (outputs::stretch(world), outputs::kinetic_energy(world)));
+            guarded(|| (normals::stretch(world), normals::kinetic_energy(world)));
         Stats {
             particles: world.particles.len() as u32,
             triangles: world.mesh.triangles.len() as u32,
@@ -373,7 +375,7 @@ impl Cloth {
             mean_stretch,
             over_stretched: world.over_stretched,
             kinetic_energy,
-            max_speed: guarded(|| outputs::max_speed(world)),
+            max_speed: guarded(|| normals::max_speed(world)),
             asleep: world.is_asleep(),
             bytes: self.bytes(),
             seconds: world.profile.seconds(),

@@ -1,6 +1,6 @@
 //! Vectors stored as three columns x, y, z: what straight SIMD loads want.
 
-use super::column::Column;
+use crate::math::column::Column;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 

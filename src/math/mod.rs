@@ -3,13 +3,14 @@
 pub(crate) mod column;
 pub(crate) mod columns;
 pub(crate) mod float_env;
-pub(crate) mod mix;
+pub(crate) mod mixer;
 pub(crate) mod pack;
 pub(crate) mod shared;
 pub(crate) mod simd;
 pub(crate) mod sort;
 pub(crate) mod threads;
 pub(crate) mod trig;
+pub(crate) mod wide4;
 
 use glam::Vec3;
 

@@ -3,7 +3,7 @@
 //! Series in f64 after range reduction (Abramowitz and Stegun, 4.3.65, 4.3.66, 4.2.1), rounded to
 //! f32 at the end: every step is an exact IEEE operation, so every machine gets the same result.
 
-use super::{max, min};
+use crate::math::{max, min};
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
 /// Past this many radians the reduced angle has lost its meaning; the angle counts as zero.

@@ -7,14 +7,14 @@
 //! of a particle form one fan, every triangle has an area.
 
 mod orient;
-mod part;
-mod sift;
+mod remove_degenerate;
+mod split_non_manifold;
 mod weld;
 
-use super::report::MeshReport;
-use super::seams::Seams;
-use super::{Corner, Mesh};
 use crate::error::{Error, Result};
+use crate::mesh::report::MeshReport;
+use crate::mesh::seams::Seams;
+use crate::mesh::{Corner, Mesh};
 use glam::Vec3;
 
 /// A mesh that can be cloth.
@@ -49,14 +49,14 @@ pub(crate) fn repair(
         return Err(Error::BadIndex { field: "indices", index: *index, count });
     }
     let welded = weld::weld(positions, given, weld_distance);
-    let sifted = sift::sift(positions, given, &welded)?;
+    let sifted = remove_degenerate::sift(positions, given, &welded)?;
     let (mut places, particles) = number(&welded);
     let woven = places.len();
     let mut vertices: Vec<[u32; 3]> = sifted.kept.iter().map(|at| given[*at as usize]).collect();
     let mut triangles: Vec<[u32; 3]> =
         vertices.iter().map(|corners| corners.map(|v| particles[v as usize])).collect();
     let place = |particle: u32| positions[places[particle as usize] as usize];
-    let parted = part::part(&mut triangles, woven, place);
+    let parted = split_non_manifold::part(&mut triangles, woven, place);
     let copied: Vec<u32> = parted.copies.iter().map(|(old, _)| places[*old as usize]).collect();
     places.extend(copied);
     let mut mesh = Mesh::new(triangles, places.len(), capacity(places.len())?);

@@ -1,13 +1,13 @@
 //! Indexed triangles that can be split: who lies across each edge, and the fan around each vertex.
 
-pub(crate) mod divide;
 pub(crate) mod grid;
+pub(crate) mod grid_detection;
 pub(crate) mod intake;
-pub(crate) mod lattice;
 pub(crate) mod report;
 pub(crate) mod seams;
-pub(crate) mod sound;
-pub(crate) mod split;
+pub(crate) mod split_edge;
+pub(crate) mod split_vertex;
+pub(crate) mod validate;
 
 use crate::math::sort::sort;
 use serde::{Deserialize, Serialize};

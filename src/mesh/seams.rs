@@ -5,9 +5,9 @@
 //! list of their corners. When a particle is split, a vertex with triangles on both sides is split too;
 //! one with all of them on one side goes there.
 
-use super::divide::{Crossing, Division};
-use super::{Corner, Mesh, after, before, triangle_of};
 use crate::math::sort::sort;
+use crate::mesh::split_edge::{Crossing, Division};
+use crate::mesh::{Corner, Mesh, after, before, triangle_of};
 use serde::{Deserialize, Serialize};
 
 /// The vertices of a mesh whose particles are shared.

@@ -1,6 +1,6 @@
 //! Where the time of a tick goes, when somebody asks.
 
-use super::stage::Stage;
+use crate::solver::stage::Stage;
 
 /// A clock: seconds since any moment.
 pub type Clock = fn() -> f64;

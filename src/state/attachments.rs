@@ -1,7 +1,7 @@
 //! Attachments: moving transforms that carry pins, as a bone or a pole carries the cloth that is sewn to it.
 
-use super::pose::Pose;
 use crate::arena::Arena;
+use crate::state::pose::Pose;
 use serde::{Deserialize, Serialize};
 
 /// A handle to one attachment of one cloth; stale once detached.

@@ -1,13 +1,15 @@
 //! What a host says of a collider.
 
-use super::pose::{OF_COLLIDER, check_pose};
 use crate::error::{Error, Result, check, check_index};
-use crate::geom::hull;
-use crate::geom::relief::Relief;
-use crate::geom::shape::{Ball, Capsule, Cuboid, Form, HalfSpace};
-use crate::geom::surface::{self, Surface};
-use crate::geom::terrain::Terrain;
-use crate::math::mix::Mixer;
+use crate::geometry::convex_hull;
+use crate::geometry::features::Relief;
+use crate::geometry::shape::{Ball, Capsule, Cuboid, Form, HalfSpace};
+use crate::geometry::triangle_surface;
+use crate::state::pose::{OF_COLLIDER, check_pose};
+
+use crate::geometry::heightfield::Terrain;
+use crate::geometry::triangle_surface::Surface;
+use crate::math::mixer::Mixer;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -230,13 +232,13 @@ impl ColliderDesc {
                 Form::Cuboid(cuboid, cuboid.relief())
             }
             Shape::Convex => {
-                let (body, triangles) = hull::around(&self.positions)
+                let (body, triangles) = convex_hull::around(&self.positions)
                     .ok_or(bad("collider.positions", "not lie in one plane"))?;
                 Form::Hull(body, Relief::of(&self.positions, &triangles, true))
             }
             Shape::Mesh => {
                 let (triangles, _) = self.indices.as_chunks::<3>();
-                let triangles = surface::with_area(&self.positions, triangles);
+                let triangles = triangle_surface::with_area(&self.positions, triangles);
                 let surface = Surface::new(&self.positions, &triangles)
                     .ok_or(bad("collider.indices", "hold a triangle with an area"))?;
                 Form::Surface(surface, Relief::of(&self.positions, &triangles, false))

@@ -1,11 +1,11 @@
 //! Colliders: what a cloth falls on.
 
-use super::collider_desc::ColliderDesc;
-use super::pose::{OF_COLLIDER, Pose, check_pose};
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
-use crate::geom::shape::Form;
+use crate::geometry::shape::Form;
 use crate::math::max;
+use crate::state::collider_desc::ColliderDesc;
+use crate::state::pose::{OF_COLLIDER, Pose, check_pose};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

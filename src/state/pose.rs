@@ -1,7 +1,7 @@
 //! Where something rigid is, and how it is turned.
 
 use crate::error::{Result, check, check_finite};
-use crate::geom::frame::Frame;
+use crate::geometry::transform::Frame;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 

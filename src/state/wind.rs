@@ -1,7 +1,7 @@
 //! The air around a cloth: a steady wind that gusts, wanders and swirls, always the same way.
 
 use crate::error::{Result, check, check_finite};
-use crate::math::mix::unit;
+use crate::math::mixer::unit;
 use crate::math::trig::{cos, sin, wave};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};

@@ -14,7 +14,7 @@
 
 #[cfg(target_arch = "aarch64")]
 mod neon;
-mod turn;
+mod transpose;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod wasm;
 #[cfg(target_arch = "x86_64")]
@@ -28,7 +28,7 @@ pub(crate) use wasm::Simd128;
 pub(crate) use x86::{Avx2, Avx512, Sse2};
 
 use crate::math::shared::Points;
-pub(crate) use turn::{turn, turn_back, turned};
+pub(crate) use transpose::{turn, turn_back, turned};
 
 /// What the target always has, for what is not worth a copy for each level.
 #[cfg(target_arch = "aarch64")]

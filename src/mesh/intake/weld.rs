@@ -5,8 +5,8 @@
 //! a vertex are near it: a chain of small steps does not run away. A vertex does not join one with which
 //! it shares a triangle that has an area, or with which a vertex that joined it before does.
 
-use super::sift::is_degenerate;
 use crate::mesh::NONE;
+use crate::mesh::intake::remove_degenerate::is_degenerate;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 

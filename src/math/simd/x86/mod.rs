@@ -1,6 +1,6 @@
 //! Vectors of x86-64: four, eight and sixteen lanes.
 
-mod between;
+mod gather;
 
 use super::{Arithmetic, Number, Simd};
 use core::arch::x86_64::*;

@@ -1,0 +1,337 @@
+//! From a descriptor to a world at rest.
+
+use crate::arena::Arena;
+use crate::cloth::desc::{GridDesc, MeshDesc};
+use crate::error::Result;
+use crate::geometry::triangle::corner_areas;
+use crate::math::simd::Level;
+use crate::math::threads::Threads;
+use crate::mesh::grid;
+use crate::model::chains::Lines;
+use crate::model::constraints::Weave;
+use crate::model::folds::Folds;
+use crate::model::grid_cells::Cells;
+use crate::model::hinges::Hinges;
+use crate::model::material::Material;
+use crate::model::pin_order::Outward;
+use crate::model::plate_elements::Plates;
+use crate::model::tethers::Tethers;
+
+use crate::mesh::grid::Frame;
+use crate::mesh::intake;
+
+use crate::mesh::grid_detection::Lattice;
+use crate::mesh::intake::Intake;
+use crate::mesh::report::MeshReport;
+use crate::mesh::{Mesh, NONE, after};
+use crate::solver::bend;
+use crate::solver::integrate::sleep::Sleep;
+use crate::solver::profile::Profile;
+use crate::solver::self_collide::surface::warm_start::Loads;
+use crate::solver::world::{Scratch, World};
+
+use crate::solver::stretch::{damping, line_solver};
+use crate::state::anchors::Leashes;
+use crate::state::attachments::MAX_ATTACHMENTS;
+use crate::state::colliders::MAX_COLLIDERS;
+use crate::state::events::Events;
+use crate::state::grabs::MAX_GRABS;
+use crate::state::mass_scales::MassScales;
+use crate::state::particles::Particles;
+use crate::state::pins::Pins;
+use crate::state::pose::Pose;
+use crate::state::settings::Settings;
+use crate::state::wind::Wind;
+use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// What a cloth was made from; it can be made anew.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) enum Origin {
+    Grid(GridDesc),
+    Mesh(MeshDesc),
+}
+
+impl Origin {
+    /// The cloth as it was when it was new, and what had to be repaired. The descriptor has been checked.
+    pub fn world(&self) -> Result<(World, MeshReport)> {
+        match self {
+            Self::Grid(desc) => Ok(grid_world(desc)),
+            Self::Mesh(desc) => mesh_world(desc),
+        }
+    }
+
+    /// The descriptor checked again; for bytes from outside.
+    pub fn check(&self) -> Result<()> {
+        match self {
+            Self::Grid(desc) => desc.check(),
+            Self::Mesh(desc) => desc.check(),
+        }
+    }
+
+    /// Texture coordinates of the vertices that were given.
+    pub fn uvs(&self) -> Vec<Vec2> {
+        match self {
+            Self::Grid(desc) => grid::uvs(desc.columns, desc.rows),
+            Self::Mesh(desc) if desc.uvs.is_empty() => vec![Vec2::ZERO; desc.positions.len()],
+            Self::Mesh(desc) => desc.uvs.clone(),
+        }
+    }
+}
+
+fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
+    let unit = |v: Vec3| v * (1.0 / v.length());
+    let frame = Frame {
+        origin: desc.origin,
+        right: unit(desc.right),
+        down: unit(desc.down),
+        spacing: desc.spacing,
+    };
+    let lattice = Lattice { columns: desc.columns, rows: desc.rows, frame };
+    let rest = grid::positions(desc.columns, desc.rows, &frame);
+    let capacity = desc.capacity();
+    let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
+    let (count, triangles) = (rest.len() as u32, mesh.triangles.len() as u32);
+    let report = MeshReport {
+        vertices: count,
+        triangles,
+        particles: count,
+        kept_triangles: triangles,
+        pieces: 1,
+        is_grid: true,
+        ..MeshReport::default()
+    };
+    let fabric = Fabric::sheet(&lattice, mesh, rest, capacity);
+    (build(fabric, desc.pinned(), capacity, &desc.material, &desc.settings), report)
+}
+
+fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
+    let (positions, indices) = (&desc.positions, &desc.indices);
+    let most = |particles: usize| desc.capacity(particles);
+    let Intake { mesh, places, seams, mut report } =
+        intake::repair(positions, indices, desc.weld_distance, most)?;
+    let rest: Vec<Vec3> = places.iter().map(|vertex| positions[*vertex as usize]).collect();
+    let capacity = desc.capacity(rest.len())?;
+    let fabric = match Lattice::find(&mesh.triangles, &rest) {
+        Some(lattice) => {
+            report.is_grid = true;
+            Fabric::sheet(&lattice, mesh, rest, capacity)
+        }
+        None => Fabric::any(mesh, rest, capacity),
+    };
+    let pinned = match &seams {
+        Some(seams) => seams.particles_of(&desc.pinned),
+        None => desc.pinned.clone(),
+    };
+    let mut world = build(fabric, pinned, capacity, &desc.material, &desc.settings);
+    world.seams = seams;
+    let extra = capacity - world.particles.len();
+    if let Some(seams) = &mut world.seams {
+        seams.make_room(extra, world.triangle_capacity);
+    }
+    Ok((world, report))
+}
+
+/// What a world is made of that does not move.
+struct Fabric {
+    mesh: Mesh,
+    weave: Weave,
+    rest: Vec<Vec3>,
+    frame: Option<Frame>,
+    areas: Vec<[f32; 3]>,
+    cells: Option<Cells>,
+    plates: Option<Plates>,
+}
+
+impl Fabric {
+    /// A regular grid.
+    fn sheet(lattice: &Lattice, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+        let Lattice { columns, rows, frame } = *lattice;
+        let openings = opening_capacity(&mesh, capacity);
+        let mut weave = Weave::grid(columns, rows, frame.spacing, &mesh, openings);
+        weave.run_along([frame.right, frame.down]);
+        let areas = grid::corner_areas(columns, rows, frame.spacing);
+        let mut cells = Cells::new(columns, rows, frame.spacing);
+        let mut plates = Plates::new(columns, rows, frame.spacing, &mesh, &weave.links);
+        if capacity > rest.len() {
+            cells.reserve();
+            plates.reserve(capacity);
+        }
+        let (frame, cells, plates) = (Some(frame), Some(cells), Some(plates));
+        Self { mesh, weave, rest, frame, areas, cells, plates }
+    }
+
+    /// Any sound mesh.
+    fn any(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+        let mut weave = Weave::mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
+        weave.hinges = Hinges::find(&mesh, &weave.links, &rest);
+        let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
+        let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
+        Self { mesh, weave, rest, frame: None, areas, cells: None, plates: None }
+    }
+}
+
+fn build(
+    fabric: Fabric,
+    pinned: Vec<u32>,
+    capacity: usize,
+    material: &Material,
+    settings: &Settings,
+) -> World {
+    let Fabric { mesh, mut weave, rest, frame, areas, cells, plates } = fabric;
+    weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
+    let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
+    let max_tears = settings.most_tears(triangle_capacity);
+    let mut folds = match &plates {
+        Some(plates) => Folds::of_plates(plates),
+        None => Folds::of_hinges(&weave.hinges),
+    };
+    folds.reserve_wear(material);
+    let mut world = World {
+        spacing: mean_edge(&mesh, &rest),
+        particles: Particles::at_rest(&rest, capacity),
+        mass_scales: MassScales::default(),
+        tethers: Tethers::with_capacity(capacity),
+        scratch: Scratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
+        pins: Pins::default(),
+        attachments: Arena::with_capacity(MAX_ATTACHMENTS),
+        grabs: Arena::with_capacity(MAX_GRABS),
+        leashes: Leashes::default(),
+        reference: Pose::ORIGIN,
+        colliders: Arena::with_capacity(MAX_COLLIDERS),
+        settings: settings.clone(),
+        material: material.clone(),
+        wind: Wind::default(),
+        time: 0.0,
+        tick: 0,
+        pieces: 0,
+        triangle_capacity,
+        reserve_told: false,
+        over_stretched: 0,
+        over_stretch_told: false,
+        outward: Outward::default(),
+        tether_slack: f32::INFINITY,
+        apart: 1.0,
+        is_apart_current: false,
+        events: Events::new(),
+        level: Level::best(),
+        threads: Threads::ONE,
+        profile: Profile::default(),
+        sleep: Sleep::default(),
+        mesh,
+        seams: None,
+        weave,
+        rest,
+        crossings: Vec::new(),
+        tips: Vec::with_capacity(capacity),
+        corner_area: areas,
+        frame,
+        cells,
+        plates,
+        folds,
+        crowd: None,
+        loads: Loads::default(),
+        is_tangled: true,
+        layers: None,
+    };
+    world.pins.reserve(capacity);
+    world.tethers.reserve(capacity, world.mesh.triangles.len());
+    world.reserve_packed(capacity);
+    world.outward.reserve(capacity, world.weave.links.len());
+    for particle in pinned {
+        let x = world.rest[particle as usize];
+        world.pins.insert(particle, x, x);
+    }
+    world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
+    world.find_tips();
+    world.weigh();
+    world.weave.stiffen(material);
+    world.tether();
+    world.restart_history();
+    world
+}
+
+/// How many edges tears can open: each new vertex opens at most two, and only inner edges can.
+fn opening_capacity(mesh: &Mesh, capacity: usize) -> usize {
+    let inner = mesh.edges().filter(|edge| mesh.across(*edge) != NONE).count();
+    inner.min(2 * (capacity - mesh.vertex_count()))
+}
+
+fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
+    let at = |corner: u32| rest[mesh.vertex(corner) as usize];
+    let (mut sum, mut count) = (0.0, 0.0);
+    // The shorter two edges of each triangle: on a grid that is the spacing, not the diagonal.
+    for triangle in 0..mesh.triangles.len() as u32 {
+        let length = |corner: u32| (at(after(corner)) - at(corner)).length();
+        let [a, b, c] = [0, 1, 2].map(|k| length(3 * triangle + k));
+        let longest = if a > b { a } else { b };
+        let longest = if longest > c { longest } else { c };
+        sum += f64::from(a + b + c - longest) * 0.5;
+        count += 1.0;
+    }
+    (sum / count) as f32
+}
+
+impl World {
+    /// Sees to room for `capacity` particles in every list that tears make longer.
+    pub(crate) fn reserve(&mut self, capacity: usize) {
+        let reserve = |list: &mut Vec<u32>| list.reserve_exact(capacity.saturating_sub(list.len()));
+        reserve(&mut self.mesh.source);
+        reserve(&mut self.mesh.corner_of);
+        if let Some(seams) = &mut self.seams {
+            seams.reserve();
+        }
+        self.particles.reserve(capacity);
+        self.mass_scales.reserve(capacity);
+        self.tips.reserve_exact(capacity.saturating_sub(self.tips.len()));
+        self.pins.reserve(capacity);
+        self.events.reserve();
+        let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
+        self.weave.reserve(openings, capacity);
+        if let Some(cells) = &mut self.cells {
+            cells.reserve();
+        }
+        if let Some(plates) = &mut self.plates {
+            plates.reserve(capacity);
+        }
+        self.tethers.reserve(capacity, self.mesh.triangles.len());
+        self.outward.reserve(capacity, self.weave.links.len());
+        self.scratch = Scratch::new(
+            self.particles.len(),
+            capacity,
+            self.mesh.triangles.len(),
+            self.settings.most_tears(self.triangle_capacity),
+        );
+        self.reserve_packed(capacity);
+        self.reserve_inertia();
+        self.reserve_leashes();
+        self.reserve_contacts();
+        self.see_to_crowd();
+        self.see_to_layers();
+        self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
+    }
+
+    /// Sees to room for all that tears may still need, after a cut made more triangles.
+    pub(crate) fn reserve_for_tears(&mut self) {
+        let openings = opening_capacity(&self.mesh, self.capacity());
+        self.weave.reserve(openings, self.capacity());
+        self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
+        let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
+        scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
+        scratch.pieces.reserve();
+        scratch.home.reserve(triangles);
+    }
+
+    fn reserve_packed(&mut self, capacity: usize) {
+        self.scratch.weights.reserve(capacity, self.weave.links.len());
+        if self.weave.rows.is_none() {
+            self.scratch.packed.reserve(capacity);
+        }
+        let has_strips = self.weave.rows.is_some();
+        let steps = self.weave.lines.abreast.most_steps();
+        self.scratch.lines = line_solver::Scratch::new(steps, capacity, has_strips);
+        self.scratch.bend = bend::Scratch::new(self, capacity);
+        let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
+        self.scratch.brake = damping::Scratch::new(self.weave.links.len(), extra);
+    }
+}

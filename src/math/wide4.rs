@@ -1,0 +1,113 @@
+//! Four numbers side by side, as particles have them: in one vector where there are any.
+
+use crate::math::simd::{Arithmetic, Base, Number, Simd};
+use crate::solver::particle_stage::interleaved::{Spot, place};
+use core::array;
+use core::ops::{Add, Mul, Sub};
+use glam::Vec3;
+
+/// How many vectors that takes.
+const COUNT: usize = 4 / Base::LANES;
+
+/// Bits of `positives` for x, y and z.
+pub(crate) const WAYS: u32 = 0b111;
+
+/// Four numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Four([<Base as Arithmetic>::F; COUNT]);
+
+impl Four {
+    #[inline(always)]
+    pub fn of(spot: &Spot) -> Self {
+        Self(array::from_fn(|k| Base::new().load(spot, k * Base::LANES)))
+    }
+
+    /// A vector, and 0.
+    #[inline(always)]
+    pub fn way(v: Vec3) -> Self {
+        Self::of(&[v.x, v.y, v.z, 0.0])
+    }
+
+    #[inline(always)]
+    pub fn all(value: f32) -> Self {
+        Self([Base::new().splat(value); COUNT])
+    }
+
+    #[inline(always)]
+    pub fn spot(self) -> Spot {
+        let mut spot = [0.0; 4];
+        self.put(&mut spot);
+        spot
+    }
+
+    #[inline(always)]
+    pub fn put(self, spot: &mut Spot) {
+        for (k, part) in self.0.into_iter().enumerate() {
+            Base::new().store(spot, k * Base::LANES, part);
+        }
+    }
+
+    /// Without the last.
+    #[inline(always)]
+    pub fn ways(self) -> Self {
+        let are_ways = Self::of(&[1.0, 1.0, 1.0, 0.0]);
+        Self(array::from_fn(|k| Base::new().keep(are_ways.0[k], self.0[k])))
+    }
+
+    /// Without the last, as a vector.
+    #[inline(always)]
+    pub fn vector(self) -> Vec3 {
+        place(&self.spot())
+    }
+
+    /// The sum of the first three products, in order.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> f32 {
+        let [x, y, z, _] = (self * other).spot();
+        x + y + z
+    }
+
+    #[inline(always)]
+    pub fn times(self, value: f32) -> Self {
+        self * Self::all(value)
+    }
+
+    #[inline(always)]
+    pub fn min(self, other: Self) -> Self {
+        Self(array::from_fn(|k| Number::min(self.0[k], other.0[k])))
+    }
+
+    /// Which are above 0: a bit for each.
+    #[inline(always)]
+    pub fn positives(self) -> u32 {
+        let bits = |(k, part)| Base::new().positives(part) << (k * Base::LANES);
+        self.0.into_iter().enumerate().map(bits).fold(0, |all, bits| all | bits)
+    }
+}
+
+impl Add for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl Sub for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(array::from_fn(|k| self.0[k] - other.0[k]))
+    }
+}
+
+impl Mul for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(array::from_fn(|k| self.0[k] * other.0[k]))
+    }
+}

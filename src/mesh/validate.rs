@@ -1,0 +1,66 @@
+//! A mesh from triangles that say of themselves that they are sound: those of a saved cloth.
+//!
+//! Triangles that need not be are repaired, see `intake`.
+
+use crate::error::{Error, Result};
+use crate::math::sort::sort;
+use crate::mesh::{Fan, Mesh, NONE};
+use glam::Vec3;
+
+/// Refuses triangles that cannot be cloth: indices out of range, no area, a third triangle at an
+/// edge, fans that meet at a point only.
+pub(crate) fn mesh(triangles: Vec<[u32; 3]>, positions: &[Vec3], capacity: usize) -> Result<Mesh> {
+    for (at, triangle) in triangles.iter().enumerate() {
+        let refuse = |must| Err(Error::BadMesh { at: at as u32, must });
+        if let Some(index) = triangle.iter().find(|v| **v as usize >= positions.len()) {
+            let count = positions.len() as u32;
+            return Err(Error::BadIndex { field: "indices", index: *index, count });
+        }
+        let [a, b, c] = *triangle;
+        if a == b || b == c || c == a {
+            return refuse("name three different vertices in every triangle");
+        }
+        let [a, b, c] = triangle.map(|v| positions[v as usize]);
+        let area = (b - a).cross(c - a).length();
+        if !(area.is_finite() && area > 0.0) {
+            return refuse("give every triangle an area");
+        }
+    }
+    refuse_crowded_edges(&triangles)?;
+    let mesh = Mesh::new(triangles, positions.len(), capacity);
+    refuse_points_between_fans(&mesh)?;
+    Ok(mesh)
+}
+
+fn refuse_crowded_edges(triangles: &[[u32; 3]]) -> Result<()> {
+    let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
+    for (at, [a, b, c]) in triangles.iter().enumerate() {
+        for (a, b) in [(a, b), (b, c), (c, a)] {
+            edges.push(([*a.min(b), *a.max(b)], at as u32));
+        }
+    }
+    sort(&mut edges);
+    match edges.windows(3).find(|three| three[0].0 == three[2].0) {
+        Some(three) => {
+            Err(Error::BadMesh { at: three[2].1, must: "give no edge more than two triangles" })
+        }
+        None => Ok(()),
+    }
+}
+
+fn refuse_points_between_fans(mesh: &Mesh) -> Result<()> {
+    let mut uses = vec![0usize; mesh.vertex_count()];
+    mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);
+    let mut fan = Fan::default();
+    for (vertex, corner) in mesh.corner_of.iter().enumerate() {
+        if *corner == NONE {
+            continue;
+        }
+        mesh.fan(*corner, &mut fan);
+        if fan.corners.len() != uses[vertex] {
+            let at = vertex as u32;
+            return Err(Error::BadMesh { at, must: "join triangles by edges, not by one vertex" });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,250 @@
+//! Facets: how the triangles of any mesh are curved, as the hinges at their edges tell together.
+//!
+//! Bent to a surface ½ xᵀ S x, a hinge shows C = c · S: one number of the three that S has, and which one is
+//! a matter of how its triangles lie. So hinges one by one are stiffer in some directions than in others. All
+//! three of a triangle say what S is there, and then its energy is what the material says in any direction:
+//!
+//! ```text
+//! ½ D A |S|² = ½ D A Σ Cᵢ Cⱼ (M⁻¹)ᵢⱼ / |cᵢ| |cⱼ|,    Mᵢⱼ = cᵢ · cⱼ / |cᵢ| |cⱼ|
+//! ```
+//! S is the smallest that shows these C where there are less than three, as at a border, which bears no moment.
+//! It is right for a sheet that is bent evenly, but on some meshes, where diagonals alternate, finds creases
+//! between what hinges see that cost too little. What the slopes of neighbours give, S = Σ C nnᵀ / 2 A with n
+//! across an edge (Oñate and Zárate, "Rotation-free triangular plate and shell elements", IJNME 2000), sees
+//! all creases, but on these meshes is too stiff askew. Where a mesh repeats both are the same, and elsewhere
+//! they are off to either side: half of each is taken.
+
+use crate::math::max;
+use crate::model::hinges::Hinge;
+use glam::{Vec2, Vec3};
+
+/// No hinge.
+const NONE: u32 = u32::MAX;
+
+/// Below this determinant of M its hinges hardly differ in what they tell, so that noise would be stiff: M has
+/// the rest added to its diagonal.
+const LEAST_APART: f32 = 0.15;
+
+/// The pairs among three.
+pub(crate) const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+
+/// What a hinge shows of a curvature whose parts along its edge, across and between are these.
+pub(crate) type Shows = [f32; 3];
+
+/// One triangle.
+#[derive(Clone, Copy, Debug)]
+struct Facet {
+    /// Its hinges, and which of a hinge's two triangles it is.
+    hinges: [u32; 3],
+    sides: [u8; 3],
+    /// √A / |c| of each, and 1 / 2 √A, which the slopes of neighbours give [1/m].
+    sizes: [f32; 3],
+    slope: f32,
+    /// M of the first and second, of the first and third, of the second and third; and for slopes.
+    alike: [f32; 3],
+    aligned: [f32; 3],
+}
+
+/// All triangles that have hinges.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Facets(Vec<Facet>);
+
+/// The energy of a triangle over ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Element {
+    /// Its hinges; those whose own energy is 0 may be none.
+    pub hinges: [u32; 3],
+    /// [1/m²].
+    pub own: [f32; 3],
+    /// Of the pairs among three (`PAIRS`) [1/m²].
+    pub between: [f32; 3],
+}
+
+/// A hinge at an edge of a triangle.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    triangle: u32,
+    hinge: u32,
+    side: u8,
+}
+
+impl Facets {
+    /// The triangles at these hinges: `triangles` says which two, `shows` what each shows, and `corners` where
+    /// the corners of a triangle are at rest.
+    pub fn find(
+        hinges: &[Hinge],
+        triangles: &[[u32; 2]],
+        shows: &[Shows],
+        corners: impl Fn(u32) -> [Vec3; 3],
+        rest: impl Fn(u32) -> Vec3,
+    ) -> Self {
+        let mut edges = Vec::with_capacity(2 * hinges.len());
+        for (hinge, of) in triangles.iter().enumerate() {
+            for (side, triangle) in of.iter().enumerate() {
+                edges.push(Edge { triangle: *triangle, hinge: hinge as u32, side: side as u8 });
+            }
+        }
+        crate::math::sort::sort_by(&mut edges, |p, q| {
+            (p.triangle, p.hinge).cmp(&(q.triangle, q.hinge))
+        });
+        let mut facets = Vec::new();
+        for own in edges.chunk_by(|p, q| p.triangle == q.triangle) {
+            let [a, b, c] = corners(own[0].triangle);
+            let (right, across) = ((b - a).normalize_or_zero(), (b - a).cross(c - a));
+            let up = across.normalize_or_zero().cross(right);
+            let flat = |way: Vec3| Vec2::new(way.dot(right), way.dot(up));
+            let mut facet = Facet {
+                hinges: [NONE; 3],
+                sides: [0; 3],
+                sizes: [0.0; 3],
+                slope: 1.0 / (2.0 * across.length()).sqrt(),
+                alike: [0.0; 3],
+                aligned: [0.0; 3],
+            };
+            let (mut told, mut ways) = ([Vec3::ZERO; 3], [Vec2::ZERO; 3]);
+            for (slot, edge) in own.iter().take(3).enumerate() {
+                let hinge = &hinges[edge.hinge as usize];
+                let [p, q] = [hinge.at[0], hinge.at[1]].map(&rest);
+                let along = flat(q - p).normalize_or_zero();
+                // The hinge's own way across leads to the apex of its first triangle.
+                let to_apex = flat(rest(hinge.at[2 + usize::from(edge.side)]) - p);
+                let to_apex = to_apex - along * along.dot(to_apex);
+                let to_first = if edge.side == 0 { to_apex } else { -to_apex };
+                ways[slot] = to_first.normalize_or_zero();
+                let c = tell(shows[edge.hinge as usize], along, ways[slot]);
+                let size = c.length();
+                if size > 0.0 {
+                    told[slot] = c * (1.0 / size);
+                    facet.hinges[slot] = edge.hinge;
+                    facet.sides[slot] = edge.side;
+                    facet.sizes[slot] = (0.5 * across.length()).sqrt() / size;
+                }
+            }
+            for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
+                let aligned = ways[p].dot(ways[q]);
+                facet.alike[pair] = told[p].dot(told[q]);
+                facet.aligned[pair] = aligned * aligned;
+            }
+            facets.push(facet);
+        }
+        Self(facets)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The hinges of each.
+    pub fn hinges(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
+        let is_one = |hinge: &u32| *hinge != NONE;
+        self.0
+            .iter()
+            .map(move |facet| facet.hinges.into_iter().filter(is_one).map(|at| at as usize))
+    }
+
+    /// The curvature of one that is flat [1/m], if its hinges were bent by so much [rad].
+    pub fn curve(&self, at: usize, hinges: &[Hinge], bent: impl Fn(usize) -> f32) -> f32 {
+        let facet = &self.0[at];
+        let (mut times, mut shown) = ([0.0; 3], [0.0; 3]);
+        for (slot, hinge) in facet.hinges.into_iter().enumerate() {
+            if hinge != NONE {
+                (times[slot], shown[slot]) =
+                    (1.0, bent(hinge as usize) * hinges[hinge as usize].length);
+            }
+        }
+        if shown == [0.0; 3] {
+            return 0.0;
+        }
+        let element = facet.element(times);
+        let own = element.own.into_iter().zip(shown).map(|(own, c)| own * (c * c));
+        let pairs = element.between.into_iter().zip(PAIRS);
+        let between = pairs.map(|(between, [p, q])| 2.0 * between * (shown[p] * shown[q]));
+        // A |S|², where the slopes know A.
+        let energy = own.sum::<f32>() + between.sum::<f32>();
+        2.0 * facet.slope * max(energy, 0.0).sqrt()
+    }
+
+    /// What triangles resist whose hinges hold in part, where some particles are held; `left` is what there is
+    /// left of a triangle's stiffness. Where a mesh goes on into a clamp only the half of a hinge outside bends,
+    /// and has all of the angle.
+    pub fn resist(
+        &self,
+        hinges: &[Hinge],
+        holds: impl Fn(usize) -> bool,
+        is_held: impl Fn(u32) -> bool,
+        left: impl Fn(usize) -> f32,
+        elements: &mut Vec<Element>,
+    ) {
+        elements.clear();
+        elements.extend(self.0.iter().enumerate().map(|(at, facet)| {
+            let mut times = [0.0; 3];
+            for (slot, times) in times.iter_mut().enumerate() {
+                let hinge = facet.hinges[slot] as usize;
+                if facet.hinges[slot] != NONE && holds(hinge) {
+                    let [p, q, a, b] = hinges[hinge].at.map(&is_held);
+                    let (own, other) = if facet.sides[slot] == 0 { (a, b) } else { (b, a) };
+                    *times = match (p && q, own, other) {
+                        (true, true, false) => 0.0,
+                        (true, false, true) => 2.0,
+                        _ => 1.0,
+                    };
+                }
+            }
+            let (mut element, left) = (facet.element(times), left(at));
+            let terms = element.own.iter_mut().chain(&mut element.between);
+            terms.for_each(|term| *term *= left);
+            element
+        }));
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        self.0.len() * size_of::<Facet>()
+    }
+}
+
+impl Facet {
+    /// Its energy, if hinges are bent so many times as they show: those at 0 tell nothing.
+    fn element(&self, times: [f32; 3]) -> Element {
+        let mut alike = self.alike;
+        for (alike, [p, q]) in alike.iter_mut().zip(PAIRS) {
+            if times[p] * times[q] == 0.0 {
+                *alike = 0.0;
+            }
+        }
+        let [ab, ac, bc] = alike;
+        let apart = 1.0 + 2.0 * (ab * ac * bc) - (ab * ab + ac * ac + bc * bc);
+        let d = 1.0 + max(LEAST_APART - apart, 0.0);
+        let minors = [d * d - bc * bc, d * d - ac * ac, d * d - ab * ab];
+        let mixed = [ac * bc - ab * d, ab * bc - ac * d, ab * ac - bc * d];
+        let over = 1.0 / (d * minors[0] + (ab * mixed[0] + ac * mixed[1]));
+        let slope = self.slope * self.slope;
+        let mut element = Element { hinges: self.hinges, own: [0.0; 3], between: [0.0; 3] };
+        for slot in 0..3 {
+            let size = self.sizes[slot] * self.sizes[slot];
+            let mean = 0.5 * (minors[slot] * over * size + slope);
+            element.own[slot] = mean * (times[slot] * times[slot]);
+        }
+        for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
+            let size = self.sizes[p] * self.sizes[q];
+            let mean = 0.5 * (mixed[pair] * over * size + self.aligned[pair] * slope);
+            if mean.abs() > NEGLIGIBLE * slope {
+                element.between[pair] = mean * (times[p] * times[q]);
+            }
+        }
+        element
+    }
+}
+
+/// A coupling of less than this is rounding.
+const NEGLIGIBLE: f32 = 1.0e-4;
+
+/// What a hinge shows of a curvature's parts along x, along y and √2 times that between, for where its own
+/// ways lead.
+fn tell([along, across, between]: Shows, t: Vec2, n: Vec2) -> Vec3 {
+    let half_root = 0.5_f32.sqrt();
+    let parts =
+        |u: Vec2, v: Vec2| Vec3::new(u.x * v.x, u.y * v.y, half_root * (u.x * v.y + u.y * v.x));
+    parts(t, t) * along + parts(n, n) * across + parts(t, n) * between
+}

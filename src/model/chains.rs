@@ -1,0 +1,294 @@
+//! Lines: stretch links end to end, as straight as the mesh has them, to be solved as wholes.
+//!
+//! On a grid they are its rows and columns. On any mesh links continue each other where they meet most
+//! nearly straight. Every stretch link is in one line.
+
+use crate::math::simd::LANES;
+use crate::math::sort::{sort, sort_by};
+use crate::mesh::NONE;
+use crate::model::line_blocks::{Abreast, Member};
+use crate::model::links::{LinkKind, Links};
+use core::mem::take;
+use glam::Vec3;
+
+/// Links continue each other up to a turn of which this is the cosine.
+const STRAIGHT: f32 = 0.8;
+
+/// So many unfinished blocks are looked at for room.
+const OPEN_BLOCKS: usize = 16;
+
+type Line = Vec<Member>;
+
+/// All lines of a weave.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lines {
+    /// Eight that share no particle side by side in a block.
+    pub abreast: Abreast,
+    /// Links of the longest one as it was woven.
+    pub longest: usize,
+}
+
+impl Lines {
+    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex; `breaks`
+    /// says to have room for lines to break.
+    pub fn find(links: &Links, rest: &[Vec3], breaks: bool) -> Self {
+        let next = continuations(links, rest);
+        let mut lines = Vec::new();
+        let mut seen = vec![false; links.len()];
+        let mut visited = vec![NONE; rest.len()];
+        for link in stretch_links(links) {
+            if !seen[link as usize] {
+                let start = walk_back(links, &next, link, &seen, lines.len() as u32, &mut visited);
+                lines.push(walk(links, &next, start, &mut seen, lines.len() as u32, &mut visited));
+            }
+            // A line that ran into itself from behind did not come by.
+            if !seen[link as usize] {
+                seen[link as usize] = true;
+                lines.push(vec![(link, false)]);
+            }
+        }
+        // Those of a length go together, the longest first, in the order in which they were found.
+        let mut order: Vec<[u32; 2]> =
+            lines.iter().zip(0..).map(|(line, at)| [!(line.len() as u32), at]).collect();
+        sort(&mut order);
+        let lines: Vec<Line> = order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
+        let blocks = arrange(links, &lines, rest.len());
+        Self {
+            abreast: Abreast::new(links, &blocks, breaks),
+            longest: lines.first().map_or(0, Vec::len),
+        }
+    }
+}
+
+fn stretch_links(links: &Links) -> impl Iterator<Item = u32> + '_ {
+    (0..links.len()).filter(|link| links.kind(*link) == LinkKind::Stretch).map(|link| link as u32)
+}
+
+/// For each link the one that continues it beyond its first and beyond its second particle.
+fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
+    let mut at_vertex: Vec<Vec<(u32, Vec3)>> = vec![Vec::new(); rest.len()];
+    for link in stretch_links(links) {
+        let (a, b) = (links.a[link as usize], links.b[link as usize]);
+        let way = (rest[b as usize] - rest[a as usize]).normalize_or_zero();
+        at_vertex[a as usize].push((link, way));
+        at_vertex[b as usize].push((link, -way));
+    }
+    let mut next = vec![[NONE; 2]; links.len()];
+    for (vertex, around) in at_vertex.iter().enumerate() {
+        let mut pairs = Vec::new();
+        for (at, (p, along)) in around.iter().enumerate() {
+            for (q, back) in &around[at + 1..] {
+                let straight = -along.dot(*back);
+                if straight > STRAIGHT {
+                    pairs.push((straight, *p, *q));
+                }
+            }
+        }
+        sort_by(&mut pairs, |p, q| q.0.total_cmp(&p.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+        for (_, p, q) in pairs {
+            let end = |link: u32| usize::from(links.b[link as usize] == vertex as u32);
+            if next[p as usize][end(p)] == NONE && next[q as usize][end(q)] == NONE {
+                next[p as usize][end(p)] = q;
+                next[q as usize][end(q)] = p;
+            }
+        }
+    }
+    next
+}
+
+/// The vertex where the walk goes on after a link.
+fn far_end(links: &Links, (link, turned): (u32, bool)) -> u32 {
+    if turned { links.a[link as usize] } else { links.b[link as usize] }
+}
+
+/// The next link of a walk, if it leads to a new vertex.
+fn step(
+    links: &Links,
+    next: &[[u32; 2]],
+    from: (u32, bool),
+    seen: &[bool],
+    (number, visited): (u32, &[u32]),
+) -> Option<(u32, bool)> {
+    let end = far_end(links, from);
+    let link = next[from.0 as usize][usize::from(!from.1)];
+    if link == NONE || seen[link as usize] {
+        return None;
+    }
+    let to = (link, links.b[link as usize] == end);
+    (visited[far_end(links, to) as usize] != number).then_some(to)
+}
+
+/// The link where a line begins that has `link` in it, in the direction it runs.
+fn walk_back(
+    links: &Links,
+    next: &[[u32; 2]],
+    link: u32,
+    seen: &[bool],
+    number: u32,
+    visited: &mut [u32],
+) -> (u32, bool) {
+    let mut at = (link, true);
+    // Marks of this walk differ from those of the walk back along it.
+    let number = number | 1 << 31;
+    visited[links.b[link as usize] as usize] = number;
+    visited[links.a[link as usize] as usize] = number;
+    while let Some(to) = step(links, next, at, seen, (number, visited)) {
+        visited[far_end(links, to) as usize] = number;
+        at = to;
+    }
+    (at.0, !at.1)
+}
+
+fn walk(
+    links: &Links,
+    next: &[[u32; 2]],
+    start: (u32, bool),
+    seen: &mut [bool],
+    number: u32,
+    visited: &mut [u32],
+) -> Line {
+    let mut line = vec![start];
+    seen[start.0 as usize] = true;
+    visited[links.a[start.0 as usize] as usize] = number;
+    visited[links.b[start.0 as usize] as usize] = number;
+    let mut at = start;
+    while let Some(to) = step(links, next, at, seen, (number, visited)) {
+        seen[to.0 as usize] = true;
+        visited[far_end(links, to) as usize] = number;
+        line.push(to);
+        at = to;
+    }
+    line
+}
+
+/// Puts lines side by side, so that those in a block share no vertex.
+fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec<&'a [Member]>> {
+    let mut blocks: Vec<Vec<&[Member]>> = Vec::new();
+    // The blocks that each vertex is in.
+    let mut member: Vec<Vec<u32>> = vec![Vec::new(); vertex_count];
+    for line in lines {
+        let ends = |link: u32| [links.a[link as usize], links.b[link as usize]];
+        let vertices: Vec<u32> = line.iter().flat_map(|(link, _)| ends(*link)).collect();
+        let oldest = blocks.len().saturating_sub(OPEN_BLOCKS);
+        let fits = |block: &usize| {
+            let is_out = |v: &u32| !member[*v as usize].contains(&(*block as u32));
+            blocks[*block].len() < LANES && vertices.iter().all(is_out)
+        };
+        let block = (oldest..blocks.len()).find(fits).unwrap_or(blocks.len());
+        if block == blocks.len() {
+            blocks.push(Vec::new());
+        }
+        blocks[block].push(line);
+        vertices.iter().for_each(|v| member[*v as usize].push(block as u32));
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::mesh::grid;
+    use crate::model::constraints::Weave;
+    use crate::model::line_blocks::{NOBODY, Strip};
+
+    use crate::mesh::grid::Frame;
+
+    fn sheet(columns: u32, rows: u32) -> (Mesh, Vec<Vec3>) {
+        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let rest = grid::positions(columns, rows, &frame);
+        (Mesh::new(grid::triangles(columns, rows), rest.len(), rest.len()), rest)
+    }
+
+    /// Every stretch link is in one line, lines in a block share no particle, and lines are chains.
+    fn assert_sound(lines: &Lines, links: &Links) {
+        let mut uses = vec![0; links.len()];
+        for steps in lines.abreast.blocks() {
+            let mut lane_of = std::collections::HashMap::new();
+            let mut end = [NOBODY; LANES];
+            for step in steps {
+                for lane in 0..LANES {
+                    let (link, to) = (step.links[lane], step.to[lane]);
+                    assert_eq!(link == NONE, step.rest[lane] <= 0.0);
+                    if link != NONE {
+                        uses[link as usize] += 1;
+                        let seats = [links.a[link as usize] + 1, links.b[link as usize] + 1];
+                        let ends = [end[lane], to];
+                        assert!(seats == ends || seats == [to, end[lane]], "a line is a chain");
+                    }
+                    assert!(to == NOBODY || lane_of.insert(to, lane).is_none(), "one place each");
+                    end[lane] = to;
+                }
+            }
+        }
+        for (link, uses) in uses.iter().enumerate() {
+            let holds = links.kind(link) == LinkKind::Stretch && links.active[link];
+            assert_eq!(*uses, u32::from(holds), "link {link}");
+        }
+    }
+
+    #[test]
+    fn lines_of_a_grid_are_its_rows_and_columns() {
+        let (mesh, rest) = sheet(11, 19);
+        let weave = Weave::grid(11, 19, 0.1, &mesh, 0);
+        let lines = Lines::find(&weave.links, &rest, false);
+        assert_sound(&lines, &weave.links);
+        // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
+        let lengths: Vec<usize> = lines.abreast.blocks().map(<[_]>::len).collect();
+        assert_eq!(lengths, [19, 19, 11, 11, 11]);
+    }
+
+    #[test]
+    fn lines_of_a_grid_are_strips_until_one_breaks() {
+        let (mesh, rest) = sheet(11, 19);
+        let mut weave = Weave::grid(11, 19, 0.1, &mesh, 0);
+        let mut lines = Lines::find(&weave.links, &rest, true);
+        let strip = |first, along, across, lines| Strip { first, along, across, lines };
+        let columns = [strip(0, 11, 1, 8), strip(8, 11, 1, 3)];
+        let rows = [strip(0, 1, 11, 8), strip(88, 1, 11, 8), strip(176, 1, 11, 3)];
+        assert!(lines.abreast.are_strips());
+        let strips: Vec<Strip> = lines.abreast.strips().map(|(strip, _)| strip).collect();
+        assert_eq!(strips, [&columns[..], &rows[..]].concat());
+        weave.links.active[17] = false;
+        lines.abreast.forget(17);
+        lines.abreast.lay(&weave.links);
+        assert!(!lines.abreast.are_strips());
+        assert_eq!(lines.abreast.strips().count(), 4);
+    }
+
+    #[test]
+    fn pieces_of_broken_lines_follow_each_other() {
+        let (mesh, rest) = sheet(17, 9);
+        let mut weave = Weave::grid(17, 9, 0.1, &mesh, 0);
+        let mut lines = Lines::find(&weave.links, &rest, true);
+        let count = |lines: &Lines| lines.abreast.blocks().map(<[_]>::len).sum::<usize>();
+        let whole = count(&lines);
+        // Every fifth link goes, and then all of them but every seventh.
+        for step in [5, 7] {
+            for link in 0..weave.links.len() {
+                weave.links.active[link] = (link % step == 0) == (step == 7);
+                lines.abreast.forget(link);
+            }
+            lines.abreast.lay(&weave.links);
+            assert_sound(&lines, &weave.links);
+            assert_ne!(count(&lines), whole);
+        }
+        weave.links.active.fill(true);
+        (0..weave.links.len()).for_each(|link| lines.abreast.forget(link));
+        lines.abreast.lay(&weave.links);
+        assert_sound(&lines, &weave.links);
+        assert_eq!(count(&lines), whole);
+    }
+
+    #[test]
+    fn lines_of_a_mesh_run_straight_on() {
+        let (mesh, mut rest) = sheet(9, 9);
+        for (i, x) in rest.iter_mut().enumerate() {
+            x.z = (i as f32 * 1.3).sin() * 0.03;
+        }
+        let weave = Weave::mesh(&mesh, &rest, 0);
+        let lines = Lines::find(&weave.links, &rest, false);
+        assert_sound(&lines, &weave.links);
+        assert_eq!(lines.longest, 8, "from border to border");
+    }
+}

@@ -1,0 +1,395 @@
+//! The weave: from a mesh to all its links, and how they follow when it splits.
+
+use crate::math::sort::sort;
+use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
+use crate::model::chains::Lines;
+use crate::model::coloring;
+use crate::model::grid_rows::Rows;
+use crate::model::hinges::Hinges;
+use crate::model::links::{Batch, LinkKind, Links, Spec, Support, Thread};
+use crate::model::material::Material;
+use crate::model::recoloring::Palette;
+use crate::model::sparse_links::Loose;
+use core::ops::Range;
+use glam::Vec3;
+
+/// All links of a cloth.
+#[derive(Clone, Debug)]
+pub(crate) struct Weave {
+    /// The links that it was woven with, batch by batch.
+    pub links: Links,
+    pub batches: Vec<Batch>,
+    /// Where the links of a grid lie in rows.
+    pub rows: Option<Rows>,
+    /// The stretch links as lines.
+    pub lines: Lines,
+    /// What resists bending on any mesh.
+    pub hinges: Hinges,
+    /// Whether a link that it was woven with is anchored or as strong as it was no longer.
+    pub(super) is_changed: Vec<bool>,
+    /// The second sides of opened edges and what cuts made, in the order they came, see `extra`.
+    pub extra: Links,
+    /// Those of them that hold by colour; as of the last time they were gathered.
+    pub loose: Loose,
+    pub(super) palette: Palette,
+    /// The sites that each extra link involves; `NONE` where there are fewer.
+    pub(super) extra_sites: Vec<[u32; 4]>,
+    /// The link along the edge that starts at each corner, by its number as in `extra`; `NONE` on the
+    /// second side of an inner edge.
+    pub(super) link_of_edge: Vec<u32>,
+    /// Links that involve each original vertex: `involved[first[v]..first[v + 1]]`.
+    pub(super) first: Vec<u32>,
+    pub(super) involved: Vec<u32>,
+    /// The extra links of each site as chains.
+    pub(super) extra_head: Vec<u32>,
+    pub(super) extra_next: Vec<[u32; 4]>,
+    /// Which way the threads of a grid run; any mesh has none.
+    pub(super) threads: Option<[Vec3; 2]>,
+}
+
+/// A link about to be woven.
+struct Draft {
+    spec: Spec,
+    rest: f32,
+    color: u32,
+}
+
+impl Weave {
+    /// Weaves a regular grid: four colours for each kind of link.
+    pub fn grid(
+        columns: u32,
+        rows: u32,
+        spacing: f32,
+        mesh: &Mesh,
+        opening_capacity: usize,
+    ) -> Self {
+        let edges = EdgeIndex::new(mesh);
+        let at = |row: u32, column: u32| row * columns + column;
+        let border = |at_border: bool| if at_border { 0.5 } else { 1.0 };
+        let mut drafts = Vec::new();
+        for (thread, base) in [(Thread::Weft, 0), (Thread::Warp, 2)] {
+            each(columns, rows, thread, 1, |along, at_border, a, b| {
+                let (edge, shape) = (edges.find(a, b), border(at_border));
+                let spec = edge_spec(mesh, edge, [a, b], LinkKind::Stretch, thread, shape);
+                drafts.push(Draft { spec, rest: spacing, color: base + along % 2 });
+            });
+        }
+        let diagonal = spacing * 2.0_f32.sqrt();
+        for (base, falls) in [(4, true), (6, false)] {
+            for row in 0..rows - 1 {
+                for column in 0..columns - 1 {
+                    let (a, b) = if falls {
+                        (at(row, column), at(row + 1, column + 1))
+                    } else {
+                        (at(row, column + 1), at(row + 1, column))
+                    };
+                    let first = 2 * (row * (columns - 1) + column);
+                    let is_edge = (row + column).is_multiple_of(2) == falls;
+                    let spec = if is_edge {
+                        edge_spec(
+                            mesh,
+                            edges.find(a, b),
+                            [a, b],
+                            LinkKind::Shear,
+                            Thread::Warp,
+                            1.0,
+                        )
+                    } else {
+                        let edge = shared_edge(mesh, first, first + 1);
+                        let (ta, tb) = if mesh.corner_in(first, a).is_some() {
+                            (first, first + 1)
+                        } else {
+                            (first + 1, first)
+                        };
+                        let anchors = [corner(mesh, ta, a), corner(mesh, tb, b)];
+                        let support = Support::Flap(edge);
+                        Spec {
+                            kind: LinkKind::Shear,
+                            thread: Thread::Warp,
+                            anchors,
+                            support,
+                            shape: 1.0,
+                        }
+                    };
+                    drafts.push(Draft { spec, rest: diagonal, color: base + row % 2 });
+                }
+            }
+        }
+        for (thread, base) in [(Thread::Weft, 8), (Thread::Warp, 10)] {
+            each(columns, rows, thread, 2, |along, at_border, a, b| {
+                let middle = (a + b) / 2;
+                let (left, right) = (edges.find(a, middle), edges.find(middle, b));
+                let spec = Spec {
+                    kind: LinkKind::Bend,
+                    thread,
+                    anchors: [corner(mesh, left / 3, a), corner(mesh, right / 3, b)],
+                    support: Support::Pair([
+                        corner(mesh, left / 3, middle),
+                        corner(mesh, right / 3, middle),
+                    ]),
+                    shape: border(at_border) * bend_shape(spacing, 2.0 * spacing),
+                };
+                drafts.push(Draft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
+            });
+        }
+        let mut weave = Self::from_drafts(mesh, drafts, opening_capacity);
+        let starts: Vec<usize> = weave.batches.iter().map(|batch| batch.first).collect();
+        let mut rows =
+            Rows::find(columns, [&weave.links.a, &weave.links.b], &weave.links.rest, &starts);
+        if opening_capacity > 0 {
+            rows.reserve();
+        }
+        weave.rows = Some(rows);
+        weave
+    }
+
+    /// Weaves any mesh: a stretch link along every edge, a bend link across every inner one.
+    pub fn mesh(mesh: &Mesh, rest: &[Vec3], opening_capacity: usize) -> Self {
+        let edges: Vec<Corner> = mesh.edges().collect();
+        let distance = |a: u32, b: u32| (rest[a as usize] - rest[b as usize]).length();
+        let area = |triangle: usize| {
+            let [a, b, c] = mesh.triangles[triangle].map(|v| rest[v as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        };
+        let mut drafts = Vec::new();
+        for edge in &edges {
+            let (a, b) = (mesh.vertex(*edge), mesh.vertex(after(*edge)));
+            let length = distance(a, b);
+            let beyond = mesh.across(*edge);
+            let both =
+                area(triangle_of(*edge)) + if beyond == NONE { 0.0 } else { area(beyond as usize) };
+            // Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
+            let shape = both / (length * length);
+            let spec = edge_spec(mesh, *edge, [a, b], LinkKind::Stretch, Thread::Warp, shape);
+            drafts.push(Draft { spec, rest: length, color: 0 });
+        }
+        for edge in edges.iter().filter(|edge| mesh.across(**edge) != NONE) {
+            let beyond = mesh.across(*edge);
+            let (a, b) = (mesh.vertex(*edge), mesh.vertex(after(*edge)));
+            let opposite = before(*edge);
+            let far =
+                (3 * beyond..3 * beyond + 3).find(|c| mesh.vertex(*c) != a && mesh.vertex(*c) != b);
+            let anchors = [opposite, far.unwrap_or(opposite)];
+            let length = distance(mesh.vertex(anchors[0]), mesh.vertex(anchors[1]));
+            let shape = bend_shape(distance(a, b), length.max(1.0e-6));
+            let support = Support::Flap(*edge);
+            let spec = Spec { kind: LinkKind::Bend, thread: Thread::Warp, anchors, support, shape };
+            if mesh.vertex(anchors[0]) != mesh.vertex(anchors[1]) {
+                drafts.push(Draft { spec, rest: length, color: 0 });
+            }
+        }
+        let pairs: Vec<[u32; 2]> =
+            drafts.iter().map(|d| d.spec.anchors.map(|c| mesh.vertex(c))).collect();
+        let of_kind = |draft: &Draft| draft.spec.kind as u32;
+        let bend = drafts.iter().position(|draft| of_kind(draft) == 2).unwrap_or(drafts.len());
+        let count = mesh.vertex_count();
+        let mut colors = coloring::greedy(&pairs[..bend], count);
+        let stretch_colors = colors.iter().max().map_or(0, |most| most + 1);
+        colors.extend(coloring::greedy(&pairs[bend..], count).iter().map(|c| c + stretch_colors));
+        for (draft, color) in drafts.iter_mut().zip(colors) {
+            draft.color = color;
+        }
+        Self::from_drafts(mesh, drafts, opening_capacity)
+    }
+
+    fn from_drafts(mesh: &Mesh, drafts: Vec<Draft>, opening_capacity: usize) -> Self {
+        // Those of a colour stay in the order in which they were drafted.
+        let mut order: Vec<[u32; 2]> =
+            drafts.iter().zip(0..).map(|(draft, at)| [draft.color, at]).collect();
+        sort(&mut order);
+        let mut links = Links::default();
+        links.reserve(drafts.len());
+        let mut batches: Vec<Batch> = Vec::new();
+        let mut last_color = u32::MAX;
+        for (at, [_, draft]) in order.into_iter().enumerate() {
+            let draft = &drafts[draft as usize];
+            if draft.color != last_color {
+                batches.push(Batch { kind: draft.spec.kind, first: at, count: 0 });
+                last_color = draft.color;
+            }
+            if let Some(batch) = batches.last_mut() {
+                batch.count += 1;
+            }
+            links.push(mesh, draft.spec, draft.rest);
+        }
+        let mut link_of_edge = vec![NONE; 3 * mesh.triangles.len()];
+        for (at, spec) in links.spec.iter().enumerate() {
+            if spec.support == Support::Edge {
+                link_of_edge[edge_of(spec.anchors) as usize] = at as u32;
+            }
+        }
+        let (first, involved) = involvement(mesh, &links);
+        let is_changed = vec![false; links.len()];
+        let mut extra = Links::default();
+        extra.reserve(opening_capacity);
+        let (mut loose, mut palette) = (Loose::default(), Palette::default());
+        loose.reserve(opening_capacity);
+        palette.reserve(opening_capacity, mesh.source.capacity());
+        Self {
+            links,
+            batches,
+            rows: None,
+            lines: Lines::default(),
+            hinges: Hinges::none(),
+            is_changed,
+            extra,
+            loose,
+            palette,
+            extra_sites: Vec::with_capacity(opening_capacity),
+            link_of_edge,
+            first,
+            involved,
+            extra_head: vec![NONE; mesh.original_count as usize],
+            extra_next: Vec::with_capacity(opening_capacity),
+            threads: None,
+        }
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let each = size_of::<Spec>() + 5 * size_of::<f32>() + size_of::<bool>();
+        let links = self.links.len() + self.extra.rest.capacity();
+        links * each
+            + self.rows.as_ref().map_or(0, Rows::bytes)
+            + self.lines.abreast.bytes()
+            + self.loose.bytes()
+            + self.palette.bytes()
+            + self.hinges.bytes()
+            + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
+            + size_of::<[u32; 8]>() * self.extra_next.capacity()
+    }
+
+    /// Takes on a material's stiffnesses.
+    pub fn stiffen(&mut self, material: &Material) {
+        for links in [&mut self.links, &mut self.extra] {
+            (0..links.len()).for_each(|link| links.stiffen(link, material));
+        }
+    }
+
+    /// The batches of a kind, which lie next to each other.
+    pub fn batches_of(&self, kind: LinkKind) -> Range<usize> {
+        let first = self.batches.partition_point(|batch| batch.kind < kind);
+        first..self.batches.partition_point(|batch| batch.kind <= kind)
+    }
+
+    /// The links of a kind that left their rows, if there are rows, and still hold.
+    #[cfg(feature = "parallel")]
+    pub fn strays_of(&self, kind: LinkKind) -> &[u32] {
+        let batches = &self.batches[self.batches_of(kind)];
+        let (Some(rows), Some(first), Some(last)) = (&self.rows, batches.first(), batches.last())
+        else {
+            return &[];
+        };
+        rows.strays(first.first..last.first + last.count)
+    }
+
+    /// All links that hold, as particle, particle and kind.
+    pub fn active(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
+        [&self.links, &self.extra].into_iter().flat_map(|links| {
+            let held = (0..links.len()).filter(|link| links.active[*link]);
+            held.map(|link| (links.a[link], links.b[link], links.kind(link)))
+        })
+    }
+}
+
+/// Spring constant of a link of length `span` that reaches across an edge of length `width`, over
+/// the bending rigidity.
+///
+/// A fold by θ shortens the link by span·θ²/8 and costs the sheet ½·D·θ²·(2·width/span); equal
+/// energies at a fold of half a radian give 512·width/span³.
+pub(super) fn bend_shape(width: f32, span: f32) -> f32 {
+    512.0 * width / (span * span * span)
+}
+
+/// Calls `visit(along, at_border, a, b)` for links of `reach` cells along a thread: `along` counts
+/// cells from its start, `at_border` is whether the thread is a border of the grid.
+fn each(
+    columns: u32,
+    rows: u32,
+    thread: Thread,
+    reach: u32,
+    mut visit: impl FnMut(u32, bool, u32, u32),
+) {
+    let (last_row, last_column, step) = match thread {
+        Thread::Weft => (rows, columns.saturating_sub(reach), 1),
+        Thread::Warp => (rows.saturating_sub(reach), columns, columns),
+    };
+    for row in 0..last_row {
+        for column in 0..last_column {
+            let a = row * columns + column;
+            let (along, across, lines) = match thread {
+                Thread::Weft => (column, row, rows),
+                Thread::Warp => (row, column, columns),
+            };
+            visit(along, across == 0 || across == lines - 1, a, a + reach * step);
+        }
+    }
+}
+
+fn edge_spec(
+    mesh: &Mesh,
+    edge: Corner,
+    ends: [u32; 2],
+    kind: LinkKind,
+    thread: Thread,
+    shape: f32,
+) -> Spec {
+    let anchors = ends.map(|end| if mesh.vertex(edge) == end { edge } else { after(edge) });
+    Spec { kind, thread, anchors, support: Support::Edge, shape }
+}
+
+/// The edge between two corners of one triangle: the corner where it starts.
+pub(super) fn edge_of(anchors: [Corner; 2]) -> Corner {
+    if after(anchors[0]) == anchors[1] { anchors[0] } else { anchors[1] }
+}
+
+fn corner(mesh: &Mesh, triangle: u32, vertex: u32) -> Corner {
+    let found = mesh.corner_in(triangle, vertex);
+    debug_assert!(found.is_some(), "vertex {vertex} is in triangle {triangle}");
+    found.unwrap_or(3 * triangle)
+}
+
+fn shared_edge(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
+    let found = (3 * triangle..3 * triangle + 3).find(|edge| mesh.across(*edge) == other);
+    debug_assert!(found.is_some(), "triangles {triangle} and {other} share an edge");
+    found.unwrap_or(3 * triangle)
+}
+
+/// For each original vertex the links that change when it splits: its own, and those it supports.
+fn involvement(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
+    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * links.len());
+    for (at, spec) in links.spec.iter().enumerate() {
+        pairs.extend(spec.corners().map(|corner| (mesh.vertex(corner), at as u32)));
+    }
+    sort(&mut pairs);
+    pairs.dedup();
+    let mut first = vec![0u32; mesh.original_count as usize + 1];
+    for (vertex, _) in &pairs {
+        first[*vertex as usize + 1] += 1;
+    }
+    for vertex in 1..first.len() {
+        first[vertex] += first[vertex - 1];
+    }
+    (first, pairs.into_iter().map(|(_, link)| link).collect())
+}
+
+/// Finds edges by their ends.
+struct EdgeIndex {
+    sorted: Vec<((u32, u32), Corner)>,
+}
+
+impl EdgeIndex {
+    fn new(mesh: &Mesh) -> Self {
+        let mut sorted: Vec<_> = mesh.edges().map(|edge| (mesh.ends(edge), edge)).collect();
+        sort(&mut sorted);
+        Self { sorted }
+    }
+
+    /// The corner where the edge starts in its first triangle.
+    fn find(&self, a: u32, b: u32) -> Corner {
+        let ends = (a.min(b), a.max(b));
+        let found = self.sorted.binary_search_by_key(&ends, |(ends, _)| *ends);
+        debug_assert!(found.is_ok(), "{ends:?} is an edge");
+        self.sorted[found.unwrap_or(0)].1
+    }
+}

@@ -1,0 +1,51 @@
+//! The links from the pins outward: the order in which a chain that hangs is made right in one go.
+
+use crate::math::sort::sort_by;
+use crate::model::links::Links;
+use crate::model::tethers::Tethers;
+
+/// Links sorted by how far their farther end is from a pin.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outward {
+    order: Vec<u32>,
+    /// Each particle's way along the cloth to the nearest pin [m]; infinite where there is none.
+    distance: Vec<f32>,
+}
+
+impl Outward {
+    /// Makes room for `particles` and `links` in all.
+    pub fn reserve(&mut self, particles: usize, links: usize) {
+        self.order.reserve_exact(links.saturating_sub(self.order.len()));
+        self.distance.reserve_exact(particles.saturating_sub(self.distance.len()));
+    }
+
+    /// Sorts anew, after tethers were measured.
+    pub fn sort(&mut self, tethers: &Tethers, particle_count: usize, links: &Links) {
+        self.distance.clear();
+        self.distance.resize(particle_count, f32::INFINITY);
+        for set in tethers.sets() {
+            for (distance, length) in self.distance.iter_mut().zip(&set.length) {
+                *distance = if *length < *distance { *length } else { *distance };
+            }
+        }
+        self.order.clear();
+        self.order.extend(0..links.len() as u32);
+        let distance = &self.distance;
+        let farther = |link: &u32| {
+            let ends = [links.a[*link as usize], links.b[*link as usize]];
+            let [a, b] = ends.map(|end| distance[end as usize]);
+            if a > b { a } else { b }
+        };
+        sort_by(&mut self.order, |p, q| farther(p).total_cmp(&farther(q)).then(p.cmp(q)));
+    }
+
+    /// The links, nearest to a pin first.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Whether the first particle is clearly nearer to a pin than the second.
+    pub fn is_nearer(&self, a: usize, b: usize) -> bool {
+        self.distance[a] < self.distance[b] * (1.0 - 1.0e-4)
+    }
+}

@@ -1,0 +1,374 @@
+//! Tethers: how far along the cloth each particle is from the pins, and so how far it may get.
+//!
+//! Distances are measured on the surface at rest by unfolding triangles (Kimmel and Sethian,
+//! "Computing geodesic paths on manifolds", PNAS 1998), swept to and fro until nothing changes.
+//! Kim, Chentanez, Müller, "Long range attachments", SCA 2012, for what they are good for.
+//!
+//! A tear makes ways longer, though few of them: those that led where it opened. Each particle knows
+//! over which triangle its way came, so that these are found and measured anew, and no others.
+
+use crate::mesh::{Fan, Mesh, NONE, triangle_of};
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// With this many pins or fewer each particle is tethered to every one, else to the nearest.
+const FEW_PINS: usize = 4;
+
+/// Each particle's attachment to one pin.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct TetherSet {
+    /// The pinned particle; itself where no way leads to a pin.
+    pub anchor: Vec<u32>,
+    /// Length of the way [m]; infinite where there is none.
+    pub length: Vec<f32>,
+    /// The triangle over which it comes; `NONE` at a pin and where there is none.
+    by: Vec<u32>,
+    /// The only pin of the set, if there is but one.
+    pub only: Option<u32>,
+}
+
+/// The tethers of a cloth.
+#[derive(Clone, Debug)]
+pub(crate) struct Tethers {
+    sets: Vec<TetherSet>,
+    used: usize,
+    pin_count: usize,
+    room: Room,
+}
+
+/// Room to find out what tears did.
+#[derive(Clone, Debug, Default)]
+struct Room {
+    fan: Fan,
+    /// Particles whose ways are gone.
+    lost: Vec<u32>,
+    /// Whether each triangle is at one of those, and which ones are.
+    is_near: Vec<bool>,
+    near: Vec<u32>,
+}
+
+impl Tethers {
+    /// No tethers, with room for those of `capacity` particles.
+    pub fn with_capacity(capacity: usize) -> Self {
+        let list = || TetherSet {
+            anchor: Vec::with_capacity(capacity),
+            length: Vec::with_capacity(capacity),
+            by: Vec::with_capacity(capacity),
+            only: None,
+        };
+        let sets = (0..FEW_PINS).map(|_| list()).collect();
+        Self { sets, used: 0, pin_count: 0, room: Room::default() }
+    }
+
+    /// Makes room for `capacity` particles and so many triangles in all.
+    pub fn reserve(&mut self, capacity: usize, triangles: usize) {
+        for set in &mut self.sets {
+            set.anchor.reserve_exact(capacity.saturating_sub(set.anchor.len()));
+            set.length.reserve_exact(capacity.saturating_sub(set.length.len()));
+            set.by.reserve_exact(capacity.saturating_sub(set.by.len()));
+        }
+        let Room { fan, lost, is_near, near } = &mut self.room;
+        fan.corners.reserve(64);
+        fan.spokes.reserve(65);
+        lost.reserve_exact(capacity.saturating_sub(lost.len()));
+        is_near.reserve_exact(triangles.saturating_sub(is_near.len()));
+        near.reserve_exact(triangles.saturating_sub(near.len()));
+    }
+
+    /// Bytes that they hold.
+    pub fn bytes(&self) -> usize {
+        let of_set = |set: &TetherSet| {
+            4 * (set.anchor.capacity() + set.length.capacity() + set.by.capacity())
+        };
+        let room = 4 * self.room.lost.capacity() + 5 * self.room.near.capacity();
+        self.sets.iter().map(of_set).sum::<usize>() + room
+    }
+
+    /// How many pins there were when ways were measured.
+    pub fn pin_count(&self) -> usize {
+        self.pin_count
+    }
+
+    pub fn sets(&self) -> &[TetherSet] {
+        &self.sets[..self.used]
+    }
+
+    /// Measures all ways to the `pinned` particles anew. `rest` is the rest position of each original
+    /// vertex.
+    pub fn measure(
+        &mut self,
+        mesh: &Mesh,
+        rest: &[Vec3],
+        pinned: impl Iterator<Item = u32> + Clone,
+    ) {
+        self.pin_count = pinned.clone().count();
+        let few = self.pin_count <= FEW_PINS;
+        self.used = if few { self.pin_count } else { 1 };
+        for (at, set) in self.sets[..self.used].iter_mut().enumerate() {
+            set.anchor.clear();
+            set.anchor.resize(mesh.vertex_count(), NONE);
+            set.length.clear();
+            set.length.resize(mesh.vertex_count(), f32::INFINITY);
+            set.by.clear();
+            set.by.resize(mesh.vertex_count(), NONE);
+            for (number, pin) in pinned.clone().enumerate() {
+                if !few || number == at {
+                    set.anchor[pin as usize] = pin;
+                    set.length[pin as usize] = 0.0;
+                }
+            }
+            set.spread(mesh, rest, 0..mesh.triangles.len() as u32);
+            set.only = if few { pinned.clone().nth(at) } else { None };
+            set.anchor_rest();
+        }
+    }
+
+    /// A particle more, as a copy of another one; `follow` finds out what that did.
+    pub fn admit(&mut self, from: u32) {
+        for set in &mut self.sets[..self.used] {
+            let (from, new) = (from as usize, set.anchor.len() as u32);
+            let is_reached = set.length[from].is_finite();
+            set.anchor.push(if is_reached { set.anchor[from] } else { new });
+            set.length.push(set.length[from]);
+            set.by.push(set.by[from]);
+        }
+    }
+
+    /// Measures the ways anew that led over what tore: around the particles that were `touched`, which
+    /// are all that have other triangles than before. The pins are the same.
+    pub fn follow(&mut self, mesh: &Mesh, rest: &[Vec3], touched: &[u32]) {
+        let room = &mut self.room;
+        for set in &mut self.sets[..self.used] {
+            set.lose(mesh, touched, room);
+            if room.lost.is_empty() {
+                continue;
+            }
+            room.is_near.clear();
+            room.is_near.resize(mesh.triangles.len(), false);
+            for particle in &room.lost {
+                mesh.fan(mesh.corner_of[*particle as usize], &mut room.fan);
+                for corner in &room.fan.corners {
+                    room.is_near[triangle_of(*corner)] = true;
+                }
+            }
+            room.near.clear();
+            let near = |triangle: &usize| room.is_near[*triangle];
+            let near = (0..mesh.triangles.len()).filter(near).map(|triangle| triangle as u32);
+            room.near.extend(near);
+            set.spread(mesh, rest, room.near.iter().copied());
+            set.anchor_rest();
+        }
+    }
+
+    /// The sets in use; those of a saved cloth are given to `restore`.
+    pub fn save(&self) -> Vec<TetherSet> {
+        self.sets().to_vec()
+    }
+
+    /// Takes on what was saved, in place of what was measured; false if it does not fit that.
+    pub fn restore(&mut self, saved: &[TetherSet], particles: usize, triangles: usize) -> bool {
+        let fits = |(set, saved): (&TetherSet, &TetherSet)| {
+            let is_within = |list: &[u32], most: usize| {
+                list.iter().all(|at| *at == NONE || (*at as usize) < most)
+            };
+            saved.only == set.only
+                && [saved.anchor.len(), saved.length.len(), saved.by.len()] == [particles; 3]
+                && saved.anchor.iter().all(|anchor| (*anchor as usize) < particles)
+                && is_within(&saved.by, triangles)
+                && saved.length.iter().all(|length| *length >= 0.0)
+        };
+        let sets = &mut self.sets[..self.used];
+        if saved.len() != sets.len()
+            || !sets.iter().zip(saved).all(|(set, saved)| fits((set, saved)))
+        {
+            return false;
+        }
+        for (set, saved) in sets.iter_mut().zip(saved) {
+            set.anchor.copy_from_slice(&saved.anchor);
+            set.length.copy_from_slice(&saved.length);
+            set.by.copy_from_slice(&saved.by);
+        }
+        true
+    }
+}
+
+impl TetherSet {
+    /// Sweeps over some of the triangles to and fro until nothing changes.
+    fn spread(
+        &mut self,
+        mesh: &Mesh,
+        rest: &[Vec3],
+        triangles: impl DoubleEndedIterator<Item = u32> + ExactSizeIterator + Clone,
+    ) {
+        let at = |v: u32| rest[mesh.source[v as usize] as usize];
+        // Every sweep carries the front over at least one more triangle, mostly over all of them.
+        for sweep in 0..triangles.len() + 1 {
+            let mut changed = false;
+            let mut relax_all = |triangle: u32| {
+                let [a, b, c] = mesh.triangles[triangle as usize];
+                changed |= self.relax(a, b, c, triangle, at);
+                changed |= self.relax(b, c, a, triangle, at);
+                changed |= self.relax(c, a, b, triangle, at);
+            };
+            if sweep % 2 == 0 {
+                triangles.clone().for_each(&mut relax_all);
+            } else {
+                triangles.clone().rev().for_each(&mut relax_all);
+            }
+            if !changed {
+                break;
+            }
+        }
+    }
+
+    /// Where no way leads to a pin, a particle is its own anchor.
+    fn anchor_rest(&mut self) {
+        for (particle, anchor) in self.anchor.iter_mut().enumerate() {
+            if *anchor == NONE {
+                *anchor = particle as u32;
+            }
+        }
+    }
+
+    /// Finds the particles whose ways are gone, after the `touched` ones lost triangles: those whose way
+    /// came over a triangle that they lost, and all whose ways came from there.
+    fn lose(&mut self, mesh: &Mesh, touched: &[u32], room: &mut Room) {
+        room.lost.clear();
+        for particle in touched {
+            let by = self.by[*particle as usize];
+            if by != NONE && !mesh.triangles[by as usize].contains(particle) {
+                self.forget(*particle, &mut room.lost);
+            }
+        }
+        let mut at = 0;
+        while let Some(particle) = room.lost.get(at).copied() {
+            mesh.fan(mesh.corner_of[particle as usize], &mut room.fan);
+            for corner in &room.fan.corners {
+                let triangle = triangle_of(*corner);
+                for other in mesh.triangles[triangle] {
+                    if self.by[other as usize] == triangle as u32 {
+                        self.forget(other, &mut room.lost);
+                    }
+                }
+            }
+            at += 1;
+        }
+    }
+
+    fn forget(&mut self, particle: u32, lost: &mut Vec<u32>) {
+        let at = particle as usize;
+        (self.anchor[at], self.length[at], self.by[at]) = (NONE, f32::INFINITY, NONE);
+        lost.push(particle);
+    }
+
+    /// Shortens the way to `c` through the edge a–b of a triangle; true if it did.
+    fn relax(&mut self, a: u32, b: u32, c: u32, triangle: u32, at: impl Fn(u32) -> Vec3) -> bool {
+        let (la, lb) = (self.length[a as usize], self.length[b as usize]);
+        let old = self.length[c as usize];
+        if !(la < old || lb < old) {
+            return false;
+        }
+        let (pa, pb, pc) = (at(a), at(b), at(c));
+        let through_a = la + (pc - pa).length();
+        let through_b = lb + (pc - pb).length();
+        let (mut best, mut anchor) = if through_a <= through_b {
+            (through_a, self.anchor[a as usize])
+        } else {
+            (through_b, self.anchor[b as usize])
+        };
+        if self.anchor[a as usize] == self.anchor[b as usize]
+            && let Some(straight) = unfold(pa, pb, pc, la, lb)
+            && straight < best
+        {
+            (best, anchor) = (straight, self.anchor[a as usize]);
+        }
+        // A hair of slack ends the sweeps: f32 could go on shaving bits off.
+        if best < old * (1.0 - 1.0e-5) {
+            (self.length[c as usize], self.anchor[c as usize]) = (best, anchor);
+            self.by[c as usize] = triangle;
+            return true;
+        }
+        false
+    }
+}
+
+/// The straight way from a source, `la` from `a` and `lb` from `b`, to `c`, if it crosses the edge.
+fn unfold(a: Vec3, b: Vec3, c: Vec3, la: f32, lb: f32) -> Option<f32> {
+    let edge = b - a;
+    let width = edge.length();
+    let source_x = (la * la - lb * lb + width * width) / (2.0 * width);
+    let source_y2 = la * la - source_x * source_x;
+    let to_c = c - a;
+    let c_x = to_c.dot(edge) / width;
+    let c_y2 = to_c.length_squared() - c_x * c_x;
+    if !(source_y2 >= 0.0 && c_y2 > 0.0) {
+        return None;
+    }
+    let (below, above) = (source_y2.sqrt(), c_y2.sqrt());
+    let crossing = source_x + (c_x - source_x) * below / (below + above);
+    let (dx, dy) = (c_x - source_x, below + above);
+    (crossing >= 0.0 && crossing <= width).then(|| (dx * dx + dy * dy).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::grid;
+
+    use crate::mesh::grid::Frame;
+
+    #[test]
+    fn ways_over_a_flat_sheet_are_straight_lines() {
+        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let rest = grid::positions(21, 17, &frame);
+        let mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len());
+        let mut tethers = Tethers::with_capacity(rest.len());
+        tethers.measure(&mesh, &rest, [0, 20].into_iter());
+        assert_eq!(tethers.sets().len(), 2);
+        for (set, corner) in tethers.sets().iter().zip([0usize, 20]) {
+            for (particle, length) in set.length.iter().enumerate() {
+                let exact = (rest[particle] - rest[corner]).length();
+                assert!(
+                    (length - exact).abs() <= 0.002 * exact + 1.0e-6,
+                    "{particle}: {length} {exact}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn ways_that_a_tear_cut_off_lead_around_it() {
+        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let rest = grid::positions(21, 17, &frame);
+        let mut mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len() + 40);
+        let mut tethers = Tethers::with_capacity(rest.len() + 40);
+        tethers.reserve(rest.len() + 40, mesh.triangles.len());
+        tethers.measure(&mesh, &rest, 0..21);
+        // A slit along a row in the middle, vertex by vertex.
+        for column in 5..16 {
+            let mut fan = Fan::default();
+            let vertex = 8 * 21 + column;
+            mesh.fan(mesh.corner_of[vertex], &mut fan);
+            let below = |corner: &u32| {
+                mesh.triangles[triangle_of(*corner)]
+                    .iter()
+                    .any(|v| mesh.source[*v as usize] as usize / 21 > 8)
+            };
+            let moves: Vec<bool> = fan.corners.iter().map(below).collect();
+            let Some(arc) = crate::mesh::split_vertex::best_arc(&fan, &moves) else { continue };
+            let new = mesh.split(&fan, arc, &mut Vec::new());
+            tethers.admit(vertex as u32);
+            tethers.follow(&mesh, &rest, &[vertex as u32, new]);
+        }
+        let mut anew = Tethers::with_capacity(mesh.vertex_count());
+        anew.measure(&mesh, &rest, 0..21);
+        let below = 9 * 21 + 10;
+        let straight = 0.9;
+        assert!(anew.sets()[0].length[below] > 1.1 * straight, "the way leads around the slit");
+        let lengths = tethers.sets()[0].length.iter().zip(&anew.sets()[0].length);
+        for (particle, (followed, measured)) in lengths.enumerate() {
+            let off = (followed - measured).abs();
+            assert!(off <= 1.0e-3 * measured, "{particle}: {followed}, measured {measured}");
+        }
+    }
+}

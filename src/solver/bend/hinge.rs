@@ -1,0 +1,53 @@
+//! Hinges one by one: those where anything was cut.
+//!
+//! ```text
+//! C = Σ cᵢ xᵢ − rest n,   λ = −C / (Σ cᵢ² wᵢ + α̃),   Δxᵢ = wᵢ cᵢ λ
+//! ```
+//! A vector with a vector for its multiplier: its gradient is always the same, so there is no root to
+//! take. Each gives way by its compliance as in Macklin, Müller, Chentanez, "XPBD", MIG 2016.
+
+use crate::model::hinges::{Hinge, normal};
+use crate::solver::particle_stage::access::Spots;
+use glam::Vec3;
+
+/// What a substep of bending works with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step {
+    /// Bending rigidity times the square of the substep, damping included [kg m²].
+    pub stiffness: f32,
+    /// The share of where particles were that is taken off where they are, for damping.
+    pub before: f32,
+}
+
+/// Bends one hinge.
+#[inline(always)]
+pub(crate) fn project<S: Spots>(
+    hinge: &Hinge,
+    step: Step,
+    start: impl Fn(usize) -> Vec3,
+    spots: &mut S,
+) {
+    let at = hinge.at.map(|vertex| vertex as usize);
+    let seats = at.map(|i| spots.spot(i));
+    let (mut curve, mut weight) = (Vec3::ZERO, 0.0);
+    for ((x, w), c) in seats.iter().zip(hinge.weight) {
+        curve += *x * c;
+        weight += c * c * w;
+    }
+    if step.before > 0.0 {
+        for (i, c) in at.iter().zip(hinge.weight) {
+            curve -= start(*i) * (c * step.before);
+        }
+    }
+    if hinge.rest != 0.0 {
+        let n = normal(seats.map(|(x, _)| x));
+        curve -= n * (hinge.rest * (1.0 - step.before));
+    }
+    let compliance = 1.0 / (hinge.shape * step.stiffness);
+    let change = curve * (-1.0 / (weight + compliance));
+    for ((i, (_, w)), c) in at.iter().zip(seats).zip(hinge.weight) {
+        // Again, for a hinge may name a particle twice.
+        let (x, _) = spots.spot(*i);
+        spots.put(*i, x + change * (c * w));
+    }
+}

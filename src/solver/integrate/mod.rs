@@ -1,0 +1,9 @@
+//! Time integration: forces, prediction, velocities, momentum of free pieces, recovery, sleep.
+
+pub(crate) mod forces;
+pub(crate) mod momentum;
+pub(crate) mod predict;
+pub(crate) mod recover;
+pub(crate) mod rigid_motion;
+pub(crate) mod sleep;
+pub(crate) mod velocities;
