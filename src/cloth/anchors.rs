@@ -6,7 +6,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::math::float_env::guarded;
-use crate::state::anchors::{Leash, unit};
+use crate::state::anchors::{AnchorConstraint, unit};
 use glam::Vec3;
 
 impl Cloth {
@@ -82,7 +82,7 @@ impl Cloth {
         check(are_directions, "normals", "have a length that numbers can tell from 0")?;
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
-            let leash = world.leashes.of(*particle, positions[at]);
+            let leash = world.anchors.of(*particle, positions[at]);
             leash.anchor = positions[at];
             if let Some(normal) = normals.get(at) {
                 leash.normal = *normal;
@@ -97,7 +97,7 @@ impl Cloth {
 
     /// Takes away all anchors, maximum distances and backstops.
     pub fn clear_leashes(&mut self) {
-        self.world.leashes.clear();
+        self.world.anchors.clear();
         self.world.wake();
     }
 
@@ -106,11 +106,11 @@ impl Cloth {
         particles.iter().try_for_each(|particle| check_index(*particle, count, "particles"))
     }
 
-    fn leash(&mut self, particles: &[u32], change: impl Fn(usize, &mut Leash)) {
+    fn leash(&mut self, particles: &[u32], change: impl Fn(usize, &mut AnchorConstraint)) {
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
             let x = world.particles.x.at(*particle as usize);
-            change(at, world.leashes.of(*particle, x));
+            change(at, world.anchors.of(*particle, x));
         }
         world.reserve_leashes();
         world.wake();

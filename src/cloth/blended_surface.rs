@@ -9,7 +9,7 @@ use glam::Vec2;
 
 /// What was last found of the surface, kept until it moves.
 #[derive(Debug)]
-pub(crate) struct Drawn {
+pub(crate) struct BlendedSurface {
     /// Of particles, …
     capacity: usize,
     /// … one for each; …
@@ -22,7 +22,7 @@ pub(crate) struct Drawn {
     pub tangents: Option<Box<Tangents>>,
 }
 
-impl Drawn {
+impl BlendedSurface {
     /// Room for the normals of `capacity` particles.
     pub fn with_capacity(capacity: usize) -> Self {
         let normals = Columns::with_capacity(capacity);

@@ -7,31 +7,31 @@ use crate::geometry::triangle::corner_areas;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid;
-use crate::model::chains::Lines;
-use crate::model::constraints::Weave;
+use crate::model::chains::Chains;
+use crate::model::constraints::Constraints;
 use crate::model::folds::Folds;
-use crate::model::grid_cells::Cells;
+use crate::model::grid_cells::GridCells;
 use crate::model::hinges::Hinges;
 use crate::model::material::Material;
-use crate::model::pin_order::Outward;
-use crate::model::plate_elements::Plates;
+use crate::model::pin_order::PinOrder;
+use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
 
-use crate::mesh::grid::Frame;
+use crate::mesh::grid::GridFrame;
 use crate::mesh::intake;
 
-use crate::mesh::grid_detection::Lattice;
+use crate::mesh::grid_detection::DetectedGrid;
 use crate::mesh::intake::Intake;
 use crate::mesh::report::MeshReport;
 use crate::mesh::{Mesh, NONE, after};
 use crate::solver::bend;
 use crate::solver::integrate::sleep::Sleep;
 use crate::solver::profile::Profile;
-use crate::solver::self_collide::surface::warm_start::Loads;
-use crate::solver::world::{Scratch, World};
+use crate::solver::self_collide::surface::warm_start::WarmStart;
+use crate::solver::world::{TickScratch, World};
 
 use crate::solver::stretch::{damping, line_solver};
-use crate::state::anchors::Leashes;
+use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
@@ -81,13 +81,13 @@ impl Origin {
 
 fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
     let unit = |v: Vec3| v * (1.0 / v.length());
-    let frame = Frame {
+    let frame = GridFrame {
         origin: desc.origin,
         right: unit(desc.right),
         down: unit(desc.down),
         spacing: desc.spacing,
     };
-    let lattice = Lattice { columns: desc.columns, rows: desc.rows, frame };
+    let lattice = DetectedGrid { columns: desc.columns, rows: desc.rows, frame };
     let rest = grid::positions(desc.columns, desc.rows, &frame);
     let capacity = desc.capacity();
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
@@ -112,7 +112,7 @@ fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
         intake::repair(positions, indices, desc.weld_distance, most)?;
     let rest: Vec<Vec3> = places.iter().map(|vertex| positions[*vertex as usize]).collect();
     let capacity = desc.capacity(rest.len())?;
-    let fabric = match Lattice::find(&mesh.triangles, &rest) {
+    let fabric = match DetectedGrid::find(&mesh.triangles, &rest) {
         Some(lattice) => {
             report.is_grid = true;
             Fabric::sheet(&lattice, mesh, rest, capacity)
@@ -135,39 +135,40 @@ fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
 /// What a world is made of that does not move.
 struct Fabric {
     mesh: Mesh,
-    weave: Weave,
+    constraints: Constraints,
     rest: Vec<Vec3>,
-    frame: Option<Frame>,
+    frame: Option<GridFrame>,
     areas: Vec<[f32; 3]>,
-    cells: Option<Cells>,
-    plates: Option<Plates>,
+    cells: Option<GridCells>,
+    plates: Option<PlateElements>,
 }
 
 impl Fabric {
     /// A regular grid.
-    fn sheet(lattice: &Lattice, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
-        let Lattice { columns, rows, frame } = *lattice;
+    fn sheet(lattice: &DetectedGrid, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+        let DetectedGrid { columns, rows, frame } = *lattice;
         let openings = opening_capacity(&mesh, capacity);
-        let mut weave = Weave::grid(columns, rows, frame.spacing, &mesh, openings);
-        weave.run_along([frame.right, frame.down]);
+        let mut constraints = Constraints::grid(columns, rows, frame.spacing, &mesh, openings);
+        constraints.run_along([frame.right, frame.down]);
         let areas = grid::corner_areas(columns, rows, frame.spacing);
-        let mut cells = Cells::new(columns, rows, frame.spacing);
-        let mut plates = Plates::new(columns, rows, frame.spacing, &mesh, &weave.links);
+        let mut cells = GridCells::new(columns, rows, frame.spacing);
+        let mut plates =
+            PlateElements::new(columns, rows, frame.spacing, &mesh, &constraints.links);
         if capacity > rest.len() {
             cells.reserve();
             plates.reserve(capacity);
         }
         let (frame, cells, plates) = (Some(frame), Some(cells), Some(plates));
-        Self { mesh, weave, rest, frame, areas, cells, plates }
+        Self { mesh, constraints, rest, frame, areas, cells, plates }
     }
 
     /// Any sound mesh.
     fn any(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
-        let mut weave = Weave::mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
-        weave.hinges = Hinges::find(&mesh, &weave.links, &rest);
+        let mut constraints = Constraints::mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
+        constraints.hinges = Hinges::find(&mesh, &constraints.links, &rest);
         let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
         let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
-        Self { mesh, weave, rest, frame: None, areas, cells: None, plates: None }
+        Self { mesh, constraints, rest, frame: None, areas, cells: None, plates: None }
     }
 }
 
@@ -178,26 +179,26 @@ fn build(
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, mut weave, rest, frame, areas, cells, plates } = fabric;
-    weave.lines = Lines::find(&weave.links, &rest, capacity > rest.len());
+    let Fabric { mesh, mut constraints, rest, frame, areas, cells, plates } = fabric;
+    constraints.lines = Chains::find(&constraints.links, &rest, capacity > rest.len());
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
     let max_tears = settings.most_tears(triangle_capacity);
     let mut folds = match &plates {
         Some(plates) => Folds::of_plates(plates),
-        None => Folds::of_hinges(&weave.hinges),
+        None => Folds::of_hinges(&constraints.hinges),
     };
     folds.reserve_wear(material);
     let mut world = World {
-        spacing: mean_edge(&mesh, &rest),
+        mean_edge: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, capacity),
         mass_scales: MassScales::default(),
         tethers: Tethers::with_capacity(capacity),
-        scratch: Scratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
+        scratch: TickScratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
-        leashes: Leashes::default(),
-        reference: Pose::ORIGIN,
+        anchors: AnchorConstraints::default(),
+        reference_pose: Pose::ORIGIN,
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),
         material: material.clone(),
@@ -209,7 +210,7 @@ fn build(
         reserve_told: false,
         over_stretched: 0,
         over_stretch_told: false,
-        outward: Outward::default(),
+        pin_order: PinOrder::default(),
         tether_slack: f32::INFINITY,
         apart: 1.0,
         is_apart_current: false,
@@ -220,24 +221,24 @@ fn build(
         sleep: Sleep::default(),
         mesh,
         seams: None,
-        weave,
+        constraints,
         rest,
         crossings: Vec::new(),
-        tips: Vec::with_capacity(capacity),
+        crack_tips: Vec::with_capacity(capacity),
         corner_area: areas,
         frame,
         cells,
         plates,
         folds,
-        crowd: None,
-        loads: Loads::default(),
+        particle_collision: None,
+        warm_start: WarmStart::default(),
         is_tangled: true,
-        layers: None,
+        surface_collision: None,
     };
     world.pins.reserve(capacity);
     world.tethers.reserve(capacity, world.mesh.triangles.len());
     world.reserve_packed(capacity);
-    world.outward.reserve(capacity, world.weave.links.len());
+    world.pin_order.reserve(capacity, world.constraints.links.len());
     for particle in pinned {
         let x = world.rest[particle as usize];
         world.pins.insert(particle, x, x);
@@ -245,7 +246,7 @@ fn build(
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
     world.find_tips();
     world.weigh();
-    world.weave.stiffen(material);
+    world.constraints.stiffen(material);
     world.tether();
     world.restart_history();
     world
@@ -283,11 +284,11 @@ impl World {
         }
         self.particles.reserve(capacity);
         self.mass_scales.reserve(capacity);
-        self.tips.reserve_exact(capacity.saturating_sub(self.tips.len()));
+        self.crack_tips.reserve_exact(capacity.saturating_sub(self.crack_tips.len()));
         self.pins.reserve(capacity);
         self.events.reserve();
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.weave.reserve(openings, capacity);
+        self.constraints.reserve(openings, capacity);
         if let Some(cells) = &mut self.cells {
             cells.reserve();
         }
@@ -295,8 +296,8 @@ impl World {
             plates.reserve(capacity);
         }
         self.tethers.reserve(capacity, self.mesh.triangles.len());
-        self.outward.reserve(capacity, self.weave.links.len());
-        self.scratch = Scratch::new(
+        self.pin_order.reserve(capacity, self.constraints.links.len());
+        self.scratch = TickScratch::new(
             self.particles.len(),
             capacity,
             self.mesh.triangles.len(),
@@ -314,7 +315,7 @@ impl World {
     /// Sees to room for all that tears may still need, after a cut made more triangles.
     pub(crate) fn reserve_for_tears(&mut self) {
         let openings = opening_capacity(&self.mesh, self.capacity());
-        self.weave.reserve(openings, self.capacity());
+        self.constraints.reserve(openings, self.capacity());
         self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
         scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
@@ -323,15 +324,15 @@ impl World {
     }
 
     fn reserve_packed(&mut self, capacity: usize) {
-        self.scratch.weights.reserve(capacity, self.weave.links.len());
-        if self.weave.rows.is_none() {
+        self.scratch.weights.reserve(capacity, self.constraints.links.len());
+        if self.constraints.rows.is_none() {
             self.scratch.packed.reserve(capacity);
         }
-        let has_strips = self.weave.rows.is_some();
-        let steps = self.weave.lines.abreast.most_steps();
-        self.scratch.lines = line_solver::Scratch::new(steps, capacity, has_strips);
-        self.scratch.bend = bend::Scratch::new(self, capacity);
+        let has_strips = self.constraints.rows.is_some();
+        let steps = self.constraints.lines.abreast.most_steps();
+        self.scratch.lines = line_solver::LineScratch::new(steps, capacity, has_strips);
+        self.scratch.bend = bend::BendScratch::new(self, capacity);
         let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.scratch.brake = damping::Scratch::new(self.weave.links.len(), extra);
+        self.scratch.brake = damping::DampingScratch::new(self.constraints.links.len(), extra);
     }
 }

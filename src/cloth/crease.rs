@@ -3,7 +3,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
 use crate::math::float_env::guarded;
-use crate::mesh::grid::Frame;
+use crate::mesh::grid::GridFrame;
 use glam::Vec3;
 
 impl Cloth {
@@ -25,7 +25,7 @@ impl Cloth {
         check((-3.0..=3.0).contains(&angle), "angle", "be from -3 to 3")?;
         self.world.wake();
         guarded(|| match self.world.frame {
-            Some(Frame { origin, right, down, .. }) => {
+            Some(GridFrame { origin, right, down, .. }) => {
                 let flat = |p: Vec3| [(p - origin).dot(right), (p - origin).dot(down)];
                 self.world.crease_flat(flat(from), flat(to), angle);
             }

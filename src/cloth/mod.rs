@@ -159,7 +159,7 @@ impl Cloth {
         self.world.reserve_contacts();
         guarded(|| {
             self.world.weigh();
-            self.world.weave.stiffen(&self.world.material);
+            self.world.constraints.stiffen(&self.world.material);
             self.world.tether();
             self.world.restart_history();
             self.world.see_to_crowd();
@@ -188,7 +188,7 @@ impl Cloth {
         let restarts = settings.scheme() != world.settings.scheme();
         let touches = |settings: &Settings| (settings.self_collision, settings.self_distance);
         let touches_otherwise = touches(&settings) != touches(&world.settings);
-        let is_new = world.layers.is_none();
+        let is_new = world.surface_collision.is_none();
         world.scratch.tear.reserve(settings.most_tears(world.triangle_capacity));
         let is_unsorted = world.settings.max_stretch == 0.0;
         if settings != world.settings {
@@ -215,7 +215,7 @@ impl Cloth {
                 world.refresh_soft_pins();
             });
         }
-        if is_new && self.world.layers.is_some() {
+        if is_new && self.world.surface_collision.is_some() {
             self.changed_state();
         }
         Ok(())
@@ -241,7 +241,7 @@ impl Cloth {
         world.material = material;
         world.folds.reserve_wear(&world.material);
         guarded(|| {
-            world.weave.stiffen(&world.material);
+            world.constraints.stiffen(&world.material);
             if reweigh {
                 world.weigh();
             }

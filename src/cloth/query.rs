@@ -30,13 +30,13 @@ pub struct Hit {
 impl Cloth {
     /// The links that hold, each once: two particles and what it resists.
     pub fn links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
-        self.world.weave.active()
+        self.world.constraints.active()
     }
 
     /// The colours that links are solved in, in order: what they resist, and how many of the links that
     /// it was woven with they hold. No particle appears twice in a colour.
     pub fn colors(&self) -> impl Iterator<Item = (LinkKind, usize)> + '_ {
-        self.world.weave.batches.iter().map(|batch| (batch.kind, batch.count))
+        self.world.constraints.batches.iter().map(|batch| (batch.kind, batch.count))
     }
 
     /// The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from

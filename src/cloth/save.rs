@@ -20,9 +20,9 @@ use crate::model::material::Material;
 use crate::model::plate_elements::Each;
 use crate::model::tethers::TetherSet;
 use crate::solver::integrate::sleep::Sleep;
-use crate::solver::self_collide::surface::warm_start::Loads;
+use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::world::World;
-use crate::state::anchors::Leashes;
+use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::{Attachments, Carrier, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
@@ -63,10 +63,10 @@ struct Saved<'a> {
     pins: Owned<'a, Pins>,
     attachments: Owned<'a, Attachments>,
     grabs: Owned<'a, Grabs>,
-    leashes: Owned<'a, Leashes>,
-    loads: Owned<'a, Loads>,
+    anchors: Owned<'a, AnchorConstraints>,
+    warm_start: Owned<'a, WarmStart>,
     is_tangled: bool,
-    reference: Pose,
+    reference_pose: Pose,
     colliders: Owned<'a, Colliders>,
     events: Owned<'a, Events>,
     time: f64,
@@ -100,7 +100,7 @@ impl Cloth {
             crossings: Owned::Borrowed(&world.crossings),
             hems: Owned::Borrowed(&world.mesh.hems),
             seams: Owned::Borrowed(&world.seams),
-            links: world.weave.changes(),
+            links: world.constraints.changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.kept(),
             wear: world.folds.wear.kept().to_vec(),
@@ -109,10 +109,10 @@ impl Cloth {
             pins: Owned::Borrowed(&world.pins),
             attachments: Owned::Borrowed(&world.attachments),
             grabs: Owned::Borrowed(&world.grabs),
-            leashes: Owned::Borrowed(&world.leashes),
-            loads: Owned::Borrowed(&world.loads),
+            anchors: Owned::Borrowed(&world.anchors),
+            warm_start: Owned::Borrowed(&world.warm_start),
             is_tangled: world.is_tangled,
-            reference: world.reference,
+            reference_pose: world.reference_pose,
             colliders: Owned::Borrowed(&world.colliders),
             events: Owned::Borrowed(&world.events),
             time: world.time,
@@ -228,21 +228,21 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.wind = saved.wind.into_owned();
     world.check_self_distance(&world.settings)?;
     world.reserve(capacity);
-    must(world.weave.change(&world.mesh, &saved.links, &world.material))?;
-    world.weave.stiffen(&world.material);
+    must(world.constraints.change(&world.mesh, &saved.links, &world.material))?;
+    world.constraints.stiffen(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
     must(world.take_folds(saved.folds) && world.take_wear(saved.wear))?;
     world.reserve_for_tears();
     world.gather();
-    must(saved.leashes.are_sound(count))?;
-    world.leashes = saved.leashes.into_owned();
+    must(saved.anchors.are_sound(count))?;
+    world.anchors = saved.anchors.into_owned();
     world.reserve_leashes();
-    must(saved.loads.are_sound(count))?;
-    world.loads = saved.loads.into_owned();
-    world.loads.reserve(count);
+    must(saved.warm_start.are_sound(count))?;
+    world.warm_start = saved.warm_start.into_owned();
+    world.warm_start.reserve(count);
     world.is_tangled = saved.is_tangled;
-    must(is_pose(&saved.reference))?;
-    world.reference = saved.reference;
+    must(is_pose(&saved.reference_pose))?;
+    world.reference_pose = saved.reference_pose;
     must(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();

@@ -44,7 +44,7 @@ impl Cloth {
                 mixer.floats(&pose.rotation.to_array());
             }
         }
-        for leash in world.leashes.iter() {
+        for leash in world.anchors.iter() {
             mixer.word(leash.particle);
             for v in [leash.from, leash.anchor, leash.normal_from, leash.normal] {
                 mixer.floats(&v.to_array());
@@ -62,13 +62,13 @@ impl Cloth {
                 mixer.floats(&pose.rotation.to_array());
             }
         }
-        for load in world.loads.iter() {
+        for load in world.warm_start.iter() {
             mixer.words(&load.ids);
             mixer.word(load.first);
             mixer.floats(&[load.push]);
             mixer.floats(&load.rub.to_array());
         }
-        if world.layers.is_some() && world.is_tangled {
+        if world.surface_collision.is_some() && world.is_tangled {
             mixer.word(1);
         }
         mixer.floats(&[world.tether_slack]);

@@ -2,7 +2,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check};
-use crate::geometry::transform::Frame;
+use crate::geometry::transform::Transform;
 use crate::math::float_env::guarded;
 use crate::solver::world::World;
 use crate::state::pose::{Pose, check_pose};
@@ -21,7 +21,7 @@ impl Cloth {
     pub fn set_frame(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         guarded(|| {
             check_pose(position, rotation, OF_FRAME)?;
-            self.world.reference = Pose::new(position, rotation);
+            self.world.reference_pose = Pose::new(position, rotation);
             Ok(())
         })
     }
@@ -78,7 +78,7 @@ impl Cloth {
 struct Move {
     from: Pose,
     to: Pose,
-    frames: [Frame; 2],
+    frames: [Transform; 2],
 }
 
 impl Move {
@@ -102,18 +102,18 @@ impl Move {
 impl World {
     /// Moves all but colliders with the body that it goes along with.
     fn jump(&mut self, to: Pose) -> Result<()> {
-        let all = Move::new(self.reference, to);
+        let all = Move::new(self.reference_pose, to);
         self.check_reach(&all, &all)?;
         self.carry(&all, &all);
         self.grabs.iter_mut().for_each(|held| held.target = all.point(held.target));
-        self.reference = to;
+        self.reference_pose = to;
         Ok(())
     }
 
     /// As a tick is to begin, all goes along but for what is felt of a body's motion, and that is left to the
     /// tick. Seen from there colliders come from elsewhere.
     fn go_along(&mut self, to: Pose, inertia: f32) -> Result<()> {
-        let from = self.reference;
+        let from = self.reference_pose;
         if from == to {
             return Ok(());
         }
@@ -124,7 +124,7 @@ impl World {
         };
         let (unfelt, all) = (Move::new(from, unfelt), Move::new(from, to));
         self.check_reach(&unfelt, &all)?;
-        self.reference = to;
+        self.reference_pose = to;
         self.carry(&unfelt, &all);
         if unfelt.from != unfelt.to {
             self.colliders.iter_mut().for_each(|body| body.last = unfelt.pose(&body.last));
@@ -143,7 +143,7 @@ impl World {
         let mut bodies = self.colliders.iter();
         let mut carriers = self.attachments.iter();
         let mut pins = self.pins.iter();
-        let mut leashes = self.leashes.iter();
+        let mut leashes = self.anchors.iter();
         let are_near = (0..p.len()).all(is_near)
             && bodies.all(|body| now.pose(&body.last).position.is_finite())
             && self.grabs.iter().all(|held| now.point(held.target).is_finite())
@@ -176,7 +176,7 @@ impl World {
                 Err(_) => then.point(pin.target),
             };
         }
-        for leash in self.leashes.iter_mut() {
+        for leash in self.anchors.iter_mut() {
             (leash.anchor, leash.normal) = (then.point(leash.anchor), then.turn(leash.normal));
         }
         self.wake();
@@ -194,7 +194,7 @@ impl World {
         }
         self.attachments.iter_mut().for_each(|carrier| carrier.last = by.pose(&carrier.last));
         self.pins.iter_mut().for_each(|pin| pin.from = by.point(pin.from));
-        for leash in self.leashes.iter_mut() {
+        for leash in self.anchors.iter_mut() {
             leash.from = by.point(leash.from);
             leash.normal_from = by.turn(leash.normal_from);
         }

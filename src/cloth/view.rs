@@ -1,13 +1,13 @@
 //! What a renderer reads: positions, normals, uvs, triangles, numbers about the cloth.
 
 use crate::cloth::Cloth;
-use crate::cloth::blended_surface::Drawn;
+use crate::cloth::blended_surface::BlendedSurface;
 use crate::cloth::build::Origin;
 use crate::cloth::changes::{Change, differing};
 use crate::math::float_env::guarded;
 use crate::mesh::report::MeshReport;
 use crate::mesh::split_edge::Crossing;
-use crate::model::grid_cells::Cells;
+use crate::model::grid_cells::GridCells;
 use crate::solver::output::normals;
 use crate::solver::stage::Stage;
 
@@ -88,7 +88,7 @@ pub(crate) struct Outputs {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     normals_current: bool,
-    pub drawn: Drawn,
+    pub drawn: BlendedSurface,
     uvs: Vec<Vec2>,
     /// Texture coordinates of each site, and the original vertex it came from.
     site_uvs: Vec<Vec2>,
@@ -120,7 +120,7 @@ impl Outputs {
             positions: Vec::with_capacity(capacity),
             normals: Vec::with_capacity(capacity),
             normals_current: false,
-            drawn: Drawn::with_capacity(particles),
+            drawn: BlendedSurface::with_capacity(particles),
             uvs: Vec::with_capacity(capacity),
             site_uvs: Vec::new(),
             site_sources: Vec::new(),
@@ -366,8 +366,8 @@ impl Cloth {
         Stats {
             particles: world.particles.len() as u32,
             triangles: world.mesh.triangles.len() as u32,
-            constraints: world.weave.links.len() as u32,
-            active_constraints: world.weave.active().count() as u32,
+            constraints: world.constraints.links.len() as u32,
+            active_constraints: world.constraints.active().count() as u32,
             pieces: world.pieces,
             ticks: world.tick,
             blend: self.blend(),
@@ -402,14 +402,14 @@ impl Cloth {
         let bytes = world.capacity() * particle
             + world.vertex_capacity() * vertex
             + world.triangle_capacity * triangle
-            + world.weave.bytes()
-            + world.cells.as_ref().map_or(0, Cells::bytes)
+            + world.constraints.bytes()
+            + world.cells.as_ref().map_or(0, GridCells::bytes)
             + world.plates.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
             + self.outputs.drawn.bytes()
-            + world.crowd.as_ref().map_or(0, |crowd| crowd.bytes())
-            + world.loads.bytes()
-            + world.layers.as_ref().map_or(0, |layers| layers.bytes());
+            + world.particle_collision.as_ref().map_or(0, |crowd| crowd.bytes())
+            + world.warm_start.bytes()
+            + world.surface_collision.as_ref().map_or(0, |layers| layers.bytes());
         bytes as u64
     }
 }

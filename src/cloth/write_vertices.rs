@@ -1,7 +1,7 @@
 //! Writing into the caller's own buffers.
 
 use crate::cloth::Cloth;
-use crate::cloth::blended_surface::Drawn;
+use crate::cloth::blended_surface::BlendedSurface;
 use crate::cloth::vertex_stream::{Attribute, Stream, VertexFormat, WriteDesc, check_all};
 use crate::error::{Result, check};
 use crate::math::float_env::guarded;
@@ -137,7 +137,7 @@ struct Writer<'a> {
     placing: Placing,
     x: [&'a [f32]; 3],
     last: [&'a [f32]; 3],
-    drawn: &'a Drawn,
+    drawn: &'a BlendedSurface,
     /// The particle of each vertex, unless that has its number.
     particles: Option<&'a [u32]>,
     uvs: &'a [Vec2],

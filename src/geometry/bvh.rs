@@ -9,7 +9,7 @@ const LEAF: usize = 4;
 
 /// A tree over things with bounds, in an order that their bounds alone decide.
 #[derive(Clone, Debug)]
-pub(crate) struct Tree {
+pub(crate) struct Bvh {
     /// Each node before those below it.
     nodes: Vec<Node>,
     /// The things, leaf by leaf.
@@ -25,7 +25,7 @@ struct Node {
     things: Range<u32>,
 }
 
-impl Tree {
+impl Bvh {
     /// A tree over as many things as there are bounds.
     pub fn over(bounds: &[Aabb]) -> Self {
         let order = (0..bounds.len() as u32).collect();
@@ -100,7 +100,7 @@ mod tests {
                 Aabb::around([Vec3::new(wave(1.1), wave(2.3), wave(0.7))]).grown(0.1)
             })
             .collect();
-        let tree = Tree::over(&bounds);
+        let tree = Bvh::over(&bounds);
         assert!(bounds.iter().all(|one| tree.bounds().holds(one)));
         for i in 0..50 {
             let wave = |k: f32| (i as f32 * k).cos() * 3.0;

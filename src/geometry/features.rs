@@ -1,7 +1,7 @@
 //! What sticks out of a shape of flat facets: ridges, where two of them fold, and corners.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::bvh::Tree;
+use crate::geometry::bvh::Bvh;
 use crate::math::sort::{sort, sort_by};
 use glam::Vec3;
 
@@ -235,7 +235,7 @@ impl Features {
 pub(crate) struct Relief {
     pub features: Features,
     /// Over ridges, then corners; nothing where all is flat.
-    tree: Option<Tree>,
+    tree: Option<Bvh>,
     pub steps: Steps,
 }
 
@@ -275,7 +275,7 @@ impl Relief {
         }
         let numbers = features.numbers_after([0; 2]);
         let bounds: Vec<Aabb> = numbers.map(|number| features.bounds(number)).collect();
-        let tree = (!bounds.is_empty()).then(|| Tree::over(&bounds));
+        let tree = (!bounds.is_empty()).then(|| Bvh::over(&bounds));
         Self { features, tree, steps }
     }
 

@@ -9,7 +9,7 @@ use glam::Vec3;
 /// All that is below a surface over a regular grid in x and z, as deep as the field is wide. Each cell has
 /// two triangles, divided from its first corner to the opposite one.
 #[derive(Clone, Debug)]
-pub(crate) struct Terrain {
+pub(crate) struct Heightfield {
     columns: u32,
     rows: u32,
     spacing: f32,
@@ -18,7 +18,7 @@ pub(crate) struct Terrain {
     steps: Steps,
 }
 
-impl Terrain {
+impl Heightfield {
     /// Heights row by row: along x, then along z.
     pub fn new(columns: u32, rows: u32, spacing: f32, heights: Vec<f32>) -> Self {
         let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
@@ -137,9 +137,9 @@ const SPOKES: [(i32, i32); 6] = [(1, 0), (1, 1), (0, 1), (-1, 0), (-1, -1), (0, 
 mod tests {
     use super::*;
 
-    fn hills() -> Terrain {
+    fn hills() -> Heightfield {
         let heights = (0..20).map(|i| ((i * 7) % 5) as f32 * 0.25).collect();
-        Terrain::new(5, 4, 0.5, heights)
+        Heightfield::new(5, 4, 0.5, heights)
     }
 
     #[test]
@@ -163,7 +163,7 @@ mod tests {
     fn a_pyramid_has_ridges_down_from_its_tip_and_valleys_have_none() {
         let mut heights = vec![0.0; 25];
         heights[12] = 0.5;
-        let terrain = Terrain::new(5, 5, 0.5, heights);
+        let terrain = Heightfield::new(5, 5, 0.5, heights);
         let place = Aabb { low: Vec3::splat(0.9), high: Vec3::splat(1.1) };
         let mut found = Features::default();
         terrain.find_under(&place, |_| false, &mut found);

@@ -2,9 +2,9 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::features::{Relief, Steps};
-use crate::geometry::heightfield::Terrain;
+use crate::geometry::heightfield::Heightfield;
 use crate::geometry::polyhedron::Polyhedron;
-use crate::geometry::triangle_surface::Surface;
+use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{max, min};
 use glam::Vec3;
 
@@ -164,8 +164,8 @@ pub(crate) enum Form {
     Capsule(Capsule),
     Cuboid(Cuboid, Relief),
     Hull(Polyhedron, Relief),
-    Surface(Surface, Relief),
-    Terrain(Terrain),
+    TriangleSurface(TriangleSurface, Relief),
+    Heightfield(Heightfield),
 }
 
 impl Form {
@@ -185,8 +185,8 @@ impl Form {
             }
             Self::Cuboid(cuboid, _) => Aabb::around([-cuboid.half, cuboid.half]),
             Self::Hull(body, _) => body.bounds,
-            Self::Surface(surface, _) => surface.bounds(),
-            Self::Terrain(terrain) => terrain.bounds(),
+            Self::TriangleSurface(surface, _) => surface.bounds(),
+            Self::Heightfield(terrain) => terrain.bounds(),
         }
     }
 
@@ -194,10 +194,10 @@ impl Form {
     pub fn steps(&self) -> Option<&Steps> {
         match self {
             Self::HalfSpace(_) | Self::Ball(_) | Self::Capsule(_) => None,
-            Self::Cuboid(_, relief) | Self::Hull(_, relief) | Self::Surface(_, relief) => {
+            Self::Cuboid(_, relief) | Self::Hull(_, relief) | Self::TriangleSurface(_, relief) => {
                 Some(&relief.steps)
             }
-            Self::Terrain(terrain) => Some(terrain.steps()),
+            Self::Heightfield(terrain) => Some(terrain.steps()),
         }
     }
 
@@ -215,14 +215,14 @@ impl Form {
     pub fn bound(&self) -> Bound {
         match self {
             Self::HalfSpace(_) => Bound::Plane,
-            Self::Terrain(terrain) => Bound::Below(terrain.bounds().high.y),
+            Self::Heightfield(terrain) => Bound::Below(terrain.bounds().high.y),
             Self::Ball(ball) => Bound::Ball(ball.radius),
             Self::Capsule(capsule) => {
                 let [bottom, top] = capsule.ends();
                 let radius = max(bottom.radius, top.radius);
                 Bound::Rod(capsule.middle, capsule.half_height, radius)
             }
-            Self::Cuboid(..) | Self::Hull(..) | Self::Surface(..) => {
+            Self::Cuboid(..) | Self::Hull(..) | Self::TriangleSurface(..) => {
                 let bounds = self.bounds();
                 Bound::Box(bounds.center(), bounds.half())
             }

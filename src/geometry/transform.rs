@@ -4,12 +4,12 @@ use glam::Vec3;
 
 /// Where something is, and where its own axes point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Frame {
+pub(crate) struct Transform {
     pub origin: Vec3,
     pub axes: [Vec3; 3],
 }
 
-impl Frame {
+impl Transform {
     /// A point of the world as the frame sees it.
     #[inline(always)]
     pub fn inward(&self, x: Vec3) -> Vec3 {

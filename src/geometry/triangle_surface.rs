@@ -1,21 +1,21 @@
 //! A surface of triangles: both its sides are outside, and there is no inside.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::bvh::Tree;
+use crate::geometry::bvh::Bvh;
 use crate::geometry::closest_points::{blend, of_triangle};
 use crate::math::TINY;
 use glam::Vec3;
 
 /// Triangles that stay where they are, in a tree.
 #[derive(Clone, Debug)]
-pub(crate) struct Surface {
-    facets: Vec<Facet>,
-    tree: Tree,
+pub(crate) struct TriangleSurface {
+    facets: Vec<SurfaceTriangle>,
+    tree: Bvh,
 }
 
 /// One of its triangles.
 #[derive(Clone, Debug)]
-pub(crate) struct Facet {
+pub(crate) struct SurfaceTriangle {
     pub corners: [Vec3; 3],
     /// Of length one.
     pub normal: Vec3,
@@ -34,17 +34,17 @@ pub(crate) fn with_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[u32;
     triangles.iter().filter(has_area).copied().collect()
 }
 
-impl Surface {
+impl TriangleSurface {
     /// Of triangles that have an area; nothing without any.
     pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<Self> {
         let mut facets = Vec::new();
         for triangle in triangles {
             let corners = triangle.map(|i| positions[i as usize]);
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            facets.push(Facet { corners, normal: normal * (1.0 / normal.length()) });
+            facets.push(SurfaceTriangle { corners, normal: normal * (1.0 / normal.length()) });
         }
         let bounds: Vec<Aabb> = facets.iter().map(|facet| Aabb::around(facet.corners)).collect();
-        (!facets.is_empty()).then(|| Self { tree: Tree::over(&bounds), facets })
+        (!facets.is_empty()).then(|| Self { tree: Bvh::over(&bounds), facets })
     }
 
     pub fn bounds(&self) -> Aabb {
@@ -55,7 +55,7 @@ impl Surface {
     pub fn find_near(&self, point: Vec3, reach: f32, found: &mut Vec<u32>) {
         let place = Aabb { low: point - Vec3::splat(reach), high: point + Vec3::splat(reach) };
         let is_near = |facet: &u32| {
-            let Facet { corners, normal } = &self.facets[*facet as usize];
+            let SurfaceTriangle { corners, normal } = &self.facets[*facet as usize];
             let height = (point - corners[0]).dot(*normal);
             // Negated, so that to what is not a number all is near.
             let is_far = height.abs() > reach || {
@@ -71,12 +71,12 @@ impl Surface {
 /// A surface near a point: the facets that may be there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patch<'a> {
-    pub surface: &'a Surface,
+    pub surface: &'a TriangleSurface,
     pub facets: &'a [u32],
 }
 
 impl Patch<'_> {
-    fn facets(&self) -> impl Iterator<Item = &Facet> {
+    fn facets(&self) -> impl Iterator<Item = &SurfaceTriangle> {
         self.facets.iter().map(|facet| &self.surface.facets[*facet as usize])
     }
 
@@ -148,20 +148,20 @@ mod tests {
     use super::*;
 
     /// A square in the plane y = 0 of two triangles, and a wall along one of its sides.
-    fn corner() -> Surface {
+    fn corner() -> TriangleSurface {
         let positions =
             [Vec3::ZERO, Vec3::Z, Vec3::X + Vec3::Z, Vec3::X, Vec3::Y, Vec3::Y + Vec3::Z];
-        Surface::new(&positions, &[[0, 1, 2], [0, 2, 3], [0, 4, 1], [1, 4, 5]]).unwrap()
+        TriangleSurface::new(&positions, &[[0, 1, 2], [0, 2, 3], [0, 4, 1], [1, 4, 5]]).unwrap()
     }
 
     /// The part of a surface that is near two places.
-    fn patch(surface: &Surface, from: Vec3, to: Vec3) -> Vec<u32> {
+    fn patch(surface: &TriangleSurface, from: Vec3, to: Vec3) -> Vec<u32> {
         let mut facets = Vec::new();
         surface.find_near((from + to) * 0.5, (to - from).length() + 0.2, &mut facets);
         facets
     }
 
-    fn strike(surface: &Surface, from: Vec3, to: Vec3) -> Option<(Vec3, Vec3)> {
+    fn strike(surface: &TriangleSurface, from: Vec3, to: Vec3) -> Option<(Vec3, Vec3)> {
         Patch { surface, facets: &patch(surface, from, to) }.strike(from, to)
     }
 

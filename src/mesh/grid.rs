@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 /// Where a grid lies in space: vertex (0, 0) is its top left.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct GridFrame {
     pub origin: Vec3,
     pub right: Vec3,
     pub down: Vec3,
@@ -12,7 +12,7 @@ pub(crate) struct Frame {
 }
 
 /// Positions, row by row.
-pub(crate) fn positions(columns: u32, rows: u32, frame: &Frame) -> Vec<Vec3> {
+pub(crate) fn positions(columns: u32, rows: u32, frame: &GridFrame) -> Vec<Vec3> {
     let at = |row: u32, column: u32| {
         let (across, along) = (column as f32 * frame.spacing, row as f32 * frame.spacing);
         frame.origin + frame.right * across + frame.down * along

@@ -2,7 +2,7 @@
 
 use crate::mesh::grid;
 
-use crate::mesh::grid::Frame;
+use crate::mesh::grid::GridFrame;
 use glam::Vec3;
 
 /// How far a vertex may be off its place in the grid, over the largest number in a position: what
@@ -14,13 +14,13 @@ const GUESSES: i32 = 16;
 
 /// A regular grid: its vertices and triangles are in the order of `grid`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lattice {
+pub(crate) struct DetectedGrid {
     pub columns: u32,
     pub rows: u32,
-    pub frame: Frame,
+    pub frame: GridFrame,
 }
 
-impl Lattice {
+impl DetectedGrid {
     /// The grid that a mesh is, if it is one: in its order, square, and but for rounding evenly spaced.
     ///
     /// Its frame gives the very positions if one does whose directions are those of axes.
@@ -40,7 +40,7 @@ impl Lattice {
         let [right, down] = [right - origin, down - origin];
         let spacing =
             0.5 * (right.length() / f64::from(columns - 1) + down.length() / f64::from(rows - 1));
-        let frame = Frame {
+        let frame = GridFrame {
             origin: positions[0],
             right: right.normalize_or_zero().as_vec3(),
             down: down.normalize_or_zero().as_vec3(),
@@ -54,14 +54,14 @@ impl Lattice {
         let mut ways = (0..=GUESSES).flat_map(|off| [off, -off]);
         let with = |off: i32| {
             let spacing = f32::from_bits(bits.wrapping_add_signed(off));
-            Self { frame: Frame { spacing, ..frame }, ..guess }
+            Self { frame: GridFrame { spacing, ..frame }, ..guess }
         };
         let exact = ways.find(|off| with(*off).is_exact(positions));
         Some(exact.map_or(guess, with))
     }
 
     fn is_within_rounding(&self, positions: &[Vec3]) -> bool {
-        let Frame { right, down, spacing, .. } = self.frame;
+        let GridFrame { right, down, spacing, .. } = self.frame;
         let largest = positions.iter().fold(spacing, |most, x| most.max(x.abs().max_element()));
         let off = largest * ROUNDING;
         let is_near = |x: Vec3, y: Vec3| (x - y).abs().max_element() <= off;
@@ -85,11 +85,11 @@ impl Lattice {
 mod tests {
     use super::*;
 
-    fn sheet(columns: u32, rows: u32, frame: Frame) -> (Vec<[u32; 3]>, Vec<Vec3>) {
+    fn sheet(columns: u32, rows: u32, frame: GridFrame) -> (Vec<[u32; 3]>, Vec<Vec3>) {
         (grid::triangles(columns, rows), grid::positions(columns, rows, &frame))
     }
 
-    const FRAME: Frame = Frame {
+    const FRAME: GridFrame = GridFrame {
         origin: Vec3::new(-0.7, 3.1, 0.2),
         right: Vec3::X,
         down: Vec3::NEG_Y,
@@ -100,20 +100,20 @@ mod tests {
     fn a_grid_is_found_with_its_very_positions() {
         for (columns, rows) in [(2, 2), (40, 40), (7, 31)] {
             let (triangles, positions) = sheet(columns, rows, FRAME);
-            let found = Lattice::find(&triangles, &positions).unwrap();
+            let found = DetectedGrid::find(&triangles, &positions).unwrap();
             assert_eq!((found.columns, found.rows), (columns, rows));
             assert_eq!(grid::positions(columns, rows, &found.frame), positions);
         }
-        let whole = Frame { origin: Vec3::Y, ..FRAME };
+        let whole = GridFrame { origin: Vec3::Y, ..FRAME };
         let (triangles, positions) = sheet(40, 40, whole);
-        assert_eq!(Lattice::find(&triangles, &positions).unwrap().frame.spacing, 0.05);
+        assert_eq!(DetectedGrid::find(&triangles, &positions).unwrap().frame.spacing, 0.05);
     }
 
     #[test]
     fn a_grid_that_is_turned_is_found_within_rounding() {
         let (right, down) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.8, 0.0, -0.6));
-        let (triangles, positions) = sheet(20, 10, Frame { right, down, ..FRAME });
-        let found = Lattice::find(&triangles, &positions).unwrap();
+        let (triangles, positions) = sheet(20, 10, GridFrame { right, down, ..FRAME });
+        let found = DetectedGrid::find(&triangles, &positions).unwrap();
         assert!((found.frame.spacing - 0.05).abs() < 1.0e-6);
     }
 
@@ -122,12 +122,12 @@ mod tests {
         let (triangles, positions) = sheet(6, 5, FRAME);
         let mut moved = positions.clone();
         moved[8].z += 1.0e-4;
-        assert!(Lattice::find(&triangles, &moved).is_none());
+        assert!(DetectedGrid::find(&triangles, &moved).is_none());
         let longer: Vec<Vec3> = positions.iter().map(|x| *x * Vec3::new(1.0, 1.01, 1.0)).collect();
-        assert!(Lattice::find(&triangles, &longer).is_none());
+        assert!(DetectedGrid::find(&triangles, &longer).is_none());
         let mut other = triangles.clone();
         other[5].rotate_left(1);
-        assert!(Lattice::find(&other, &positions).is_none());
-        assert!(Lattice::find(&triangles[1..], &positions).is_none());
+        assert!(DetectedGrid::find(&other, &positions).is_none());
+        assert!(DetectedGrid::find(&triangles[1..], &positions).is_none());
     }
 }

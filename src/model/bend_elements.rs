@@ -1,4 +1,4 @@
-//! Facets: how the triangles of any mesh are curved, as the hinges at their edges tell together.
+//! BendElements: how the triangles of any mesh are curved, as the hinges at their edges tell together.
 //!
 //! Bent to a surface ½ xᵀ S x, a hinge shows C = c · S: one number of the three that S has, and which one is
 //! a matter of how its triangles lie. So hinges one by one are stiffer in some directions than in others. All
@@ -47,7 +47,7 @@ struct Facet {
 
 /// All triangles that have hinges.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Facets(Vec<Facet>);
+pub(crate) struct BendElements(Vec<Facet>);
 
 /// The energy of a triangle over ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ struct Edge {
     side: u8,
 }
 
-impl Facets {
+impl BendElements {
     /// The triangles at these hinges: `triangles` says which two, `shows` what each shows, and `corners` where
     /// the corners of a triangle are at rest.
     pub fn find(

@@ -1,4 +1,4 @@
-//! Lines: stretch links end to end, as straight as the mesh has them, to be solved as wholes.
+//! Chains: stretch links end to end, as straight as the mesh has them, to be solved as wholes.
 //!
 //! On a grid they are its rows and columns. On any mesh links continue each other where they meet most
 //! nearly straight. Every stretch link is in one line.
@@ -6,7 +6,7 @@
 use crate::math::simd::LANES;
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
-use crate::model::line_blocks::{Abreast, Member};
+use crate::model::line_blocks::{LineBlocks, Member};
 use crate::model::links::{LinkKind, Links};
 use core::mem::take;
 use glam::Vec3;
@@ -21,14 +21,14 @@ type Line = Vec<Member>;
 
 /// All lines of a weave.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Lines {
+pub(crate) struct Chains {
     /// Eight that share no particle side by side in a block.
-    pub abreast: Abreast,
+    pub abreast: LineBlocks,
     /// Links of the longest one as it was woven.
     pub longest: usize,
 }
 
-impl Lines {
+impl Chains {
     /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex; `breaks`
     /// says to have room for lines to break.
     pub fn find(links: &Links, rest: &[Vec3], breaks: bool) -> Self {
@@ -54,7 +54,7 @@ impl Lines {
         let lines: Vec<Line> = order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
         let blocks = arrange(links, &lines, rest.len());
         Self {
-            abreast: Abreast::new(links, &blocks, breaks),
+            abreast: LineBlocks::new(links, &blocks, breaks),
             longest: lines.first().map_or(0, Vec::len),
         }
     }
@@ -189,19 +189,20 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
     use crate::mesh::grid;
-    use crate::model::constraints::Weave;
+    use crate::model::constraints::Constraints;
     use crate::model::line_blocks::{NOBODY, Strip};
 
-    use crate::mesh::grid::Frame;
+    use crate::mesh::grid::GridFrame;
 
     fn sheet(columns: u32, rows: u32) -> (Mesh, Vec<Vec3>) {
-        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let frame =
+            GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(columns, rows, &frame);
         (Mesh::new(grid::triangles(columns, rows), rest.len(), rest.len()), rest)
     }
 
     /// Every stretch link is in one line, lines in a block share no particle, and lines are chains.
-    fn assert_sound(lines: &Lines, links: &Links) {
+    fn assert_sound(lines: &Chains, links: &Links) {
         let mut uses = vec![0; links.len()];
         for steps in lines.abreast.blocks() {
             let mut lane_of = std::collections::HashMap::new();
@@ -230,9 +231,9 @@ mod tests {
     #[test]
     fn lines_of_a_grid_are_its_rows_and_columns() {
         let (mesh, rest) = sheet(11, 19);
-        let weave = Weave::grid(11, 19, 0.1, &mesh, 0);
-        let lines = Lines::find(&weave.links, &rest, false);
-        assert_sound(&lines, &weave.links);
+        let constraints = Constraints::grid(11, 19, 0.1, &mesh, 0);
+        let lines = Chains::find(&constraints.links, &rest, false);
+        assert_sound(&lines, &constraints.links);
         // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
         let lengths: Vec<usize> = lines.abreast.blocks().map(<[_]>::len).collect();
         assert_eq!(lengths, [19, 19, 11, 11, 11]);
@@ -241,17 +242,17 @@ mod tests {
     #[test]
     fn lines_of_a_grid_are_strips_until_one_breaks() {
         let (mesh, rest) = sheet(11, 19);
-        let mut weave = Weave::grid(11, 19, 0.1, &mesh, 0);
-        let mut lines = Lines::find(&weave.links, &rest, true);
+        let mut constraints = Constraints::grid(11, 19, 0.1, &mesh, 0);
+        let mut lines = Chains::find(&constraints.links, &rest, true);
         let strip = |first, along, across, lines| Strip { first, along, across, lines };
         let columns = [strip(0, 11, 1, 8), strip(8, 11, 1, 3)];
         let rows = [strip(0, 1, 11, 8), strip(88, 1, 11, 8), strip(176, 1, 11, 3)];
         assert!(lines.abreast.are_strips());
         let strips: Vec<Strip> = lines.abreast.strips().map(|(strip, _)| strip).collect();
         assert_eq!(strips, [&columns[..], &rows[..]].concat());
-        weave.links.active[17] = false;
+        constraints.links.active[17] = false;
         lines.abreast.forget(17);
-        lines.abreast.lay(&weave.links);
+        lines.abreast.lay(&constraints.links);
         assert!(!lines.abreast.are_strips());
         assert_eq!(lines.abreast.strips().count(), 4);
     }
@@ -259,24 +260,24 @@ mod tests {
     #[test]
     fn pieces_of_broken_lines_follow_each_other() {
         let (mesh, rest) = sheet(17, 9);
-        let mut weave = Weave::grid(17, 9, 0.1, &mesh, 0);
-        let mut lines = Lines::find(&weave.links, &rest, true);
-        let count = |lines: &Lines| lines.abreast.blocks().map(<[_]>::len).sum::<usize>();
+        let mut constraints = Constraints::grid(17, 9, 0.1, &mesh, 0);
+        let mut lines = Chains::find(&constraints.links, &rest, true);
+        let count = |lines: &Chains| lines.abreast.blocks().map(<[_]>::len).sum::<usize>();
         let whole = count(&lines);
         // Every fifth link goes, and then all of them but every seventh.
         for step in [5, 7] {
-            for link in 0..weave.links.len() {
-                weave.links.active[link] = (link % step == 0) == (step == 7);
+            for link in 0..constraints.links.len() {
+                constraints.links.active[link] = (link % step == 0) == (step == 7);
                 lines.abreast.forget(link);
             }
-            lines.abreast.lay(&weave.links);
-            assert_sound(&lines, &weave.links);
+            lines.abreast.lay(&constraints.links);
+            assert_sound(&lines, &constraints.links);
             assert_ne!(count(&lines), whole);
         }
-        weave.links.active.fill(true);
-        (0..weave.links.len()).for_each(|link| lines.abreast.forget(link));
-        lines.abreast.lay(&weave.links);
-        assert_sound(&lines, &weave.links);
+        constraints.links.active.fill(true);
+        (0..constraints.links.len()).for_each(|link| lines.abreast.forget(link));
+        lines.abreast.lay(&constraints.links);
+        assert_sound(&lines, &constraints.links);
         assert_eq!(count(&lines), whole);
     }
 
@@ -286,9 +287,9 @@ mod tests {
         for (i, x) in rest.iter_mut().enumerate() {
             x.z = (i as f32 * 1.3).sin() * 0.03;
         }
-        let weave = Weave::mesh(&mesh, &rest, 0);
-        let lines = Lines::find(&weave.links, &rest, false);
-        assert_sound(&lines, &weave.links);
+        let constraints = Constraints::mesh(&mesh, &rest, 0);
+        let lines = Chains::find(&constraints.links, &rest, false);
+        assert_sound(&lines, &constraints.links);
         assert_eq!(lines.longest, 8, "from border to border");
     }
 }

@@ -2,27 +2,27 @@
 
 use crate::math::sort::sort;
 use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
-use crate::model::chains::Lines;
+use crate::model::chains::Chains;
 use crate::model::coloring;
-use crate::model::grid_rows::Rows;
+use crate::model::grid_rows::GridRows;
 use crate::model::hinges::Hinges;
 use crate::model::links::{Batch, LinkKind, Links, Spec, Support, Thread};
 use crate::model::material::Material;
-use crate::model::recoloring::Palette;
-use crate::model::sparse_links::Loose;
+use crate::model::recoloring::Recoloring;
+use crate::model::sparse_links::SparseLinks;
 use core::ops::Range;
 use glam::Vec3;
 
 /// All links of a cloth.
 #[derive(Clone, Debug)]
-pub(crate) struct Weave {
+pub(crate) struct Constraints {
     /// The links that it was woven with, batch by batch.
     pub links: Links,
     pub batches: Vec<Batch>,
     /// Where the links of a grid lie in rows.
-    pub rows: Option<Rows>,
+    pub rows: Option<GridRows>,
     /// The stretch links as lines.
-    pub lines: Lines,
+    pub lines: Chains,
     /// What resists bending on any mesh.
     pub hinges: Hinges,
     /// Whether a link that it was woven with is anchored or as strong as it was no longer.
@@ -30,8 +30,8 @@ pub(crate) struct Weave {
     /// The second sides of opened edges and what cuts made, in the order they came, see `extra`.
     pub extra: Links,
     /// Those of them that hold by colour; as of the last time they were gathered.
-    pub loose: Loose,
-    pub(super) palette: Palette,
+    pub loose: SparseLinks,
+    pub(super) palette: Recoloring,
     /// The sites that each extra link involves; `NONE` where there are fewer.
     pub(super) extra_sites: Vec<[u32; 4]>,
     /// The link along the edge that starts at each corner, by its number as in `extra`; `NONE` on the
@@ -54,7 +54,7 @@ struct Draft {
     color: u32,
 }
 
-impl Weave {
+impl Constraints {
     /// Weaves a regular grid: four colours for each kind of link.
     pub fn grid(
         columns: u32,
@@ -132,15 +132,19 @@ impl Weave {
                 drafts.push(Draft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
             });
         }
-        let mut weave = Self::from_drafts(mesh, drafts, opening_capacity);
-        let starts: Vec<usize> = weave.batches.iter().map(|batch| batch.first).collect();
-        let mut rows =
-            Rows::find(columns, [&weave.links.a, &weave.links.b], &weave.links.rest, &starts);
+        let mut constraints = Self::from_drafts(mesh, drafts, opening_capacity);
+        let starts: Vec<usize> = constraints.batches.iter().map(|batch| batch.first).collect();
+        let mut rows = GridRows::find(
+            columns,
+            [&constraints.links.a, &constraints.links.b],
+            &constraints.links.rest,
+            &starts,
+        );
         if opening_capacity > 0 {
             rows.reserve();
         }
-        weave.rows = Some(rows);
-        weave
+        constraints.rows = Some(rows);
+        constraints
     }
 
     /// Weaves any mesh: a stretch link along every edge, a bend link across every inner one.
@@ -222,14 +226,14 @@ impl Weave {
         let is_changed = vec![false; links.len()];
         let mut extra = Links::default();
         extra.reserve(opening_capacity);
-        let (mut loose, mut palette) = (Loose::default(), Palette::default());
+        let (mut loose, mut palette) = (SparseLinks::default(), Recoloring::default());
         loose.reserve(opening_capacity);
         palette.reserve(opening_capacity, mesh.source.capacity());
         Self {
             links,
             batches,
             rows: None,
-            lines: Lines::default(),
+            lines: Chains::default(),
             hinges: Hinges::none(),
             is_changed,
             extra,
@@ -250,7 +254,7 @@ impl Weave {
         let each = size_of::<Spec>() + 5 * size_of::<f32>() + size_of::<bool>();
         let links = self.links.len() + self.extra.rest.capacity();
         links * each
-            + self.rows.as_ref().map_or(0, Rows::bytes)
+            + self.rows.as_ref().map_or(0, GridRows::bytes)
             + self.lines.abreast.bytes()
             + self.loose.bytes()
             + self.palette.bytes()

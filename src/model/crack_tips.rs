@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn the_end_of_a_slit_is_a_tip_and_corners_are_not() {
-        let frame = crate::mesh::grid::Frame {
+        let frame = crate::mesh::grid::GridFrame {
             origin: Vec3::ZERO,
             right: Vec3::X,
             down: Vec3::NEG_Y,

@@ -8,7 +8,7 @@
 use crate::math::sort::sort;
 use crate::mesh::split_edge::{Division, Side};
 use crate::mesh::{Corner, Mesh, NONE, after, before};
-use crate::model::constraints::{Weave, bend_shape, edge_of};
+use crate::model::constraints::{Constraints, bend_shape, edge_of};
 use crate::model::dynamic_links::EXTRA;
 use crate::model::links::{LinkKind, Spec, Support, Thread};
 use crate::model::material::Material;
@@ -44,7 +44,7 @@ impl Recipe<'_> {
     }
 }
 
-impl Weave {
+impl Constraints {
     /// Which links touch which triangles.
     pub fn touching(&self, triangles: usize) -> Touching {
         let mut touching = vec![Vec::new(); triangles];

@@ -4,7 +4,7 @@
 //! A link has a number: that in its list, plus `EXTRA` for an extra one.
 
 use crate::mesh::{Corner, Mesh, NONE, after};
-use crate::model::constraints::{Weave, edge_of};
+use crate::model::constraints::{Constraints, edge_of};
 use crate::model::links::{Links, Spec, Support};
 use crate::model::material::Material;
 use glam::Vec3;
@@ -12,7 +12,7 @@ use glam::Vec3;
 /// Marks the number of an extra link.
 pub(super) const EXTRA: u32 = 1 << 31;
 
-impl Weave {
+impl Constraints {
     /// Which way the threads of a grid run, unit vectors along the weft and the warp.
     pub fn run_along(&mut self, threads: [Vec3; 2]) {
         self.threads = Some(threads);

@@ -9,10 +9,10 @@
 use crate::math::columns::Columns;
 use crate::math::trig::{arcsine, sin};
 use crate::math::{max, min};
-use crate::model::hardening::Wear;
+use crate::model::hardening::Hardening;
 use crate::model::hinges::{Hinge, Hinges, normal};
 use crate::model::material::Material;
-use crate::model::plate_elements::{Each, Plates};
+use crate::model::plate_elements::{Each, PlateElements};
 use glam::Vec3;
 
 /// A fold counts over at least and at most so many elements in a row.
@@ -33,7 +33,7 @@ pub(crate) struct Folds {
     /// Whether there is any.
     pub are_any: bool,
     /// How much folds have given way so far.
-    pub wear: Wear,
+    pub wear: Hardening,
     /// How bent each particle of a grid is, or was at rest [rad].
     bent: Vec<f32>,
     /// What each particle's cells are to be twisted by more [rad].
@@ -46,7 +46,7 @@ pub(crate) struct Folds {
 
 impl Folds {
     /// A grid's; all flat.
-    pub fn of_plates(plates: &Plates) -> Self {
+    pub fn of_plates(plates: &PlateElements) -> Self {
         let list = || vec![0.0; plates.count()];
         let each = || [list(), list(), list()];
         Self {
@@ -54,7 +54,7 @@ impl Folds {
             offset: each(),
             bent: list(),
             more: list(),
-            wear: Wear::of(plates.count()),
+            wear: Hardening::of(plates.count()),
             ..Self::default()
         }
     }
@@ -65,7 +65,7 @@ impl Folds {
         Self {
             angle: [list(), Vec::new(), Vec::new()],
             offset: [list(), Vec::new(), Vec::new()],
-            wear: Wear::of(hinges.facets.count()),
+            wear: Hardening::of(hinges.facets.count()),
             ..Self::default()
         }
     }
@@ -121,7 +121,7 @@ impl Folds {
     /// Lets the folds of a grid follow where it is bent beyond what its material bears.
     pub fn yield_plates(
         &mut self,
-        plates: &Plates,
+        plates: &PlateElements,
         material: &Material,
         x: &Columns,
         normal: &Columns,
@@ -162,14 +162,14 @@ impl Folds {
     }
 
     /// Takes note of how a grid rests, before it gives way.
-    fn remember(&mut self, plates: &Plates) {
+    fn remember(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
             self.was[at] = self.tensor(plates, at);
         }
     }
 
     /// Counts by how much a grid rests otherwise than it was.
-    fn wear_plates(&mut self, plates: &Plates) {
+    fn wear_plates(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
             let (is, was) = (self.tensor(plates, at), self.was[at]);
             let by = norm([is[0] - was[0], is[1] - was[1], is[2] - was[2]]);
@@ -197,7 +197,7 @@ impl Folds {
         true
     }
 
-    fn tensor(&self, plates: &Plates, at: usize) -> [f32; 3] {
+    fn tensor(&self, plates: &PlateElements, at: usize) -> [f32; 3] {
         let of_kind = |kind: usize, at: usize| {
             if plates.share[kind][at] > 0.0 { self.angle[kind][at] } else { 0.0 }
         };
@@ -252,7 +252,7 @@ impl Folds {
     }
 
     /// Adds a fold along a line of a grid, in the grid's own plane [m].
-    pub fn crease_plates(&mut self, plates: &Plates, line: Line2, angle: f32, wears: bool) {
+    pub fn crease_plates(&mut self, plates: &PlateElements, line: Line2, angle: f32, wears: bool) {
         if wears {
             self.remember(plates);
         }
@@ -422,7 +422,7 @@ fn norm(q: [f32; 3]) -> f32 {
 
 /// A grid as it is bent now.
 struct Now<'a> {
-    plates: &'a Plates,
+    plates: &'a PlateElements,
     x: &'a Columns,
     normal: &'a Columns,
 }
@@ -449,7 +449,7 @@ impl Now<'_> {
 }
 
 /// The mean over the cells around a particle.
-fn mean_twist(plates: &Plates, at: usize, of: impl Fn(usize) -> f32) -> f32 {
+fn mean_twist(plates: &PlateElements, at: usize, of: impl Fn(usize) -> f32) -> f32 {
     let (row, column) = (at / plates.columns, at % plates.columns);
     let (mut sum, mut count) = (0.0, 0.0);
     for (up, left) in [(1, 1), (1, 0), (0, 1), (0, 0)] {
@@ -465,7 +465,7 @@ fn mean_twist(plates: &Plates, at: usize, of: impl Fn(usize) -> f32) -> f32 {
 
 /// The angle of the fold that goes through a particle: what its row or column has of it, whichever it crosses
 /// more squarely, as a fold square to it would have.
-fn sum_across(plates: &Plates, over: usize, bent: &[f32], q: [f32; 3], at: usize) -> f32 {
+fn sum_across(plates: &PlateElements, over: usize, bent: &[f32], q: [f32; 3], at: usize) -> f32 {
     let columns = plates.columns;
     let (row, column) = (at / columns, at % columns);
     let (weft, warp) = (q[0].abs(), q[1].abs());

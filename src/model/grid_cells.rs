@@ -6,7 +6,7 @@ use crate::mesh::grid::cell_triangles;
 
 /// The cells of a grid; cell = row · (columns − 1) + column, its triangles are twice that and one on.
 #[derive(Clone, Debug)]
-pub(crate) struct Cells {
+pub(crate) struct GridCells {
     /// Particles across.
     pub columns: usize,
     /// Particles down.
@@ -26,7 +26,7 @@ pub(crate) struct Cells {
     torn_rows: Vec<u32>,
 }
 
-impl Cells {
+impl GridCells {
     pub fn new(columns: u32, rows: u32, spacing: f32) -> Self {
         let (columns, rows) = (columns as usize, rows as usize);
         let count = (columns - 1) * (rows - 1);

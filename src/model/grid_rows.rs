@@ -6,8 +6,8 @@
 
 use crate::math::simd::MOST_LANES;
 use crate::model::links::{Batch, Links};
-use crate::model::sparse_links::Loose;
-use crate::model::stray_links::Strays;
+use crate::model::sparse_links::SparseLinks;
+use crate::model::stray_links::StrayLinks;
 use core::ops::Range;
 
 /// How the particles of a row's links lie in memory. Link `k` of a row joins …
@@ -42,19 +42,19 @@ pub(crate) struct Row {
 
 /// All rows of a grid's weave.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Rows {
+pub(crate) struct GridRows {
     pub rows: Vec<Row>,
     /// 1 for a link in its row, 0 for one that left it.
     pub mask: Vec<f32>,
     /// Links that left their row and still hold.
-    strays: Strays,
+    strays: StrayLinks,
     /// The same as sweeps want them, batch by batch; as of the last time they were gathered.
-    pub loose: Loose,
+    pub loose: SparseLinks,
     /// The row of each link.
     row_of: Vec<u32>,
 }
 
-impl Rows {
+impl GridRows {
     /// Finds the rows in links that are sorted as a grid of so many columns weaves them; the ends are
     /// those it wove.
     pub fn find(columns: u32, [a, b]: [&[u32]; 2], rest: &[f32], batch_starts: &[usize]) -> Self {
@@ -218,17 +218,17 @@ mod tests {
     use super::*;
 
     /// The rows of one colour of a sheet five particles wide: four, two rows of the sheet apart.
-    fn four_rows() -> Rows {
+    fn four_rows() -> GridRows {
         let a: Vec<u32> = (0..4).flat_map(|row| (0..5).map(move |k| 10 * row + k)).collect();
         let b: Vec<u32> = a.iter().map(|a| a + 5).collect();
-        let mut rows = Rows::find(5, [&a, &b], &[0.1; 20], &[0]);
+        let mut rows = GridRows::find(5, [&a, &b], &[0.1; 20], &[0]);
         for row in &mut rows.rows {
             row.even = [row.first, row.first + row.count];
         }
         rows
     }
 
-    fn alike(rows: &Rows) -> Vec<u32> {
+    fn alike(rows: &GridRows) -> Vec<u32> {
         rows.rows.iter().map(|row| row.alike).collect()
     }
 

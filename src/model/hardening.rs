@@ -1,4 +1,4 @@
-//! Wear: by how much the folds of a sheet have given way so far, to either side.
+//! Hardening: by how much the folds of a sheet have given way so far, to either side.
 //!
 //! With A the angle that a fold has given way by in all, h and k the material's hardening and weakening, and ℓ
 //! its fold length, what the fold turns by under a moment m, and the angle up to which it opens again, become
@@ -25,7 +25,7 @@ const MOST: f32 = 1.0e30;
 
 /// By how much the sheet has been bent for good so far, at each particle of a grid or triangle of another mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Wear {
+pub(crate) struct Hardening {
     /// Curvatures, all that were added or taken away [1/m]; none until a material counts them.
     curve: Vec<f32>,
     /// How many there are to be.
@@ -36,7 +36,7 @@ pub(crate) struct Wear {
     revision: u32,
 }
 
-impl Wear {
+impl Hardening {
     /// None yet, of so many.
     pub fn of(count: usize) -> Self {
         Self { count, ..Self::default() }

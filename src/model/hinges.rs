@@ -15,7 +15,7 @@
 
 use crate::math::sort::sort_by;
 use crate::mesh::{Corner, Mesh, after, triangle_of};
-use crate::model::bend_elements::{Facets, Shows};
+use crate::model::bend_elements::{BendElements, Shows};
 use crate::model::links::{LinkKind, Links, Support};
 use glam::Vec3;
 
@@ -109,7 +109,7 @@ pub(crate) struct Hinges {
     /// The bend link of each.
     pub links: Vec<u32>,
     /// How they go together.
-    pub facets: Facets,
+    pub facets: BendElements,
     /// Whether any is bent at rest.
     pub are_bent: bool,
     /// How often any followed its link, or lost it.
@@ -127,7 +127,7 @@ impl Hinges {
         Self {
             all: Vec::new(),
             links: Vec::new(),
-            facets: Facets::default(),
+            facets: BendElements::default(),
             are_bent: false,
             revision: 0,
             scale: 1.0 / OF_GRIDS,
@@ -169,7 +169,7 @@ impl Hinges {
         }
         let place = |vertex: u32| rest[mesh.source[vertex as usize] as usize];
         let corners = |triangle: u32| mesh.triangles[triangle as usize].map(place);
-        let facets = Facets::find(&all, &triangles, &shows, corners, place);
+        let facets = BendElements::find(&all, &triangles, &shows, corners, place);
         let are_bent = all.iter().any(|hinge| hinge.rest != 0.0);
         Self { all, links: of, facets, are_bent, revision: 0, scale, first, hinge_of }
     }

@@ -1,13 +1,13 @@
-//! Elbows: where a grid is torn, two threads in a row that have left their plate, and what resists that they
+//! IrregularBends: where a grid is torn, two threads in a row that have left their plate, and what resists that they
 //! bend where they meet. What a substep needs of them lies side by side here, colour by colour.
 
 use crate::mesh::Mesh;
 use crate::model::links::{Links, Support, Thread};
-use crate::model::recoloring::{GROUPS, Group, Palette};
+use crate::model::recoloring::{GROUPS, Group, Recoloring};
 
 /// All elbows, as of the last time they were gathered.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Elbows {
+pub(crate) struct IrregularBends {
     /// The far ends of the threads, and where they meet.
     pub a: Vec<u32>,
     pub middle: Vec<u32>,
@@ -18,10 +18,10 @@ pub(crate) struct Elbows {
     pub share: Vec<f32>,
     /// Those of a colour and of elements along the weft (0) or the warp (1), next to each other.
     pub groups: Vec<Group>,
-    palette: Palette,
+    palette: Recoloring,
 }
 
-impl Elbows {
+impl IrregularBends {
     /// Makes room for so many, and for `particles`.
     pub fn reserve(&mut self, count: usize, particles: usize) {
         let lists = [&mut self.a, &mut self.middle, &mut self.b, &mut self.woven];

@@ -51,7 +51,7 @@ struct Block {
 
 /// Lines in blocks, laid side by side.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Abreast {
+pub(crate) struct LineBlocks {
     steps: Vec<Step>,
     blocks: Vec<Block>,
     /// The links of all lines as they were woven, line after line, block after block.
@@ -66,7 +66,7 @@ pub(crate) struct Abreast {
     are_strips: bool,
 }
 
-impl Abreast {
+impl LineBlocks {
     /// Lays lines by blocks. `links` are all there are; `breaks` says to have room for lines to break.
     pub fn new(links: &Links, blocks: &[Vec<&[Member]>], breaks: bool) -> Self {
         let mut laid = Self { block_of: vec![NONE; links.len()], ..Self::default() };

@@ -6,13 +6,13 @@ use crate::model::tethers::Tethers;
 
 /// Links sorted by how far their farther end is from a pin.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Outward {
+pub(crate) struct PinOrder {
     order: Vec<u32>,
     /// Each particle's way along the cloth to the nearest pin [m]; infinite where there is none.
     distance: Vec<f32>,
 }
 
-impl Outward {
+impl PinOrder {
     /// Makes room for `particles` and `links` in all.
     pub fn reserve(&mut self, particles: usize, links: usize) {
         self.order.reserve_exact(links.saturating_sub(self.order.len()));

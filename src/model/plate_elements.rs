@@ -1,4 +1,4 @@
-//! Plates: what resists bending where a grid is as it was woven.
+//! PlateElements: what resists bending where a grid is as it was woven.
 //!
 //! A sheet that is bent without stretching has the energy ½ D ∫ κₓₓ² + κᵧᵧ² + 2 κₓᵧ². On a grid the
 //! curvatures are differences of positions, and so vectors that are linear in them:
@@ -15,9 +15,9 @@
 
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
-use crate::model::irregular_bend::Elbows;
+use crate::model::irregular_bend::IrregularBends;
 use crate::model::links::{LinkKind, Links, Support, Thread};
-use crate::model::stray_links::Strays;
+use crate::model::stray_links::StrayLinks;
 
 /// The three elements that belong to a particle: the one along the weft and the one along the warp that have
 /// it in their middle, and the twist of the cell whose first corner it is.
@@ -25,7 +25,7 @@ pub(crate) type Each<T> = [T; 3];
 
 /// The elements of a grid.
 #[derive(Clone, Debug)]
-pub(crate) struct Plates {
+pub(crate) struct PlateElements {
     /// Particles across.
     pub columns: usize,
     /// Particles down.
@@ -35,9 +35,9 @@ pub(crate) struct Plates {
     /// What there is of each element, over one that lies inside; 0 where there is none any more.
     pub share: Each<Vec<f32>>,
     /// What left its element and still holds, as of the last time it was gathered.
-    pub elbows: Elbows,
+    pub elbows: IrregularBends,
     /// The bend links of these.
-    strays: Strays,
+    strays: StrayLinks,
     /// How often elements came or went.
     pub revision: u32,
     /// The first bend link, and the element of each from there on: the particle in its middle.
@@ -47,7 +47,7 @@ pub(crate) struct Plates {
     woven: Each<Vec<f32>>,
 }
 
-impl Plates {
+impl PlateElements {
     /// The elements of a grid with these links.
     pub fn new(columns: u32, rows: u32, spacing: f32, mesh: &Mesh, links: &Links) -> Self {
         let (columns, rows) = (columns as usize, rows as usize);
@@ -82,8 +82,8 @@ impl Plates {
             rows,
             spacing,
             share: woven.clone(),
-            elbows: Elbows::default(),
-            strays: Strays::default(),
+            elbows: IrregularBends::default(),
+            strays: StrayLinks::default(),
             revision: 0,
             first: bends.first().copied().unwrap_or(links.len()),
             middle: middle.collect(),

@@ -35,7 +35,7 @@ impl Group {
 
 /// What it takes to colour things, each with the lowest colour that none of its particles has yet.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Palette {
+pub(crate) struct Recoloring {
     /// The colours that each particle has, a bit each, kind by kind.
     taken: Vec<u32>,
     /// The group of each thing.
@@ -44,7 +44,7 @@ pub(crate) struct Palette {
     order: Vec<u32>,
 }
 
-impl Palette {
+impl Recoloring {
     /// Makes room for `things` and `particles` in all.
     pub fn reserve(&mut self, things: usize, particles: usize) {
         self.taken.reserve_exact(particles.saturating_sub(self.taken.len()));
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn groups_share_no_particle_and_hold_all_things_once() {
-        let (mut palette, mut groups) = (Palette::default(), Vec::new());
+        let (mut palette, mut groups) = (Recoloring::default(), Vec::new());
         let order = palette.color(35, 7, over_three, &mut groups).to_vec();
         let mut met = [0; 35];
         for group in &groups {

@@ -1,13 +1,13 @@
-//! Loose links: the few of a list that lie in no row, colour by colour. What a sweep needs of them lies
+//! SparseLinks links: the few of a list that lie in no row, colour by colour. What a sweep needs of them lies
 //! side by side here, so that it reads nothing of all the others.
 
 use crate::model::links::{LinkKind, Links};
-use crate::model::recoloring::{GROUPS, Group, Palette};
+use crate::model::recoloring::{GROUPS, Group, Recoloring};
 use core::ops::Range;
 
 /// Links by colour.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Loose {
+pub(crate) struct SparseLinks {
     /// Their particles, …
     pub a: Vec<u32>,
     pub b: Vec<u32>,
@@ -21,7 +21,7 @@ pub(crate) struct Loose {
     groups: Vec<Group>,
 }
 
-impl Loose {
+impl SparseLinks {
     /// Makes room for `count` in all.
     pub fn reserve(&mut self, count: usize) {
         let more = |len: usize| count.saturating_sub(len);
@@ -55,7 +55,7 @@ impl Loose {
     }
 
     /// Makes it those of a list that hold, coloured.
-    pub fn color(&mut self, links: &Links, particles: usize, palette: &mut Palette) {
+    pub fn color(&mut self, links: &Links, particles: usize, palette: &mut Recoloring) {
         self.clear();
         let ends = |link: usize| {
             links.active[link].then(|| (links.kind(link) as usize, [links.a[link], links.b[link]]))

@@ -1,14 +1,14 @@
-//! Strays: links that left the place where they were woven, and still hold.
+//! StrayLinks: links that left the place where they were woven, and still hold.
 
 use core::ops::Range;
 
 /// The numbers of some links, lowest first.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Strays {
+pub(crate) struct StrayLinks {
     links: Vec<u32>,
 }
 
-impl Strays {
+impl StrayLinks {
     /// Makes room for so many in all.
     pub fn reserve(&mut self, count: usize) {
         self.links.reserve_exact(count.saturating_sub(self.links.len()));

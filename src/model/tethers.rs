@@ -315,11 +315,12 @@ mod tests {
     use super::*;
     use crate::mesh::grid;
 
-    use crate::mesh::grid::Frame;
+    use crate::mesh::grid::GridFrame;
 
     #[test]
     fn ways_over_a_flat_sheet_are_straight_lines() {
-        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let frame =
+            GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
         let mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len());
         let mut tethers = Tethers::with_capacity(rest.len());
@@ -338,7 +339,8 @@ mod tests {
 
     #[test]
     fn ways_that_a_tear_cut_off_lead_around_it() {
-        let frame = Frame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
+        let frame =
+            GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
         let mut mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len() + 40);
         let mut tethers = Tethers::with_capacity(rest.len() + 40);

@@ -66,7 +66,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         timed!(world, Tear, tear::tear(world));
     }
     let is_bounded = world.settings.max_stretch > 0.0;
-    if is_bounded || !world.leashes.is_empty() {
+    if is_bounded || !world.anchors.is_empty() {
         timed!(world, Pairs, surface::begin(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::enforce(world));

@@ -4,22 +4,22 @@ use crate::geometry::triangle::corner_areas;
 use crate::math::columns::Columns;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
-use crate::mesh::grid::Frame;
+use crate::mesh::grid::GridFrame;
 use crate::mesh::seams::Seams;
 use crate::mesh::split_edge::Crossing;
 use crate::mesh::split_vertex::Opening;
 use crate::mesh::{Corner, Fan, Mesh, triangle_of};
-use crate::model::constraints::Weave;
+use crate::model::constraints::Constraints;
 use crate::model::crack_tips;
 use crate::model::folds::Folds;
-use crate::model::grid_cells::Cells;
+use crate::model::grid_cells::GridCells;
 use crate::model::material::Material;
-use crate::model::pin_order::Outward;
-use crate::model::plate_elements::Plates;
+use crate::model::pin_order::PinOrder;
+use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
 use crate::solver::integrate::sleep::Sleep;
 use crate::solver::profile::Profile;
-use crate::state::anchors::Leashes;
+use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
@@ -41,10 +41,10 @@ pub(crate) struct World {
     pub mesh: Mesh,
     /// The vertices, if particles are not vertices.
     pub seams: Option<Seams>,
-    pub weave: Weave,
+    pub constraints: Constraints,
     pub tethers: Tethers,
     /// The order of the stretch bound; current only while there is one.
-    pub outward: Outward,
+    pub pin_order: PinOrder,
     /// See `tethers::measure_slack`; infinite before the first tick and after pins or places changed.
     pub tether_slack: f32,
     /// How far pins hold the cloth apart, see `tethers::held_apart`, and whether that is still so.
@@ -57,25 +57,25 @@ pub(crate) struct World {
     /// The share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
     /// Where a grid is at rest.
-    pub frame: Option<Frame>,
+    pub frame: Option<GridFrame>,
     /// Where the triangles of a grid lie in cells.
-    pub cells: Option<Cells>,
+    pub cells: Option<GridCells>,
     /// What resists bending on a grid.
-    pub plates: Option<Plates>,
+    pub plates: Option<PlateElements>,
     /// Folds that stay.
     pub folds: Folds,
     /// Whether each vertex is the tip of a slit.
-    pub tips: Vec<bool>,
+    pub crack_tips: Vec<bool>,
     /// Mean length of the edges at rest [m].
-    pub spacing: f32,
+    pub mean_edge: f32,
     pub particles: Particles,
     pub mass_scales: MassScales,
     pub pins: Pins,
     pub attachments: Attachments,
     pub grabs: Grabs,
-    pub leashes: Leashes,
+    pub anchors: AnchorConstraints,
     /// Where the body is that the cloth goes along with when that jumps.
-    pub reference: Pose,
+    pub reference_pose: Pose,
     pub colliders: Colliders,
     pub settings: Settings,
     pub material: Material,
@@ -99,21 +99,22 @@ pub(crate) struct World {
     /// The threads that its ticks may use.
     pub threads: Threads,
     pub profile: Profile,
-    pub scratch: Scratch,
+    pub scratch: TickScratch,
     pub sleep: Sleep,
     /// The particles that keep apart, while settings say so.
-    pub crowd: Option<Box<crate::solver::self_collide::particle_pairs::Crowd>>,
+    pub particle_collision:
+        Option<Box<crate::solver::self_collide::particle_pairs::ParticleCollision>>,
     /// What layers bore on each other with in the last substep, while they keep apart.
-    pub loads: crate::solver::self_collide::surface::warm_start::Loads,
+    pub warm_start: crate::solver::self_collide::surface::warm_start::WarmStart,
     /// Whether its surface may go through itself, as far as is known.
     pub is_tangled: bool,
     /// The layers that keep apart, while settings say so.
-    pub layers: Option<Box<crate::solver::self_collide::surface::Layers>>,
+    pub surface_collision: Option<Box<crate::solver::self_collide::surface::SurfaceCollision>>,
 }
 
 /// Room to work in, made once so that no tick allocates.
 #[derive(Clone, Debug)]
-pub(crate) struct Scratch {
+pub(crate) struct TickScratch {
     /// Acceleration [m/s²].
     pub acceleration: Columns,
     /// Velocity of the air against each particle [m/s].
@@ -132,18 +133,18 @@ pub(crate) struct Scratch {
     pub pulled: Vec<u32>,
     pub weights: crate::solver::stretch::inverse_masses::Weights,
     pub packed: crate::solver::stretch::mesh_kernel::Packed,
-    pub lines: crate::solver::stretch::line_solver::Scratch,
-    pub bend: crate::solver::bend::Scratch,
-    pub brake: crate::solver::stretch::damping::Scratch,
-    pub contacts: crate::solver::collide::Scratch,
-    pub tear: crate::solver::topology::tear::Scratch,
+    pub lines: crate::solver::stretch::line_solver::LineScratch,
+    pub bend: crate::solver::bend::BendScratch,
+    pub brake: crate::solver::stretch::damping::DampingScratch,
+    pub contacts: crate::solver::collide::ContactScratch,
+    pub tear: crate::solver::topology::tear::TearScratch,
     pub home: crate::solver::stretch::rollback::Home,
     pub opened: Vec<Opening>,
     pub pieces: crate::solver::topology::tear::Pieces,
     pub stack: Vec<u32>,
 }
 
-impl Scratch {
+impl TickScratch {
     /// Room for `capacity` particles and `triangles` triangles.
     pub fn new(count: usize, capacity: usize, triangles: usize, max_tears: usize) -> Self {
         let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
@@ -158,11 +159,11 @@ impl Scratch {
             pulled: Vec::new(),
             weights: crate::solver::stretch::inverse_masses::Weights::default(),
             packed: crate::solver::stretch::mesh_kernel::Packed::default(),
-            lines: crate::solver::stretch::line_solver::Scratch::default(),
-            bend: crate::solver::bend::Scratch::default(),
-            brake: crate::solver::stretch::damping::Scratch::default(),
-            contacts: crate::solver::collide::Scratch::default(),
-            tear: crate::solver::topology::tear::Scratch::with_capacity(max_tears),
+            lines: crate::solver::stretch::line_solver::LineScratch::default(),
+            bend: crate::solver::bend::BendScratch::default(),
+            brake: crate::solver::stretch::damping::DampingScratch::default(),
+            contacts: crate::solver::collide::ContactScratch::default(),
+            tear: crate::solver::topology::tear::TearScratch::with_capacity(max_tears),
             home: crate::solver::stretch::rollback::Home::with_capacity(capacity, triangles),
             opened: Vec::with_capacity(2),
             pieces: crate::solver::topology::tear::Pieces::new(triangles),
@@ -213,25 +214,25 @@ impl World {
 
     /// Brings links and cells around a site in line with the mesh.
     pub fn follow(&mut self, site: u32) {
-        self.weave.follow(&self.mesh, site);
+        self.constraints.follow(&self.mesh, site);
         if let Some(cells) = &mut self.cells {
             cells.follow(&self.mesh, site);
         }
         if let Some(plates) = &mut self.plates {
             plates.follow_cells(&self.mesh, site);
-            let of_site = self.weave.of_vertex(site);
+            let of_site = self.constraints.of_vertex(site);
             of_site.for_each(|(links, link)| plates.follow_link(&self.mesh, links, link));
         }
     }
 
     /// Gathers what sweeps and sums find apart from the rest, after links and cells changed.
     pub fn gather(&mut self) {
-        self.weave.gather(self.particles.len());
+        self.constraints.gather(self.particles.len());
         if let Some(cells) = &mut self.cells {
             cells.gather(&self.mesh);
         }
         if let Some(plates) = &mut self.plates {
-            plates.gather(&self.mesh, &self.weave.links);
+            plates.gather(&self.mesh, &self.constraints.links);
         }
     }
 
@@ -282,8 +283,8 @@ impl World {
     pub fn find_tips(&mut self) {
         let mut fan = Fan::default();
         let is_tip = |vertex| crack_tips::is_tip(&self.mesh, &self.rest, vertex, &mut fan);
-        self.tips.clear();
-        self.tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
+        self.crack_tips.clear();
+        self.crack_tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
     }
 
     /// Puts a particle somewhere with a velocity.
@@ -303,7 +304,7 @@ impl World {
 
     /// The farthest a particle may move in a substep against the cloth's own motion [m].
     pub fn reach(&self) -> f32 {
-        self.settings.max_displacement * self.spacing
+        self.settings.max_displacement * self.mean_edge
     }
 
     /// Measures the tethers anew, after pins or pieces changed.
@@ -330,7 +331,7 @@ impl World {
     /// Sorts links outward anew, after ways to pins or links changed.
     pub fn sort_outward(&mut self) {
         if self.settings.max_stretch > 0.0 {
-            self.outward.sort(&self.tethers, self.particles.len(), &self.weave.links);
+            self.pin_order.sort(&self.tethers, self.particles.len(), &self.constraints.links);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Leashes: how far particles may get from where animation has them.
+//! AnchorConstraints: how far particles may get from where animation has them.
 //!
 //! ```text
 //!        normal
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 /// One particle that is kept near its anchor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Leash {
+pub(crate) struct AnchorConstraint {
     pub particle: u32,
     /// Where its anchor was at the end of the last tick [m], …
     pub from: Vec3,
@@ -33,7 +33,7 @@ pub(crate) struct Leash {
     pub backstop_radius: f32,
 }
 
-impl Leash {
+impl AnchorConstraint {
     /// A particle with an anchor, which may do as it likes.
     pub fn new(particle: u32, anchor: Vec3) -> Self {
         Self {
@@ -144,11 +144,11 @@ fn across(normal: Vec3) -> Vec3 {
 
 /// All leashes, sorted by particle, so that order comes from the mesh.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Leashes {
-    list: Vec<Leash>,
+pub(crate) struct AnchorConstraints {
+    list: Vec<AnchorConstraint>,
 }
 
-impl Leashes {
+impl AnchorConstraints {
     /// Makes room for `capacity` leashes in all, if there are any.
     pub fn reserve(&mut self, capacity: usize) {
         if !self.list.is_empty() {
@@ -160,11 +160,11 @@ impl Leashes {
         self.list.is_empty()
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Leash> {
+    pub fn iter(&self) -> impl Iterator<Item = &AnchorConstraint> {
         self.list.iter()
     }
 
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Leash> {
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut AnchorConstraint> {
         self.list.iter_mut()
     }
 
@@ -172,16 +172,16 @@ impl Leashes {
         self.list.binary_search_by_key(&particle, |leash| leash.particle)
     }
 
-    pub fn find(&self, particle: u32) -> Option<&Leash> {
+    pub fn find(&self, particle: u32) -> Option<&AnchorConstraint> {
         Some(&self.list[self.place_of(particle).ok()?])
     }
 
     /// The leash of a particle, which it gets now if it has none: with an anchor at `x`, and no end.
-    pub fn of(&mut self, particle: u32, x: Vec3) -> &mut Leash {
+    pub fn of(&mut self, particle: u32, x: Vec3) -> &mut AnchorConstraint {
         let at = match self.place_of(particle) {
             Ok(at) => at,
             Err(at) => {
-                self.list.insert(at, Leash::new(particle, x));
+                self.list.insert(at, AnchorConstraint::new(particle, x));
                 at
             }
         };
@@ -189,7 +189,7 @@ impl Leashes {
     }
 
     /// Adds the leash of a particle that has none.
-    pub fn insert(&mut self, leash: Leash) {
+    pub fn insert(&mut self, leash: AnchorConstraint) {
         if let Err(at) = self.place_of(leash.particle) {
             self.list.insert(at, leash);
         }
@@ -201,7 +201,8 @@ impl Leashes {
 
     /// Whether they are such as a cloth of `count` particles can have; for bytes from outside.
     pub fn are_sound(&self, count: usize) -> bool {
-        let is_sound = |leash: &Leash| (leash.particle as usize) < count && leash.is_sound();
+        let is_sound =
+            |leash: &AnchorConstraint| (leash.particle as usize) < count && leash.is_sound();
         self.list.iter().all(is_sound) && self.list.is_sorted_by(|a, b| a.particle < b.particle)
     }
 
@@ -217,10 +218,10 @@ impl Leashes {
 mod tests {
     use super::*;
 
-    fn leash(max_distance: f32, backstop_distance: f32, backstop_radius: f32) -> Leash {
+    fn leash(max_distance: f32, backstop_distance: f32, backstop_radius: f32) -> AnchorConstraint {
         let (normal, anchor) = (Vec3::Y, Vec3::new(0.5, 1.0, -2.0));
-        let free = Leash::new(0, anchor);
-        Leash {
+        let free = AnchorConstraint::new(0, anchor);
+        AnchorConstraint {
             normal,
             normal_from: normal,
             max_distance,

@@ -7,8 +7,8 @@ use crate::geometry::shape::{Ball, Capsule, Cuboid, Form, HalfSpace};
 use crate::geometry::triangle_surface;
 use crate::state::pose::{OF_COLLIDER, check_pose};
 
-use crate::geometry::heightfield::Terrain;
-use crate::geometry::triangle_surface::Surface;
+use crate::geometry::heightfield::Heightfield;
+use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::mixer::Mixer;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
@@ -239,13 +239,13 @@ impl ColliderDesc {
             Shape::Mesh => {
                 let (triangles, _) = self.indices.as_chunks::<3>();
                 let triangles = triangle_surface::with_area(&self.positions, triangles);
-                let surface = Surface::new(&self.positions, &triangles)
+                let surface = TriangleSurface::new(&self.positions, &triangles)
                     .ok_or(bad("collider.indices", "hold a triangle with an area"))?;
-                Form::Surface(surface, Relief::of(&self.positions, &triangles, false))
+                Form::TriangleSurface(surface, Relief::of(&self.positions, &triangles, false))
             }
             Shape::Heightfield => {
                 let heights = self.heights.clone();
-                Form::Terrain(Terrain::new(self.columns, self.rows, self.spacing, heights))
+                Form::Heightfield(Heightfield::new(self.columns, self.rows, self.spacing, heights))
             }
         })
     }

@@ -1,7 +1,7 @@
 //! Where something rigid is, and how it is turned.
 
 use crate::error::{Result, check, check_finite};
-use crate::geometry::transform::Frame;
+use crate::geometry::transform::Transform;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -72,8 +72,8 @@ impl Pose {
     }
 
     /// Ready to be used on many points.
-    pub fn frame(&self) -> Frame {
-        Frame { origin: self.position, axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.turn(v)) }
+    pub fn frame(&self) -> Transform {
+        Transform { origin: self.position, axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.turn(v)) }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Elbows, as many at a time as there are lanes: each resists that its two threads bend where they meet.
+//! IrregularBends, as many at a time as there are lanes: each resists that its two threads bend where they meet.
 //!
 //! ```text
 //! a ── m ── b     C = a − 2 m + b − rest n,   λ = −C / (w_a + 4 w_m + w_b + α̃),   Δx = w c λ
@@ -9,7 +9,7 @@ use crate::math::TINY;
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Level, Number, Scalar, Simd, vectored};
 use crate::model::hardening::Softening;
-use crate::model::irregular_bend::Elbows;
+use crate::model::irregular_bend::IrregularBends;
 use crate::solver::particle_stage::access::{Sheet, Spots, fetch, put};
 use crate::state::particles::Particles;
 use core::ops::Range;
@@ -17,7 +17,7 @@ use core::ops::Range;
 /// What a substep of bending works with.
 #[derive(Clone, Copy)]
 pub(crate) struct Step<'a> {
-    pub elbows: &'a Elbows,
+    pub elbows: &'a IrregularBends,
     /// Stiffness of an element times the square of the substep [kg].
     pub stiffness: f32,
     /// The share of where particles were that is taken off where they are, for damping.
@@ -52,7 +52,7 @@ fn one_by_one(step: Step<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut P
     bend_color(Scalar, step, own, rest, p);
 }
 
-/// Elbows no two of which share a particle, or one after the other.
+/// IrregularBends no two of which share a particle, or one after the other.
 #[inline(always)]
 fn bend_color<S: Simd>(
     s: S,

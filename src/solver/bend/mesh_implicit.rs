@@ -32,7 +32,7 @@ const LEFT: f32 = 1.0e-8;
 
 /// Room to work in: a number or a vector for each particle.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct MeshBendScratch {
     /// As long as links and what is held stay: what triangles resist, and that as a matrix.
     elements: Vec<Element>,
     stiffness: Stiffness,
@@ -58,7 +58,7 @@ pub(crate) struct Scratch {
     pull: Vec<Vec4>,
 }
 
-impl Scratch {
+impl MeshBendScratch {
     /// Room for so many triangles, hinges and particles.
     pub fn new(triangles: usize, hinges: usize, capacity: usize) -> Self {
         let numbers = || Vec::with_capacity(capacity);
@@ -106,7 +106,7 @@ impl Flaps<'_> {
     /// substep began.
     pub fn bend<S: Spots>(
         &self,
-        room: &mut Scratch,
+        room: &mut MeshBendScratch,
         count: usize,
         start: impl Fn(usize) -> Vec3,
         spots: &mut S,
@@ -134,7 +134,7 @@ impl Flaps<'_> {
     }
 
     /// Room for so many particles; whether they, links or stiffness have changed.
-    fn make_room(&self, room: &mut Scratch, count: usize) -> bool {
+    fn make_room(&self, room: &mut MeshBendScratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
         let softer = self.softening.map(|softening| softening.key());
         let known = (room.revision, room.of_stiffness, room.softer);
@@ -153,8 +153,8 @@ impl Flaps<'_> {
     }
 
     /// Takes up links, stiffness and what is held.
-    fn take_up(&self, room: &mut Scratch, count: usize) {
-        let Scratch { elements, stiffness, w, mass, over, .. } = room;
+    fn take_up(&self, room: &mut MeshBendScratch, count: usize) {
+        let MeshBendScratch { elements, stiffness, w, mass, over, .. } = room;
         let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
         let left = |triangle: usize| match &self.softening {
@@ -172,7 +172,12 @@ impl Flaps<'_> {
     }
 
     /// Sees where particles are; whether they weigh something else than they did.
-    fn seat<S: Spots>(&self, room: &mut Scratch, start: impl Fn(usize) -> Vec3, spots: &S) -> bool {
+    fn seat<S: Spots>(
+        &self,
+        room: &mut MeshBendScratch,
+        start: impl Fn(usize) -> Vec3,
+        spots: &S,
+    ) -> bool {
         let before = self.step.before;
         let mut has_changed = false;
         let known = room.w.iter_mut().zip(&mut room.mass);
@@ -195,7 +200,7 @@ impl Flaps<'_> {
     }
 
     /// What pushes particles where hinges are bent at rest.
-    fn add_rest<S: Spots>(&self, room: &mut Scratch, spots: &S) {
+    fn add_rest<S: Spots>(&self, room: &mut MeshBendScratch, spots: &S) {
         if !self.hinges.are_bent && self.folds.is_none() {
             return;
         }
@@ -216,8 +221,8 @@ impl Flaps<'_> {
     }
 
     /// Conjugate gradients for what the force changes.
-    fn solve(&self, room: &mut Scratch) {
-        let Scratch { stiffness, mass, over, change, force, way, pull, .. } = room;
+    fn solve(&self, room: &mut MeshBendScratch) {
+        let MeshBendScratch { stiffness, mass, over, change, force, way, pull, .. } = room;
         let steps = (2.0 * (1.0 + 64.0 * self.over_mass).sqrt()).min(MOST_STEPS) as u32;
         change.fill(Vec4::ZERO);
         way.fill(Vec4::ZERO);
@@ -241,8 +246,8 @@ impl Flaps<'_> {
 }
 
 /// A few explicit steps for what the force changes.
-fn descend(room: &mut Scratch, descent: &Descent) {
-    let Scratch { stiffness, w, mass, change, force, way, .. } = room;
+fn descend(room: &mut MeshBendScratch, descent: &Descent) {
+    let MeshBendScratch { stiffness, w, mass, change, force, way, .. } = room;
     change.fill(Vec4::ZERO);
     for (at, [keep, take]) in descent.steps().iter().enumerate() {
         if at > 0 {

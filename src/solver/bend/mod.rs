@@ -27,35 +27,35 @@ use crate::math::columns::Columns;
 use crate::model::folds::{Lengths, Line2};
 use crate::model::hinges::Hinge;
 use crate::model::links::LinkKind;
-use crate::model::plate_elements::{Each, Plates};
+use crate::model::plate_elements::{Each, PlateElements};
 use crate::solver::world::World;
 use glam::Vec3;
 
 /// Room to work in.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
-    pub plates: plate::Scratch,
+pub(crate) struct BendScratch {
+    pub plates: plate::PlateScratch,
     /// The normals of a grid, current while folds are looked at, and the ways that its elements are bent.
     normal: Columns,
     ways: Each<Columns>,
-    flaps: mesh_implicit::Scratch,
+    flaps: mesh_implicit::MeshBendScratch,
 }
 
-impl Scratch {
+impl BendScratch {
     /// Room for so many particles.
     pub fn new(world: &World, capacity: usize) -> Self {
         let is_grid = world.plates.is_some();
-        let (triangles, hinges) = (world.mesh.triangles.len(), world.weave.hinges.all.len());
-        let grid = || Columns::filled(world.plates.as_ref().map_or(0, Plates::count));
-        let plates = world.plates.as_ref().map(plate::Scratch::new);
+        let (triangles, hinges) = (world.mesh.triangles.len(), world.constraints.hinges.all.len());
+        let grid = || Columns::filled(world.plates.as_ref().map_or(0, PlateElements::count));
+        let plates = world.plates.as_ref().map(plate::PlateScratch::new);
         Self {
             plates: plates.unwrap_or_default(),
             normal: grid(),
             ways: [grid(), grid(), grid()],
             flaps: if is_grid {
-                mesh_implicit::Scratch::default()
+                mesh_implicit::MeshBendScratch::default()
             } else {
-                mesh_implicit::Scratch::new(triangles, hinges, capacity)
+                mesh_implicit::MeshBendScratch::new(triangles, hinges, capacity)
             },
         }
     }
@@ -84,7 +84,7 @@ pub(crate) fn go_on(world: &mut World, order: Order, iteration: u32) {
     if !is_elastic(world) {
         distance::solve(world, LinkKind::Bend, order);
     } else if iteration == 1 {
-        // Plates are in columns, whatever the links are in.
+        // PlateElements are in columns, whatever the links are in.
         let is_packed = world.plates.is_some() && world.scratch.packed.is_current;
         if is_packed {
             mesh_kernel::unpack(world);
@@ -160,7 +160,7 @@ pub(crate) fn yield_folds(world: &mut World) {
         rest_direction::find_normals(world.level, plates, x, &mut world.scratch.bend.normal);
         world.folds.yield_plates(plates, material, x, &world.scratch.bend.normal);
     } else {
-        world.folds.yield_hinges(&world.weave.hinges, material, world.spacing, x);
+        world.folds.yield_hinges(&world.constraints.hinges, material, world.mean_edge, x);
     }
 }
 
@@ -169,7 +169,7 @@ impl World {
     pub fn take_folds(&mut self, angle: Each<Vec<f32>>) -> bool {
         let lengths = match &self.plates {
             Some(plates) => Lengths::Grid(plates.spacing),
-            None => Lengths::Hinges(&self.weave.hinges.all),
+            None => Lengths::Hinges(&self.constraints.hinges.all),
         };
         self.folds.take_over(angle, &lengths)
     }
@@ -193,8 +193,8 @@ impl World {
     pub fn crease_across(&mut self, line: [Vec3; 2], angle: f32) {
         let (mesh, rest) = (&self.mesh, &self.rest);
         let at = |hinge: &Hinge| hinge.at.map(|v| rest[mesh.source[v as usize] as usize]);
-        let (hinges, wears) = (&self.weave.hinges, self.material.wears());
-        self.folds.crease_hinges(hinges, at, line, self.spacing, angle, wears);
+        let (hinges, wears) = (&self.constraints.hinges, self.material.wears());
+        self.folds.crease_hinges(hinges, at, line, self.mean_edge, angle, wears);
     }
 }
 
@@ -218,15 +218,15 @@ fn bend_elbows(world: &mut World, step: hinge::Step) {
 /// What cuts folded anew.
 #[inline(never)]
 fn bend_late(world: &mut World, step: hinge::Step) {
-    let links = &world.weave.extra;
-    if world.weave.loose.batches_of(LinkKind::Bend).is_empty() {
+    let links = &world.constraints.extra;
+    if world.constraints.loose.batches_of(LinkKind::Bend).is_empty() {
         return;
     }
     for link in 0..links.len() {
         if links.kind(link) != LinkKind::Bend || !links.active[link] {
             continue;
         }
-        let hinge = world.weave.hinges.late(&world.mesh, links, link, &world.rest);
+        let hinge = world.constraints.hinges.late(&world.mesh, links, link, &world.rest);
         if let Some(hinge) = hinge {
             let scratch = &world.scratch;
             let start = |i: usize| scratch.predicted.at(i) - scratch.way.at(i);
@@ -239,10 +239,10 @@ fn bend_late(world: &mut World, step: hinge::Step) {
 fn bend_hinges(world: &mut World, step: hinge::Step, order: Order) {
     let (count, scratch) = (world.particles.len(), &mut world.scratch);
     let (predicted, way) = (&scratch.predicted, &scratch.way);
-    let cell = world.spacing * world.spacing;
+    let cell = world.mean_edge * world.mean_edge;
     let flaps = Flaps {
-        hinges: &world.weave.hinges,
-        active: &world.weave.links.active,
+        hinges: &world.constraints.hinges,
+        active: &world.constraints.links.active,
         folds: world.folds.are_any.then_some(&world.folds.offset[0][..]),
         softening: world.folds.wear.softens(&world.material),
         step,

@@ -17,7 +17,7 @@ use crate::math::are_same;
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::model::hardening::Softening;
-use crate::model::plate_elements::{Each, Plates};
+use crate::model::plate_elements::{Each, PlateElements};
 use crate::solver::bend::banded::{Factor, Line, Three};
 use crate::solver::bend::chebyshev::Descent;
 use crate::solver::bend::spectral_bound;
@@ -32,7 +32,7 @@ const MOST: f32 = 3.0e4;
 
 /// Room to work in, and what is known as long as pins, masses and stiffness stay.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct PlateScratch {
     /// How stiff each element is, over one inside.
     weight: Each<Vec<f32>>,
     /// The curvature of each element in one direction, with room around it.
@@ -83,8 +83,8 @@ pub(crate) struct Step<'a> {
     pub softening: Option<Softening<'a>>,
 }
 
-impl Scratch {
-    pub fn new(plates: &Plates) -> Self {
+impl PlateScratch {
+    pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
         let list = || vec![0.0; count];
         let around = || vec![0.0; count + 2 * (plates.columns + 1)];
@@ -107,7 +107,7 @@ impl Scratch {
     /// Whether pins, masses or elements have changed; then takes them up.
     fn take_up(
         &mut self,
-        plates: &Plates,
+        plates: &PlateElements,
         softening: Option<Softening<'_>>,
         w: &[f32],
         mass: &[f32],
@@ -184,7 +184,7 @@ impl Scratch {
 
 /// Bends a soft sheet: all the steps of a descent.
 fn descend(
-    room: &mut Scratch,
+    room: &mut PlateScratch,
     step: Step<'_>,
     stiffness: f32,
     columns: usize,
@@ -193,7 +193,7 @@ fn descend(
 ) {
     for (axis, x) in x.all_mut().into_iter().enumerate() {
         room.look(step, stiffness, columns, axis, x, true);
-        let Scratch { weight, curve, seen: pull, force, given, w, mass, .. } = &mut *room;
+        let PlateScratch { weight, curve, seen: pull, force, given, w, mass, .. } = &mut *room;
         let (force, way) = (&mut force[axis][..], &mut given[axis][..]);
         let x = &mut x[..way.len()];
         let [[_, take], rest @ ..] = descent.steps() else {
@@ -218,8 +218,8 @@ pub(crate) fn clamped(wa: f32, wb: f32) -> f32 {
 
 /// Bends the sheet for one round; the second one only where it pays.
 pub(crate) fn bend(
-    plates: &Plates,
-    room: &mut Scratch,
+    plates: &PlateElements,
+    room: &mut PlateScratch,
     step: Step<'_>,
     x: &mut Columns,
     w: &[f32],
@@ -273,7 +273,7 @@ pub(crate) fn bend(
             }
         }
     }
-    let Scratch { force, given, rounds, twist, .. } = room;
+    let PlateScratch { force, given, rounds, twist, .. } = room;
     let round = &rounds[if step.is_first { 0 } else { 1 }];
     if step.is_first {
         round.weft.solve_rows(columns, force);
@@ -298,7 +298,7 @@ impl Round {
         Self { stiffness: -1.0, shift: 0.0, weft, warp }
     }
 
-    fn factor(&mut self, plates: &Plates, weight: &Each<Vec<f32>>, w: &[f32], mass: &[f32]) {
+    fn factor(&mut self, plates: &PlateElements, weight: &Each<Vec<f32>>, w: &[f32], mass: &[f32]) {
         let (columns, rows) = (plates.columns, plates.rows);
         let (stiffness, shift) = (self.stiffness, self.shift);
         for row in 0..rows {

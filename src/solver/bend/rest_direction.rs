@@ -3,7 +3,7 @@
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::math::{TINY, max, min};
-use crate::model::plate_elements::{Each, Plates};
+use crate::model::plate_elements::{Each, PlateElements};
 
 /// From this share of its curvature at rest on an element is bent the way that it is, …
 const IS_BENT: f32 = 0.25;
@@ -11,7 +11,12 @@ const IS_BENT: f32 = 0.25;
 const BENDS_OVER: f32 = 0.5;
 
 /// The unit normals of a grid: square to the ways from neighbour to neighbour, along and across.
-pub(crate) fn find_normals(level: Level, plates: &Plates, x: &Columns, normal: &mut Columns) {
+pub(crate) fn find_normals(
+    level: Level,
+    plates: &PlateElements,
+    x: &Columns,
+    normal: &mut Columns,
+) {
     let (columns, rows) = (plates.columns, plates.rows);
     for row in 0..rows {
         let (above, below) = (row.saturating_sub(1), (row + 1).min(rows - 1));
@@ -62,7 +67,7 @@ fn square([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> [f32; 3] {
 /// neither itself nor the sheet.
 pub(crate) fn find_ways(
     level: Level,
-    plates: &Plates,
+    plates: &PlateElements,
     offset: &Each<Vec<f32>>,
     x: &Columns,
     normal: &Columns,

@@ -13,7 +13,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
-use crate::model::plate_elements::Plates;
+use crate::model::plate_elements::PlateElements;
 use crate::solver::bend::banded::Three;
 
 /// Room to work in, and factors that stay as long as pins, masses and stiffness do.
@@ -64,7 +64,7 @@ pub(crate) struct Seen<'a> {
 }
 
 impl Twist {
-    pub fn new(plates: &Plates) -> Self {
+    pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
         let factor = || Factor { inverse: vec![0.0; count], near: vec![0.0; count] };
         let list = || vec![0.0; count];
@@ -82,7 +82,7 @@ impl Twist {
     }
 
     /// For cells so stiff, over one inside, times `stiffness` [kg].
-    pub fn factor(&mut self, plates: &Plates, weight: &[f32], w: &[f32], stiffness: f32) {
+    pub fn factor(&mut self, plates: &PlateElements, weight: &[f32], w: &[f32], stiffness: f32) {
         for (compliance, weight) in self.compliance.iter_mut().zip(weight) {
             *compliance = if *weight > 0.0 { 1.0 / (weight * stiffness) } else { 0.0 };
         }

@@ -186,7 +186,7 @@ pub(super) fn follow(world: &mut World) {
     for body in world.colliders.iter() {
         let Some(form) = body.form() else { continue };
         if count == near.reaches.len() {
-            let (mild, bulge) = relent(form, world.spacing);
+            let (mild, bulge) = relent(form, world.mean_edge);
             let nowhere = Room::Bounds(Aabb::EMPTY);
             near.reaches.push(Reach {
                 now: nowhere,
@@ -214,7 +214,7 @@ pub(crate) fn pair(world: &mut World) {
     if near.reaches.is_empty() {
         return;
     }
-    let margin = MARGIN * world.spacing;
+    let margin = MARGIN * world.mean_edge;
     let is_other = near.found_at.x.len() != world.particles.len()
         || near.longest_at_rest.1 != world.mesh.triangles.len();
     if near.is_stale || is_other || is_one_far(world, margin * HASTE) {

@@ -1,7 +1,7 @@
 //! Which particles may touch a shape at all: all particles of a block at once.
 
 use crate::geometry::shape::Bound;
-use crate::geometry::transform::Frame;
+use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::simd::{Level, leveled};
@@ -42,11 +42,11 @@ fn part<'a>(columns: &'a Columns, range: &Range<usize>) -> [&'a [f32]; 3] {
 }
 
 leveled! {
-    fn look_over(sight: Sight<'_>, frames: &[Frame; 2], bound: Bound, clear: &mut [f32]) = look_lanes
+    fn look_over(sight: Sight<'_>, frames: &[Transform; 2], bound: Bound, clear: &mut [f32]) = look_lanes
 }
 
 #[inline(always)]
-fn look_lanes(sight: Sight<'_>, frames: &[Frame; 2], bound: Bound, clear: &mut [f32]) {
+fn look_lanes(sight: Sight<'_>, frames: &[Transform; 2], bound: Bound, clear: &mut [f32]) {
     match bound {
         Bound::Plane => above(sight.x, &frames[1], clear),
         Bound::Below(top) => each(sight, frames, clear, |_, y, _| y - top),
@@ -80,9 +80,9 @@ fn find_any_lanes(clear: &[f32], gap: f32, is_any: &mut bool) {
     *is_any = found != 0;
 }
 
-/// How high above a plane particles end, to the bit as `Frame::inward` says.
+/// How high above a plane particles end, to the bit as `Transform::inward` says.
 #[inline(always)]
-fn above([x, y, z]: [&[f32]; 3], frame: &Frame, clear: &mut [f32]) {
+fn above([x, y, z]: [&[f32]; 3], frame: &Transform, clear: &mut [f32]) {
     let (o, up) = (frame.origin, frame.axes[1]);
     for (((clear, x), y), z) in clear.iter_mut().zip(x).zip(y).zip(z) {
         *clear = (x - o.x) * up.x + (y - o.y) * up.y + (z - o.z) * up.z;
@@ -93,11 +93,11 @@ fn above([x, y, z]: [&[f32]; 3], frame: &Frame, clear: &mut [f32]) {
 #[inline(always)]
 fn each(
     Sight { x: [x, y, z], predicted: [px, py, pz], way: [wx, wy, wz] }: Sight<'_>,
-    frames: &[Frame; 2],
+    frames: &[Transform; 2],
     clear: &mut [f32],
     distance: impl Fn(f32, f32, f32) -> f32,
 ) {
-    let inward = |frame: &Frame, x: f32, y: f32, z: f32| {
+    let inward = |frame: &Transform, x: f32, y: f32, z: f32| {
         let [u, v, w] = frame.axes;
         let (x, y, z) = (x - frame.origin.x, y - frame.origin.y, z - frame.origin.z);
         (x * u.x + y * u.y + z * u.z, x * v.x + y * v.y + z * v.z, x * w.x + y * w.y + z * w.z)
@@ -124,7 +124,7 @@ mod tests {
     fn heights_over_a_plane_are_those_that_its_frame_sees() {
         let mut x = Columns::with_capacity(37);
         (0..37).for_each(|i| x.push(Vec3::new(0.31 * i as f32, 1.0 - 0.07 * i as f32, 0.2)));
-        let turned = Frame {
+        let turned = Transform {
             origin: Vec3::new(0.1, -0.4, 0.3),
             axes: [Vec3::new(0.6, -0.8, 0.0), Vec3::new(0.8, 0.6, 0.0), Vec3::Z],
         };

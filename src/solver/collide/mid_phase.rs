@@ -103,7 +103,9 @@ impl Seen {
 
 fn relief_of(form: &Form) -> Option<&Relief> {
     match form {
-        Form::Cuboid(_, relief) | Form::Hull(_, relief) | Form::Surface(_, relief) => Some(relief),
+        Form::Cuboid(_, relief) | Form::Hull(_, relief) | Form::TriangleSurface(_, relief) => {
+            Some(relief)
+        }
         _ => None,
     }
 }
@@ -178,7 +180,7 @@ impl Pairs {
 
     fn find_facets(&mut self, form: &Form, reach: f32) {
         let bounds = form.bounds();
-        if !matches!(form, Form::Hull(..) | Form::Surface(..)) {
+        if !matches!(form, Form::Hull(..) | Form::TriangleSurface(..)) {
             return;
         }
         for seen in &self.seen {
@@ -190,7 +192,7 @@ impl Pairs {
                 Form::Hull(body, _) => {
                     body.find_foremost(seen.at, seen.radius + reach, &mut self.facets);
                 }
-                Form::Surface(surface, _) => {
+                Form::TriangleSurface(surface, _) => {
                     surface.find_near(seen.at, seen.radius + reach, &mut self.facets);
                 }
                 _ => {}
@@ -202,7 +204,7 @@ impl Pairs {
     fn find_features(&mut self, form: &Form, mesh: &Mesh, search: Search) {
         let bounds = form.bounds();
         let ground = self.ground.counts();
-        if let Form::Terrain(terrain) = form {
+        if let Form::Heightfield(terrain) = form {
             let mut all = Aabb::EMPTY;
             self.seen.iter().for_each(|seen| all.join(&seen.bounds));
             terrain.find_under(&all, |ridge| search.is_mild(&ridge.bend), &mut self.ground);

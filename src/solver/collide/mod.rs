@@ -16,7 +16,7 @@ mod triangle_vs_round;
 
 use crate::geometry::features::Bend;
 use crate::geometry::shape::Form;
-use crate::geometry::transform::Frame;
+use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
 use crate::math::{finite, max, min};
 use crate::solver::collide::broad_phase::{Found, Near};
@@ -44,7 +44,7 @@ const LEFT: f32 = 0.1;
 
 /// Room for contacts, made when a collider comes.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct ContactScratch {
     pub near: Near,
     /// What touched in this substep: by collider, then by particle. What there is no room for any more
     /// neither bounces nor pushes its collider.
@@ -120,7 +120,7 @@ pub(crate) fn solve(world: &mut World, number: u32) {
 
 /// Goes over all colliders, of which `frames` tells how they stand at the start and at the end; `is_bare`
 /// leaves out friction, and triangles.
-fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Frame; 2], is_bare: bool) {
+fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: bool) {
     let scheme = world.settings.scheme();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
@@ -146,7 +146,7 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Frame; 2], is_bare: bool)
             gap,
             rise: Rise {
                 by: RISE * scheme.h,
-                deep: DEEP[usize::from(form.steps().is_some())] * world.spacing,
+                deep: DEEP[usize::from(form.steps().is_some())] * world.mean_edge,
             },
             scheme,
             body: at as u32,
@@ -222,7 +222,7 @@ fn gap(body: &Body, thickness: f32) -> f32 {
 }
 
 /// How a body stands when substep `number` starts and when it ends.
-fn frames(body: &Body, number: u32, substeps: u32) -> [Frame; 2] {
+fn frames(body: &Body, number: u32, substeps: u32) -> [Transform; 2] {
     if body.last == body.next {
         return [body.next.frame(); 2];
     }
@@ -299,7 +299,7 @@ struct Place<'a> {
     way: &'a Columns,
     predicted: &'a Columns,
     /// How the collider stands when the substep starts and when it ends.
-    frames: [Frame; 2],
+    frames: [Transform; 2],
     feel: Feel,
     gap: f32,
     rise: Rise,

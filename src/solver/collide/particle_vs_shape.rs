@@ -1,6 +1,6 @@
 //! Particles against shapes.
 
-use crate::geometry::heightfield::Terrain;
+use crate::geometry::heightfield::Heightfield;
 use crate::geometry::polyhedron::Foremost;
 use crate::geometry::shape::{Form, Solid};
 use crate::geometry::triangle_surface::Patch;
@@ -60,14 +60,18 @@ pub(super) fn push(form: &Form, place: &mut Place<'_>, sharp: &Sharp<'_>, i: usi
             let solid = Foremost { body, faces: sharp.facets(i) };
             if solid.faces.is_empty() { None } else { meet_solid(&solid, before, now, gap, rise) }
         }
-        Form::Surface(surface, _) => meet_surface(&patch(surface), before, now, max(gap, SKIN)),
-        Form::Terrain(terrain) => meet_terrain(terrain, before, now, gap),
+        Form::TriangleSurface(surface, _) => {
+            meet_surface(&patch(surface), before, now, max(gap, SKIN))
+        }
+        Form::Heightfield(terrain) => meet_terrain(terrain, before, now, gap),
     };
     let Some(found) = found else { return };
     let moved = place.moved(before, now, found);
     // Friction moves along a plane, which a bent surface is not.
     let moved = match form {
-        Form::Surface(surface, _) if patch(surface).strike(before, now + moved).is_some() => {
+        Form::TriangleSurface(surface, _)
+            if patch(surface).strike(before, now + moved).is_some() =>
+        {
             before - now
         }
         _ => moved,
@@ -111,7 +115,7 @@ fn push_from(now: Vec3, to: Vec3) -> Option<Push> {
 }
 
 /// Ground: what is below it now comes up, what went through a hill comes back.
-fn meet_terrain(terrain: &Terrain, before: Vec3, now: Vec3, gap: f32) -> Option<Push> {
+fn meet_terrain(terrain: &Heightfield, before: Vec3, now: Vec3, gap: f32) -> Option<Push> {
     let way = now - before;
     let across = (way.x * way.x + way.z * way.z).sqrt();
     let count = max(min((across / (0.5 * terrain.spacing())).ceil(), 1000.0), 1.0) as u32;
@@ -256,7 +260,7 @@ mod tests {
     #[test]
     fn what_falls_on_ground_or_flies_into_a_hill_stays_above() {
         let heights = (0..25).map(|i| if i % 5 == 2 { 1.0 } else { 0.0 }).collect();
-        let ground = Terrain::new(5, 5, 0.5, heights);
+        let ground = Heightfield::new(5, 5, 0.5, heights);
         let end = |before: Vec3, now: Vec3| {
             let push = meet_terrain(&ground, before, now, GAP);
             push.map_or(now, |push| now + push.normal * push.depth)

@@ -15,7 +15,7 @@ use crate::solver::world::World;
 
 /// Turns the cloth back by what its own stages turned it.
 pub(crate) fn keep(world: &mut World) {
-    let may_turn = world.crowd.is_some() || bend::may_turn(world);
+    let may_turn = world.particle_collision.is_some() || bend::may_turn(world);
     if !may_turn || world.pieces != 1 || is_held(world) {
         return;
     }

@@ -1,7 +1,7 @@
 //! Sleep: a cloth that has been still for a while stays just as it is, until something touches it.
 
 use crate::solver::world::World;
-use crate::state::anchors::Leash;
+use crate::state::anchors::AnchorConstraint;
 use crate::state::wind::WindModel;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ impl World {
             || wind.turbulence > 0.0;
         (is_uneven && wind.velocity != Vec3::ZERO)
             || self.pins.iter().any(|pin| pin.from != pin.target)
-            || self.leashes.iter().any(Leash::is_moving)
+            || self.anchors.iter().any(AnchorConstraint::is_moving)
             || self.grabs.iter().any(|held| {
                 self.pins.find(held.particle).is_none()
                     && self.particles.x.at(held.particle as usize) != held.target

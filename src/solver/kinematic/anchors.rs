@@ -4,11 +4,11 @@
 //! farther from its anchor than it may be, nor in its backstop. What is pinned or grabbed is not on a leash.
 
 use crate::solver::world::World;
-use crate::state::anchors::Leash;
+use crate::state::anchors::AnchorConstraint;
 
 /// Keeps all that leashes hold where it may be, as the anchors are after substep `number`.
 pub(crate) fn keep(world: &mut World, number: u32) {
-    if world.leashes.is_empty() {
+    if world.anchors.is_empty() {
         return;
     }
     let share = (number + 1) as f32 / world.settings.substeps as f32;
@@ -22,9 +22,9 @@ pub(crate) fn keep_in(world: &mut World) {
     pull(world, 1.0, |pulled, leash| pulled.push(leash.particle));
 }
 
-fn pull(world: &mut World, share: f32, tell: impl Fn(&mut Vec<u32>, &Leash)) {
+fn pull(world: &mut World, share: f32, tell: impl Fn(&mut Vec<u32>, &AnchorConstraint)) {
     let p = &mut world.particles;
-    for leash in world.leashes.iter() {
+    for leash in world.anchors.iter() {
         let at = leash.particle as usize;
         let x = p.x.at(at);
         let kept = leash.keep(x, share);
@@ -38,7 +38,7 @@ fn pull(world: &mut World, share: f32, tell: impl Fn(&mut Vec<u32>, &Leash)) {
 /// What was pulled in this substep begins a new history: the second-order scheme must not look back across
 /// it, or it would throw the particle back.
 pub(crate) fn settle(world: &mut World, keep: f32) {
-    if world.leashes.is_empty() {
+    if world.anchors.is_empty() {
         return;
     }
     let h = world.settings.scheme().h;
@@ -56,8 +56,8 @@ impl World {
     /// Sees to room for leashes, if there are any.
     pub fn reserve_leashes(&mut self) {
         let capacity = self.capacity();
-        self.leashes.reserve(capacity);
-        if !self.leashes.is_empty() {
+        self.anchors.reserve(capacity);
+        if !self.anchors.is_empty() {
             let pulled = &mut self.scratch.pulled;
             pulled.reserve_exact(capacity.saturating_sub(pulled.len()));
         }

@@ -5,7 +5,7 @@
 //! their particle. So the stages after it see the spring as a greater mass, and what they do leaves it
 //! in balance: no sweep has to come back to it, however stiff it is.
 
-use crate::geometry::transform::Frame;
+use crate::geometry::transform::Transform;
 use crate::solver::world::World;
 use crate::state::attachments::Attachments;
 use crate::state::pins::Pin;
@@ -35,7 +35,7 @@ pub(crate) fn hold(world: &mut World, number: u32) {
             p.x.set(at, to);
         }
     }
-    let reach = world.settings.max_displacement * world.spacing;
+    let reach = world.settings.max_displacement * world.mean_edge;
     for held in world.grabs.iter() {
         let at = held.particle as usize;
         let from = world.scratch.predicted.at(at);
@@ -49,14 +49,14 @@ pub(crate) fn hold(world: &mut World, number: u32) {
 /// The tick is over: what carries pins is where it was to be, and so are anchors.
 pub(crate) fn arrive(world: &mut World) {
     world.attachments.iter_mut().for_each(|carrier| carrier.last = carrier.next);
-    world.leashes.arrive();
+    world.anchors.arrive();
 }
 
 /// How one attachment stands: as the tick begins, and now. Pins of one mostly follow each other.
 #[derive(Default)]
 struct Carriage {
     carrier: u32,
-    frames: Option<[Frame; 2]>,
+    frames: Option<[Transform; 2]>,
 }
 
 impl Carriage {

@@ -131,7 +131,7 @@ impl Give for Doubled {
 pub(crate) fn stretch(world: &World) -> (f32, f32) {
     let x = &world.particles.x;
     let (mut most, mut sum, mut count) = (0.0_f32, 0.0_f64, 0_u32);
-    for links in [&world.weave.links, &world.weave.extra] {
+    for links in [&world.constraints.links, &world.constraints.extra] {
         for link in 0..links.len() {
             if links.active[link] && links.kind(link) == LinkKind::Stretch {
                 let span = x.at(links.b[link] as usize) - x.at(links.a[link] as usize);

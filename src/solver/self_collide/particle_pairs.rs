@@ -48,7 +48,7 @@ const SHARE: f32 = 0.8;
 
 /// The particles of a cloth that keep apart.
 #[derive(Clone, Debug)]
-pub(crate) struct Crowd {
+pub(crate) struct ParticleCollision {
     grid: HashGrid,
     /// The pairs that may come too near until a particle moved by `margin`, …
     pairs: Vec<[u32; 2]>,
@@ -70,12 +70,12 @@ pub(crate) struct Crowd {
     passes: u32,
 }
 
-impl Crowd {
+impl ParticleCollision {
     fn new(world: &World) -> Self {
         let distance = distance(world);
         let wider = |a: f32, b: f32| if a > b { a } else { b };
-        let woven = wider(WOVEN * world.spacing, distance);
-        let wide = MARGIN * world.spacing;
+        let woven = wider(WOVEN * world.mean_edge, distance);
+        let wide = MARGIN * world.mean_edge;
         let (capacity, count) = (world.capacity(), world.particles.len());
         Self {
             grid: HashGrid::new(capacity),
@@ -193,20 +193,20 @@ impl World {
                 (MOST, "be at most twice the mean rest length of the edges")
             }
         };
-        check(own <= most * self.spacing, "settings.self_distance", must)
+        check(own <= most * self.mean_edge, "settings.self_distance", must)
     }
 
     /// Makes what particles need that keep apart, or drops it, as settings say.
     pub fn see_to_crowd(&mut self) {
         let is_wanted = self.settings.self_collision == SelfCollision::Particles;
-        self.crowd = is_wanted.then(|| Box::new(Crowd::new(self)));
+        self.particle_collision = is_wanted.then(|| Box::new(ParticleCollision::new(self)));
     }
 }
 
 /// Distance that particles keep [m].
 fn distance(world: &World) -> f32 {
     let own = world.settings.self_distance;
-    if own > 0.0 { own } else { DISTANCE * world.spacing }
+    if own > 0.0 { own } else { DISTANCE * world.mean_edge }
 }
 
 /// The piece of each site: the lowest site that triangles join it to. Vertices that tore apart are one site.
@@ -233,16 +233,16 @@ fn root(parents: &mut [u32], mut site: u32) -> u32 {
 
 /// Lists pairs anew, if something moved too far since.
 pub(crate) fn pair(world: &mut World) {
-    let Some(mut crowd) = world.crowd.take() else {
+    let Some(mut crowd) = world.particle_collision.take() else {
         return;
     };
     crowd.see_to_list(world);
-    world.crowd = Some(crowd);
+    world.particle_collision = Some(crowd);
 }
 
 /// Moves particles apart, once and in a fixed order.
 pub(crate) fn solve(world: &mut World) {
-    let Some(crowd) = &mut world.crowd else {
+    let Some(crowd) = &mut world.particle_collision else {
         return;
     };
     let (p, distance) = (&mut world.particles, crowd.distance);

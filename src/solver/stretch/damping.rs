@@ -6,7 +6,7 @@
 //! falls does not feel it.
 
 use crate::math::column::Column;
-use crate::model::constraints::Weave;
+use crate::model::constraints::Constraints;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::stretch::distance::is_rigid;
 use crate::solver::world::World;
@@ -14,11 +14,11 @@ use glam::Vec3;
 
 /// What links are when no substep is solved: lengths at rest and compliances of the woven and the extra ones.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct DampingScratch {
     kept: [[Column; 2]; 2],
 }
 
-impl Scratch {
+impl DampingScratch {
     /// Room for so many links.
     pub fn new(woven: usize, extra: usize) -> Self {
         let room = |count: usize| [Column::with_capacity(count), Column::with_capacity(count)];
@@ -38,14 +38,14 @@ pub(crate) fn begin(world: &mut World) {
     let lag = world.material.stretch_damping / world.settings.scheme().h;
     let (to, way) = (&world.scratch.predicted, &world.scratch.way);
     let start = |i: u32| to.at(i as usize) - way.at(i as usize);
-    let Weave { links, extra, .. } = &mut world.weave;
+    let Constraints { links, extra, .. } = &mut world.constraints;
     for (links, [rest, compliance]) in [links, extra].into_iter().zip(&mut world.scratch.brake.kept)
     {
         rest.clone_from(&links.rest);
         compliance.clone_from(&links.compliance);
         slow(links, start, lag);
     }
-    follow(&mut world.weave);
+    follow(&mut world.constraints);
 }
 
 /// Makes links themselves again.
@@ -53,12 +53,12 @@ pub(crate) fn end(world: &mut World) {
     if !is_on(world) {
         return;
     }
-    let Weave { links, extra, .. } = &mut world.weave;
+    let Constraints { links, extra, .. } = &mut world.constraints;
     for (links, [rest, compliance]) in [links, extra].into_iter().zip(&world.scratch.brake.kept) {
         links.rest.copy_from_slice(rest);
         links.compliance.copy_from_slice(compliance);
     }
-    follow(&mut world.weave);
+    follow(&mut world.constraints);
 }
 
 fn slow(links: &mut Links, start: impl Fn(u32) -> Vec3, lag: f32) {
@@ -74,10 +74,10 @@ fn slow(links: &mut Links, start: impl Fn(u32) -> Vec3, lag: f32) {
 }
 
 /// Lines and loose links have the lengths of the links that they are.
-fn follow(weave: &mut Weave) {
-    weave.lines.abreast.measure(&weave.links);
-    weave.loose.measure(&weave.extra);
-    if let Some(rows) = &mut weave.rows {
-        rows.loose.measure(&weave.links);
+fn follow(constraints: &mut Constraints) {
+    constraints.lines.abreast.measure(&constraints.links);
+    constraints.loose.measure(&constraints.extra);
+    if let Some(rows) = &mut constraints.rows {
+        rows.loose.measure(&constraints.links);
     }
 }

@@ -30,8 +30,8 @@ pub(crate) const BOUND: u8 = 2;
 pub(crate) fn restart(world: &mut World) {
     inverse_masses::weigh(world);
     if !is_rigid(world, LinkKind::Shear) {
-        world.weave.links.lambda.fill(0.0);
-        world.weave.extra.lambda.fill(0.0);
+        world.constraints.links.lambda.fill(0.0);
+        world.constraints.extra.lambda.fill(0.0);
     }
 }
 
@@ -65,11 +65,11 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: 
     match order {
         Order::Forward => {
             solve_batches::<LAW>(world, kind, order, scale);
-            let batches = world.weave.loose.batches_of(kind);
+            let batches = world.constraints.loose.batches_of(kind);
             batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
         }
         Order::Backward => {
-            let batches = world.weave.loose.batches_of(kind).rev();
+            let batches = world.constraints.loose.batches_of(kind).rev();
             batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
             solve_batches::<LAW>(world, kind, order, scale);
         }
@@ -77,9 +77,9 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: 
 }
 
 fn solve_batches<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order, scale: f32) {
-    let batches = world.weave.batches_of(kind);
+    let batches = world.constraints.batches_of(kind);
     #[cfg(feature = "parallel")]
-    if world.weave.strays_of(kind).is_empty()
+    if world.constraints.strays_of(kind).is_empty()
         && tiling::solve::<LAW>(world, batches.clone(), order, scale)
     {
         return;
@@ -91,35 +91,35 @@ fn solve_batches<const LAW: u8>(world: &mut World, kind: LinkKind, order: Order,
 }
 
 fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
-    let batch = world.weave.batches[at];
+    let batch = world.constraints.batches[at];
     let range = batch.first..batch.first + batch.count;
     #[cfg(feature = "parallel")]
     let is_solved = tiling::solve::<LAW>(world, at..at + 1, Order::Forward, scale);
     #[cfg(not(feature = "parallel"))]
     let is_solved = false;
-    let (weave, p) = (&mut world.weave, &mut world.particles);
+    let (constraints, p) = (&mut world.constraints, &mut world.particles);
     let packed = &mut world.scratch.packed;
-    if let Some(grid) = &weave.rows {
+    if let Some(grid) = &constraints.rows {
         if !is_solved {
             let ends = &world.scratch.weights.ends;
-            let links = &mut weave.links;
+            let links = &mut constraints.links;
             grid_links::solve::<LAW>(world.level, grid, range.clone(), links, ends, p, scale);
         }
         // These are of a colour for sure, so that any order does.
-        let (links, order) = (&mut weave.links, Order::Forward);
+        let (links, order) = (&mut constraints.links, Order::Forward);
         sparse::solve::<LAW, _>(world.level, &grid.loose, (at, order), links, p, scale);
     } else if packed.is_current {
-        let (links, weights) = (&mut weave.links, &world.scratch.weights);
+        let (links, weights) = (&mut constraints.links, &world.scratch.weights);
         mesh_kernel::solve::<LAW>(world.level, world.threads, range, links, weights, packed, scale);
     } else {
-        range.for_each(|link| project::<LAW, _>(&mut weave.links, link, p, scale));
+        range.for_each(|link| project::<LAW, _>(&mut constraints.links, link, p, scale));
     }
 }
 
 fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: Order, scale: f32) {
     let (level, at) = (world.level, (at, order));
     let (p, packed) = (&mut world.particles, &mut world.scratch.packed);
-    let (loose, links) = (&world.weave.loose, &mut world.weave.extra);
+    let (loose, links) = (&world.constraints.loose, &mut world.constraints.extra);
     if packed.is_current {
         sparse::solve::<LAW, _>(level, loose, at, links, packed, scale);
     } else {

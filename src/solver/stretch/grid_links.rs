@@ -5,7 +5,7 @@
 //! left of a row after whole chunks is one more chunk that reaches over its end, of which only the
 //! row's links count; at the end of all lists one that reaches back. It writes what is beyond anew as
 //! it was, and what follows would have to wait for that: so ends come after the whole chunks of many
-//! rows. Rows that are alike, as nearly all are, go together (see `alike`).
+//! rows. GridRows that are alike, as nearly all are, go together (see `alike`).
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -16,7 +16,7 @@
 use crate::math::column::Column;
 use crate::math::columns::Columns;
 use crate::math::simd::{Base, Level, Simd, vectored};
-use crate::model::grid_rows::{Pattern, Row, Rows};
+use crate::model::grid_rows::{GridRows, Pattern, Row};
 use crate::model::links::Links;
 use crate::solver::particle_stage::access::Spots;
 use crate::solver::stretch::distance::{BOUND, RIGID, SOFT, pull};
@@ -35,7 +35,7 @@ const QUADS: u8 = Pattern::Quads as u8;
 /// Solves the links `range`, which are a batch, but for those that left their rows.
 pub(crate) fn solve<const LAW: u8>(
     level: Level,
-    grid: &Rows,
+    grid: &GridRows,
     range: Range<usize>,
     links: &mut Links,
     ends: &[Column; 2],

@@ -6,7 +6,7 @@
 
 use crate::math::are_same;
 use crate::math::column::Column;
-use crate::model::grid_rows::Rows;
+use crate::model::grid_rows::GridRows;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::stretch::distance::{is_rigid, over_mean};
 use crate::solver::world::World;
@@ -39,28 +39,28 @@ impl Weights {
 pub(crate) fn weigh(world: &mut World) {
     let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
     let rigid = kinds.map(|kind| is_rigid(world, kind));
-    let (weave, weights) = (&mut world.weave, &mut world.scratch.weights);
+    let (constraints, weights) = (&mut world.constraints, &mut world.scratch.weights);
     let w = &world.particles.w;
-    let rows_are_weighed = weave.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
-    let are_weighed = weave.loose.is_weighed() && rows_are_weighed;
+    let rows_are_weighed = constraints.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
+    let are_weighed = constraints.loose.is_weighed() && rows_are_weighed;
     if are_same(&weights.w, w) && weights.rigid == rigid && are_weighed {
         return;
     }
     weights.w.clear();
     weights.w.extend_from_slice(w);
     weights.rigid = rigid;
-    let count = weave.links.len();
+    let count = constraints.links.len();
     weights.ends.iter_mut().for_each(|list| list.resize(count));
     weights.is_even.resize(count, false);
-    for batch in &weave.batches {
+    for batch in &constraints.batches {
         let range = batch.first..batch.first + batch.count;
-        weights.fill(&weave.links, range, rigid[batch.kind as usize]);
+        weights.fill(&constraints.links, range, rigid[batch.kind as usize]);
     }
-    if let Some(rows) = &mut weave.rows {
+    if let Some(rows) = &mut constraints.rows {
         find_even(rows, &weights.is_even);
         rows.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
     }
-    weave.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
+    constraints.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
 }
 
 impl Weights {
@@ -79,7 +79,7 @@ impl Weights {
 }
 
 /// Notes the longest stretch of each row in which both ends of every link weigh the same.
-fn find_even(rows: &mut Rows, is_even: &[bool]) {
+fn find_even(rows: &mut GridRows, is_even: &[bool]) {
     for row in &mut rows.rows {
         row.even = [row.first; 2];
         let mut from = row.first;

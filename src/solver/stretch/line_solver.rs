@@ -48,7 +48,7 @@ type Lanes3 = [Lanes; 3];
 
 /// Room to work in.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct LineScratch {
     /// Each particle's position and inverse mass, after a seat that is nobody's.
     pub points: Vec<[f32; 4]>,
     /// Where each particle was when the substep began.
@@ -79,7 +79,7 @@ pub(crate) struct Step {
     right: Lanes,
 }
 
-impl Scratch {
+impl LineScratch {
     /// Room for blocks of so many steps, and so many particles, which strips may run over.
     pub fn new(steps: usize, particles: usize, has_strips: bool) -> Self {
         Self {
@@ -101,7 +101,8 @@ pub(crate) fn are_used(world: &World) -> bool {
     let settings = &world.settings;
     let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
     let load = max(settings.gravity.length(), EARTH);
-    let left = load * h * h * world.weave.lines.longest as f32 / (2.0 * sweeps * world.spacing);
+    let left =
+        load * h * h * world.constraints.lines.longest as f32 / (2.0 * sweeps * world.mean_edge);
     settings.tethers && settings.iterations > 1 && left > LITTLE
 }
 
@@ -110,9 +111,9 @@ pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(world, LinkKind::Stretch);
     let step = world.settings.scheme().step;
     let scale = if is_rigid { None } else { Some(1.0 / (step * step)) };
-    world.weave.lines.abreast.lay(&world.weave.links);
+    world.constraints.lines.abreast.lay(&world.constraints.links);
     let are_in_columns = world.level != Level::Scalar && !world.scratch.packed.is_current;
-    if are_in_columns && world.weave.lines.abreast.are_strips() {
+    if are_in_columns && world.constraints.lines.abreast.are_strips() {
         solve_strips(world, scale);
     } else {
         line_gather::take(world, is_rigid);
@@ -127,9 +128,9 @@ const IS_FETCHED_FIRST: bool = cfg!(target_arch = "wasm32");
 
 /// By seats, wherever the particles of a line are.
 fn solve_blocks(world: &mut World, scale: Option<f32>) {
-    let (level, lines) = (world.level, &world.weave.lines.abreast);
-    let links = &mut world.weave.links;
-    let Scratch { points, starts, steps: room, .. } = &mut world.scratch.lines;
+    let (level, lines) = (world.level, &world.constraints.lines.abreast);
+    let links = &mut world.constraints.links;
+    let LineScratch { points, starts, steps: room, .. } = &mut world.scratch.lines;
     for laid in lines.blocks() {
         let room = &mut room[..=laid.len()];
         let seats = Seats { points, starts };
@@ -153,8 +154,8 @@ fn solve_blocks(world: &mut World, scale: Option<f32>) {
 /// Straight from the columns.
 fn solve_strips(world: &mut World, scale: Option<f32>) {
     let (level, scratch, p) = (world.level, &mut world.scratch, &mut world.particles);
-    let (lines, links) = (&world.weave.lines.abreast, &mut world.weave.links);
-    let Scratch { columns: starts, steps: room, .. } = &mut scratch.lines;
+    let (lines, links) = (&world.constraints.lines.abreast, &mut world.constraints.links);
+    let LineScratch { columns: starts, steps: room, .. } = &mut scratch.lines;
     if scale.is_none() {
         line_strided::find_starts(level, &scratch.predicted, &scratch.way, starts);
     }

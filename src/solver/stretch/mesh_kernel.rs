@@ -56,7 +56,7 @@ impl Packed {
 
 /// Packs the particles, unless links lie in rows.
 pub(crate) fn pack(world: &mut World) {
-    if world.weave.rows.is_some() {
+    if world.constraints.rows.is_some() {
         return;
     }
     let (p, packed) = (&world.particles, &mut world.scratch.packed);

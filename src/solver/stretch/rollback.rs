@@ -4,12 +4,12 @@
 //! A piece that something holds goes with that, and turns with an attachment that holds it; one that nothing holds flies, falls and spins on as a solid
 //! body, or as the anchors of its leashes do. Either way no link gets longer than it was then.
 
-use crate::geometry::transform::Frame;
+use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
 use crate::mesh::{NONE, triangle_of};
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::world::World;
-use crate::state::anchors::Leash;
+use crate::state::anchors::AnchorConstraint;
 use glam::Vec3;
 
 /// Where each particle goes back to, and room to find it.
@@ -82,9 +82,10 @@ pub(crate) fn find(world: &mut World) {
             }
         } else {
             let way = |i: usize| p.x.at(i) - p.x_last.at(i);
-            let leashes = || particles().filter_map(|i| world.leashes.find(i as u32));
+            let leashes = || particles().filter_map(|i| world.anchors.find(i as u32));
             let motion = if leashes().next().is_some() {
-                let anchor = |leash: &Leash| (leash.from, leash.anchor - leash.from, 1.0);
+                let anchor =
+                    |leash: &AnchorConstraint| (leash.from, leash.anchor - leash.from, 1.0);
                 RigidMotion::of_points(|| leashes().map(anchor))
             } else {
                 RigidMotion::fit(particles, &p.x_last, way, &p.mass)
@@ -96,7 +97,10 @@ pub(crate) fn find(world: &mut World) {
 }
 
 /// Where the attachment was and is that holds the first of some particles that one holds.
-fn carriage_of(world: &World, mut particles: impl Iterator<Item = usize>) -> Option<[Frame; 2]> {
+fn carriage_of(
+    world: &World,
+    mut particles: impl Iterator<Item = usize>,
+) -> Option<[Transform; 2]> {
     if world.pins.iter().all(|pin| pin.carrier == 0) {
         return None;
     }

@@ -1,10 +1,10 @@
-//! Loose links, as many at a time as there are lanes, wherever their particles are.
+//! SparseLinks links, as many at a time as there are lanes, wherever their particles are.
 //!
 //! The arithmetic is `links::correct`, the very one that goes link by link, so the bits are the same too.
 
 use crate::math::simd::{LANES, Level, Scalar, Simd, vectored};
 use crate::model::links::Links;
-use crate::model::sparse_links::Loose;
+use crate::model::sparse_links::SparseLinks;
 use crate::solver::particle_stage::access::{Sheet, Spots, fetch, put};
 use crate::solver::stretch::distance::{BOUND, Order, RIGID, SOFT, correct};
 use crate::solver::stretch::mesh_kernel::Packed;
@@ -43,7 +43,7 @@ impl Field for Packed {
 /// Solves a batch of loose links.
 pub(crate) fn solve<const LAW: u8, P: Field>(
     level: Level,
-    loose: &Loose,
+    loose: &SparseLinks,
     (batch, order): (usize, Order),
     links: &mut Links,
     spots: &mut P,

@@ -73,7 +73,7 @@ fn draw_together(world: &mut World, most: f32) {
     world.scratch.way.fill(Vec3::ZERO);
     let aim = 1.0 + world.settings.max_stretch * AIM;
     let was_over = world.over_stretched > 0;
-    let is_led = !world.leashes.is_empty();
+    let is_led = !world.anchors.is_empty();
     let is_free_again = was_over && !is_led && !is_held_apart(world, most);
     tethers::look(world);
     for number in 0..if is_free_again { MANY_SWEEPS } else { FEW_SWEEPS } {
@@ -121,8 +121,8 @@ fn stop(world: &mut World) {
 /// Draws in what is too long from the pins outward. Of the two ends of a link the one that is farther
 /// from the pins gives way, so that a chain that hangs is right after one sweep.
 fn hang(world: &mut World, aim: f32) {
-    let (links, p) = (&world.weave.links, &mut world.particles);
-    for link in world.outward.order() {
+    let (links, p) = (&world.constraints.links, &mut world.particles);
+    for link in world.pin_order.order() {
         let link = *link as usize;
         let (a, b) = (links.a[link] as usize, links.b[link] as usize);
         let span = p.x.at(b) - p.x.at(a);
@@ -131,9 +131,9 @@ fn hang(world: &mut World, aim: f32) {
             continue;
         }
         let over = span * (1.0 - longest / length2.sqrt());
-        if p.w[b] > 0.0 && world.outward.is_nearer(a, b) {
+        if p.w[b] > 0.0 && world.pin_order.is_nearer(a, b) {
             p.x.add(b, -over);
-        } else if p.w[a] > 0.0 && world.outward.is_nearer(b, a) {
+        } else if p.w[a] > 0.0 && world.pin_order.is_nearer(b, a) {
             p.x.add(a, over);
         }
     }
@@ -155,14 +155,14 @@ fn is_held_apart(world: &World, most: f32) -> bool {
 /// that stretches, until nothing is too long that was not before.
 fn go_back(world: &mut World, most: f32) {
     rollback::find(world);
-    let woven = world.weave.links.len();
+    let woven = world.constraints.links.len();
     let mut went = true;
     while core::mem::take(&mut went) {
-        for link in 0..woven + world.weave.extra.len() {
+        for link in 0..woven + world.constraints.extra.len() {
             let (links, at) = if link < woven {
-                (&world.weave.links, link)
+                (&world.constraints.links, link)
             } else {
-                (&world.weave.extra, link - woven)
+                (&world.constraints.extra, link - woven)
             };
             if !is_over(links, at, &world.particles.x, most) {
                 continue;
@@ -220,7 +220,7 @@ fn is_over(links: &Links, link: usize, x: &Columns, most: f32) -> bool {
 
 /// The ends of links that are too long.
 fn over(world: &World, most: f32) -> impl Iterator<Item = (usize, usize)> + '_ {
-    [&world.weave.links, &world.weave.extra].into_iter().flat_map(move |links| {
+    [&world.constraints.links, &world.constraints.extra].into_iter().flat_map(move |links| {
         let over =
             (0..links.len()).filter(move |link| is_over(links, *link, &world.particles.x, most));
         over.map(|link| (links.a[link] as usize, links.b[link] as usize))

@@ -39,9 +39,10 @@ pub(crate) fn solve<const LAW: u8>(
     order: Order,
     scale: f32,
 ) -> bool {
-    let (weave, p) = (&mut world.weave, &mut world.particles);
-    let batches = &weave.batches[batches];
-    let (Some(grid), Some(cells), 1..=COLORS) = (&weave.rows, &world.cells, batches.len()) else {
+    let (constraints, p) = (&mut world.constraints, &mut world.particles);
+    let batches = &constraints.batches[batches];
+    let (Some(grid), Some(cells), 1..=COLORS) = (&constraints.rows, &world.cells, batches.len())
+    else {
         return false;
     };
     let count = batches.iter().map(|batch| batch.count).sum();
@@ -51,7 +52,7 @@ pub(crate) fn solve<const LAW: u8>(
     }
     let mut colors: [Color<'_>; COLORS] = Default::default();
     let mut lambda: [&mut [f32]; COLORS] = Default::default();
-    let (mut others, mut before) = (&mut weave.links.lambda[..], 0);
+    let (mut others, mut before) = (&mut constraints.links.lambda[..], 0);
     for (at, batch) in batches.iter().enumerate() {
         let slot = if order == Order::Forward { at } else { batches.len() - 1 - at };
         let end = batch.first + batch.count;
@@ -67,8 +68,8 @@ pub(crate) fn solve<const LAW: u8>(
         colors: &colors[..batches.len()],
         w: &p.w,
         mask: &grid.mask,
-        rest: &weave.links.rest,
-        compliance: &weave.links.compliance,
+        rest: &constraints.links.rest,
+        compliance: &constraints.links.compliance,
         ends: world.scratch.weights.ends.each_ref().map(|list| &list[..]),
     };
     let (rows, columns) = (cells.rows, cells.columns);

@@ -13,7 +13,7 @@ use crate::mesh::{Corner, Fan, Mesh, NONE, after, before};
 use crate::model::cut_links::{Recipe, Touching};
 use crate::solver::topology::tear::{admit, settle, tell_torn};
 use crate::solver::world::World;
-use crate::state::anchors::Leash;
+use crate::state::anchors::AnchorConstraint;
 use crate::state::events::{Event, EventKind};
 use glam::Vec3;
 
@@ -67,9 +67,9 @@ pub(crate) fn plan(world: &World, blade: &Blade) -> Plan {
 
 /// Does what was planned for this world as it is.
 pub(crate) fn cut(world: &mut World, plan: &Plan) {
-    let mut touching = world.weave.touching(world.mesh.triangles.len());
+    let mut touching = world.constraints.touching(world.mesh.triangles.len());
     let links = plan.opened + 12 * plan.divisions.len();
-    world.weave.reserve(links, world.capacity());
+    world.constraints.reserve(links, world.capacity());
     for (edge, share) in &plan.divisions {
         divide(world, *edge, *share, &mut touching);
     }
@@ -88,7 +88,7 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
         admit(world, new, old, &mut fan);
     }
     for sides in opened {
-        world.weave.open(&world.mesh, sides, &world.material);
+        world.constraints.open(&world.mesh, sides, &world.material);
     }
     (0..world.rest.len() as u32).for_each(|site| world.follow(site));
     world.weigh();
@@ -125,12 +125,12 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     world.scratch.grow();
     let scales = [a, b].map(|end| world.mass_scales.of(end as usize));
     world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
-    let leashes = [a, b].map(|end| world.leashes.find(end).copied());
+    let leashes = [a, b].map(|end| world.anchors.find(end).copied());
     if let [Some(a), Some(b)] = leashes {
-        world.leashes.insert(Leash::between(new as u32, &a, &b, share));
+        world.anchors.insert(AnchorConstraint::between(new as u32, &a, &b, share));
     }
     let recipe = Recipe { mesh: &world.mesh, rest: &world.rest, material: &world.material };
-    world.weave.divide(recipe, &division, touching);
+    world.constraints.divide(recipe, &division, touching);
     let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.at(new));
     (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);
@@ -249,7 +249,7 @@ impl<'a> Draft<'a> {
         let mut sides = [(b - a).length(), (c - b).length(), (a - c).length()];
         sort_by(&mut sides, f32::total_cmp);
         // The sharpest angle is between the two longer sides.
-        let spacing = self.world.spacing;
+        let spacing = self.world.mean_edge;
         doubled >= LEAST_SINE * sides[1] * sides[2]
             && doubled >= 2.0 * LEAST_AREA * spacing * spacing
     }

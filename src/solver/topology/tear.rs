@@ -11,7 +11,7 @@ use crate::model::crack_tips;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::self_collide::surface::split_separation;
 use crate::solver::world::World;
-use crate::state::anchors::Leash;
+use crate::state::anchors::AnchorConstraint;
 use crate::state::events::{Event, EventKind};
 
 /// Seed of the weave's unevenness.
@@ -23,7 +23,7 @@ const CROWDED: f32 = 16.0;
 
 /// Room to work in.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct TearScratch {
     worst: Vec<Candidate>,
     fan: Fan,
     far: [Fan; 2],
@@ -76,7 +76,7 @@ struct Candidate {
     b: u32,
 }
 
-impl Scratch {
+impl TearScratch {
     /// Makes room for `max_tears` in one tick.
     pub fn reserve(&mut self, max_tears: usize) {
         self.worst.reserve_exact((max_tears + 1).saturating_sub(self.worst.len()));
@@ -147,11 +147,11 @@ pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
 }
 
 /// Finds out which of the vertices that were touched are tips now.
-fn follow_tips(world: &mut World, scratch: &mut Scratch) {
-    world.tips.resize(world.mesh.vertex_count(), false);
+fn follow_tips(world: &mut World, scratch: &mut TearScratch) {
+    world.crack_tips.resize(world.mesh.vertex_count(), false);
     for vertex in &scratch.touched {
         let is_tip = crack_tips::is_tip(&world.mesh, &world.rest, *vertex, &mut scratch.part);
-        world.tips[*vertex as usize] = is_tip;
+        world.crack_tips[*vertex as usize] = is_tip;
     }
 }
 
@@ -174,13 +174,13 @@ fn find_worst(world: &World, worst: &mut Vec<Candidate>) {
     let most = (world.settings.max_tears_per_tick as usize).min(worst.capacity().saturating_sub(1));
     let limit = world.material.tear_stretch;
     let variation = world.material.tear_variation;
-    let at_tips = crack_tips::strain(&world.material, world.spacing, left_at_tips(world));
+    let at_tips = crack_tips::strain(&world.material, world.mean_edge, left_at_tips(world));
     let least = at_tips * (1.0 - 0.5 * variation);
     let p = &world.particles;
-    let weave = &world.weave;
-    let woven = weave.batches.iter().filter(|batch| batch.kind != LinkKind::Bend);
-    let woven = woven.map(|batch| (&weave.links, batch.first..batch.first + batch.count));
-    for (links, range) in woven.chain([(&weave.extra, 0..weave.extra.len())]) {
+    let constraints = &world.constraints;
+    let woven = constraints.batches.iter().filter(|batch| batch.kind != LinkKind::Bend);
+    let woven = woven.map(|batch| (&constraints.links, batch.first..batch.first + batch.count));
+    for (links, range) in woven.chain([(&constraints.extra, 0..constraints.extra.len())]) {
         for link in range {
             let (a, b, rest) = (links.a[link], links.b[link], links.rest[link]);
             let span = p.x.at(b as usize) - p.x.at(a as usize);
@@ -197,7 +197,7 @@ fn find_worst(world: &World, worst: &mut Vec<Candidate>) {
             if stretch <= least {
                 continue;
             }
-            let is_at_tip = world.tips[a as usize] || world.tips[b as usize];
+            let is_at_tip = world.crack_tips[a as usize] || world.crack_tips[b as usize];
             let bearable = if is_at_tip { at_tips } else { limit - 1.0 };
             let ends = [a, b].map(|end| world.mesh.source[end as usize]);
             let strength = 1.0 + variation * (unit(WEAVE_SEED, &ends) - 0.5);
@@ -219,11 +219,11 @@ fn find_worst(world: &World, worst: &mut Vec<Candidate>) {
 fn left_at_tips(world: &World) -> f32 {
     let settings = &world.settings;
     let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
-    let load = settings.gravity.length() * world.weave.lines.longest as f32;
-    CROWDED * load * h * h / (2.0 * sweeps * world.spacing)
+    let load = settings.gravity.length() * world.constraints.lines.longest as f32;
+    CROWDED * load * h * h / (2.0 * sweeps * world.mean_edge)
 }
 
-fn tear_between(world: &mut World, scratch: &mut Scratch, a: u32, b: u32) -> bool {
+fn tear_between(world: &mut World, scratch: &mut TearScratch, a: u32, b: u32) -> bool {
     let loads = [a, b].map(|end| load(world, end));
     let ends = if loads[1] > loads[0] { [(b, a), (a, b)] } else { [(a, b), (b, a)] };
     for (end, other) in ends {
@@ -237,7 +237,7 @@ fn tear_between(world: &mut World, scratch: &mut Scratch, a: u32, b: u32) -> boo
 
 /// Opens the edge itself where it starts at a border: for a tear by hand between two particles that
 /// have nothing behind them.
-fn part_along(world: &mut World, scratch: &mut Scratch, a: u32, b: u32) -> bool {
+fn part_along(world: &mut World, scratch: &mut TearScratch, a: u32, b: u32) -> bool {
     for (end, other) in [(a, b), (b, a)] {
         if world.particles.w[end as usize] <= 0.0 {
             continue;
@@ -277,12 +277,13 @@ fn load(world: &World, particle: u32) -> f32 {
         if stretch > 0.0 { stretch } else { 0.0 }
     };
     let source = world.mesh.source[particle as usize];
-    let links = world.weave.of_vertex(source).chain(world.weave.extra_of_vertex(source));
+    let links =
+        world.constraints.of_vertex(source).chain(world.constraints.extra_of_vertex(source));
     links.map(|(links, link)| pull(links, link)).sum()
 }
 
 /// Splits `end` by the plane across the way to `other`; false if that leaves nothing on one side.
-fn try_split(world: &mut World, scratch: &mut Scratch, end: u32, other: u32) -> bool {
+fn try_split(world: &mut World, scratch: &mut TearScratch, end: u32, other: u32) -> bool {
     let at = end as usize;
     if world.particles.w[at] <= 0.0 || scratch.touched.contains(&end) {
         return false;
@@ -304,7 +305,7 @@ fn try_split(world: &mut World, scratch: &mut Scratch, end: u32, other: u32) -> 
 }
 
 /// Gives an arc of the fan in `scratch` a vertex of its own, and brings all else in line.
-fn split_out(world: &mut World, scratch: &mut Scratch, end: u32, arc: Arc) {
+fn split_out(world: &mut World, scratch: &mut TearScratch, end: u32, arc: Arc) {
     // Opened edges may leave their far ends as mere points between fans: see them as they are now.
     let far_ends = far_ends(scratch, arc);
     for (vertex, fan) in far_ends.iter().zip(&mut scratch.far) {
@@ -332,7 +333,7 @@ fn split_out(world: &mut World, scratch: &mut Scratch, end: u32, arc: Arc) {
 }
 
 /// The far ends of the edges that cutting out `arc` opens: the spokes where it starts and ends.
-fn far_ends(scratch: &Scratch, arc: Arc) -> [Option<u32>; 2] {
+fn far_ends(scratch: &TearScratch, arc: Arc) -> [Option<u32>; 2] {
     let fan = &scratch.fan;
     let n = fan.corners.len();
     let inner = |spoke: usize| {
@@ -360,8 +361,8 @@ pub(crate) fn admit(world: &mut World, new: u32, from: u32, fan: &mut Fan) {
             share_stiffness(world, [from, new], pin.stiffness);
         }
     }
-    if let Some(leash) = world.leashes.find(from).copied() {
-        world.leashes.insert(Leash { particle: new, ..leash });
+    if let Some(leash) = world.anchors.find(from).copied() {
+        world.anchors.insert(AnchorConstraint { particle: new, ..leash });
     }
     [from, new].into_iter().for_each(|vertex| world.refresh_weight(vertex));
     let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.at(at));
@@ -404,7 +405,7 @@ fn weigh_fan(world: &mut World, vertex: u32, fan: &mut Fan) {
 /// Links follow the mesh, and opened edges get links on both sides.
 fn rejoin(world: &mut World, opened: &[Opening]) {
     for sides in opened {
-        world.weave.open(&world.mesh, *sides, &world.material);
+        world.constraints.open(&world.mesh, *sides, &world.material);
     }
     for [edge, other] in opened {
         for corner in [*edge, crate::mesh::after(*edge), *other, crate::mesh::after(*other)] {

@@ -13,7 +13,7 @@
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Lanes, Simd};
 use crate::mesh::grid::falls;
-use crate::model::grid_cells::Cells;
+use crate::model::grid_cells::GridCells;
 use crate::solver::vertex_sums::triangles::{
     Band, Give, Surface, V, given_by, part, rest_areas_of,
 };
@@ -38,7 +38,7 @@ struct Given<'a> {
     by: [&'a mut [f32]; GIVEN],
     /// While anything of the grid is torn, 1 for corners that are as they were made and 0 for others.
     kept: [&'a mut [f32]; CORNERS],
-    /// See `Cells`.
+    /// See `GridCells`.
     torn: [u8; MOST_ACROSS + BEYOND],
     is_torn: bool,
     is_divided: bool,
@@ -122,7 +122,7 @@ impl<'a> Given<'a> {
 /// A row of cells.
 #[derive(Clone, Copy)]
 struct Row<'a> {
-    cells: &'a Cells,
+    cells: &'a GridCells,
     number: usize,
 }
 
@@ -157,7 +157,7 @@ impl Row<'_> {
 pub(crate) fn sum<S: Simd, G: Give>(
     s: S,
     surface: Surface<'_>,
-    cells: &Cells,
+    cells: &GridCells,
     give: G,
     band: Band,
     out: &mut [&mut [f32]; 3],

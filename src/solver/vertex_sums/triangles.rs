@@ -7,7 +7,7 @@
 use crate::math::columns::Columns;
 use crate::math::simd::{Arithmetic, LANES, Lanes, Scalar, Simd};
 use crate::math::threads::Threads;
-use crate::model::grid_cells::Cells;
+use crate::model::grid_cells::GridCells;
 use crate::solver::vertex_sums::grid_cells;
 use core::ops::Range;
 
@@ -44,7 +44,7 @@ pub(crate) struct Surface<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Of each triangle's area at rest what falls to each corner [m²].
     pub areas: &'a [[f32; 3]],
-    pub cells: Option<&'a Cells>,
+    pub cells: Option<&'a GridCells>,
     pub x: &'a Columns,
     pub air: &'a Columns,
 }
@@ -61,7 +61,7 @@ impl Band {
     const ALL: Self = Self { first: 0, end: usize::MAX };
 }
 
-/// Cells that one thread sums up at least.
+/// GridCells that one thread sums up at least.
 #[cfg(feature = "parallel")]
 const CELLS: usize = 8192;
 
@@ -75,7 +75,7 @@ pub(crate) fn in_bands(
 ) {
     #[cfg(feature = "parallel")]
     if let Some(cells) = surface.cells {
-        let Cells { columns, rows, .. } = *cells;
+        let GridCells { columns, rows, .. } = *cells;
         let parts = threads.parts(columns * rows, CELLS).min(rows);
         if parts > 1 && columns > LANES && surface.x.x.len() == columns * rows {
             let row = |part: usize| rows * part / parts;
@@ -99,7 +99,7 @@ pub(crate) fn sum<S: Simd, G: Give>(
     mut out: [&mut [f32]; 3],
 ) {
     let (out, count) = (&mut out, surface.triangles.len());
-    let fits = |cells: &&Cells| (LANES + 1..=grid_cells::MOST_ACROSS).contains(&cells.columns);
+    let fits = |cells: &&GridCells| (LANES + 1..=grid_cells::MOST_ACROSS).contains(&cells.columns);
     let mut first = 0;
     if let Some(cells) = surface.cells.filter(fits) {
         grid_cells::sum(s, surface, cells, give, band, out);

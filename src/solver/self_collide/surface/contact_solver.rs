@@ -6,7 +6,7 @@ use crate::math::wide4::Four;
 use crate::math::{max, min};
 use crate::solver::particle_stage::interleaved::{Spot, push};
 use crate::solver::self_collide::surface::contact::{Contact, along};
-use crate::solver::self_collide::surface::warm_start::{Finder, Loads};
+use crate::solver::self_collide::surface::warm_start::{Finder, WarmStart};
 use glam::Vec3;
 
 /// How often contacts are gone over in a substep, to and fro in turn.
@@ -117,7 +117,7 @@ pub(crate) fn solve(
     level: Level,
     contacts: &[Contact],
     active: &mut [Push],
-    (loads, finder): (&mut Loads, &mut Finder),
+    (loads, finder): (&mut WarmStart, &mut Finder),
     start: &[Spot],
     x: &mut [Spot],
     friction: f32,

@@ -9,7 +9,7 @@ use crate::solver::self_collide::surface::cluster_bvh::Patches;
 use crate::solver::self_collide::surface::contact::{Contact, EDGES, Kind, VERTEX};
 use crate::solver::self_collide::surface::contact_solver::NEAR;
 use crate::solver::self_collide::surface::narrow_phase::Near;
-use crate::solver::self_collide::surface::rest_gap::Weave;
+use crate::solver::self_collide::surface::rest_gap::RestGap;
 use crate::solver::self_collide::surface::separation_test::{Candidate, Candidates};
 use crate::solver::self_collide::surface::speculative::Distant;
 use crate::solver::self_collide::surface::swept_aabb::LANES;
@@ -29,7 +29,7 @@ pub(crate) fn room_for_strays() -> Candidates {
 
 /// A look at where particles are.
 pub(crate) struct Sift<'a> {
-    pub weave: Weave<'a>,
+    pub rest_gap: RestGap<'a>,
     pub patches: &'a mut Patches,
     pub motion: &'a Motion,
 }
@@ -72,8 +72,8 @@ impl Sift<'_> {
     ) {
         found.contacts.clear();
         found.distant.clear();
-        let Weave { world, gap, .. } = self.weave;
-        self.patches.fit(world.level, self.motion, world.spacing);
+        let RestGap { world, gap, .. } = self.rest_gap;
+        self.patches.fit(world.level, self.motion, world.mean_edge);
         self.patches.spend();
         self.patches.pair(gap, false, pairs);
         self.find_runs(pairs);
@@ -104,8 +104,8 @@ impl Sift<'_> {
         strays: &mut Candidates,
         distant: &mut Vec<Distant>,
     ) {
-        self.patches.follow_strays(self.weave.world.level, self.motion);
-        self.patches.pair(self.weave.gap, true, pairs);
+        self.patches.follow_strays(self.rest_gap.world.level, self.motion);
+        self.patches.pair(self.rest_gap.gap, true, pairs);
         self.find_runs(pairs);
         // One kind after the other, so that lots make no difference to the order.
         self.judge_strays::<VERTEX>(pairs, strays, distant);
@@ -118,7 +118,7 @@ impl Sift<'_> {
         strays: &mut Candidates,
         distant: &mut Vec<Distant>,
     ) {
-        let Weave { world, gap, .. } = self.weave;
+        let RestGap { world, gap, .. } = self.rest_gap;
         for (number, at) in pairs.iter().enumerate() {
             let has_strayed = |ids: &[u32; 4]| ids.iter().any(|id| self.motion.strays(*id));
             self.patches.pick::<FIRST>(*at, self.more(), strays, has_strayed);
@@ -135,15 +135,15 @@ impl Sift<'_> {
     fn find_runs(&mut self, pairs: &[u32]) {
         let more = self.more();
         for at in pairs {
-            self.patches.find_run(*at, &self.weave, self.motion, more);
+            self.patches.find_run(*at, &self.rest_gap, self.motion, more);
         }
-        self.patches.quads.measure(self.weave.world.level, &self.motion.start);
+        self.patches.quads.measure(self.rest_gap.world.level, &self.motion.start);
     }
 
     /// What pairs may be apart beyond all ways that they can have gone, and may meet still [m].
     fn more(&self) -> f32 {
-        let Weave { world, gap, .. } = self.weave;
-        NEAR[0] * gap + world.spacing * HAIR
+        let RestGap { world, gap, .. } = self.rest_gap;
+        NEAR[0] * gap + world.mean_edge * HAIR
     }
 }
 

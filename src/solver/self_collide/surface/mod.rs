@@ -38,7 +38,7 @@ use crate::solver::self_collide::surface::contact_graph::Around;
 use crate::solver::self_collide::surface::contact_solver::{Push, Weight};
 use crate::solver::self_collide::surface::detection::{Found, Picked, Sift};
 use crate::solver::self_collide::surface::narrow_phase::Near;
-use crate::solver::self_collide::surface::rest_gap::Weave;
+use crate::solver::self_collide::surface::rest_gap::RestGap;
 use crate::solver::self_collide::surface::separation_test::Candidates;
 use crate::solver::self_collide::surface::speculative::Distant;
 use crate::solver::self_collide::surface::split_separation::Slits;
@@ -61,7 +61,7 @@ const LOOKS: u32 = 8;
 
 /// The layers of a cloth.
 #[derive(Clone, Debug)]
-pub(crate) struct Layers {
+pub(crate) struct SurfaceCollision {
     patches: Patches,
     motion: Motion,
     weights: Vec<Weight>,
@@ -97,7 +97,7 @@ pub(crate) struct Layers {
     gap: f32,
 }
 
-impl Layers {
+impl SurfaceCollision {
     fn new(world: &World) -> Self {
         let (capacity, count) = (world.capacity(), world.particles.len());
         let pieces = particle_pairs::pieces(&world.mesh, world.rest.len());
@@ -158,21 +158,21 @@ impl Layers {
         let Self {
             motion, far, patches, pieces, pairs, picked, near, contacts, distant, gap, ..
         } = self;
-        motion.look_ahead(world.spacing, *gap);
+        motion.look_ahead(world.mean_edge, *gap);
         let is_known = far.is_known;
         if is_known {
             far.follow(motion);
         }
         if !is_known || !far.holds(motion) {
-            far.look_ahead(motion, substeps, world.spacing * FAR);
+            far.look_ahead(motion, substeps, world.mean_edge * FAR);
             patches.list(far, *gap);
         }
         if !is_known {
             patches.forget_runs();
         }
-        let weave = Weave { world, pieces, gap: *gap };
+        let rest_gap = RestGap { world, pieces, gap: *gap };
         let mut found = Found { contacts, distant };
-        Sift { weave, patches, motion }.find(pairs, picked, near, &mut found);
+        Sift { rest_gap, patches, motion }.find(pairs, picked, near, &mut found);
         self.is_found = true;
         self.find_tangles(world);
     }
@@ -185,7 +185,7 @@ impl Layers {
         let looks = core::mem::take(&mut self.is_new_tick);
         if world.is_tangled || looks && tangles.look_round(mesh, patches, pairs, start, world.tick)
         {
-            let sizes = [*gap, world.spacing, world.settings.scheme().h];
+            let sizes = [*gap, world.mean_edge, world.settings.scheme().h];
             tangles.find(mesh, (patches, pairs), start, sizes);
             tangles.let_be(contacts, distant);
         }
@@ -194,7 +194,7 @@ impl Layers {
     /// Adds to the distant what those may meet that are not where they were thought to be; says whether all are by now.
     fn find_strays(&mut self, world: &World, may_go_back: bool) -> bool {
         let Self { motion, far, patches, pieces, pairs, strays, distant, gap, .. } = self;
-        let [any, are_within] = motion.look_again(world.spacing, *gap, may_go_back);
+        let [any, are_within] = motion.look_again(world.mean_edge, *gap, may_go_back);
         if !any {
             return are_within;
         }
@@ -204,8 +204,8 @@ impl Layers {
             strayed.for_each(|at| far.widen(motion, at));
             patches.list(far, *gap);
         }
-        let weave = Weave { world, pieces, gap: *gap };
-        Sift { weave, patches, motion }.find_strays(pairs, strays, distant);
+        let rest_gap = RestGap { world, pieces, gap: *gap };
+        Sift { rest_gap, patches, motion }.find_strays(pairs, strays, distant);
         are_within
     }
 
@@ -282,11 +282,11 @@ impl World {
     /// Makes what the surface needs that keeps from itself, or drops it, as settings say.
     pub fn see_to_layers(&mut self) {
         let is_wanted = self.settings.self_collision == SelfCollision::Surface;
-        self.layers = is_wanted.then(|| Box::new(Layers::new(self)));
+        self.surface_collision = is_wanted.then(|| Box::new(SurfaceCollision::new(self)));
         if is_wanted {
-            self.loads.reserve(self.particles.len());
+            self.warm_start.reserve(self.particles.len());
         } else {
-            self.loads.clear();
+            self.warm_start.clear();
         }
     }
 
@@ -295,13 +295,13 @@ impl World {
         let own = self.settings.self_distance;
         let gap = if own > 0.0 { own } else { self.material.thickness };
         // Not `clamp`: what that would say of limits that cannot be takes 18 kB of a page.
-        min(max(gap, THIN * self.spacing), THICK * self.spacing)
+        min(max(gap, THIN * self.mean_edge), THICK * self.mean_edge)
     }
 }
 
 /// A tick begins, or its last part after tears, with particles where they are.
 pub(crate) fn begin(world: &mut World) {
-    let Some(mut layers) = world.layers.take() else {
+    let Some(mut layers) = world.surface_collision.take() else {
         return;
     };
     let gap = world.layer_gap();
@@ -317,12 +317,12 @@ pub(crate) fn begin(world: &mut World) {
     layers.is_found = false;
     layers.is_new_tick = true;
     layers.far.is_known &= is_same;
-    world.layers = Some(layers);
+    world.surface_collision = Some(layers);
 }
 
 /// Finds what may meet in a substep.
 pub(crate) fn pair(world: &mut World) {
-    let Some(mut layers) = world.layers.take() else {
+    let Some(mut layers) = world.surface_collision.take() else {
         return;
     };
     crate::solver::particle_stage::interleaved::gather(
@@ -339,23 +339,24 @@ pub(crate) fn pair(world: &mut World) {
     }
     layers.find(world, world.settings.substeps);
     world.is_tangled = !layers.tangles.is_empty();
-    world.layers = Some(layers);
+    world.surface_collision = Some(layers);
 }
 
-/// Layers push and rub, once and in a fixed order.
+/// SurfaceCollision push and rub, once and in a fixed order.
 pub(crate) fn solve(world: &mut World) {
     let (scheme, friction) = (world.settings.scheme(), world.material.friction);
-    let Some(mut layers) = world.layers.take() else {
+    let Some(mut layers) = world.surface_collision.take() else {
         return;
     };
-    let Layers { contacts, active, finder, motion, weights, ways, tangles, .. } = &mut *layers;
+    let SurfaceCollision { contacts, active, finder, motion, weights, ways, tangles, .. } =
+        &mut *layers;
     let Motion { start, now, .. } = &mut *motion;
     contact_solver::list(contacts, active, weights, start, now);
     let floor = if active.is_empty() { None } else { free_motion::floor(world) };
     if floor.is_some() {
         ways.clone_from(now);
     }
-    let (loads, force) = (&mut world.loads, 1.0 / (scheme.step * scheme.step));
+    let (loads, force) = (&mut world.warm_start, 1.0 / (scheme.step * scheme.step));
     contact_solver::solve(
         world.level,
         contacts,
@@ -372,12 +373,12 @@ pub(crate) fn solve(world: &mut World) {
     contact_solver::spread(contacts, active, now, &mut world.scratch.predicted, scheme.h);
     tangles.draw_out(motion, &mut world.scratch.predicted);
     crate::solver::particle_stage::interleaved::scatter(&motion.now, &mut world.particles.x);
-    world.layers = Some(layers);
+    world.surface_collision = Some(layers);
 }
 
 /// Finds where others moved particles to since a tick or a part of it began.
 fn follow(world: &mut World) {
-    if let Some(layers) = &mut world.layers {
+    if let Some(layers) = &mut world.surface_collision {
         crate::solver::particle_stage::interleaved::gather(
             &mut layers.motion.now,
             &world.particles.x,
@@ -388,7 +389,7 @@ fn follow(world: &mut World) {
 
 /// After all else moved, nothing crosses.
 pub(crate) fn hold(world: &mut World) {
-    let Some(mut layers) = world.layers.take() else {
+    let Some(mut layers) = world.surface_collision.take() else {
         return;
     };
     if layers.hold(world) {
@@ -400,14 +401,14 @@ pub(crate) fn hold(world: &mut World) {
     // The next substep starts from here; where it leads to, it finds anew.
     let Motion { start, now, .. } = &mut layers.motion;
     core::mem::swap(start, now);
-    world.layers = Some(layers);
+    world.surface_collision = Some(layers);
 }
 
 /// Once more at the end of a tick, after other stages moved particles; what leashes pulled stays where that is.
 pub(crate) fn hold_at_last(world: &mut World) {
     follow(world);
     let pulled = &world.scratch.pulled;
-    if let Some(layers) = &mut world.layers {
+    if let Some(layers) = &mut world.surface_collision {
         pulled.iter().for_each(|i| layers.motion.now[*i as usize][3] = 0.0);
     }
     hold(world);
@@ -418,10 +419,11 @@ pub(crate) fn hold_at_last(world: &mut World) {
 pub(crate) fn calm(world: &mut World) {
     let h = world.settings.scheme().h;
     let speed = world.settings.gravity.length() * h;
-    let Some(mut layers) = world.layers.take() else {
+    let Some(mut layers) = world.surface_collision.take() else {
         return;
     };
-    let Layers { contacts, active, open, weights, motion, ways, tangles, .. } = &mut *layers;
+    let SurfaceCollision { contacts, active, open, weights, motion, ways, tangles, .. } =
+        &mut *layers;
     let is_free = world.scratch.contacts.touches.is_empty()
         && !crate::solver::particle_stage::interleaved::is_any_held(&motion.start);
     let p = &mut world.particles;
@@ -437,5 +439,5 @@ pub(crate) fn calm(world: &mut World) {
             crate::solver::particle_stage::interleaved::scatter_along(&whole, &p.x, ways, columns);
         }
     }
-    world.layers = Some(layers);
+    world.surface_collision = Some(layers);
 }

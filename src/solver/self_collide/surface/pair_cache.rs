@@ -9,7 +9,7 @@ use crate::solver::particle_stage::interleaved::Spot;
 use crate::solver::self_collide::surface::cluster_bvh::Patches;
 use crate::solver::self_collide::surface::contact::{EDGES, Kind, VERTEX};
 use crate::solver::self_collide::surface::pair_store::Stock;
-use crate::solver::self_collide::surface::rest_gap::Weave;
+use crate::solver::self_collide::surface::rest_gap::RestGap;
 use crate::solver::self_collide::surface::separation_test::Candidates;
 use crate::solver::self_collide::surface::swept_aabb::{LANES, Sweep, Sweeps, meet, places_of};
 use crate::solver::self_collide::surface::swept_particles::Motion;
@@ -74,7 +74,7 @@ struct Chosen {
 
 /// A look at two patches.
 struct Look<'a> {
-    weave: &'a Weave<'a>,
+    rest_gap: &'a RestGap<'a>,
     motion: &'a Motion,
     /// How far apart what is found may be [m].
     room: f32,
@@ -85,7 +85,7 @@ struct Look<'a> {
 impl Look<'_> {
     #[inline(always)]
     fn gap_of<const FIRST: Kind>(&self, ids: [u32; 4]) -> f32 {
-        if self.may_be_woven { self.weave.gap_of::<FIRST>(ids) } else { self.weave.gap }
+        if self.may_be_woven { self.rest_gap.gap_of::<FIRST>(ids) } else { self.rest_gap.gap }
     }
 }
 
@@ -222,7 +222,7 @@ impl Patches {
     }
 
     /// Finds what may meet of listed pair `at`, unless what was found holds still.
-    pub fn find_run(&mut self, at: u32, weave: &Weave<'_>, motion: &Motion, more: f32) {
+    pub fn find_run(&mut self, at: u32, rest_gap: &RestGap<'_>, motion: &Motion, more: f32) {
         let ways = self.ways_of(at, more);
         if let Some(run) = &self.quads.runs[at as usize] {
             // What went who knows how far leaves no room, however much there was.
@@ -231,17 +231,17 @@ impl Patches {
             }
             self.quads.live -= run.len();
         }
-        let (pair, mesh) = (self.listed_pair(at), &weave.world.mesh);
+        let (pair, mesh) = (self.listed_pair(at), &rest_gap.world.mesh);
         pair.into_iter().for_each(|patch| self.split(patch, mesh, motion));
         let from = [self.quads.vertices.len() as u32, self.quads.edges.len() as u32];
         let [one, other] = pair;
         let is_crowded = self.listed.len() > CROWD * self.patches.len();
         let [share, of_way] = if is_crowded { [CROWDED; 2] } else { [ROOM, ROOM_WAY] };
-        let room = ways + max(weave.world.spacing * share, ways * of_way);
+        let room = ways + max(rest_gap.world.mean_edge * share, ways * of_way);
         let ours = self.chosen(one, other, room);
         let theirs = if one == other { ours } else { self.chosen(other, one, room) };
-        let may_be_woven = self.are_near_at_rest(pair, weave.near());
-        let look = Look { weave, motion, room, may_be_woven };
+        let may_be_woven = self.are_near_at_rest(pair, rest_gap.near());
+        let look = Look { rest_gap, motion, room, may_be_woven };
         self.find_vertices(pair, [ours.vertices, theirs.triangles], &look);
         if one != other {
             self.find_vertices([other, one], [theirs.vertices, ours.triangles], &look);
@@ -335,7 +335,7 @@ impl Patches {
         if triangles == 0 {
             return;
         }
-        let Look { weave, motion, room, .. } = look;
+        let Look { rest_gap, motion, room, .. } = look;
         let from = self.patches[one as usize].vertices[0];
         let first = self.patches[other as usize].triangles[0];
         let each = &self.triangle_sweeps[other as usize];
@@ -343,7 +343,7 @@ impl Patches {
             let vertex = self.vertices[(from + at) as usize];
             for at in places_of(triangles & each.meet(&motion.still([vertex]), *room)) {
                 let triangle = self.triangles[(first + at) as usize];
-                let [a, b, c] = weave.world.mesh.triangles[triangle as usize];
+                let [a, b, c] = rest_gap.world.mesh.triangles[triangle as usize];
                 if vertex != a && vertex != b && vertex != c {
                     let ids = [vertex, a, b, c];
                     self.quads.vertices.push(ids, look.gap_of::<VERTEX>(ids));

@@ -12,7 +12,7 @@ const WOVEN: f32 = 0.5;
 
 /// A cloth at rest.
 #[derive(Clone, Copy)]
-pub(crate) struct Weave<'a> {
+pub(crate) struct RestGap<'a> {
     pub world: &'a World,
     /// The piece that each site was part of before anything tore.
     pub pieces: &'a [u32],
@@ -20,7 +20,7 @@ pub(crate) struct Weave<'a> {
     pub gap: f32,
 }
 
-impl Weave<'_> {
+impl RestGap<'_> {
     /// What is farther apart at rest keeps all of the gap [m].
     pub fn near(&self) -> f32 {
         self.gap / WOVEN
@@ -42,7 +42,7 @@ impl Weave<'_> {
             return self.gap;
         }
         // The sides of a slit are at the same place at rest, and a hair apart as they part.
-        let least = self.world.spacing * (WOVEN * HAIR);
+        let least = self.world.mean_edge * (WOVEN * HAIR);
         min(self.gap, max(WOVEN * Contact::distance::<FIRST>(x), least))
     }
 }

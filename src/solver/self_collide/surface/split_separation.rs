@@ -118,7 +118,7 @@ impl Slits {
     /// Finds the triangles of vertices at one place, and how far they are to part [m].
     fn find_wedges(&mut self, world: &World, vertices: &[u32]) -> f32 {
         let (mesh, x) = (&world.mesh, &world.particles.x);
-        let mut hair = world.spacing * HAIR;
+        let mut hair = world.mean_edge * HAIR;
         self.wedges.clear();
         for (copy, vertex) in vertices.iter().enumerate() {
             mesh.fan(mesh.corner_of[*vertex as usize], &mut self.fan);
@@ -213,7 +213,7 @@ fn first_most(all: impl Iterator<Item = (f32, Vec3)>) -> Vec3 {
 
 /// Parts those of `vertices` that are at the same place since one of them was split. Momentum stays.
 pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
-    let Some(mut layers) = world.layers.take() else {
+    let Some(mut layers) = world.surface_collision.take() else {
         return;
     };
     let slits = &mut layers.slits;
@@ -233,7 +233,7 @@ pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
         slits.find_ways(world, vertices);
     }
     let ways = core::mem::take(&mut slits.ways);
-    world.layers = Some(layers);
+    world.surface_collision = Some(layers);
     if ways.iter().any(|way| *way != Vec3::ZERO) {
         // What else is near gives way.
         crate::solver::self_collide::surface::begin(world);
@@ -244,7 +244,7 @@ pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
         crate::solver::self_collide::surface::follow(world);
         crate::solver::self_collide::surface::hold(world);
     }
-    if let Some(layers) = &mut world.layers {
+    if let Some(layers) = &mut world.surface_collision {
         (layers.slits.copies, layers.slits.ways) = (copies, ways);
     }
 }

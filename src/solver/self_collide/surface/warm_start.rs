@@ -29,9 +29,9 @@ impl Load {
 
 /// All that bear on each other, in the order of their contacts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Loads(Vec<Load>);
+pub(crate) struct WarmStart(Vec<Load>);
 
-impl Loads {
+impl WarmStart {
     /// Sees to room for those of so many particles.
     pub fn reserve(&mut self, particles: usize) {
         let room = EACH * particles;
@@ -85,7 +85,7 @@ impl Finder {
     }
 
     /// Sorts all in.
-    pub fn sort(&mut self, loads: &Loads) {
+    pub fn sort(&mut self, loads: &WarmStart) {
         self.slots.clear();
         self.slots.resize((2 * loads.0.len()).next_power_of_two(), 0);
         for (at, load) in loads.0.iter().enumerate() {
@@ -98,7 +98,7 @@ impl Finder {
     }
 
     /// The load of a contact.
-    pub fn find<'a>(&self, contact: &Contact, loads: &'a Loads) -> Option<&'a Load> {
+    pub fn find<'a>(&self, contact: &Contact, loads: &'a WarmStart) -> Option<&'a Load> {
         let mut slot = self.slot(contact.ids, contact.first);
         while self.slots[slot] != 0 {
             let load = &loads.0[self.slots[slot] as usize - 1];
@@ -129,7 +129,7 @@ mod tests {
     fn each_is_found_by_its_sides_and_no_other() {
         let mut contact = Contact::of([0; 4], 1);
         for count in [0, 1, 40] {
-            let loads = Loads((0..count).flat_map(|at| [load(at, 1), load(at, 2)]).collect());
+            let loads = WarmStart((0..count).flat_map(|at| [load(at, 1), load(at, 2)]).collect());
             let mut finder = Finder::new(3);
             finder.sort(&loads);
             for wanted in loads.iter() {
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn what_no_cloth_can_have_is_refused() {
-        let sound = |load: Load| Loads(vec![load]).are_sound(10);
+        let sound = |load: Load| WarmStart(vec![load]).are_sound(10);
         assert!(sound(load(9, 1)) && !sound(load(10, 1)));
         assert!(!sound(Load { push: f32::NAN, ..load(1, 1) }));
         assert!(!sound(Load { push: -1.0, ..load(1, 1) }));
