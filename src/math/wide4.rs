@@ -1,10 +1,18 @@
 //! Four numbers side by side, as particles have them: in one vector where there are any.
 
 use crate::math::simd::{Arithmetic, Base, Number, Simd};
-use crate::solver::particle_stage::interleaved::{Spot, place};
 use core::array;
 use core::ops::{Add, Mul, Sub};
 use glam::Vec3;
+
+/// x, y, z of a particle and a fourth number, often its inverse mass.
+pub(crate) type Float4 = [f32; 4];
+
+/// The first three numbers as a vector.
+#[inline(always)]
+pub(crate) fn xyz(v: &Float4) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
 
 /// How many vectors that takes.
 const COUNT: usize = 4 / Base::LANES;
@@ -18,7 +26,7 @@ pub(crate) struct Four([<Base as Arithmetic>::F; COUNT]);
 
 impl Four {
     #[inline(always)]
-    pub fn of(spot: &Spot) -> Self {
+    pub fn of(spot: &Float4) -> Self {
         Self(array::from_fn(|k| Base::new().load(spot, k * Base::LANES)))
     }
 
@@ -34,14 +42,14 @@ impl Four {
     }
 
     #[inline(always)]
-    pub fn spot(self) -> Spot {
+    pub fn spot(self) -> Float4 {
         let mut spot = [0.0; 4];
         self.put(&mut spot);
         spot
     }
 
     #[inline(always)]
-    pub fn put(self, spot: &mut Spot) {
+    pub fn put(self, spot: &mut Float4) {
         for (k, part) in self.0.into_iter().enumerate() {
             Base::new().store(spot, k * Base::LANES, part);
         }
@@ -57,7 +65,7 @@ impl Four {
     /// Without the last, as a vector.
     #[inline(always)]
     pub fn vector(self) -> Vec3 {
-        place(&self.spot())
+        xyz(&self.spot())
     }
 
     /// The sum of the first three products, in order.

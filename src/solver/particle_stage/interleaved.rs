@@ -2,23 +2,14 @@
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Arithmetic, Base, Number, Scalar, Simd, turned};
-use crate::math::wide4::Four;
+use crate::math::wide4::{Float4, Four, xyz};
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use core::array;
 use glam::Vec3;
 
-/// Where a particle is, and its inverse mass.
-pub(crate) type Spot = [f32; 4];
-
-/// Where it is.
-#[inline(always)]
-pub(crate) fn place(spot: &Spot) -> Vec3 {
-    Vec3::new(spot[0], spot[1], spot[2])
-}
-
 /// Moves a particle.
 #[inline(always)]
-pub(crate) fn shift(spot: &mut Spot, by: Vec3) {
+pub(crate) fn shift(spot: &mut Float4, by: Vec3) {
     spot[0] += by.x;
     spot[1] += by.y;
     spot[2] += by.z;
@@ -26,7 +17,7 @@ pub(crate) fn shift(spot: &mut Spot, by: Vec3) {
 
 /// Moves a particle, and leaves its mass.
 #[inline(always)]
-pub(crate) fn push(spot: &mut Spot, by: Four) {
+pub(crate) fn push(spot: &mut Float4, by: Four) {
     (Four::of(spot) + by.ways()).put(spot);
 }
 
@@ -55,7 +46,7 @@ macro_rules! each {
 
 /// Particles from a place on, turned so that each number has its lanes, of which there are four or one.
 #[inline(always)]
-fn fetch<S: Simd>(s: S, spots: &[Spot], at: usize) -> [S::F; 4] {
+fn fetch<S: Simd>(s: S, spots: &[Float4], at: usize) -> [S::F; 4] {
     let spots = &spots[at..at + S::LANES];
     if S::LANES == 1 {
         return array::from_fn(|k| s.load(&spots[0], k));
@@ -65,7 +56,7 @@ fn fetch<S: Simd>(s: S, spots: &[Spot], at: usize) -> [S::F; 4] {
 
 /// Puts them back.
 #[inline(always)]
-fn put<S: Simd>(s: S, spots: &mut [Spot], at: usize, numbers: [S::F; 4]) {
+fn put<S: Simd>(s: S, spots: &mut [Float4], at: usize, numbers: [S::F; 4]) {
     let spots = &mut spots[at..at + S::LANES];
     if S::LANES == 1 {
         numbers.into_iter().enumerate().for_each(|(k, number)| s.store(&mut spots[0], k, number));
@@ -77,7 +68,7 @@ fn put<S: Simd>(s: S, spots: &mut [Spot], at: usize, numbers: [S::F; 4]) {
 }
 
 /// Makes it the list of these particles.
-pub(crate) fn gather(spots: &mut Vec<Spot>, x: &Columns, w: &[f32]) {
+pub(crate) fn gather(spots: &mut Vec<Float4>, x: &Columns, w: &[f32]) {
     spots.resize(w.len(), [0.0; 4]);
     let [x, y, z] = x.all();
     each!(w.len(), |s, at| {
@@ -86,7 +77,7 @@ pub(crate) fn gather(spots: &mut Vec<Spot>, x: &Columns, w: &[f32]) {
 }
 
 /// Puts particles back.
-pub(crate) fn scatter(spots: &[Spot], x: &mut Columns) {
+pub(crate) fn scatter(spots: &[Float4], x: &mut Columns) {
     let [x, y, z] = x.all_mut();
     each!(spots.len(), |s, at| {
         let [new_x, new_y, new_z, _] = fetch(s, spots, at);
@@ -97,7 +88,7 @@ pub(crate) fn scatter(spots: &[Spot], x: &mut Columns) {
 }
 
 /// The ways from one state to another.
-pub(crate) fn list_ways(from: &[Spot], to: &[Spot], ways: &mut Columns) {
+pub(crate) fn list_ways(from: &[Float4], to: &[Float4], ways: &mut Columns) {
     ways.resize(to.len());
     let [x, y, z] = ways.all_mut();
     each!(to.len(), |s, at| {
@@ -109,7 +100,7 @@ pub(crate) fn list_ways(from: &[Spot], to: &[Spot], ways: &mut Columns) {
 }
 
 /// Where all are without how they move with the whole.
-pub(crate) fn take_back(spots: &[Spot], whole: &RigidMotion, to: &mut [Spot]) {
+pub(crate) fn take_back(spots: &[Float4], whole: &RigidMotion, to: &mut [Float4]) {
     each!(spots.len(), |s, at| {
         let [x, y, z, w] = fetch(s, spots, at);
         let by = whole.ways(s, [x, y, z]);
@@ -122,7 +113,7 @@ pub(crate) fn gather_against(
     whole: &RigidMotion,
     x: &Columns,
     motion: &Columns,
-    ways: &mut Vec<Spot>,
+    ways: &mut Vec<Float4>,
 ) {
     let [x, y, z] = x.all();
     let motion = motion.all();
@@ -138,7 +129,12 @@ pub(crate) fn gather_against(
 }
 
 /// Takes back what that did, after `ways` changed.
-pub(crate) fn scatter_along(whole: &RigidMotion, x: &Columns, ways: &[Spot], motion: &mut Columns) {
+pub(crate) fn scatter_along(
+    whole: &RigidMotion,
+    x: &Columns,
+    ways: &[Float4],
+    motion: &mut Columns,
+) {
     let [x, y, z] = x.all();
     let motion = motion.all_mut();
     each!(x.len(), |s, at| {
@@ -151,7 +147,7 @@ pub(crate) fn scatter_along(whole: &RigidMotion, x: &Columns, ways: &[Spot], mot
 }
 
 /// How all moved from one state to another, in the mean.
-pub(crate) fn drift(from: &[Spot], to: &[Spot]) -> Vec3 {
+pub(crate) fn drift(from: &[Float4], to: &[Float4]) -> Vec3 {
     let mut sums = [[0.0_f32; 4]; 4];
     let (from4, to4) = (from.chunks_exact(4), to.chunks_exact(4));
     let rest = from4.remainder().iter().zip(to4.remainder());
@@ -162,16 +158,16 @@ pub(crate) fn drift(from: &[Spot], to: &[Spot]) -> Vec3 {
             }
         }
     }
-    let rest = rest.fold(Vec3::ZERO, |sum, (from, to)| sum + (place(to) - place(from)));
-    let all = sums.iter().fold(rest, |sum, part| sum + place(part));
+    let rest = rest.fold(Vec3::ZERO, |sum, (from, to)| sum + (xyz(to) - xyz(from)));
+    let all = sums.iter().fold(rest, |sum, part| sum + xyz(part));
     all * (1.0 / from.len() as f32)
 }
 
 /// Gives each room around the way that it made from one state to another: `share` of how far it got against the drift,
 /// and `spare` more. The ways that it may make so are from, to.
 pub(crate) fn give_room(
-    [start, now]: [&[Spot]; 2],
-    [from, to]: [&mut [Spot]; 2],
+    [start, now]: [&[Float4]; 2],
+    [from, to]: [&mut [Float4]; 2],
     drift: Vec3,
     [share, spare]: [f32; 2],
 ) {
@@ -188,7 +184,7 @@ pub(crate) fn give_room(
 }
 
 /// Whether any is held.
-pub(crate) fn is_any_held(spots: &[Spot]) -> bool {
+pub(crate) fn is_any_held(spots: &[Float4]) -> bool {
     spots.iter().any(|spot| spot[3] <= 0.0)
 }
 

@@ -6,8 +6,8 @@
 use crate::geometry::aabb::Aabb;
 use crate::math::simd::{Arithmetic, Base, Level, Number, Simd};
 use crate::math::sort::{sort, sort_by};
+use crate::math::wide4::Float4;
 use crate::mesh::{Mesh, NONE, after};
-use crate::solver::particle_stage::interleaved::Spot;
 use crate::solver::self_collide::surface::normal_cones::Leans;
 use crate::solver::self_collide::surface::pair_cache::Quads;
 use crate::solver::self_collide::surface::swept_aabb::{LANES, Sweep, Sweeps};
@@ -70,8 +70,8 @@ pub(crate) struct Patches {
     /// Where each patch is and goes in a substep, and what is in it in the tick.
     pub(crate) sweeps: Vec<Sweep>,
     /// How its vertices moved since patches were fitted before: from, to; and where all vertices were then.
-    pub(crate) steps: Vec<[Spot; 2]>,
-    before: Vec<Spot>,
+    pub(crate) steps: Vec<[Float4; 2]>,
+    before: Vec<Float4>,
     pub(crate) wholes: Vec<Sweep>,
     pub(crate) triangle_sweeps: Vec<Sweeps>,
     pub(crate) vertex_sweeps: Vec<[Sweeps; BLOCKS]>,
@@ -226,8 +226,8 @@ impl Patches {
             + self.places.capacity();
         size_of::<Node>() * self.nodes.capacity()
             + size_of::<Sweep>() * (2 * self.sweeps.capacity() + self.reaches.capacity())
-            + size_of::<[Spot; 2]>() * self.steps.capacity()
-            + size_of::<Spot>() * self.before.capacity()
+            + size_of::<[Float4; 2]>() * self.steps.capacity()
+            + size_of::<Float4>() * self.before.capacity()
             + size_of::<Sweeps>() * (1 + 2 * BLOCKS) * self.triangle_sweeps.capacity()
             + size_of::<Patch>() * self.patches.capacity()
             + size_of::<u32>() * words
@@ -388,7 +388,7 @@ impl Patches {
 
 /// How vertices went since they were where they were `before`: from, to.
 #[inline(always)]
-fn step_of(vertices: &[u32], now: &[Spot], before: &[Spot]) -> [Spot; 2] {
+fn step_of(vertices: &[u32], now: &[Float4], before: &[Float4]) -> [Float4; 2] {
     let (simd, mut step, mut sound) = (Base::new(), [[0.0; 4]; 2], [0.0; 4]);
     for k in (0..4).step_by(Base::LANES) {
         let zero = simd.splat(0.0);
@@ -396,7 +396,7 @@ fn step_of(vertices: &[u32], now: &[Spot], before: &[Spot]) -> [Spot; 2] {
         let [mut least, mut most] =
             [f32::INFINITY, f32::NEG_INFINITY].map(|endless| simd.splat(endless));
         for vertex in vertices {
-            let load = |spots: &[Spot]| simd.load(&spots[*vertex as usize], k);
+            let load = |spots: &[Float4]| simd.load(&spots[*vertex as usize], k);
             let way = load(now) - load(before);
             // What is no number, or has no end, leaves none in the last.
             (least, most, still) =

@@ -9,8 +9,8 @@
 
 use crate::geometry::closest_points;
 use crate::math::wide4::Four;
+use crate::math::wide4::{Float4, xyz};
 use crate::math::{TINY, max, min};
-use crate::solver::particle_stage::interleaved::{Spot, place};
 use crate::solver::self_collide::surface::swept_particles::Motion;
 use glam::Vec3;
 
@@ -147,14 +147,14 @@ pub(crate) fn between(x: [Vec3; 4], first: u32, n: Vec3) -> f32 {
 
 /// Where the particles of a pair are.
 #[inline(always)]
-pub(crate) fn places(x: &[Spot], ids: [u32; 4]) -> [Vec3; 4] {
+pub(crate) fn places(x: &[Float4], ids: [u32; 4]) -> [Vec3; 4] {
     let [a, b, c, d] = ids;
-    [place(&x[a as usize]), place(&x[b as usize]), place(&x[c as usize]), place(&x[d as usize])]
+    [xyz(&x[a as usize]), xyz(&x[b as usize]), xyz(&x[c as usize]), xyz(&x[d as usize])]
 }
 
 /// How far the closest points are from each other along `n`.
 #[inline(always)]
-pub(crate) fn along(x: &[Spot], contact: &Contact) -> f32 {
+pub(crate) fn along(x: &[Float4], contact: &Contact) -> f32 {
     let [a, b, c, d] = contact.ids.map(|id| Four::of(&x[id as usize]));
     let [p, q, r, s] = contact.share;
     Four::way(contact.n).dot(a.times(p) + b.times(q) + c.times(r) + d.times(s))
@@ -248,7 +248,7 @@ impl Contact {
 
     /// Finds another direction that tells sides apart, at the start and now.
     #[inline(never)]
-    pub(crate) fn turn_to(&mut self, start: [Vec3; 4], x: &[Spot]) {
+    pub(crate) fn turn_to(&mut self, start: [Vec3; 4], x: &[Float4]) {
         let now = places(x, self.ids);
         let is_vertex = self.first == VERTEX;
         let now =

@@ -2,9 +2,10 @@
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
+use crate::math::wide4::Float4;
 use crate::math::wide4::Four;
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::{Spot, push};
+use crate::solver::particle_stage::interleaved::push;
 use crate::solver::self_collide::surface::contact::{Contact, along};
 use crate::solver::self_collide::surface::warm_start::{Finder, WarmStart};
 use glam::Vec3;
@@ -86,7 +87,7 @@ impl Push {
 
     /// Moves the particles of its contact along `by`, by how they count.
     #[inline(always)]
-    fn press(&self, contact: &Contact, x: &mut [Spot], by: Four) {
+    fn press(&self, contact: &Contact, x: &mut [Float4], by: Four) {
         for (id, weight) in contact.ids.into_iter().zip(self.weights) {
             push(&mut x[id as usize], by.times(weight));
         }
@@ -98,8 +99,8 @@ pub(crate) fn list(
     contacts: &[Contact],
     active: &mut Vec<Push>,
     weights: &[Weight],
-    start: &[Spot],
-    x: &[Spot],
+    start: &[Float4],
+    x: &[Float4],
 ) {
     active.clear();
     for (at, contact) in contacts.iter().enumerate() {
@@ -118,8 +119,8 @@ pub(crate) fn solve(
     contacts: &[Contact],
     active: &mut [Push],
     (loads, finder): (&mut WarmStart, &mut Finder),
-    start: &[Spot],
-    x: &mut [Spot],
+    start: &[Float4],
+    x: &mut [Float4],
     friction: f32,
     force: f32,
 ) {
@@ -142,11 +143,11 @@ pub(crate) fn solve(
 
 leveled! {
     /// Ends approach.
-    fn part_all(contacts: &[Contact], active: &mut [Push], x: &mut [Spot]) = part_each
+    fn part_all(contacts: &[Contact], active: &mut [Push], x: &mut [Float4]) = part_each
 }
 
 #[inline(always)]
-fn part_each(contacts: &[Contact], active: &mut [Push], x: &mut [Spot]) {
+fn part_each(contacts: &[Contact], active: &mut [Push], x: &mut [Float4]) {
     for _ in 0..SWEEPS / 2 {
         for push in &mut *active {
             part(&contacts[push.contact as usize], push, x);
@@ -158,7 +159,7 @@ fn part_each(contacts: &[Contact], active: &mut [Push], x: &mut [Spot]) {
 }
 
 #[inline(always)]
-fn part(contact: &Contact, push: &mut Push, x: &mut [Spot]) {
+fn part(contact: &Contact, push: &mut Push, x: &mut [Float4]) {
     let missing = push.aim - along(x, contact);
     let new = max(push.push + missing * push.give, 0.0);
     let by = new - push.push;
@@ -170,7 +171,7 @@ fn part(contact: &Contact, push: &mut Push, x: &mut [Spot]) {
 
 /// What slid along the other side slides less, by what friction can hold.
 #[inline(always)]
-fn rub(contact: &Contact, push: &mut Push, start: &[Spot], x: &mut [Spot], friction: f32) {
+fn rub(contact: &Contact, push: &mut Push, start: &[Float4], x: &mut [Float4], friction: f32) {
     if push.push <= 0.0 && push.rub == Vec3::ZERO {
         return;
     }
@@ -185,7 +186,7 @@ fn rub(contact: &Contact, push: &mut Push, start: &[Spot], x: &mut [Spot], frict
 
 /// How the closest points moved against each other along the surface.
 #[inline(always)]
-fn slid(contact: &Contact, start: &[Spot], x: &[Spot]) -> Vec3 {
+fn slid(contact: &Contact, start: &[Float4], x: &[Float4]) -> Vec3 {
     let mut way = Four::all(0.0);
     for (id, share) in contact.ids.iter().zip(contact.share) {
         let [x, start] = [x, start].map(|all| Four::of(&all[*id as usize]));
@@ -199,7 +200,7 @@ fn slid(contact: &Contact, start: &[Spot], x: &[Spot]) -> Vec3 {
 pub(crate) fn spread(
     contacts: &[Contact],
     active: &[Push],
-    x: &mut [Spot],
+    x: &mut [Float4],
     predicted: &mut Columns,
     h: f32,
 ) {
@@ -268,7 +269,7 @@ pub(crate) fn soothe(
     contacts: &[Contact],
     active: &[Push],
     weights: &[Weight],
-    v: &mut [Spot],
+    v: &mut [Float4],
     h: f32,
     turns: bool,
 ) {
@@ -291,7 +292,7 @@ pub(crate) fn soothe(
 
 /// How some particles move comes nearer to how their middle does.
 #[inline(always)]
-fn join(side: &[u32], weights: &[Weight], v: &mut [Spot], share: f32) {
+fn join(side: &[u32], weights: &[Weight], v: &mut [Float4], share: f32) {
     let (mut sum, mut mass) = (Four::all(0.0), 0.0);
     for id in side {
         let w = weights[*id as usize].w;
@@ -310,7 +311,7 @@ fn join(side: &[u32], weights: &[Weight], v: &mut [Spot], share: f32) {
 
 /// How the closest points move against each other.
 #[inline(always)]
-fn way_against(contact: &Contact, v: &[Spot]) -> Four {
+fn way_against(contact: &Contact, v: &[Float4]) -> Four {
     let mut way = Four::all(0.0);
     for (id, share) in contact.ids.iter().zip(contact.share) {
         way = way + Four::of(&v[*id as usize]).times(share);

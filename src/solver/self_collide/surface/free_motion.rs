@@ -7,9 +7,9 @@
 
 use crate::solver::particle_stage::interleaved;
 
+use crate::math::wide4::Float4;
 use crate::solver::collide::response::Touch;
 use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
-use crate::solver::particle_stage::interleaved::Spot;
 
 use crate::solver::integrate::momentum;
 
@@ -26,7 +26,12 @@ pub(crate) fn floor(world: &World) -> Option<Vec3> {
 }
 
 /// Moves all back as a whole by what they were moved by since they were at `before`, which is room to work in then.
-pub(crate) fn keep(world: &mut World, floor: Vec3, before: &mut Vec<Spot>, now: &mut Vec<Spot>) {
+pub(crate) fn keep(
+    world: &mut World,
+    floor: Vec3,
+    before: &mut Vec<Float4>,
+    now: &mut Vec<Float4>,
+) {
     momentum::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
     interleaved::list_ways(before, now, &mut scratch.anchor);

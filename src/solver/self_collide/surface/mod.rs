@@ -28,9 +28,9 @@ mod tick_bounds;
 mod untangle;
 pub(crate) mod warm_start;
 
+use crate::math::wide4::Float4;
 use crate::math::{max, min};
 use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
-use crate::solver::particle_stage::interleaved::Spot;
 use crate::solver::self_collide::particle_pairs;
 use crate::solver::self_collide::surface::cluster_bvh::Patches;
 use crate::solver::self_collide::surface::contact::Contact;
@@ -66,7 +66,7 @@ pub(crate) struct SurfaceCollision {
     motion: Motion,
     weights: Vec<Weight>,
     /// How particles move, in some unit.
-    ways: Vec<Spot>,
+    ways: Vec<Float4>,
     far: Reach,
     /// Pairs of patches that may meet in this substep.
     pairs: Vec<u32>,
@@ -144,7 +144,7 @@ impl SurfaceCollision {
             + self.picked.bytes()
             + self.near.iter().map(Near::bytes).sum::<usize>()
             + size_of::<Weight>() * self.weights.capacity()
-            + size_of::<Spot>() * self.ways.capacity()
+            + size_of::<Float4>() * self.ways.capacity()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<Push>() * self.active.capacity()
             + size_of::<Distant>() * self.distant.capacity()
@@ -221,10 +221,9 @@ impl SurfaceCollision {
             let w = now.iter().map(|spot| spot[3]);
             let before =
                 crate::solver::particle_stage::interleaved::middle(world.particles.x.iter().zip(w));
-            let after =
-                crate::solver::particle_stage::interleaved::middle(now.iter().map(|spot| {
-                    (crate::solver::particle_stage::interleaved::place(spot), spot[3])
-                }));
+            let after = crate::solver::particle_stage::interleaved::middle(
+                now.iter().map(|spot| (crate::math::wide4::xyz(spot), spot[3])),
+            );
             now.iter_mut().for_each(|spot| {
                 crate::solver::particle_stage::interleaved::shift(spot, before - after)
             });

@@ -3,7 +3,7 @@
 //! As `Contact::find` does it one by one for what no direction tells apart well.
 
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
-use crate::solver::particle_stage::interleaved::Spot;
+use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
 use crate::solver::self_collide::surface::contact::{
     CLEAR, Contact, EDGES, ENOUGH, Kind, NOTHING, SAME, SLIT, VERTEX, WORSE,
@@ -115,8 +115,8 @@ impl Near {
 /// Pairs with where their particles were as the substep began and are now.
 struct Pairs<'a> {
     ids: [&'a [u32]; 4],
-    start: &'a [Spot],
-    now: &'a [Spot],
+    start: &'a [Float4],
+    now: &'a [Float4],
     gaps: &'a [f32],
     lanes: Lanes<&'a mut [f32]>,
 }

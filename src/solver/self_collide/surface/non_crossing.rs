@@ -6,7 +6,8 @@
 //! along what it would cross.
 
 use crate::math::simd::Level;
-use crate::solver::particle_stage::interleaved::{Spot, place, shift};
+use crate::math::wide4::{Float4, xyz};
+use crate::solver::particle_stage::interleaved::shift;
 use crate::solver::self_collide::surface::contact::{Contact, SLIT, VERTEX, between, places};
 use crate::solver::self_collide::surface::contact_graph::{Around, BITS};
 use crate::solver::self_collide::surface::speculative::{Distant, look};
@@ -88,7 +89,7 @@ pub(crate) fn let_go(
     level: Level,
     contacts: &[Contact],
     first: usize,
-    now: &[Spot],
+    now: &[Float4],
     around: &mut Around,
 ) {
     let pair = |contact: &Contact| {
@@ -107,17 +108,17 @@ pub(crate) fn let_go(
 }
 
 #[inline(always)]
-fn is_apart(contact: &Contact, x: &[Spot], least: f32) -> bool {
+fn is_apart(contact: &Contact, x: &[Float4], least: f32) -> bool {
     least < 0.0 || between(places(x, contact.ids), contact.first, contact.n) >= least
 }
 
 /// Moves each particle of one side and each of the other apart.
-fn draw(contact: &Contact, x: &mut [Spot], around: &mut Around) {
+fn draw(contact: &Contact, x: &mut [Float4], around: &mut Around) {
     let (one, other) = contact.ids.split_at(contact.first as usize);
     for a in one {
         for b in other {
             let (spot_a, spot_b) = (x[*a as usize], x[*b as usize]);
-            let missing = contact.slit - contact.n.dot(place(&spot_a) - place(&spot_b));
+            let missing = contact.slit - contact.n.dot(xyz(&spot_a) - xyz(&spot_b));
             let sum = spot_a[3] + spot_b[3];
             if missing <= 0.0 || sum <= 0.0 {
                 continue;
@@ -166,9 +167,9 @@ pub(crate) fn go_back(
                 let way = if leader == BACK {
                     *drift
                 } else {
-                    place(&x[leader as usize]) - place(&start[leader as usize])
+                    xyz(&x[leader as usize]) - xyz(&start[leader as usize])
                 };
-                [x[at][0], x[at][1], x[at][2]] = (place(&start[at]) + way).to_array();
+                [x[at][0], x[at][1], x[at][2]] = (xyz(&start[at]) + way).to_array();
             }
         }
         if !around.has_moved() {

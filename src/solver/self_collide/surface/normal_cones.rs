@@ -3,7 +3,7 @@
 
 use crate::math::min;
 use crate::math::simd::{Arithmetic, Level, Number, Scalar, Simd, turn, turn_back, vectored};
-use crate::solver::particle_stage::interleaved::Spot;
+use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::V;
 use crate::solver::self_collide::surface::cluster_bvh::PATCH;
 
@@ -15,7 +15,7 @@ const LANES: usize = 8;
 const STEEP: f32 = 0.5;
 
 /// The mean normal of a patch's triangles, and the least cosine that one makes with it; -1 where nothing is known.
-type Lean = Spot;
+type Lean = Float4;
 
 /// Eight patches.
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +108,7 @@ impl Leans {
     }
 
     /// Finds how all patches lean, with particles as the substep begins and now.
-    pub fn find(&mut self, level: Level, start: &[Spot], now: &[Spot]) {
+    pub fn find(&mut self, level: Level, start: &[Float4], now: &[Float4]) {
         let [first, last] = &mut self.ends;
         find_leans(level, &self.blocks, start, first, false);
         last.clone_from(first);
@@ -123,7 +123,7 @@ impl Leans {
     }
 
     /// Finds anew how those lean that are set to turn, with particles as they are now.
-    pub fn find_again(&mut self, level: Level, now: &[Spot]) {
+    pub fn find_again(&mut self, level: Level, now: &[Float4]) {
         find_leans(level, &self.blocks, now, &mut self.ends[1], true);
     }
 
@@ -156,7 +156,7 @@ impl Leans {
 }
 
 vectored! {
-    fn find_leans(blocks: &[Block], x: &[Spot], leans: &mut [Lean], turning: bool)
+    fn find_leans(blocks: &[Block], x: &[Float4], leans: &mut [Lean], turning: bool)
         = lean, Avx2, find_leans_apart
 }
 
@@ -165,7 +165,7 @@ vectored! {
         = look, Avx2, find_quiet_apart
 }
 
-fn find_leans_apart(blocks: &[Block], x: &[Spot], leans: &mut [Lean], turning: bool) {
+fn find_leans_apart(blocks: &[Block], x: &[Float4], leans: &mut [Lean], turning: bool) {
     lean(Scalar, blocks, x, leans, turning);
 }
 
@@ -175,7 +175,7 @@ fn find_quiet_apart(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quie
 
 /// Finds how patches lean, or only those that turn.
 #[inline(always)]
-fn lean<S: Simd>(s: S, blocks: &[Block], x: &[Spot], leans: &mut [Lean], only_turning: bool) {
+fn lean<S: Simd>(s: S, blocks: &[Block], x: &[Float4], leans: &mut [Lean], only_turning: bool) {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     for (number, block) in blocks.iter().enumerate() {
         for at in (0..LANES).step_by(S::LANES) {
@@ -279,7 +279,7 @@ mod tests {
 
     /// Patches side by side along a strip, a square of two triangles each, the square after each turned by an
     /// angle [rad] against it; each pair of neighbours is beside each other.
-    fn strip(turns: &[f32]) -> (Leans, Vec<Spot>) {
+    fn strip(turns: &[f32]) -> (Leans, Vec<Float4>) {
         let (mut x, mut angle, mut at) = (Vec::new(), 0.0_f32, [0.0, 0.0]);
         for turn in [0.0].iter().chain(turns) {
             x.extend([[at[0], at[1], 0.0, 1.0], [at[0], at[1], 1.0, 1.0]]);

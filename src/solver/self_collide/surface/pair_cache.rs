@@ -4,8 +4,8 @@
 use crate::math::max;
 use crate::math::simd::Level;
 use crate::math::sort::sort_by;
+use crate::math::wide4::Float4;
 use crate::mesh::{Mesh, NONE};
-use crate::solver::particle_stage::interleaved::Spot;
 use crate::solver::self_collide::surface::cluster_bvh::Patches;
 use crate::solver::self_collide::surface::contact::{EDGES, Kind, VERTEX};
 use crate::solver::self_collide::surface::pair_store::Stock;
@@ -186,7 +186,7 @@ impl Quads {
     }
 
     /// Measures what was found since the last time, as the substep begins.
-    pub fn measure(&mut self, level: Level, start: &[Spot]) {
+    pub fn measure(&mut self, level: Level, start: &[Float4]) {
         self.vertices.measure::<VERTEX>(level, start);
         self.edges.measure::<EDGES>(level, start);
     }

@@ -2,7 +2,7 @@
 //! were where particles were based: what has not gone that far since needs no look.
 
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
-use crate::solver::particle_stage::interleaved::Spot;
+use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
 use crate::solver::self_collide::surface::contact::{EDGES, Kind, VERTEX};
 use crate::solver::self_collide::surface::separation_test::{Candidates, turned};
@@ -64,7 +64,7 @@ impl Stock {
     }
 
     /// Measures what was pushed since the last time, with particles at their base.
-    pub fn measure<const FIRST: Kind>(&mut self, level: Level, base: &[Spot]) {
+    pub fn measure<const FIRST: Kind>(&mut self, level: Level, base: &[Float4]) {
         let (from, count) = (self.apart.len(), self.len());
         if from == count {
             return;
@@ -102,27 +102,27 @@ impl Stock {
 }
 
 vectored! {
-    fn measure_vertices(ids: &[[u32; 4]], base: &[Spot], apart: &mut [f32])
+    fn measure_vertices(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32])
         = measure::<_, VERTEX>, Avx2, measure_vertices_apart
 }
 
 vectored! {
-    fn measure_edges(ids: &[[u32; 4]], base: &[Spot], apart: &mut [f32])
+    fn measure_edges(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32])
         = measure::<_, EDGES>, Avx2, measure_edges_apart
 }
 
-fn measure_vertices_apart(ids: &[[u32; 4]], base: &[Spot], apart: &mut [f32]) {
+fn measure_vertices_apart(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32]) {
     measure::<_, VERTEX>(Scalar, ids, base, apart);
 }
 
-fn measure_edges_apart(ids: &[[u32; 4]], base: &[Spot], apart: &mut [f32]) {
+fn measure_edges_apart(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32]) {
     measure::<_, EDGES>(Scalar, ids, base, apart);
 }
 
 /// What leads from one side to the other where they are closest tells them apart by all of their distance; that is
 /// asked of the direction that was found, so that it holds however exact that is. What is not a number is not apart.
 #[inline(always)]
-fn measure<S: Simd, const FIRST: Kind>(s: S, ids: &[[u32; 4]], base: &[Spot], apart: &mut [f32]) {
+fn measure<S: Simd, const FIRST: Kind>(s: S, ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32]) {
     for at in (0..apart.len()).step_by(S::LANES) {
         let ids = turned::<S>(&ids[at..]);
         let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];

@@ -4,7 +4,7 @@
 //! and, wherever they may get, in the end. What it does not is looked at one by one (`contacts`).
 
 use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
-use crate::solver::particle_stage::interleaved::Spot;
+use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
 use crate::solver::self_collide::surface::contact::{CLEAR, EDGES, Kind, NOTHING, VERTEX};
 use crate::solver::self_collide::surface::speculative::Distant;
@@ -130,7 +130,7 @@ impl Candidates {
 /// Pairs with where their particles are at the start, and from where to where they get.
 struct Judged<'a> {
     ids: &'a [[u32; 4]],
-    rooms: [&'a [Spot]; 3],
+    rooms: [&'a [Float4]; 3],
     gap: f32,
     may_meet: &'a mut [u64],
     lanes: Lanes<&'a mut [f32]>,

@@ -2,7 +2,7 @@
 //! began, and the fence asks whether it still does.
 
 use crate::math::simd::{Level, Scalar, Simd, turn, vectored};
-use crate::solver::particle_stage::interleaved::Spot;
+use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between};
 use crate::solver::self_collide::surface::contact::{Contact, EDGES, Kind, SLIT, VERTEX};
 use crate::solver::self_collide::surface::contact_graph::Around;
@@ -25,7 +25,7 @@ pub(crate) struct Distant {
 }
 
 /// Finds which pairs are apart by more than a fence leaves between them: a bit for each.
-fn find_apart(level: Level, distant: &[Distant], now: &[Spot], apart: &mut Vec<u8>) {
+fn find_apart(level: Level, distant: &[Distant], now: &[Float4], apart: &mut Vec<u8>) {
     apart.clear();
     apart.resize(distant.len().div_ceil(LANES), 0);
     look(level, distant, now, apart);
@@ -33,7 +33,12 @@ fn find_apart(level: Level, distant: &[Distant], now: &[Spot], apart: &mut Vec<u
 
 /// Whether all pairs are apart by more than a fence leaves between them, as they were before some particles were
 /// stirred.
-pub(crate) fn are_apart(level: Level, distant: &[Distant], now: &[Spot], around: &Around) -> bool {
+pub(crate) fn are_apart(
+    level: Level,
+    distant: &[Distant],
+    now: &[Float4],
+    around: &Around,
+) -> bool {
     let Some(first) = distant.first() else { return true };
     let (mut some, mut count) = ([*first; LANES], 0);
     let are_apart = |some: &[Distant]| {
@@ -61,15 +66,15 @@ fn count(apart: &[u8]) -> usize {
 
 vectored! {
     /// Sets a bit for each pair that is apart.
-    pub(crate) fn look(distant: &[Distant], now: &[Spot], apart: &mut [u8]) = look_at, Avx2, look_alone
+    pub(crate) fn look(distant: &[Distant], now: &[Float4], apart: &mut [u8]) = look_at, Avx2, look_alone
 }
 
-fn look_alone(distant: &[Distant], now: &[Spot], apart: &mut [u8]) {
+fn look_alone(distant: &[Distant], now: &[Float4], apart: &mut [u8]) {
     look_at(Scalar, distant, now, apart);
 }
 
 #[inline(always)]
-fn look_at<S: Simd>(s: S, distant: &[Distant], now: &[Spot], apart: &mut [u8]) {
+fn look_at<S: Simd>(s: S, distant: &[Distant], now: &[Float4], apart: &mut [u8]) {
     for (pairs, bits) in distant.chunks(LANES).zip(apart) {
         let mut ids = [[0; LANES]; 4];
         let mut n = [[0.0; LANES]; 3];

@@ -8,8 +8,8 @@
 //! ```
 
 use crate::math::simd::{Arithmetic, Base, Number, Simd};
+use crate::math::wide4::Float4;
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::Spot;
 
 /// Things that are tested at once.
 pub(crate) const LANES: usize = 8;
@@ -17,10 +17,10 @@ pub(crate) const LANES: usize = 8;
 /// A box around places, and one around the ways from there to where they may be in the end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sweep {
-    pub low: Spot,
-    pub high: Spot,
-    pub from: Spot,
-    pub to: Spot,
+    pub low: Float4,
+    pub high: Float4,
+    pub from: Float4,
+    pub to: Float4,
 }
 
 impl Sweep {
@@ -45,13 +45,13 @@ impl Sweep {
 
     /// What holds some particles: where they are, and from where to where they go.
     #[inline(always)]
-    pub fn around(particles: &[u32], [places, from, to]: [&[Spot]; 3]) -> Self {
+    pub fn around(particles: &[u32], [places, from, to]: [&[Float4]; 3]) -> Self {
         let (simd, mut all) = (Base::new(), Self::EMPTY);
         for k in (0..4).step_by(Base::LANES) {
             let [none, endless] = [f32::INFINITY, f32::NEG_INFINITY].map(|end| simd.splat(end));
             let ([mut low, mut first], [mut high, mut last]) = ([none; 2], [endless; 2]);
             for particle in particles {
-                let load = |spots: &[Spot]| simd.load(&spots[*particle as usize], k);
+                let load = |spots: &[Float4]| simd.load(&spots[*particle as usize], k);
                 let place = load(places);
                 (low, high) = (Number::min(low, place), Number::max(high, place));
                 (first, last) = (Number::min(first, load(from)), Number::max(last, load(to)));
@@ -72,7 +72,7 @@ impl Sweep {
         let (zero, gap) = (simd.splat(0.0), simd.splat(gap));
         let mut apart = 0;
         for k in (0..4).step_by(Base::LANES) {
-            let load = |all: &Spot| simd.load(all, k);
+            let load = |all: &Float4| simd.load(all, k);
             let down = Number::min(load(&a.from) - load(&b.to), zero);
             let up = Number::max(load(&a.to) - load(&b.from), zero);
             let below = load(&a.low) + down - (load(&b.high) + gap);

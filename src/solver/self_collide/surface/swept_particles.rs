@@ -3,8 +3,9 @@
 use crate::math::wide4::{Four, WAYS};
 use crate::solver::particle_stage::interleaved;
 
+use crate::math::wide4::{Float4, xyz};
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::{Spot, drift, place};
+use crate::solver::particle_stage::interleaved::drift;
 use crate::solver::self_collide::surface::swept_aabb::Sweep;
 use glam::Vec3;
 
@@ -18,13 +19,13 @@ const SPARE_WAY: f32 = 0.25;
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
     /// Where particles were as the substep began, and where they are.
-    pub start: Vec<Spot>,
-    pub now: Vec<Spot>,
+    pub start: Vec<Float4>,
+    pub now: Vec<Float4>,
     /// How all moved in the mean.
     pub drift: Vec3,
     /// The ways from the start that each may have made in the end.
-    from: Vec<Spot>,
-    to: Vec<Spot>,
+    from: Vec<Float4>,
+    to: Vec<Float4>,
     /// Whether each got out of that.
     strays: Vec<bool>,
 }
@@ -39,7 +40,7 @@ impl Motion {
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
         let spots = [&self.start, &self.now, &self.from, &self.to];
-        size_of::<Spot>() * spots.iter().map(|spots| spots.capacity()).sum::<usize>()
+        size_of::<Float4>() * spots.iter().map(|spots| spots.capacity()).sum::<usize>()
             + self.strays.capacity()
     }
 
@@ -68,7 +69,7 @@ impl Motion {
             {
                 continue;
             }
-            let way = place(now) - place(start);
+            let way = xyz(now) - xyz(start);
             *strays = !holds(from, to, way);
             if *strays {
                 extend(from, to, way, way.distance(self.drift) * SPARE_WAY + spare);
@@ -93,19 +94,19 @@ impl Motion {
     pub fn are_as_thought(&self, mut particles: impl Iterator<Item = u32>) -> bool {
         particles.all(|at| {
             let at = at as usize;
-            holds(&self.from[at], &self.to[at], place(&self.now[at]) - place(&self.start[at]))
+            holds(&self.from[at], &self.to[at], xyz(&self.now[at]) - xyz(&self.start[at]))
         })
     }
 
     /// Where particles were as the substep began, and the ways that each may have made in the end, from and to.
-    pub fn rooms(&self) -> [&[Spot]; 3] {
+    pub fn rooms(&self) -> [&[Float4]; 3] {
         [&self.start, &self.from, &self.to]
     }
 
     /// The ways that a particle may have made in the end, from and to.
     #[inline(always)]
     pub fn ways(&self, at: usize) -> [Vec3; 2] {
-        [place(&self.from[at]), place(&self.to[at])]
+        [xyz(&self.from[at]), xyz(&self.to[at])]
     }
 
     /// Grows a sweep to hold a particle.
@@ -150,9 +151,9 @@ impl Motion {
     #[inline(always)]
     pub fn ends_along(&self, particle: u32, n: Vec3) -> [f32; 2] {
         let at = particle as usize;
-        let (from, to) = (place(&self.from[at]), place(&self.to[at]));
+        let (from, to) = (xyz(&self.from[at]), xyz(&self.to[at]));
         let (a, b) = (n * from, n * to);
-        let start = n.dot(place(&self.start[at]));
+        let start = n.dot(xyz(&self.start[at]));
         [
             start + min(a.x, b.x) + min(a.y, b.y) + min(a.z, b.z),
             start + max(a.x, b.x) + max(a.y, b.y) + max(a.z, b.z),
@@ -161,19 +162,19 @@ impl Motion {
 }
 
 #[inline(always)]
-fn holds(from: &Spot, to: &Spot, way: Vec3) -> bool {
+fn holds(from: &Float4, to: &Float4, way: Vec3) -> bool {
     let way = way.to_array();
     (0..3).all(|k| way[k] >= from[k] && way[k] <= to[k])
 }
 
 /// The same, but it may miss what is just within.
 #[inline(always)]
-fn surely_holds(from: &Spot, to: &Spot, way: Four) -> bool {
+fn surely_holds(from: &Float4, to: &Float4, way: Four) -> bool {
     (way - Four::of(from)).min(Four::of(to) - way).positives() & WAYS == WAYS
 }
 
 #[inline(always)]
-fn extend(from: &mut Spot, to: &mut Spot, way: Vec3, room: f32) {
+fn extend(from: &mut Float4, to: &mut Float4, way: Vec3, room: f32) {
     for (k, way) in way.to_array().into_iter().enumerate() {
         from[k] = min(from[k], way - room);
         to[k] = max(to[k], way + room);

@@ -4,8 +4,9 @@
 //! Ways are told against how all move in the mean, so that a cloth that falls as a whole stays where it is.
 
 use crate::math::simd::{Arithmetic, Base, Number, Simd};
+use crate::math::wide4::{Float4, xyz};
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::{Spot, drift, place};
+use crate::solver::particle_stage::interleaved::drift;
 use crate::solver::self_collide::surface::swept_particles::Motion;
 use glam::Vec3;
 
@@ -17,10 +18,10 @@ const SPARE_WAY: f32 = 0.25;
 #[derive(Clone, Debug)]
 pub(crate) struct Reach {
     /// Where particles were.
-    base: Vec<Spot>,
+    base: Vec<Float4>,
     /// The ways from there, against the mean, that each may have made.
-    from: Vec<Spot>,
-    to: Vec<Spot>,
+    from: Vec<Float4>,
+    to: Vec<Float4>,
     /// Whether that is of this tick.
     pub is_known: bool,
     /// How all moved from the base to the start of the substep, and to where they are.
@@ -35,7 +36,7 @@ impl Reach {
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of::<Spot>() * (self.base.capacity() + self.from.capacity() + self.to.capacity())
+        size_of::<Float4>() * (self.base.capacity() + self.from.capacity() + self.to.capacity())
     }
 
     /// Gives each particle room to go on for so many substeps, this one being the first.
@@ -46,7 +47,7 @@ impl Reach {
         self.to.clear();
         let times = substeps as f32;
         for (at, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
-            let way = (place(now) - place(start) - motion.drift) * times;
+            let way = (xyz(now) - xyz(start) - motion.drift) * times;
             let room = Vec3::splat(way.length() * SPARE_WAY);
             let (from, to) = (way.min(Vec3::ZERO) - room, way.max(Vec3::ZERO) + room);
             let [least, most] = motion.ways(at).map(|way| way - motion.drift);
@@ -101,7 +102,7 @@ impl Reach {
     /// Gives a particle room to where it gets in this substep.
     pub fn widen(&mut self, motion: &Motion, particle: u32) {
         let at = particle as usize;
-        let way = place(&motion.start[at]) - place(&self.base[at]);
+        let way = xyz(&motion.start[at]) - xyz(&self.base[at]);
         let ends = motion.ways(at).map(|end| way + end - self.drifts[1]);
         for way in ends {
             for (k, way) in way.to_array().into_iter().enumerate() {
@@ -112,7 +113,7 @@ impl Reach {
     }
 
     /// Where particles were, and the ways from there that each may have made, from and to.
-    pub fn rooms(&self) -> [&[Spot]; 3] {
+    pub fn rooms(&self) -> [&[Float4]; 3] {
         [&self.base, &self.from, &self.to]
     }
 }

@@ -16,9 +16,10 @@
 use crate::geometry::aabb::Aabb;
 use crate::math::columns::Columns;
 use crate::math::sort::sort;
+use crate::math::wide4::{Float4, xyz};
 use crate::math::{TINY, min};
 use crate::mesh::{Fan, Mesh, triangle_of};
-use crate::solver::particle_stage::interleaved::{Spot, place, shift};
+use crate::solver::particle_stage::interleaved::shift;
 use crate::solver::self_collide::surface::cluster_bvh::Patches;
 use crate::solver::self_collide::surface::contact::{Contact, NOTHING};
 use crate::solver::self_collide::surface::contact_solver::Weight;
@@ -92,7 +93,7 @@ impl Tangles {
         mesh: &Mesh,
         patches: &Patches,
         pairs: &[u32],
-        start: &[Spot],
+        start: &[Float4],
         tick: u32,
     ) -> bool {
         self.list(mesh, patches, pairs, start, Some(tick % ROUND));
@@ -105,7 +106,7 @@ impl Tangles {
         &mut self,
         mesh: &Mesh,
         (patches, pairs): (&Patches, &[u32]),
-        start: &[Spot],
+        start: &[Float4],
         [gap, spacing, h]: [f32; 3],
     ) {
         self.list(mesh, patches, pairs, start, None);
@@ -132,7 +133,7 @@ impl Tangles {
         mesh: &Mesh,
         patches: &Patches,
         pairs: &[u32],
-        x: &[Spot],
+        x: &[Float4],
         due: Option<u32>,
     ) {
         self.crossings.clear();
@@ -149,14 +150,14 @@ impl Tangles {
 
     /// Finds the own edges of one patch that go through triangles of the other.
     #[inline(never)]
-    fn look(&mut self, mesh: &Mesh, patches: &Patches, [one, other]: [u32; 2], x: &[Spot]) {
-        let at = |id: u32| place(&x[id as usize]);
+    fn look(&mut self, mesh: &Mesh, patches: &Patches, [one, other]: [u32; 2], x: &[Float4]) {
+        let at = |id: u32| xyz(&x[id as usize]);
         let [from, to] = patches.patches[one as usize].edges;
         let edges = &patches.edges[from as usize..to as usize];
         let [from, to] = patches.patches[other as usize].triangles;
         let triangles = &patches.triangles[from as usize..to as usize];
         let sweep = &patches.sweeps[other as usize];
-        let whole = Aabb { low: place(&sweep.low), high: place(&sweep.high) };
+        let whole = Aabb { low: xyz(&sweep.low), high: xyz(&sweep.high) };
         for ends in edges {
             let edge = ends.map(at);
             let bounds = Aabb::around(edge);
@@ -221,11 +222,11 @@ impl Tangles {
         &mut self,
         crossing: &Crossing,
         mesh: &Mesh,
-        x: &[Spot],
+        x: &[Float4],
         gap: f32,
         most: f32,
     ) -> Option<Crossing> {
-        let at = |id: u32| place(&x[id as usize]);
+        let at = |id: u32| xyz(&x[id as usize]);
         let [p, q, corners @ ..] = crossing.ids;
         let lots = [p, q].map(|end| first_of(&mut self.lots, end));
         if lots[0] == lots[1] || self.has_hub([p, q]) {
@@ -252,8 +253,8 @@ impl Tangles {
 
     /// The edge goes along the line in which its triangles cross the other one: as far as that leads, where it is a
     /// border, and else where the line bends to.
-    fn shorten(&mut self, crossing: &Crossing, mesh: &Mesh, x: &[Spot], most: f32) -> Crossing {
-        let at = |id: u32| place(&x[id as usize]);
+    fn shorten(&mut self, crossing: &Crossing, mesh: &Mesh, x: &[Float4], most: f32) -> Crossing {
+        let at = |id: u32| xyz(&x[id as usize]);
         let [p, q, corners @ ..] = crossing.ids;
         for id in crossing.ids {
             self.parts[id as usize] |= LOOSE;
@@ -304,7 +305,7 @@ impl Tangles {
             let all = ids.map(|id| id as usize).into_iter().zip(*share);
             let (mut gone, mut sum) = (0.0, 0.0);
             for (id, share) in all.clone() {
-                gone += share * way.dot(place(&now[id]) - place(&start[id]));
+                gone += share * way.dot(xyz(&now[id]) - xyz(&start[id]));
                 sum += share * share * now[id][3];
             }
             let missing = by - gone;
