@@ -209,11 +209,11 @@ fn build(
         triangle_capacity,
         reserve_told: false,
         over_stretched: 0,
-        over_stretch_told: false,
+        over_stretch_reported: false,
         pin_order: PinOrder::default(),
         tether_slack: f32::INFINITY,
-        apart: 1.0,
-        is_apart_current: false,
+        pin_stretch: 1.0,
+        is_pin_stretch_current: false,
         events: Events::new(),
         level: Level::best(),
         threads: Threads::ONE,
@@ -320,19 +320,19 @@ impl World {
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
         scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
         scratch.pieces.reserve();
-        scratch.home.reserve(triangles);
+        scratch.rollback.reserve(triangles);
     }
 
     fn reserve_packed(&mut self, capacity: usize) {
-        self.scratch.weights.reserve(capacity, self.constraints.links.len());
+        self.scratch.end_weights.reserve(capacity, self.constraints.links.len());
         if self.constraints.rows.is_none() {
-            self.scratch.packed.reserve(capacity);
+            self.scratch.interleaved.reserve(capacity);
         }
         let has_strips = self.constraints.rows.is_some();
         let steps = self.constraints.lines.abreast.most_steps();
         self.scratch.lines = line_solver::LineScratch::new(steps, capacity, has_strips);
         self.scratch.bend = bend::BendScratch::new(self, capacity);
         let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.scratch.brake = damping::DampingScratch::new(self.constraints.links.len(), extra);
+        self.scratch.damping = damping::DampingScratch::new(self.constraints.links.len(), extra);
     }
 }

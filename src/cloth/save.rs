@@ -74,7 +74,7 @@ struct Saved<'a> {
     reserve_told: bool,
     tether_slack: f32,
     over_stretched: u32,
-    over_stretch_told: bool,
+    over_stretch_reported: bool,
     sleep: Sleep,
     owed: f64,
     topology_revision: u32,
@@ -120,7 +120,7 @@ impl Cloth {
             reserve_told: world.reserve_told,
             tether_slack: world.tether_slack,
             over_stretched: world.over_stretched,
-            over_stretch_told: world.over_stretch_told,
+            over_stretch_reported: world.over_stretch_reported,
             sleep: world.sleep,
             owed: self.owed,
             topology_revision: self.topology_revision,
@@ -258,7 +258,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.events.reserve();
     (world.time, world.tick, world.reserve_told) = (saved.time, saved.tick, saved.reserve_told);
     world.over_stretched = saved.over_stretched;
-    world.over_stretch_told = saved.over_stretch_told;
+    world.over_stretch_reported = saved.over_stretch_reported;
     must(saved.tether_slack >= 0.0)?;
     world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
     world.find_tips();

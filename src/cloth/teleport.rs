@@ -200,6 +200,6 @@ impl World {
         }
         self.scratch.contacts.near.forget();
         // Turned, pins are as far apart as they were but for rounding, which a restored cloth would measure anew.
-        self.is_apart_current = false;
+        self.is_pin_stretch_current = false;
     }
 }

@@ -91,7 +91,7 @@ fn end(world: &mut World) {
 fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::advance(world));
     timed!(world, Hold, targets::hold(world, number));
-    if world.settings.tethers && !world.is_apart_current {
+    if world.settings.tethers && !world.is_pin_stretch_current {
         timed!(world, Tethers, tethers::look(world));
     }
     distance::restart(world);

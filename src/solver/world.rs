@@ -48,8 +48,8 @@ pub(crate) struct World {
     /// See `tethers::measure_slack`; infinite before the first tick and after pins or places changed.
     pub tether_slack: f32,
     /// How far pins hold the cloth apart, see `tethers::held_apart`, and whether that is still so.
-    pub apart: f32,
-    pub is_apart_current: bool,
+    pub pin_stretch: f32,
+    pub is_pin_stretch_current: bool,
     /// Rest position of each site [m].
     pub rest: Vec<Vec3>,
     /// The sites that cuts made, after those of the original vertices.
@@ -92,7 +92,7 @@ pub(crate) struct World {
     /// Links past the stretch bound after the last tick.
     pub over_stretched: u32,
     /// Whether the host knows of them.
-    pub over_stretch_told: bool,
+    pub over_stretch_reported: bool,
     pub events: Events,
     /// The instructions that kernels may use.
     pub level: Level,
@@ -120,25 +120,25 @@ pub(crate) struct TickScratch {
     /// Velocity of the air against each particle [m/s].
     pub air: Columns,
     /// The way that prediction gave each particle in this substep [m].
-    pub way: Columns,
+    pub displacement: Columns,
     /// Where prediction took it [m].
     pub predicted: Columns,
     /// The velocity that each particle began the tick with, while there is a stretch bound [m/s].
-    pub begun: Columns,
+    pub initial_velocity: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
-    pub anchor: Columns,
+    pub tether_anchor: Columns,
     /// What resists a push at each particle while there are soft pins [kg].
     pub inertia: Vec<f32>,
     /// What leashes pulled in this substep.
     pub pulled: Vec<u32>,
-    pub weights: crate::solver::stretch::inverse_masses::Weights,
-    pub packed: crate::solver::stretch::mesh_kernel::Packed,
+    pub end_weights: crate::solver::stretch::inverse_masses::Weights,
+    pub interleaved: crate::solver::stretch::mesh_kernel::Packed,
     pub lines: crate::solver::stretch::line_solver::LineScratch,
     pub bend: crate::solver::bend::BendScratch,
-    pub brake: crate::solver::stretch::damping::DampingScratch,
+    pub damping: crate::solver::stretch::damping::DampingScratch,
     pub contacts: crate::solver::collide::ContactScratch,
     pub tear: crate::solver::topology::tear::TearScratch,
-    pub home: crate::solver::stretch::rollback::Home,
+    pub rollback: crate::solver::stretch::rollback::Home,
     pub opened: Vec<Opening>,
     pub pieces: crate::solver::topology::tear::Pieces,
     pub stack: Vec<u32>,
@@ -151,27 +151,27 @@ impl TickScratch {
         let mut scratch = Self {
             acceleration: Columns::with_capacity(capacity),
             air: Columns::with_capacity(capacity),
-            way: Columns::with_capacity(capacity),
+            displacement: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
-            begun: Columns::with_capacity(capacity),
-            anchor: Columns::with_capacity(capacity),
+            initial_velocity: Columns::with_capacity(capacity),
+            tether_anchor: Columns::with_capacity(capacity),
             inertia: Vec::new(),
             pulled: Vec::new(),
-            weights: crate::solver::stretch::inverse_masses::Weights::default(),
-            packed: crate::solver::stretch::mesh_kernel::Packed::default(),
+            end_weights: crate::solver::stretch::inverse_masses::Weights::default(),
+            interleaved: crate::solver::stretch::mesh_kernel::Packed::default(),
             lines: crate::solver::stretch::line_solver::LineScratch::default(),
             bend: crate::solver::bend::BendScratch::default(),
-            brake: crate::solver::stretch::damping::DampingScratch::default(),
+            damping: crate::solver::stretch::damping::DampingScratch::default(),
             contacts: crate::solver::collide::ContactScratch::default(),
             tear: crate::solver::topology::tear::TearScratch::with_capacity(max_tears),
-            home: crate::solver::stretch::rollback::Home::with_capacity(capacity, triangles),
+            rollback: crate::solver::stretch::rollback::Home::with_capacity(capacity, triangles),
             opened: Vec::with_capacity(2),
             pieces: crate::solver::topology::tear::Pieces::new(triangles),
             stack: Vec::with_capacity(triangles),
         };
         zero(&mut scratch.acceleration);
         zero(&mut scratch.air);
-        zero(&mut scratch.way);
+        zero(&mut scratch.displacement);
         zero(&mut scratch.predicted);
         scratch
     }
@@ -180,7 +180,7 @@ impl TickScratch {
     pub fn grow(&mut self) {
         self.acceleration.push(Vec3::ZERO);
         self.air.push(Vec3::ZERO);
-        self.way.push(Vec3::ZERO);
+        self.displacement.push(Vec3::ZERO);
         self.predicted.push(Vec3::ZERO);
     }
 }
@@ -292,7 +292,7 @@ impl World {
         self.wake();
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
         self.particles.place(particle, x, v, gravity, h);
-        self.is_apart_current = false;
+        self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
     }
 
@@ -323,7 +323,7 @@ impl World {
     }
 
     fn tethers_changed(&mut self) {
-        self.is_apart_current = false;
+        self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
         self.sort_outward();
     }

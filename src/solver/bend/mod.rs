@@ -85,7 +85,7 @@ pub(crate) fn go_on(world: &mut World, order: Order, iteration: u32) {
         distance::solve(world, LinkKind::Bend, order);
     } else if iteration == 1 {
         // PlateElements are in columns, whatever the links are in.
-        let is_packed = world.plates.is_some() && world.scratch.packed.is_current;
+        let is_packed = world.plates.is_some() && world.scratch.interleaved.is_current;
         if is_packed {
             mesh_kernel::unpack(world);
         }
@@ -138,7 +138,7 @@ fn bend_plates(world: &mut World, step: hinge::Step, order: Order) {
         before: step.before,
         is_first: order == Order::Forward,
         predicted: &scratch.predicted,
-        way: &scratch.way,
+        way: &scratch.displacement,
         rest,
         softening: world.folds.wear.softens(&world.material),
     };
@@ -208,7 +208,7 @@ fn bend_elbows(world: &mut World, step: hinge::Step) {
         stiffness: step.stiffness / (plates.spacing * plates.spacing),
         before: step.before,
         predicted: &scratch.predicted,
-        way: &scratch.way,
+        way: &scratch.displacement,
         rest: world.folds.are_any.then_some([weft, warp]),
         softening: world.folds.wear.softens(&world.material),
     };
@@ -229,7 +229,7 @@ fn bend_late(world: &mut World, step: hinge::Step) {
         let hinge = world.constraints.hinges.late(&world.mesh, links, link, &world.rest);
         if let Some(hinge) = hinge {
             let scratch = &world.scratch;
-            let start = |i: usize| scratch.predicted.at(i) - scratch.way.at(i);
+            let start = |i: usize| scratch.predicted.at(i) - scratch.displacement.at(i);
             hinge::project(&hinge, step, start, &mut world.particles);
         }
     }
@@ -238,7 +238,7 @@ fn bend_late(world: &mut World, step: hinge::Step) {
 #[inline(never)]
 fn bend_hinges(world: &mut World, step: hinge::Step, order: Order) {
     let (count, scratch) = (world.particles.len(), &mut world.scratch);
-    let (predicted, way) = (&scratch.predicted, &scratch.way);
+    let (predicted, way) = (&scratch.predicted, &scratch.displacement);
     let cell = world.mean_edge * world.mean_edge;
     let flaps = Flaps {
         hinges: &world.constraints.hinges,
@@ -251,8 +251,8 @@ fn bend_hinges(world: &mut World, step: hinge::Step, order: Order) {
     };
     let start = |i: usize| predicted.at(i) - way.at(i);
     let room = &mut scratch.bend.flaps;
-    if scratch.packed.is_current {
-        flaps.bend(room, count, start, &mut scratch.packed);
+    if scratch.interleaved.is_current {
+        flaps.bend(room, count, start, &mut scratch.interleaved);
     } else {
         flaps.bend(room, count, start, &mut world.particles);
     }

@@ -255,7 +255,7 @@ fn find(world: &mut World, margin: f32) {
     near.found_at.copy_from(x);
     near.is_stale = false;
     // Where a particle is, and where the substep found it: a fast one is far from there already.
-    let both = |i: usize| [x.at(i), scratch.predicted.at(i) - scratch.way.at(i)];
+    let both = |i: usize| [x.at(i), scratch.predicted.at(i) - scratch.displacement.at(i)];
     let count = world.particles.len();
     near.particle_bounds.clear();
     near.particle_bounds.extend(

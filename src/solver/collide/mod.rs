@@ -135,7 +135,7 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: b
             x: &mut p.x,
             v: &p.v,
             w: &p.w,
-            way: &scratch.way,
+            way: &scratch.displacement,
             predicted: &scratch.predicted,
             frames: frames(body),
             feel: if is_bare {

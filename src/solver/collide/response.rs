@@ -63,7 +63,7 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for touch in &scratch.contacts.touches {
         let i = touch.particle as usize;
-        let step = scratch.way.at(i) + (p.x.at(i) - scratch.predicted.at(i));
+        let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
         let given = bounce(p, touch, i, step, law);
         let impulse = &mut scratch.contacts.impulses[touch.body as usize];
         impulse.linear -= given;

@@ -21,7 +21,7 @@ pub(crate) fn keep(world: &mut World) {
     }
     list_starts(world);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let moves = &mut scratch.anchor;
+    let moves = &mut scratch.tether_anchor;
     moves.resize(p.len());
     let all = p.x.all().into_iter().zip(scratch.predicted.all()).zip(moves.all_mut());
     for ((x, predicted), moves) in all {
@@ -47,7 +47,7 @@ pub(crate) fn list_starts(world: &mut World) {
     let scheme = world.settings.scheme();
     let back = scheme.trail / scheme.lead;
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    let ways = scratch.way.all().into_iter().zip(p.moved.all());
+    let ways = scratch.displacement.all().into_iter().zip(p.moved.all());
     let read = scratch.predicted.all().into_iter().zip(ways);
     for ((predicted, (way, moved)), from) in read.zip(scratch.air.all_mut()) {
         let read = predicted.iter().zip(way).zip(moved);

@@ -24,7 +24,7 @@ pub(crate) fn advance(world: &mut World) {
     let (level, threads) = (world.level, world.threads);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let is_long = AtomicBool::new(false);
-    let write = scratch.way.all_mut();
+    let write = scratch.displacement.all_mut();
     let read = (p.moved.all(), p.v_ahead.all(), scratch.acceleration.all(), &p.w[..]);
     threads.over((write, read), PARTICLES, |(write, (moved, v_ahead, a, w))| {
         let mut is_one_long = false;
@@ -39,7 +39,7 @@ pub(crate) fn advance(world: &mut World) {
         clamp_displacement(world, reach);
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let columns = (p.x.all_mut(), scratch.way.all(), scratch.predicted.all_mut());
+    let columns = (p.x.all_mut(), scratch.displacement.all(), scratch.predicted.all_mut());
     threads.over(columns, PARTICLES, |(x, way, predicted)| {
         for ((x, way), predicted) in x.into_iter().zip(way).zip(predicted) {
             go(level, x, way, predicted);
@@ -95,7 +95,7 @@ fn go_column(x: &mut [f32], way: &[f32], predicted: &mut [f32]) {
 /// its momentum and its spin: what this takes from some particles goes to all.
 fn clamp_displacement(world: &mut World, reach: f32) {
     let (level, p) = (world.level, &world.particles);
-    let way = &mut world.scratch.way;
+    let way = &mut world.scratch.displacement;
     let (x, mass, w) = (p.x.all(), &p.mass[..], &p.w[..]);
     let rigid = RigidMotion::of_free(level, Free { x, way: way.all(), mass, w });
     let is_clamped = AtomicBool::new(false);

@@ -16,7 +16,7 @@ pub(crate) fn derive(world: &mut World) {
     let scheme = world.settings.scheme();
     let keep = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
     let p = &mut world.particles;
-    let (way, predicted) = (&world.scratch.way, &world.scratch.predicted);
+    let (way, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
     let level = world.level;
     let read = (p.x.all(), predicted.all(), way.all());
     let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());

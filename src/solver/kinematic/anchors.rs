@@ -44,7 +44,7 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in scratch.pulled.iter().map(|i| *i as usize) {
-        let step = scratch.way.at(i) + (p.x.at(i) - scratch.predicted.at(i));
+        let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
         let v = step * (keep / h);
         p.v.set(i, v);
         p.v_ahead.set(i, v);

@@ -36,10 +36,11 @@ pub(crate) fn begin(world: &mut World) {
         return;
     }
     let lag = world.material.stretch_damping / world.settings.scheme().h;
-    let (to, way) = (&world.scratch.predicted, &world.scratch.way);
+    let (to, way) = (&world.scratch.predicted, &world.scratch.displacement);
     let start = |i: u32| to.at(i as usize) - way.at(i as usize);
     let Constraints { links, extra, .. } = &mut world.constraints;
-    for (links, [rest, compliance]) in [links, extra].into_iter().zip(&mut world.scratch.brake.kept)
+    for (links, [rest, compliance]) in
+        [links, extra].into_iter().zip(&mut world.scratch.damping.kept)
     {
         rest.clone_from(&links.rest);
         compliance.clone_from(&links.compliance);
@@ -54,7 +55,7 @@ pub(crate) fn end(world: &mut World) {
         return;
     }
     let Constraints { links, extra, .. } = &mut world.constraints;
-    for (links, [rest, compliance]) in [links, extra].into_iter().zip(&world.scratch.brake.kept) {
+    for (links, [rest, compliance]) in [links, extra].into_iter().zip(&world.scratch.damping.kept) {
         links.rest.copy_from_slice(rest);
         links.compliance.copy_from_slice(compliance);
     }

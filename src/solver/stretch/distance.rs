@@ -98,10 +98,10 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
     #[cfg(not(feature = "parallel"))]
     let is_solved = false;
     let (constraints, p) = (&mut world.constraints, &mut world.particles);
-    let packed = &mut world.scratch.packed;
+    let packed = &mut world.scratch.interleaved;
     if let Some(grid) = &constraints.rows {
         if !is_solved {
-            let ends = &world.scratch.weights.ends;
+            let ends = &world.scratch.end_weights.ends;
             let links = &mut constraints.links;
             grid_links::solve::<LAW>(world.level, grid, range.clone(), links, ends, p, scale);
         }
@@ -109,7 +109,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
         let (links, order) = (&mut constraints.links, Order::Forward);
         sparse::solve::<LAW, _>(world.level, &grid.loose, (at, order), links, p, scale);
     } else if packed.is_current {
-        let (links, weights) = (&mut constraints.links, &world.scratch.weights);
+        let (links, weights) = (&mut constraints.links, &world.scratch.end_weights);
         mesh_kernel::solve::<LAW>(world.level, world.threads, range, links, weights, packed, scale);
     } else {
         range.for_each(|link| project::<LAW, _>(&mut constraints.links, link, p, scale));
@@ -118,7 +118,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
 
 fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: Order, scale: f32) {
     let (level, at) = (world.level, (at, order));
-    let (p, packed) = (&mut world.particles, &mut world.scratch.packed);
+    let (p, packed) = (&mut world.particles, &mut world.scratch.interleaved);
     let (loose, links) = (&world.constraints.loose, &mut world.constraints.extra);
     if packed.is_current {
         sparse::solve::<LAW, _>(level, loose, at, links, packed, scale);

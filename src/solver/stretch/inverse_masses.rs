@@ -39,7 +39,7 @@ impl Weights {
 pub(crate) fn weigh(world: &mut World) {
     let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
     let rigid = kinds.map(|kind| is_rigid(world, kind));
-    let (constraints, weights) = (&mut world.constraints, &mut world.scratch.weights);
+    let (constraints, weights) = (&mut world.constraints, &mut world.scratch.end_weights);
     let w = &world.particles.w;
     let rows_are_weighed = constraints.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
     let are_weighed = constraints.loose.is_weighed() && rows_are_weighed;

@@ -18,8 +18,8 @@ pub(crate) fn take(world: &mut World, is_rigid: bool) {
     let s = &mut scratch.lines;
     s.points.resize(p.len() + 1, [0.0; 4]);
     s.points[0] = [0.0; 4];
-    if scratch.packed.is_current {
-        let particles = scratch.packed.points.iter().zip(&p.w);
+    if scratch.interleaved.is_current {
+        let particles = scratch.interleaved.points.iter().zip(&p.w);
         for (seat, ([x, y, z, _], w)) in s.points[1..].iter_mut().zip(particles) {
             *seat = [*x, *y, *z, *w];
         }
@@ -29,7 +29,7 @@ pub(crate) fn take(world: &mut World, is_rigid: bool) {
     s.starts.clear();
     if is_rigid {
         s.starts.resize(p.len() + 1, [0.0; 4]);
-        seat_back(level, scratch.predicted.all(), scratch.way.all(), &mut s.starts[1..]);
+        seat_back(level, scratch.predicted.all(), scratch.displacement.all(), &mut s.starts[1..]);
     }
 }
 
@@ -156,8 +156,8 @@ fn put_apart(laid: &[line_blocks::Step], room: &[Step], points: &mut [[f32; 4]],
 /// Copies them back.
 pub(crate) fn leave(world: &mut World) {
     let seats = &world.scratch.lines.points[1..];
-    if world.scratch.packed.is_current {
-        for (point, [x, y, z, _]) in world.scratch.packed.points.iter_mut().zip(seats) {
+    if world.scratch.interleaved.is_current {
+        for (point, [x, y, z, _]) in world.scratch.interleaved.points.iter_mut().zip(seats) {
             *point = [*x, *y, *z, 0.0];
         }
     } else {

@@ -112,7 +112,7 @@ pub(crate) fn solve(world: &mut World) {
     let step = world.settings.scheme().step;
     let scale = if is_rigid { None } else { Some(1.0 / (step * step)) };
     world.constraints.lines.abreast.lay(&world.constraints.links);
-    let are_in_columns = world.level != Level::Scalar && !world.scratch.packed.is_current;
+    let are_in_columns = world.level != Level::Scalar && !world.scratch.interleaved.is_current;
     if are_in_columns && world.constraints.lines.abreast.are_strips() {
         solve_strips(world, scale);
     } else {
@@ -157,7 +157,7 @@ fn solve_strips(world: &mut World, scale: Option<f32>) {
     let (lines, links) = (&world.constraints.lines.abreast, &mut world.constraints.links);
     let LineScratch { columns: starts, steps: room, .. } = &mut scratch.lines;
     if scale.is_none() {
-        line_strided::find_starts(level, &scratch.predicted, &scratch.way, starts);
+        line_strided::find_starts(level, &scratch.predicted, &scratch.displacement, starts);
     }
     for (strip, laid) in lines.strips() {
         let room = &mut room[..=laid.len()];

@@ -59,7 +59,7 @@ pub(crate) fn pack(world: &mut World) {
     if world.constraints.rows.is_some() {
         return;
     }
-    let (p, packed) = (&world.particles, &mut world.scratch.packed);
+    let (p, packed) = (&world.particles, &mut world.scratch.interleaved);
     packed.points.clear();
     let particles = p.x.x.iter().zip(&*p.x.y).zip(&*p.x.z);
     packed.points.extend(particles.map(|((x, y), z)| [*x, *y, *z, 0.0]));
@@ -69,12 +69,12 @@ pub(crate) fn pack(world: &mut World) {
 
 /// Puts positions back into their columns.
 pub(crate) fn unpack(world: &mut World) {
-    if !core::mem::take(&mut world.scratch.packed.is_current) {
+    if !core::mem::take(&mut world.scratch.interleaved.is_current) {
         return;
     }
     let x = &mut world.particles.x;
     let particles = x.x.iter_mut().zip(&mut *x.y).zip(&mut *x.z);
-    for (((x, y), z), point) in particles.zip(&world.scratch.packed.points) {
+    for (((x, y), z), point) in particles.zip(&world.scratch.interleaved.points) {
         [*x, *y, *z, _] = *point;
     }
 }

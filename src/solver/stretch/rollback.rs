@@ -62,7 +62,7 @@ impl Home {
 
 /// Finds where all particles go back to.
 pub(crate) fn find(world: &mut World) {
-    let mut home = core::mem::take(&mut world.scratch.home);
+    let mut home = core::mem::take(&mut world.scratch.rollback);
     home.sort(world);
     let Home { places, order, ends } = &mut home;
     let (p, shift) = (&world.particles, shift_of_holds(world));
@@ -93,7 +93,7 @@ pub(crate) fn find(world: &mut World) {
             particles().for_each(|i| places.set(i, motion.place(p.x_last.at(i))));
         }
     }
-    world.scratch.home = home;
+    world.scratch.rollback = home;
 }
 
 /// Where the attachment was and is that holds the first of some particles that one holds.

@@ -42,7 +42,7 @@ const KINDS: [LinkKind; 2] = [LinkKind::Stretch, LinkKind::Shear];
 
 /// A tick begins.
 pub(crate) fn begin(world: &mut World) {
-    world.scratch.begun.copy_from(&world.particles.v);
+    world.scratch.initial_velocity.copy_from(&world.particles.v);
 }
 
 /// In a substep: a sweep that keeps what the solver has not got to yet within the bound, so that at
@@ -62,15 +62,15 @@ pub(crate) fn enforce(world: &mut World) {
     }
     world.over_stretched = over(world, most).count() as u32;
     if world.over_stretched == 0 {
-        world.over_stretch_told = false;
-    } else if !core::mem::replace(&mut world.over_stretch_told, true) {
+        world.over_stretch_reported = false;
+    } else if !core::mem::replace(&mut world.over_stretch_reported, true) {
         tell(world, most);
     }
 }
 
 fn draw_together(world: &mut World, most: f32) {
     world.scratch.predicted.copy_from(&world.particles.x);
-    world.scratch.way.fill(Vec3::ZERO);
+    world.scratch.displacement.fill(Vec3::ZERO);
     let aim = 1.0 + world.settings.max_stretch * AIM;
     let was_over = world.over_stretched > 0;
     let is_led = !world.anchors.is_empty();
@@ -168,7 +168,7 @@ fn go_back(world: &mut World, most: f32) {
                 continue;
             }
             for end in [links.a[at] as usize, links.b[at] as usize] {
-                let home = world.scratch.home.places.at(end);
+                let home = world.scratch.rollback.places.at(end);
                 if world.particles.x.at(end) != home {
                     world.particles.x.set(end, home);
                     went = true;
@@ -194,7 +194,8 @@ fn follow(world: &mut World) {
         let own = p.v.at(i) + (p.x.at(i) - scratch.predicted.at(i)) * inv_tick - mean;
         let (own2, mean2) = (own.length_squared(), mean.length_squared());
         // What tore off in this tick has no velocity from before.
-        let came_back = i < scratch.begun.x.len() && scratch.begun.at(i).dot(mean) < 0.0;
+        let came_back =
+            i < scratch.initial_velocity.x.len() && scratch.initial_velocity.at(i).dot(mean) < 0.0;
         let v = if came_back {
             Vec3::ZERO
         } else if own2 > mean2 {

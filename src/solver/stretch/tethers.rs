@@ -29,7 +29,7 @@ pub(crate) fn look(world: &mut World) {
     let [x, y, z] = world.particles.x.all();
     let (y, z) = (&y[..x.len()], &z[..x.len()]);
     for set in world.tethers.sets().iter().filter(|set| set.only.is_none()) {
-        let found = &mut world.scratch.anchor;
+        let found = &mut world.scratch.tether_anchor;
         found.resize(set.anchor.len());
         let [to_x, to_y, to_z] = found.all_mut();
         for (((anchor, to_x), to_y), to_z) in set.anchor.iter().zip(to_x).zip(to_y).zip(to_z) {
@@ -68,7 +68,13 @@ fn farthest(world: &World) -> f32 {
                 farthest_from_one(level, x, pin, &set.length, &mut most);
             }
             None => {
-                farthest_from_many(level, x, world.scratch.anchor.all(), &set.length, &mut most);
+                farthest_from_many(
+                    level,
+                    x,
+                    world.scratch.tether_anchor.all(),
+                    &set.length,
+                    &mut most,
+                );
             }
         }
     }
@@ -98,8 +104,8 @@ fn stretch_of_own_weight(world: &World) -> f32 {
 /// How far pins and grabs hold the cloth apart: the distance between two of them over the way along
 /// the cloth between them, at most.
 fn held_apart(world: &mut World) -> f32 {
-    if !world.is_apart_current {
-        world.apart = pins_apart(world);
+    if !world.is_pin_stretch_current {
+        world.pin_stretch = pins_apart(world);
     }
     // A grab may hold a pinned particle too.
     let is_held = world.grabs.iter().next().is_some();
@@ -108,8 +114,8 @@ fn held_apart(world: &mut World) -> f32 {
     let rests = |pin: &Pin| {
         pin.from == pin.target && (pin.is_soft() || x.at(pin.particle as usize) == pin.target)
     };
-    world.is_apart_current = !is_held && world.pins.iter().all(rests);
-    let mut most = world.apart;
+    world.is_pin_stretch_current = !is_held && world.pins.iter().all(rests);
+    let mut most = world.pin_stretch;
     for set in world.tethers.sets() {
         for held in world.grabs.iter().map(|held| held.particle as usize) {
             let (length, anchor) = (set.length[held], set.anchor[held]);
@@ -154,7 +160,7 @@ fn pins_apart(world: &World) -> f32 {
 /// Pulls every particle within `slack` times its way to the pins.
 pub(crate) fn draw_in(world: &mut World, slack: f32) {
     let (level, threads, p) = (world.level, world.threads, &mut world.particles);
-    let (found, packed) = (&world.scratch.anchor, &mut world.scratch.packed);
+    let (found, packed) = (&world.scratch.tether_anchor, &mut world.scratch.interleaved);
     for set in world.tethers.sets() {
         if packed.is_current {
             pull_packed(threads, set, slack, found, packed);

@@ -70,7 +70,7 @@ pub(crate) fn solve<const LAW: u8>(
         mask: &grid.mask,
         rest: &constraints.links.rest,
         compliance: &constraints.links.compliance,
-        ends: world.scratch.weights.ends.each_ref().map(|list| &list[..]),
+        ends: world.scratch.end_weights.ends.each_ref().map(|list| &list[..]),
     };
     let (rows, columns) = (cells.rows, cells.columns);
     let row = |part: usize| if part == parts { rows } else { rows * part / parts / GRAIN * GRAIN };
