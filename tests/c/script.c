@@ -1,4 +1,5 @@
-/* One script in every language: tests/bits.rs tells it in Rust, and all end in tests/script.hash. */
+/* One script in three languages; tests/golden/tests/golden/script.rs has it in Rust.
+ * All of them must end in the hash that tests/script.hash holds. */
 #include "check.h"
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-// The script of tests/bits.rs, told in JavaScript, for node and for a page.
+// The script of tests/golden/tests/golden/script.rs, told in JavaScript, for node and for a page.
 
 /**
  * Six hundred and thirty ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, be cut,

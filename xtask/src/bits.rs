@@ -93,8 +93,8 @@ pub fn run(options: &[String]) -> Result {
 /// modes and cut up for several threads, natively and on the other kind of processor; then the table.
 pub fn test() -> Result {
     let packages = ["--package", "muslin", "--package", PACKAGE];
-    let tests = ["test", "--release", "--test", "bits", "--test", "golden"];
-    shell::run(shell::cargo(&tests).args(packages))?;
+    let tests = ["test", "--release", "--test", "golden"];
+    shell::run(shell::cargo(&tests).args(["--package", PACKAGE]))?;
     let features = ["--features", "muslin/parallel,muslin-golden/parallel"];
     let threads = ["test", "--release", "--lib", "--test", "golden", "--test", "*threads"];
     shell::run(shell::cargo(&threads).args(packages).args(features).args(["--", "threads"]))?;

@@ -3,6 +3,7 @@
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod modes;
+mod script;
 mod table;
 mod threads;
 

@@ -1,0 +1,146 @@
+//! A sheet on a collider of every shape: it comes to rest, and nothing of it is inside.
+
+use crate::common::shapes::{
+    ball_of_triangles, clearance, hills, noise, octahedron, rms_speed, settle, sheet,
+};
+use muslin::glam::{EulerRot, Quat, Vec3};
+use muslin::{Cloth, ColliderDesc, Shape};
+
+/// How far triangles may be inside while a sheet lands [m]; particles may not at all.
+const POKES: f32 = 2.0e-3;
+
+/// Drops a sheet on a collider: it must come to rest on it and stay out of it all the while.
+fn assert_lands(desc: &ColliderDesc, mut cloth: Cloth) -> Cloth {
+    let name = format!("{:?} with {} vertices", desc.shape, cloth.positions().len());
+    cloth.add_collider(desc).unwrap();
+    cloth.add_collider(&ColliderDesc { position: Vec3::Y * -1.0, ..Default::default() }).unwrap();
+    let (mut deepest, mut faces) = (f32::INFINITY, f32::INFINITY);
+    for tick in 0..240 {
+        cloth.step(1);
+        if tick % 8 == 0 {
+            let (vertex, face) = clearance(&cloth, desc);
+            (deepest, faces) = (deepest.min(vertex), faces.min(face));
+        }
+    }
+    println!("{name}: vertices {deepest} m, faces {faces} m while it lands");
+    assert!(deepest > -2.0e-5, "{name}: a vertex is {} m inside", -deepest);
+    assert!(faces > -POKES, "{name}: a triangle is {} m inside", -faces);
+    let ticks = settle(&mut cloth, 2400);
+    let (noise, drift) = noise(&mut cloth);
+    println!("{name}: at rest after {ticks} ticks, noise {noise} m/s, drift {drift} m");
+    assert!(noise < 1.0e-3 && drift < 1.0e-3, "{name}: noise {noise} m/s, drift {drift} m");
+    let (vertex, face) = clearance(&cloth, desc);
+    assert!(vertex > 0.0 && face > 0.0, "{name} at rest: {vertex} m, {face} m");
+    cloth
+}
+
+fn on_top(cloth: &Cloth, height: f32) -> usize {
+    cloth.positions().iter().filter(|x| x.y > height).count()
+}
+
+#[test]
+fn a_sheet_lands_on_a_sphere_and_stays_outside() {
+    for nodes in [24, 40, 56] {
+        let ball = ColliderDesc { shape: Shape::Sphere, radius: 0.3, ..Default::default() };
+        let cloth = assert_lands(&ball, Cloth::grid(&sheet(nodes, 1.0, 0.3 + 0.15)).unwrap());
+        assert!(on_top(&cloth, 0.2) > 10, "it fell off");
+    }
+}
+
+#[test]
+fn a_sheet_lands_on_a_ball_smaller_than_a_cell_and_stays_outside() {
+    let ball = ColliderDesc {
+        shape: Shape::Sphere,
+        radius: 0.02,
+        position: Vec3::new(0.011, 0.0, 0.013),
+        ..Default::default()
+    };
+    let mut desc = sheet(9, 0.8, 0.2);
+    desc.material.bend_stiffness = 0.02;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.add_collider(&ball).unwrap();
+    cloth.add_collider(&ColliderDesc { position: Vec3::Y * -0.1, ..Default::default() }).unwrap();
+    for _ in 0..300 {
+        cloth.step(1);
+        let (vertex, face) = clearance(&cloth, &ball);
+        assert!(vertex > 0.0 && face > -1.0e-3, "{vertex} m, {face} m");
+    }
+    assert!(on_top(&cloth, -0.05) > 0, "it went around the ball");
+}
+
+#[test]
+fn a_sheet_lands_on_capsules_and_stays_outside() {
+    let lying = Quat::from_rotation_z(1.4);
+    for top_radius in [-1.0, 0.05] {
+        let capsule = ColliderDesc {
+            shape: Shape::Capsule,
+            radius: 0.15,
+            top_radius,
+            half_height: 0.3,
+            rotation: lying,
+            ..Default::default()
+        };
+        let cloth = assert_lands(&capsule, Cloth::grid(&sheet(24, 1.0, 0.3)).unwrap());
+        assert!(on_top(&cloth, 0.0) > 10, "it fell off");
+    }
+}
+
+#[test]
+fn a_sheet_lands_on_boxes_and_stays_outside() {
+    let turned = Quat::from_euler(EulerRot::XYZ, 0.5, 0.3, 0.6);
+    for (half_extents, rotation) in
+        [(Vec3::new(0.25, 0.2, 0.25), Quat::IDENTITY), (Vec3::new(0.25, 0.2, 0.15), turned)]
+    {
+        let desc = ColliderDesc { shape: Shape::Box, half_extents, rotation, ..Default::default() };
+        assert_lands(&desc, Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap());
+    }
+}
+
+#[test]
+fn a_pole_that_fits_into_a_cell_does_not_poke_through_the_sheet_that_hangs_on_it() {
+    let half_extents = Vec3::new(0.012, 0.2, 0.012);
+    let pole = ColliderDesc { shape: Shape::Box, half_extents, ..Default::default() };
+    let mut cloth = Cloth::grid(&sheet(31, 0.9, 0.45)).unwrap();
+    cloth.add_collider(&pole).unwrap();
+    for tick in 0..400 {
+        cloth.step(1);
+        if tick % 8 == 0 {
+            let (vertex, face) = clearance(&cloth, &pole);
+            assert!(vertex > -2.0e-5 && face > -POKES, "tick {tick}: {vertex} m, {face} m");
+        }
+    }
+    assert!(on_top(&cloth, 0.19) > 0, "it fell off");
+}
+
+/// A soft sheet that hangs over its tips is not quite calm: it moves at some mm/s.
+#[test]
+fn a_sheet_lands_on_a_convex_body_and_stays_outside() {
+    let rotation = Quat::from_euler(EulerRot::XYZ, 0.2, 0.3, 0.1);
+    let body = ColliderDesc { rotation, ..octahedron(0.3) };
+    let mut cloth = Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap();
+    cloth.add_collider(&body).unwrap();
+    for tick in 0..900 {
+        cloth.step(1);
+        if tick % 8 == 0 {
+            let (vertex, face) = clearance(&cloth, &body);
+            assert!(vertex > -2.0e-5 && face > -POKES, "tick {tick}: {vertex} m, {face} m");
+        }
+        let speed = rms_speed(&cloth);
+        assert!(tick < 600 || speed < 0.03, "tick {tick}: {speed} m/s");
+    }
+    assert!(on_top(&cloth, 0.1) > 0, "it fell off");
+}
+
+#[test]
+fn a_sheet_lands_on_a_mesh_and_stays_outside() {
+    let cloth =
+        assert_lands(&ball_of_triangles(0.3, 6), Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap());
+    assert!(on_top(&cloth, 0.2) > 10, "it fell off");
+}
+
+#[test]
+fn a_sheet_lands_on_hills_and_stays_above() {
+    for cells in [6, 20] {
+        assert_lands(&hills(cells, 1.6), Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap());
+    }
+}

@@ -1,0 +1,13 @@
+//! Contact with colliders and self-collision.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod colliders;
+mod fast_impacts;
+mod friction_and_contact;
+mod particle_collision;
+mod rest_when_tangled;
+mod split_separation;
+mod surface_collision;
+mod untangling;

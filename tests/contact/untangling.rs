@@ -1,0 +1,235 @@
+//! Surfaces that go through each other already: they are drawn out, whichever way they cross, and come to rest.
+
+use muslin::glam::Vec3;
+use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings};
+
+use crate::common::crossings::crossings;
+use crate::common::garments::{moebius_strip, shirt};
+
+/// Particles along a side of a sheet, and how long that is [m].
+const SIDE: u32 = 20;
+const SIZE: f32 = 0.5;
+
+fn settings(self_collision: SelfCollision) -> Settings {
+    Settings { self_collision, ..Settings::default() }
+}
+
+/// Two sheets as one mesh: one lies at height 0, its border pinned if it is `held`; `place` puts the other one, from
+/// where particles are on it, from 0 to 1 along both sides.
+fn two_sheets(held: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
+    let settings = settings(SelfCollision::Surface);
+    let mut desc = MeshDesc { settings, ..MeshDesc::default() };
+    let at = |k: u32| k as f32 / (SIDE - 1) as f32;
+    for sheet in 0..2 {
+        let first = desc.positions.len() as u32;
+        for (row, column) in (0..SIDE * SIDE).map(|k| (k / SIDE, k % SIDE)) {
+            let (u, v) = (at(column), at(row));
+            let lies = Vec3::new(u * SIZE, 0.0, v * SIZE);
+            desc.positions.push(if sheet == 0 { lies } else { place(u, v) });
+            let is_border = [row, column].iter().any(|k| *k == 0 || *k == SIDE - 1);
+            if held && sheet == 0 && is_border {
+                desc.pinned.push(first + row * SIDE + column);
+            }
+            if row < SIDE - 1 && column < SIDE - 1 {
+                let a = first + row * SIDE + column;
+                desc.indices.extend([a, a + SIDE, a + 1, a + 1, a + SIDE, a + SIDE + 1]);
+            }
+        }
+    }
+    desc
+}
+
+/// Plays until nothing crosses any more, for `most` ticks at most, and on until `ticks` are over; nothing crosses
+/// then, nor in the last half second.
+fn assert_comes_out(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
+    let before = crossings(cloth);
+    assert!(before >= 8, "{name}: only {before} crossings to begin with");
+    let mut last = 0;
+    for tick in 1..=ticks {
+        cloth.step(1);
+        let looks = tick <= most + 1 || tick % 10 == 0 || tick + 30 > ticks;
+        if looks && crossings(cloth) > 0 {
+            last = tick;
+        }
+    }
+    let speed = cloth.stats().max_speed;
+    println!("{name}: {before} crossings, none after {last} ticks; {speed:.5} m/s at most");
+    assert!(last < most, "{name}: {} crossings, the last after {last} ticks", crossings(cloth));
+}
+
+#[test]
+fn a_bump_goes_back() {
+    for depth in [0.02, 0.06, 0.12] {
+        let bump = |u: f32, v: f32| {
+            let square = (u - 0.47).powi(2) + (v - 0.52).powi(2);
+            Vec3::new(u * SIZE, 0.01 - (0.01 + depth) * (-square / 0.02).exp(), v * SIZE)
+        };
+        let mut cloth = Cloth::mesh(&two_sheets(true, bump)).unwrap();
+        assert_comes_out(&format!("a bump {depth} m deep"), &mut cloth, 20, 240);
+        let speed = cloth.stats().max_speed;
+        assert!(speed < 0.02, "after four seconds something moves at {speed} m/s");
+        let low = cloth.positions()[(SIDE * SIDE) as usize..].iter().map(|x| x.y);
+        let low = low.fold(f32::INFINITY, f32::min);
+        assert!(low > -0.1, "the upper sheet is at {low} m");
+    }
+}
+
+#[test]
+fn a_corner_goes_back() {
+    for share in [0.1, 0.25, 0.45] {
+        let corner = |u: f32, v: f32| {
+            let across = 0.251 + (u - v) * SIZE * 0.5;
+            Vec3::new(across, ((u + v) * 0.7 - share) * SIZE, 0.2533 + 0.05 * (u + v))
+        };
+        let mut cloth = Cloth::mesh(&two_sheets(true, corner)).unwrap();
+        assert_comes_out(&format!("a corner, {share}"), &mut cloth, 45, 120);
+    }
+}
+
+#[test]
+fn a_sheet_goes_back_that_stands_in_another() {
+    for share in [0.1, 0.3, 0.5] {
+        let standing = |u: f32, v: f32| {
+            let x = 0.1513 + u * SIZE * 0.6;
+            Vec3::new(x, (v - share) * SIZE * 0.6, 0.2533 + 0.02 * v)
+        };
+        let mut cloth = Cloth::mesh(&two_sheets(true, standing)).unwrap();
+        assert_comes_out(&format!("a sheet, {share}"), &mut cloth, 45, 120);
+    }
+}
+
+/// Two sheets that are in each other like cards, each from a border on: neither has a part that got through.
+fn cards() -> MeshDesc {
+    let mut desc = two_sheets(false, |u, v| {
+        Vec3::new(0.2513 + u * SIZE, v * SIZE - 0.2533, 0.2533 + 0.02 * v)
+    });
+    desc.settings.gravity = Vec3::ZERO;
+    (desc.material.drag, desc.material.lift) = (0.0, 0.0);
+    desc
+}
+
+fn middle(cloth: &Cloth) -> Vec3 {
+    let count = cloth.positions().len() as u32;
+    let all = (0..count).map(|at| (cloth.mass(at).unwrap(), cloth.position(at).unwrap()));
+    let (mass, sum) = all.fold((0.0, Vec3::ZERO), |(mass, sum), (m, x)| (mass + m, sum + x * m));
+    sum / mass
+}
+
+#[test]
+fn cards_come_apart_and_their_middle_stays() {
+    let mut cloth = Cloth::mesh(&cards()).unwrap();
+    let before = middle(&cloth);
+    assert_comes_out("cards", &mut cloth, 60, 120);
+    let moved = middle(&cloth).distance(before);
+    assert!(moved < 1.0e-4, "the middle moved by {moved} m");
+}
+
+/// A garment that hung for ten seconds without collision, and then with.
+fn switched_on(desc: MeshDesc) -> Cloth {
+    let mut cloth =
+        Cloth::mesh(&MeshDesc { settings: settings(SelfCollision::None), ..desc }).unwrap();
+    cloth.step(600);
+    cloth.set_settings(settings(SelfCollision::Surface)).unwrap();
+    cloth
+}
+
+#[test]
+fn garments_come_out_that_hung_without() {
+    for (name, desc) in [("shirt", shirt()), ("moebius strip", moebius_strip())] {
+        assert_comes_out(name, &mut switched_on(desc), 90, 240);
+    }
+}
+
+/// A sheet that dropped on its edge and crumpled without its surface.
+fn heap(seed: u32, way: SelfCollision) -> Cloth {
+    let spacing = 1.0 / SIDE as f32;
+    let desc = GridDesc { columns: SIDE, rows: SIDE, spacing, ..GridDesc::default() };
+    let desc = GridDesc { pin_mode: PinMode::None, settings: settings(way), ..desc };
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let floor = ColliderDesc { position: Vec3::Y * -1.05, ..ColliderDesc::default() };
+    cloth.add_collider(&floor).unwrap();
+    for i in (seed..SIDE * SIDE).step_by(7) {
+        cloth.set_velocity(i, Vec3::Z * 0.05 * (((i + seed) % 5) as f32 - 2.0)).unwrap();
+    }
+    cloth.step(90);
+    cloth.set_settings(settings(SelfCollision::Surface)).unwrap();
+    cloth
+}
+
+#[test]
+fn a_heap_comes_out_that_crumpled_by_its_particles() {
+    for seed in 0..4 {
+        let mut cloth = heap(seed, SelfCollision::Particles);
+        assert_comes_out(&format!("heap {seed}"), &mut cloth, 120, 240);
+    }
+}
+
+#[test]
+fn a_heap_comes_out_that_crumpled_without_any() {
+    for seed in 0..2 {
+        let mut cloth = heap(seed, SelfCollision::None);
+        assert_comes_out(&format!("heap {seed}"), &mut cloth, 600, 700);
+    }
+}
+
+#[test]
+fn what_was_put_through_comes_out() {
+    let spacing = SIZE / (SIDE - 1) as f32;
+    let settings = settings(SelfCollision::Surface);
+    let desc = GridDesc { columns: SIDE, rows: SIDE, spacing, settings, ..GridDesc::default() };
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    cloth.step(30);
+    // The lower right part is laid over the rest, a little aslant, and its corner put through.
+    let hinge = 12;
+    for at in 0..SIDE * SIDE {
+        let (row, column) = (at / SIDE, at % SIDE);
+        if column > hinge {
+            let over = (column - hinge) as f32 * spacing;
+            let x = cloth.position(row * SIDE + hinge).unwrap();
+            let off = 0.02 - 0.05 * (row as f32 / SIDE as f32).powi(3) * over / 0.15;
+            cloth.set_position(at, x + Vec3::new(-over, 0.0, off * over / 0.15)).unwrap();
+        }
+    }
+    assert_comes_out("a lapel", &mut cloth, 60, 120);
+}
+
+#[test]
+fn held_sheets_that_were_led_through_come_out_once_they_are_let_go() {
+    let standing =
+        |u: f32, v: f32| Vec3::new(0.1513 + u * SIZE * 0.6, 0.02 + v * 0.3, 0.2533 + 0.02 * v);
+    let mut desc = two_sheets(false, standing);
+    desc.pinned = (0..2 * SIDE * SIDE).collect();
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    let upper: Vec<u32> = (SIDE * SIDE..2 * SIDE * SIDE).collect();
+    for tick in 1..=30 {
+        let down = Vec3::NEG_Y * 0.004 * tick as f32;
+        let targets: Vec<Vec3> =
+            upper.iter().map(|at| desc.positions[*at as usize] + down).collect();
+        cloth.set_pin_targets(&upper, &targets).unwrap();
+        cloth.step(1);
+    }
+    // Held, they stay as they are.
+    cloth.step(30);
+    assert!(crossings(&cloth) > 0);
+    upper.iter().for_each(|at| cloth.unpin(*at).unwrap());
+    assert_comes_out("a sheet led through", &mut cloth, 60, 120);
+}
+
+#[test]
+fn a_restored_tangle_goes_on_in_the_same_bits() {
+    let mut all = [
+        ("cards", Cloth::mesh(&cards()).unwrap()),
+        ("shirt", switched_on(shirt())),
+        ("heap", heap(0, SelfCollision::Particles)),
+    ];
+    for (name, cloth) in &mut all {
+        for _ in 0..4 {
+            assert!(crossings(cloth) > 0, "{name} has come out before");
+            let mut restored = Cloth::restore(&cloth.save()).unwrap();
+            assert_eq!(restored.state_hash(), cloth.state_hash(), "{name}");
+            cloth.step(1);
+            restored.step(1);
+            assert_eq!(restored.state_hash(), cloth.state_hash(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Whatever is done to a cloth, it stays in the realm of numbers and comes to rest again.
+
+use crate::common::assert_sound;
+use muslin::glam::Vec3;
+use muslin::{Cloth, GridDesc, PinMode, Wind};
+
+/// The farthest that any particle is from the middle of the pins [m].
+fn farthest(cloth: &Cloth) -> f32 {
+    cloth.positions().iter().map(|x| (*x - Vec3::new(1.0, 0.0, 0.0)).length()).fold(0.0, f32::max)
+}
+
+/// Every slider of the hanging sheet's panel at its end.
+fn at_the_limit(tearing: bool, iterations: u32) -> Cloth {
+    let mut desc = GridDesc::default();
+    desc.settings.gravity = Vec3::NEG_Y * 20.0;
+    desc.settings.iterations = iterations;
+    desc.settings.tearing = tearing;
+    desc.settings.damping = -(1.0_f32 - 0.06).ln() * 60.0;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let velocity = Vec3::new(1.0, 1.0, 3.0) * 6.0;
+    let wind = Wind { velocity, gust: 1.0, wander: 3.0, turbulence: 1.0, ..Wind::default() };
+    cloth.set_wind(wind).unwrap();
+    cloth
+}
+
+#[test]
+fn ten_thousand_ticks_at_the_limit_and_then_to_rest() {
+    for (tearing, iterations) in [(false, 12), (false, 1), (true, 12)] {
+        let mut cloth = at_the_limit(tearing, iterations);
+        let before = cloth.clone();
+        let mut grab = None;
+        for tick in 0..10_000_u32 {
+            if tick % 100 == 0 {
+                if let Some(held) = grab.take() {
+                    cloth.release(held).unwrap();
+                }
+                let particle = tick.wrapping_mul(2_654_435_761) % cloth.positions().len() as u32;
+                grab = Some(cloth.grab_particle(particle).unwrap());
+            }
+            // Thrown about: far and back in a few ticks.
+            let t = tick as f32;
+            let thrown = Vec3::new((t * 0.9).sin(), (t * 0.53).cos(), (t * 0.71).sin()) * 6.0;
+            cloth.move_grab(grab.unwrap(), thrown).unwrap();
+            cloth.step(1);
+            assert!(cloth.positions().iter().all(|x| x.is_finite()), "tick {tick}");
+            // The sheet hangs 1.95 m down from pins 1.95 m wide; the hand reaches 6·√3 m. What tore
+            // off may fly away.
+            assert!(
+                tearing || farthest(&cloth) < 6.0 * 1.74 + 1.95,
+                "tick {tick}: {}",
+                farthest(&cloth)
+            );
+        }
+        cloth.release(grab.unwrap()).unwrap();
+        assert_sound(&cloth, &before);
+        if tearing {
+            continue;
+        }
+        cloth.set_wind(Wind::default()).unwrap();
+        cloth.step(1800);
+        let mass: f32 = (0..1600).map(|i| cloth.mass(i).unwrap()).sum();
+        let speed = (2.0 * cloth.stats().kinetic_energy / mass).sqrt();
+        assert!(speed < 1.0e-3, "with {iterations} sweeps it still moves at {speed} m/s");
+        assert!(farthest(&cloth) < 2.3);
+    }
+}
+
+#[test]
+fn a_cloth_that_left_the_realm_of_numbers_is_mended_and_says_so() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    cloth.step(10);
+    for particle in [500, 501, 900] {
+        cloth.set_velocity(particle, Vec3::splat(f32::MAX)).unwrap();
+    }
+    cloth.step(300);
+    let event = cloth.next_event().expect("an event");
+    assert_eq!(event.kind, muslin::EventKind::Recovered);
+    assert!(event.count >= 1);
+    assert!(cloth.positions().iter().all(|x| x.is_finite()));
+    assert!(farthest(&cloth) < 2.5, "{}", farthest(&cloth));
+}
+
+#[test]
+fn a_grabbed_particle_is_held_exactly_and_moved_no_faster_than_allowed() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    cloth.step(60);
+    let grabs = [(420, Vec3::new(0.3, -0.5, 0.4)), (1430, Vec3::new(1.5, -1.6, -0.4))];
+    let held: Vec<_> = grabs.iter().map(|(i, _)| cloth.grab_particle(*i).unwrap()).collect();
+    for (grab, (_, target)) in held.iter().zip(grabs) {
+        cloth.move_grab(*grab, target).unwrap();
+    }
+    let most = 0.5 * 0.05 * cloth.settings().substeps as f32;
+    for _ in 0..60 {
+        let before: Vec<Vec3> = grabs.iter().map(|(i, _)| cloth.positions()[*i as usize]).collect();
+        cloth.step(1);
+        for ((i, _), before) in grabs.iter().zip(before) {
+            let moved = (cloth.positions()[*i as usize] - before).length();
+            assert!(moved <= most * 1.001, "moved {moved} m in a tick");
+        }
+    }
+    for (i, target) in grabs {
+        assert_eq!(cloth.positions()[i as usize], target);
+    }
+    for grab in held {
+        cloth.release(grab).unwrap();
+    }
+}
+
+#[test]
+fn a_released_particle_keeps_the_velocity_of_the_hand() {
+    let mut desc = GridDesc { columns: 6, rows: 6, pin_mode: PinMode::None, ..GridDesc::default() };
+    desc.settings.gravity = Vec3::ZERO;
+    desc.material.drag = 0.0;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let grabs: Vec<_> = (0..36).map(|i| cloth.grab_particle(i).unwrap()).collect();
+    let start = cloth.positions().to_vec();
+    for tick in 1..=30 {
+        for (grab, x) in grabs.iter().zip(&start) {
+            cloth.move_grab(*grab, *x + Vec3::X * (tick as f32 / 60.0)).unwrap();
+        }
+        cloth.step(1);
+    }
+    for grab in grabs {
+        cloth.release(grab).unwrap();
+    }
+    cloth.step(1);
+    let v = cloth.velocity(14).unwrap();
+    assert!((v - Vec3::X).length() < 0.05, "{v}");
+}
+
+#[test]
+fn pins_follow_their_targets_without_lag() {
+    let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
+    let top: Vec<u32> = (0..40).collect();
+    let start = cloth.positions()[..40].to_vec();
+    for tick in 1..=120 {
+        let shift = Vec3::new((tick as f32 * 0.1).sin(), 0.0, (tick as f32 * 0.07).sin()) * 0.5;
+        let targets: Vec<Vec3> = start.iter().map(|x| *x + shift).collect();
+        cloth.set_pin_targets(&top, &targets).unwrap();
+        cloth.step(1);
+        for (x, target) in cloth.positions().iter().zip(&targets) {
+            assert!((*x - *target).length() < 1.0e-6);
+        }
+    }
+    cloth.unpin_all();
+    let y = cloth.positions()[0].y;
+    cloth.step(60);
+    let fallen = y - cloth.positions()[0].y;
+    assert!(fallen > 0.5, "unpinned, it falls, but by {fallen} m");
+}
+
+#[test]
+fn advance_runs_what_is_owed_and_drops_a_backlog() {
+    let mut cloth = Cloth::grid(&GridDesc { columns: 4, rows: 4, ..GridDesc::default() }).unwrap();
+    assert_eq!(cloth.advance(0.0), Ok(0));
+    assert_eq!(cloth.advance(0.010), Ok(0));
+    assert!((cloth.blend() - 0.6).abs() < 1.0e-4);
+    assert_eq!(cloth.advance(0.010), Ok(1));
+    assert_eq!(cloth.advance(10.0), Ok(5));
+    assert!(cloth.blend() < 1.0);
+    assert_eq!(cloth.stats().ticks, 6);
+}

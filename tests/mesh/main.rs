@@ -1,0 +1,13 @@
+//! Meshes: how they are repaired, torn, cut and written for a renderer.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod change_tracking;
+mod cutting;
+mod garments;
+mod mesh_repair;
+mod tear_propagation;
+mod tearing;
+mod topology_snapshots;
+mod write_vertices;

@@ -1,0 +1,302 @@
+//! Tears keep the mesh clean, whatever tears and in whatever order.
+
+use crate::common::{assert_clean, assert_sound, bare_grid, irregular_mesh, total_mass, triangles};
+use muslin::glam::Vec3;
+use muslin::{AS_MANY_AGAIN, Cloth, Error, Event, EventKind, MeshDesc, PinMode};
+use proptest::prelude::*;
+
+/// A mesh of uneven quads with holes in it, its diagonals this way and that, a third of it wound the
+/// other way.
+fn random_mesh(columns: u32, rows: u32, seed: u32) -> MeshDesc {
+    let mut random = seed | 1;
+    let mut next = move |below: u32| {
+        random ^= random << 13;
+        random ^= random >> 17;
+        random ^= random << 5;
+        random % below
+    };
+    let mut desc = MeshDesc::default();
+    for at in 0..columns * rows {
+        let [x, y] = [at % columns, at / columns].map(|at| at as f32 + next(100) as f32 / 300.0);
+        desc.positions.push(Vec3::new(x, -y, next(100) as f32 / 300.0) * 0.1);
+    }
+    for (row, column) in (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |c| (row, c))) {
+        // No two holes meet in a point.
+        let is_hole = row % 2 == 1 && column % 2 == 1 && next(2) == 0;
+        let a = row * columns + column;
+        let (b, c, d) = (a + 1, a + columns, a + columns + 1);
+        let halves = if next(2) == 0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
+        for [p, q, r] in halves.into_iter().filter(|_| !is_hole) {
+            desc.indices.extend(if next(3) == 0 { [q, p, r] } else { [p, q, r] });
+        }
+    }
+    desc.uvs = desc.positions.iter().map(|x| x.truncate()).collect();
+    desc.extra_particles = 1000;
+    desc
+}
+
+fn events(cloth: &mut Cloth) -> Vec<Event> {
+    core::iter::from_fn(|| cloth.next_event()).collect()
+}
+
+/// Tears at edge number `pick` of the cloth as it is now, counted over triangles.
+fn tear_somewhere(cloth: &mut Cloth, pick: usize) -> muslin::Result<bool> {
+    let corner = pick % cloth.indices().len();
+    let triangle = triangles(cloth)[corner / 3];
+    cloth.tear_edge(triangle[corner % 3], triangle[(corner + 1) % 3])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_tears_of_a_grid_leave_a_clean_mesh(
+        columns in 2u32..7,
+        rows in 2u32..7,
+        picks in prop::collection::vec(0usize..10_000, 1..60),
+    ) {
+        let mut desc = bare_grid(columns, rows, 0.1, PinMode::TopEdge);
+        desc.extra_particles = 300;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let before = cloth.clone();
+        for pick in picks {
+            tear_somewhere(&mut cloth, pick).unwrap();
+            cloth.step(1);
+        }
+        assert_sound(&cloth, &before);
+        let restored = Cloth::restore(&cloth.save()).unwrap();
+        prop_assert_eq!(restored.state_hash(), cloth.state_hash());
+        let links = |cloth: &Cloth| cloth.links().collect::<Vec<_>>();
+        prop_assert_eq!(links(&restored), links(&cloth));
+    }
+
+    #[test]
+    fn random_tears_of_any_mesh_leave_a_clean_mesh(
+        picks in prop::collection::vec(0usize..10_000, 1..60),
+    ) {
+        let mut desc = irregular_mesh();
+        desc.extra_particles = 300;
+        let mut cloth = Cloth::mesh(&desc).unwrap();
+        let before = cloth.clone();
+        for pick in picks {
+            tear_somewhere(&mut cloth, pick).unwrap();
+        }
+        cloth.step(5);
+        assert_sound(&cloth, &before);
+    }
+
+    #[test]
+    fn random_tears_and_cuts_of_random_meshes_leave_clean_meshes(
+        (columns, rows, seed) in (2u32..8, 2u32..8, any::<u32>()),
+        steps in prop::collection::vec((any::<[u8; 4]>(), 0usize..10_000, 0u32..3), 1..40),
+    ) {
+        let mut cloth = Cloth::mesh(&random_mesh(columns, rows, seed)).unwrap();
+        let before = cloth.clone();
+        for (at, pick, ticks) in steps {
+            // One cut for every seven tears.
+            if pick % 8 == 0 {
+                let [a, b, c, d] = at.map(|at| f32::from(at) / 320.0);
+                let (from, to) = (Vec3::new(a, -b, -9.0), Vec3::new(c, -d, -9.0));
+                let is_blade = from != to;
+                prop_assert_eq!(cloth.cut(from, to, Vec3::Z * 18.0).is_ok(), is_blade);
+            } else {
+                tear_somewhere(&mut cloth, pick).unwrap();
+            }
+            cloth.step(ticks);
+        }
+        assert_clean(&cloth, &before);
+        let mut restored = Cloth::restore(&cloth.save()).unwrap();
+        restored.step(3);
+        cloth.step(3);
+        prop_assert_eq!(restored.state_hash(), cloth.state_hash());
+    }
+}
+
+#[test]
+fn a_pull_beyond_the_limit_tears_and_one_below_it_does_not() {
+    for (pull, tears) in [(0.98, false), (1.03, true)] {
+        let mut desc = bare_grid(3, 12, 0.1, PinMode::TopEdge);
+        desc.settings.tearing = true;
+        desc.settings.tethers = false;
+        desc.settings.gravity = Vec3::ZERO;
+        desc.material.tear_stretch = 1.5;
+        desc.material.tear_variation = 0.0;
+        desc.settings.iterations = 10;
+        // Elastic, and too soft in shear for the grips to matter.
+        desc.material.stretch_stiffness_warp = 100.0;
+        desc.material.stretch_stiffness_weft = 100.0;
+        desc.material.shear_stiffness = 0.01;
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let bottom = [33, 34, 35];
+        let length = 11.0 * 0.1;
+        let ends: Vec<Vec3> = bottom.iter().map(|i| cloth.positions()[*i as usize]).collect();
+        // Slowly, so that the strain is the same all along the strip.
+        for tick in 1..=600 {
+            let longer = 0.5 * pull * length * (tick as f32 / 600.0);
+            let targets: Vec<Vec3> = ends.iter().map(|x| *x - Vec3::Y * longer).collect();
+            cloth.set_pin_targets(&bottom, &targets).unwrap();
+            cloth.step(1);
+        }
+        cloth.step(300);
+        let torn = events(&mut cloth).iter().any(|event| event.kind == EventKind::EdgeTorn);
+        assert_eq!(torn, tears, "pulled to {pull} of the limit");
+    }
+}
+
+#[test]
+fn a_yank_rips_the_sheet_and_keeps_every_law() {
+    let mut desc = bare_grid(20, 20, 0.1, PinMode::TopEdge);
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.5;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    let grab = cloth.grab_particle(10 * 20 + 10).unwrap();
+    for tick in 0..120 {
+        cloth.move_grab(grab, Vec3::new(0.5, -1.0, 0.05 * tick as f32)).unwrap();
+        cloth.step(1);
+    }
+    cloth.release(grab).unwrap();
+    cloth.step(60);
+    assert!(cloth.positions().len() > before.positions().len() + 10);
+    assert_sound(&cloth, &before);
+    assert!((0..20).all(|i| (cloth.positions()[i].y).abs() < 1.0e-4), "pins do not tear off");
+}
+
+#[test]
+fn tearing_stops_when_the_reserve_is_used_up_and_says_so_once() {
+    let mut desc = bare_grid(12, 12, 0.1, PinMode::TopEdge);
+    desc.extra_particles = 10;
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.2;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    let grab = cloth.grab_particle(6 * 12 + 6).unwrap();
+    for tick in 0..300 {
+        cloth.move_grab(grab, Vec3::new(0.6, -0.6, 0.05 * tick as f32)).unwrap();
+        cloth.step(1);
+    }
+    let told = events(&mut cloth);
+    let used_up = told.iter().filter(|event| event.kind == EventKind::ReserveUsedUp);
+    let places: Vec<Vec3> = used_up.map(|event| event.position).collect();
+    assert_eq!(places.len(), 1);
+    assert!((places[0] - Vec3::new(0.6, -0.6, 0.0)).truncate().length() < 0.5, "{}", places[0]);
+    let count = cloth.positions().len();
+    assert!(count <= 154 && count > 150, "{count} particles");
+    assert!(matches!(tear_somewhere(&mut cloth, 0), Err(Error::Full { .. })));
+    assert_sound(&cloth, &before);
+}
+
+#[test]
+fn a_cloth_can_be_torn_until_every_triangle_is_alone() {
+    let mut desc = bare_grid(5, 5, 0.1, PinMode::None);
+    desc.extra_particles = 200;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    for round in 0..40 {
+        for corner in 0..cloth.indices().len() {
+            tear_somewhere(&mut cloth, corner + round).unwrap();
+        }
+    }
+    assert_sound(&cloth, &before);
+    assert_eq!(cloth.stats().pieces, 32, "two triangles in each of sixteen cells");
+    assert_eq!(cloth.positions().len(), 3 * 32);
+    let detached = events(&mut cloth);
+    let detached = detached.iter().filter(|event| event.kind == EventKind::PieceDetached).count();
+    assert_eq!(detached, 31);
+    cloth.step(30);
+    let (now, then) = (total_mass(&cloth), total_mass(&before));
+    assert!((now - then).abs() < 1.0e-6 * then, "{now} kg, was {then} kg");
+}
+
+#[test]
+fn nothing_tears_while_tearing_is_off() {
+    let mut desc = bare_grid(8, 8, 0.1, PinMode::TopEdge);
+    desc.extra_particles = AS_MANY_AGAIN;
+    desc.material.tear_stretch = 1.1;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let grab = cloth.grab_particle(36).unwrap();
+    cloth.move_grab(grab, Vec3::new(3.0, 0.0, 5.0)).unwrap();
+    cloth.step(200);
+    assert!(cloth.stats().max_stretch > 0.5);
+    assert_eq!(cloth.positions().len(), 64);
+}
+
+#[test]
+fn pins_that_are_dropped_while_it_tears_let_all_go_that_hung_from_them() {
+    let mut desc = bare_grid(16, 12, 0.1, PinMode::TopEdge);
+    desc.settings.tearing = true;
+    desc.material.tear_stretch = 1.3;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    let grab = cloth.grab_particle(6 * 16 + 8).unwrap();
+    for tick in 1..=90 {
+        cloth.move_grab(grab, Vec3::new(0.8, -0.6, 0.03 * tick as f32)).unwrap();
+        cloth.step(1);
+        if tick == 40 {
+            let row: Vec<u32> = cloth.pinned().collect();
+            row.into_iter().filter(|pin| pin % 2 == 0).for_each(|pin| cloth.unpin(pin).unwrap());
+        }
+        if tick == 60 {
+            cloth.unpin_all();
+        }
+    }
+    assert!(cloth.positions().len() > before.positions().len(), "it tore");
+    assert_sound(&cloth, &before);
+    cloth.release(grab).unwrap();
+    cloth.step(120);
+    assert_eq!(cloth.pinned().count(), 0);
+    assert!(cloth.positions().iter().all(|x| x.y < -5.0), "nothing holds it any more");
+    assert_sound(&cloth, &before);
+}
+
+#[test]
+fn a_tear_beside_a_pin_splits_the_free_end_and_leaves_the_pin() {
+    let mut cloth = Cloth::grid(&bare_grid(6, 6, 0.1, PinMode::TopEdge)).unwrap();
+    let before = cloth.clone();
+    assert!(cloth.tear_edge(2, 8).unwrap(), "the lower end gives way");
+    let split: Vec<Event> = events(&mut cloth)
+        .into_iter()
+        .filter(|event| event.kind == EventKind::VertexSplit)
+        .collect();
+    assert_eq!(split[0].source, 8);
+    assert_eq!(cloth.pinned().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
+    assert!(!cloth.tear_edge(2, 3).unwrap(), "between two pins nothing gives way");
+    cloth.step(60);
+    assert!((0..6).all(|pin| cloth.positions()[pin].y == 0.0));
+    assert_sound(&cloth, &before);
+}
+
+#[test]
+fn a_whole_row_torn_below_the_pins_falls_and_the_pins_hold_what_is_left() {
+    let mut desc = bare_grid(8, 8, 0.1, PinMode::TopEdge);
+    desc.extra_particles = 200;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let before = cloth.clone();
+    // Whatever still joins the second row to the third is torn, until nothing does.
+    for _ in 0..60 {
+        let sources = cloth.source_vertices().to_vec();
+        let row = |v: u32| sources[v as usize] / 8;
+        let joins = triangles(&cloth).into_iter().find_map(|triangle| {
+            let ends = |a: usize, b: usize| [triangle[a], triangle[b]];
+            [ends(0, 1), ends(1, 2), ends(2, 0)].into_iter().find(|[a, b]| {
+                let both = [row(*a).min(row(*b)), row(*a).max(row(*b))];
+                both == [1, 2] && cloth.clone().tear_edge(*a, *b).unwrap()
+            })
+        });
+        let Some([a, b]) = joins else { break };
+        assert!(cloth.tear_edge(a, b).unwrap());
+        if cloth.stats().pieces > 1 {
+            break;
+        }
+    }
+    assert!(cloth.stats().pieces > 1, "torn off");
+    let off: u32 = events(&mut cloth)
+        .iter()
+        .filter(|event| event.kind == EventKind::PieceDetached)
+        .map(|event| event.count)
+        .sum();
+    assert!(off > 0);
+    cloth.step(60);
+    assert_sound(&cloth, &before);
+    assert!((0..8).all(|pin| cloth.positions()[pin].y == 0.0));
+}

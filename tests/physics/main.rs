@@ -1,0 +1,18 @@
+//! Motion, bending, drape and strain limits, compared with closed forms and measured references.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bending;
+mod closed_forms;
+mod crumpling;
+mod drape;
+mod fold_hardening;
+mod masses;
+mod material_laws;
+mod momentum;
+mod moving_frame;
+mod plastic_bending;
+mod resolution_independence;
+mod sleep;
+mod strain_limit;
