@@ -91,7 +91,7 @@ impl Cloth {
                 }
             }
         }
-        world.reserve_leashes();
+        world.reserve_anchor_scratch();
         Ok(())
     }
 
@@ -112,7 +112,7 @@ impl Cloth {
             let x = world.particles.x.at(*particle as usize);
             change(at, world.anchors.of(*particle, x));
         }
-        world.reserve_leashes();
+        world.reserve_anchor_scratch();
         world.wake();
     }
 }

@@ -85,7 +85,8 @@ impl Cloth {
         self.world.wake();
         if self.world.pins.remove_carried(attachment.0) {
             guarded(|| {
-                (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_weight(i));
+                (0..self.world.particles.len() as u32)
+                    .for_each(|i| self.world.refresh_inverse_mass(i));
             });
             self.changed_pins();
         }

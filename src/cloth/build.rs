@@ -25,7 +25,7 @@ use crate::mesh::intake::Intake;
 use crate::mesh::report::MeshReport;
 use crate::mesh::{Mesh, NONE, after};
 use crate::solver::bend;
-use crate::solver::integrate::sleep::Sleep;
+use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
 use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::world::{TickScratch, World};
@@ -207,7 +207,7 @@ fn build(
         tick: 0,
         pieces: 0,
         triangle_capacity,
-        reserve_told: false,
+        reserve_reported: false,
         over_stretched: 0,
         over_stretch_reported: false,
         pin_order: PinOrder::default(),
@@ -218,7 +218,7 @@ fn build(
         level: Level::best(),
         threads: Threads::ONE,
         profile: Profile::default(),
-        sleep: Sleep::default(),
+        sleep: SleepTimer::default(),
         mesh,
         seams: None,
         constraints,
@@ -226,9 +226,9 @@ fn build(
         crossings: Vec::new(),
         crack_tips: Vec::with_capacity(capacity),
         corner_area: areas,
-        frame,
-        cells,
-        plates,
+        grid_frame: frame,
+        grid_cells: cells,
+        plate_elements: plates,
         folds,
         particle_collision: None,
         warm_start: WarmStart::default(),
@@ -243,12 +243,13 @@ fn build(
         let x = world.rest[particle as usize];
         world.pins.insert(particle, x, x);
     }
-    world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
-    world.find_tips();
-    world.weigh();
+    world.pieces =
+        world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
+    world.rebuild_crack_tips();
+    world.compute_masses();
     world.constraints.stiffen(material);
-    world.tether();
-    world.restart_history();
+    world.rebuild_tethers();
+    world.reset_history();
     world
 }
 
@@ -289,10 +290,10 @@ impl World {
         self.events.reserve();
         let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.constraints.reserve(openings, capacity);
-        if let Some(cells) = &mut self.cells {
+        if let Some(cells) = &mut self.grid_cells {
             cells.reserve();
         }
-        if let Some(plates) = &mut self.plates {
+        if let Some(plates) = &mut self.plate_elements {
             plates.reserve(capacity);
         }
         self.tethers.reserve(capacity, self.mesh.triangles.len());
@@ -304,12 +305,12 @@ impl World {
             self.settings.most_tears(self.triangle_capacity),
         );
         self.reserve_packed(capacity);
-        self.reserve_inertia();
-        self.reserve_leashes();
+        self.reserve_effective_mass();
+        self.reserve_anchor_scratch();
         self.reserve_contacts();
         self.see_to_crowd();
         self.see_to_layers();
-        self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.stack);
+        self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.piece_stack);
     }
 
     /// Sees to room for all that tears may still need, after a cut made more triangles.
@@ -318,7 +319,7 @@ impl World {
         self.constraints.reserve(openings, self.capacity());
         self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
-        scratch.stack.reserve_exact(triangles.saturating_sub(scratch.stack.len()));
+        scratch.piece_stack.reserve_exact(triangles.saturating_sub(scratch.piece_stack.len()));
         scratch.pieces.reserve();
         scratch.rollback.reserve(triangles);
     }
@@ -331,7 +332,12 @@ impl World {
         let has_strips = self.constraints.rows.is_some();
         let steps = self.constraints.lines.abreast.most_steps();
         self.scratch.lines = line_solver::LineScratch::new(steps, capacity, has_strips);
-        self.scratch.bend = bend::BendScratch::new(self, capacity);
+        self.scratch.bend = bend::bend_scratch::BendScratch::new(
+            self.plate_elements.as_ref(),
+            self.mesh.triangles.len(),
+            self.constraints.hinges.all.len(),
+            capacity,
+        );
         let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.scratch.damping = damping::DampingScratch::new(self.constraints.links.len(), extra);
     }

@@ -24,12 +24,12 @@ impl Cloth {
         check(from != to, "to", "be apart from `from`")?;
         check((-3.0..=3.0).contains(&angle), "angle", "be from -3 to 3")?;
         self.world.wake();
-        guarded(|| match self.world.frame {
+        guarded(|| match self.world.grid_frame {
             Some(GridFrame { origin, right, down, .. }) => {
                 let flat = |p: Vec3| [(p - origin).dot(right), (p - origin).dot(down)];
-                self.world.crease_flat(flat(from), flat(to), angle);
+                self.world.crease_grid(flat(from), flat(to), angle);
             }
-            None => self.world.crease_across([from, to], angle),
+            None => self.world.crease_mesh([from, to], angle),
         });
         self.changed_state();
         Ok(())

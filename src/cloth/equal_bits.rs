@@ -45,13 +45,13 @@ fn assert_equal_bits(material: &Material) {
     // Whole chunks, rests of rows, pairs and quads over odd rows, rows too short for a chunk.
     for (columns, rows) in [(16, 9), (23, 18), (11, 20), (7, 12)] {
         let general = play(material, columns, rows, |cloth| {
-            (cloth.world.constraints.rows, cloth.world.cells) = (None, None);
+            (cloth.world.constraints.rows, cloth.world.grid_cells) = (None, None);
         });
         for level in Level::all() {
             let grid = play(material, columns, rows, |cloth| cloth.world.level = level);
             assert_eq!(grid, general, "{columns} x {rows} at {level:?}");
             let packed = play(material, columns, rows, |cloth| {
-                (cloth.world.constraints.rows, cloth.world.cells) = (None, None);
+                (cloth.world.constraints.rows, cloth.world.grid_cells) = (None, None);
                 cloth.world.level = level;
             });
             assert_eq!(packed, general, "{columns} x {rows} as a mesh at {level:?}");
@@ -66,7 +66,7 @@ fn assert_equal_bits_on_threads(material: &Material) {
         for is_grid in [true, false] {
             let prepare = |cloth: &mut Cloth, threads: u32| {
                 if !is_grid {
-                    (cloth.world.constraints.rows, cloth.world.cells) = (None, None);
+                    (cloth.world.constraints.rows, cloth.world.grid_cells) = (None, None);
                 }
                 cloth.set_threads_eagerly(threads).unwrap();
             };
@@ -116,7 +116,7 @@ fn rows_of_all_lengths_have_equal_bits() {
                 let mut cloth = Cloth::grid(&desc).unwrap();
                 cloth.world.level = level;
                 if !is_grid {
-                    (cloth.world.constraints.rows, cloth.world.cells) = (None, None);
+                    (cloth.world.constraints.rows, cloth.world.grid_cells) = (None, None);
                 }
                 cloth.set_wind(wind.clone()).unwrap();
                 cloth.step(4);

@@ -27,7 +27,7 @@ impl Cloth {
             world.mass_scales.set(*particle, *scale, count);
         }
         world.mass_scales.reserve(world.capacity());
-        guarded(|| world.weigh());
+        guarded(|| world.compute_masses());
         Ok(())
     }
 }

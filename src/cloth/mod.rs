@@ -158,10 +158,10 @@ impl Cloth {
         self.world = fresh;
         self.world.reserve_contacts();
         guarded(|| {
-            self.world.weigh();
+            self.world.compute_masses();
             self.world.constraints.stiffen(&self.world.material);
-            self.world.tether();
-            self.world.restart_history();
+            self.world.rebuild_tethers();
+            self.world.reset_history();
             self.world.see_to_crowd();
             self.world.see_to_layers();
         });
@@ -196,7 +196,7 @@ impl Cloth {
         }
         world.settings = settings;
         if is_unsorted {
-            world.sort_outward();
+            world.rebuild_pin_order();
         }
         if touches_otherwise {
             guarded(|| {
@@ -211,8 +211,8 @@ impl Cloth {
         }
         if restarts {
             guarded(|| {
-                world.restart_history();
-                world.refresh_soft_pins();
+                world.reset_history();
+                world.refresh_soft_pin_masses();
             });
         }
         if is_new && self.world.surface_collision.is_some() {
@@ -243,7 +243,7 @@ impl Cloth {
         guarded(|| {
             world.constraints.stiffen(&world.material);
             if reweigh {
-                world.weigh();
+                world.compute_masses();
             }
         });
         Ok(())
@@ -300,7 +300,7 @@ impl Cloth {
         let has_moved = world.threads.enter(world.particles.len(), || {
             guarded(|| {
                 if pins_changed {
-                    world.tether();
+                    world.rebuild_tethers();
                 }
                 (0..ticks).fold(false, |has_moved, _| pipeline::tick(world) || has_moved)
             })
@@ -335,7 +335,7 @@ impl Cloth {
         let (at, world) = (particle as usize, &mut self.world);
         guarded(|| {
             let v = world.particles.v.at(at);
-            world.place(at, position, v);
+            world.set_particle_state(at, position, v);
             world.particles.x_last.set(at, position);
             world.bring_pin(particle, position);
             world.is_tangled = true;
@@ -355,7 +355,7 @@ impl Cloth {
         let (at, world) = (particle as usize, &mut self.world);
         guarded(|| {
             let x = world.particles.x.at(at);
-            world.place(at, x, velocity);
+            world.set_particle_state(at, x, velocity);
         });
         self.changed_state();
         Ok(())
@@ -371,7 +371,7 @@ impl Cloth {
         check_index(particle, self.world.particles.len(), "particle")?;
         let target = self.world.particles.x.at(particle as usize);
         let handle = self.world.grabs.insert(Held { particle, target }, "another grab")?;
-        guarded(|| self.world.refresh_weight(particle));
+        guarded(|| self.world.refresh_inverse_mass(particle));
         Ok(Grab(handle))
     }
 
@@ -397,7 +397,7 @@ impl Cloth {
         if let Some(pin) = world.pins.find_mut(at) {
             pin.from = world.particles.x.at(at as usize);
         }
-        guarded(|| world.refresh_weight(at));
+        guarded(|| world.refresh_inverse_mass(at));
         Ok(())
     }
 

@@ -29,7 +29,7 @@ impl Cloth {
     pub fn unpin(&mut self, particle: u32) -> Result<()> {
         check_index(particle, self.world.particles.len(), "particle")?;
         if self.world.pins.remove(particle) {
-            guarded(|| self.world.refresh_weight(particle));
+            guarded(|| self.world.refresh_inverse_mass(particle));
             self.changed_pins();
         }
         Ok(())
@@ -39,7 +39,7 @@ impl Cloth {
     pub fn unpin_all(&mut self) {
         self.world.pins.clear();
         guarded(|| {
-            (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_weight(i));
+            (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_inverse_mass(i));
         });
         self.changed_pins();
     }
@@ -64,7 +64,7 @@ impl Cloth {
     pub(super) fn put_pin(&mut self, particle: u32, target: Vec3) {
         let x = self.world.particles.x.at(particle as usize);
         if self.world.pins.insert(particle, x, target) {
-            guarded(|| self.world.refresh_weight(particle));
+            guarded(|| self.world.refresh_inverse_mass(particle));
             self.changed_pins();
         }
     }
@@ -97,12 +97,12 @@ impl Cloth {
             let Some(pin) = self.world.pins.find_mut(*particle) else { continue };
             let is_other_kind = pin.is_soft() != (stiffness > 0.0);
             pin.stiffness = stiffness;
-            guarded(|| self.world.refresh_weight(*particle));
+            guarded(|| self.world.refresh_inverse_mass(*particle));
             if is_other_kind {
                 self.changed_pins();
             }
         }
-        self.world.reserve_inertia();
+        self.world.reserve_effective_mass();
         Ok(())
     }
 

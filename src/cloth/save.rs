@@ -19,7 +19,7 @@ use crate::model::dynamic_links::Changes;
 use crate::model::material::Material;
 use crate::model::plate_elements::Each;
 use crate::model::tethers::TetherSet;
-use crate::solver::integrate::sleep::Sleep;
+use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraints;
@@ -71,11 +71,11 @@ struct Saved<'a> {
     events: Owned<'a, Events>,
     time: f64,
     tick: u32,
-    reserve_told: bool,
+    reserve_reported: bool,
     tether_slack: f32,
     over_stretched: u32,
     over_stretch_reported: bool,
-    sleep: Sleep,
+    sleep: SleepTimer,
     owed: f64,
     topology_revision: u32,
     state_revision: u32,
@@ -117,7 +117,7 @@ impl Cloth {
             events: Owned::Borrowed(&world.events),
             time: world.time,
             tick: world.tick,
-            reserve_told: world.reserve_told,
+            reserve_reported: world.reserve_reported,
             tether_slack: world.tether_slack,
             over_stretched: world.over_stretched,
             over_stretch_reported: world.over_stretch_reported,
@@ -220,7 +220,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
         (None, None) => true,
         _ => false,
     })?;
-    world.measure_divided(&fresh);
+    world.refresh_corner_areas(&fresh);
     world.particles = particles;
     must(saved.mass_scales.are_sound(count))?;
     world.mass_scales = saved.mass_scales.into_owned();
@@ -230,13 +230,13 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.reserve(capacity);
     must(world.constraints.change(&world.mesh, &saved.links, &world.material))?;
     world.constraints.stiffen(&world.material);
-    (0..world.rest.len() as u32).for_each(|site| world.follow(site));
-    must(world.take_folds(saved.folds) && world.take_wear(saved.wear))?;
+    (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
+    must(world.restore_folds(saved.folds) && world.restore_hardening(saved.wear))?;
     world.reserve_for_tears();
-    world.gather();
+    world.rebuild_irregular_lists();
     must(saved.anchors.are_sound(count))?;
     world.anchors = saved.anchors.into_owned();
-    world.reserve_leashes();
+    world.reserve_anchor_scratch();
     must(saved.warm_start.are_sound(count))?;
     world.warm_start = saved.warm_start.into_owned();
     world.warm_start.reserve(count);
@@ -256,18 +256,20 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(events.len() <= MAX_EVENTS)?;
     world.events = events;
     world.events.reserve();
-    (world.time, world.tick, world.reserve_told) = (saved.time, saved.tick, saved.reserve_told);
+    (world.time, world.tick, world.reserve_reported) =
+        (saved.time, saved.tick, saved.reserve_reported);
     world.over_stretched = saved.over_stretched;
     world.over_stretch_reported = saved.over_stretch_reported;
     must(saved.tether_slack >= 0.0)?;
-    world.pieces = world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.stack);
-    world.find_tips();
-    world.weigh();
-    world.tether();
+    world.pieces =
+        world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
+    world.rebuild_crack_tips();
+    world.compute_masses();
+    world.rebuild_tethers();
     let (particles, triangles) = (world.particles.len(), world.mesh.triangles.len());
     let is_measured = saved.tethers.is_empty();
     must(is_measured || world.tethers.restore(&saved.tethers, particles, triangles))?;
-    world.sort_outward();
+    world.rebuild_pin_order();
     world.tether_slack = saved.tether_slack;
     world.sleep = saved.sleep;
     let mut outputs = Outputs::new(&world);
@@ -319,7 +321,7 @@ fn restore_holds(
     }
     (world.pins, world.grabs) = (pins, grabs);
     world.pins.reserve(world.capacity());
-    world.reserve_inertia();
+    world.reserve_effective_mass();
     Ok(())
 }
 

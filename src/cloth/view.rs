@@ -174,7 +174,7 @@ impl Outputs {
                 next.frayed.extend_from_slice(frayed);
             }
         }
-        let indices = world.faces().as_flattened();
+        let indices = world.render_triangles().as_flattened();
         let change = Change { indices: differing(&self.indices, indices), ..Change::default() }
             .and_vertices(differing(&self.uvs, &next.uvs))
             .and_vertices(differing(&self.sources, &next.sources))
@@ -403,8 +403,8 @@ impl Cloth {
             + world.vertex_capacity() * vertex
             + world.triangle_capacity * triangle
             + world.constraints.bytes()
-            + world.cells.as_ref().map_or(0, GridCells::bytes)
-            + world.plates.as_ref().map_or(0, |plates| plates.bytes())
+            + world.grid_cells.as_ref().map_or(0, GridCells::bytes)
+            + world.plate_elements.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
             + self.outputs.drawn.bytes()
             + world.particle_collision.as_ref().map_or(0, |crowd| crowd.bytes())

@@ -36,7 +36,7 @@ fn apart(world: &mut World, work: impl FnOnce(&mut World)) {
 
 /// Runs one tick; false if the cloth sleeps through it.
 pub(crate) fn tick(world: &mut World) -> bool {
-    if sleep::goes_on(world) {
+    if sleep::is_tick_skipped(world) {
         targets::arrive(world);
         end(world);
         return false;
@@ -56,14 +56,14 @@ pub(crate) fn tick(world: &mut World) -> bool {
     for substep in 0..world.settings.substeps {
         run_substep(world, substep);
     }
-    timed!(world, Bend, bend::yield_folds(world));
+    timed!(world, Bend, bend::update_folds(world));
     world.pins.arrive();
     timed!(world, Colliders, collide::arrive(world));
     end(world);
     // What is no longer a number must not steer a tear.
     timed!(world, Guard, recover::mend(world));
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
-        timed!(world, Tear, tear::tear(world));
+        timed!(world, Tear, tear::tear_overstretched(world));
     }
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
@@ -77,7 +77,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         timed!(world, Guard, recover::mend(world));
     }
     targets::arrive(world);
-    sleep::look(world);
+    sleep::update_timer(world);
     true
 }
 
@@ -95,7 +95,7 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Tethers, tethers::look(world));
     }
     distance::restart(world);
-    timed!(world, Bend, bend::begin(world));
+    timed!(world, Bend, bend::solve_first(world));
     timed!(world, Stretch, damping::begin(world));
     timed!(world, Stretch, mesh_kernel::pack(world));
     for iteration in 0..world.settings.iterations {
@@ -123,7 +123,7 @@ fn run_substep(world: &mut World, number: u32) {
 fn run_iteration(world: &mut World, iteration: u32) {
     let is_back = !iteration.is_multiple_of(2);
     if is_back {
-        timed!(world, Bend, bend::go_on(world, Order::Backward, iteration));
+        timed!(world, Bend, bend::solve_in_sweep(world, Order::Backward, iteration));
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, Order::Backward));
         timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, Order::Backward));
     } else if iteration == 0 && line_solver::are_used(world) {
@@ -137,6 +137,6 @@ fn run_iteration(world: &mut World, iteration: u32) {
     }
     if !is_back {
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, Order::Forward));
-        timed!(world, Bend, bend::go_on(world, Order::Forward, iteration));
+        timed!(world, Bend, bend::solve_in_sweep(world, Order::Forward, iteration));
     }
 }

@@ -1,4 +1,19 @@
-//! Everything that a tick reads and writes.
+//! The data of one cloth: rest mesh, constraints, state and scratch buffers.
+//!
+//! `World` is the one argument of every stage in `pipeline`. It groups into
+//!
+//! ```text
+//! rest data   mesh, seams, constraints, tethers, rest, corner_area, plate_elements, ...
+//! state       particles, pins, grabs, anchors, colliders, settings, wind, folds, time, ...
+//! caches      scratch, particle_collision, surface_collision, pin_order, profile, ...
+//! ```
+//! Method: plain data, plus the updates that keep the derived data in step with the mesh, the pins
+//! and the masses. No stage lives here.
+//!
+//! Reads nothing from outside; the stages, `cloth` and the restore code write it.
+//! Invariant: each list that counts particles has `particles.len()` entries, and no list
+//! reallocates during a tick, because `reserve` sets its capacity beforehand. The files that this
+//! file imports do not import it.
 
 use crate::geometry::triangle::corner_areas;
 use crate::math::columns::Columns;
@@ -17,8 +32,11 @@ use crate::model::material::Material;
 use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
-use crate::solver::integrate::sleep::Sleep;
+use crate::solver::bend::bend_scratch::BendScratch;
+use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
+use crate::solver::topology::piece_labels::PieceLabels;
+use crate::solver::topology::tear_scratch::TearScratch;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
@@ -32,41 +50,43 @@ use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 
-/// Particles that one thread does at least, where there is little to do for each.
-pub(crate) const PARTICLES: usize = 16_384;
+/// Smallest number of particles that a thread gets in a loop with little work per particle.
+pub(crate) const MIN_PARTICLES_PER_THREAD: usize = 16_384;
 
-/// Everything that a tick reads and writes.
+/// The complete data of one cloth.
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     pub mesh: Mesh,
-    /// The vertices, if particles are not vertices.
+    /// Maps render vertices to particles; `None` if each particle is one vertex.
     pub seams: Option<Seams>,
     pub constraints: Constraints,
     pub tethers: Tethers,
-    /// The order of the stretch bound; current only while there is one.
+    /// Links sorted by distance from the pins; valid only while `max_stretch > 0`.
     pub pin_order: PinOrder,
     /// See `tethers::measure_slack`; infinite before the first tick and after pins or places changed.
     pub tether_slack: f32,
-    /// How far pins hold the cloth apart, see `tethers::held_apart`, and whether that is still so.
+    /// Largest ratio of the distance between two pins to their distance along the rest cloth; at
+    /// least 1. Above 1 the pins stretch the cloth by themselves.
     pub pin_stretch: f32,
+    /// Whether `pin_stretch` is up to date: no pin moves and no grab is held.
     pub is_pin_stretch_current: bool,
     /// Rest position of each site [m].
     pub rest: Vec<Vec3>,
-    /// The sites that cuts made, after those of the original vertices.
+    /// The edge points where cuts made sites; these sites follow those of the original vertices.
     pub crossings: Vec<Crossing>,
-    /// The share of its triangle's rest area that belongs to each corner [m²].
+    /// Share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
-    /// Where a grid is at rest.
-    pub frame: Option<GridFrame>,
-    /// Where the triangles of a grid lie in cells.
-    pub cells: Option<GridCells>,
-    /// What resists bending on a grid.
-    pub plates: Option<PlateElements>,
-    /// Folds that stay.
+    /// Origin, axes and spacing of the rest grid; `None` for other meshes.
+    pub grid_frame: Option<GridFrame>,
+    /// Two triangles per grid cell, for sums over triangles in SIMD lanes; `None` for other meshes.
+    pub grid_cells: Option<GridCells>,
+    /// Bending elements of a grid; `None` for other meshes, which bend at hinges.
+    pub plate_elements: Option<PlateElements>,
+    /// Plastic rest angles of the bending elements.
     pub folds: Folds,
-    /// Whether each vertex is the tip of a slit.
+    /// Whether each vertex is a crack tip: the end of a tear or of a cut.
     pub crack_tips: Vec<bool>,
-    /// Mean length of the edges at rest [m].
+    /// Mean rest length of the edges [m].
     pub mean_edge: f32,
     pub particles: Particles,
     pub mass_scales: MassScales,
@@ -74,7 +94,7 @@ pub(crate) struct World {
     pub attachments: Attachments,
     pub grabs: Grabs,
     pub anchors: AnchorConstraints,
-    /// Where the body is that the cloth goes along with when that jumps.
+    /// Pose of the body that the cloth follows when that body teleports.
     pub reference_pose: Pose,
     pub colliders: Colliders,
     pub settings: Settings,
@@ -84,23 +104,24 @@ pub(crate) struct World {
     pub time: f64,
     /// Ticks since creation or reset.
     pub tick: u32,
+    /// Number of pieces: connected sets of triangles.
     pub pieces: u32,
-    /// How many triangles there may be in all.
+    /// Largest number of triangles that the buffers can hold.
     pub triangle_capacity: usize,
-    /// Whether the host knows that the reserve for tears is used up.
-    pub reserve_told: bool,
-    /// Links past the stretch bound after the last tick.
+    /// Whether an event has reported that the vertex reserve for tears is used up.
+    pub reserve_reported: bool,
+    /// Number of links that exceeded `max_stretch` after the last tick.
     pub over_stretched: u32,
-    /// Whether the host knows of them.
+    /// Whether an event has reported them.
     pub over_stretch_reported: bool,
     pub events: Events,
-    /// The instructions that kernels may use.
+    /// Instruction set that the kernels may use.
     pub level: Level,
-    /// The threads that its ticks may use.
+    /// Threads that a tick may use.
     pub threads: Threads,
     pub profile: Profile,
     pub scratch: TickScratch,
-    pub sleep: Sleep,
+    pub sleep: SleepTimer,
     /// The particles that keep apart, while settings say so.
     pub particle_collision:
         Option<Box<crate::solver::self_collide::particle_pairs::ParticleCollision>>,
@@ -112,132 +133,141 @@ pub(crate) struct World {
     pub surface_collision: Option<Box<crate::solver::self_collide::surface::SurfaceCollision>>,
 }
 
-/// Room to work in, made once so that no tick allocates.
+/// Scratch buffers, allocated once so that no tick allocates.
 #[derive(Clone, Debug)]
 pub(crate) struct TickScratch {
-    /// Acceleration [m/s²].
+    /// Acceleration of each particle by gravity and air [m/s²].
     pub acceleration: Columns,
-    /// Velocity of the air against each particle [m/s].
-    pub air: Columns,
-    /// The way that prediction gave each particle in this substep [m].
+    /// Air velocity minus particle velocity [m/s]. Stage `Forces` uses it once per tick; later
+    /// stages use it as a buffer.
+    pub relative_wind: Columns,
+    /// Predicted displacement of each particle in this substep [m].
     pub displacement: Columns,
-    /// Where prediction took it [m].
+    /// Predicted position of each particle in this substep [m].
     pub predicted: Columns,
     /// The velocity that each particle began the tick with, while there is a stretch bound [m/s].
     pub initial_velocity: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
     pub tether_anchor: Columns,
-    /// What resists a push at each particle while there are soft pins [kg].
-    pub inertia: Vec<f32>,
-    /// What leashes pulled in this substep.
-    pub pulled: Vec<u32>,
+    /// Mass plus soft-pin term of each particle, in use while there are soft pins [kg].
+    pub effective_mass: Vec<f32>,
+    /// Particles that anchor constraints moved in this substep.
+    pub anchor_moved: Vec<u32>,
     pub end_weights: crate::solver::stretch::inverse_masses::Weights,
     pub interleaved: crate::solver::stretch::mesh_kernel::Packed,
     pub lines: crate::solver::stretch::line_solver::LineScratch,
-    pub bend: crate::solver::bend::BendScratch,
+    pub bend: BendScratch,
     pub damping: crate::solver::stretch::damping::DampingScratch,
     pub contacts: crate::solver::collide::ContactScratch,
-    pub tear: crate::solver::topology::tear::TearScratch,
+    pub tear: TearScratch,
     pub rollback: crate::solver::stretch::rollback::Home,
-    pub opened: Vec<Opening>,
-    pub pieces: crate::solver::topology::tear::Pieces,
-    pub stack: Vec<u32>,
+    /// Edges that the current vertex split opened.
+    pub openings: Vec<Opening>,
+    pub pieces: PieceLabels,
+    /// Stack of the flood fill that labels the pieces.
+    pub piece_stack: Vec<u32>,
 }
 
 impl TickScratch {
-    /// Room for `capacity` particles and `triangles` triangles.
+    /// Allocates buffers for `capacity` particles, of which `count` exist now, `triangles`
+    /// triangles and `max_tears` tears per tick. Bending, lines and damping get theirs later.
     pub fn new(count: usize, capacity: usize, triangles: usize, max_tears: usize) -> Self {
         let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
         let mut scratch = Self {
             acceleration: Columns::with_capacity(capacity),
-            air: Columns::with_capacity(capacity),
+            relative_wind: Columns::with_capacity(capacity),
             displacement: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
             initial_velocity: Columns::with_capacity(capacity),
             tether_anchor: Columns::with_capacity(capacity),
-            inertia: Vec::new(),
-            pulled: Vec::new(),
+            effective_mass: Vec::new(),
+            anchor_moved: Vec::new(),
             end_weights: crate::solver::stretch::inverse_masses::Weights::default(),
             interleaved: crate::solver::stretch::mesh_kernel::Packed::default(),
             lines: crate::solver::stretch::line_solver::LineScratch::default(),
-            bend: crate::solver::bend::BendScratch::default(),
+            bend: BendScratch::default(),
             damping: crate::solver::stretch::damping::DampingScratch::default(),
             contacts: crate::solver::collide::ContactScratch::default(),
-            tear: crate::solver::topology::tear::TearScratch::with_capacity(max_tears),
+            tear: TearScratch::with_capacity(max_tears),
             rollback: crate::solver::stretch::rollback::Home::with_capacity(capacity, triangles),
-            opened: Vec::with_capacity(2),
-            pieces: crate::solver::topology::tear::Pieces::new(triangles),
-            stack: Vec::with_capacity(triangles),
+            openings: Vec::with_capacity(2),
+            pieces: PieceLabels::new(triangles),
+            piece_stack: Vec::with_capacity(triangles),
         };
         zero(&mut scratch.acceleration);
-        zero(&mut scratch.air);
+        zero(&mut scratch.relative_wind);
         zero(&mut scratch.displacement);
         zero(&mut scratch.predicted);
         scratch
     }
 
-    /// A particle more.
-    pub fn grow(&mut self) {
+    /// Appends one zeroed particle to the buffers that have one entry per particle.
+    pub fn push_particle(&mut self) {
         self.acceleration.push(Vec3::ZERO);
-        self.air.push(Vec3::ZERO);
+        self.relative_wind.push(Vec3::ZERO);
         self.displacement.push(Vec3::ZERO);
         self.predicted.push(Vec3::ZERO);
     }
 }
 
 impl World {
-    /// How many particles there may be in all.
+    /// Largest number of particles that the buffers can hold.
     pub fn capacity(&self) -> usize {
         self.mesh.source.capacity().min(self.particles.mass.capacity())
     }
 
-    /// How many vertices there may be in all.
+    /// Largest number of render vertices that the buffers can hold.
     pub fn vertex_capacity(&self) -> usize {
         self.seams.as_ref().map_or(self.capacity(), Seams::capacity)
     }
 
-    /// The triangles over vertices, as a renderer has them.
-    pub fn faces(&self) -> &[[u32; 3]] {
+    /// Triangles as indices of render vertices.
+    pub fn render_triangles(&self) -> &[[u32; 3]] {
         self.seams.as_ref().map_or(&self.mesh.triangles, |seams| &seams.triangles)
     }
 
-    /// The vertex at a corner.
-    pub fn vertex(&self, corner: Corner) -> u32 {
-        self.faces()[triangle_of(corner)][corner as usize % 3]
+    /// Render vertex at a corner.
+    pub fn render_vertex(&self, corner: Corner) -> u32 {
+        self.render_triangles()[triangle_of(corner)][corner as usize % 3]
     }
 
-    /// Whether the reserve cannot take the most that one tear may need: the vertex that splits, and
-    /// one at the far end of each of two opened edges.
+    /// Whether the reserve is too small for the next tear, which makes up to three vertices: the
+    /// split vertex and one at the far end of each of the two opened edges.
     pub fn is_reserve_used_up(&self) -> bool {
         self.mesh.vertex_count() + 3 > self.capacity()
     }
 
-    /// Brings links and cells around a site in line with the mesh.
-    pub fn follow(&mut self, site: u32) {
+    /// Updates links, grid cells and plate elements at `site` after the mesh changed there.
+    ///
+    /// Call `rebuild_irregular_lists` after the last site.
+    pub fn refresh_constraints_at(&mut self, site: u32) {
         self.constraints.follow(&self.mesh, site);
-        if let Some(cells) = &mut self.cells {
+        if let Some(cells) = &mut self.grid_cells {
             cells.follow(&self.mesh, site);
         }
-        if let Some(plates) = &mut self.plates {
+        if let Some(plates) = &mut self.plate_elements {
             plates.follow_cells(&self.mesh, site);
             let of_site = self.constraints.of_vertex(site);
             of_site.for_each(|(links, link)| plates.follow_link(&self.mesh, links, link));
         }
     }
 
-    /// Gathers what sweeps and sums find apart from the rest, after links and cells changed.
-    pub fn gather(&mut self) {
+    /// Rebuilds the lists of links, cells and plate elements that left the regular grid layout.
+    pub fn rebuild_irregular_lists(&mut self) {
         self.constraints.gather(self.particles.len());
-        if let Some(cells) = &mut self.cells {
+        if let Some(cells) = &mut self.grid_cells {
             cells.gather(&self.mesh);
         }
-        if let Some(plates) = &mut self.plates {
+        if let Some(plates) = &mut self.plate_elements {
             plates.gather(&self.mesh, &self.constraints.links);
         }
     }
 
-    /// The inverse mass that the solver is to see: 0 while something holds the particle.
-    pub fn refresh_weight(&mut self, particle: u32) {
+    /// Updates the inverse mass `w` of a particle [1/kg] and wakes the cloth.
+    ///
+    /// `w` is 0 while a grab or a hard pin holds the particle or it has no mass. A soft pin of
+    /// stiffness k adds k · step² to the mass.
+    pub fn refresh_inverse_mass(&mut self, particle: u32) {
         self.wake();
         let at = particle as usize;
         let pin = self.pins.find(particle);
@@ -253,8 +283,8 @@ impl World {
         };
     }
 
-    /// All masses from areas, density and scales, and the inverse masses from them.
-    pub fn weigh(&mut self) {
+    /// Computes all masses [kg] from rest areas, density and mass scales, then all inverse masses.
+    pub fn compute_masses(&mut self) {
         self.particles.mass.fill(0.0);
         for (triangle, areas) in self.mesh.triangles.iter().zip(&self.corner_area) {
             for (vertex, area) in triangle.iter().zip(areas) {
@@ -262,33 +292,35 @@ impl World {
             }
         }
         self.mass_scales.apply(&mut self.particles.mass);
-        (0..self.particles.len() as u32).for_each(|particle| self.refresh_weight(particle));
+        (0..self.particles.len() as u32).for_each(|particle| self.refresh_inverse_mass(particle));
     }
 
-    /// The areas of triangles that are not those of the `fresh` mesh any more.
-    pub fn measure_divided(&mut self, fresh: &Mesh) {
+    /// Recomputes the corner areas of the triangles that differ from those of the `uncut` mesh.
+    pub fn refresh_corner_areas(&mut self, uncut: &Mesh) {
         let (mesh, rest) = (&self.mesh, &self.rest);
         let sites = |triangle: &[u32; 3]| triangle.map(|v| mesh.source[v as usize]);
         self.corner_area.resize(mesh.triangles.len(), [0.0; 3]);
         for (at, (triangle, areas)) in mesh.triangles.iter().zip(&mut self.corner_area).enumerate()
         {
             let sites = sites(triangle);
-            if fresh.triangles.get(at) != Some(&sites) {
+            if uncut.triangles.get(at) != Some(&sites) {
                 *areas = corner_areas(sites.map(|site| rest[site as usize]));
             }
         }
     }
 
-    /// Finds the tips of all slits.
-    pub fn find_tips(&mut self) {
+    /// Rebuilds `crack_tips` for all vertices.
+    pub fn rebuild_crack_tips(&mut self) {
         let mut fan = Fan::default();
         let is_tip = |vertex| crack_tips::is_tip(&self.mesh, &self.rest, vertex, &mut fan);
         self.crack_tips.clear();
         self.crack_tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
     }
 
-    /// Puts a particle somewhere with a velocity.
-    pub fn place(&mut self, particle: usize, x: Vec3, v: Vec3) {
+    /// Sets the position `x` [m] and the velocity `v` [m/s] of a particle, and wakes the cloth.
+    ///
+    /// The history of the particle becomes that of free fall.
+    pub fn set_particle_state(&mut self, particle: usize, x: Vec3, v: Vec3) {
         self.wake();
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
         self.particles.place(particle, x, v, gravity, h);
@@ -296,40 +328,43 @@ impl World {
         self.tether_slack = f32::INFINITY;
     }
 
-    /// Begins every history anew, after the kind of substep changed.
-    pub fn restart_history(&mut self) {
+    /// Resets the history of every particle to free fall, after the length or the order of the
+    /// substep changed. Positions and velocities stay.
+    pub fn reset_history(&mut self) {
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
         self.particles.restart_history(gravity, h);
     }
 
-    /// The farthest a particle may move in a substep against the cloth's own motion [m].
-    pub fn reach(&self) -> f32 {
+    /// Largest displacement of a particle per substep relative to the rigid motion of the
+    /// cloth [m].
+    pub fn max_displacement(&self) -> f32 {
         self.settings.max_displacement * self.mean_edge
     }
 
-    /// Measures the tethers anew, after pins or pieces changed.
-    pub fn tether(&mut self) {
+    /// Rebuilds all tethers, after pins or pieces changed.
+    pub fn rebuild_tethers(&mut self) {
         self.tethers.measure(&self.mesh, &self.rest, self.pins.hard());
-        self.tethers_changed();
+        self.refresh_after_tether_change();
     }
 
-    /// Measures anew which tethers tears changed: around the particles that were touched.
-    pub fn tether_around(&mut self, touched: &[u32]) {
+    /// Updates the tethers that tears changed, searching from the `touched` particles.
+    pub fn update_tethers(&mut self, touched: &[u32]) {
         if self.tethers.pin_count() != self.pins.hard().count() {
-            return self.tether();
+            return self.rebuild_tethers();
         }
         self.tethers.follow(&self.mesh, &self.rest, touched);
-        self.tethers_changed();
+        self.refresh_after_tether_change();
     }
 
-    fn tethers_changed(&mut self) {
+    fn refresh_after_tether_change(&mut self) {
         self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
-        self.sort_outward();
+        self.rebuild_pin_order();
     }
 
-    /// Sorts links outward anew, after ways to pins or links changed.
-    pub fn sort_outward(&mut self) {
+    /// Sorts the links by distance from the pins, after these distances or the links changed.
+    /// Does nothing while there is no strain limit.
+    pub fn rebuild_pin_order(&mut self) {
         if self.settings.max_stretch > 0.0 {
             self.pin_order.sort(&self.tethers, self.particles.len(), &self.constraints.links);
         }

@@ -4,12 +4,12 @@
 
 use crate::math::simd::{Level, leveled};
 
-/// Three columns of numbers.
-pub(crate) type Three = [Vec<f32>; 3];
+/// VectorColumns columns of numbers.
+pub(crate) type VectorColumns = [Vec<f32>; 3];
 
 /// L D Lᵀ of five diagonals.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Factor {
+pub(crate) struct PentadiagonalFactor {
     /// One over D; 0 for what is held.
     inverse: Vec<f32>,
     /// L beside the diagonal, and beside that.
@@ -19,13 +19,13 @@ pub(crate) struct Factor {
 
 /// Particles along a line of a grid.
 #[derive(Clone, Copy)]
-pub(crate) struct Line {
+pub(crate) struct GridLine {
     pub first: usize,
     pub step: usize,
     pub count: usize,
 }
 
-impl Factor {
+impl PentadiagonalFactor {
     /// Room for so many particles.
     pub fn new(count: usize) -> Self {
         let list = || vec![0.0; count];
@@ -35,7 +35,7 @@ impl Factor {
     /// Factors µM + h² K along a line, with elements so stiff over one inside.
     pub fn factor(
         &mut self,
-        line: Line,
+        line: GridLine,
         weight: &[f32],
         w: &[f32],
         mass: &[f32],
@@ -72,7 +72,7 @@ impl Factor {
     }
 
     /// Along each row, from end to end and back.
-    pub fn solve_rows(&self, columns: usize, v: &mut Three) {
+    pub fn solve_rows(&self, columns: usize, v: &mut VectorColumns) {
         let [x, y, z] = v;
         let factors = self.inverse.chunks_exact(columns).zip(self.near.chunks_exact(columns));
         let factors = factors.zip(self.far.chunks_exact(columns));
@@ -106,17 +106,17 @@ impl Factor {
     }
 
     /// Along all columns at once.
-    pub fn solve_columns(&self, level: Level, columns: usize, v: &mut Three) {
+    pub fn solve_columns(&self, level: Level, columns: usize, v: &mut VectorColumns) {
         v.iter_mut().for_each(|v| down_and_up(level, v, self, columns));
     }
 }
 
 leveled! {
-    fn down_and_up(v: &mut [f32], factor: &Factor, columns: usize) = down_and_up_lanes
+    fn down_and_up(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) = down_and_up_lanes
 }
 
 #[inline(always)]
-fn down_and_up_lanes(v: &mut [f32], factor: &Factor, columns: usize) {
+fn down_and_up_lanes(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) {
     let count = v.len();
     for first in (columns..count).step_by(columns) {
         let (above, row) = v.split_at_mut(first);

@@ -35,12 +35,12 @@ const LEFT_OUT_BY_ONE: f32 = 0.34;
 
 /// The steps: in each, the way is so much of the last way, and so much of what the force gives.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Descent {
+pub(crate) struct ChebyshevSteps {
     steps: [[f32; 2]; MOST],
     count: usize,
 }
 
-impl Descent {
+impl ChebyshevSteps {
     /// For a stiffness over mass of at most `bound` in whatever shape; none if that takes too many steps.
     pub fn new(bound: f32) -> Option<Self> {
         for (at, to_root) in TO_FIRST_ROOT.into_iter().enumerate() {
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     /// What a descent moves a shape by that is bent by 1, over λ.
-    fn descend(descent: &Descent, lambda: f32) -> f32 {
+    fn descend(descent: &ChebyshevSteps, lambda: f32) -> f32 {
         let (mut force, mut way, mut sum) = (1.0, 0.0, 0.0);
         for [keep, take] in descent.steps() {
             force -= (1.0 + lambda) * way;
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn a_descent_is_an_implicit_step_but_for_a_fifth() {
         for bound in [0.01, 0.3, 0.5, 1.5, 3.0, 8.0, 15.0, 24.0, 40.0] {
-            let descent = Descent::new(bound).unwrap();
+            let descent = ChebyshevSteps::new(bound).unwrap();
             for at in 0..=100 {
                 let lambda = bound * at as f32 / 100.0;
                 let left_out = 1.0 - (1.0 + lambda) * descend(&descent, lambda);
@@ -108,7 +108,7 @@ mod tests {
             let flat = descend(&descent, 0.0);
             assert!((flat - 1.0).abs() < 1.0e-5, "flat shapes get {flat}, bound {bound}");
         }
-        assert!(Descent::new(100.0).is_none());
-        assert!(Descent::new(f32::NAN).is_none());
+        assert!(ChebyshevSteps::new(100.0).is_none());
+        assert!(ChebyshevSteps::new(f32::NAN).is_none());
     }
 }

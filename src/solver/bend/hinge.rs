@@ -12,18 +12,18 @@ use glam::Vec3;
 
 /// What a substep of bending works with.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Step {
+pub(crate) struct HingeStep {
     /// Bending rigidity times the square of the substep, damping included [kg m²].
     pub stiffness: f32,
     /// The share of where particles were that is taken off where they are, for damping.
-    pub before: f32,
+    pub start_share: f32,
 }
 
 /// Bends one hinge.
 #[inline(always)]
 pub(crate) fn project<S: Spots>(
     hinge: &Hinge,
-    step: Step,
+    step: HingeStep,
     start: impl Fn(usize) -> Vec3,
     spots: &mut S,
 ) {
@@ -34,14 +34,14 @@ pub(crate) fn project<S: Spots>(
         curve += *x * c;
         weight += c * c * w;
     }
-    if step.before > 0.0 {
+    if step.start_share > 0.0 {
         for (i, c) in at.iter().zip(hinge.weight) {
-            curve -= start(*i) * (c * step.before);
+            curve -= start(*i) * (c * step.start_share);
         }
     }
     if hinge.rest != 0.0 {
         let n = normal(seats.map(|(x, _)| x));
-        curve -= n * (hinge.rest * (1.0 - step.before));
+        curve -= n * (hinge.rest * (1.0 - step.start_share));
     }
     let compliance = 1.0 / (hinge.shape * step.stiffness);
     let change = curve * (-1.0 / (weight + compliance));

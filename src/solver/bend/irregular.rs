@@ -16,15 +16,15 @@ use core::ops::Range;
 
 /// What a substep of bending works with.
 #[derive(Clone, Copy)]
-pub(crate) struct Step<'a> {
-    pub elbows: &'a IrregularBends,
+pub(crate) struct IrregularStep<'a> {
+    pub elements: &'a IrregularBends,
     /// Stiffness of an element times the square of the substep [kg].
     pub stiffness: f32,
     /// The share of where particles were that is taken off where they are, for damping.
-    pub before: f32,
+    pub start_share: f32,
     /// Where the substep began: where particles were led to, and by which way.
     pub predicted: &'a Columns,
-    pub way: &'a Columns,
+    pub displacement: &'a Columns,
     /// What elements are bent by at rest along the weft and along the warp [m]; none if none is.
     pub rest: Option<[&'a [f32]; 2]>,
     /// How much softer elements are by what gave way, if they are.
@@ -32,8 +32,8 @@ pub(crate) struct Step<'a> {
 }
 
 /// Bends all of them once.
-pub(crate) fn bend(level: Level, step: Step<'_>, p: &mut Particles) {
-    for group in &step.elbows.groups {
+pub(crate) fn solve(level: Level, step: IrregularStep<'_>, p: &mut Particles) {
+    for group in &step.elements.groups {
         let (own, rest) = (group.range(), step.rest.map(|rest| rest[group.kind]));
         if group.is_colored {
             abreast(level, step, own, rest, p);
@@ -44,11 +44,11 @@ pub(crate) fn bend(level: Level, step: Step<'_>, p: &mut Particles) {
 }
 
 vectored! {
-    fn abreast(step: Step<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles)
+    fn abreast(step: IrregularStep<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles)
         = bend_color, Avx2, one_by_one
 }
 
-fn one_by_one(step: Step<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles) {
+fn one_by_one(step: IrregularStep<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles) {
     bend_color(Scalar, step, own, rest, p);
 }
 
@@ -56,7 +56,7 @@ fn one_by_one(step: Step<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut P
 #[inline(always)]
 fn bend_color<S: Simd>(
     s: S,
-    step: Step<'_>,
+    step: IrregularStep<'_>,
     own: Range<usize>,
     rest: Option<&[f32]>,
     p: &mut Particles,
@@ -75,22 +75,22 @@ fn bend_color<S: Simd>(
 #[inline(always)]
 fn bend_some<S: Simd, P: Spots>(
     s: S,
-    step: Step<'_>,
+    step: IrregularStep<'_>,
     first: usize,
     rest: Option<&[f32]>,
     spots: &mut P,
 ) {
-    let (elbows, own) = (step.elbows, first..first + S::LANES);
+    let (elbows, own) = (step.elements, first..first + S::LANES);
     let (a, middle) = (&elbows.a[own.clone()], &elbows.middle[own.clone()]);
     let (b, woven) = (&elbows.b[own.clone()], &elbows.woven[own]);
     let ((xa, wa), (xm, wm)) = (fetch(s, spots, a), fetch(s, spots, middle));
     let (xb, wb) = fetch(s, spots, b);
     let mut bow = bow(s, xa, xm, xb);
-    if step.before > 0.0 {
+    if step.start_share > 0.0 {
         take_before(s, step, [a, middle, b], &mut bow);
     }
     if let Some(rest) = rest {
-        take_rest(s, rest, woven, 1.0 - step.before, &mut bow);
+        take_rest(s, rest, woven, 1.0 - step.start_share, &mut bow);
     }
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     // A middle that is held is stiffer between one end that is held and one that is not, see `plates`.
@@ -130,11 +130,11 @@ fn bow<S: Simd>(s: S, a: [S::F; 3], middle: [S::F; 3], b: [S::F; 3]) -> [S::F; 3
 
 /// Takes off a share of how bent they were when the substep began.
 #[inline(always)]
-fn take_before<S: Simd>(s: S, step: Step<'_>, at: [&[u32]; 3], bow_now: &mut [S::F; 3]) {
+fn take_before<S: Simd>(s: S, step: IrregularStep<'_>, at: [&[u32]; 3], bow_now: &mut [S::F; 3]) {
     let mut starts = [[s.splat(0.0); 3]; 3];
     for (start, at) in starts.iter_mut().zip(at) {
         for (axis, start) in start.iter_mut().enumerate() {
-            let (predicted, way) = (step.predicted.all()[axis], step.way.all()[axis]);
+            let (predicted, way) = (step.predicted.all()[axis], step.displacement.all()[axis]);
             let mut lanes = [0.0; LANES];
             for lane in 0..S::LANES {
                 let particle = at[lane] as usize;
@@ -146,7 +146,7 @@ fn take_before<S: Simd>(s: S, step: Step<'_>, at: [&[u32]; 3], bow_now: &mut [S:
     let [a, middle, b] = starts;
     let was = bow(s, a, middle, b);
     for axis in 0..3 {
-        bow_now[axis] = bow_now[axis] - was[axis] * s.splat(step.before);
+        bow_now[axis] = bow_now[axis] - was[axis] * s.splat(step.start_share);
     }
 }
 

@@ -11,9 +11,9 @@ use crate::math::TINY;
 use crate::model::bend_elements::{Element, PAIRS};
 use crate::model::hardening::Softening;
 use crate::model::hinges::{Hinge, Hinges, normal};
-use crate::solver::bend::chebyshev::Descent;
-use crate::solver::bend::hinge::Step;
-use crate::solver::bend::stiffness_matrix::Stiffness;
+use crate::solver::bend::chebyshev::ChebyshevSteps;
+use crate::solver::bend::hinge::HingeStep;
+use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
 use crate::solver::particle_stage::access::Spots;
 use glam::{Vec3, Vec4};
 
@@ -35,12 +35,12 @@ const LEFT: f32 = 1.0e-8;
 pub(crate) struct MeshBendScratch {
     /// As long as links and what is held stay: what triangles resist, and that as a matrix.
     elements: Vec<Element>,
-    stiffness: Stiffness,
+    stiffness: StiffnessMatrix,
     revision: u32,
     /// Of what made triangles softer.
     softer: Option<(u32, f32)>,
     /// The steps that are enough as long as masses and `of_stiffness` stay too; none if there are too many.
-    descent: Option<Descent>,
+    descent: Option<ChebyshevSteps>,
     of_stiffness: f32,
     /// What each hinge is bent by at rest, where some are [m].
     bow: Vec<Vec4>,
@@ -65,7 +65,7 @@ impl MeshBendScratch {
         let vectors = || Vec::with_capacity(capacity);
         Self {
             elements: Vec::with_capacity(triangles),
-            stiffness: Stiffness::with_capacity(capacity),
+            stiffness: StiffnessMatrix::with_capacity(capacity),
             revision: 0,
             softer: None,
             descent: None,
@@ -86,7 +86,7 @@ impl MeshBendScratch {
 
 /// The hinges as they are now.
 #[derive(Clone, Copy)]
-pub(crate) struct Flaps<'a> {
+pub(crate) struct MeshBend<'a> {
     pub hinges: &'a Hinges,
     /// Which links hold.
     pub active: &'a [bool],
@@ -94,24 +94,24 @@ pub(crate) struct Flaps<'a> {
     pub folds: Option<&'a [f32]>,
     /// How much softer triangles are by what gave way, if they are.
     pub softening: Option<Softening<'a>>,
-    pub step: Step,
-    /// Stiffness over mass of hinges as far apart as edges are long.
-    pub over_mass: f32,
+    pub step: HingeStep,
+    /// StiffnessMatrix over mass of hinges as far apart as edges are long.
+    pub stiffness_over_mass: f32,
     /// Whether it is the first round of the substep.
     pub is_first: bool,
 }
 
-impl Flaps<'_> {
+impl MeshBend<'_> {
     /// Bends `count` particles for one round; the second one only where it pays. `start` is where the
     /// substep began.
-    pub fn bend<S: Spots>(
+    pub fn solve<S: Spots>(
         &self,
         room: &mut MeshBendScratch,
         count: usize,
         start: impl Fn(usize) -> Vec3,
         spots: &mut S,
     ) {
-        if !self.is_first && (self.over_mass < TWICE || room.descent.is_some()) {
+        if !self.is_first && (self.stiffness_over_mass < TWICE || room.descent.is_some()) {
             return;
         }
         let is_new = self.make_room(room, count);
@@ -122,7 +122,7 @@ impl Flaps<'_> {
         self.add_rest(room, spots);
         match room.descent {
             Some(descent) => descend(room, &descent),
-            None => self.solve(room),
+            None => self.solve_conjugate_gradients(room),
         }
         for (i, (given, change)) in room.given.iter_mut().zip(&room.change).enumerate() {
             let (x, w) = spots.spot(i);
@@ -168,7 +168,7 @@ impl Flaps<'_> {
         for (((over, w), mass), own) in each {
             *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };
         }
-        room.descent = Descent::new(ROOM * stiffness.bound(w));
+        room.descent = ChebyshevSteps::new(ROOM * stiffness.bound(w));
     }
 
     /// Sees where particles are; whether they weigh something else than they did.
@@ -178,7 +178,7 @@ impl Flaps<'_> {
         start: impl Fn(usize) -> Vec3,
         spots: &S,
     ) -> bool {
-        let before = self.step.before;
+        let before = self.step.start_share;
         let mut has_changed = false;
         let known = room.w.iter_mut().zip(&mut room.mass);
         for (i, (seat, (known, mass))) in room.x.iter_mut().zip(known).enumerate() {
@@ -211,7 +211,7 @@ impl Flaps<'_> {
                 Vec4::ZERO
             } else {
                 let corners = hinge.at.map(|vertex| spots.spot(vertex as usize).0);
-                let rest = rest * (1.0 - self.step.before) * self.step.stiffness;
+                let rest = rest * (1.0 - self.step.start_share) * self.step.stiffness;
                 (normal(corners) * rest).extend(0.0)
             };
         }
@@ -221,9 +221,9 @@ impl Flaps<'_> {
     }
 
     /// Conjugate gradients for what the force changes.
-    fn solve(&self, room: &mut MeshBendScratch) {
+    fn solve_conjugate_gradients(&self, room: &mut MeshBendScratch) {
         let MeshBendScratch { stiffness, mass, over, change, force, way, pull, .. } = room;
-        let steps = (2.0 * (1.0 + 64.0 * self.over_mass).sqrt()).min(MOST_STEPS) as u32;
+        let steps = (2.0 * (1.0 + 64.0 * self.stiffness_over_mass).sqrt()).min(MOST_STEPS) as u32;
         change.fill(Vec4::ZERO);
         way.fill(Vec4::ZERO);
         lead(way, force, over, 0.0);
@@ -246,7 +246,7 @@ impl Flaps<'_> {
 }
 
 /// A few explicit steps for what the force changes.
-fn descend(room: &mut MeshBendScratch, descent: &Descent) {
+fn descend(room: &mut MeshBendScratch, descent: &ChebyshevSteps) {
     let MeshBendScratch { stiffness, w, mass, change, force, way, .. } = room;
     change.fill(Vec4::ZERO);
     for (at, [keep, take]) in descent.steps().iter().enumerate() {

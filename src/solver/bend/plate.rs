@@ -18,10 +18,10 @@ use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::model::hardening::Softening;
 use crate::model::plate_elements::{Each, PlateElements};
-use crate::solver::bend::banded::{Factor, Line, Three};
-use crate::solver::bend::chebyshev::Descent;
+use crate::solver::bend::banded::{GridLine, PentadiagonalFactor, VectorColumns};
+use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::spectral_bound;
-use crate::solver::bend::twist::{Seen, Twist};
+use crate::solver::bend::twist::{Twist, TwistOffset};
 
 /// From this one on the second round has a shift of its own, which is this many times its root.
 const SHIFTED: f32 = 0.25;
@@ -39,11 +39,11 @@ pub(crate) struct PlateScratch {
     curve: Each<Vec<f32>>,
     /// Where particles are taken to be, if that is not where they are; then what pulls them back.
     seen: Vec<f32>,
-    force: Three,
+    force: VectorColumns,
     /// The most stiffness over mass that any shape has, over that of one element inside [1/kg].
     most: f32,
     /// What bending has moved each particle by in this substep [m].
-    given: Three,
+    given: VectorColumns,
     rounds: [Round; 2],
     twist: Twist,
     w: Vec<f32>,
@@ -58,25 +58,25 @@ pub(crate) struct PlateScratch {
 struct Round {
     stiffness: f32,
     shift: f32,
-    weft: Factor,
-    warp: Factor,
+    weft: PentadiagonalFactor,
+    warp: PentadiagonalFactor,
 }
 
 /// What a substep of bending works with.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Step<'a> {
+pub(crate) struct PlateStep<'a> {
     pub level: Level,
     /// Stiffness of an element times the square of the substep [kg].
     pub stiffness: f32,
     /// The mass that an element's particles have at least, but at borders [kg].
     pub mass: f32,
     /// The share of where particles were that is taken off where they are, for damping.
-    pub before: f32,
+    pub start_share: f32,
     /// Whether it is the first round of the substep.
     pub is_first: bool,
     /// Where the substep began: where particles were led to, and by which way.
     pub predicted: &'a Columns,
-    pub way: &'a Columns,
+    pub displacement: &'a Columns,
     /// What each element is curved by at rest [m], and which way.
     pub rest: Option<(&'a Each<Vec<f32>>, &'a Each<Columns>)>,
     /// How much softer elements are by what gave way, if they are.
@@ -149,7 +149,7 @@ impl PlateScratch {
     /// Finds what pushes particles along an axis, times the square of the substep.
     fn look(
         &mut self,
-        step: Step<'_>,
+        step: PlateStep<'_>,
         stiffness: f32,
         columns: usize,
         axis: usize,
@@ -159,11 +159,12 @@ impl PlateScratch {
         let Self { weight, curve, seen, force, .. } = self;
         let count = seen.len();
         let x = &x[..count];
-        let seen = if step.before == 0.0 {
+        let seen = if step.start_share == 0.0 {
             x
         } else {
-            let start = [&step.predicted.all()[axis][..count], &step.way.all()[axis][..count]];
-            look_back(step.level, seen, x, start, step.before);
+            let start =
+                [&step.predicted.all()[axis][..count], &step.displacement.all()[axis][..count]];
+            look_back(step.level, seen, x, start, step.start_share);
             &seen[..]
         };
         find_curves(step.level, seen, weight, curve, columns);
@@ -171,7 +172,7 @@ impl PlateScratch {
             find_twists(step.level, seen, &weight[2], &mut curve[2], columns);
         }
         if let Some((rest, ways)) = step.rest {
-            let share = 1.0 - step.before;
+            let share = 1.0 - step.start_share;
             for kind in 0..if has_twist { 3 } else { 2 } {
                 let (weight, rest) = (&weight[kind], &rest[kind]);
                 let way = &ways[kind].all()[axis][..count];
@@ -185,10 +186,10 @@ impl PlateScratch {
 /// Bends a soft sheet: all the steps of a descent.
 fn descend(
     room: &mut PlateScratch,
-    step: Step<'_>,
+    step: PlateStep<'_>,
     stiffness: f32,
     columns: usize,
-    descent: &Descent,
+    descent: &ChebyshevSteps,
     x: &mut Columns,
 ) {
     for (axis, x) in x.all_mut().into_iter().enumerate() {
@@ -217,10 +218,10 @@ pub(crate) fn clamped(wa: f32, wb: f32) -> f32 {
 }
 
 /// Bends the sheet for one round; the second one only where it pays.
-pub(crate) fn bend(
+pub(crate) fn solve(
     plates: &PlateElements,
     room: &mut PlateScratch,
-    step: Step<'_>,
+    step: PlateStep<'_>,
     x: &mut Columns,
     w: &[f32],
     mass: &[f32],
@@ -229,7 +230,7 @@ pub(crate) fn bend(
     let stiffness =
         if step.stiffness < MOST * step.mass { step.stiffness } else { MOST * step.mass };
     let has_changed = step.is_first && room.take_up(plates, step.softening, w, mass);
-    if let Some(descent) = Descent::new(room.most * stiffness) {
+    if let Some(descent) = ChebyshevSteps::new(room.most * stiffness) {
         if step.is_first {
             // What was factored may be of other pins and masses.
             room.rounds.iter_mut().for_each(|round| round.stiffness = -1.0);
@@ -254,10 +255,10 @@ pub(crate) fn bend(
             }
         }
     }
-    let from = Seen {
-        before: step.before,
+    let from = TwistOffset {
+        start_share: step.start_share,
         predicted: step.predicted,
-        way: step.way,
+        displacement: step.displacement,
         rest: step.rest.map(|(rest, ways)| (&rest[2][..], &ways[2])),
     };
     if !step.is_first {
@@ -294,7 +295,7 @@ pub(crate) fn bend(
 
 impl Round {
     fn new(count: usize) -> Self {
-        let (weft, warp) = (Factor::new(count), Factor::new(count));
+        let (weft, warp) = (PentadiagonalFactor::new(count), PentadiagonalFactor::new(count));
         Self { stiffness: -1.0, shift: 0.0, weft, warp }
     }
 
@@ -302,17 +303,17 @@ impl Round {
         let (columns, rows) = (plates.columns, plates.rows);
         let (stiffness, shift) = (self.stiffness, self.shift);
         for row in 0..rows {
-            let line = Line { first: row * columns, step: 1, count: columns };
+            let line = GridLine { first: row * columns, step: 1, count: columns };
             self.weft.factor(line, &weight[0], w, mass, stiffness, shift);
         }
         for column in 0..columns {
-            let line = Line { first: column, step: columns, count: rows };
+            let line = GridLine { first: column, step: columns, count: rows };
             self.warp.factor(line, &weight[1], w, mass, stiffness, shift);
         }
     }
 
     /// Between the two halves: times µM.
-    fn lift(&self, level: Level, mass: &[f32], force: &mut Three) {
+    fn lift(&self, level: Level, mass: &[f32], force: &mut VectorColumns) {
         force.iter_mut().for_each(|force| weigh(level, force, mass, self.shift));
     }
 }

@@ -11,7 +11,7 @@ const IS_BENT: f32 = 0.25;
 const BENDS_OVER: f32 = 0.5;
 
 /// The unit normals of a grid: square to the ways from neighbour to neighbour, along and across.
-pub(crate) fn find_normals(
+pub(crate) fn compute_normals(
     level: Level,
     plates: &PlateElements,
     x: &Columns,
@@ -65,7 +65,7 @@ fn square([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> [f32; 3] {
 /// The way that each element of a grid is bent if it is bent at rest: along the normal while it is about flat, along
 /// its own curvature when it is folded, whichever way that has turned. So a fold pushes along what it shows, and turns
 /// neither itself nor the sheet.
-pub(crate) fn find_ways(
+pub(crate) fn compute(
     level: Level,
     plates: &PlateElements,
     offset: &Each<Vec<f32>>,

@@ -28,7 +28,7 @@ const NO_ENTRY: Entry = Entry { with: 0, by: 0.0 };
 
 /// The matrix, of which one half says all.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Stiffness {
+pub(crate) struct StiffnessMatrix {
     /// For each particle those after it, and how many they are.
     rows: Vec<[Entry; WIDTH]>,
     counts: Vec<u32>,
@@ -39,7 +39,7 @@ pub(crate) struct Stiffness {
     sum: Vec<f32>,
 }
 
-impl Stiffness {
+impl StiffnessMatrix {
     /// Room for so many particles.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
@@ -65,7 +65,7 @@ impl Stiffness {
         self.counts.resize(count, 0);
         self.beyond.clear();
         for element in elements {
-            let patch = Patch::of(hinges, element);
+            let patch = ElementStencil::of(hinges, element);
             for b in 1..patch.count {
                 for a in 0..b {
                     self.add([patch.at[a], patch.at[b]], -patch.stiffness(a, b) * stiffness);
@@ -148,7 +148,7 @@ impl Stiffness {
 }
 
 /// A triangle and those beside it.
-struct Patch {
+struct ElementStencil {
     at: [u32; CORNERS],
     count: usize,
     /// What each hinge shows of each particle, and that times what it resists.
@@ -156,7 +156,7 @@ struct Patch {
     resists: [[f32; CORNERS]; 3],
 }
 
-impl Patch {
+impl ElementStencil {
     fn of(hinges: &[Hinge], element: &Element) -> Self {
         let zero = [[0.0; CORNERS]; 3];
         let mut patch = Self { at: [0; CORNERS], count: 0, shows: zero, resists: zero };

@@ -14,38 +14,38 @@
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::model::plate_elements::PlateElements;
-use crate::solver::bend::banded::Three;
+use crate::solver::bend::banded::VectorColumns;
 
 /// Room to work in, and factors that stay as long as pins, masses and stiffness do.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Twist {
     /// Multipliers of this substep [kg m].
-    lambda: Three,
+    lambda: VectorColumns,
     /// Compliances [1/kg]; 0 where there is no cell.
     compliance: Vec<f32>,
     /// Of the bands along rows; of the even and of the odd ones along columns, naught for the others.
-    rows: Factor,
-    columns: [Factor; 2],
+    rows: TridiagonalFactor,
+    columns: [TridiagonalFactor; 2],
     /// Where the substep began, and the share that is taken off of what cells were twisted by then, as rows and as
     /// columns add it up.
     start: Vec<f32>,
-    before: [Three; 2],
+    before: [VectorColumns; 2],
     /// What is taken off of them for what they are twisted by at rest.
-    rest: Three,
+    rest: VectorColumns,
     /// What is not yet resisted, then what is added to the multipliers, behind a margin of naught.
-    own: Three,
+    own: VectorColumns,
 }
 
 /// L D Lᵀ of three diagonals.
 #[derive(Clone, Debug, Default)]
-struct Factor {
+struct TridiagonalFactor {
     inverse: Vec<f32>,
     near: Vec<f32>,
 }
 
 /// Cells next to each other: the first one's first corner, what leads along and across, and how many.
 #[derive(Clone, Copy)]
-struct Band {
+struct CellStrip {
     first: usize,
     along: usize,
     across: usize,
@@ -54,11 +54,11 @@ struct Band {
 
 /// What a cell's curvature is measured from.
 #[derive(Clone, Copy)]
-pub(crate) struct Seen<'a> {
+pub(crate) struct TwistOffset<'a> {
     /// The share of where particles were that is taken off where they are, for damping.
-    pub before: f32,
+    pub start_share: f32,
     pub predicted: &'a Columns,
-    pub way: &'a Columns,
+    pub displacement: &'a Columns,
     /// What each cell is twisted by at rest, and which way.
     pub rest: Option<(&'a [f32], &'a Columns)>,
 }
@@ -66,7 +66,7 @@ pub(crate) struct Seen<'a> {
 impl Twist {
     pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
-        let factor = || Factor { inverse: vec![0.0; count], near: vec![0.0; count] };
+        let factor = || TridiagonalFactor { inverse: vec![0.0; count], near: vec![0.0; count] };
         let list = || vec![0.0; count];
         let own = || vec![0.0; margin(plates.columns) + count];
         Self {
@@ -88,11 +88,11 @@ impl Twist {
         }
         let (columns, rows) = (plates.columns, plates.rows);
         for first in (0..rows - 1).map(|row| row * columns) {
-            let band = Band { first, along: 1, across: columns, count: columns - 1 };
+            let band = CellStrip { first, along: 1, across: columns, count: columns - 1 };
             self.rows.factor(band, &self.compliance, w);
         }
         for first in 0..columns - 1 {
-            let band = Band { first, along: columns, across: 1, count: rows - 1 };
+            let band = CellStrip { first, along: columns, across: 1, count: rows - 1 };
             self.columns[first % 2].factor(band, &self.compliance, w);
         }
     }
@@ -105,7 +105,7 @@ impl Twist {
         columns: usize,
         x: &mut Columns,
         w: &[f32],
-        seen: Seen<'_>,
+        seen: TwistOffset<'_>,
         is_first: bool,
     ) {
         self.begin(level, columns, seen);
@@ -128,16 +128,29 @@ impl Twist {
     }
 
     /// Finds what is taken off of what cells are twisted by.
-    fn begin(&mut self, level: Level, columns: usize, seen: Seen<'_>) {
+    fn begin(&mut self, level: Level, columns: usize, seen: TwistOffset<'_>) {
         let Self { start, before: [rows, across], rest, .. } = self;
         let count = start.len();
         let cells = count - columns - 1;
         for axis in 0..3 {
-            if seen.before > 0.0 {
-                let [to, way] = [seen.predicted, seen.way].map(|list| &list.all()[axis][..count]);
+            if seen.start_share > 0.0 {
+                let [to, way] =
+                    [seen.predicted, seen.displacement].map(|list| &list.all()[axis][..count]);
                 begin(level, start, to, way);
-                share_of_twist(level, &mut rows[axis][..cells], start, [1, columns], seen.before);
-                share_of_twist(level, &mut across[axis][..cells], start, [columns, 1], seen.before);
+                share_of_twist(
+                    level,
+                    &mut rows[axis][..cells],
+                    start,
+                    [1, columns],
+                    seen.start_share,
+                );
+                share_of_twist(
+                    level,
+                    &mut across[axis][..cells],
+                    start,
+                    [columns, 1],
+                    seen.start_share,
+                );
             } else {
                 rows[axis].fill(0.0);
                 across[axis].fill(0.0);
@@ -149,7 +162,7 @@ impl Twist {
                     &mut rest[axis][..cells],
                     &by[..cells],
                     way,
-                    1.0 - seen.before,
+                    1.0 - seen.start_share,
                 );
             } else {
                 rest[axis].fill(0.0);
@@ -221,9 +234,9 @@ fn margin(columns: usize) -> usize {
     columns + 1
 }
 
-impl Factor {
-    fn factor(&mut self, band: Band, compliance: &[f32], w: &[f32]) {
-        let Band { first, along, across, count } = band;
+impl TridiagonalFactor {
+    fn factor(&mut self, band: CellStrip, compliance: &[f32], w: &[f32]) {
+        let CellStrip { first, along, across, count } = band;
         let both = |i: usize| f64::from(w[i]) + f64::from(w[i + across]);
         let (mut last, mut had_one) = (1.0, false);
         for i in (0..count).map(|k| first + k * along) {
@@ -241,7 +254,7 @@ impl Factor {
 
     /// Along every other row, from end to end and back; the others, and what is beyond the cells of a row, come to
     /// naught.
-    fn solve_rows(&self, columns: usize, odd: usize, own: &mut Three) {
+    fn solve_rows(&self, columns: usize, odd: usize, own: &mut VectorColumns) {
         let [x, y, z] = own.each_mut().map(|own| own[margin(columns)..].chunks_exact_mut(columns));
         let factors = self.inverse.chunks_exact(columns).zip(self.near.chunks_exact(columns));
         for (row, (((x, y), z), (inverse, near))) in x.zip(y).zip(z).zip(factors).enumerate() {
@@ -340,11 +353,11 @@ fn look_lanes(
 
 leveled! {
     /// Along all columns that a factor is of, down and up again; the others come to naught.
-    fn down_and_up(own: &mut [f32], factor: &Factor, columns: usize) = down_and_up_lanes
+    fn down_and_up(own: &mut [f32], factor: &TridiagonalFactor, columns: usize) = down_and_up_lanes
 }
 
 #[inline(always)]
-fn down_and_up_lanes(own: &mut [f32], factor: &Factor, columns: usize) {
+fn down_and_up_lanes(own: &mut [f32], factor: &TridiagonalFactor, columns: usize) {
     let cells = own.len() - columns;
     for first in (columns..cells).step_by(columns) {
         let (above, row) = own.split_at_mut(first);

@@ -8,7 +8,7 @@ use crate::solver::vertex_sums::triangles;
 use crate::math::simd::{Number, Simd, leveled, vectored};
 use crate::math::{TINY, max};
 use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
-use crate::solver::world::{PARTICLES, World};
+use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::wind::{Breeze, WindModel};
 use glam::Vec3;
 
@@ -44,7 +44,7 @@ fn push_particles(world: &mut World, gravity: Vec3) {
 fn push_surfaces(world: &mut World, gravity: Vec3) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
     let breeze = world.wind.at(world.time);
-    let particles = (p.x.all(), p.v.all(), world.scratch.air.all_mut());
+    let particles = (p.x.all(), p.v.all(), world.scratch.relative_wind.all_mut());
     threads.over(particles, SWIRLS, |(x, v, air)| face_air(level, &breeze, x, v, air));
     let half_density = 0.5 * world.wind.air_density;
     let pressure = Pressure {
@@ -55,9 +55,9 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
     let surface = Surface {
         triangles: &world.mesh.triangles,
         areas: &world.corner_area,
-        cells: world.cells.as_ref(),
+        cells: world.grid_cells.as_ref(),
         x: &p.x,
-        air: &world.scratch.air,
+        air: &world.scratch.relative_wind,
     };
     let force = &mut world.scratch.acceleration;
     force.fill(Vec3::ZERO);
@@ -68,7 +68,7 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
             push(level, surface, pressure, band, force);
         }
     });
-    threads.over((force.all_mut(), &p.mass[..]), PARTICLES, |(force, mass)| {
+    threads.over((force.all_mut(), &p.mass[..]), MIN_PARTICLES_PER_THREAD, |(force, mass)| {
         for (force, gravity) in force.into_iter().zip(gravity.to_array()) {
             accelerate(level, force, mass, gravity);
         }

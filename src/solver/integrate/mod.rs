@@ -6,4 +6,5 @@ pub(crate) mod predict;
 pub(crate) mod recover;
 pub(crate) mod rigid_motion;
 pub(crate) mod sleep;
+pub(crate) mod sleep_timer;
 pub(crate) mod velocities;

@@ -15,7 +15,7 @@ use crate::solver::world::World;
 
 /// Turns the cloth back by what its own stages turned it.
 pub(crate) fn keep(world: &mut World) {
-    let may_turn = world.particle_collision.is_some() || bend::may_turn(world);
+    let may_turn = world.particle_collision.is_some() || bend::may_add_spin(world);
     if !may_turn || world.pieces != 1 || is_held(world) {
         return;
     }
@@ -29,7 +29,7 @@ pub(crate) fn keep(world: &mut World) {
             *by = x - predicted;
         }
     }
-    let free = Free { x: scratch.air.all(), way: moves.all(), mass: &p.mass, w: &p.w };
+    let free = Free { x: scratch.relative_wind.all(), way: moves.all(), mass: &p.mass, w: &p.w };
     let whole = RigidMotion::of_free(world.level, free);
     for i in 0..p.len() {
         p.x.add(i, -whole.at(p.x.at(i)));
@@ -49,7 +49,7 @@ pub(crate) fn list_starts(world: &mut World) {
     let (p, scratch) = (&world.particles, &mut world.scratch);
     let ways = scratch.displacement.all().into_iter().zip(p.moved.all());
     let read = scratch.predicted.all().into_iter().zip(ways);
-    for ((predicted, (way, moved)), from) in read.zip(scratch.air.all_mut()) {
+    for ((predicted, (way, moved)), from) in read.zip(scratch.relative_wind.all_mut()) {
         let read = predicted.iter().zip(way).zip(moved);
         for (((predicted, way), moved), from) in read.zip(from.iter_mut()) {
             *from = predicted - way + moved * back;

@@ -11,14 +11,14 @@
 use crate::math::simd::{Scalar, Simd, leveled, vectored};
 use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
 use crate::solver::stretch::tethers::within;
-use crate::solver::world::{PARTICLES, World};
+use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::Scheme;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Moves every free particle; `scratch` keeps the way it went and where it came to.
 pub(crate) fn advance(world: &mut World) {
     let scheme = world.settings.scheme();
-    let reach = world.reach();
+    let reach = world.max_displacement();
     // A way longer than `reach` has a component longer than this.
     let limit = reach * 0.577;
     let (level, threads) = (world.level, world.threads);
@@ -26,7 +26,7 @@ pub(crate) fn advance(world: &mut World) {
     let is_long = AtomicBool::new(false);
     let write = scratch.displacement.all_mut();
     let read = (p.moved.all(), p.v_ahead.all(), scratch.acceleration.all(), &p.w[..]);
-    threads.over((write, read), PARTICLES, |(write, (moved, v_ahead, a, w))| {
+    threads.over((write, read), MIN_PARTICLES_PER_THREAD, |(write, (moved, v_ahead, a, w))| {
         let mut is_one_long = false;
         for (((way, moved), v_ahead), a) in write.into_iter().zip(moved).zip(v_ahead).zip(a) {
             plan(level, way, [moved, v_ahead, a, w], scheme, limit, &mut is_one_long);
@@ -40,7 +40,7 @@ pub(crate) fn advance(world: &mut World) {
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let columns = (p.x.all_mut(), scratch.displacement.all(), scratch.predicted.all_mut());
-    threads.over(columns, PARTICLES, |(x, way, predicted)| {
+    threads.over(columns, MIN_PARTICLES_PER_THREAD, |(x, way, predicted)| {
         for ((x, way), predicted) in x.into_iter().zip(way).zip(predicted) {
             go(level, x, way, predicted);
         }
@@ -99,7 +99,7 @@ fn clamp_displacement(world: &mut World, reach: f32) {
     let (x, mass, w) = (p.x.all(), &p.mass[..], &p.w[..]);
     let rigid = RigidMotion::of_free(level, Free { x, way: way.all(), mass, w });
     let is_clamped = AtomicBool::new(false);
-    world.threads.over((way.all_mut(), x, w), PARTICLES, |(way, x, w)| {
+    world.threads.over((way.all_mut(), x, w), MIN_PARTICLES_PER_THREAD, |(way, x, w)| {
         let mut is_one_clamped = false;
         clamp(level, way, [x[0], x[1], x[2], w], rigid, reach, &mut is_one_clamped);
         if is_one_clamped {

@@ -1,7 +1,7 @@
 //! Stage `Guard`: what is no longer a number, or has run away, goes back to where it last was.
 
 use crate::math::simd::leveled;
-use crate::solver::world::{PARTICLES, World};
+use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::events::{Event, EventKind};
 use core::sync::atomic::{AtomicBool, Ordering};
 use glam::Vec3;
@@ -41,7 +41,7 @@ fn is_all_sound(world: &World) -> bool {
     let (level, p) = (world.level, &world.particles);
     let is_one_not = AtomicBool::new(false);
     let columns = (p.x.all(), p.moved.all(), p.v.all(), p.v_ahead.all());
-    world.threads.over(columns, PARTICLES, |(x, moved, v, v_ahead)| {
+    world.threads.over(columns, MIN_PARTICLES_PER_THREAD, |(x, moved, v, v_ahead)| {
         let mut all_sound = true;
         for column in [x, moved, v, v_ahead].into_iter().flatten() {
             look_over(level, column, &mut all_sound);

@@ -8,7 +8,7 @@ use crate::solver::kinematic::anchors;
 
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
-use crate::solver::world::{PARTICLES, World};
+use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::Scheme;
 
 /// Derives velocities and moves the history on.
@@ -20,7 +20,7 @@ pub(crate) fn derive(world: &mut World) {
     let level = world.level;
     let read = (p.x.all(), predicted.all(), way.all());
     let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());
-    world.threads.over((read, write), PARTICLES, |((x, predicted, way), write)| {
+    world.threads.over((read, write), MIN_PARTICLES_PER_THREAD, |((x, predicted, way), write)| {
         let (moved, v, v_ahead) = write;
         let read = x.into_iter().zip(predicted).zip(way);
         let write = moved.into_iter().zip(v).zip(v_ahead);

@@ -12,13 +12,13 @@ pub(crate) fn keep(world: &mut World, number: u32) {
         return;
     }
     let share = (number + 1) as f32 / world.settings.substeps as f32;
-    world.scratch.pulled.clear();
+    world.scratch.anchor_moved.clear();
     pull(world, share, |pulled, leash| pulled.push(leash.particle));
 }
 
 /// Once more at the end of a tick, after other stages moved particles.
 pub(crate) fn keep_in(world: &mut World) {
-    world.scratch.pulled.clear();
+    world.scratch.anchor_moved.clear();
     pull(world, 1.0, |pulled, leash| pulled.push(leash.particle));
 }
 
@@ -30,7 +30,7 @@ fn pull(world: &mut World, share: f32, tell: impl Fn(&mut Vec<u32>, &AnchorConst
         let kept = leash.keep(x, share);
         if kept != x && p.w[at] > 0.0 {
             p.x.set(at, kept);
-            tell(&mut world.scratch.pulled, leash);
+            tell(&mut world.scratch.anchor_moved, leash);
         }
     }
 }
@@ -43,7 +43,7 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
     }
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
-    for i in scratch.pulled.iter().map(|i| *i as usize) {
+    for i in scratch.anchor_moved.iter().map(|i| *i as usize) {
         let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
         let v = step * (keep / h);
         p.v.set(i, v);
@@ -54,11 +54,11 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
 
 impl World {
     /// Sees to room for leashes, if there are any.
-    pub fn reserve_leashes(&mut self) {
+    pub fn reserve_anchor_scratch(&mut self) {
         let capacity = self.capacity();
         self.anchors.reserve(capacity);
         if !self.anchors.is_empty() {
-            let pulled = &mut self.scratch.pulled;
+            let pulled = &mut self.scratch.anchor_moved;
             pulled.reserve_exact(capacity.saturating_sub(pulled.len()));
         }
     }

@@ -82,11 +82,11 @@ impl Carriage {
 impl World {
     /// What resists a push at each particle: its mass, and what a soft pin adds to it [kg]. `None` where that
     /// is its mass everywhere.
-    pub fn inertia(&mut self) -> Option<Vec<f32>> {
+    pub fn compute_effective_mass(&mut self) -> Option<Vec<f32>> {
         if !self.pins.are_any_soft() {
             return None;
         }
-        let mut inertia = core::mem::take(&mut self.scratch.inertia);
+        let mut inertia = core::mem::take(&mut self.scratch.effective_mass);
         let step = self.settings.scheme().step;
         inertia.clone_from(&self.particles.mass);
         for pin in self.pins.iter().filter(|pin| pin.is_soft()) {
@@ -96,8 +96,8 @@ impl World {
     }
 
     /// Sees to room for what soft pins add, if there are any.
-    pub fn reserve_inertia(&mut self) {
-        let (capacity, inertia) = (self.capacity(), &mut self.scratch.inertia);
+    pub fn reserve_effective_mass(&mut self) {
+        let (capacity, inertia) = (self.capacity(), &mut self.scratch.effective_mass);
         if self.pins.are_any_soft() {
             inertia.clear();
             inertia.reserve_exact(capacity);
@@ -105,7 +105,7 @@ impl World {
     }
 
     /// The inverse masses of what soft pins hold, after the length of a substep changed.
-    pub fn refresh_soft_pins(&mut self) {
+    pub fn refresh_soft_pin_masses(&mut self) {
         let step = self.settings.scheme().step;
         let (pins, grabs, p) = (&self.pins, &self.grabs, &mut self.particles);
         for pin in pins.iter().filter(|pin| pin.is_soft()) {

@@ -13,7 +13,7 @@ use crate::math::max;
 use crate::math::simd::{Number, Scalar, Simd, leveled, vectored};
 use crate::model::links::LinkKind;
 use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
-use crate::solver::world::{PARTICLES, World};
+use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use glam::Vec3;
 
 /// Positions, one a vertex.
@@ -40,7 +40,7 @@ pub(crate) fn normals(world: &World, x: &Columns, sums: &mut Columns) {
     let surface = Surface {
         triangles: &world.mesh.triangles,
         areas: &world.corner_area,
-        cells: world.cells.as_ref(),
+        cells: world.grid_cells.as_ref(),
         x,
         air: x,
     };
@@ -48,7 +48,7 @@ pub(crate) fn normals(world: &World, x: &Columns, sums: &mut Columns) {
     in_bands(world.threads, surface, sums, |band, sums| {
         sum_normals(level, surface, Doubled, band, sums);
     });
-    world.threads.over(sums.all_mut(), PARTICLES, |sums| normalize(level, sums));
+    world.threads.over(sums.all_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
 }
 
 /// Where the particles are at a share of the way from the last tick to this one.

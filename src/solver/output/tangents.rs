@@ -71,7 +71,7 @@ impl Tangents {
     /// Sums up the surface whose particles are at `x`, which is at a share between two ticks.
     pub fn follow(&mut self, world: &World, uvs: &[Vec2], x: &Columns, share: f32) {
         if !self.follows {
-            self.take(world.faces(), uvs);
+            self.take(world.render_triangles(), uvs);
             self.follows = true;
         }
         self.share = Some(share);
@@ -82,12 +82,12 @@ impl Tangents {
                 self.x.set_all(seams.particles.iter().map(|particle| x.at(*particle as usize)));
                 (&self.x, None)
             }
-            None => (x, world.cells.as_ref()),
+            None => (x, world.grid_cells.as_ref()),
         };
         self.sums.copy_from(x);
         self.sums.fill(Vec3::ZERO);
         let surface = Surface {
-            triangles: world.faces(),
+            triangles: world.render_triangles(),
             areas: &world.corner_area,
             cells,
             x,

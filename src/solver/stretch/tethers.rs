@@ -12,7 +12,7 @@ use crate::math::threads::Threads;
 use crate::math::{max, min};
 use crate::model::tethers::TetherSet;
 use crate::solver::stretch::mesh_kernel::Packed;
-use crate::solver::world::{PARTICLES, World};
+use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::pins::Pin;
 
 /// What tethers of soft links give at least.
@@ -181,13 +181,17 @@ fn pull_packed(
     let only = set.only.map(|pin| points[pin as usize]);
     let particles = (&mut points[..], &w[..], &set.length[..]);
     match only {
-        Some(pin) => threads.over(particles, PARTICLES, |(points, w, length)| {
+        Some(pin) => threads.over(particles, MIN_PARTICLES_PER_THREAD, |(points, w, length)| {
             packed_to_one(points, pin, length, slack, w);
         }),
         None => {
-            threads.over((particles, found.all()), PARTICLES, |((points, w, length), pins)| {
-                packed_to_many(points, pins, length, slack, w);
-            });
+            threads.over(
+                (particles, found.all()),
+                MIN_PARTICLES_PER_THREAD,
+                |((points, w, length), pins)| {
+                    packed_to_many(points, pins, length, slack, w);
+                },
+            );
         }
     }
 }
@@ -236,13 +240,13 @@ fn pull_set(
     match set.only {
         Some(pin) => {
             let pin = x.at(pin as usize).to_array();
-            threads.over((x.all_mut(), length, w), PARTICLES, |(x, length, w)| {
+            threads.over((x.all_mut(), length, w), MIN_PARTICLES_PER_THREAD, |(x, length, w)| {
                 pull_to_one(level, x, pin, length, slack, w);
             });
         }
         None => {
             let particles = (x.all_mut(), found.all(), length, w);
-            threads.over(particles, PARTICLES, |(x, pins, length, w)| {
+            threads.over(particles, MIN_PARTICLES_PER_THREAD, |(x, pins, length, w)| {
                 pull_to_many(level, x, pins, length, slack, w);
             });
         }

@@ -41,7 +41,8 @@ pub(crate) fn solve<const LAW: u8>(
 ) -> bool {
     let (constraints, p) = (&mut world.constraints, &mut world.particles);
     let batches = &constraints.batches[batches];
-    let (Some(grid), Some(cells), 1..=COLORS) = (&constraints.rows, &world.cells, batches.len())
+    let (Some(grid), Some(cells), 1..=COLORS) =
+        (&constraints.rows, &world.grid_cells, batches.len())
     else {
         return false;
     };

@@ -11,7 +11,7 @@ use crate::math::sort::sort_by;
 use crate::mesh::split_edge::Crossing;
 use crate::mesh::{Corner, Fan, Mesh, NONE, after, before};
 use crate::model::cut_links::{Recipe, Touching};
-use crate::solver::topology::tear::{admit, settle, tell_torn};
+use crate::solver::topology::tear::{push_edge_torn_event, push_split_vertex, update_pieces};
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;
 use crate::state::events::{Event, EventKind};
@@ -81,21 +81,21 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
     world.mesh.open_edges(&plan.open, &mut opened, &mut copies);
     for (_, (a, b)) in edges.iter().filter(|(edge, _)| opened.iter().any(|pair| pair[0] == **edge))
     {
-        tell_torn(world, *a, *b);
+        push_edge_torn_event(world, *a, *b);
     }
     let mut fan = Fan::default();
     for [new, old] in copies {
-        admit(world, new, old, &mut fan);
+        push_split_vertex(world, new, old, &mut fan);
     }
     for sides in opened {
         world.constraints.open(&world.mesh, sides, &world.material);
     }
-    (0..world.rest.len() as u32).for_each(|site| world.follow(site));
-    world.weigh();
+    (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
+    world.compute_masses();
     world.reserve_for_tears();
-    world.find_tips();
-    settle(world);
-    world.tether();
+    world.rebuild_crack_tips();
+    update_pieces(world);
+    world.rebuild_tethers();
 }
 
 /// Divides one edge and all that lies on it.
@@ -119,10 +119,10 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     for side in division.sides() {
         world.corner_area[side.kept() as usize] = corner_areas(at(side.kept()));
         world.corner_area.push(corner_areas(at(side.added)));
-        pieces.divide(side.kept() as usize);
+        pieces.push_split_of(side.kept() as usize);
     }
     let new = world.particles.push_between(a as usize, b as usize, share);
-    world.scratch.grow();
+    world.scratch.push_particle();
     let scales = [a, b].map(|end| world.mass_scales.of(end as usize));
     world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
     let leashes = [a, b].map(|end| world.anchors.find(end).copied());

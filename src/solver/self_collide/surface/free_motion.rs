@@ -35,8 +35,12 @@ pub(crate) fn keep(
     momentum::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
     interleaved::list_ways(before, now, &mut scratch.tether_anchor);
-    let free =
-        Free { x: scratch.air.all(), way: scratch.tether_anchor.all(), mass: &p.mass, w: &p.w };
+    let free = Free {
+        x: scratch.relative_wind.all(),
+        way: scratch.tether_anchor.all(),
+        mass: &p.mass,
+        w: &p.w,
+    };
     let whole = RigidMotion::of_free(world.level, free);
     let whole = if floor == Vec3::ZERO { whole } else { whole.along(floor) };
     interleaved::take_back(now, &whole, before);

@@ -406,7 +406,7 @@ pub(crate) fn hold(world: &mut World) {
 /// Once more at the end of a tick, after other stages moved particles; what leashes pulled stays where that is.
 pub(crate) fn hold_at_last(world: &mut World) {
     follow(world);
-    let pulled = &world.scratch.pulled;
+    let pulled = &world.scratch.anchor_moved;
     if let Some(layers) = &mut world.surface_collision {
         pulled.iter().for_each(|i| layers.motion.now[*i as usize][3] = 0.0);
     }

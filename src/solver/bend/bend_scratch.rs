@@ -1,0 +1,44 @@
+//! Scratch buffers and cached factorisations of stage `Bend`.
+//!
+//! Data only. A grid uses the plate buffers, any other mesh the hinge buffers; the rest stays empty.
+//! `bend` and its solvers fill them; nothing in them is state, so a tick gives the same result
+//! whether or not a cache is still valid.
+
+use crate::math::columns::Columns;
+use crate::model::plate_elements::{Each, PlateElements};
+use crate::solver::bend::mesh_implicit::MeshBendScratch;
+use crate::solver::bend::plate::PlateScratch;
+
+/// Buffers of stage `Bend`, kept so that no tick allocates.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct BendScratch {
+    pub plates: PlateScratch,
+    /// Unit normals of a grid at its particles; filled when folds need them.
+    pub normal: Columns,
+    /// Unit direction in which each plate element is curved at rest, per element kind.
+    pub rest_direction: Each<Columns>,
+    pub mesh: MeshBendScratch,
+}
+
+impl BendScratch {
+    /// Allocates the buffers of a grid with these `plates`, or of a mesh with so many `triangles`,
+    /// `hinges` and at most `capacity` particles.
+    pub fn new(
+        plates: Option<&PlateElements>,
+        triangles: usize,
+        hinges: usize,
+        capacity: usize,
+    ) -> Self {
+        let grid = || Columns::filled(plates.map_or(0, PlateElements::count));
+        Self {
+            plates: plates.map(PlateScratch::new).unwrap_or_default(),
+            normal: grid(),
+            rest_direction: [grid(), grid(), grid()],
+            mesh: if plates.is_some() {
+                MeshBendScratch::default()
+            } else {
+                MeshBendScratch::new(triangles, hinges, capacity)
+            },
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Piece labels: which connected set of triangles each triangle belongs to.
+//!
+//! Method: connected components by flood fill over shared edges (`Mesh::pieces`), numbered in the
+//! order of their first triangle. The labels from before the last tears stay, so that
+//! `tear::update_pieces` can tell which pieces came off.
+//!
+//! Data only; `topology` and the creation code write it.
+//! Invariant: `label` has one entry per triangle.
+
+use crate::mesh::NONE;
+
+/// Piece of each triangle, now and before the last tears, with buffers to compare both.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PieceLabels {
+    pub label: Vec<u32>,
+    pub old_label: Vec<u32>,
+    /// Number of triangles of each piece.
+    pub size: Vec<u32>,
+    /// For each old piece, the new piece that continues it: its largest part.
+    pub successor: Vec<u32>,
+}
+
+impl PieceLabels {
+    /// Labels for a mesh of `triangles` triangles in one piece.
+    pub fn new(triangles: usize) -> Self {
+        Self {
+            label: vec![0; triangles],
+            old_label: vec![0; triangles],
+            size: Vec::with_capacity(triangles),
+            successor: Vec::with_capacity(triangles),
+        }
+    }
+
+    /// Appends the label of a new triangle that a cut splits off `triangle`.
+    pub fn push_split_of(&mut self, triangle: usize) {
+        self.label.push(self.label[triangle]);
+        self.old_label.push(NONE);
+    }
+
+    /// Reserves capacity for as many pieces as there are triangles.
+    pub fn reserve(&mut self) {
+        let count = self.label.len();
+        self.size.reserve_exact(count.saturating_sub(self.size.len()));
+        self.successor.reserve_exact(count.saturating_sub(self.successor.len()));
+    }
+}
