@@ -30,7 +30,7 @@ use crate::solver::profile::Profile;
 use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::world::{TickScratch, World};
 
-use crate::solver::stretch::{damping, line_solver};
+use crate::solver::stretch::{damping_scratch, line_solver};
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
@@ -339,6 +339,7 @@ impl World {
             capacity,
         );
         let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.scratch.damping = damping::DampingScratch::new(self.constraints.links.len(), extra);
+        self.scratch.damping =
+            damping_scratch::DampingScratch::new(self.constraints.links.len(), extra);
     }
 }

@@ -14,8 +14,8 @@ use crate::solver::stretch::{damping, distance, line_solver, mesh_kernel, strain
 use crate::solver::topology::tear;
 
 use crate::model::links::LinkKind;
+use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::world::World;
-use distance::Order;
 
 /// Times one stage.
 macro_rules! timed {
@@ -94,18 +94,18 @@ fn run_substep(world: &mut World, number: u32) {
     if world.settings.tethers && !world.is_pin_stretch_current {
         timed!(world, Tethers, tethers::look(world));
     }
-    distance::restart(world);
+    distance::reset(world);
     timed!(world, Bend, bend::solve_first(world));
-    timed!(world, Stretch, damping::begin(world));
-    timed!(world, Stretch, mesh_kernel::pack(world));
+    timed!(world, Stretch, damping::apply(world));
+    timed!(world, Stretch, mesh_kernel::gather(world));
     for iteration in 0..world.settings.iterations {
         run_iteration(world, iteration);
     }
-    timed!(world, Stretch, damping::end(world));
+    timed!(world, Stretch, damping::remove(world));
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, strain_limit::draw_in(world));
     }
-    timed!(world, Bend, mesh_kernel::unpack(world));
+    timed!(world, Bend, mesh_kernel::scatter(world));
     timed!(world, Pairs, particle_pairs::pair(world));
     timed!(world, SelfContacts, particle_pairs::solve(world));
     timed!(world, SelfContacts, momentum::keep(world));
@@ -123,20 +123,20 @@ fn run_substep(world: &mut World, number: u32) {
 fn run_iteration(world: &mut World, iteration: u32) {
     let is_back = !iteration.is_multiple_of(2);
     if is_back {
-        timed!(world, Bend, bend::solve_in_sweep(world, Order::Backward, iteration));
-        timed!(world, Shear, distance::solve(world, LinkKind::Shear, Order::Backward));
-        timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, Order::Backward));
+        timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Backward, iteration));
+        timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Backward));
+        timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, SweepOrder::Backward));
     } else if iteration == 0 && line_solver::are_used(world) {
         // Lines bear a load as wholes, so that tethers and sweeps have little left to do.
         timed!(world, Stretch, line_solver::solve(world));
     } else {
-        timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, Order::Forward));
+        timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, SweepOrder::Forward));
     }
     if world.settings.tethers {
         timed!(world, Tethers, tethers::solve(world));
     }
     if !is_back {
-        timed!(world, Shear, distance::solve(world, LinkKind::Shear, Order::Forward));
-        timed!(world, Bend, bend::solve_in_sweep(world, Order::Forward, iteration));
+        timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Forward));
+        timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Forward, iteration));
     }
 }

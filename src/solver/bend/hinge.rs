@@ -7,7 +7,7 @@
 //! take. Each gives way by its compliance as in Macklin, Müller, Chentanez, "XPBD", MIG 2016.
 
 use crate::model::hinges::{Hinge, normal};
-use crate::solver::particle_stage::access::Spots;
+use crate::solver::particle_stage::access::ParticleAccess;
 use glam::Vec3;
 
 /// What a substep of bending works with.
@@ -21,14 +21,14 @@ pub(crate) struct HingeStep {
 
 /// Bends one hinge.
 #[inline(always)]
-pub(crate) fn project<S: Spots>(
+pub(crate) fn project<S: ParticleAccess>(
     hinge: &Hinge,
     step: HingeStep,
     start: impl Fn(usize) -> Vec3,
     spots: &mut S,
 ) {
     let at = hinge.at.map(|vertex| vertex as usize);
-    let seats = at.map(|i| spots.spot(i));
+    let seats = at.map(|i| spots.particle(i));
     let (mut curve, mut weight) = (Vec3::ZERO, 0.0);
     for ((x, w), c) in seats.iter().zip(hinge.weight) {
         curve += *x * c;
@@ -47,7 +47,7 @@ pub(crate) fn project<S: Spots>(
     let change = curve * (-1.0 / (weight + compliance));
     for ((i, (_, w)), c) in at.iter().zip(seats).zip(hinge.weight) {
         // Again, for a hinge may name a particle twice.
-        let (x, _) = spots.spot(*i);
-        spots.put(*i, x + change * (c * w));
+        let (x, _) = spots.particle(*i);
+        spots.set_position(*i, x + change * (c * w));
     }
 }

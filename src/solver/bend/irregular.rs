@@ -10,7 +10,9 @@ use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Level, Number, Scalar, Simd, vectored};
 use crate::model::hardening::Softening;
 use crate::model::irregular_bend::IrregularBends;
-use crate::solver::particle_stage::access::{Sheet, Spots, fetch, put};
+use crate::solver::particle_stage::access::{
+    ParticleAccess, ParticleSlices, gather_particles, scatter_positions,
+};
 use crate::state::particles::Particles;
 use core::ops::Range;
 
@@ -61,7 +63,7 @@ fn bend_color<S: Simd>(
     rest: Option<&[f32]>,
     p: &mut Particles,
 ) {
-    let sheet = &mut Sheet::new(p);
+    let sheet = &mut ParticleSlices::new(p);
     let whole = own.start + own.len() / S::LANES * S::LANES;
     for at in (own.start..whole).step_by(S::LANES) {
         bend_some(s, step, at, rest, sheet);
@@ -73,7 +75,7 @@ fn bend_color<S: Simd>(
 
 /// As many elbows as there are lanes.
 #[inline(always)]
-fn bend_some<S: Simd, P: Spots>(
+fn bend_some<S: Simd, P: ParticleAccess>(
     s: S,
     step: IrregularStep<'_>,
     first: usize,
@@ -83,8 +85,8 @@ fn bend_some<S: Simd, P: Spots>(
     let (elbows, own) = (step.elements, first..first + S::LANES);
     let (a, middle) = (&elbows.a[own.clone()], &elbows.middle[own.clone()]);
     let (b, woven) = (&elbows.b[own.clone()], &elbows.woven[own]);
-    let ((xa, wa), (xm, wm)) = (fetch(s, spots, a), fetch(s, spots, middle));
-    let (xb, wb) = fetch(s, spots, b);
+    let ((xa, wa), (xm, wm)) = (gather_particles(s, spots, a), gather_particles(s, spots, middle));
+    let (xb, wb) = gather_particles(s, spots, b);
     let mut bow = bow(s, xa, xm, xb);
     if step.start_share > 0.0 {
         take_before(s, step, [a, middle, b], &mut bow);
@@ -113,9 +115,9 @@ fn bend_some<S: Simd, P: Spots>(
         ym[axis] = xm[axis] + bow[axis] * to_middle;
         yb[axis] = xb[axis] - bow[axis] * to_b;
     }
-    put(s, spots, a, ya);
-    put(s, spots, middle, ym);
-    put(s, spots, b, yb);
+    scatter_positions(s, spots, a, ya);
+    scatter_positions(s, spots, middle, ym);
+    scatter_positions(s, spots, b, yb);
 }
 
 /// How far from straight three points are, twice the way from their middle to the line between the others.

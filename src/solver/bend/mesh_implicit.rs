@@ -14,7 +14,7 @@ use crate::model::hinges::{Hinge, Hinges, normal};
 use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::hinge::HingeStep;
 use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
-use crate::solver::particle_stage::access::Spots;
+use crate::solver::particle_stage::access::ParticleAccess;
 use glam::{Vec3, Vec4};
 
 /// The most steps of conjugate gradients that a round makes.
@@ -104,7 +104,7 @@ pub(crate) struct MeshBend<'a> {
 impl MeshBend<'_> {
     /// Bends `count` particles for one round; the second one only where it pays. `start` is where the
     /// substep began.
-    pub fn solve<S: Spots>(
+    pub fn solve<S: ParticleAccess>(
         &self,
         room: &mut MeshBendScratch,
         count: usize,
@@ -125,9 +125,9 @@ impl MeshBend<'_> {
             None => self.solve_conjugate_gradients(room),
         }
         for (i, (given, change)) in room.given.iter_mut().zip(&room.change).enumerate() {
-            let (x, w) = spots.spot(i);
+            let (x, w) = spots.particle(i);
             if w > 0.0 {
-                spots.put(i, x + change.truncate());
+                spots.set_position(i, x + change.truncate());
                 *given += *change;
             }
         }
@@ -172,7 +172,7 @@ impl MeshBend<'_> {
     }
 
     /// Sees where particles are; whether they weigh something else than they did.
-    fn seat<S: Spots>(
+    fn seat<S: ParticleAccess>(
         &self,
         room: &mut MeshBendScratch,
         start: impl Fn(usize) -> Vec3,
@@ -182,7 +182,7 @@ impl MeshBend<'_> {
         let mut has_changed = false;
         let known = room.w.iter_mut().zip(&mut room.mass);
         for (i, (seat, (known, mass))) in room.x.iter_mut().zip(known).enumerate() {
-            let (x, w) = spots.spot(i);
+            let (x, w) = spots.particle(i);
             let seen = if before > 0.0 { x - start(i) * before } else { x };
             *seat = seen.extend(0.0);
             if *known != w {
@@ -200,7 +200,7 @@ impl MeshBend<'_> {
     }
 
     /// What pushes particles where hinges are bent at rest.
-    fn add_rest<S: Spots>(&self, room: &mut MeshBendScratch, spots: &S) {
+    fn add_rest<S: ParticleAccess>(&self, room: &mut MeshBendScratch, spots: &S) {
         if !self.hinges.are_bent && self.folds.is_none() {
             return;
         }
@@ -210,7 +210,7 @@ impl MeshBend<'_> {
             *bow = if rest == 0.0 {
                 Vec4::ZERO
             } else {
-                let corners = hinge.at.map(|vertex| spots.spot(vertex as usize).0);
+                let corners = hinge.at.map(|vertex| spots.particle(vertex as usize).0);
                 let rest = rest * (1.0 - self.step.start_share) * self.step.stiffness;
                 (normal(corners) * rest).extend(0.0)
             };

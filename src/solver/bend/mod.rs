@@ -33,7 +33,7 @@ pub(crate) mod twist;
 use crate::model::links::LinkKind;
 use crate::solver::bend::hinge::HingeStep;
 use crate::solver::bend::mesh_implicit::MeshBend;
-use crate::solver::stretch::distance::Order;
+use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{distance, mesh_kernel};
 use crate::solver::world::World;
 
@@ -53,31 +53,31 @@ pub(crate) fn may_add_spin(world: &World) -> bool {
 /// Runs the first bending solve of a substep.
 pub(crate) fn solve_first(world: &mut World) {
     if is_elastic(world) {
-        solve_elements(world, Order::Forward);
+        solve_elements(world, SweepOrder::Forward);
     }
 }
 
 /// Runs the part of bending that belongs to sweep `iteration`: the bend links in every sweep, or the
 /// second solve of the elements in the first backward sweep.
-pub(crate) fn solve_in_sweep(world: &mut World, order: Order, iteration: u32) {
+pub(crate) fn solve_in_sweep(world: &mut World, order: SweepOrder, iteration: u32) {
     if !is_elastic(world) {
         distance::solve(world, LinkKind::Bend, order);
     } else if iteration == 1 {
         // The plate solver needs columns, even if the links use the interleaved layout.
         let is_packed = world.plate_elements.is_some() && world.scratch.interleaved.is_current;
         if is_packed {
-            mesh_kernel::unpack(world);
+            mesh_kernel::scatter(world);
         }
-        solve_elements(world, Order::Backward);
+        solve_elements(world, SweepOrder::Backward);
         if is_packed {
-            mesh_kernel::pack(world);
+            mesh_kernel::gather(world);
         }
     }
 }
 
 /// Solves all bending elements once. Each solver is a function of its own that is never inlined, for
 /// the reason given in `pipeline`.
-fn solve_elements(world: &mut World, order: Order) {
+fn solve_elements(world: &mut World, order: SweepOrder) {
     let scheme = world.settings.scheme();
     // Damping acts on the change of curvature since the start of the substep.
     let lag = world.material.bend_damping / scheme.h;
@@ -85,20 +85,20 @@ fn solve_elements(world: &mut World, order: Order) {
     let step = HingeStep { stiffness, start_share: lag / (1.0 + lag) };
     if world.plate_elements.is_some() {
         solve_plates(world, step, order);
-        if order == Order::Forward {
+        if order == SweepOrder::Forward {
             solve_irregular(world, step);
         }
     } else {
         solve_hinges(world, step, order);
     }
-    if order == Order::Forward {
+    if order == SweepOrder::Forward {
         solve_cut_hinges(world, step);
     }
 }
 
 /// Bends a grid by its plate elements.
 #[inline(never)]
-fn solve_plates(world: &mut World, step: HingeStep, order: Order) {
+fn solve_plates(world: &mut World, step: HingeStep, order: SweepOrder) {
     let effective_mass = world.compute_effective_mass();
     let [lightest, _] = world.mass_scales.range();
     let Some(plates) = &world.plate_elements else { return };
@@ -118,7 +118,7 @@ fn solve_plates(world: &mut World, step: HingeStep, order: Order) {
         stiffness: step.stiffness / area,
         mass: world.material.density * area * lightest,
         start_share: step.start_share,
-        is_first: order == Order::Forward,
+        is_first: order == SweepOrder::Forward,
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
         rest,
@@ -186,7 +186,7 @@ fn solve_cut_hinges(world: &mut World, step: HingeStep) {
 
 /// Bends a mesh by its hinges.
 #[inline(never)]
-fn solve_hinges(world: &mut World, step: HingeStep, order: Order) {
+fn solve_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
     let (count, scratch) = (world.particles.len(), &mut world.scratch);
     let (predicted, displacement) = (&scratch.predicted, &scratch.displacement);
     let cell = world.mean_edge * world.mean_edge;
@@ -197,7 +197,7 @@ fn solve_hinges(world: &mut World, step: HingeStep, order: Order) {
         softening: world.folds.wear.softens(&world.material),
         step,
         stiffness_over_mass: step.stiffness / (world.material.density * cell * cell),
-        is_first: order == Order::Forward,
+        is_first: order == SweepOrder::Forward,
     };
     let start = |i: usize| predicted.at(i) - displacement.at(i);
     let buffers = &mut scratch.bend.mesh;

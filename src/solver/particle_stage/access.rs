@@ -1,38 +1,46 @@
-//! Where kernels find the particles of what lies anywhere: one by one, or some side by side in lanes.
+//! Random access to particles by index: one particle, or one per SIMD lane (gather and scatter).
+//!
+//! [`ParticleAccess`] hides the memory layout from kernels: a kernel is compiled once for columns
+//! ([`Particles`], [`ParticleSlices`]) and once for the interleaved layout.
+//!
+//! Reads and writes whatever the layout borrows; inverse masses are read only.
+//! Invariant: the indices of one [`scatter_positions`] call are distinct, so the order of the lanes
+//! does not change the result.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, Simd};
 use crate::state::particles::Particles;
 use glam::Vec3;
 
-/// Where particles are while something moves them.
-pub(crate) trait Spots {
-    /// A particle's position and inverse mass.
-    fn spot(&self, i: usize) -> (Vec3, f32);
+/// A particle layout that kernels read and write by particle index.
+pub(crate) trait ParticleAccess {
+    /// The position [m] and the inverse mass [1/kg] of particle `i`.
+    fn particle(&self, i: usize) -> (Vec3, f32);
 
-    /// Moves a particle.
-    fn put(&mut self, i: usize, x: Vec3);
+    /// Sets the position of particle `i` [m].
+    fn set_position(&mut self, i: usize, x: Vec3);
 }
 
-impl Spots for Particles {
+impl ParticleAccess for Particles {
     #[inline(always)]
-    fn spot(&self, i: usize) -> (Vec3, f32) {
+    fn particle(&self, i: usize) -> (Vec3, f32) {
         (self.x.at(i), self.w[i])
     }
 
     #[inline(always)]
-    fn put(&mut self, i: usize, x: Vec3) {
+    fn set_position(&mut self, i: usize, x: Vec3) {
         self.x.set(i, x);
     }
 }
 
-/// Particles in columns that are all as long as each other, so that one check does for all.
-pub(crate) struct Sheet<'a> {
+/// Columns of positions and inverse masses, cut to one length so that the compiler needs one bounds
+/// check per particle instead of four.
+pub(crate) struct ParticleSlices<'a> {
     x: [&'a mut [f32]; 3],
     w: &'a [f32],
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> ParticleSlices<'a> {
     #[inline(always)]
     pub fn new(p: &'a mut Particles) -> Self {
         let count = p.w.len();
@@ -41,41 +49,52 @@ impl<'a> Sheet<'a> {
     }
 }
 
-impl Spots for Sheet<'_> {
+impl ParticleAccess for ParticleSlices<'_> {
     #[inline(always)]
-    fn spot(&self, i: usize) -> (Vec3, f32) {
+    fn particle(&self, i: usize) -> (Vec3, f32) {
         let [x, y, z] = &self.x;
         (Vec3::new(x[i], y[i], z[i]), self.w[i])
     }
 
     #[inline(always)]
-    fn put(&mut self, i: usize, at: Vec3) {
+    fn set_position(&mut self, i: usize, at: Vec3) {
         let [x, y, z] = &mut self.x;
         (x[i], y[i], z[i]) = (at.x, at.y, at.z);
     }
 }
 
-/// The positions and inverse masses of as many particles as there are lanes.
+/// Gathers the positions and inverse masses of the first `S::LANES` particles of `indices`.
 #[inline(always)]
-pub(crate) fn fetch<S: Simd, P: Spots>(s: S, spots: &P, at: &[u32]) -> ([S::F; 3], S::F) {
-    let at = &at[..S::LANES];
+pub(crate) fn gather_particles<S: Simd, P: ParticleAccess>(
+    s: S,
+    particles: &P,
+    indices: &[u32],
+) -> ([S::F; 3], S::F) {
+    let indices = &indices[..S::LANES];
     let (mut x, mut w) = ([[0.0; LANES]; 3], [0.0; LANES]);
     for lane in 0..S::LANES {
-        let (spot, weight) = spots.spot(at[lane] as usize);
-        (x[0][lane], x[1][lane], x[2][lane], w[lane]) = (spot.x, spot.y, spot.z, weight);
+        let (position, weight) = particles.particle(indices[lane] as usize);
+        (x[0][lane], x[1][lane], x[2][lane], w[lane]) =
+            (position.x, position.y, position.z, weight);
     }
     ([s.load(&x[0], 0), s.load(&x[1], 0), s.load(&x[2], 0)], s.load(&w, 0))
 }
 
-/// Moves as many particles as there are lanes, no two of them the same.
+/// Scatters `positions` to the first `S::LANES` particles of `indices`, which are distinct.
 #[inline(always)]
-pub(crate) fn put<S: Simd, P: Spots>(s: S, spots: &mut P, at: &[u32], to: [S::F; 3]) {
-    let at = &at[..S::LANES];
+pub(crate) fn scatter_positions<S: Simd, P: ParticleAccess>(
+    s: S,
+    particles: &mut P,
+    indices: &[u32],
+    positions: [S::F; 3],
+) {
+    let indices = &indices[..S::LANES];
     let mut x = [[0.0; LANES]; 3];
     for axis in 0..3 {
-        s.store(&mut x[axis], 0, to[axis]);
+        s.store(&mut x[axis], 0, positions[axis]);
     }
     for lane in 0..S::LANES {
-        spots.put(at[lane] as usize, Vec3::new(x[0][lane], x[1][lane], x[2][lane]));
+        let position = Vec3::new(x[0][lane], x[1][lane], x[2][lane]);
+        particles.set_position(indices[lane] as usize, position);
     }
 }

@@ -1,81 +1,76 @@
-//! Damping of stretch: links that give way are slow to.
+//! Stretch damping: a viscous force along compliant links, solved implicitly with the links.
 //!
-//! What pulls at a link is k (l − rest) + k τ l', and with l' = (l − l₀) / h over the substep that is the pull of
-//! a link 1 + τ / h times as stiff that rests at (rest + l₀ τ / h) / (1 + τ / h). So links are such ones
-//! while a substep is solved, and themselves again then. It brakes along links alone: what turns, bends or
-//! falls does not feel it.
+//! A Kelvin-Voigt link pulls with k (l − rest) + k τ l'. With l' = (l − l₀) / h over a substep of
+//! length h, where l₀ is the length at its start, that is the pull of an undamped link with
+//!
+//! ```text
+//! stiffness  k (1 + τ / h)                       so  compliance / (1 + τ / h)
+//! rest       (rest + l₀ τ / h) / (1 + τ / h)
+//! ```
+//! So a link takes these values while a substep is solved, and its own values again after it. The
+//! damping acts along links only: rotation, bending and free fall are not damped.
+//!
+//! Reads `material.stretch_damping` (τ [s]) and the positions at the start of the substep; writes
+//! `rest` and `compliance` of the links.
+//! Invariant: [`apply`] and [`remove`] are called in pairs; nothing tears in between.
 
-use crate::math::column::Column;
 use crate::model::constraints::Constraints;
 use crate::model::links::{LinkKind, Links};
-use crate::solver::stretch::distance::is_rigid;
+use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::world::World;
 use glam::Vec3;
 
-/// What links are when no substep is solved: lengths at rest and compliances of the woven and the extra ones.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct DampingScratch {
-    kept: [[Column; 2]; 2],
-}
-
-impl DampingScratch {
-    /// Room for so many links.
-    pub fn new(woven: usize, extra: usize) -> Self {
-        let room = |count: usize| [Column::with_capacity(count), Column::with_capacity(count)];
-        Self { kept: [room(woven), room(extra)] }
-    }
-}
-
 fn is_on(world: &World) -> bool {
-    world.material.stretch_damping > 0.0 && !is_rigid(world, LinkKind::Shear)
+    world.material.stretch_damping > 0.0 && !is_rigid(&world.material, LinkKind::Shear)
 }
 
-/// Makes links those of a substep.
-pub(crate) fn begin(world: &mut World) {
+/// Replaces rest lengths and compliances by those of the damped links of this substep.
+pub(crate) fn apply(world: &mut World) {
     if !is_on(world) {
         return;
     }
-    let lag = world.material.stretch_damping / world.settings.scheme().h;
-    let (to, way) = (&world.scratch.predicted, &world.scratch.displacement);
-    let start = |i: u32| to.at(i as usize) - way.at(i as usize);
+    let ratio = world.material.stretch_damping / world.settings.scheme().h;
+    let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
+    let start = |i: u32| predicted.at(i as usize) - displacement.at(i as usize);
     let Constraints { links, extra, .. } = &mut world.constraints;
-    for (links, [rest, compliance]) in
-        [links, extra].into_iter().zip(&mut world.scratch.damping.kept)
-    {
+    let undamped = &mut world.scratch.damping.undamped;
+    for (links, [rest, compliance]) in [links, extra].into_iter().zip(undamped) {
         rest.clone_from(&links.rest);
         compliance.clone_from(&links.compliance);
-        slow(links, start, lag);
+        damp(links, start, ratio);
     }
-    follow(&mut world.constraints);
+    update_copies(&mut world.constraints);
 }
 
-/// Makes links themselves again.
-pub(crate) fn end(world: &mut World) {
+/// Restores the rest lengths and compliances of the undamped links.
+pub(crate) fn remove(world: &mut World) {
     if !is_on(world) {
         return;
     }
     let Constraints { links, extra, .. } = &mut world.constraints;
-    for (links, [rest, compliance]) in [links, extra].into_iter().zip(&world.scratch.damping.kept) {
+    let undamped = &world.scratch.damping.undamped;
+    for (links, [rest, compliance]) in [links, extra].into_iter().zip(undamped) {
         links.rest.copy_from_slice(rest);
         links.compliance.copy_from_slice(compliance);
     }
-    follow(&mut world.constraints);
+    update_copies(&mut world.constraints);
 }
 
-fn slow(links: &mut Links, start: impl Fn(u32) -> Vec3, lag: f32) {
-    let over = 1.0 / (1.0 + lag);
+/// Applies the formulas of the module doc, with `ratio` = τ / h, to all active stretch and shear links.
+fn damp(links: &mut Links, start: impl Fn(u32) -> Vec3, ratio: f32) {
+    let inverse = 1.0 / (1.0 + ratio);
     for link in 0..links.len() {
         if !links.active[link] || links.kind(link) == LinkKind::Bend {
             continue;
         }
         let length = (start(links.b[link]) - start(links.a[link])).length();
-        links.rest[link] = (links.rest[link] + length * lag) * over;
-        links.compliance[link] *= over;
+        links.rest[link] = (links.rest[link] + length * ratio) * inverse;
+        links.compliance[link] *= inverse;
     }
 }
 
-/// Lines and loose links have the lengths of the links that they are.
-fn follow(constraints: &mut Constraints) {
+/// Copies the rest lengths to the line blocks and the sparse links.
+fn update_copies(constraints: &mut Constraints) {
     constraints.lines.abreast.measure(&constraints.links);
     constraints.loose.measure(&constraints.extra);
     if let Some(rows) = &mut constraints.rows {

@@ -18,11 +18,11 @@ use crate::math::columns::Columns;
 use crate::math::simd::{Base, Level, Simd, vectored};
 use crate::model::grid_rows::{GridRows, Pattern, Row};
 use crate::model::links::Links;
-use crate::solver::particle_stage::access::Spots;
-use crate::solver::stretch::distance::{BOUND, RIGID, SOFT, pull};
+use crate::solver::particle_stage::access::ParticleAccess;
 use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
 use crate::solver::stretch::grid_kernel::row_layout::{Lists, Spot, in_chunks, in_chunks_of};
 use crate::solver::stretch::grid_kernel::uniform_rows::Alike;
+use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, project_pair};
 use crate::state::particles::Particles;
 use core::ops::Range;
 use glam::Vec3;
@@ -226,7 +226,7 @@ fn solve_apart<const LAW: u8>(row: &Row, from: usize, sheet: &mut Sheet<'_>, sca
             let (rest, compliance) = (sheet.rest[link], sheet.compliance[link]);
             let lambda = sheet.lambda[link];
             let ends = (a as usize, b as usize);
-            let lambda = pull::<LAW, _>(ends, rest, compliance, lambda, sheet, scale);
+            let lambda = project_pair::<LAW, _>(ends, rest, compliance, lambda, sheet, scale);
             if LAW == SOFT {
                 sheet.lambda[link] = lambda;
             }
@@ -260,14 +260,14 @@ impl Sheet<'_> {
     }
 }
 
-impl Spots for Sheet<'_> {
+impl ParticleAccess for Sheet<'_> {
     #[inline(always)]
-    fn spot(&self, i: usize) -> (Vec3, f32) {
+    fn particle(&self, i: usize) -> (Vec3, f32) {
         (Vec3::new(self.x[i], self.y[i], self.z[i]), self.w[i])
     }
 
     #[inline(always)]
-    fn put(&mut self, i: usize, x: Vec3) {
+    fn set_position(&mut self, i: usize, x: Vec3) {
         (self.x[i], self.y[i], self.z[i]) = (x.x, x.y, x.z);
     }
 }

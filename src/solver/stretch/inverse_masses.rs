@@ -1,85 +1,43 @@
-//! What the ends of each woven link weigh, side by side with the link for kernels to read.
+//! Refreshes the weights of the links' ends (see `end_weights`) when an inverse mass changed.
 //!
-//! Where links give way these are inverse masses. For rigid ones only their ratio counts, so each is
-//! taken over the mean of the two: 1 and 1 if both ends weigh the same, as nearly everywhere, and then
-//! kernels need not read nor multiply by either.
+//! Pins, grabs, masses and tears change inverse masses, which is rare; comparing the whole column of
+//! inverse masses once a substep costs little against recomputing the weights of all links.
+//!
+//! Reads `particles.w`, `material`, `constraints`; writes `scratch.end_weights`, the weights of the
+//! sparse links, and for each row of a grid the range of links with even ends.
+//! Invariant: runs before the sweeps of a substep, so that kernels never see weights of other masses.
 
-use crate::math::are_same;
-use crate::math::column::Column;
 use crate::model::grid_rows::GridRows;
-use crate::model::links::{LinkKind, Links};
-use crate::solver::stretch::distance::{is_rigid, over_mean};
+use crate::model::links::LinkKind;
+use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::world::World;
-use core::ops::Range;
 
-/// The weights at the ends of links.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Weights {
-    /// The inverse masses of particles that they come from, …
-    w: Vec<f32>,
-    /// … and which kinds were rigid then.
-    rigid: [bool; 3],
-    pub ends: [Column; 2],
-    /// Whether both ends of a link weigh the same, and not nothing.
-    pub is_even: Vec<bool>,
-}
-
-impl Weights {
-    /// Makes room for `particles` and `links` in all.
-    pub fn reserve(&mut self, particles: usize, links: usize) {
-        self.w.reserve_exact(particles.saturating_sub(self.w.len()));
-        for list in &mut self.ends {
-            list.reserve(links);
-        }
-        self.is_even.reserve_exact(links.saturating_sub(self.is_even.len()));
-    }
-}
-
-/// Weighs all ends anew if any particle's inverse mass changed, or loose links were gathered.
-pub(crate) fn weigh(world: &mut World) {
+/// Recomputes all weights if an inverse mass changed, a kind became rigid or compliant, or sparse
+/// links were regrouped.
+pub(crate) fn refresh(world: &mut World) {
     let kinds = [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend];
-    let rigid = kinds.map(|kind| is_rigid(world, kind));
+    let rigid = kinds.map(|kind| is_rigid(&world.material, kind));
     let (constraints, weights) = (&mut world.constraints, &mut world.scratch.end_weights);
     let w = &world.particles.w;
     let rows_are_weighed = constraints.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
     let are_weighed = constraints.loose.is_weighed() && rows_are_weighed;
-    if are_same(&weights.w, w) && weights.rigid == rigid && are_weighed {
+    if weights.is_current(w, rigid) && are_weighed {
         return;
     }
-    weights.w.clear();
-    weights.w.extend_from_slice(w);
-    weights.rigid = rigid;
-    let count = constraints.links.len();
-    weights.ends.iter_mut().for_each(|list| list.resize(count));
-    weights.is_even.resize(count, false);
+    weights.reset(w, rigid, constraints.links.len());
     for batch in &constraints.batches {
         let range = batch.first..batch.first + batch.count;
-        weights.fill(&constraints.links, range, rigid[batch.kind as usize]);
+        weights.update(&constraints.links, range, rigid[batch.kind as usize]);
     }
     if let Some(rows) = &mut constraints.rows {
-        find_even(rows, &weights.is_even);
+        update_even_ranges(rows, &weights.is_even);
         rows.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
     }
     constraints.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
 }
 
-impl Weights {
-    fn fill(&mut self, links: &Links, range: Range<usize>, is_rigid: bool) {
-        for link in range {
-            let [a, b] = self.of([links.a[link], links.b[link]], is_rigid);
-            (self.ends[0][link], self.ends[1][link]) = (a, b);
-            self.is_even[link] = a == b && a > 0.0;
-        }
-    }
-
-    fn of(&self, ends: [u32; 2], is_rigid: bool) -> [f32; 2] {
-        let ends = ends.map(|end| self.w[end as usize]);
-        if is_rigid { over_mean(ends) } else { ends }
-    }
-}
-
-/// Notes the longest stretch of each row in which both ends of every link weigh the same.
-fn find_even(rows: &mut GridRows, is_even: &[bool]) {
+/// Sets each row's `even` to its longest run of links whose ends have equal weights.
+fn update_even_ranges(rows: &mut GridRows, is_even: &[bool]) {
     for row in &mut rows.rows {
         row.even = [row.first; 2];
         let mut from = row.first;

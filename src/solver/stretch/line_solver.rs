@@ -21,8 +21,8 @@
 //!
 //! Eight lines lie side by side; each lane is a line of its own, so that lanes change no bits.
 
-use crate::solver::stretch::distance::is_rigid;
 use crate::solver::stretch::line_gather::Seats;
+use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::stretch::{line_gather, line_strided};
 
 use crate::math::columns::Columns;
@@ -108,7 +108,7 @@ pub(crate) fn are_used(world: &World) -> bool {
 
 /// Solves all lines.
 pub(crate) fn solve(world: &mut World) {
-    let is_rigid = is_rigid(world, LinkKind::Stretch);
+    let is_rigid = is_rigid(&world.material, LinkKind::Stretch);
     let step = world.settings.scheme().step;
     let scale = if is_rigid { None } else { Some(1.0 / (step * step)) };
     world.constraints.lines.abreast.lay(&world.constraints.links);

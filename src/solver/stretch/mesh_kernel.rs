@@ -1,11 +1,15 @@
-//! The links of any mesh, as many at a time as there are lanes.
+//! SIMD kernel for the links of meshes that are not grids.
 //!
-//! While links are solved, the position of a particle is one load, wherever it is, and a link has the
-//! inverse masses of its ends beside it. The arithmetic is `links::correct`, the very one that goes
-//! link by link, so the bits are the same too. Links of one colour share no particle, so that several
-//! threads may each have some of them, and the points at their ends, to themselves.
+//! While links are solved, positions are interleaved (see `interleaved_particles`), so that the
+//! position of a particle is one load whatever its index is, and each link has the weights of its ends
+//! beside it (see `end_weights`). The links of a colour share no particle, so that threads may split
+//! them; each thread then owns the points at the ends of its links.
+//!
+//! Reads the links of a batch and their weights; writes the interleaved positions and λ.
+//! Invariant: all arithmetic is `link_projection::compute_correction`, so the bits are those of the
+//! scalar code.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code)
@@ -15,106 +19,75 @@ use crate::math::shared::Points;
 use crate::math::simd::{Between, Level, vectored};
 use crate::math::threads::Threads;
 use crate::model::links::Links;
-use crate::solver::particle_stage::access::Spots;
-use crate::solver::stretch::distance::{BOUND, RIGID, SOFT, correct, pull};
-use crate::solver::stretch::inverse_masses::Weights;
+use crate::solver::particle_stage::access::ParticleAccess;
+use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
+use crate::solver::stretch::end_weights::EndWeights;
+use crate::solver::stretch::link_projection::{
+    BOUND, RIGID, SOFT, compute_correction, project_pair,
+};
 use crate::solver::world::World;
 use core::ops::Range;
 use glam::Vec3;
 
-/// Particles and links as the kernels want them.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Packed {
-    /// x, y, z and 0.
-    pub points: Vec<[f32; 4]>,
-    /// Whether positions are here and not in their columns.
-    pub is_current: bool,
-    /// Inverse masses of the particles.
-    pub w: Vec<f32>,
-}
-
-impl Spots for Packed {
-    #[inline(always)]
-    fn spot(&self, i: usize) -> (Vec3, f32) {
-        let [x, y, z, _] = self.points[i];
-        (Vec3::new(x, y, z), self.w[i])
-    }
-
-    #[inline(always)]
-    fn put(&mut self, i: usize, x: Vec3) {
-        self.points[i][..3].copy_from_slice(&x.to_array());
+/// Switches to interleaved positions, unless links lie in the rows of a grid.
+pub(crate) fn gather(world: &mut World) {
+    if world.constraints.rows.is_none() {
+        world.scratch.interleaved.gather(&world.particles);
     }
 }
 
-impl Packed {
-    /// Makes room for `particles` in all.
-    pub fn reserve(&mut self, particles: usize) {
-        self.points.reserve_exact(particles.saturating_sub(self.points.len()));
-        self.w.reserve_exact(particles.saturating_sub(self.w.len()));
-    }
+/// Switches back to columns, if positions are interleaved.
+pub(crate) fn scatter(world: &mut World) {
+    world.scratch.interleaved.scatter(&mut world.particles.x);
 }
 
-/// Packs the particles, unless links lie in rows.
-pub(crate) fn pack(world: &mut World) {
-    if world.constraints.rows.is_some() {
-        return;
-    }
-    let (p, packed) = (&world.particles, &mut world.scratch.interleaved);
-    packed.points.clear();
-    let particles = p.x.x.iter().zip(&*p.x.y).zip(&*p.x.z);
-    packed.points.extend(particles.map(|((x, y), z)| [*x, *y, *z, 0.0]));
-    packed.w.clone_from(&p.w);
-    packed.is_current = true;
-}
+/// The least number of links that is worth a thread.
+const MIN_LINKS_PER_THREAD: usize = 8192;
 
-/// Puts positions back into their columns.
-pub(crate) fn unpack(world: &mut World) {
-    if !core::mem::take(&mut world.scratch.interleaved.is_current) {
-        return;
-    }
-    let x = &mut world.particles.x;
-    let particles = x.x.iter_mut().zip(&mut *x.y).zip(&mut *x.z);
-    for (((x, y), z), point) in particles.zip(&world.scratch.interleaved.points) {
-        [*x, *y, *z, _] = *point;
-    }
-}
-
-/// Links that one thread solves at least.
-const LINKS: usize = 8192;
-
-/// Solves the links `range`, which are of one colour.
+/// Solves the links `range`, which are of one colour. For `scale` see
+/// `link_projection::compute_correction`.
+///
+/// # Panics
+/// If a link ends at a particle that does not exist.
 pub(crate) fn solve<const LAW: u8>(
     level: Level,
     threads: Threads,
     range: Range<usize>,
     links: &mut Links,
-    weights: &Weights,
-    packed: &mut Packed,
+    weights: &EndWeights,
+    particles: &mut InterleavedParticles,
     scale: f32,
 ) {
-    let Packed { points, w, .. } = packed;
+    let InterleavedParticles { points, w, .. } = particles;
     let [wa, wb] = &weights.ends;
     let most = links.a.most().max(links.b.most());
-    assert!((most as usize) < points.len(), "links end at particles");
+    assert!((most as usize) < points.len(), "every link ends at a particle");
     let (points, w) = (Points::new(points), &w[..]);
     let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);
     let weights = ((&wa[range.clone()], &wb[range.clone()]), &weights.is_even[range.clone()]);
     let lengths = (&links.rest[range.clone()], &links.compliance[range.clone()]);
     let all = (joins, weights, lengths, &mut links.lambda[range]);
-    threads.over(all, LINKS, |(((a, b), active), (weights, is_even), lengths, lambda)| {
-        let ((wa, wb), (rest, compliance)) = (weights, lengths);
-        let color = Color { a, b, active, wa, wb, is_even, rest, compliance, lambda, points, w };
-        match LAW {
-            SOFT => solve_soft(level, color, scale),
-            RIGID => solve_rigid(level, color, scale),
-            _ => solve_bound(level, color, scale),
-        }
-    });
+    threads.over(
+        all,
+        MIN_LINKS_PER_THREAD,
+        |(((a, b), active), (weights, is_even), lengths, lambda)| {
+            let ((wa, wb), (rest, compliance)) = (weights, lengths);
+            let color =
+                MeshColor { a, b, active, wa, wb, is_even, rest, compliance, lambda, points, w };
+            match LAW {
+                SOFT => solve_soft(level, color, scale),
+                RIGID => solve_rigid(level, color, scale),
+                _ => solve_bound(level, color, scale),
+            }
+        },
+    );
 }
 
-/// Links of one colour, and the particles at their ends, which there are: of no other link at the same
-/// time. Only `solve` makes them, which looks at that.
-struct Color<'a> {
+/// The links of one colour that one thread solves, and all particles.
+///
+/// Only `solve` makes one, after it checked that every end is a particle; no other thread accesses the
+/// particles at these ends at the same time.
+struct MeshColor<'a> {
     a: &'a [u32],
     b: &'a [u32],
     active: &'a [bool],
@@ -129,31 +102,31 @@ struct Color<'a> {
 }
 
 vectored! {
-    fn solve_soft(color: Color<'_>, scale: f32)
-        = solve_color::<_, SOFT>, Avx2, solve_apart::<SOFT>
+    fn solve_soft(color: MeshColor<'_>, scale: f32)
+        = solve_color::<_, SOFT>, Avx2, solve_scalar::<SOFT>
 }
 
 vectored! {
-    fn solve_rigid(color: Color<'_>, scale: f32)
-        = solve_color::<_, RIGID>, Avx2, solve_apart::<RIGID>
+    fn solve_rigid(color: MeshColor<'_>, scale: f32)
+        = solve_color::<_, RIGID>, Avx2, solve_scalar::<RIGID>
 }
 
 vectored! {
-    fn solve_bound(color: Color<'_>, scale: f32)
-        = solve_color::<_, BOUND>, Avx2, solve_apart::<BOUND>
+    fn solve_bound(color: MeshColor<'_>, scale: f32)
+        = solve_color::<_, BOUND>, Avx2, solve_scalar::<BOUND>
 }
 
-/// Links one by one.
+/// Solves the links one by one.
 #[inline(always)]
-fn solve_apart<const LAW: u8>(mut color: Color<'_>, scale: f32) {
+fn solve_scalar<const LAW: u8>(mut color: MeshColor<'_>, scale: f32) {
     (0..color.a.len()).for_each(|link| color.solve::<LAW>(link, scale));
 }
 
 #[inline(always)]
-fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
-    // One length for all columns, so that one check does for all.
+fn solve_color<S: Between, const LAW: u8>(s: S, color: MeshColor<'_>, scale: f32) {
+    // Equal lengths let the compiler drop all bounds checks but one.
     let count = color.a.len();
-    let mut color = Color {
+    let mut color = MeshColor {
         b: &color.b[..count],
         active: &color.active[..count],
         wa: &color.wa[..count],
@@ -168,14 +141,14 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
     for is_active in color.active {
         is_whole &= is_active;
     }
-    let is_even = |color: &Color<'_>, link: usize| {
+    let is_even = |color: &MeshColor<'_>, link: usize| {
         LAW != BOUND && color.is_even[link..link + S::LANES] == EVEN[..S::LANES]
     };
     let mut link = 0;
-    // SAFETY: all ends are particles, as `solve` found, and this thread has them to itself.
+    // SAFETY: `solve` checked that all ends are particles, and only this thread accesses them.
     unsafe {
         while is_whole && link + S::LANES <= count {
-            // Loops of their own, which need less room.
+            // Two separate loops need fewer registers than one with a branch.
             while link + S::LANES <= count && is_even(&color, link) {
                 solve_chunk::<S, LAW, false, true>(s, link, &mut color, scale);
                 link += S::LANES;
@@ -193,20 +166,20 @@ fn solve_color<S: Between, const LAW: u8>(s: S, color: Color<'_>, scale: f32) {
     (link..count).for_each(|link| color.solve::<LAW>(link, scale));
 }
 
-impl Color<'_> {
-    /// Those of the particles at the ends of as many links as there are lanes.
+impl MeshColor<'_> {
+    /// Gathers the inverse masses at the two ends of up to eight links.
     #[inline(always)]
     fn inverse_masses(&self, at: [&[u32]; 2]) -> [[f32; 8]; 2] {
-        let mut found = [[0.0; 8]; 2];
-        for (found, at) in found.iter_mut().zip(at) {
-            for (found, at) in found.iter_mut().zip(at) {
-                *found = self.w[*at as usize];
+        let mut gathered = [[0.0; 8]; 2];
+        for (gathered, at) in gathered.iter_mut().zip(at) {
+            for (gathered, at) in gathered.iter_mut().zip(at) {
+                *gathered = self.w[*at as usize];
             }
         }
-        found
+        gathered
     }
 
-    /// One link by itself.
+    /// Solves one link, if it is active.
     #[inline(always)]
     fn solve<const LAW: u8>(&mut self, link: usize, scale: f32) {
         if !self.active[link] {
@@ -214,43 +187,43 @@ impl Color<'_> {
         }
         let ends = (self.a[link] as usize, self.b[link] as usize);
         let (rest, compliance) = (self.rest[link], self.compliance[link]);
-        let lambda = pull::<LAW, _>(ends, rest, compliance, self.lambda[link], self, scale);
+        let lambda = project_pair::<LAW, _>(ends, rest, compliance, self.lambda[link], self, scale);
         if LAW == SOFT {
             self.lambda[link] = lambda;
         }
     }
 }
 
-impl Spots for Color<'_> {
+impl ParticleAccess for MeshColor<'_> {
     #[inline(always)]
-    fn spot(&self, i: usize) -> (Vec3, f32) {
-        assert!(i < self.points.len(), "links end at particles");
-        // SAFETY: there is such a point, and this thread has it to itself.
+    fn particle(&self, i: usize) -> (Vec3, f32) {
+        assert!(i < self.points.len(), "every link ends at a particle");
+        // SAFETY: the point exists, and only this thread accesses it.
         let [x, y, z, _] = unsafe { *self.points.at(i as u32).cast::<[f32; 4]>() };
         (Vec3::new(x, y, z), self.w[i])
     }
 
     #[inline(always)]
-    fn put(&mut self, i: usize, x: Vec3) {
-        assert!(i < self.points.len(), "links end at particles");
-        // SAFETY: as above.
+    fn set_position(&mut self, i: usize, x: Vec3) {
+        assert!(i < self.points.len(), "every link ends at a particle");
+        // SAFETY: as in `particle`.
         unsafe { *self.points.at(i as u32).cast::<[f32; 3]>() = x.to_array() };
     }
 }
 
-/// Where both ends of all links weigh the same.
+/// The `is_even` of eight links whose ends all have equal weights.
 const EVEN: [bool; 8] = [true; 8];
 
-/// As many links as there are lanes; with `CHOOSY` set, only those that hold; with `IS_EVEN` set,
-/// their two ends weigh the same.
+/// Solves `S::LANES` links from `first` on: with `MASKED`, the active ones only; with `IS_EVEN`, the two
+/// ends of each have the same weight.
 ///
 /// # Safety
-/// Both ends of each are below the number of points, and no other thread reaches those.
+/// Both ends of each link are below the number of points, and no other thread accesses these points.
 #[inline(always)]
-unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool, const IS_EVEN: bool>(
+unsafe fn solve_chunk<S: Between, const LAW: u8, const MASKED: bool, const IS_EVEN: bool>(
     s: S,
     first: usize,
-    color: &mut Color<'_>,
+    color: &mut MeshColor<'_>,
     scale: f32,
 ) {
     let all = first..first + S::LANES;
@@ -264,7 +237,7 @@ unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool, const IS_EV
         lambda = s.load(color.lambda, first);
     }
     let weights = if IS_EVEN {
-        // Those of rigid links are 1 then.
+        // Equal weights of rigid links are 1.
         [if LAW == RIGID { s.splat(1.0) } else { s.load(color.wa, first) }; 2]
     } else if LAW == BOUND {
         let inverse_masses = color.inverse_masses(at);
@@ -272,19 +245,19 @@ unsafe fn solve_chunk<S: Between, const LAW: u8, const CHOOSY: bool, const IS_EV
     } else {
         [s.load(color.wa, first), s.load(color.wb, first)]
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller guarantees it.
     let (pairs, span) = unsafe { s.fetch(color.points, at) };
     let (shares, mut multiplier) =
-        correct::<LAW, S>(s, span, weights, rest, compliance, lambda, scale);
-    // SAFETY: the caller's promise, and `active` has an entry for each lane.
-    unsafe { s.put::<CHOOSY>(color.points, at, pairs, shares, active) };
+        compute_correction::<LAW, S>(s, span, weights, rest, compliance, lambda, scale);
+    // SAFETY: the caller guarantees it, and `active` has an entry for each lane.
+    unsafe { s.put::<MASKED>(color.points, at, pairs, shares, active) };
     if LAW == SOFT {
-        if CHOOSY {
-            let mut keep = [0.0; 16];
-            for (keep, is_active) in keep.iter_mut().zip(active) {
-                *keep = f32::from(u8::from(*is_active));
+        if MASKED {
+            let mut mask = [0.0; 16];
+            for (mask, is_active) in mask.iter_mut().zip(active) {
+                *mask = f32::from(u8::from(*is_active));
             }
-            multiplier = s.pick(s.load(&keep, 0), multiplier, lambda);
+            multiplier = s.pick(s.load(&mask, 0), multiplier, lambda);
         }
         s.store(color.lambda, first, multiplier);
     }

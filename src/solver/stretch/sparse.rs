@@ -1,141 +1,166 @@
-//! SparseLinks links, as many at a time as there are lanes, wherever their particles are.
+//! SIMD kernel for sparse links: links at arbitrary indices, whose ends are gathered and scattered.
 //!
-//! The arithmetic is `links::correct`, the very one that goes link by link, so the bits are the same too.
+//! These are the links that left the rows of a grid (strays) and the extra links that tears made. They
+//! have colours of their own. Links of a batch that could not be coloured go one by one, in sweep order.
+//!
+//! Reads `SparseLinks` (ends, rest lengths, weights) and the compliances of the list that they index;
+//! writes positions and λ.
+//! Invariant: all arithmetic is `link_projection::compute_correction`, so the bits are those of the
+//! scalar code; the links of a colour share no particle, so lanes may go in any order.
 
 use crate::math::simd::{LANES, Level, Scalar, Simd, vectored};
 use crate::model::links::Links;
 use crate::model::sparse_links::SparseLinks;
-use crate::solver::particle_stage::access::{Sheet, Spots, fetch, put};
-use crate::solver::stretch::distance::{BOUND, Order, RIGID, SOFT, correct};
-use crate::solver::stretch::mesh_kernel::Packed;
+use crate::solver::particle_stage::access::{
+    ParticleAccess, ParticleSlices, gather_particles, scatter_positions,
+};
+use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
+use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, compute_correction};
+use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::state::particles::Particles;
 
-/// Links of a batch, and the list that they are numbers of.
-pub(crate) struct Color<'a> {
+/// The sparse links of a batch, and the columns of the list that `link` indexes.
+pub(crate) struct SparseColor<'a> {
     a: &'a [u32],
     b: &'a [u32],
     rest: &'a [f32],
-    /// What their ends weigh, but for `BOUND`.
+    /// Weights of the ends; empty under `BOUND`.
     ends: [&'a [f32]; 2],
     link: &'a [u32],
     compliance: &'a [f32],
     lambda: &'a mut [f32],
 }
 
-/// Where loose links may find their particles.
-pub(crate) trait Field: Spots {
-    /// Solves links no two of which share a particle.
-    fn solve_abreast(&mut self, level: Level, color: Color<'_>, law: u8, scale: f32);
+/// A particle layout with a SIMD kernel for sparse links.
+pub(crate) trait SparseLayout: ParticleAccess {
+    /// Solves links that share no particle, under the law `law`.
+    fn solve_simd(&mut self, level: Level, color: SparseColor<'_>, law: u8, scale: f32);
 }
 
-impl Field for Particles {
-    fn solve_abreast(&mut self, level: Level, color: Color<'_>, law: u8, scale: f32) {
-        in_columns(level, color, self, law, scale);
+impl SparseLayout for Particles {
+    fn solve_simd(&mut self, level: Level, color: SparseColor<'_>, law: u8, scale: f32) {
+        solve_columns(level, color, self, law, scale);
     }
 }
 
-impl Field for Packed {
-    fn solve_abreast(&mut self, level: Level, color: Color<'_>, law: u8, scale: f32) {
-        in_points(level, color, self, law, scale);
+impl SparseLayout for InterleavedParticles {
+    fn solve_simd(&mut self, level: Level, color: SparseColor<'_>, law: u8, scale: f32) {
+        solve_interleaved(level, color, self, law, scale);
     }
 }
 
-/// Solves a batch of loose links.
-pub(crate) fn solve<const LAW: u8, P: Field>(
+/// Solves one batch of sparse links. For `scale` see `link_projection::compute_correction`.
+pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
     level: Level,
-    loose: &SparseLinks,
-    (batch, order): (usize, Order),
+    sparse: &SparseLinks,
+    (batch, order): (usize, SweepOrder),
     links: &mut Links,
-    spots: &mut P,
+    particles: &mut P,
     scale: f32,
 ) {
-    let (own, is_colored) = loose.of_batch(batch);
+    let (own, is_colored) = sparse.of_batch(batch);
     if own.is_empty() {
         return;
     }
-    // A bound may come before the ends are weighed anew.
+    // The strain limit may run before the weights of new links are computed.
     let ends = if LAW == BOUND { 0..0 } else { own.clone() };
-    let mut color = Color {
-        a: &loose.a[own.clone()],
-        b: &loose.b[own.clone()],
-        rest: &loose.rest[own.clone()],
-        ends: [&loose.ends[0][ends.clone()], &loose.ends[1][ends]],
-        link: &loose.link[own],
+    let mut color = SparseColor {
+        a: &sparse.a[own.clone()],
+        b: &sparse.b[own.clone()],
+        rest: &sparse.rest[own.clone()],
+        ends: [&sparse.ends[0][ends.clone()], &sparse.ends[1][ends]],
+        link: &sparse.link[own],
         compliance: &links.compliance,
         lambda: &mut links.lambda,
     };
     if is_colored {
-        return spots.solve_abreast(level, color, LAW, scale);
+        return particles.solve_simd(level, color, LAW, scale);
     }
     let count = color.a.len();
     for number in 0..count {
-        let at = if order == Order::Forward { number } else { count - 1 - number };
-        color.some::<_, P, LAW>(Scalar, at, spots, scale);
+        let at = if order == SweepOrder::Forward { number } else { count - 1 - number };
+        color.solve_chunk::<_, P, LAW>(Scalar, at, particles, scale);
     }
 }
 
 vectored! {
-    fn in_columns(color: Color<'_>, p: &mut Particles, law: u8, scale: f32)
-        = by_law_in_columns, Avx2, apart_in_columns
+    fn solve_columns(color: SparseColor<'_>, p: &mut Particles, law: u8, scale: f32)
+        = columns_lanes, Avx2, columns_scalar
 }
 
 #[inline(always)]
-fn by_law_in_columns<S: Simd>(s: S, color: Color<'_>, p: &mut Particles, law: u8, scale: f32) {
-    by_law(s, color, &mut Sheet::new(p), law, scale);
+fn columns_lanes<S: Simd>(s: S, color: SparseColor<'_>, p: &mut Particles, law: u8, scale: f32) {
+    solve_law(s, color, &mut ParticleSlices::new(p), law, scale);
 }
 
-fn apart_in_columns(color: Color<'_>, p: &mut Particles, law: u8, scale: f32) {
-    by_law_in_columns(Scalar, color, p, law, scale);
+fn columns_scalar(color: SparseColor<'_>, p: &mut Particles, law: u8, scale: f32) {
+    columns_lanes(Scalar, color, p, law, scale);
 }
 
 vectored! {
-    fn in_points(color: Color<'_>, packed: &mut Packed, law: u8, scale: f32)
-        = by_law, Avx2, apart_in_points
+    fn solve_interleaved(
+        color: SparseColor<'_>,
+        particles: &mut InterleavedParticles,
+        law: u8,
+        scale: f32,
+    ) = solve_law, Avx2, interleaved_scalar
 }
 
-fn apart_in_points(color: Color<'_>, packed: &mut Packed, law: u8, scale: f32) {
-    by_law(Scalar, color, packed, law, scale);
+fn interleaved_scalar(
+    color: SparseColor<'_>,
+    particles: &mut InterleavedParticles,
+    law: u8,
+    scale: f32,
+) {
+    solve_law(Scalar, color, particles, law, scale);
 }
 
 #[inline(always)]
-fn by_law<S: Simd, P: Spots>(s: S, color: Color<'_>, spots: &mut P, law: u8, scale: f32) {
-    match law {
-        SOFT => abreast::<S, P, SOFT>(s, color, spots, scale),
-        RIGID => abreast::<S, P, RIGID>(s, color, spots, scale),
-        _ => abreast::<S, P, BOUND>(s, color, spots, scale),
-    }
-}
-
-#[inline(always)]
-fn abreast<S: Simd, P: Spots, const LAW: u8>(
+fn solve_law<S: Simd, P: ParticleAccess>(
     s: S,
-    mut color: Color<'_>,
-    spots: &mut P,
+    color: SparseColor<'_>,
+    particles: &mut P,
+    law: u8,
+    scale: f32,
+) {
+    match law {
+        SOFT => solve_color::<S, P, SOFT>(s, color, particles, scale),
+        RIGID => solve_color::<S, P, RIGID>(s, color, particles, scale),
+        _ => solve_color::<S, P, BOUND>(s, color, particles, scale),
+    }
+}
+
+#[inline(always)]
+fn solve_color<S: Simd, P: ParticleAccess, const LAW: u8>(
+    s: S,
+    mut color: SparseColor<'_>,
+    particles: &mut P,
     scale: f32,
 ) {
     let count = color.a.len();
     let whole = count / S::LANES * S::LANES;
     for at in (0..whole).step_by(S::LANES) {
-        color.some::<S, P, LAW>(s, at, spots, scale);
+        color.solve_chunk::<S, P, LAW>(s, at, particles, scale);
     }
     for at in whole..count {
-        color.some::<_, P, LAW>(Scalar, at, spots, scale);
+        color.solve_chunk::<_, P, LAW>(Scalar, at, particles, scale);
     }
 }
 
-impl Color<'_> {
-    /// As many links as there are lanes.
+impl SparseColor<'_> {
+    /// Solves `S::LANES` links, from `first` on.
     #[inline(always)]
-    fn some<S: Simd, P: Spots, const LAW: u8>(
+    fn solve_chunk<S: Simd, P: ParticleAccess, const LAW: u8>(
         &mut self,
         s: S,
         first: usize,
-        spots: &mut P,
+        particles: &mut P,
         scale: f32,
     ) {
         let own = first..first + S::LANES;
         let (a, b) = (&self.a[own.clone()], &self.b[own.clone()]);
-        let ((xa, wa), (xb, wb)) = (fetch(s, spots, a), fetch(s, spots, b));
+        let ((xa, wa), (xb, wb)) =
+            (gather_particles(s, particles, a), gather_particles(s, particles, b));
         let weights = if LAW == BOUND {
             [wa, wb]
         } else {
@@ -149,20 +174,20 @@ impl Color<'_> {
                 lambda[lane] = self.lambda[link[lane] as usize];
             }
         }
-        let (compliance, before) = (s.load(&compliance, 0), s.load(&lambda, 0));
+        let (compliance, old_lambda) = (s.load(&compliance, 0), s.load(&lambda, 0));
         let span = [xb[0] - xa[0], xb[1] - xa[1], xb[2] - xa[2]];
         let rest = s.load(self.rest, first);
-        let ([to_a, to_b], pulled) =
-            correct::<LAW, _>(s, span, weights, rest, compliance, before, scale);
+        let ([to_a, to_b], new_lambda) =
+            compute_correction::<LAW, _>(s, span, weights, rest, compliance, old_lambda, scale);
         let (mut ya, mut yb) = (xa, xb);
         for axis in 0..3 {
             ya[axis] = xa[axis] + span[axis] * to_a;
             yb[axis] = xb[axis] - span[axis] * to_b;
         }
-        put(s, spots, a, ya);
-        put(s, spots, b, yb);
+        scatter_positions(s, particles, a, ya);
+        scatter_positions(s, particles, b, yb);
         if LAW == SOFT {
-            s.store(&mut lambda, 0, pulled);
+            s.store(&mut lambda, 0, new_lambda);
             for lane in 0..S::LANES {
                 self.lambda[link[lane] as usize] = lambda[lane];
             }

@@ -9,7 +9,8 @@
 //! them.
 
 use crate::solver::collide;
-use crate::solver::stretch::distance::{Order, shorten};
+use crate::solver::stretch::distance::project_upper_bound;
+use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::tethers;
 
 use crate::solver::kinematic::anchors;
@@ -49,7 +50,7 @@ pub(crate) fn begin(world: &mut World) {
 /// the end of the tick there is little to do.
 pub(crate) fn draw_in(world: &mut World) {
     let aim = 1.0 + world.settings.max_stretch * AIM;
-    KINDS.into_iter().for_each(|kind| shorten(world, kind, Order::Forward, aim));
+    KINDS.into_iter().for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, aim));
 }
 
 /// Makes the bound hold. Where pins, grabs or leashes hold a cloth apart it cannot; that is told once, until
@@ -85,9 +86,14 @@ fn draw_together(world: &mut World, most: f32) {
             hang(world, aim);
         }
         if number % 2 == 0 {
-            KINDS.into_iter().for_each(|kind| shorten(world, kind, Order::Forward, aim));
+            KINDS
+                .into_iter()
+                .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, aim));
         } else {
-            KINDS.into_iter().rev().for_each(|kind| shorten(world, kind, Order::Backward, aim));
+            KINDS
+                .into_iter()
+                .rev()
+                .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, aim));
         }
         collide::keep_out(world);
         anchors::keep_in(world);
@@ -154,7 +160,7 @@ fn is_held_apart(world: &World, most: f32) -> bool {
 /// Takes the ends of every link that is too long back to where they were, see `home`, and with them what
 /// that stretches, until nothing is too long that was not before.
 fn go_back(world: &mut World, most: f32) {
-    rollback::find(world);
+    rollback::compute(world);
     let woven = world.constraints.links.len();
     let mut went = true;
     while core::mem::take(&mut went) {
@@ -168,7 +174,7 @@ fn go_back(world: &mut World, most: f32) {
                 continue;
             }
             for end in [links.a[at] as usize, links.b[at] as usize] {
-                let home = world.scratch.rollback.places.at(end);
+                let home = world.scratch.rollback.positions.at(end);
                 if world.particles.x.at(end) != home {
                     world.particles.x.set(end, home);
                     went = true;

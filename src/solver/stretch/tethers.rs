@@ -11,7 +11,7 @@ use crate::math::simd::{Level, MOST_LANES, Number, Scalar, Simd, vectored};
 use crate::math::threads::Threads;
 use crate::math::{max, min};
 use crate::model::tethers::TetherSet;
-use crate::solver::stretch::mesh_kernel::Packed;
+use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::pins::Pin;
 
@@ -160,10 +160,10 @@ fn pins_apart(world: &World) -> f32 {
 /// Pulls every particle within `slack` times its way to the pins.
 pub(crate) fn draw_in(world: &mut World, slack: f32) {
     let (level, threads, p) = (world.level, world.threads, &mut world.particles);
-    let (found, packed) = (&world.scratch.tether_anchor, &mut world.scratch.interleaved);
+    let (found, interleaved) = (&world.scratch.tether_anchor, &mut world.scratch.interleaved);
     for set in world.tethers.sets() {
-        if packed.is_current {
-            pull_packed(threads, set, slack, found, packed);
+        if interleaved.is_current {
+            pull_packed(threads, set, slack, found, interleaved);
         } else {
             pull_set(level, threads, set, slack, found, &mut p.x, &p.w);
         }
@@ -175,9 +175,9 @@ fn pull_packed(
     set: &TetherSet,
     slack: f32,
     found: &Columns,
-    packed: &mut Packed,
+    interleaved: &mut InterleavedParticles,
 ) {
-    let Packed { points, w, .. } = packed;
+    let InterleavedParticles { points, w, .. } = interleaved;
     let only = set.only.map(|pin| points[pin as usize]);
     let particles = (&mut points[..], &w[..], &set.length[..]);
     match only {

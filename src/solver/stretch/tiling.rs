@@ -14,8 +14,8 @@
 use crate::math::simd::Level;
 use crate::math::threads::Split;
 use crate::model::grid_rows::Row;
-use crate::solver::stretch::distance::Order;
 use crate::solver::stretch::grid_links::{Sheet, solve_rows};
+use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::world::World;
 use core::ops::Range;
 
@@ -36,7 +36,7 @@ const GRAIN: usize = 4;
 pub(crate) fn solve<const LAW: u8>(
     world: &mut World,
     batches: Range<usize>,
-    order: Order,
+    order: SweepOrder,
     scale: f32,
 ) -> bool {
     let (constraints, p) = (&mut world.constraints, &mut world.particles);
@@ -55,7 +55,7 @@ pub(crate) fn solve<const LAW: u8>(
     let mut lambda: [&mut [f32]; COLORS] = Default::default();
     let (mut others, mut before) = (&mut constraints.links.lambda[..], 0);
     for (at, batch) in batches.iter().enumerate() {
-        let slot = if order == Order::Forward { at } else { batches.len() - 1 - at };
+        let slot = if order == SweepOrder::Forward { at } else { batches.len() - 1 - at };
         let end = batch.first + batch.count;
         colors[slot] = Color { rows: &grid.rows[grid.between(batch.first..end)], end: end as u32 };
         let (own, left) = others.split_at_mut(end - before);

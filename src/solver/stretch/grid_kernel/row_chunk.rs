@@ -8,9 +8,9 @@
 
 use crate::math::simd::{MOST_LANES, Number, Simd};
 use crate::model::grid_rows::Pattern;
-use crate::solver::stretch::distance::{BOUND, RIGID, SOFT, correct};
 use crate::solver::stretch::grid_kernel::row_layout::Place;
 use crate::solver::stretch::grid_links::STRAIGHT;
+use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, compute_correction};
 
 const PAIRS: u8 = Pattern::Pairs as u8;
 
@@ -85,7 +85,7 @@ impl<F: Number> Chunk<F> {
             };
             let span = [xb - xa, yb - ya, zb - za];
             let (shares, lambda) =
-                correct::<LAW, _>(s, span, weights, rest, compliance, lambda, scale);
+                compute_correction::<LAW, _>(s, span, weights, rest, compliance, lambda, scale);
             Self { ends: [x, y, z], span, shares, lambda }
         }
     }

@@ -8,10 +8,10 @@
 
 use crate::math::simd::{MOST_LANES, Simd};
 use crate::model::grid_rows::Row;
-use crate::solver::stretch::distance::{BOUND, RIGID};
 use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
 use crate::solver::stretch::grid_kernel::row_layout::{Lists, Spot, in_chunks_of};
 use crate::solver::stretch::grid_links::{STRAIGHT, solve_last};
+use crate::solver::stretch::link_projection::{BOUND, RIGID};
 use core::ops::Range;
 
 /// Links that go together, about: the positions at their ends fit into the nearest memory several times.
