@@ -5,7 +5,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::state::anchors::{AnchorConstraint, unit};
 use glam::Vec3;
 
@@ -77,7 +77,8 @@ impl Cloth {
         self.check_particles(particles)?;
         positions.iter().try_for_each(|position| check_finite(*position, "positions"))?;
         normals.iter().try_for_each(|normal| check_finite(*normal, "normals"))?;
-        let normals = guarded(|| -> Vec<Vec3> { normals.iter().map(|n| unit(*n)).collect() });
+        let normals =
+            with_float_env(|| -> Vec<Vec3> { normals.iter().map(|n| unit(*n)).collect() });
         let are_directions = normals.iter().all(|n| n.is_finite() && *n != Vec3::ZERO);
         check(are_directions, "normals", "have a length that numbers can tell from 0")?;
         let world = &mut self.world;

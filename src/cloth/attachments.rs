@@ -2,8 +2,8 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check_index};
-use crate::math::finite;
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
+use crate::math::saturate;
 use crate::solver::world::World;
 use crate::state::attachments::{Attachment, Carrier};
 use crate::state::pose::{Pose, check_pose};
@@ -33,7 +33,7 @@ impl Cloth {
         for particle in particles {
             check_index(*particle, self.world.particles.len(), "particles")?;
         }
-        guarded(|| {
+        with_float_env(|| {
             check_pose(position, rotation, OF_ATTACHMENT)?;
             let pose = Pose::new(position, rotation);
             let carrier = Carrier { last: pose, next: pose };
@@ -41,8 +41,8 @@ impl Cloth {
             let frame = pose.frame();
             for particle in particles {
                 let x = self.world.particles.x.at(*particle as usize);
-                let local = finite(frame.inward(x));
-                self.put_pin(*particle, finite(frame.outward(local)));
+                let local = saturate(frame.point_to_local(x));
+                self.put_pin(*particle, saturate(frame.point_to_world(local)));
                 if let Some(pin) = self.world.pins.find_mut(*particle) {
                     (pin.from, pin.carrier, pin.local) = (x, handle, local);
                 }
@@ -65,12 +65,12 @@ impl Cloth {
         rotation: Quat,
     ) -> Result<()> {
         let carrier = self.world.attachments.get_mut(attachment.0, "attachment")?;
-        guarded(|| {
+        with_float_env(|| {
             check_pose(position, rotation, OF_ATTACHMENT)?;
             carrier.next = Pose::new(position, rotation);
             let frame = carrier.next.frame();
             for pin in self.world.pins.iter_mut().filter(|pin| pin.carrier == attachment.0) {
-                pin.target = finite(frame.outward(pin.local));
+                pin.target = saturate(frame.point_to_world(pin.local));
             }
             Ok(())
         })
@@ -84,7 +84,7 @@ impl Cloth {
         self.world.attachments.remove(attachment.0, "attachment")?;
         self.world.wake();
         if self.world.pins.remove_carried(attachment.0) {
-            guarded(|| {
+            with_float_env(|| {
                 (0..self.world.particles.len() as u32)
                     .for_each(|i| self.world.refresh_inverse_mass(i));
             });
@@ -110,8 +110,8 @@ impl World {
         let Some(pin) = self.pins.find_mut(particle) else { return };
         (pin.from, pin.target) = (position, position);
         if let Ok(carrier) = self.attachments.get(pin.carrier, "attachment") {
-            pin.local = finite(carrier.last.frame().inward(position));
-            pin.target = finite(carrier.next.frame().outward(pin.local));
+            pin.local = saturate(carrier.last.frame().point_to_local(position));
+            pin.target = saturate(carrier.next.frame().point_to_world(pin.local));
         }
     }
 }

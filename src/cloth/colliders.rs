@@ -2,7 +2,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::Result;
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::state::collider_desc::ColliderDesc;
 use crate::state::colliders::{Body, Collider, Impulse};
 use glam::{Quat, Vec3};
@@ -14,7 +14,7 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule,
     /// [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
     pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
-        let body = guarded(|| Body::new(desc.clone()))?;
+        let body = with_float_env(|| Body::new(desc.clone()))?;
         let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
         self.world.reserve_contacts();
         self.world.wake();
@@ -33,7 +33,7 @@ impl Cloth {
         rotation: Quat,
     ) -> Result<()> {
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
-        guarded(|| body.move_to(position, rotation))
+        with_float_env(|| body.move_to(position, rotation))
     }
 
     /// Puts a collider somewhere at once: it does not sweep, and what lay on it does not feel it go.
@@ -48,8 +48,8 @@ impl Cloth {
         rotation: Quat,
     ) -> Result<()> {
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
-        guarded(|| body.teleport(position, rotation))?;
-        self.world.scratch.contacts.near.forget();
+        with_float_env(|| body.teleport(position, rotation))?;
+        self.world.scratch.contacts.nearby.invalidate();
         self.world.wake();
         Ok(())
     }
@@ -60,7 +60,7 @@ impl Cloth {
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed before.
     pub fn remove_collider(&mut self, collider: Collider) -> Result<()> {
         self.world.colliders.remove(collider.0, "collider")?;
-        self.world.scratch.contacts.near.forget();
+        self.world.scratch.contacts.nearby.invalidate();
         self.world.wake();
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::mesh::grid::GridFrame;
 use glam::Vec3;
 
@@ -24,7 +24,7 @@ impl Cloth {
         check(from != to, "to", "be apart from `from`")?;
         check((-3.0..=3.0).contains(&angle), "angle", "be from -3 to 3")?;
         self.world.wake();
-        guarded(|| match self.world.grid_frame {
+        with_float_env(|| match self.world.grid_frame {
             Some(GridFrame { origin, right, down, .. }) => {
                 let flat = |p: Vec3| [(p - origin).dot(right), (p - origin).dot(down)];
                 self.world.crease_grid(flat(from), flat(to), angle);

@@ -3,7 +3,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_finite};
 use crate::geometry::blade::Blade;
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::solver::self_collide::surface::split_separation;
 use crate::solver::topology::cut;
 use glam::Vec3;
@@ -32,21 +32,21 @@ impl Cloth {
         check_finite(sweep, "sweep")?;
         check(from != to, "to", "be apart from `from`")?;
         check(sweep != Vec3::ZERO, "sweep", "not be zero")?;
-        let blade = guarded(|| Blade::new(from, to, sweep));
+        let blade = with_float_env(|| Blade::new(from, to, sweep));
         let Some(blade) = blade else {
             return Err(Error::BadValue {
                 field: "sweep",
                 must: "lead away from the line through `from` and `to`",
             });
         };
-        let plan = guarded(|| cut::plan(&self.world, &blade));
+        let plan = with_float_env(|| cut::plan(&self.world, &blade));
         if plan.opened() == 0 {
             return Ok(0);
         }
         if !plan.fits(self.world.capacity(), self.world.triangle_capacity) {
             return Err(Error::Full { what: "the whole cut" });
         }
-        guarded(|| {
+        with_float_env(|| {
             cut::cut(&mut self.world, &plan);
             self.world.see_to_crowd();
             self.world.see_to_layers();

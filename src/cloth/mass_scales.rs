@@ -2,7 +2,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_index};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::state::mass_scales::is_scale;
 
 impl Cloth {
@@ -27,7 +27,7 @@ impl Cloth {
             world.mass_scales.set(*particle, *scale, count);
         }
         world.mass_scales.reserve(world.capacity());
-        guarded(|| world.compute_masses());
+        with_float_env(|| world.compute_masses());
         Ok(())
     }
 }

@@ -26,7 +26,7 @@ pub(crate) mod view;
 pub(crate) mod write_vertices;
 
 use crate::error::{Result, check, check_finite, check_index};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
 use crate::model::material::Material;
 use crate::solver::pipeline;
@@ -112,9 +112,9 @@ impl Cloth {
     }
 
     fn from_origin(origin: Origin) -> Result<Self> {
-        let (mut world, report) = guarded(|| origin.world())?;
+        let (mut world, report) = with_float_env(|| origin.world())?;
         world.check_self_distance(&world.settings)?;
-        guarded(|| {
+        with_float_env(|| {
             world.see_to_crowd();
             world.see_to_layers();
         });
@@ -139,7 +139,7 @@ impl Cloth {
     /// material says, no grabs, no attachments, no leashes and no events. Settings, material, wind and colliders stay as they are.
     pub fn reset(&mut self) {
         // The descriptor was good enough once, so it is again.
-        let Ok((mut fresh, _)) = guarded(|| self.origin.world()) else {
+        let Ok((mut fresh, _)) = with_float_env(|| self.origin.world()) else {
             return;
         };
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
@@ -157,7 +157,7 @@ impl Cloth {
         fresh.scratch.tear.reserve(fresh.settings.most_tears(fresh.triangle_capacity));
         self.world = fresh;
         self.world.reserve_contacts();
-        guarded(|| {
+        with_float_env(|| {
             self.world.compute_masses();
             self.world.constraints.stiffen(&self.world.material);
             self.world.rebuild_tethers();
@@ -199,7 +199,7 @@ impl Cloth {
             world.rebuild_pin_order();
         }
         if touches_otherwise {
-            guarded(|| {
+            with_float_env(|| {
                 world.see_to_crowd();
                 world.see_to_layers();
                 if is_new {
@@ -210,7 +210,7 @@ impl Cloth {
             });
         }
         if restarts {
-            guarded(|| {
+            with_float_env(|| {
                 world.reset_history();
                 world.refresh_soft_pin_masses();
             });
@@ -237,10 +237,10 @@ impl Cloth {
             world.wake();
         }
         let reweigh = material.density != world.material.density;
-        world.scratch.contacts.near.forget();
+        world.scratch.contacts.nearby.invalidate();
         world.material = material;
         world.folds.reserve_wear(&world.material);
-        guarded(|| {
+        with_float_env(|| {
             world.constraints.stiffen(&world.material);
             if reweigh {
                 world.compute_masses();
@@ -276,7 +276,7 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) if `seconds` is negative or not finite.
     pub fn advance(&mut self, seconds: f32) -> Result<u32> {
         check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")?;
-        let (ticks, owed) = guarded(|| {
+        let (ticks, owed) = with_float_env(|| {
             let tick = f64::from(self.world.settings.tick);
             let owed = self.owed + f64::from(seconds);
             let whole = (owed / tick).floor();
@@ -297,8 +297,8 @@ impl Cloth {
         }
         let vertices = self.world.mesh.vertex_count();
         let (pins_changed, world) = (core::mem::take(&mut self.pins_changed), &mut self.world);
-        let has_moved = world.threads.enter(world.particles.len(), || {
-            guarded(|| {
+        let has_moved = world.threads.run_in_pool(world.particles.len(), || {
+            with_float_env(|| {
                 if pins_changed {
                     world.rebuild_tethers();
                 }
@@ -316,7 +316,7 @@ impl Cloth {
     /// The share of a tick that `advance` still owes, 0 to 1: how far to blend from the last tick's
     /// positions to this one's when drawing.
     pub fn blend(&self) -> f32 {
-        guarded(|| (self.owed / f64::from(self.world.settings.tick)) as f32)
+        with_float_env(|| (self.owed / f64::from(self.world.settings.tick)) as f32)
     }
 
     /// Time since it was made or reset [s].
@@ -333,7 +333,7 @@ impl Cloth {
         check_index(particle, self.world.particles.len(), "particle")?;
         check_finite(position, "position")?;
         let (at, world) = (particle as usize, &mut self.world);
-        guarded(|| {
+        with_float_env(|| {
             let v = world.particles.v.at(at);
             world.set_particle_state(at, position, v);
             world.particles.x_last.set(at, position);
@@ -353,7 +353,7 @@ impl Cloth {
         check_index(particle, self.world.particles.len(), "particle")?;
         check_finite(velocity, "velocity")?;
         let (at, world) = (particle as usize, &mut self.world);
-        guarded(|| {
+        with_float_env(|| {
             let x = world.particles.x.at(at);
             world.set_particle_state(at, x, velocity);
         });
@@ -371,7 +371,7 @@ impl Cloth {
         check_index(particle, self.world.particles.len(), "particle")?;
         let target = self.world.particles.x.at(particle as usize);
         let handle = self.world.grabs.insert(Held { particle, target }, "another grab")?;
-        guarded(|| self.world.refresh_inverse_mass(particle));
+        with_float_env(|| self.world.refresh_inverse_mass(particle));
         Ok(Grab(handle))
     }
 
@@ -397,7 +397,7 @@ impl Cloth {
         if let Some(pin) = world.pins.find_mut(at) {
             pin.from = world.particles.x.at(at as usize);
         }
-        guarded(|| world.refresh_inverse_mass(at));
+        with_float_env(|| world.refresh_inverse_mass(at));
         Ok(())
     }
 

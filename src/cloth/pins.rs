@@ -2,7 +2,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use glam::Vec3;
 
 impl Cloth {
@@ -29,7 +29,7 @@ impl Cloth {
     pub fn unpin(&mut self, particle: u32) -> Result<()> {
         check_index(particle, self.world.particles.len(), "particle")?;
         if self.world.pins.remove(particle) {
-            guarded(|| self.world.refresh_inverse_mass(particle));
+            with_float_env(|| self.world.refresh_inverse_mass(particle));
             self.changed_pins();
         }
         Ok(())
@@ -38,7 +38,7 @@ impl Cloth {
     /// Lets every particle go.
     pub fn unpin_all(&mut self) {
         self.world.pins.clear();
-        guarded(|| {
+        with_float_env(|| {
             (0..self.world.particles.len() as u32).for_each(|i| self.world.refresh_inverse_mass(i));
         });
         self.changed_pins();
@@ -64,7 +64,7 @@ impl Cloth {
     pub(super) fn put_pin(&mut self, particle: u32, target: Vec3) {
         let x = self.world.particles.x.at(particle as usize);
         if self.world.pins.insert(particle, x, target) {
-            guarded(|| self.world.refresh_inverse_mass(particle));
+            with_float_env(|| self.world.refresh_inverse_mass(particle));
             self.changed_pins();
         }
     }
@@ -97,7 +97,7 @@ impl Cloth {
             let Some(pin) = self.world.pins.find_mut(*particle) else { continue };
             let is_other_kind = pin.is_soft() != (stiffness > 0.0);
             pin.stiffness = stiffness;
-            guarded(|| self.world.refresh_inverse_mass(*particle));
+            with_float_env(|| self.world.refresh_inverse_mass(*particle));
             if is_other_kind {
                 self.changed_pins();
             }

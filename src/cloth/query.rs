@@ -3,7 +3,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::ray::Ray;
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::model::links::LinkKind;
 use crate::state::grabs::Grab;
 use glam::Vec3;
@@ -48,7 +48,7 @@ impl Cloth {
     pub fn raycast(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Result<Option<Hit>> {
         check(max_distance >= 0.0, "max_distance", "be at least 0")?;
         let ray = ray(origin, direction)?;
-        Ok(guarded(|| self.first_hit(&ray, max_distance)))
+        Ok(with_float_env(|| self.first_hit(&ray, max_distance)))
     }
 
     /// Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits,
@@ -67,7 +67,7 @@ impl Cloth {
     ) -> Result<Option<(Grab, Vec3)>> {
         check(radius.is_finite() && radius >= 0.0, "radius", "be at least 0 and finite")?;
         let ray = ray(origin, direction)?;
-        let pointed_at = guarded(|| {
+        let pointed_at = with_float_env(|| {
             let hit = self.first_hit(&ray, f32::INFINITY).map(|hit| hit.particle);
             hit.or_else(|| self.nearest_to(&ray, radius))
         });
@@ -83,7 +83,7 @@ impl Cloth {
         let mut first: Option<Hit> = None;
         for (index, vertices) in self.world.mesh.triangles.iter().enumerate() {
             let corners = vertices.map(|v| x.at(v as usize));
-            let Some(meeting) = ray.meet(corners) else {
+            let Some(meeting) = ray.intersect_triangle(corners) else {
                 continue;
             };
             let nearest_yet = first.map_or(max_distance, |hit| hit.distance);
@@ -120,7 +120,7 @@ impl Cloth {
         let mut nearest = None;
         let mut least = radius;
         for (particle, x) in self.world.particles.x.iter().enumerate() {
-            let distance = ray.distance_to(x);
+            let distance = ray.distance_to_point(x);
             if distance < least || (nearest.is_none() && distance <= least) {
                 (nearest, least) = (Some(particle as u32), distance);
             }
@@ -132,7 +132,7 @@ impl Cloth {
 fn ray(origin: Vec3, direction: Vec3) -> Result<Ray> {
     check_finite(origin, "origin")?;
     check_finite(direction, "direction")?;
-    guarded(|| {
+    with_float_env(|| {
         // Scaled first, so that no length overflows or vanishes.
         let largest = direction.x.abs().max(direction.y.abs()).max(direction.z.abs());
         check(largest > 0.0, "direction", "not be zero")?;

@@ -10,8 +10,8 @@ use crate::cloth::postcard;
 use crate::cloth::view::Outputs;
 use crate::error::{Error, Result};
 use crate::math::columns::Columns;
-use crate::math::float_env::guarded;
-use crate::math::mixer::Mixer;
+use crate::math::float_env::with_float_env;
+use crate::math::hasher::StateHasher;
 use crate::mesh::seams::Seams;
 use crate::mesh::split_edge::Crossing;
 use crate::mesh::{NONE, validate};
@@ -155,18 +155,18 @@ impl Cloth {
             return Err(bad("it was damaged"));
         }
         let saved: Saved<'_> = postcard::read(body).map_err(|_| bad("it cannot be read"))?;
-        guarded(|| rebuild(saved))
+        with_float_env(|| rebuild(saved))
     }
 }
 
 fn checksum(bytes: &[u8]) -> u64 {
-    let mut mixer = Mixer::new(bytes.len() as u64);
+    let mut hasher = StateHasher::new(bytes.len() as u64);
     for chunk in bytes.chunks(4) {
         let mut word = [0; 4];
         word[..chunk.len()].copy_from_slice(chunk);
-        mixer.word(u32::from_le_bytes(word));
+        hasher.write_u32(u32::from_le_bytes(word));
     }
-    mixer.finish()
+    hasher.finish()
 }
 
 /// Makes the cloth anew from its descriptor, then tears it and moves it as it was. The bytes may

@@ -2,7 +2,7 @@
 
 use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_index};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::solver::topology::tear;
 
 impl Cloth {
@@ -27,7 +27,7 @@ impl Cloth {
         if self.world.is_reserve_used_up() {
             return Err(Error::Full { what: "another torn vertex" });
         }
-        let torn = guarded(|| tear::tear_edge(&mut self.world, particle_a, particle_b));
+        let torn = with_float_env(|| tear::tear_edge(&mut self.world, particle_a, particle_b));
         if torn {
             self.changed_topology();
             self.changed_state();

@@ -3,7 +3,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Result, check};
 use crate::geometry::transform::Transform;
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::solver::world::World;
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};
@@ -19,7 +19,7 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
     /// unit quaternion.
     pub fn set_frame(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
-        guarded(|| {
+        with_float_env(|| {
             check_pose(position, rotation, OF_FRAME)?;
             self.world.reference_pose = Pose::new(position, rotation);
             Ok(())
@@ -37,7 +37,7 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
     /// unit quaternion, or if something would get farther off than a number can say. Then nothing moved.
     pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
-        guarded(|| {
+        with_float_env(|| {
             check_pose(position, rotation, OF_FRAME)?;
             self.world.jump(Pose::new(position, rotation))
         })?;
@@ -63,7 +63,7 @@ impl Cloth {
     /// unit quaternion, an `inertia` that is not from 0 to 1, or if something would get farther off than a number
     /// can say. Then nothing moved.
     pub fn move_frame(&mut self, position: Vec3, rotation: Quat, inertia: f32) -> Result<()> {
-        guarded(|| {
+        with_float_env(|| {
             check_pose(position, rotation, OF_FRAME)?;
             check((0.0..=1.0).contains(&inertia), "inertia", "be from 0 to 1")?;
             self.world.go_along(Pose::new(position, rotation), inertia)
@@ -87,11 +87,11 @@ impl Move {
     }
 
     fn point(&self, x: Vec3) -> Vec3 {
-        self.frames[1].outward(self.frames[0].inward(x))
+        self.frames[1].point_to_world(self.frames[0].point_to_local(x))
     }
 
     fn turn(&self, v: Vec3) -> Vec3 {
-        self.frames[1].turn(self.frames[0].turn_inward(v))
+        self.frames[1].vector_to_world(self.frames[0].vector_to_local(v))
     }
 
     fn pose(&self, pose: &Pose) -> Pose {
@@ -153,7 +153,7 @@ impl World {
             })
             && pins.all(|pin| {
                 let target = match self.attachments.get(pin.carrier, "attachment") {
-                    Ok(carrier) => then.pose(&carrier.next).frame().outward(pin.local),
+                    Ok(carrier) => then.pose(&carrier.next).frame().point_to_world(pin.local),
                     Err(_) => then.point(pin.target),
                 };
                 target.is_finite() && now.point(pin.from).is_finite()
@@ -172,7 +172,7 @@ impl World {
         self.attachments.iter_mut().for_each(|carrier| carrier.next = then.pose(&carrier.next));
         for pin in self.pins.iter_mut() {
             pin.target = match self.attachments.get(pin.carrier, "attachment") {
-                Ok(carrier) => carrier.next.frame().outward(pin.local),
+                Ok(carrier) => carrier.next.frame().point_to_world(pin.local),
                 Err(_) => then.point(pin.target),
             };
         }
@@ -198,7 +198,7 @@ impl World {
             leash.from = by.point(leash.from);
             leash.normal_from = by.turn(leash.normal_from);
         }
-        self.scratch.contacts.near.forget();
+        self.scratch.contacts.nearby.invalidate();
         // Turned, pins are as far apart as they were but for rounding, which a restored cloth would measure anew.
         self.is_pin_stretch_current = false;
     }

@@ -4,7 +4,7 @@ use crate::cloth::Cloth;
 use crate::cloth::blended_surface::BlendedSurface;
 use crate::cloth::build::Origin;
 use crate::cloth::changes::{Change, differing};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
 use crate::mesh::split_edge::Crossing;
 use crate::model::grid_cells::GridCells;
@@ -140,7 +140,7 @@ impl Outputs {
 
     /// Takes on the texture coordinates that the cloth was made with.
     pub fn set_uvs(&mut self, origin: &Origin) {
-        self.site_uvs = guarded(|| origin.uvs());
+        self.site_uvs = with_float_env(|| origin.uvs());
         self.site_sources = (0..self.site_uvs.len() as u32).collect();
     }
 
@@ -153,7 +153,7 @@ impl Outputs {
 
     /// Follows a change of triangles, and says which entries are not as they were.
     pub fn follow_topology(&mut self, world: &World) -> Change {
-        guarded(|| self.follow_sites(world));
+        with_float_env(|| self.follow_sites(world));
         let sites = Sites::of(world);
         let next = &mut self.next;
         next.uvs.clear();
@@ -362,7 +362,7 @@ impl Cloth {
     pub fn stats(&self) -> Stats {
         let world = &self.world;
         let ((max_stretch, mean_stretch), kinetic_energy) =
-            guarded(|| (normals::stretch(world), normals::kinetic_energy(world)));
+            with_float_env(|| (normals::stretch(world), normals::kinetic_energy(world)));
         Stats {
             particles: world.particles.len() as u32,
             triangles: world.mesh.triangles.len() as u32,
@@ -375,7 +375,7 @@ impl Cloth {
             mean_stretch,
             over_stretched: world.over_stretched,
             kinetic_energy,
-            max_speed: guarded(|| normals::max_speed(world)),
+            max_speed: with_float_env(|| normals::max_speed(world)),
             asleep: world.is_asleep(),
             bytes: self.bytes(),
             seconds: world.profile.seconds(),
@@ -388,7 +388,9 @@ impl Cloth {
         }
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
-        world.threads.enter(world.particles.len(), || guarded(|| outputs.follow_normals(world)));
+        world.threads.run_in_pool(world.particles.len(), || {
+            with_float_env(|| outputs.follow_normals(world))
+        });
         self.world.profile.book(Stage::Outputs, start);
     }
 

@@ -4,10 +4,10 @@ use crate::cloth::Cloth;
 use crate::cloth::blended_surface::BlendedSurface;
 use crate::cloth::vertex_stream::{Attribute, Stream, VertexFormat, WriteDesc, check_all};
 use crate::error::{Result, check};
-use crate::math::float_env::guarded;
+use crate::math::float_env::with_float_env;
 use crate::math::pack;
 
-use crate::math::pack::{BLOCK, Halves, Numbers};
+use crate::math::pack::{BLOCK, FloatBlock, HalfBlock};
 use crate::math::simd::Level;
 use crate::solver::output::normals;
 use crate::solver::output::vertex_transform;
@@ -90,13 +90,14 @@ impl Cloth {
         let (normals, tangents) = (has(Attribute::Normal), has(Attribute::Tangent));
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
-        let placing =
-            guarded(|| Placing::new(desc.blend, desc.offset, desc.flip_normals, desc.transform));
+        let placing = with_float_env(|| {
+            Placing::new(desc.blend, desc.offset, desc.flip_normals, desc.transform)
+        });
         let can_turn = placing.can_turn() || !(normals || tangents);
         check(can_turn, "transform", "be one that can be inverted, for normals or tangents")?;
         if normals || tangents || placing.is_offset() {
-            world.threads.enter(world.particles.len(), || {
-                guarded(|| outputs.follow_drawn(world, desc.blend, tangents));
+            world.threads.run_in_pool(world.particles.len(), || {
+                with_float_env(|| outputs.follow_drawn(world, desc.blend, tangents));
             });
         }
         let (uvs, frayed) = (self.uvs(), self.frayed());
@@ -111,7 +112,7 @@ impl Cloth {
             uvs,
             frayed,
         };
-        guarded(|| writer.write(streams, vertices));
+        with_float_env(|| writer.write(streams, vertices));
         self.world.profile.book(Stage::Outputs, start);
         Ok(())
     }
@@ -160,11 +161,11 @@ impl Writer<'_> {
     /// Finds an attribute of a block of vertices.
     fn find(&self, attribute: Attribute, block: Range<usize>, room: &mut Room) {
         let Room { vector, fourth: last, normals, from, .. } = room;
-        let load = |to: &mut [Numbers], columns: &[&[f32]]| {
+        let load = |to: &mut [FloatBlock], columns: &[&[f32]]| {
             vertex_transform::load(to, columns, block.start, block.len());
         };
         // What particles have.
-        let load_of = |to: &mut [Numbers], columns: &[&[f32]]| match self.particles {
+        let load_of = |to: &mut [FloatBlock], columns: &[&[f32]]| match self.particles {
             Some(particles) => vertex_transform::gather(to, columns, &particles[block.clone()]),
             None => load(to, columns),
         };
@@ -225,9 +226,9 @@ fn blend(level: Level, x: &mut Vectors, last: &Vectors, count: usize, share: f32
 struct Room {
     /// What is written: up to three numbers, and a fourth.
     vector: Vectors,
-    fourth: Numbers,
+    fourth: FloatBlock,
     /// What they are packed into.
-    halves: [Halves; 4],
+    halves: [HalfBlock; 4],
     normals: Vectors,
     /// Where they were a tick ago.
     from: Vectors,

@@ -1,9 +1,15 @@
-//! Boxes along the axes: what can be told apart cheaply.
+//! Axis-aligned bounding boxes (AABB).
+//!
+//! Two boxes overlap if their intervals overlap on all three axes. Comparisons are written so that
+//! NaN counts as overlapping: a broken number must not hide a contact.
+//!
+//! Reads and writes only its own fields.
+//! Invariant: a box with `low > high` on an axis is empty; merging with it changes nothing.
 
 use crate::math::{max, min};
 use glam::Vec3;
 
-/// All points from `low` to `high`; none if they are the wrong way round.
+/// All points from `low` to `high` [m], both included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aabb {
     pub low: Vec3,
@@ -11,42 +17,42 @@ pub(crate) struct Aabb {
 }
 
 impl Aabb {
-    /// No point at all.
+    /// The box without points.
     pub const EMPTY: Self =
         Self { low: Vec3::splat(f32::INFINITY), high: Vec3::splat(f32::NEG_INFINITY) };
 
-    /// Every point.
+    /// The box of all points.
     pub const ALL: Self =
         Self { low: Vec3::splat(f32::NEG_INFINITY), high: Vec3::splat(f32::INFINITY) };
 
-    /// The least that holds all points.
-    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
+    /// Returns the smallest box that contains all `points`.
+    pub fn from_points(points: impl IntoIterator<Item = Vec3>) -> Self {
         let mut bounds = Self::EMPTY;
-        points.into_iter().for_each(|x| bounds.add(x));
+        points.into_iter().for_each(|x| bounds.include(x));
         bounds
     }
 
-    /// Grows to hold a point.
+    /// Grows the box until it contains `x`.
     #[inline(always)]
-    pub fn add(&mut self, x: Vec3) {
+    pub fn include(&mut self, x: Vec3) {
         self.low = Vec3::new(min(x.x, self.low.x), min(x.y, self.low.y), min(x.z, self.low.z));
         self.high = Vec3::new(max(x.x, self.high.x), max(x.y, self.high.y), max(x.z, self.high.z));
     }
 
-    /// Grows to hold another box.
-    pub fn join(&mut self, other: &Self) {
-        self.add(other.low);
-        self.add(other.high);
+    /// Grows the box until it contains `other`.
+    pub fn merge(&mut self, other: &Self) {
+        self.include(other.low);
+        self.include(other.high);
     }
 
-    /// Larger by `by` on every side.
-    pub fn grown(&self, by: f32) -> Self {
-        Self { low: self.low - Vec3::splat(by), high: self.high + Vec3::splat(by) }
+    /// Returns the box with every side moved outward by `margin` [m]; inward if it is negative.
+    pub fn expanded(&self, margin: f32) -> Self {
+        Self { low: self.low - Vec3::splat(margin), high: self.high + Vec3::splat(margin) }
     }
 
-    /// Whether some point may be in both. What is not a number is everywhere.
+    /// Returns whether the boxes have a common point; true if a coordinate is NaN.
     #[inline(always)]
-    pub fn meets(&self, other: &Self) -> bool {
+    pub fn overlaps(&self, other: &Self) -> bool {
         let (a, b) = (self, other);
         !(a.low.x > b.high.x
             || a.low.y > b.high.y
@@ -56,18 +62,18 @@ impl Aabb {
             || b.low.z > a.high.z)
     }
 
-    /// Whether all of another box is in this one.
-    pub fn holds(&self, other: &Self) -> bool {
+    /// Returns whether the whole of `other` lies in this box.
+    pub fn contains(&self, other: &Self) -> bool {
         other.low.cmpge(self.low).all() && other.high.cmple(self.high).all()
     }
 
-    /// The middle.
+    /// The center [m].
     pub fn center(&self) -> Vec3 {
         (self.low + self.high) * 0.5
     }
 
-    /// From the middle to the sides.
-    pub fn half(&self) -> Vec3 {
+    /// Half of the size on each axis [m].
+    pub fn half_extents(&self) -> Vec3 {
         (self.high - self.low) * 0.5
     }
 }
@@ -77,13 +83,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boxes_meet_where_they_touch_and_hold_what_is_inside() {
-        let one = Aabb::around([Vec3::ZERO, Vec3::ONE]);
-        let beside = Aabb::around([Vec3::new(1.0, 0.5, 0.5), Vec3::splat(2.0)]);
-        assert!(one.meets(&beside) && beside.meets(&one));
-        assert!(!one.meets(&beside.grown(-0.1)) && !one.meets(&Aabb::EMPTY));
-        assert!(one.grown(1.0).holds(&beside) && !one.holds(&beside));
-        assert!(Aabb::ALL.meets(&one) && Aabb::ALL.holds(&one));
-        assert_eq!((beside.center(), one.half()), (Vec3::new(1.5, 1.25, 1.25), Vec3::splat(0.5)));
+    fn touching_boxes_overlap_and_a_box_contains_what_lies_inside() {
+        let one = Aabb::from_points([Vec3::ZERO, Vec3::ONE]);
+        let beside = Aabb::from_points([Vec3::new(1.0, 0.5, 0.5), Vec3::splat(2.0)]);
+        assert!(one.overlaps(&beside) && beside.overlaps(&one));
+        assert!(!one.overlaps(&beside.expanded(-0.1)) && !one.overlaps(&Aabb::EMPTY));
+        assert!(one.expanded(1.0).contains(&beside) && !one.contains(&beside));
+        assert!(Aabb::ALL.overlaps(&one) && Aabb::ALL.contains(&one));
+        let (center, half) = (beside.center(), one.half_extents());
+        assert_eq!((center, half), (Vec3::new(1.5, 1.25, 1.25), Vec3::splat(0.5)));
     }
 }

@@ -36,13 +36,13 @@ impl Bvh {
 
     fn grow(&mut self, bounds: &[Aabb], things: Range<usize>) {
         let mut all = Aabb::EMPTY;
-        self.order[things.clone()].iter().for_each(|thing| all.join(&bounds[*thing as usize]));
+        self.order[things.clone()].iter().for_each(|thing| all.merge(&bounds[*thing as usize]));
         let at = self.nodes.len();
         let is_leaf = things.len() <= LEAF;
         let own = if is_leaf { things.start as u32..things.end as u32 } else { 0..0 };
         self.nodes.push(Node { bounds: all, next: 0, things: own });
         if !is_leaf {
-            let size = all.half();
+            let size = all.half_extents();
             let axis = if size.x >= size.y && size.x >= size.z {
                 0
             } else if size.y >= size.z {
@@ -76,7 +76,7 @@ impl Bvh {
                     return Some(self.order[thing as usize]);
                 }
                 let node = self.nodes.get(at)?;
-                if node.bounds.meets(&place) {
+                if node.bounds.overlaps(&place) {
                     leaf = node.things.clone();
                     at += 1;
                 } else {
@@ -97,17 +97,18 @@ mod tests {
         let bounds: Vec<Aabb> = (0..200)
             .map(|i| {
                 let wave = |k: f32| (i as f32 * k).sin() * 3.0;
-                Aabb::around([Vec3::new(wave(1.1), wave(2.3), wave(0.7))]).grown(0.1)
+                Aabb::from_points([Vec3::new(wave(1.1), wave(2.3), wave(0.7))]).expanded(0.1)
             })
             .collect();
         let tree = Bvh::over(&bounds);
-        assert!(bounds.iter().all(|one| tree.bounds().holds(one)));
+        assert!(bounds.iter().all(|one| tree.bounds().contains(one)));
         for i in 0..50 {
             let wave = |k: f32| (i as f32 * k).cos() * 3.0;
-            let place = Aabb::around([Vec3::new(wave(1.3), wave(0.4), wave(2.1))]).grown(0.7);
+            let place =
+                Aabb::from_points([Vec3::new(wave(1.3), wave(0.4), wave(2.1))]).expanded(0.7);
             let found: Vec<u32> = tree.near(place).collect();
             for (thing, bounds) in bounds.iter().enumerate() {
-                assert!(!bounds.meets(&place) || found.contains(&(thing as u32)));
+                assert!(!bounds.overlaps(&place) || found.contains(&(thing as u32)));
             }
             assert!(found.len() < 150, "the tree tells {} of 200 apart", 200 - found.len());
         }

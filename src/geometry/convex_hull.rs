@@ -18,10 +18,10 @@ struct Facet {
 /// The least convex body that holds all points, and the triangles of its surface; nothing if they lie in a plane.
 ///
 /// One point after the other: what it sees of the body goes, and the rim of that is joined to it.
-pub(crate) fn around(points: &[Vec3]) -> Option<(Polyhedron, Vec<[u32; 3]>)> {
-    let bounds = Aabb::around(points.iter().copied());
+pub(crate) fn build(points: &[Vec3]) -> Option<(Polyhedron, Vec<[u32; 3]>)> {
+    let bounds = Aabb::from_points(points.iter().copied());
     let at: Vec<DVec3> = points.iter().map(|point| point.as_dvec3()).collect();
-    let hair = FLAT * f64::from(bounds.half().length());
+    let hair = FLAT * f64::from(bounds.half_extents().length());
     let mut facets = first_four(&at, hair)?;
     for (point, x) in at.iter().enumerate() {
         let sees = |facet: &Facet| x.dot(facet.normal) - facet.offset > hair;
@@ -102,7 +102,7 @@ fn body(facets: &[Facet], bounds: Aabb) -> Polyhedron {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::features::Relief;
+    use crate::geometry::features::ShapeFeatures;
 
     fn box_points() -> Vec<Vec3> {
         let both = [-1.0, 1.0];
@@ -121,9 +121,9 @@ mod tests {
     fn the_hull_of_a_boxs_corners_is_the_box() {
         let mut points = box_points();
         points.extend([Vec3::ZERO, Vec3::new(1.0, 0.3, 0.2), Vec3::new(0.9, -1.9, 2.9)]);
-        let (hull, triangles) = around(&points).unwrap();
+        let (hull, triangles) = build(&points).unwrap();
         assert_eq!((hull.faces.len(), triangles.len()), (6, 12));
-        let relief = Relief::of(&points, &triangles, true).features;
+        let relief = ShapeFeatures::build(&points, &triangles, true).features;
         assert_eq!((relief.ridges.len(), relief.corners.len()), (12, 8));
         for i in 0..100 {
             let wave = |k: f32| (i as f32 * k).sin() * 4.0;
@@ -141,7 +141,7 @@ mod tests {
                 Vec3::new(wave(1.37), wave(2.11), wave(0.73)) * (0.2 + 0.8 * wave(3.3).abs())
             })
             .collect();
-        let (hull, triangles) = around(&points).unwrap();
+        let (hull, triangles) = build(&points).unwrap();
         assert!(points.iter().all(|p| nearest(&hull, *p) < 1.0e-5));
         let mut corners = triangles.as_flattened().to_vec();
         assert!(corners.iter().all(|i| nearest(&hull, points[*i as usize]) > -1.0e-5));
@@ -154,9 +154,9 @@ mod tests {
     #[test]
     fn flat_points_have_no_hull() {
         let flat: Vec<Vec3> = box_points().into_iter().map(|p| p.with_y(0.5)).collect();
-        assert!(around(&flat).is_none());
-        assert!(around(&[Vec3::ONE; 5]).is_none());
+        assert!(build(&flat).is_none());
+        assert!(build(&[Vec3::ONE; 5]).is_none());
         let line: Vec<Vec3> = (0..5).map(|i| Vec3::X * i as f32).collect();
-        assert!(around(&line).is_none());
+        assert!(build(&line).is_none());
     }
 }

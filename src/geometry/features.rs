@@ -26,7 +26,7 @@ impl Bend {
     }
 
     /// At least as much as another.
-    pub fn join(&mut self, other: Self) {
+    pub fn merge(&mut self, other: Self) {
         self.fold = self.fold.max(other.fold);
         self.per_metre = self.per_metre.max(other.per_metre);
     }
@@ -36,7 +36,7 @@ impl Bend {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sides {
     /// The one that `out` points to; behind is a body.
-    Solid,
+    SignedDistance,
     /// The same, but behind there may be cloth too.
     Fold,
     /// All but the facet: it is a border.
@@ -45,7 +45,7 @@ pub(crate) enum Sides {
 
 /// Where two facets meet, or one ends.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ridge {
+pub(crate) struct EdgeFeature {
     pub ends: [Vec3; 2],
     /// From it into each facet, square to it, of length one.
     pub into: [Vec3; 2],
@@ -57,7 +57,7 @@ pub(crate) struct Ridge {
     pub bend: Bend,
 }
 
-impl Ridge {
+impl EdgeFeature {
     /// Of two facets on whose planes `tips` are; nothing if they do not fold. One facet alone is twice the
     /// same.
     pub fn new(ends: [Vec3; 2], tips: [Vec3; 2], sides: Sides) -> Option<Self> {
@@ -111,14 +111,14 @@ pub(crate) struct Corner {
 /// A ridge; or a corner, and its number among corners.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Feature<'a> {
-    Ridge(&'a Ridge),
+    EdgeFeature(&'a EdgeFeature),
     Corner(u32, &'a Corner),
 }
 
 /// Ridges and corners.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Features {
-    pub ridges: Vec<Ridge>,
+    pub ridges: Vec<EdgeFeature>,
     pub corners: Vec<Corner>,
     /// Directions along ridges, away from corners, and out of the facets on either side of each.
     spokes: Vec<Spoke>,
@@ -146,16 +146,16 @@ impl Features {
     }
 
     /// Adds a corner where ridges end; nothing without ridges.
-    pub fn add_corner(&mut self, at: Vec3, ridges: impl Iterator<Item = (Vec3, Ridge)>) {
+    pub fn add_corner(&mut self, at: Vec3, ridges: impl Iterator<Item = (Vec3, EdgeFeature)>) {
         let (from, mut out) = (self.spokes.len() as u32, Vec3::ZERO);
-        let (mut bend, mut sides) = (Bend::default(), Sides::Solid);
+        let (mut bend, mut sides) = (Bend::default(), Sides::SignedDistance);
         for (to, ridge) in ridges {
             let along = to - at;
             let along = along * (1.0 / along.length());
             self.spokes.push(Spoke { along, normals: ridge.normals });
             out += ridge.out;
-            bend.join(ridge.bend);
-            if sides == Sides::Solid || ridge.sides == Sides::Border {
+            bend.merge(ridge.bend);
+            if sides == Sides::SignedDistance || ridge.sides == Sides::Border {
                 sides = ridge.sides;
             }
         }
@@ -187,7 +187,7 @@ impl Features {
     /// What has a number.
     pub fn at(&self, number: u32) -> Feature<'_> {
         match self.ridges.get(number as usize) {
-            Some(ridge) => Feature::Ridge(ridge),
+            Some(ridge) => Feature::EdgeFeature(ridge),
             None => {
                 let own = number as usize - self.ridges.len();
                 Feature::Corner(own as u32, &self.corners[own])
@@ -198,7 +198,7 @@ impl Features {
     /// Where it is.
     pub fn bounds(&self, number: u32) -> Aabb {
         match self.at(number) {
-            Feature::Ridge(ridge) => Aabb::around(ridge.ends),
+            Feature::EdgeFeature(ridge) => Aabb::from_points(ridge.ends),
             Feature::Corner(_, corner) => Aabb { low: corner.at, high: corner.at },
         }
     }
@@ -206,7 +206,7 @@ impl Features {
     /// How much the shape bends there.
     pub fn bend(&self, number: u32) -> Bend {
         match self.at(number) {
-            Feature::Ridge(ridge) => ridge.bend,
+            Feature::EdgeFeature(ridge) => ridge.bend,
             Feature::Corner(_, corner) => corner.bend,
         }
     }
@@ -232,16 +232,16 @@ impl Features {
 
 /// The ridges and corners of a shape that stays as it is, in a tree.
 #[derive(Clone, Debug)]
-pub(crate) struct Relief {
+pub(crate) struct ShapeFeatures {
     pub features: Features,
     /// Over ridges, then corners; nothing where all is flat.
     tree: Option<Bvh>,
     pub steps: Steps,
 }
 
-impl Relief {
+impl ShapeFeatures {
     /// Of triangles with an area. Corners in the same place are one.
-    pub fn of(positions: &[Vec3], triangles: &[[u32; 3]], is_solid: bool) -> Self {
+    pub fn build(positions: &[Vec3], triangles: &[[u32; 3]], is_solid: bool) -> Self {
         let same = join_places(positions);
         let mut edges = Vec::new();
         for triangle in triangles {
@@ -254,11 +254,11 @@ impl Relief {
         let (mut features, mut steps) = (Features::default(), Steps::default());
         let mut ends = Vec::new();
         for edge in edges.chunk_by(|a, b| a.0 == b.0) {
-            let whole = if is_solid { Sides::Solid } else { Sides::Fold };
+            let whole = if is_solid { Sides::SignedDistance } else { Sides::Fold };
             let sides = if edge.len() == 2 { whole } else { Sides::Border };
             let at = |i: u32| positions[i as usize];
             let tips = [at(edge[0].1), at(edge[edge.len().min(2) - 1].1)];
-            let Some(ridge) = Ridge::new(edge[0].0.map(at), tips, sides) else { continue };
+            let Some(ridge) = EdgeFeature::new(edge[0].0.map(at), tips, sides) else { continue };
             steps.add(ridge.bend);
             let [from, to] = edge[0].0;
             ends.extend([(from, to, features.ridges.len()), (to, from, features.ridges.len())]);
@@ -267,7 +267,7 @@ impl Relief {
         sort(&mut ends);
         for own in ends.chunk_by(|a, b| a.0 == b.0) {
             let at = positions[own[0].0 as usize];
-            let ridges: Vec<(Vec3, Ridge)> = own
+            let ridges: Vec<(Vec3, EdgeFeature)> = own
                 .iter()
                 .map(|(_, to, ridge)| (positions[*to as usize], features.ridges[*ridge]))
                 .collect();
@@ -318,14 +318,14 @@ impl Steps {
     pub fn add(&mut self, bend: Bend) {
         // The exponent and the first bit after it.
         let step = (bend.fold.to_bits() >> 22).saturating_sub(2 * (127 - LEAST)) as usize;
-        self.0[step.min(STEPS - 1)].join(bend);
+        self.0[step.min(STEPS - 1)].merge(bend);
     }
 
     /// The most that what spans `length` may bend without getting in by more than `sag`.
     pub fn mild(&self, length: f32, sag: f32) -> Bend {
         let mut mild = Bend::default();
         let is_mild = |step: &&Bend| step.sag(length) <= sag;
-        self.0.iter().filter(is_mild).for_each(|step| mild.join(*step));
+        self.0.iter().filter(is_mild).for_each(|step| mild.merge(*step));
         mild
     }
 }
@@ -334,7 +334,7 @@ impl Steps {
 mod tests {
     use super::*;
 
-    fn roof() -> Relief {
+    fn roof() -> ShapeFeatures {
         let positions = [
             Vec3::ZERO,
             Vec3::Z,
@@ -346,13 +346,14 @@ mod tests {
         .chain([Vec3::new(2.0, 0.0, 1.0), Vec3::new(1.0, 1.0, 1.0)]);
         let positions: Vec<Vec3> = positions.collect();
         // The last point is the same as the fourth.
-        Relief::of(&positions, &[[0, 1, 2], [1, 3, 2], [2, 6, 4], [6, 5, 4]], false)
+        ShapeFeatures::build(&positions, &[[0, 1, 2], [1, 3, 2], [2, 6, 4], [6, 5, 4]], false)
     }
 
     #[test]
     fn a_roof_has_a_ridge_and_six_borders_and_its_slopes_have_none() {
         let Features { ridges, corners, .. } = roof().features;
-        let folds: Vec<&Ridge> = ridges.iter().filter(|ridge| ridge.sides == Sides::Fold).collect();
+        let folds: Vec<&EdgeFeature> =
+            ridges.iter().filter(|ridge| ridge.sides == Sides::Fold).collect();
         assert_eq!((folds.len(), ridges.len(), corners.len()), (1, 7, 6));
         assert!((folds[0].out - Vec3::Y).length() < 1.0e-6, "{}", folds[0].out);
         assert!((folds[0].bend.fold - 2.0_f32.sqrt()).abs() < 1.0e-6);
@@ -364,7 +365,7 @@ mod tests {
     fn a_plane_lies_on_a_corner_from_where_all_goes_down() {
         let positions = [Vec3::Y, Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z];
         let triangles = [[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]];
-        let features = Relief::of(&positions, &triangles, false).features;
+        let features = ShapeFeatures::build(&positions, &triangles, false).features;
         let tip = features.corners.iter().find(|corner| corner.at == Vec3::Y).unwrap();
         assert!((tip.out - Vec3::Y).length() < 1.0e-6 && tip.sides == Sides::Fold);
         assert!(features.is_tip(tip, Vec3::Y, 0.0) && !features.is_tip(tip, Vec3::X, 0.0));

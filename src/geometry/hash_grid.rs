@@ -4,7 +4,7 @@
 //! are. Cells that share a place in it are far from each other.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, MOST_LANES, Scalar, Simd, vectored};
+use crate::math::simd::{Level, MAX_LANES, Scalar, Simd, vectored};
 use glam::Vec3;
 
 /// Fewer cells than this along a side, and a cell would be its own neighbour's neighbour.
@@ -49,7 +49,7 @@ impl HashGrid {
         let all = capacity.next_power_of_two().trailing_zeros() + 1;
         let bits = [all.div_ceil(3), (all + 1) / 3, all / 3].map(|bits| bits.max(LEAST_BITS));
         let cells = 1_usize << bits.iter().sum::<u32>();
-        let room = capacity + MOST_LANES;
+        let room = capacity + MAX_LANES;
         Self {
             first: vec![0; cells + 2],
             points: Vec::with_capacity(room),
@@ -69,7 +69,7 @@ impl HashGrid {
     }
 
     /// Sorts points into cells of such a side [m].
-    pub fn fill(&mut self, points: &[Vec3], side: f32) {
+    pub fn rebuild(&mut self, points: &[Vec3], side: f32) {
         self.per_length = 1.0 / side;
         let mut cell = core::mem::take(&mut self.cell);
         cell.clear();
@@ -81,7 +81,7 @@ impl HashGrid {
         for at in 2..self.first.len() {
             self.first[at] += self.first[at - 1];
         }
-        let room = cell.len() + MOST_LANES;
+        let room = cell.len() + MAX_LANES;
         for (points, x) in
             [(&mut self.points, &mut self.x), (&mut self.around.points, &mut self.around.x)]
         {
@@ -99,8 +99,8 @@ impl HashGrid {
 
     /// Adds the pairs of points that are nearer to each other than the root of `within`, no more than a cell's side
     /// [m²], the lower one first; in no order of theirs.
-    pub fn list_pairs(&mut self, level: Level, within: f32, pairs: &mut Vec<[u32; 2]>) {
-        list_pairs(level, self, within, pairs);
+    pub fn push_close_pairs(&mut self, level: Level, within: f32, pairs: &mut Vec<[u32; 2]>) {
+        push_close_pairs(level, self, within, pairs);
     }
 
     /// Where the points of a cell are, and then those of cells ahead of it: of half of those around it, so that each
@@ -152,8 +152,8 @@ impl HashGrid {
 }
 
 vectored! {
-    /// As [`HashGrid::list_pairs`].
-    fn list_pairs(grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>)
+    /// As [`HashGrid::push_close_pairs`].
+    fn push_close_pairs(grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>)
         = list_by_vectors, Avx2, list_by_numbers
 }
 
@@ -219,7 +219,7 @@ impl Around {
             while asked < ASKED && at + asked < all {
                 let way = |axis: usize| s.load(columns[axis], at + asked) - x[axis];
                 let [x, y, z] = [way(0), way(1), way(2)];
-                near |= u64::from(s.positives(within - (x * x + y * y + z * z))) << asked;
+                near |= u64::from(s.positive_mask(within - (x * x + y * y + z * z))) << asked;
                 asked += S::LANES;
             }
             if all - at < ASKED {
@@ -259,10 +259,10 @@ mod tests {
         let mut grid = HashGrid::new(points.len());
         for shift in [0.0, 1000.0] {
             let moved: Vec<Vec3> = points.iter().map(|p| *p + Vec3::splat(shift)).collect();
-            grid.fill(&moved, 0.6);
+            grid.rebuild(&moved, 0.6);
             for level in Level::all() {
                 let mut pairs = Vec::new();
-                grid.list_pairs(level, 0.5 * 0.5, &mut pairs);
+                grid.push_close_pairs(level, 0.5 * 0.5, &mut pairs);
                 pairs.sort_unstable();
                 let all = (0..500).flat_map(|i| (i + 1..500).map(move |j| [i, j]));
                 let is_near = |[i, j]: &[u32; 2]| {

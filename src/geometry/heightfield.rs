@@ -1,7 +1,7 @@
 //! A heightfield: ground over a grid of heights.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{Features, Ridge, Sides, Steps};
+use crate::geometry::features::{EdgeFeature, Features, Sides, Steps};
 use crate::math::{max, min};
 use core::ops::RangeInclusive;
 use glam::Vec3;
@@ -97,7 +97,7 @@ impl Heightfield {
 
     /// The ridge from a point of the grid along a spoke; nothing where the surface folds up, not at all, or
     /// ends.
-    fn ridge(&self, [column, row]: [u32; 2], (right, down): (i32, i32)) -> Option<Ridge> {
+    fn ridge(&self, [column, row]: [u32; 2], (right, down): (i32, i32)) -> Option<EdgeFeature> {
         let at = |right: i32, down: i32| {
             let (column, row) = (column.checked_add_signed(right)?, row.checked_add_signed(down)?);
             (column < self.columns && row < self.rows).then(|| self.point(column, row))
@@ -107,14 +107,14 @@ impl Heightfield {
         let [one, other] = [SPOKES[(number + 1) % 6], SPOKES[(number + 5) % 6]];
         let ends = [at(0, 0)?, at(right, down)?];
         let tips = [at(one.0, one.1)?, at(other.0, other.1)?];
-        Ridge::new(ends, tips, Sides::Solid).filter(|ridge| ridge.out.y > 0.0)
+        EdgeFeature::new(ends, tips, Sides::SignedDistance).filter(|ridge| ridge.out.y > 0.0)
     }
 
     /// Adds what is under some bounds and bends more than `is_mild` lets.
     pub fn find_under(
         &self,
         bounds: &Aabb,
-        is_mild: impl Fn(&Ridge) -> bool,
+        is_mild: impl Fn(&EdgeFeature) -> bool,
         found: &mut Features,
     ) {
         let Some([columns, rows]) = self.under(bounds) else { return };

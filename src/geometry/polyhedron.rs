@@ -1,7 +1,7 @@
 //! Convex bodies by their faces.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::shape::Solid;
+use crate::geometry::shape::SignedDistance;
 use glam::Vec3;
 
 /// A convex body with flat faces.
@@ -45,7 +45,7 @@ pub(crate) struct Foremost<'a> {
     pub faces: &'a [u32],
 }
 
-impl Solid for Foremost<'_> {
+impl SignedDistance for Foremost<'_> {
     /// Beyond ridges and corners this is the distance from the foremost face's plane, which is less than
     /// that from the body: bodies keep their sharp ridges at any distance.
     fn nearest(&self, p: Vec3) -> (f32, Vec3) {

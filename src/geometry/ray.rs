@@ -1,27 +1,34 @@
-//! Rays: where they hit triangles, how near they pass points.
+//! Rays: intersection with triangles, and distance to points.
+//!
+//! Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", JGT 1997.
+//!
+//! Reads the ray and the triangle, and writes nothing.
+//! Invariant: the direction has length one, so the ray parameter is a distance [m].
 
 use glam::Vec3;
 
-/// A ray with a direction of length one.
+/// A half line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
+    /// The start [m].
     pub origin: Vec3,
+    /// The direction, of length one.
     pub direction: Vec3,
 }
 
-/// Where a ray meets a triangle: `u` and `v` weigh the second and third corner.
+/// A hit of a ray on a triangle: the point `(1 - u - v) a + u b + v c`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Meeting {
+pub(crate) struct RayHit {
+    /// From the origin of the ray [m].
     pub distance: f32,
+    /// Barycentric coordinates of the second and third corner.
     pub u: f32,
     pub v: f32,
 }
 
 impl Ray {
-    /// Meets a triangle from either side.
-    ///
-    /// Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", JGT 1997.
-    pub fn meet(&self, [a, b, c]: [Vec3; 3]) -> Option<Meeting> {
+    /// Returns the hit on a triangle, from either side; `None` if the ray misses it or is parallel.
+    pub fn intersect_triangle(&self, [a, b, c]: [Vec3; 3]) -> Option<RayHit> {
         let (ab, ac) = (b - a, c - a);
         let p = self.direction.cross(ac);
         let det = ab.dot(p);
@@ -33,14 +40,14 @@ impl Ray {
         let (u, v) = (from_a.dot(p) / det, self.direction.dot(q) / det);
         let distance = ac.dot(q) / det;
         let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance >= 0.0;
-        inside.then_some(Meeting { distance, u, v })
+        inside.then_some(RayHit { distance, u, v })
     }
 
-    /// How far a point is from the ray [m]; from its origin, if it lies behind.
-    pub fn distance_to(&self, point: Vec3) -> f32 {
-        let way = point - self.origin;
-        let along = way.dot(self.direction);
-        if along <= 0.0 { way.length() } else { (way - self.direction * along).length() }
+    /// Returns the distance of a point from the ray [m]: from its origin if the point lies behind it.
+    pub fn distance_to_point(&self, point: Vec3) -> f32 {
+        let r = point - self.origin;
+        let along = r.dot(self.direction);
+        if along <= 0.0 { r.length() } else { (r - self.direction * along).length() }
     }
 }
 
@@ -51,17 +58,18 @@ mod tests {
     const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
 
     #[test]
-    fn a_ray_meets_a_triangle_from_either_side() {
+    fn a_ray_hits_a_triangle_from_either_side() {
         for (z, direction) in [(2.0, Vec3::NEG_Z), (-2.0, Vec3::Z)] {
             let ray = Ray { origin: Vec3::new(0.25, 0.5, z), direction };
-            let meeting = ray.meet(TRIANGLE).unwrap();
-            assert_eq!((meeting.distance, meeting.u, meeting.v), (2.0, 0.25, 0.5));
+            let hit = ray.intersect_triangle(TRIANGLE).unwrap();
+            assert_eq!((hit.distance, hit.u, hit.v), (2.0, 0.25, 0.5));
         }
     }
 
     #[test]
-    fn a_ray_misses_beside_behind_and_along() {
-        let miss = |origin, direction| Ray { origin, direction }.meet(TRIANGLE).is_none();
+    fn a_ray_misses_triangles_beside_behind_and_parallel_to_it() {
+        let miss =
+            |origin, direction| Ray { origin, direction }.intersect_triangle(TRIANGLE).is_none();
         assert!(miss(Vec3::new(0.8, 0.8, 1.0), Vec3::NEG_Z));
         assert!(miss(Vec3::new(0.2, 0.2, 1.0), Vec3::Z));
         assert!(miss(Vec3::new(-1.0, 0.2, 0.0), Vec3::X));

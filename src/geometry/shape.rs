@@ -1,7 +1,7 @@
 //! Shapes, each in its own frame: how far a point is from one, and which way leads out.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{Relief, Steps};
+use crate::geometry::features::{ShapeFeatures, Steps};
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::polyhedron::Polyhedron;
 use crate::geometry::triangle_surface::TriangleSurface;
@@ -9,7 +9,7 @@ use crate::math::{max, min};
 use glam::Vec3;
 
 /// A convex body.
-pub(crate) trait Solid {
+pub(crate) trait SignedDistance {
     /// How far outside a point is [m], less than 0 inside; and the direction out from there, of length
     /// one.
     fn nearest(&self, p: Vec3) -> (f32, Vec3);
@@ -19,7 +19,7 @@ pub(crate) trait Solid {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpace;
 
-impl Solid for HalfSpace {
+impl SignedDistance for HalfSpace {
     #[inline(always)]
     fn nearest(&self, p: Vec3) -> (f32, Vec3) {
         (p.y, Vec3::Y)
@@ -28,11 +28,11 @@ impl Solid for HalfSpace {
 
 /// A ball around the origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ball {
+pub(crate) struct Sphere {
     pub radius: f32,
 }
 
-impl Solid for Ball {
+impl SignedDistance for Sphere {
     #[inline(always)]
     fn nearest(&self, p: Vec3) -> (f32, Vec3) {
         let length = p.length();
@@ -70,12 +70,12 @@ impl Capsule {
         Self { middle: 0.0, half_height, radius: (bottom + top) * 0.5, taper, tilt }
     }
 
-    fn ball(&self, y: f32) -> Knob {
-        Knob { center: Vec3::Y * (self.middle + y), radius: self.radius - self.taper * y }
+    fn ball(&self, y: f32) -> PlacedSphere {
+        PlacedSphere { center: Vec3::Y * (self.middle + y), radius: self.radius - self.taper * y }
     }
 
     /// The balls at both ends.
-    pub fn ends(&self) -> [Knob; 2] {
+    pub fn ends(&self) -> [PlacedSphere; 2] {
         [-self.half_height, self.half_height].map(|y| self.ball(y))
     }
 
@@ -87,17 +87,17 @@ impl Capsule {
 
     /// The ball that a point is closest to.
     #[inline(always)]
-    pub fn ball_at(&self, p: Vec3) -> Knob {
+    pub fn ball_at(&self, p: Vec3) -> PlacedSphere {
         let from_axis = (p.x * p.x + p.z * p.z).sqrt();
         let y = p.y - self.middle - from_axis * self.tilt;
         self.ball(max(min(y, self.half_height), -self.half_height))
     }
 }
 
-impl Solid for Capsule {
+impl SignedDistance for Capsule {
     #[inline(always)]
     fn nearest(&self, p: Vec3) -> (f32, Vec3) {
-        let Knob { center, radius } = self.ball_at(p);
+        let PlacedSphere { center, radius } = self.ball_at(p);
         let r = p - center;
         let length = r.length();
         // On the axis the way out leans as it does beside it.
@@ -109,7 +109,7 @@ impl Solid for Capsule {
 
 /// A ball somewhere.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Knob {
+pub(crate) struct PlacedSphere {
     pub center: Vec3,
     pub radius: f32,
 }
@@ -122,7 +122,7 @@ pub(crate) struct Cuboid {
 
 impl Cuboid {
     /// Its ridges and corners.
-    pub fn relief(&self) -> Relief {
+    pub fn features(&self) -> ShapeFeatures {
         let sign = |i: usize, axis: usize| if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
         let corner = |i: usize| Vec3::new(sign(i, 0), sign(i, 1), sign(i, 2)) * self.half;
         let corners: Vec<Vec3> = (0..8).map(corner).collect();
@@ -132,11 +132,11 @@ impl Cuboid {
                 triangles.extend([[side, side + u, side + u + v], [side, side + u + v, side + v]]);
             }
         }
-        Relief::of(&corners, &triangles, true)
+        ShapeFeatures::build(&corners, &triangles, true)
     }
 }
 
-impl Solid for Cuboid {
+impl SignedDistance for Cuboid {
     #[inline(always)]
     fn nearest(&self, p: Vec3) -> (f32, Vec3) {
         let q = Vec3::new(p.x.abs(), p.y.abs(), p.z.abs()) - self.half;
@@ -158,33 +158,33 @@ impl Solid for Cuboid {
 
 /// A shape in its own frame.
 #[derive(Clone, Debug)]
-pub(crate) enum Form {
+pub(crate) enum CollisionShape {
     HalfSpace(HalfSpace),
-    Ball(Ball),
+    Sphere(Sphere),
     Capsule(Capsule),
-    Cuboid(Cuboid, Relief),
-    Hull(Polyhedron, Relief),
-    TriangleSurface(TriangleSurface, Relief),
+    Cuboid(Cuboid, ShapeFeatures),
+    ConvexHull(Polyhedron, ShapeFeatures),
+    TriangleSurface(TriangleSurface, ShapeFeatures),
     Heightfield(Heightfield),
 }
 
-impl Form {
+impl CollisionShape {
     /// The bounds of the shape in its own frame.
     pub fn bounds(&self) -> Aabb {
         match self {
             Self::HalfSpace(_) => {
                 Aabb { high: Vec3::new(f32::INFINITY, 0.0, f32::INFINITY), ..Aabb::ALL }
             }
-            Self::Ball(ball) => Aabb::around([Vec3::ZERO]).grown(ball.radius),
+            Self::Sphere(ball) => Aabb::from_points([Vec3::ZERO]).expanded(ball.radius),
             Self::Capsule(capsule) => {
                 let mut bounds = Aabb::EMPTY;
-                for Knob { center, radius } in capsule.ends() {
-                    bounds.join(&Aabb::around([center]).grown(radius));
+                for PlacedSphere { center, radius } in capsule.ends() {
+                    bounds.merge(&Aabb::from_points([center]).expanded(radius));
                 }
                 bounds
             }
-            Self::Cuboid(cuboid, _) => Aabb::around([-cuboid.half, cuboid.half]),
-            Self::Hull(body, _) => body.bounds,
+            Self::Cuboid(cuboid, _) => Aabb::from_points([-cuboid.half, cuboid.half]),
+            Self::ConvexHull(body, _) => body.bounds,
             Self::TriangleSurface(surface, _) => surface.bounds(),
             Self::Heightfield(terrain) => terrain.bounds(),
         }
@@ -193,10 +193,10 @@ impl Form {
     /// The bends of a shape of flat facets; nothing of one that is round.
     pub fn steps(&self) -> Option<&Steps> {
         match self {
-            Self::HalfSpace(_) | Self::Ball(_) | Self::Capsule(_) => None,
-            Self::Cuboid(_, relief) | Self::Hull(_, relief) | Self::TriangleSurface(_, relief) => {
-                Some(&relief.steps)
-            }
+            Self::HalfSpace(_) | Self::Sphere(_) | Self::Capsule(_) => None,
+            Self::Cuboid(_, relief)
+            | Self::ConvexHull(_, relief)
+            | Self::TriangleSurface(_, relief) => Some(&relief.steps),
             Self::Heightfield(terrain) => Some(terrain.steps()),
         }
     }
@@ -206,39 +206,39 @@ impl Form {
     pub fn depth(&self, at: Vec3, out: Vec3) -> f32 {
         match self {
             Self::Cuboid(..) => at.dot(out),
-            Self::Hull(body, _) => (at - body.bounds.center()).dot(out),
+            Self::ConvexHull(body, _) => (at - body.bounds.center()).dot(out),
             _ => f32::INFINITY,
         }
     }
 
     /// Cheap to compute, and never more than the distance of a point outside.
-    pub fn bound(&self) -> Bound {
+    pub fn bound(&self) -> DistanceBound {
         match self {
-            Self::HalfSpace(_) => Bound::Plane,
-            Self::Heightfield(terrain) => Bound::Below(terrain.bounds().high.y),
-            Self::Ball(ball) => Bound::Ball(ball.radius),
+            Self::HalfSpace(_) => DistanceBound::Plane,
+            Self::Heightfield(terrain) => DistanceBound::Below(terrain.bounds().high.y),
+            Self::Sphere(ball) => DistanceBound::Sphere(ball.radius),
             Self::Capsule(capsule) => {
                 let [bottom, top] = capsule.ends();
                 let radius = max(bottom.radius, top.radius);
-                Bound::Rod(capsule.middle, capsule.half_height, radius)
+                DistanceBound::Rod(capsule.middle, capsule.half_height, radius)
             }
-            Self::Cuboid(..) | Self::Hull(..) | Self::TriangleSurface(..) => {
+            Self::Cuboid(..) | Self::ConvexHull(..) | Self::TriangleSurface(..) => {
                 let bounds = self.bounds();
-                Bound::Box(bounds.center(), bounds.half())
+                DistanceBound::Box(bounds.center(), bounds.half_extents())
             }
         }
     }
 }
 
-/// See `Form::bound`.
+/// See `CollisionShape::bound`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Bound {
+pub(crate) enum DistanceBound {
     /// The plane that all of it is below: what ends above it has touched nothing, however it came there.
     Plane,
     /// How high it reaches.
     Below(f32),
     /// Its radius.
-    Ball(f32),
+    Sphere(f32),
     /// The height of its middle, half its height, and its radius.
     Rod(f32, f32, f32),
     /// Its middle, and from there to its sides.
@@ -250,7 +250,7 @@ mod tests {
     use super::*;
 
     /// The direction out is where the distance grows, as fast as one moves; and it leads to the surface.
-    fn assert_is_distance(solid: &impl Solid, reach: f32) {
+    fn assert_is_distance(solid: &impl SignedDistance, reach: f32) {
         for i in 0..300 {
             let wave = |k: f32| (i as f32 * k).sin() * reach;
             let p = Vec3::new(wave(1.13), wave(2.31), wave(0.77));
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn distances_lead_to_surfaces() {
         assert_is_distance(&HalfSpace, 2.0);
-        assert_is_distance(&Ball { radius: 0.7 }, 2.0);
+        assert_is_distance(&Sphere { radius: 0.7 }, 2.0);
         assert_is_distance(&Capsule::new(0.5, 0.3, 0.3), 1.5);
         assert_is_distance(&Capsule::new(0.5, 0.4, 0.1), 1.5);
         assert_is_distance(&Capsule::new(0.1, 0.2, 0.7), 1.5);

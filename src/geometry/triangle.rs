@@ -1,12 +1,21 @@
-//! Areas of triangles, and who owns them.
+//! Mixed Voronoi areas: the share of a triangle's area that belongs to each of its corners.
+//!
+//! Meyer, Desbrun, Schröder, Barr, "Discrete differential-geometry operators for triangulated
+//! 2-manifolds", 2003, fig. 4:
+//!
+//! ```text
+//! acute:   area(a) = (|ac|² cot β + |ab|² cot γ) / 8
+//! obtuse:  half of the area to the obtuse corner, a quarter to each of the others
+//! ```
+//! Reads three positions, writes nothing.
+//! Invariant: the three areas add up to the area of the triangle.
 
 use glam::Vec3;
 
-/// How a triangle's area [m²] falls to its corners: to each what lies nearest to it.
+/// Returns the mixed Voronoi area of each corner of a triangle [m²].
 ///
-/// The mixed Voronoi areas of Meyer, Desbrun, Schröder, Barr, "Discrete differential-geometry
-/// operators for triangulated 2-manifolds", 2003: on a regular grid every inner particle gets one
-/// cell, whichever way the diagonals run.
+/// On a regular grid every interior particle gets the area of one cell, in whichever direction the
+/// diagonals run.
 pub(crate) fn corner_areas([a, b, c]: [Vec3; 3]) -> [f32; 3] {
     let doubled = (b - a).cross(c - a).length();
     let area = 0.5 * doubled;
@@ -19,7 +28,7 @@ pub(crate) fn corner_areas([a, b, c]: [Vec3; 3]) -> [f32; 3] {
     }
     let cotangents = dots.map(|dot| dot / doubled);
     let opposite = [(c - b), (a - c), (b - a)].map(Vec3::length_squared);
-    // Of the two edges at a corner, each brings the cotangent of the angle across from it.
+    // Each edge at a corner contributes its squared length times the cotangent of the opposite angle.
     let half = |edge: usize| opposite[edge] * cotangents[edge] * 0.125;
     [half(1) + half(2), half(2) + half(0), half(0) + half(1)]
 }
@@ -29,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shares_add_up_and_follow_the_angles() {
+    fn corner_areas_add_up_and_depend_on_the_angles() {
         let right = corner_areas([Vec3::ZERO, Vec3::X, Vec3::Y]);
         assert_eq!(right, [0.25, 0.125, 0.125]);
         let flat = corner_areas([Vec3::ZERO, Vec3::X * 4.0, Vec3::new(2.0, 0.5, 0.0)]);

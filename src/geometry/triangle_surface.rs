@@ -2,7 +2,7 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
-use crate::geometry::closest_points::{blend, of_triangle};
+use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::math::TINY;
 use glam::Vec3;
 
@@ -26,7 +26,7 @@ pub(crate) struct SurfaceTriangle {
 const RIM: f32 = 1.0e-5;
 
 /// The triangles that have an area.
-pub(crate) fn with_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+pub(crate) fn non_degenerate(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let has_area = |triangle: &&[u32; 3]| {
         let [a, b, c] = triangle.map(|i| positions[i as usize]);
         (b - a).cross(c - a).length() > 0.0
@@ -43,7 +43,8 @@ impl TriangleSurface {
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
             facets.push(SurfaceTriangle { corners, normal: normal * (1.0 / normal.length()) });
         }
-        let bounds: Vec<Aabb> = facets.iter().map(|facet| Aabb::around(facet.corners)).collect();
+        let bounds: Vec<Aabb> =
+            facets.iter().map(|facet| Aabb::from_points(facet.corners)).collect();
         (!facets.is_empty()).then(|| Self { tree: Bvh::over(&bounds), facets })
     }
 
@@ -60,7 +61,7 @@ impl TriangleSurface {
             // Negated, so that to what is not a number all is near.
             let is_far = height.abs() > reach || {
                 let corners = corners.map(|corner| corner - point);
-                blend(corners, of_triangle(corners)).length_squared() > reach * reach
+                interpolate(corners, triangle_to_origin(corners)).length_squared() > reach * reach
             };
             !is_far
         };
@@ -101,7 +102,7 @@ impl Patch<'_> {
                 continue;
             }
             let at = facet.corners.map(|corner| corner - (from + way * share));
-            let miss = blend(at, of_triangle(at)).length_squared();
+            let miss = interpolate(at, triangle_to_origin(at)).length_squared();
             let size = (at[1] - at[0]).length_squared() + (at[2] - at[0]).length_squared();
             if miss <= RIM * RIM * size {
                 first = Some((share, if above > 0.0 { facet.normal } else { -facet.normal }));
@@ -121,8 +122,8 @@ impl Patch<'_> {
                 continue;
             }
             let corners = facet.corners.map(|corner| corner - point);
-            let weights = of_triangle(corners);
-            let at = blend(corners, weights);
+            let weights = triangle_to_origin(corners);
+            let at = interpolate(corners, weights);
             let distance2 = at.length_squared();
             if distance2 < least.0 {
                 let length = distance2.sqrt();

@@ -31,7 +31,7 @@ impl Column {
     }
 
     /// So many zeros.
-    pub fn filled(count: usize) -> Self {
+    pub fn zeros(count: usize) -> Self {
         Self { lines: vec![Line([0.0; WIDTH]); count.div_ceil(WIDTH)], len: count }
     }
 
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(column, other);
         column.push(4.0);
         assert_eq!(*column, [4.0]);
-        assert_eq!(*Column::filled(3), [0.0; 3]);
+        assert_eq!(*Column::zeros(3), [0.0; 3]);
         column.push(5.0);
         column.resize(1);
         column.resize(20);

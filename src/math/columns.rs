@@ -20,8 +20,8 @@ impl Columns {
     }
 
     /// So many zeros.
-    pub fn filled(count: usize) -> Self {
-        let column = || Column::filled(count);
+    pub fn zeros(count: usize) -> Self {
+        let column = || Column::zeros(count);
         Self { x: column(), y: column(), z: column() }
     }
 

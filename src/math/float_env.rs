@@ -148,13 +148,13 @@ impl HostEnv {
 /// Runs `work` under the modes that were set aside last on this thread, if any were: while it waits for
 /// other threads, this one may do the host's work.
 #[cfg(feature = "parallel")]
-pub(crate) fn with_hosts_modes<T>(work: impl FnOnce() -> T) -> T {
+pub(crate) fn with_host_float_env<T>(work: impl FnOnce() -> T) -> T {
     let _env = HostEnv::enter();
     black_box(black_box(work)())
 }
 
 /// Runs `work` under the default floating-point modes.
-pub(crate) fn guarded<T>(work: impl FnOnce() -> T) -> T {
+pub(crate) fn with_float_env<T>(work: impl FnOnce() -> T) -> T {
     let _env = FloatEnv::enter();
     // Compilers take arithmetic as free of modes and would move it past their change, unless they
     // cannot see what goes in and what comes out.
@@ -169,7 +169,7 @@ mod tests {
     fn the_hosts_modes_are_set_aside_and_given_back() {
         let flush_and_round_up = 0x9fc0 | 0x4000;
         register::write(flush_and_round_up);
-        let inside = guarded(register::read);
+        let inside = with_float_env(register::read);
         let after = register::read();
         register::write(register::DEFAULT);
         assert_eq!(inside & !0x3f, register::DEFAULT);

@@ -9,18 +9,18 @@ use crate::math::simd::leveled;
 pub(crate) const BLOCK: usize = 64;
 
 /// One number of each vertex of a block.
-pub(crate) type Numbers = [f32; BLOCK];
+pub(crate) type FloatBlock = [f32; BLOCK];
 
 /// The same in 16 bits.
-pub(crate) type Halves = [u16; BLOCK];
+pub(crate) type HalfBlock = [u16; BLOCK];
 
 leveled! {
     /// Half floats, to nearest, ties to even. What is too large becomes the largest one, 65504.
-    pub(crate) fn to_f16(values: &Numbers, out: &mut Halves) = f16_lanes
+    pub(crate) fn to_f16(values: &FloatBlock, out: &mut HalfBlock) = f16_lanes
 }
 
 #[inline(always)]
-fn f16_lanes(values: &Numbers, out: &mut Halves) {
+fn f16_lanes(values: &FloatBlock, out: &mut HalfBlock) {
     for (out, value) in out.iter_mut().zip(values) {
         *out = f16(*value);
     }
@@ -45,11 +45,11 @@ fn f16(value: f32) -> u16 {
 
 leveled! {
     /// From -1 to 1 as whole numbers from -32767 to 32767, to nearest; what is beyond is cut off.
-    pub(crate) fn to_snorm16(values: &Numbers, out: &mut Halves) = snorm16_lanes
+    pub(crate) fn to_snorm16(values: &FloatBlock, out: &mut HalfBlock) = snorm16_lanes
 }
 
 #[inline(always)]
-fn snorm16_lanes(values: &Numbers, out: &mut Halves) {
+fn snorm16_lanes(values: &FloatBlock, out: &mut HalfBlock) {
     for (out, value) in out.iter_mut().zip(values) {
         let value = if *value > 1.0 { 1.0 } else { *value };
         let value = if value < -1.0 { -1.0 } else { value };
@@ -60,11 +60,11 @@ fn snorm16_lanes(values: &Numbers, out: &mut Halves) {
 leveled! {
     /// Directions as two numbers from -1 to 1, in place of x and y: those where the direction meets the octahedron
     /// |x| + |y| + |z| = 1, with its lower half folded outward over the diagonals. Zero stays zero.
-    pub(crate) fn to_octahedral(x: &mut Numbers, y: &mut Numbers, z: &Numbers) = octahedral_lanes
+    pub(crate) fn to_octahedral(x: &mut FloatBlock, y: &mut FloatBlock, z: &FloatBlock) = octahedral_lanes
 }
 
 #[inline(always)]
-fn octahedral_lanes(x: &mut Numbers, y: &mut Numbers, z: &Numbers) {
+fn octahedral_lanes(x: &mut FloatBlock, y: &mut FloatBlock, z: &FloatBlock) {
     for k in 0..BLOCK {
         let sum = x[k].abs() + y[k].abs() + z[k].abs();
         let inverse = if sum > 0.0 { 1.0 / sum } else { 0.0 };
@@ -90,7 +90,7 @@ mod tests {
     }
 
     /// Packs all values, at every level, and sees that the levels agree.
-    fn pack(values: &[f32], to: fn(Level, &Numbers, &mut Halves)) -> Vec<u16> {
+    fn pack(values: &[f32], to: fn(Level, &FloatBlock, &mut HalfBlock)) -> Vec<u16> {
         let mut packed = Vec::new();
         for chunk in values.chunks(BLOCK) {
             let (mut block, mut out) = ([0.0; BLOCK], [0; BLOCK]);

@@ -37,12 +37,12 @@ mod one {
 
     impl Threads {
         #[inline(always)]
-        pub fn enter<T>(self, _particles: usize, work: impl FnOnce() -> T) -> T {
+        pub fn run_in_pool<T>(self, _particles: usize, work: impl FnOnce() -> T) -> T {
             work()
         }
 
         #[inline(always)]
-        pub fn over<W: Split>(self, work: W, _least: usize, run: impl Fn(W)) {
+        pub fn parallel_for<W: Split>(self, work: W, _least: usize, run: impl Fn(W)) {
             run(work);
         }
     }
@@ -55,7 +55,7 @@ pub(crate) use many::Split;
 #[cfg(feature = "parallel")]
 mod many {
     use super::Threads;
-    use crate::math::float_env::{guarded, with_hosts_modes};
+    use crate::math::float_env::{with_float_env, with_host_float_env};
     use core::ops::Range;
 
     /// Parts begin at multiples of this, so that no two threads write to one cache line for long.
@@ -95,7 +95,7 @@ mod many {
 
         /// Runs `work` on so many particles as one of the pool's threads, if it may want others: from
         /// outside, each call for help would take longer than most of what there is to do.
-        pub fn enter<T: Send>(self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
+        pub fn run_in_pool<T: Send>(self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
             if self.parts(particles, FEW) == 1 || rayon::current_thread_index().is_some() {
                 return work();
             }
@@ -104,25 +104,25 @@ mod many {
 
         /// Runs `run` over all of `work`, in parts of at least `least`.
         #[inline]
-        pub fn over<W: Split>(self, work: W, least: usize, run: impl Fn(W) + Sync) {
+        pub fn parallel_for<W: Split>(self, work: W, least: usize, run: impl Fn(W) + Sync) {
             let count = work.count();
             let parts = self.parts(count, least);
             if parts == 1 {
                 return run(work);
             }
             let border = |part| count * part / parts / GRAIN * GRAIN;
-            with_hosts_modes(|| share_out(0..parts, work, &border, &|_, work| run(work)));
+            with_host_float_env(|| share_out(0..parts, work, &border, &|_, work| run(work)));
         }
 
         /// Runs `run` over each of so many parts, with its number; `border` is where a part begins.
-        pub fn parted<W: Split>(
+        pub fn parallel_for_parts<W: Split>(
             self,
             parts: usize,
             work: W,
             border: impl Fn(usize) -> usize + Sync,
             run: impl Fn(usize, W) + Sync,
         ) {
-            with_hosts_modes(|| share_out(0..parts, work, &border, &run));
+            with_host_float_env(|| share_out(0..parts, work, &border, &run));
         }
     }
 
@@ -134,7 +134,7 @@ mod many {
         run: &(impl Fn(usize, W) + Sync),
     ) {
         if parts.len() <= 1 {
-            return guarded(|| run(parts.start, work));
+            return with_float_env(|| run(parts.start, work));
         }
         let middle = parts.start + parts.len() / 2;
         let (first, second) = work.cut(border(middle) - border(parts.start));
@@ -212,7 +212,7 @@ mod tests {
             for count in [0, 1, 15, 16, 100, 1000] {
                 let (mut seen, marks) = (vec![0; count], vec![1; count]);
                 let work = (&mut seen[..], &marks[..]);
-                Threads::up_to(most).over(work, 7, |(seen, marks)| {
+                Threads::up_to(most).parallel_for(work, 7, |(seen, marks)| {
                     seen.iter_mut().zip(marks).for_each(|(seen, mark)| *seen += mark);
                 });
                 assert!(seen.iter().all(|n| *n == 1), "{count} things on {most} threads: {seen:?}");

@@ -34,7 +34,7 @@ pub(crate) fn cos(x: f64) -> f32 {
 /// Sine of `x` [rad] to about 1e-6 for |x| up to a few thousand, without a branch: for loops over
 /// lanes. Between -1.1 and 1.1 whatever `x` is.
 #[inline(always)]
-pub(crate) fn wave(x: f32) -> f32 {
+pub(crate) fn sin_branchless(x: f32) -> f32 {
     // Adding and taking away 1.5 · 2²³ rounds to the nearest integer.
     const ROUND: f32 = 12_582_912.0;
     let half_turns = (x * core::f32::consts::FRAC_1_PI + ROUND) - ROUND;
@@ -50,7 +50,7 @@ pub(crate) fn wave(x: f32) -> f32 {
 }
 
 /// Arcsine [rad] to about 1e-7, of `x` from -1 to 1 (Abramowitz and Stegun, 4.4.46).
-pub(crate) fn arcsine(x: f32) -> f32 {
+pub(crate) fn asin(x: f32) -> f32 {
     const SERIES: [f64; 8] = [
         1.570_796_305_0,
         -0.214_598_801_6,
@@ -121,7 +121,7 @@ mod tests {
         for i in -200..=200 {
             let x = i as f32 / 200.0;
             let exact = f64::from(x).asin() as f32;
-            assert!((arcsine(x) - exact).abs() < 3.0e-7, "{x}: {} {exact}", arcsine(x));
+            assert!((asin(x) - exact).abs() < 3.0e-7, "{x}: {} {exact}", asin(x));
         }
     }
 
@@ -140,13 +140,17 @@ mod tests {
         for i in -40_000..40_000 {
             let x = i as f32 * 0.05;
             assert!(
-                (f64::from(wave(x)) - f64::from(x).sin()).abs() < 2.0e-6,
+                (f64::from(sin_branchless(x)) - f64::from(x).sin()).abs() < 2.0e-6,
                 "sin {x}: {}",
-                wave(x)
+                sin_branchless(x)
             );
         }
         for x in [f32::NAN, f32::INFINITY, -1.0e30, 1.0e9] {
-            assert!(wave(x).abs() <= 1.1 || wave(x).is_nan(), "{x}: {}", wave(x));
+            assert!(
+                sin_branchless(x).abs() <= 1.1 || sin_branchless(x).is_nan(),
+                "{x}: {}",
+                sin_branchless(x)
+            );
         }
     }
 

@@ -1,6 +1,6 @@
 //! Four numbers side by side, as particles have them: in one vector where there are any.
 
-use crate::math::simd::{Arithmetic, Base, Number, Simd};
+use crate::math::simd::{Baseline, Float, Simd};
 use core::array;
 use core::ops::{Add, Mul, Sub};
 use glam::Vec3;
@@ -15,19 +15,19 @@ pub(crate) fn xyz(v: &Float4) -> Vec3 {
 }
 
 /// How many vectors that takes.
-const COUNT: usize = 4 / Base::LANES;
+const COUNT: usize = 4 / Baseline::LANES;
 
 /// Bits of `positives` for x, y and z.
 pub(crate) const WAYS: u32 = 0b111;
 
 /// Four numbers.
 #[derive(Clone, Copy)]
-pub(crate) struct Four([<Base as Arithmetic>::F; COUNT]);
+pub(crate) struct Four([<Baseline as Simd>::F; COUNT]);
 
 impl Four {
     #[inline(always)]
     pub fn of(spot: &Float4) -> Self {
-        Self(array::from_fn(|k| Base::new().load(spot, k * Base::LANES)))
+        Self(array::from_fn(|k| Baseline::new().load(spot, k * Baseline::LANES)))
     }
 
     /// A vector, and 0.
@@ -38,7 +38,7 @@ impl Four {
 
     #[inline(always)]
     pub fn all(value: f32) -> Self {
-        Self([Base::new().splat(value); COUNT])
+        Self([Baseline::new().splat(value); COUNT])
     }
 
     #[inline(always)]
@@ -51,7 +51,7 @@ impl Four {
     #[inline(always)]
     pub fn put(self, spot: &mut Float4) {
         for (k, part) in self.0.into_iter().enumerate() {
-            Base::new().store(spot, k * Base::LANES, part);
+            Baseline::new().store(spot, k * Baseline::LANES, part);
         }
     }
 
@@ -59,7 +59,7 @@ impl Four {
     #[inline(always)]
     pub fn ways(self) -> Self {
         let are_ways = Self::of(&[1.0, 1.0, 1.0, 0.0]);
-        Self(array::from_fn(|k| Base::new().keep(are_ways.0[k], self.0[k])))
+        Self(array::from_fn(|k| Baseline::new().select_or_zero(are_ways.0[k], self.0[k])))
     }
 
     /// Without the last, as a vector.
@@ -82,13 +82,13 @@ impl Four {
 
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
-        Self(array::from_fn(|k| Number::min(self.0[k], other.0[k])))
+        Self(array::from_fn(|k| Float::min(self.0[k], other.0[k])))
     }
 
     /// Which are above 0: a bit for each.
     #[inline(always)]
     pub fn positives(self) -> u32 {
-        let bits = |(k, part)| Base::new().positives(part) << (k * Base::LANES);
+        let bits = |(k, part)| Baseline::new().positive_mask(part) << (k * Baseline::LANES);
         self.0.into_iter().enumerate().map(bits).fold(0, |all, bits| all | bits)
     }
 }

@@ -7,7 +7,7 @@
 //! the fold gives way by, see `wear`, so that of one folded for the first time (φ − φ_y) / (1 + H) stays.
 
 use crate::math::columns::Columns;
-use crate::math::trig::{arcsine, sin};
+use crate::math::trig::{asin, sin};
 use crate::math::{max, min};
 use crate::model::hardening::Hardening;
 use crate::model::hinges::{Hinge, Hinges, normal};
@@ -409,7 +409,7 @@ fn angle_of(curve: f32) -> f32 {
         let square = curve * curve;
         return curve * (1.0 + square * (1.0 / 24.0 + square * (3.0 / 640.0)));
     }
-    2.0 * arcsine(max(min(0.5 * curve, 1.0), -1.0))
+    2.0 * asin(max(min(0.5 * curve, 1.0), -1.0))
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {

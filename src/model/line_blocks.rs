@@ -3,7 +3,7 @@
 //! Where links broke, a line is pieces, one after the other in the lane that is the line's: what lies next
 //! to each other in the cloth stays so here, whatever is torn.
 
-use crate::math::simd::{LANES, Lanes};
+use crate::math::simd::{LANES, LaneArray};
 use crate::mesh::NONE;
 use crate::model::links::Links;
 
@@ -22,7 +22,7 @@ pub(crate) struct Step {
     pub to: [u32; LANES],
     /// Its length at rest [m]. Where a piece begins it is that of the first link, negative; behind the last
     /// it is 0.
-    pub rest: Lanes,
+    pub rest: LaneArray,
 }
 
 const NO_STEP: Step = Step { links: [NONE; LANES], to: [NOBODY; LANES], rest: [0.0; LANES] };

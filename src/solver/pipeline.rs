@@ -45,7 +45,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, strain_limit::begin(world));
     }
-    timed!(world, Colliders, collide::begin(world));
+    timed!(world, Colliders, collide::begin_tick(world));
     timed!(world, Pairs, surface::begin(world));
     timed!(world, Forces, forces::gather(world));
     if world.settings.tethers {
@@ -58,7 +58,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     }
     timed!(world, Bend, bend::update_folds(world));
     world.pins.arrive();
-    timed!(world, Colliders, collide::arrive(world));
+    timed!(world, Colliders, collide::finish_tick(world));
     end(world);
     // What is no longer a number must not steer a tear.
     timed!(world, Guard, recover::mend(world));
@@ -109,7 +109,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, particle_pairs::pair(world));
     timed!(world, SelfContacts, particle_pairs::solve(world));
     timed!(world, SelfContacts, momentum::keep(world));
-    timed!(world, Pairs, collide::broad_phase::pair(world));
+    timed!(world, Pairs, collide::broad_phase::refresh(world));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::keep(world, number));
     timed!(world, Pairs, surface::pair(world));

@@ -2,14 +2,14 @@
 
 use crate::error::{Error, Result, check, check_index};
 use crate::geometry::convex_hull;
-use crate::geometry::features::Relief;
-use crate::geometry::shape::{Ball, Capsule, Cuboid, Form, HalfSpace};
+use crate::geometry::features::ShapeFeatures;
+use crate::geometry::shape::{Capsule, CollisionShape, Cuboid, HalfSpace, Sphere};
 use crate::geometry::triangle_surface;
 use crate::state::pose::{OF_COLLIDER, check_pose};
 
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::triangle_surface::TriangleSurface;
-use crate::math::mixer::Mixer;
+use crate::math::hasher::StateHasher;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -218,47 +218,58 @@ impl ColliderDesc {
     }
 
     /// The shape, ready to be touched. The descriptor has been checked but for what only making it shows.
-    pub(crate) fn form(&self) -> Result<Form> {
+    pub(crate) fn collision_shape(&self) -> Result<CollisionShape> {
         let bad = |field, must| Error::BadValue { field, must };
         Ok(match self.shape {
-            Shape::Plane => Form::HalfSpace(HalfSpace),
-            Shape::Sphere => Form::Ball(Ball { radius: self.radius }),
+            Shape::Plane => CollisionShape::HalfSpace(HalfSpace),
+            Shape::Sphere => CollisionShape::Sphere(Sphere { radius: self.radius }),
             Shape::Capsule => {
                 let top = if self.top_radius < 0.0 { self.radius } else { self.top_radius };
-                Form::Capsule(Capsule::new(self.half_height, self.radius, top))
+                CollisionShape::Capsule(Capsule::new(self.half_height, self.radius, top))
             }
             Shape::Box => {
                 let cuboid = Cuboid { half: self.half_extents };
-                Form::Cuboid(cuboid, cuboid.relief())
+                CollisionShape::Cuboid(cuboid, cuboid.features())
             }
             Shape::Convex => {
-                let (body, triangles) = convex_hull::around(&self.positions)
+                let (body, triangles) = convex_hull::build(&self.positions)
                     .ok_or(bad("collider.positions", "not lie in one plane"))?;
-                Form::Hull(body, Relief::of(&self.positions, &triangles, true))
+                CollisionShape::ConvexHull(
+                    body,
+                    ShapeFeatures::build(&self.positions, &triangles, true),
+                )
             }
             Shape::Mesh => {
                 let (triangles, _) = self.indices.as_chunks::<3>();
-                let triangles = triangle_surface::with_area(&self.positions, triangles);
+                let triangles = triangle_surface::non_degenerate(&self.positions, triangles);
                 let surface = TriangleSurface::new(&self.positions, &triangles)
                     .ok_or(bad("collider.indices", "hold a triangle with an area"))?;
-                Form::TriangleSurface(surface, Relief::of(&self.positions, &triangles, false))
+                CollisionShape::TriangleSurface(
+                    surface,
+                    ShapeFeatures::build(&self.positions, &triangles, false),
+                )
             }
             Shape::Heightfield => {
                 let heights = self.heights.clone();
-                Form::Heightfield(Heightfield::new(self.columns, self.rows, self.spacing, heights))
+                CollisionShape::Heightfield(Heightfield::new(
+                    self.columns,
+                    self.rows,
+                    self.spacing,
+                    heights,
+                ))
             }
         })
     }
 
     /// Adds all that touching depends on to a hash.
-    pub(crate) fn hash(&self, mixer: &mut Mixer) {
-        mixer.words(&[self.shape as u32, self.columns, self.rows]);
-        mixer.floats(&[self.radius, self.top_radius, self.half_height, self.spacing]);
-        mixer.floats(&self.half_extents.to_array());
-        mixer.floats(&[self.thickness, self.friction, self.restitution]);
-        mixer.floats(&[self.tangential_restitution]);
-        self.positions.iter().for_each(|x| mixer.floats(&x.to_array()));
-        mixer.words(&self.indices);
-        mixer.floats(&self.heights);
+    pub(crate) fn hash(&self, hasher: &mut StateHasher) {
+        hasher.write_u32s(&[self.shape as u32, self.columns, self.rows]);
+        hasher.write_f32s(&[self.radius, self.top_radius, self.half_height, self.spacing]);
+        hasher.write_f32s(&self.half_extents.to_array());
+        hasher.write_f32s(&[self.thickness, self.friction, self.restitution]);
+        hasher.write_f32s(&[self.tangential_restitution]);
+        self.positions.iter().for_each(|x| hasher.write_f32s(&x.to_array()));
+        hasher.write_u32s(&self.indices);
+        hasher.write_f32s(&self.heights);
     }
 }

@@ -1,7 +1,7 @@
 //! What moves: positions, their history, velocities and masses.
 
 use crate::math::columns::Columns;
-use crate::math::{between, finite};
+use crate::math::{lerp, saturate};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -90,7 +90,7 @@ impl Particles {
     pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
         for columns in self.all_columns() {
             let (from, to) = (columns.at(a), columns.at(b));
-            columns.push(between(from, to, share));
+            columns.push(lerp(from, to, share));
         }
         self.mass.push(0.0);
         self.w.push(0.0);
@@ -101,8 +101,8 @@ impl Particles {
     pub fn place(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);
         self.v.set(i, v);
-        self.moved.set(i, finite(v * h - gravity * (0.5 * h * h)));
-        self.v_ahead.set(i, finite(v + gravity * (h * (1.0 / 3.0))));
+        self.moved.set(i, saturate(v * h - gravity * (0.5 * h * h)));
+        self.v_ahead.set(i, saturate(v + gravity * (h * (1.0 / 3.0))));
     }
 
     /// Begins every history anew, for another kind of substep. Velocities stay.

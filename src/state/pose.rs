@@ -65,7 +65,7 @@ impl Pose {
 
     /// Where it gets to with a body that jumps from one pose to another.
     pub fn jump(&self, from: &Self, to: &Self) -> Self {
-        let position = to.frame().outward(from.frame().inward(self.position));
+        let position = to.frame().point_to_world(from.frame().point_to_local(self.position));
         let [x, y, z, w] = from.rotation.to_array();
         let turn = product(to.rotation, Quat::from_xyzw(-x, -y, -z, w));
         Self::new(position, product(turn, self.rotation))

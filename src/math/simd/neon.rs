@@ -1,11 +1,17 @@
-//! Vectors of aarch64: four lanes, which every such machine has.
+//! The instruction set of aarch64: NEON with 4 lanes.
+//!
+//! Each operation is one or two intrinsics; `max` and `min` are a comparison and a select, because
+//! `vmaxq_f32` treats NaN differently from [`Float::max`].
+//!
+//! Reads and writes only through `load_from`, `store_to`, and the points of [`GatherPairs`].
+//! Invariant: every aarch64 target of Rust has NEON, so the token can be made anywhere.
 
-use super::{Arithmetic, Between, Number, Simd};
-use crate::math::shared::Points;
+use super::lanes::{Float, GatherPairs, Simd};
+use crate::math::shared_points::SharedPoints;
 use core::arch::aarch64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
-/// Four lanes.
+/// NEON, four lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neon;
 
@@ -16,14 +22,13 @@ impl Neon {
     }
 }
 
-/// Numbers in lanes.
+/// One `f32` per lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Four(float32x4_t);
+pub(crate) struct F32x4(float32x4_t);
 
-// SAFETY of all that follows: every aarch64 target of Rust has NEON, and loads and stores are as their
-// callers promise.
+// SAFETY of all functions below: every aarch64 target of Rust has NEON.
 
-impl Add for Four {
+impl Add for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -33,7 +38,7 @@ impl Add for Four {
     }
 }
 
-impl Sub for Four {
+impl Sub for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -43,7 +48,7 @@ impl Sub for Four {
     }
 }
 
-impl Mul for Four {
+impl Mul for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -53,7 +58,7 @@ impl Mul for Four {
     }
 }
 
-impl Div for Four {
+impl Div for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -63,7 +68,7 @@ impl Div for Four {
     }
 }
 
-impl Number for Four {
+impl Float for F32x4 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         // SAFETY: see above.
@@ -83,55 +88,53 @@ impl Number for Four {
     }
 }
 
-impl Arithmetic for Neon {
-    type F = Four;
-
-    #[inline(always)]
-    fn splat(self, value: f32) -> Four {
-        // SAFETY: see above.
-        Four(unsafe { vdupq_n_f32(value) })
-    }
-}
-
 impl Simd for Neon {
+    type F = F32x4;
+
     const LANES: usize = 4;
 
     #[inline(always)]
-    unsafe fn load_from(self, place: *const f32) -> Four {
-        // SAFETY: the caller's promise.
-        Four(unsafe { vld1q_f32(place) })
-    }
-
-    #[inline(always)]
-    unsafe fn store_to(self, place: *mut f32, v: Four) {
-        // SAFETY: the caller's promise.
-        unsafe { vst1q_f32(place, v.0) };
-    }
-
-    #[inline(always)]
-    fn pick(self, keep: Four, new: Four, old: Four) -> Four {
+    fn splat(self, value: f32) -> F32x4 {
         // SAFETY: see above.
-        unsafe { Four(vbslq_f32(vcgtq_f32(keep.0, vdupq_n_f32(0.0)), new.0, old.0)) }
+        F32x4(unsafe { vdupq_n_f32(value) })
     }
 
     #[inline(always)]
-    fn keep(self, keep: Four, v: Four) -> Four {
+    unsafe fn load_from(self, source: *const f32) -> F32x4 {
+        // SAFETY: the caller guarantees it.
+        F32x4(unsafe { vld1q_f32(source) })
+    }
+
+    #[inline(always)]
+    unsafe fn store_to(self, target: *mut f32, v: F32x4) {
+        // SAFETY: the caller guarantees it.
+        unsafe { vst1q_f32(target, v.0) };
+    }
+
+    #[inline(always)]
+    fn select(self, condition: F32x4, new: F32x4, old: F32x4) -> F32x4 {
+        // SAFETY: see above.
+        unsafe { F32x4(vbslq_f32(vcgtq_f32(condition.0, vdupq_n_f32(0.0)), new.0, old.0)) }
+    }
+
+    #[inline(always)]
+    fn select_or_zero(self, condition: F32x4, v: F32x4) -> F32x4 {
         // SAFETY: see above.
         unsafe {
-            let kept = vcgtq_f32(keep.0, vdupq_n_f32(0.0));
-            Four(vreinterpretq_f32_u32(vandq_u32(vreinterpretq_u32_f32(v.0), kept)))
+            let mask = vcgtq_f32(condition.0, vdupq_n_f32(0.0));
+            F32x4(vreinterpretq_f32_u32(vandq_u32(vreinterpretq_u32_f32(v.0), mask)))
         }
     }
 
     #[inline(always)]
-    fn is_any_positive(self, v: Four) -> bool {
+    fn any_positive(self, v: F32x4) -> bool {
         // SAFETY: see above.
         unsafe { vmaxvq_u32(vcgtq_f32(v.0, vdupq_n_f32(0.0))) != 0 }
     }
 
     #[inline(always)]
-    fn positives(self, v: Four) -> u32 {
-        // SAFETY: see above; there are four bits to load.
+    fn positive_mask(self, v: F32x4) -> u32 {
+        // SAFETY: see above; the array has four numbers to load.
         unsafe {
             let bits = vld1q_u32([1, 2, 4, 8].as_ptr());
             vaddvq_u32(vandq_u32(vcgtq_f32(v.0, vdupq_n_f32(0.0)), bits))
@@ -139,41 +142,41 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
-    fn deal(self, low: Four, high: Four) -> (Four, Four) {
+    fn deinterleave(self, low: F32x4, high: F32x4) -> (F32x4, F32x4) {
         // SAFETY: see above.
-        unsafe { (Four(vuzp1q_f32(low.0, high.0)), Four(vuzp2q_f32(low.0, high.0))) }
+        unsafe { (F32x4(vuzp1q_f32(low.0, high.0)), F32x4(vuzp2q_f32(low.0, high.0))) }
     }
 
     #[inline(always)]
-    fn gather_up(self, even: Four, odd: Four) -> (Four, Four) {
+    fn interleave(self, even: F32x4, odd: F32x4) -> (F32x4, F32x4) {
         // SAFETY: see above.
-        unsafe { (Four(vzip1q_f32(even.0, odd.0)), Four(vzip2q_f32(even.0, odd.0))) }
+        unsafe { (F32x4(vzip1q_f32(even.0, odd.0)), F32x4(vzip2q_f32(even.0, odd.0))) }
     }
 
     #[inline(always)]
-    fn deal_twos(self, low: Four, high: Four) -> (Four, Four) {
+    fn deinterleave_pairs(self, low: F32x4, high: F32x4) -> (F32x4, F32x4) {
         // SAFETY: see above.
-        let [even, odd] = unsafe { twos(low.0, high.0) };
-        (Four(even), Four(odd))
+        let [even, odd] = unsafe { pairs_of(low.0, high.0) };
+        (F32x4(even), F32x4(odd))
     }
 
     #[inline(always)]
-    fn dealt(self, v: Four) -> Four {
+    fn to_shuffled_order(self, v: F32x4) -> F32x4 {
         v
     }
 
     #[inline(always)]
-    fn undealt(self, v: Four) -> Four {
+    fn from_shuffled_order(self, v: F32x4) -> F32x4 {
         v
     }
 }
 
-/// The lower and the upper twos of two vectors.
+/// Returns the lower pairs and the upper pairs of two vectors.
 ///
 /// # Safety
-/// None is needed where there is NEON, which is everywhere.
+/// None needed: every aarch64 target has NEON.
 #[inline(always)]
-unsafe fn twos(low: float32x4_t, high: float32x4_t) -> [float32x4_t; 2] {
+unsafe fn pairs_of(low: float32x4_t, high: float32x4_t) -> [float32x4_t; 2] {
     // SAFETY: see above.
     unsafe {
         let (low, high) = (vreinterpretq_f64_f32(low), vreinterpretq_f64_f32(high));
@@ -182,83 +185,94 @@ unsafe fn twos(low: float32x4_t, high: float32x4_t) -> [float32x4_t; 2] {
     }
 }
 
-impl Between for Neon {
+impl GatherPairs for Neon {
     type Pairs = [[float32x4_t; 4]; 2];
 
     #[inline(always)]
-    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Self::Pairs, [Four; 3]) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
+    unsafe fn gather_pairs(
+        self,
+        points: SharedPoints<'_>,
+        at: [&[u32]; 2],
+    ) -> (Self::Pairs, [F32x4; 3]) {
+        // SAFETY: the caller guarantees the indices; a point is sixteen bytes.
         unsafe {
-            let (a, b) = (all_four(points, at[0]), all_four(points, at[1]));
+            let (a, b) = (load_four(points, at[0]), load_four(points, at[1]));
             let span = [
                 vsubq_f32(b[0], a[0]),
                 vsubq_f32(b[1], a[1]),
                 vsubq_f32(b[2], a[2]),
                 vsubq_f32(b[3], a[3]),
             ];
-            let [x, y] = twos(vzip1q_f32(span[0], span[1]), vzip1q_f32(span[2], span[3]));
-            let [z, _] = twos(vzip2q_f32(span[0], span[1]), vzip2q_f32(span[2], span[3]));
-            ([a, b], [Four(x), Four(y), Four(z)])
+            let [x, y] = pairs_of(vzip1q_f32(span[0], span[1]), vzip1q_f32(span[2], span[3]));
+            let [z, _] = pairs_of(vzip2q_f32(span[0], span[1]), vzip2q_f32(span[2], span[3]));
+            ([a, b], [F32x4(x), F32x4(y), F32x4(z)])
         }
     }
 
     #[inline(always)]
-    unsafe fn put<const CHOOSY: bool>(
+    unsafe fn scatter_pairs<const MASKED: bool>(
         self,
-        points: Points<'_>,
+        points: SharedPoints<'_>,
         at: [&[u32]; 2],
         [a, b]: Self::Pairs,
-        shares: [Four; 2],
-        moves: &[bool],
+        shares: [F32x4; 2],
+        mask: &[bool],
     ) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
+        // SAFETY: the caller guarantees the indices; a point is sixteen bytes.
         unsafe {
-            let (to_a, to_b) = (each(shares[0].0), each(shares[1].0));
+            let (to_a, to_b) = (broadcast_lanes(shares[0].0), broadcast_lanes(shares[1].0));
             for lane in 0..4 {
-                if CHOOSY && !*moves.get_unchecked(lane) {
+                if MASKED && !*mask.get_unchecked(lane) {
                     continue;
                 }
                 let span = vsubq_f32(b[lane], a[lane]);
                 let at_a = *at[0].get_unchecked(lane);
                 let at_b = *at[1].get_unchecked(lane);
                 let a = vaddq_f32(a[lane], vmulq_f32(span, to_a[lane]));
-                vst1q_f32(points.at(at_a), a);
+                vst1q_f32(points.ptr(at_a), a);
                 let b = vsubq_f32(b[lane], vmulq_f32(span, to_b[lane]));
-                vst1q_f32(points.at(at_b), b);
+                vst1q_f32(points.ptr(at_b), b);
             }
         }
     }
 }
 
-/// Four of the points.
+/// Loads the points of four lanes.
 ///
 /// # Safety
 /// `at` has four entries, each below the number of points.
 #[inline(always)]
-unsafe fn all_four(points: Points<'_>, at: &[u32]) -> [float32x4_t; 4] {
-    // SAFETY: the caller's promise.
-    unsafe { [one(points, at, 0), one(points, at, 1), one(points, at, 2), one(points, at, 3)] }
+unsafe fn load_four(points: SharedPoints<'_>, at: &[u32]) -> [float32x4_t; 4] {
+    // SAFETY: the caller guarantees it.
+    unsafe {
+        [
+            load_one(points, at, 0),
+            load_one(points, at, 1),
+            load_one(points, at, 2),
+            load_one(points, at, 3),
+        ]
+    }
 }
 
-/// One of the points.
+/// Loads the point of one lane.
 ///
 /// # Safety
 /// `at` has entry `lane`, and that is below the number of points.
 #[inline(always)]
-unsafe fn one(points: Points<'_>, at: &[u32], lane: usize) -> float32x4_t {
-    // SAFETY: the caller's promise; a point is sixteen bytes.
+unsafe fn load_one(points: SharedPoints<'_>, at: &[u32], lane: usize) -> float32x4_t {
+    // SAFETY: the caller guarantees the indices; a point is sixteen bytes.
     unsafe {
         let at = *at.get_unchecked(lane);
-        vld1q_f32(points.at(at))
+        vld1q_f32(points.ptr(at))
     }
 }
 
-/// Each number in all lanes of a vector.
+/// Returns four vectors: number `i` of `v` in all lanes of vector `i`.
 ///
 /// # Safety
-/// None is needed: every such machine has NEON.
+/// None needed: every aarch64 target has NEON.
 #[inline(always)]
-unsafe fn each(v: float32x4_t) -> [float32x4_t; 4] {
+unsafe fn broadcast_lanes(v: float32x4_t) -> [float32x4_t; 4] {
     // SAFETY: see above.
     unsafe {
         [

@@ -1,11 +1,18 @@
-//! Vectors of WebAssembly: four lanes. The module is compiled with or without them.
+//! The instruction set of WebAssembly: simd128 with 4 lanes.
+//!
+//! The choice is made at compile time: the module is built once with simd128 and once without it.
+//! Each operation is one instruction; `max` and `min` are the pseudo-maximum and pseudo-minimum, whose
+//! operands are swapped so that NaN gives `other`, as [`Float`] demands.
+//!
+//! Reads and writes only through `load_from`, `store_to`, and the points of [`GatherPairs`].
+//! Invariant: this file is compiled only with simd128, so the token can be made anywhere.
 
-use super::{Arithmetic, Between, Number, Simd};
-use crate::math::shared::Points;
+use super::lanes::{Float, GatherPairs, Simd};
+use crate::math::shared_points::SharedPoints;
 use core::arch::wasm32::*;
 use core::ops::{Add, Div, Mul, Sub};
 
-/// Four lanes.
+/// simd128, four lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Simd128;
 
@@ -16,11 +23,11 @@ impl Simd128 {
     }
 }
 
-/// Numbers in lanes.
+/// One `f32` per lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Four(v128);
+pub(crate) struct F32x4(v128);
 
-impl Add for Four {
+impl Add for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -29,7 +36,7 @@ impl Add for Four {
     }
 }
 
-impl Sub for Four {
+impl Sub for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -38,7 +45,7 @@ impl Sub for Four {
     }
 }
 
-impl Mul for Four {
+impl Mul for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -47,7 +54,7 @@ impl Mul for Four {
     }
 }
 
-impl Div for Four {
+impl Div for F32x4 {
     type Output = Self;
 
     #[inline(always)]
@@ -56,7 +63,7 @@ impl Div for Four {
     }
 }
 
-impl Number for Four {
+impl Float for F32x4 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(f32x4_sqrt(self.0))
@@ -75,95 +82,93 @@ impl Number for Four {
     }
 }
 
-impl Arithmetic for Simd128 {
-    type F = Four;
-
-    #[inline(always)]
-    fn splat(self, value: f32) -> Four {
-        Four(f32x4_splat(value))
-    }
-}
-
 impl Simd for Simd128 {
+    type F = F32x4;
+
     const LANES: usize = 4;
 
     #[inline(always)]
-    unsafe fn load_from(self, place: *const f32) -> Four {
-        // SAFETY: the caller's promise.
-        Four(unsafe { v128_load(place.cast()) })
+    fn splat(self, value: f32) -> F32x4 {
+        F32x4(f32x4_splat(value))
     }
 
     #[inline(always)]
-    unsafe fn store_to(self, place: *mut f32, v: Four) {
-        // SAFETY: the caller's promise.
-        unsafe { v128_store(place.cast(), v.0) };
+    unsafe fn load_from(self, source: *const f32) -> F32x4 {
+        // SAFETY: the caller guarantees it.
+        F32x4(unsafe { v128_load(source.cast()) })
     }
 
     #[inline(always)]
-    fn pick(self, keep: Four, new: Four, old: Four) -> Four {
-        Four(v128_bitselect(new.0, old.0, f32x4_gt(keep.0, f32x4_splat(0.0))))
+    unsafe fn store_to(self, target: *mut f32, v: F32x4) {
+        // SAFETY: the caller guarantees it.
+        unsafe { v128_store(target.cast(), v.0) };
     }
 
     #[inline(always)]
-    fn keep(self, keep: Four, v: Four) -> Four {
-        Four(v128_and(v.0, f32x4_gt(keep.0, f32x4_splat(0.0))))
+    fn select(self, condition: F32x4, new: F32x4, old: F32x4) -> F32x4 {
+        F32x4(v128_bitselect(new.0, old.0, f32x4_gt(condition.0, f32x4_splat(0.0))))
     }
 
     #[inline(always)]
-    fn is_any_positive(self, v: Four) -> bool {
+    fn select_or_zero(self, condition: F32x4, v: F32x4) -> F32x4 {
+        F32x4(v128_and(v.0, f32x4_gt(condition.0, f32x4_splat(0.0))))
+    }
+
+    #[inline(always)]
+    fn any_positive(self, v: F32x4) -> bool {
         v128_any_true(f32x4_gt(v.0, f32x4_splat(0.0)))
     }
 
     #[inline(always)]
-    fn positives(self, v: Four) -> u32 {
+    fn positive_mask(self, v: F32x4) -> u32 {
         u32::from(i32x4_bitmask(f32x4_gt(v.0, f32x4_splat(0.0))))
     }
 
     #[inline(always)]
-    fn deal(self, low: Four, high: Four) -> (Four, Four) {
+    fn deinterleave(self, low: F32x4, high: F32x4) -> (F32x4, F32x4) {
         let even = i32x4_shuffle::<0, 2, 4, 6>(low.0, high.0);
-        (Four(even), Four(i32x4_shuffle::<1, 3, 5, 7>(low.0, high.0)))
+        (F32x4(even), F32x4(i32x4_shuffle::<1, 3, 5, 7>(low.0, high.0)))
     }
 
     #[inline(always)]
-    fn gather_up(self, even: Four, odd: Four) -> (Four, Four) {
+    fn interleave(self, even: F32x4, odd: F32x4) -> (F32x4, F32x4) {
         let low = i32x4_shuffle::<0, 4, 1, 5>(even.0, odd.0);
-        (Four(low), Four(i32x4_shuffle::<2, 6, 3, 7>(even.0, odd.0)))
+        (F32x4(low), F32x4(i32x4_shuffle::<2, 6, 3, 7>(even.0, odd.0)))
     }
 
     #[inline(always)]
-    fn deal_twos(self, low: Four, high: Four) -> (Four, Four) {
+    fn deinterleave_pairs(self, low: F32x4, high: F32x4) -> (F32x4, F32x4) {
         let even = i32x4_shuffle::<0, 1, 4, 5>(low.0, high.0);
-        (Four(even), Four(i32x4_shuffle::<2, 3, 6, 7>(low.0, high.0)))
+        (F32x4(even), F32x4(i32x4_shuffle::<2, 3, 6, 7>(low.0, high.0)))
     }
 
     #[inline(always)]
-    fn dealt(self, v: Four) -> Four {
+    fn to_shuffled_order(self, v: F32x4) -> F32x4 {
         v
     }
 
     #[inline(always)]
-    fn undealt(self, v: Four) -> Four {
+    fn from_shuffled_order(self, v: F32x4) -> F32x4 {
         v
     }
 }
 
-/// Pairs of points: where they lie, and what leads from one to the other. The points themselves are
-/// fetched again, since engines run out of registers.
+/// Pairs of points: their addresses and the vectors between them. The points themselves are loaded
+/// again when they are scattered, because engines run out of registers otherwise.
 #[derive(Clone, Copy)]
 pub(crate) struct Pairs {
     at: [[*mut v128; 4]; 2],
     span: [v128; 4],
 }
 
-impl Between for Simd128 {
+impl GatherPairs for Simd128 {
     type Pairs = Pairs;
 
     #[inline(always)]
-    unsafe fn fetch(self, points: Points<'_>, at: [&[u32]; 2]) -> (Pairs, [Four; 3]) {
-        // SAFETY: the caller's promise; a point is sixteen bytes.
+    unsafe fn gather_pairs(self, points: SharedPoints<'_>, at: [&[u32]; 2]) -> (Pairs, [F32x4; 3]) {
+        // SAFETY: the caller guarantees the indices; a point is sixteen bytes.
         unsafe {
-            let at = at.map(|at| [0, 1, 2, 3].map(|lane| place(points, at, lane)));
+            let at = at.map(|at| [0, 1, 2, 3].map(|lane| address(points, at, lane)));
             let span =
                 [0, 1, 2, 3].map(|lane| f32x4_sub(v128_load(at[1][lane]), v128_load(at[0][lane])));
             let low = [
@@ -177,42 +182,42 @@ impl Between for Simd128 {
             let x = i64x2_shuffle::<0, 2>(low[0], low[1]);
             let y = i64x2_shuffle::<1, 3>(low[0], low[1]);
             let z = i64x2_shuffle::<0, 2>(high[0], high[1]);
-            (Pairs { at, span }, [Four(x), Four(y), Four(z)])
+            (Pairs { at, span }, [F32x4(x), F32x4(y), F32x4(z)])
         }
     }
 
     #[inline(always)]
-    unsafe fn put<const CHOOSY: bool>(
+    unsafe fn scatter_pairs<const MASKED: bool>(
         self,
-        _: Points<'_>,
+        _: SharedPoints<'_>,
         _: [&[u32]; 2],
         pairs: Pairs,
-        shares: [Four; 2],
-        moves: &[bool],
+        shares: [F32x4; 2],
+        mask: &[bool],
     ) {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller guarantees it.
         unsafe {
-            move_one::<0, CHOOSY>(pairs, shares, moves);
-            move_one::<1, CHOOSY>(pairs, shares, moves);
-            move_one::<2, CHOOSY>(pairs, shares, moves);
-            move_one::<3, CHOOSY>(pairs, shares, moves);
+            move_pair::<0, MASKED>(pairs, shares, mask);
+            move_pair::<1, MASKED>(pairs, shares, mask);
+            move_pair::<2, MASKED>(pairs, shares, mask);
+            move_pair::<3, MASKED>(pairs, shares, mask);
         }
     }
 }
 
-/// Moves the two points of a lane.
+/// Moves and stores the two points of one lane.
 ///
 /// # Safety
-/// As for `put`.
+/// As for `scatter_pairs`.
 #[inline(always)]
-unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
+unsafe fn move_pair<const LANE: usize, const MASKED: bool>(
     Pairs { at, span }: Pairs,
-    [to_a, to_b]: [Four; 2],
-    moves: &[bool],
+    [to_a, to_b]: [F32x4; 2],
+    mask: &[bool],
 ) {
-    // SAFETY: the caller's promise; a point is sixteen bytes.
+    // SAFETY: the caller guarantees the indices; a point is sixteen bytes.
     unsafe {
-        if CHOOSY && !*moves.get_unchecked(LANE) {
+        if MASKED && !*mask.get_unchecked(LANE) {
             return;
         }
         let to_a = i32x4_shuffle::<LANE, LANE, LANE, LANE>(to_a.0, to_a.0);
@@ -223,12 +228,12 @@ unsafe fn move_one<const LANE: usize, const CHOOSY: bool>(
     }
 }
 
-/// Where one of the points lies.
+/// Returns the address of the point of one lane.
 ///
 /// # Safety
 /// `at` has entry `lane`, and that is below the number of points.
 #[inline(always)]
-unsafe fn place(points: Points<'_>, at: &[u32], lane: usize) -> *mut v128 {
-    // SAFETY: the caller's promise.
-    unsafe { points.at(*at.get_unchecked(lane)).cast() }
+unsafe fn address(points: SharedPoints<'_>, at: &[u32], lane: usize) -> *mut v128 {
+    // SAFETY: the caller guarantees it.
+    unsafe { points.ptr(*at.get_unchecked(lane)).cast() }
 }

@@ -29,7 +29,7 @@ impl BendScratch {
         hinges: usize,
         capacity: usize,
     ) -> Self {
-        let grid = || Columns::filled(plates.map_or(0, PlateElements::count));
+        let grid = || Columns::zeros(plates.map_or(0, PlateElements::count));
         Self {
             plates: plates.map(PlateScratch::new).unwrap_or_default(),
             normal: grid(),

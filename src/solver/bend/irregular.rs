@@ -7,7 +7,7 @@
 
 use crate::math::TINY;
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Level, Number, Scalar, Simd, vectored};
+use crate::math::simd::{Float, LANES, Level, Scalar, Simd, vectored};
 use crate::model::hardening::Softening;
 use crate::model::irregular_bend::IrregularBends;
 use crate::solver::particle_stage::access::{
@@ -96,8 +96,8 @@ fn bend_some<S: Simd, P: ParticleAccess>(
     }
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     // A middle that is held is stiffer between one end that is held and one that is not, see `plates`.
-    let lean = s.pick(wa, zero, one) - s.pick(wb, zero, one);
-    let clamped = s.pick(wm, one, one + lean * lean);
+    let lean = s.select(wa, zero, one) - s.select(wb, zero, one);
+    let clamped = s.select(wm, one, one + lean * lean);
     let mut stiffness = s.load(&elbows.share, first) * clamped * s.splat(step.stiffness);
     if let Some(softening) = step.softening {
         let mut left = [0.0; LANES];

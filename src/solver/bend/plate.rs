@@ -13,8 +13,8 @@
 //! rest the right side is naught, so that they rest where the elements say, however few the rounds. The
 //! twist goes by itself, see `twist`. For a soft sheet a few explicit steps do for all, see `descent`.
 
-use crate::math::are_same;
 use crate::math::columns::Columns;
+use crate::math::same_bits;
 use crate::math::simd::{Level, leveled};
 use crate::model::hardening::Softening;
 use crate::model::plate_elements::{Each, PlateElements};
@@ -117,7 +117,7 @@ impl PlateScratch {
         let (w, mass) = (&w[..count], &mass[..count]);
         let softer = softening.map(|softening| softening.key());
         let is_same = (self.revision, self.softer) == (plates.revision, softer);
-        if is_same && are_same(&self.w, w) && are_same(&self.mass, mass) {
+        if is_same && same_bits(&self.w, w) && same_bits(&self.mass, mass) {
             return false;
         }
         (self.revision, self.softer) = (plates.revision, softer);

@@ -8,7 +8,7 @@ use crate::solver::collide::mid_phase;
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::features::Bend;
-use crate::geometry::shape::Form;
+use crate::geometry::shape::CollisionShape;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::simd::leveled;
@@ -30,7 +30,7 @@ const HASTE: f32 = 0.95;
 
 /// Blocks near each collider.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Near {
+pub(crate) struct NearbyBlocks {
     reaches: Vec<Reach>,
     blocks: Vec<u32>,
     /// Where particles were when this was found.
@@ -83,7 +83,7 @@ pub(crate) struct Found<'a> {
     pub sharp: Sharp<'a>,
 }
 
-impl Near {
+impl NearbyBlocks {
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         let (blocks, faces) = (particles.div_ceil(BLOCK), triangles.div_ceil(BLOCK));
         let all = bodies * (blocks + faces);
@@ -100,7 +100,7 @@ impl Near {
     }
 
     /// All is to be found anew: colliders went, or are touched otherwise.
-    pub fn forget(&mut self) {
+    pub fn invalidate(&mut self) {
         self.is_stale = true;
     }
 
@@ -114,42 +114,42 @@ impl Near {
 }
 
 impl Room {
-    fn of(body: &Body, form: &Form, gap: f32) -> Self {
+    fn of(body: &Body, collision_shape: &CollisionShape, gap: f32) -> Self {
         let poses = [&body.last, &body.next];
-        if let Form::HalfSpace(_) = form {
+        if let CollisionShape::HalfSpace(_) = collision_shape {
             return Self::Below(poses.map(|pose| (pose.position, pose.frame().axes[1])));
         }
-        let shape = form.bounds();
+        let shape = collision_shape.bounds();
         let mut bounds = Aabb::EMPTY;
-        poses.into_iter().for_each(|pose| bounds.join(&around(&shape, pose, body)));
-        Self::Bounds(bounds.grown(gap))
+        poses.into_iter().for_each(|pose| bounds.merge(&around(&shape, pose, body)));
+        Self::Bounds(bounds.expanded(gap))
     }
 
     /// The same, with room to move in.
-    fn grown(self, by: f32) -> Self {
+    fn expanded(self, by: f32) -> Self {
         match self {
-            Self::Bounds(bounds) => Self::Bounds(bounds.grown(by)),
+            Self::Bounds(bounds) => Self::Bounds(bounds.expanded(by)),
             Self::Below(_) => self,
         }
     }
 
-    fn holds(&self, other: &Self) -> bool {
+    fn contains(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Bounds(own), Self::Bounds(other)) => own.holds(other),
+            (Self::Bounds(own), Self::Bounds(other)) => own.contains(other),
             _ => self == other,
         }
     }
 
     /// Whether something in `bounds` may come within `reach` of it.
-    fn meets(&self, bounds: &Aabb, reach: f32) -> bool {
+    fn overlaps(&self, bounds: &Aabb, reach: f32) -> bool {
         let planes = match self {
-            Self::Bounds(own) => return own.grown(reach).meets(bounds),
+            Self::Bounds(own) => return own.expanded(reach).overlaps(bounds),
             Self::Below(planes) => planes,
         };
         let turned = planes[0].1 != planes[1].1;
         turned
             || planes.iter().any(|(point, normal)| {
-                let (center, half) = (bounds.center() - *point, bounds.half());
+                let (center, half) = (bounds.center() - *point, bounds.half_extents());
                 let size = Vec3::new(normal.x.abs(), normal.y.abs(), normal.z.abs());
                 // What is not a number is near.
                 let distance = center.dot(*normal) - half.dot(size);
@@ -162,7 +162,7 @@ impl Room {
 fn around(shape: &Aabb, pose: &Pose, body: &Body) -> Aabb {
     let frame = pose.frame();
     if body.last.rotation == body.next.rotation {
-        let (center, half) = (frame.outward(shape.center()), shape.half());
+        let (center, half) = (frame.point_to_world(shape.center()), shape.half_extents());
         let size = |v: Vec3| Vec3::new(v.x.abs(), v.y.abs(), v.z.abs());
         let [u, v, w] = frame.axes.map(size);
         let half = u * half.x + v * half.y + w * half.z;
@@ -172,21 +172,21 @@ fn around(shape: &Aabb, pose: &Pose, body: &Body) -> Aabb {
     let (low, high) = (shape.low, shape.high);
     let corner =
         Vec3::new(farthest(low.x, high.x), farthest(low.y, high.y), farthest(low.z, high.z));
-    Aabb::around([pose.position]).grown(corner.length())
+    Aabb::from_points([pose.position]).expanded(corner.length())
 }
 
 /// A tick begins: looks where its colliders go.
 pub(super) fn follow(world: &mut World) {
-    let (near, thickness) = (&mut world.scratch.contacts.near, world.material.thickness);
+    let (near, thickness) = (&mut world.scratch.contacts.nearby, world.material.thickness);
     let mut count = 0;
     let is_new = near.is_stale;
     if is_new {
         near.reaches.clear();
     }
     for body in world.colliders.iter() {
-        let Some(form) = body.form() else { continue };
+        let Some(collision_shape) = body.collision_shape() else { continue };
         if count == near.reaches.len() {
-            let (mild, bulge) = relent(form, world.mean_edge);
+            let (mild, bulge) = relent(collision_shape, world.mean_edge);
             let nowhere = Room::Bounds(Aabb::EMPTY);
             near.reaches.push(Reach {
                 now: nowhere,
@@ -200,17 +200,17 @@ pub(super) fn follow(world: &mut World) {
             });
         }
         let reach = &mut near.reaches[count];
-        reach.now = Room::of(body, form, gap(body, thickness) + reach.bulge);
+        reach.now = Room::of(body, collision_shape, gap(body, thickness) + reach.bulge);
         // What got deep inside between ridges may be a pair or not, by when it was looked for: at the start of
         // every tick, so that a restored cloth goes on the same.
-        near.is_stale |= form.steps().is_some() || !reach.found.holds(&reach.now);
+        near.is_stale |= collision_shape.steps().is_some() || !reach.found.contains(&reach.now);
         count += 1;
     }
 }
 
 /// Finds pairs, if what was found holds no more.
-pub(crate) fn pair(world: &mut World) {
-    let near = &world.scratch.contacts.near;
+pub(crate) fn refresh(world: &mut World) {
+    let near = &world.scratch.contacts.nearby;
     if near.reaches.is_empty() {
         return;
     }
@@ -224,7 +224,7 @@ pub(crate) fn pair(world: &mut World) {
 
 fn is_one_far(world: &World, limit: f32) -> bool {
     let mut far = false;
-    let (x, found_at) = (world.particles.x.all(), world.scratch.contacts.near.found_at.all());
+    let (x, found_at) = (world.particles.x.all(), world.scratch.contacts.nearby.found_at.all());
     look_far(world.level, x, found_at, limit * limit, &mut far);
     far
 }
@@ -251,7 +251,7 @@ fn look_far_lanes([x, y, z]: [&[f32]; 3], [u, v, w]: [&[f32]; 3], limit2: f32, f
 fn find(world: &mut World, margin: f32) {
     measure_edges(world);
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
-    let near = &mut scratch.contacts.near;
+    let near = &mut scratch.contacts.nearby;
     near.found_at.copy_from(x);
     near.is_stale = false;
     // Where a particle is, and where the substep found it: a fast one is far from there already.
@@ -261,28 +261,28 @@ fn find(world: &mut World, margin: f32) {
     near.particle_bounds.extend(
         (0..count)
             .step_by(BLOCK)
-            .map(|first| Aabb::around((first..(first + BLOCK).min(count)).flat_map(both))),
+            .map(|first| Aabb::from_points((first..(first + BLOCK).min(count)).flat_map(both))),
     );
     near.face_bounds.clear();
     near.blocks.clear();
     near.pairs.clear();
     near.longest = 0.0;
     for (reach, body) in near.reaches.iter_mut().zip(world.colliders.iter()) {
-        let Some(form) = body.form() else { continue };
+        let Some(collision_shape) = body.collision_shape() else { continue };
         // Colliders that move get room of their own.
         let slack = if body.last == body.next { 0.0 } else { margin };
-        reach.found = reach.now.grown(slack);
+        reach.found = reach.now.expanded(slack);
         reach.sharp = Span::default();
         reach.from = near.blocks.len() as u32;
         for (block, bounds) in near.particle_bounds.iter().enumerate() {
-            if reach.found.meets(bounds, margin) {
+            if reach.found.overlaps(bounds, margin) {
                 near.blocks.push(block as u32);
             }
         }
         reach.middle = near.blocks.len() as u32;
         let gap = gap(body, world.material.thickness);
-        let is_sharp = form.steps().is_some() && reach.middle > reach.from;
-        let is_pointed = is_pointed(form, near.longest_at_rest.0, gap, reach.bulge);
+        let is_sharp = collision_shape.steps().is_some() && reach.middle > reach.from;
+        let is_pointed = is_pointed(collision_shape, near.longest_at_rest.0, gap, reach.bulge);
         if (is_sharp || is_pointed) && near.longest == 0.0 {
             near.longest = longest(world.mesh.triangles.iter(), |i| x.at(i)) + 2.0 * margin;
         }
@@ -290,21 +290,26 @@ fn find(world: &mut World, margin: f32) {
             let (last, next) = (body.last.frame(), body.next.frame());
             let places = |i: usize| {
                 let [now, before] = both(i);
-                [last.inward(now), last.inward(before), next.inward(now), next.inward(before)]
+                [
+                    last.point_to_local(now),
+                    last.point_to_local(before),
+                    next.point_to_local(now),
+                    next.point_to_local(before),
+                ]
             };
-            let far = margin + gap + reach.bulge + body.turns_aside(form);
+            let far = margin + gap + reach.bulge + body.turns_aside(collision_shape);
             let search = mid_phase::Search { reach: far, mild: reach.mild };
-            reach.sharp = near.pairs.find(form, &world.mesh, count, places, search);
+            reach.sharp = near.pairs.find(collision_shape, &world.mesh, count, places, search);
         }
         if is_pointed {
             if near.face_bounds.is_empty() {
                 let faces = world.mesh.triangles.chunks(BLOCK);
                 near.face_bounds.extend(faces.map(|faces| {
-                    Aabb::around(faces.as_flattened().iter().flat_map(|i| both(*i as usize)))
+                    Aabb::from_points(faces.as_flattened().iter().flat_map(|i| both(*i as usize)))
                 }));
             }
             for (block, bounds) in near.face_bounds.iter().enumerate() {
-                if reach.found.meets(bounds, margin) {
+                if reach.found.overlaps(bounds, margin) {
                     near.blocks.push(block as u32);
                 }
             }
@@ -316,7 +321,7 @@ fn find(world: &mut World, margin: f32) {
 /// How long edges are at rest, after triangles were divided.
 fn measure_edges(world: &mut World) {
     let triangles = &world.mesh.triangles;
-    let near = &mut world.scratch.contacts.near;
+    let near = &mut world.scratch.contacts.nearby;
     if near.longest_at_rest.1 != triangles.len() {
         let at = |i: usize| world.rest[world.mesh.source[i] as usize];
         near.longest_at_rest = (longest(triangles.iter(), at), triangles.len());

@@ -1,6 +1,6 @@
 //! Which particles may touch a shape at all: all particles of a block at once.
 
-use crate::geometry::shape::Bound;
+use crate::geometry::shape::DistanceBound;
 use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
 use crate::math::max;
@@ -21,7 +21,7 @@ struct Sight<'a> {
 pub(super) fn look(
     level: Level,
     place: &Place<'_>,
-    bound: Bound,
+    bound: DistanceBound,
     range: Range<usize>,
     clear: &mut [f32],
 ) -> bool {
@@ -42,22 +42,22 @@ fn part<'a>(columns: &'a Columns, range: &Range<usize>) -> [&'a [f32]; 3] {
 }
 
 leveled! {
-    fn look_over(sight: Sight<'_>, frames: &[Transform; 2], bound: Bound, clear: &mut [f32]) = look_lanes
+    fn look_over(sight: Sight<'_>, frames: &[Transform; 2], bound: DistanceBound, clear: &mut [f32]) = look_lanes
 }
 
 #[inline(always)]
-fn look_lanes(sight: Sight<'_>, frames: &[Transform; 2], bound: Bound, clear: &mut [f32]) {
+fn look_lanes(sight: Sight<'_>, frames: &[Transform; 2], bound: DistanceBound, clear: &mut [f32]) {
     match bound {
-        Bound::Plane => above(sight.x, &frames[1], clear),
-        Bound::Below(top) => each(sight, frames, clear, |_, y, _| y - top),
-        Bound::Ball(radius) => {
+        DistanceBound::Plane => above(sight.x, &frames[1], clear),
+        DistanceBound::Below(top) => each(sight, frames, clear, |_, y, _| y - top),
+        DistanceBound::Sphere(radius) => {
             each(sight, frames, clear, |x, y, z| (x * x + y * y + z * z).sqrt() - radius);
         }
-        Bound::Rod(middle, half, radius) => each(sight, frames, clear, |x, y, z| {
+        DistanceBound::Rod(middle, half, radius) => each(sight, frames, clear, |x, y, z| {
             let y = max((y - middle).abs() - half, 0.0);
             (x * x + y * y + z * z).sqrt() - radius
         }),
-        Bound::Box(middle, half) => each(sight, frames, clear, |x, y, z| {
+        DistanceBound::Box(middle, half) => each(sight, frames, clear, |x, y, z| {
             let x = max((x - middle.x).abs() - half.x, 0.0);
             let y = max((y - middle.y).abs() - half.y, 0.0);
             let z = max((z - middle.z).abs() - half.z, 0.0);
@@ -132,9 +132,9 @@ mod tests {
             let mut clear = [0.0; 37];
             let columns = x.all();
             let sight = Sight { x: columns, predicted: columns, way: columns };
-            look_over(level, sight, &[turned; 2], Bound::Plane, &mut clear);
+            look_over(level, sight, &[turned; 2], DistanceBound::Plane, &mut clear);
             for (i, clear) in clear.iter().enumerate() {
-                let height = turned.inward(x.at(i)).y;
+                let height = turned.point_to_local(x.at(i)).y;
                 assert_eq!(clear.to_bits(), height.to_bits(), "{i} at {level:?}");
             }
         }

@@ -4,9 +4,9 @@
 //! below it. Anywhere else something else touches first: a particle a facet, or the next ridge. So
 //! ways out never turn by more than the shape does.
 
-use crate::geometry::closest_points::blend;
-use crate::geometry::features::{Corner, Features, Ridge, Sides};
-use crate::geometry::shape::Form;
+use crate::geometry::closest_points::interpolate;
+use crate::geometry::features::{Corner, EdgeFeature, Features, Sides};
+use crate::geometry::shape::CollisionShape;
 use crate::math::{TINY, max, min};
 use crate::solver::collide::mid_phase::{EdgePair, Sharp, TipPair};
 use crate::solver::collide::push_accumulator::Lifts;
@@ -27,7 +27,7 @@ const NEARBY: f32 = 4.0;
 /// What stays the same for all pairs of a collider in a substep.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
-    pub form: &'a Form,
+    pub collision_shape: &'a CollisionShape,
     pub found: Sharp<'a>,
     /// The gap that is kept [m].
     pub gap: f32,
@@ -38,7 +38,7 @@ pub(super) struct Task<'a> {
 /// Finds the pairs that are near enough to touch in this substep; `now` is room for where particles are.
 pub(super) fn look(task: &Task<'_>, place: &Place<'_>, now: &mut Vec<Vec3>, near: &mut Vec<u32>) {
     let Sharp { edges, tips, .. } = task.found;
-    let features = task.found.features(task.form);
+    let features = task.found.features(task.collision_shape);
     near.clear();
     if edges.is_empty() && tips.is_empty() {
         return;
@@ -79,7 +79,7 @@ pub(super) fn solve(
     near: &[u32],
     lifts: &mut Lifts,
 ) -> f32 {
-    let features = task.found.features(task.form);
+    let features = task.found.features(task.collision_shape);
     let mut deepest = 0.0;
     lifts.begin(place.w.len());
     for at in near {
@@ -89,8 +89,8 @@ pub(super) fn solve(
             None => meet_tip(task, features, place, &task.found.tips[at - task.found.edges.len()]),
         };
         let Some((corners, Spot { weights, push })) = met else { continue };
-        let from = blend(corners.map(|i| place.before(i)), weights);
-        let to = blend(corners.map(|i| place.now(i)), weights);
+        let from = interpolate(corners.map(|i| place.before(i)), weights);
+        let to = interpolate(corners.map(|i| place.now(i)), weights);
         let moved = place.moved(from, to, push);
         deepest = max(push.depth, deepest);
         lifts.add(corners, weights, corners.map(|i| place.w[i]), moved, push);
@@ -112,7 +112,7 @@ fn meet_edge(
     if height >= task.gap {
         return None;
     }
-    let most = min(task.form.depth(ridge.ends[0], normal), task.deepest);
+    let most = min(task.collision_shape.depth(ridge.ends[0], normal), task.deepest);
     let (share, push) = if height > -most {
         if ridge.sides == Sides::Fold && !before.iter().all(|x| ridge.is_outside(*x)) {
             return None;
@@ -140,7 +140,7 @@ fn meet_edge(
 
 /// The way out that is square to a ridge and an edge, and how far out the edge is; nothing where
 /// something else of the shape is farther out.
-fn over(ridge: &Ridge, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
+fn over(ridge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
     let (along, span) = (ridge.ends[1] - ridge.ends[0], b - a);
     let normal = along.cross(span);
     let length2 = normal.length_squared();
@@ -154,7 +154,7 @@ fn over(ridge: &Ridge, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
 }
 
 /// Where an edge passes over a ridge, as a share of the edge.
-fn crossing(ridge: &Ridge, [a, b]: [Vec3; 2], normal: Vec3) -> Option<f32> {
+fn crossing(ridge: &EdgeFeature, [a, b]: [Vec3; 2], normal: Vec3) -> Option<f32> {
     let (along, span, between) = (ridge.ends[1] - ridge.ends[0], b - a, a - ridge.ends[0]);
     // Seen along the way out both are lines in a plane.
     let turn = normal.dot(along.cross(span));
@@ -177,13 +177,13 @@ fn meet_tip(
     if height >= task.gap {
         return None;
     }
-    let most = min(task.form.depth(corner.at, normal), task.deepest);
+    let most = min(task.collision_shape.depth(corner.at, normal), task.deepest);
     let spot = if height > -most {
         if corner.sides == Sides::Fold && !before.iter().all(|x| features.is_outside(corner, *x)) {
             return None;
         }
         let weights = within(now, corner.at, normal)?;
-        let start = (blend(before, weights) - corner.at).dot(normal);
+        let start = (interpolate(before, weights) - corner.at).dot(normal);
         Spot { weights, push: place.rise.push(normal, task.gap, start, height)? }
     } else {
         let (weights, back, _) = cross(corner.at, before, now)?;

@@ -5,9 +5,9 @@
 //! whatever is nearer than that now is all that may touch until then.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::closest_points::{blend, of_segments, of_triangle};
-use crate::geometry::features::{Bend, Feature, Features, Relief, Ridge};
-use crate::geometry::shape::Form;
+use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
+use crate::geometry::features::{Bend, EdgeFeature, Feature, Features, ShapeFeatures};
+use crate::geometry::shape::CollisionShape;
 use crate::math::max;
 use crate::mesh::{Mesh, NONE};
 use glam::Vec3;
@@ -74,8 +74,8 @@ impl<'a> Sharp<'a> {
     }
 
     /// What pairs speak of.
-    pub fn features(&self, form: &'a Form) -> &'a Features {
-        relief_of(form).map_or(self.ground, |relief| &relief.features)
+    pub fn features(&self, collision_shape: &'a CollisionShape) -> &'a Features {
+        relief_of(collision_shape).map_or(self.ground, |relief| &relief.features)
     }
 }
 
@@ -101,11 +101,11 @@ impl Seen {
     }
 }
 
-fn relief_of(form: &Form) -> Option<&Relief> {
-    match form {
-        Form::Cuboid(_, relief) | Form::Hull(_, relief) | Form::TriangleSurface(_, relief) => {
-            Some(relief)
-        }
+fn relief_of(collision_shape: &CollisionShape) -> Option<&ShapeFeatures> {
+    match collision_shape {
+        CollisionShape::Cuboid(_, relief)
+        | CollisionShape::ConvexHull(_, relief)
+        | CollisionShape::TriangleSurface(_, relief) => Some(relief),
         _ => None,
     }
 }
@@ -162,7 +162,7 @@ impl Pairs {
     /// Finds what is near a shape, which sees each of `count` particles in `places`.
     pub fn find(
         &mut self,
-        form: &Form,
+        collision_shape: &CollisionShape,
         mesh: &Mesh,
         count: usize,
         places: impl Fn(usize) -> [Vec3; 4],
@@ -172,27 +172,30 @@ impl Pairs {
         let start = self.starts.len() as u32;
         self.seen.clear();
         self.seen.extend((0..count).map(|i| Seen::new(places(i), search.reach)));
-        self.find_facets(form, search.reach);
-        self.find_features(form, mesh, search);
+        self.find_facets(collision_shape, search.reach);
+        self.find_features(collision_shape, mesh, search);
         let (edges, tips) = ([edges, self.edges.len() as u32], [tips, self.tips.len() as u32]);
         Span { edges, tips, start }
     }
 
-    fn find_facets(&mut self, form: &Form, reach: f32) {
-        let bounds = form.bounds();
-        if !matches!(form, Form::Hull(..) | Form::TriangleSurface(..)) {
+    fn find_facets(&mut self, collision_shape: &CollisionShape, reach: f32) {
+        let bounds = collision_shape.bounds();
+        if !matches!(
+            collision_shape,
+            CollisionShape::ConvexHull(..) | CollisionShape::TriangleSurface(..)
+        ) {
             return;
         }
         for seen in &self.seen {
             self.starts.push(self.facets.len() as u32);
-            if !seen.bounds.meets(&bounds) {
+            if !seen.bounds.overlaps(&bounds) {
                 continue;
             }
-            match form {
-                Form::Hull(body, _) => {
+            match collision_shape {
+                CollisionShape::ConvexHull(body, _) => {
                     body.find_foremost(seen.at, seen.radius + reach, &mut self.facets);
                 }
-                Form::TriangleSurface(surface, _) => {
+                CollisionShape::TriangleSurface(surface, _) => {
                     surface.find_near(seen.at, seen.radius + reach, &mut self.facets);
                 }
                 _ => {}
@@ -201,22 +204,22 @@ impl Pairs {
         self.starts.push(self.facets.len() as u32);
     }
 
-    fn find_features(&mut self, form: &Form, mesh: &Mesh, search: Search) {
-        let bounds = form.bounds();
+    fn find_features(&mut self, collision_shape: &CollisionShape, mesh: &Mesh, search: Search) {
+        let bounds = collision_shape.bounds();
         let ground = self.ground.counts();
-        if let Form::Heightfield(terrain) = form {
+        if let CollisionShape::Heightfield(terrain) = collision_shape {
             let mut all = Aabb::EMPTY;
-            self.seen.iter().for_each(|seen| all.join(&seen.bounds));
+            self.seen.iter().for_each(|seen| all.merge(&seen.bounds));
             terrain.find_under(&all, |ridge| search.is_mild(&ridge.bend), &mut self.ground);
         }
         for (number, block) in mesh.triangles.chunks(BLOCK).enumerate() {
             let mut place = Aabb::EMPTY;
-            block.as_flattened().iter().for_each(|i| place.join(&self.seen[*i as usize].bounds));
-            if !place.meets(&bounds) {
+            block.as_flattened().iter().for_each(|i| place.merge(&self.seen[*i as usize].bounds));
+            if !place.overlaps(&bounds) {
                 continue;
             }
             self.around.clear();
-            let features = match relief_of(form) {
+            let features = match relief_of(collision_shape) {
                 Some(relief) => {
                     let all = relief.near(place);
                     let rough = all.filter(|at| !search.is_mild(&relief.features.bend(*at)));
@@ -226,7 +229,7 @@ impl Pairs {
                 None => {
                     let own = self.ground.numbers_after(ground);
                     let placed = own.map(|at| (at, self.ground.bounds(at)));
-                    self.around.extend(placed.filter(|(_, bounds)| bounds.meets(&place)));
+                    self.around.extend(placed.filter(|(_, bounds)| bounds.overlaps(&place)));
                     &self.ground
                 }
             };
@@ -259,12 +262,12 @@ impl Block<'_> {
         let corners = mesh.triangles[triangle];
         let [a, b, c] = corners.map(|i| self.seen[i as usize]);
         let mut place = a.bounds;
-        place.join(&b.bounds);
-        place.join(&c.bounds);
+        place.merge(&b.bounds);
+        place.merge(&c.bounds);
         let across = mesh.across[triangle];
-        for (feature, _) in around.iter().filter(|(_, bounds)| bounds.meets(&place)) {
+        for (feature, _) in around.iter().filter(|(_, bounds)| bounds.overlaps(&place)) {
             match self.features.at(*feature) {
-                Feature::Ridge(ridge) => {
+                Feature::EdgeFeature(ridge) => {
                     for (k, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
                         let is_own = across[k] == NONE || across[k] as usize > triangle;
                         if is_own && self.is_edge_near(ridge, ends) {
@@ -275,7 +278,7 @@ impl Block<'_> {
                 }
                 Feature::Corner(number, corner) => {
                     let now = [a, b, c].map(|seen| seen.at - corner.at);
-                    let apart2 = blend(now, of_triangle(now)).length_squared();
+                    let apart2 = interpolate(now, triangle_to_origin(now)).length_squared();
                     let most = self.reach + max(max(a.radius, b.radius), c.radius);
                     if apart2.is_nan() || apart2 <= most * most {
                         tips.push(TipPair { corner: number, corners });
@@ -285,13 +288,13 @@ impl Block<'_> {
         }
     }
 
-    fn is_edge_near(&self, ridge: &Ridge, [a, b]: [Seen; 2]) -> bool {
+    fn is_edge_near(&self, ridge: &EdgeFeature, [a, b]: [Seen; 2]) -> bool {
         let mut place = a.bounds;
-        place.join(&b.bounds);
-        if !Aabb::around(ridge.ends).meets(&place) {
+        place.merge(&b.bounds);
+        if !Aabb::from_points(ridge.ends).overlaps(&place) {
             return false;
         }
-        let (s, t) = of_segments(ridge.ends, [a.at, b.at]);
+        let (s, t) = segment_to_segment(ridge.ends, [a.at, b.at]);
         let on_ridge = ridge.ends[0] + (ridge.ends[1] - ridge.ends[0]) * s;
         let apart2 = (a.at + (b.at - a.at) * t - on_ridge).length_squared();
         let most = self.reach + max(a.radius, b.radius);

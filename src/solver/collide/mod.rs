@@ -6,6 +6,7 @@
 //! is sharp or small enough to get in between particles.
 
 pub(crate) mod broad_phase;
+pub(crate) mod collider_contact;
 mod distance_cull;
 mod edge_vs_feature;
 mod mid_phase;
@@ -15,13 +16,13 @@ pub(crate) mod response;
 mod triangle_vs_round;
 
 use crate::geometry::features::Bend;
-use crate::geometry::shape::Form;
+use crate::geometry::shape::CollisionShape;
 use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
-use crate::math::{finite, max, min};
-use crate::solver::collide::broad_phase::{Found, Near};
+use crate::math::{max, min, saturate};
+use crate::solver::collide::broad_phase::{Found, NearbyBlocks};
+use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::push_accumulator::Lifts;
-use crate::solver::collide::response::Touch;
 use crate::solver::world::World;
 use crate::state::colliders::{Body, Impulse};
 use crate::state::settings::Scheme;
@@ -45,10 +46,10 @@ const LEFT: f32 = 0.1;
 /// Room for contacts, made when a collider comes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactScratch {
-    pub near: Near,
+    pub nearby: NearbyBlocks,
     /// What touched in this substep: by collider, then by particle. What there is no room for any more
     /// neither bounces nor pushes its collider.
-    pub touches: Vec<Touch>,
+    pub collider_contacts: Vec<ColliderContact>,
     /// What each live collider was pushed by in this tick.
     pub impulses: Vec<Impulse>,
     /// How far each particle is from a collider at least [m].
@@ -70,8 +71,10 @@ impl World {
         if bodies == 0 {
             return;
         }
-        scratch.near.reserve(bodies, particles, self.triangle_capacity);
-        scratch.touches.reserve_exact(particles.saturating_sub(scratch.touches.len()));
+        scratch.nearby.reserve(bodies, particles, self.triangle_capacity);
+        scratch
+            .collider_contacts
+            .reserve_exact(particles.saturating_sub(scratch.collider_contacts.len()));
         scratch.impulses.reserve_exact(bodies.saturating_sub(scratch.impulses.len()));
         scratch.clear.reserve_exact(particles.saturating_sub(scratch.clear.len()));
         scratch.lifts.reserve(particles);
@@ -82,38 +85,38 @@ impl World {
 }
 
 /// A tick begins: nothing was pushed yet, and colliders sweep over new ways.
-pub(crate) fn begin(world: &mut World) {
+pub(crate) fn begin_tick(world: &mut World) {
     let scratch = &mut world.scratch.contacts;
-    scratch.touches.clear();
+    scratch.collider_contacts.clear();
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
     broad_phase::follow(world);
 }
 
 /// The tick is over: every collider is where it was to be, and knows what pushed it.
-pub(crate) fn arrive(world: &mut World) {
+pub(crate) fn finish_tick(world: &mut World) {
     for (body, impulse) in world.colliders.iter_mut().zip(&world.scratch.contacts.impulses) {
         body.arrive();
         let Impulse { linear, angular } = *impulse;
         let angular = angular - body.next.position.cross(linear);
-        body.impulse = Impulse { linear: finite(linear), angular: finite(angular) };
+        body.impulse = Impulse { linear: saturate(linear), angular: saturate(angular) };
     }
 }
 
 /// Pushes particles out of every collider as it is at the end of the tick, and does nothing else to them, after
 /// something moved them from `scratch.predicted`.
-pub(crate) fn keep_out(world: &mut World) {
+pub(crate) fn project_out(world: &mut World) {
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
-    broad_phase::pair(world);
+    broad_phase::refresh(world);
     touch(world, &|body| [body.next.frame(); 2], true);
-    world.scratch.contacts.touches.clear();
+    world.scratch.contacts.collider_contacts.clear();
 }
 
 /// Pushes what is free out of every collider, as it is at the end of substep `number`.
 pub(crate) fn solve(world: &mut World, number: u32) {
-    world.scratch.contacts.touches.clear();
+    world.scratch.contacts.collider_contacts.clear();
     let substeps = world.settings.substeps;
     touch(world, &|body| frames(body, number, substeps), false);
 }
@@ -125,8 +128,8 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: b
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
     for (at, body) in world.colliders.iter().enumerate() {
-        let Some(form) = body.form() else { continue };
-        let near = contacts.near.of(at);
+        let Some(collision_shape) = body.collision_shape() else { continue };
+        let near = contacts.nearby.of(at);
         if near.blocks.is_empty() {
             continue;
         }
@@ -146,11 +149,11 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: b
             gap,
             rise: Rise {
                 by: RISE * scheme.h,
-                deep: DEEP[usize::from(form.steps().is_some())] * world.mean_edge,
+                deep: DEEP[usize::from(collision_shape.steps().is_some())] * world.mean_edge,
             },
             scheme,
             body: at as u32,
-            touches: &mut contacts.touches,
+            touches: &mut contacts.collider_contacts,
             slots: &mut contacts.slots,
         };
         place.gap += near.bulge;
@@ -160,25 +163,32 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: b
             clear.clear();
             clear.resize(place.w.len(), 0.0);
         }
-        particle_vs_shape::solve(world.level, form, &mut place, near.blocks, &near.sharp, clear);
+        particle_vs_shape::solve(
+            world.level,
+            collision_shape,
+            &mut place,
+            near.blocks,
+            &near.sharp,
+            clear,
+        );
         if is_bare {
             continue;
         }
-        if form.steps().is_some() {
+        if collision_shape.steps().is_some() {
             let task = edge_vs_feature::Task {
-                form,
+                collision_shape,
                 found: near.sharp,
                 gap: gap * triangle_vs_round::GAP,
                 deepest: near.longest * 0.5,
             };
             edge_vs_feature::look(&task, &place, &mut contacts.seen, &mut contacts.close);
-            rounds(form, &mut place, &near, gap, lifts, &|place, lifts| {
+            rounds(collision_shape, &mut place, &near, gap, lifts, &|place, lifts| {
                 edge_vs_feature::solve(&task, place, &contacts.close, lifts)
             });
         } else if !near.faces.is_empty() {
-            rounds(form, &mut place, &near, gap, lifts, &|place, lifts| {
+            rounds(collision_shape, &mut place, &near, gap, lifts, &|place, lifts| {
                 triangle_vs_round::solve(
-                    form,
+                    collision_shape,
                     place,
                     &world.mesh.triangles,
                     &near,
@@ -194,7 +204,7 @@ fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: b
 /// Pushes triangles out until they are, by `push`, which says how deep the deepest was; and after each round
 /// the corners that it moved.
 fn rounds(
-    form: &Form,
+    collision_shape: &CollisionShape,
     place: &mut Place<'_>,
     near: &Found<'_>,
     gap: f32,
@@ -208,7 +218,7 @@ fn rounds(
         }
         // What pushes triangles may push their corners in elsewhere.
         for i in lifts.pushed() {
-            particle_vs_shape::push(form, place, &near.sharp, *i as usize);
+            particle_vs_shape::push(collision_shape, place, &near.sharp, *i as usize);
         }
         if round >= ROUNDS[0] && deepest <= gap * LEFT {
             break;
@@ -305,7 +315,7 @@ struct Place<'a> {
     rise: Rise,
     scheme: Scheme,
     body: u32,
-    touches: &'a mut Vec<Touch>,
+    touches: &'a mut Vec<ColliderContact>,
     slots: &'a mut [u32],
 }
 
@@ -313,13 +323,13 @@ impl Place<'_> {
     /// Where a particle was when the substep started.
     #[inline(always)]
     fn before(&self, i: usize) -> Vec3 {
-        self.frames[0].inward(self.predicted.at(i) - self.way.at(i))
+        self.frames[0].point_to_local(self.predicted.at(i) - self.way.at(i))
     }
 
     /// Where it is.
     #[inline(always)]
     fn now(&self, i: usize) -> Vec3 {
-        self.frames[1].inward(self.x.at(i))
+        self.frames[1].point_to_local(self.x.at(i))
     }
 
     /// The push and what friction takes back of a slide from `before` to `now`.
@@ -338,12 +348,14 @@ impl Place<'_> {
         if self.frames[0] == self.frames[1] {
             return Vec3::ZERO;
         }
-        (self.frames[1].outward(at) - self.frames[0].outward(at)) * (1.0 / self.scheme.h)
+        (self.frames[1].point_to_world(at) - self.frames[0].point_to_world(at))
+            * (1.0 / self.scheme.h)
     }
 
     /// Moves a particle that touched by itself, as the collider sees it.
     fn push_point(&mut self, i: usize, now: Vec3, normal: Vec3, moved: Vec3) {
-        let (normal, moved) = (self.frames[1].turn(normal), self.frames[1].turn(moved));
+        let (normal, moved) =
+            (self.frames[1].vector_to_world(normal), self.frames[1].vector_to_world(moved));
         self.shift(i, now, normal, moved, 1.0);
     }
 
@@ -360,7 +372,7 @@ impl Place<'_> {
             touch.share = max(share, touch.share);
         } else if self.touches.len() < self.touches.capacity() {
             self.slots[i] = self.touches.len() as u32;
-            self.touches.push(Touch {
+            self.touches.push(ColliderContact {
                 particle: i as u32,
                 body: self.body,
                 share,
@@ -382,16 +394,16 @@ impl Place<'_> {
 /// ```text
 /// a chord of length L is L² / (8 R) deeper than its ends; the diagonal of a cell is √2 of its side
 /// ```
-fn relent(form: &Form, spacing: f32) -> (Bend, f32) {
+fn relent(collision_shape: &CollisionShape, spacing: f32) -> (Bend, f32) {
     let over = |radius: f32| {
         if radius >= COARSEST * spacing { spacing * spacing * (0.25 * ROOM) / radius } else { 0.0 }
     };
-    let bulge = match form {
-        Form::Ball(ball) => over(ball.radius),
-        Form::Capsule(capsule) => over(capsule.slimmest()),
+    let bulge = match collision_shape {
+        CollisionShape::Sphere(ball) => over(ball.radius),
+        CollisionShape::Capsule(capsule) => over(capsule.slimmest()),
         _ => {
             let diagonal = spacing * DIAGONAL;
-            let mild = form.steps().map(|steps| steps.mild(diagonal, spacing * MILD));
+            let mild = collision_shape.steps().map(|steps| steps.mild(diagonal, spacing * MILD));
             let mild = mild.unwrap_or_default();
             return (mild, mild.sag(diagonal));
         }
@@ -413,12 +425,12 @@ const COARSEST: f32 = 1.5;
 
 /// Whether triangles may touch a round shape where no particle does: it gets deeper in between than what is
 /// let go.
-fn is_pointed(form: &Form, longest_edge: f32, gap: f32, bulge: f32) -> bool {
+fn is_pointed(collision_shape: &CollisionShape, longest_edge: f32, gap: f32, bulge: f32) -> bool {
     let chord = |radius: f32| longest_edge * longest_edge * 0.125 / radius;
     let room = gap * triangle_vs_round::GAP + bulge;
-    match form {
-        Form::Ball(ball) => chord(ball.radius) > room,
-        Form::Capsule(capsule) => chord(capsule.slimmest()) > room,
+    match collision_shape {
+        CollisionShape::Sphere(ball) => chord(ball.radius) > room,
+        CollisionShape::Capsule(capsule) => chord(capsule.slimmest()) > room,
         _ => false,
     }
 }

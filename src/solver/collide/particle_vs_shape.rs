@@ -2,7 +2,7 @@
 
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::polyhedron::Foremost;
-use crate::geometry::shape::{Form, Solid};
+use crate::geometry::shape::{CollisionShape, SignedDistance};
 use crate::geometry::triangle_surface::Patch;
 use crate::math::simd::Level;
 use crate::math::{max, min};
@@ -21,14 +21,14 @@ const SAME_SIDE: f32 = 0.7;
 /// least, and is as it was where nobody looked.
 pub(super) fn solve(
     level: Level,
-    form: &Form,
+    collision_shape: &CollisionShape,
     place: &mut Place<'_>,
     blocks: &[u32],
     sharp: &Sharp<'_>,
     clear: &mut [f32],
 ) {
     let count = place.w.len();
-    let bound = form.bound();
+    let bound = collision_shape.bound();
     for block in blocks {
         let first = *block as usize * BLOCK;
         let range = first..(first + BLOCK).min(count);
@@ -40,36 +40,41 @@ pub(super) fn solve(
             if place.w[i] <= 0.0 || clear[i] > place.gap {
                 continue;
             }
-            push(form, place, sharp, i);
+            push(collision_shape, place, sharp, i);
         }
     }
 }
 
 /// Pushes a particle out of a shape.
 #[inline(never)]
-pub(super) fn push(form: &Form, place: &mut Place<'_>, sharp: &Sharp<'_>, i: usize) {
+pub(super) fn push(
+    collision_shape: &CollisionShape,
+    place: &mut Place<'_>,
+    sharp: &Sharp<'_>,
+    i: usize,
+) {
     let (before, now, gap) = (place.before(i), place.now(i), place.gap);
     let rise = place.rise;
     let patch = |surface| Patch { surface, facets: sharp.facets(i) };
-    let found = match form {
-        Form::HalfSpace(solid) => meet_solid(solid, before, now, gap, rise),
-        Form::Ball(solid) => meet_solid(solid, before, now, gap, rise),
-        Form::Capsule(solid) => meet_solid(solid, before, now, gap, rise),
-        Form::Cuboid(solid, _) => meet_solid(solid, before, now, gap, rise),
-        Form::Hull(body, _) => {
+    let found = match collision_shape {
+        CollisionShape::HalfSpace(solid) => meet_solid(solid, before, now, gap, rise),
+        CollisionShape::Sphere(solid) => meet_solid(solid, before, now, gap, rise),
+        CollisionShape::Capsule(solid) => meet_solid(solid, before, now, gap, rise),
+        CollisionShape::Cuboid(solid, _) => meet_solid(solid, before, now, gap, rise),
+        CollisionShape::ConvexHull(body, _) => {
             let solid = Foremost { body, faces: sharp.facets(i) };
             if solid.faces.is_empty() { None } else { meet_solid(&solid, before, now, gap, rise) }
         }
-        Form::TriangleSurface(surface, _) => {
+        CollisionShape::TriangleSurface(surface, _) => {
             meet_surface(&patch(surface), before, now, max(gap, SKIN))
         }
-        Form::Heightfield(terrain) => meet_terrain(terrain, before, now, gap),
+        CollisionShape::Heightfield(terrain) => meet_terrain(terrain, before, now, gap),
     };
     let Some(found) = found else { return };
     let moved = place.moved(before, now, found);
     // Friction moves along a plane, which a bent surface is not.
-    let moved = match form {
-        Form::TriangleSurface(surface, _)
+    let moved = match collision_shape {
+        CollisionShape::TriangleSurface(surface, _)
             if patch(surface).strike(before, now + moved).is_some() =>
         {
             before - now
@@ -140,7 +145,13 @@ fn meet_terrain(terrain: &Heightfield, before: Vec3, now: Vec3, gap: f32) -> Opt
 
 /// What keeps a particle on its way from `before` to `now` a `gap` out of a convex body; one that was inside
 /// comes out little by little.
-fn meet_solid(solid: &impl Solid, before: Vec3, now: Vec3, gap: f32, rise: Rise) -> Option<Push> {
+fn meet_solid(
+    solid: &impl SignedDistance,
+    before: Vec3,
+    now: Vec3,
+    gap: f32,
+    rise: Rise,
+) -> Option<Push> {
     let (start, out) = solid.nearest(before);
     let way = now - before;
     // What is beyond the plane between them does not touch.
@@ -154,12 +165,18 @@ fn meet_solid(solid: &impl Solid, before: Vec3, now: Vec3, gap: f32, rise: Rise)
     if start < -rise.deep {
         return Some(Push { normal: out, depth: rise.by, is_slick: true });
     }
-    turn_back(solid, before, now, start, min(gap, start + rise.by))
+    scatter_transpose(solid, before, now, start, min(gap, start + rise.by))
 }
 
 /// What takes back a particle that went around a body or through it, which its way tells.
 #[inline(never)]
-fn turn_back(solid: &dyn Solid, before: Vec3, now: Vec3, start: f32, gap: f32) -> Option<Push> {
+fn scatter_transpose(
+    solid: &dyn SignedDistance,
+    before: Vec3,
+    now: Vec3,
+    start: f32,
+    gap: f32,
+) -> Option<Push> {
     let (at, normal) = strike(solid, before, now - before, start, gap)?;
     let (distance, _) = solid.nearest(at);
     let depth = gap - distance - (now - at).dot(normal);
@@ -171,7 +188,7 @@ fn turn_back(solid: &dyn Solid, before: Vec3, now: Vec3, start: f32, gap: f32) -
 /// Up to the plane in front of a convex body one may go on: all of the body is behind it. One that sets out
 /// from the surface is let slide along it.
 fn strike(
-    solid: &dyn Solid,
+    solid: &dyn SignedDistance,
     before: Vec3,
     way: Vec3,
     start: f32,
@@ -199,12 +216,12 @@ fn strike(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::shape::{Ball, Cuboid, HalfSpace};
+    use crate::geometry::shape::{Cuboid, HalfSpace, Sphere};
 
     const GAP: f32 = 1.0e-3;
 
     /// Where a particle ends that goes from one place to another.
-    fn end(solid: &impl Solid, before: Vec3, now: Vec3) -> Vec3 {
+    fn end(solid: &impl SignedDistance, before: Vec3, now: Vec3) -> Vec3 {
         meet_solid(solid, before, now, GAP, Rise { by: 9.0, deep: 9.0 })
             .map_or(now, |push| now + push.normal * push.depth)
     }
@@ -223,7 +240,7 @@ mod tests {
 
     #[test]
     fn what_flies_through_a_ball_ends_where_it_came_from() {
-        let ball = Ball { radius: 0.05 };
+        let ball = Sphere { radius: 0.05 };
         let end = end(&ball, Vec3::Y * 0.5, Vec3::new(0.01, -0.5, 0.0));
         assert!(ball.nearest(end).0 > 0.9 * GAP && end.y > 0.0, "{end}");
     }
@@ -240,7 +257,7 @@ mod tests {
 
     #[test]
     fn what_passes_by_goes_on() {
-        let ball = Ball { radius: 0.05 };
+        let ball = Sphere { radius: 0.05 };
         let now = Vec3::new(0.06, -0.5, 0.0);
         assert_eq!(end(&ball, Vec3::new(0.06, 0.5, 0.0), now), now);
         let plate = Cuboid { half: Vec3::new(1.0, 0.01, 1.0) };
@@ -278,7 +295,7 @@ mod tests {
 
     #[test]
     fn what_starts_inside_comes_out_little_by_little() {
-        let ball = Ball { radius: 0.5 };
+        let ball = Sphere { radius: 0.5 };
         let inside = Vec3::new(0.1, 0.2, 0.0);
         assert!((ball.nearest(end(&ball, inside, inside)).0 - GAP).abs() < 1.0e-6);
         let end = end(&HalfSpace, Vec3::Y * -3.0, Vec3::Y * -3.0);

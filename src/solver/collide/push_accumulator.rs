@@ -86,8 +86,8 @@ impl Lifts {
             let length = lift.normal.length();
             if length > 0.0 {
                 let frame = place.frames[1];
-                let normal = frame.turn(lift.normal * (1.0 / length));
-                let moved = frame.turn(lift.moved * (1.0 / lift.weight));
+                let normal = frame.vector_to_world(lift.normal * (1.0 / length));
+                let moved = frame.vector_to_world(lift.moved * (1.0 / lift.weight));
                 place.shift(i, place.now(i), normal, moved, lift.most);
             }
         }

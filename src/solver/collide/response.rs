@@ -5,35 +5,10 @@
 //! and sliding keep theirs along the surface.
 
 use crate::math::min;
+use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::world::World;
 use crate::state::particles::Particles;
 use glam::Vec3;
-
-/// A particle that touched a collider in a substep, by itself or as a corner of a triangle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch {
-    pub particle: u32,
-    /// The number of the collider among the live ones.
-    pub body: u32,
-    /// How much of what touched is the particle's: 1, if it is the particle itself.
-    pub share: f32,
-    /// Out of the collider.
-    pub normal: Vec3,
-    pub surface_velocity: Vec3,
-    /// Its velocity before it touched [m/s].
-    pub approach: Vec3,
-    /// How it was pushed [m].
-    pub push: Vec3,
-    pub restitution: f32,
-    pub tangential_restitution: f32,
-}
-
-impl Touch {
-    /// Whether it is between this particle and this collider.
-    pub fn is_of(&self, particle: usize, body: u32) -> bool {
-        self.particle as usize == particle && self.body == body
-    }
-}
 
 /// What all touches of a substep have in common.
 #[derive(Clone, Copy)]
@@ -50,7 +25,7 @@ struct Law {
 }
 
 /// Goes over all touches, after velocities were derived.
-pub(crate) fn settle(world: &mut World, keep: f32) {
+pub(crate) fn resolve_velocities(world: &mut World, keep: f32) {
     let (scheme, gravity) = (world.settings.scheme(), world.settings.gravity);
     let law = Law {
         h: scheme.h,
@@ -61,7 +36,7 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
         gain: scheme.lead / scheme.h,
     };
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    for touch in &scratch.contacts.touches {
+    for touch in &scratch.contacts.collider_contacts {
         let i = touch.particle as usize;
         let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
         let given = bounce(p, touch, i, step, law);
@@ -73,7 +48,7 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
 }
 
 /// Says how much momentum the particle got.
-fn bounce(p: &mut Particles, touch: &Touch, i: usize, step: Vec3, law: Law) -> Vec3 {
+fn bounce(p: &mut Particles, touch: &ColliderContact, i: usize, step: Vec3, law: Law) -> Vec3 {
     let (n, surface, h) = (touch.normal, touch.surface_velocity, law.h);
     let along = |v: Vec3| (v - n * v.dot(n)) * touch.tangential_restitution;
     let step = step - surface * h;

@@ -1,7 +1,7 @@
 //! Triangles against round shapes that are too small to meet a particle.
 
-use crate::geometry::closest_points::{blend, of_triangle};
-use crate::geometry::shape::{Form, Knob, Solid};
+use crate::geometry::closest_points::{interpolate, triangle_to_origin};
+use crate::geometry::shape::{CollisionShape, PlacedSphere, SignedDistance};
 use crate::math::{TINY, max, min};
 use crate::solver::collide::broad_phase::{BLOCK, Found};
 use crate::solver::collide::push_accumulator::Lifts;
@@ -36,7 +36,7 @@ pub(super) struct Face {
 /// Pushes the triangles of some blocks out of a shape; says how far the one that was pushed
 /// the most, or 0 if there was none.
 pub(super) fn solve(
-    form: &Form,
+    collision_shape: &CollisionShape,
     place: &mut Place<'_>,
     triangles: &[[u32; 3]],
     found: &Found<'_>,
@@ -57,10 +57,10 @@ pub(super) fn solve(
             }
             let before = each.map(|i| place.before(i));
             let face = Face { before, now: each.map(|i| place.now(i)) };
-            let Some(Spot { weights, push }) = meet(form, &face, gap) else { continue };
-            let (from, to) = (blend(before, weights), blend(face.now, weights));
+            let Some(Spot { weights, push }) = meet(collision_shape, &face, gap) else { continue };
+            let (from, to) = (interpolate(before, weights), interpolate(face.now, weights));
             // What was inside comes out little by little.
-            let start = outside(form, from);
+            let start = outside(collision_shape, from);
             let push = place.rise.push(push.normal, gap, start, gap - push.depth);
             let Some(push) = push else { continue };
             let moved = place.moved(from, to, push);
@@ -73,30 +73,32 @@ pub(super) fn solve(
 }
 
 /// How far a point is outside of a round shape.
-fn outside(form: &Form, p: Vec3) -> f32 {
-    match form {
-        Form::Ball(solid) => solid.nearest(p).0,
-        Form::Capsule(solid) => solid.nearest(p).0,
+fn outside(collision_shape: &CollisionShape, p: Vec3) -> f32 {
+    match collision_shape {
+        CollisionShape::Sphere(solid) => solid.nearest(p).0,
+        CollisionShape::Capsule(solid) => solid.nearest(p).0,
         _ => f32::INFINITY,
     }
 }
 
 /// Where a triangle touches a shape.
-fn meet(form: &Form, face: &Face, gap: f32) -> Option<Spot> {
-    match form {
-        Form::Ball(ball) => {
-            let knob = Knob { center: Vec3::ZERO, radius: ball.radius };
+fn meet(collision_shape: &CollisionShape, face: &Face, gap: f32) -> Option<Spot> {
+    match collision_shape {
+        CollisionShape::Sphere(ball) => {
+            let knob = PlacedSphere { center: Vec3::ZERO, radius: ball.radius };
             meet_round([knob; 2], |_| knob, face, gap)
         }
-        Form::Capsule(capsule) => meet_round(capsule.ends(), |p| capsule.ball_at(p), face, gap),
+        CollisionShape::Capsule(capsule) => {
+            meet_round(capsule.ends(), |p| capsule.ball_at(p), face, gap)
+        }
         _ => None,
     }
 }
 
 /// Two balls and what is between them; `ball_at` is the one that a point is closest to.
 fn meet_round(
-    ends: [Knob; 2],
-    ball_at: impl Fn(Vec3) -> Knob,
+    ends: [PlacedSphere; 2],
+    ball_at: impl Fn(Vec3) -> PlacedSphere,
     face: &Face,
     gap: f32,
 ) -> Option<Spot> {
@@ -105,7 +107,7 @@ fn meet_round(
     let out = middle - knob.center;
     // In front of a plane there is nothing to touch.
     let normal = out * (1.0 / out.length());
-    let front = |knob: &Knob| knob.center.dot(normal) + knob.radius;
+    let front = |knob: &PlacedSphere| knob.center.dot(normal) + knob.radius;
     let front = -min(-front(&ends[0]), -front(&ends[1]));
     let is_before = |x: &Vec3, gap: f32| x.dot(normal) >= front + gap;
     if face.now.iter().all(|x| is_before(x, gap)) && face.before.iter().all(|x| is_before(x, 0.0)) {
@@ -120,15 +122,15 @@ fn meet_round(
     }
     let mut weights = [1.0, 0.0, 0.0];
     for _ in 0..STEPS {
-        weights = of_triangle(face.now.map(|x| x - knob.center));
-        let next = ball_at(blend(face.now, weights));
+        weights = triangle_to_origin(face.now.map(|x| x - knob.center));
+        let next = ball_at(interpolate(face.now, weights));
         let is_found = next.center == knob.center;
         knob = next;
         if is_found {
             break;
         }
     }
-    let out = blend(face.now, weights) - knob.center;
+    let out = interpolate(face.now, weights) - knob.center;
     let length = out.length();
     let depth = knob.radius + gap - length;
     (depth > 0.0 && length > TINY)
@@ -170,9 +172,9 @@ pub(super) fn cross(
         (from, to) = if side * start > 0.0 { (middle, to) } else { (from, middle) };
     }
     let then = at(to);
-    let weights = of_triangle(then);
+    let weights = triangle_to_origin(then);
     // A hundredth of an edge beside it is still on it.
-    if blend(then, weights).length_squared() > 1.0e-4 * area2 {
+    if interpolate(then, weights).length_squared() > 1.0e-4 * area2 {
         return None;
     }
     let back = if start > 0.0 { normal } else { -normal };

@@ -5,7 +5,7 @@
 
 use crate::solver::vertex_sums::triangles;
 
-use crate::math::simd::{Number, Simd, leveled, vectored};
+use crate::math::simd::{Float, Simd, leveled, vectored};
 use crate::math::{TINY, max};
 use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
@@ -45,7 +45,7 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
     let breeze = world.wind.at(world.time);
     let particles = (p.x.all(), p.v.all(), world.scratch.relative_wind.all_mut());
-    threads.over(particles, SWIRLS, |(x, v, air)| face_air(level, &breeze, x, v, air));
+    threads.parallel_for(particles, SWIRLS, |(x, v, air)| face_air(level, &breeze, x, v, air));
     let half_density = 0.5 * world.wind.air_density;
     let pressure = Pressure {
         drag: half_density * world.material.drag,
@@ -68,11 +68,15 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
             push(level, surface, pressure, band, force);
         }
     });
-    threads.over((force.all_mut(), &p.mass[..]), MIN_PARTICLES_PER_THREAD, |(force, mass)| {
-        for (force, gravity) in force.into_iter().zip(gravity.to_array()) {
-            accelerate(level, force, mass, gravity);
-        }
-    });
+    threads.parallel_for(
+        (force.all_mut(), &p.mass[..]),
+        MIN_PARTICLES_PER_THREAD,
+        |(force, mass)| {
+            for (force, gravity) in force.into_iter().zip(gravity.to_array()) {
+                accelerate(level, force, mass, gravity);
+            }
+        },
+    );
 }
 
 leveled! {
@@ -156,16 +160,16 @@ impl Pressure {
         let inverse = s.splat(1.0) / double_area.max(tiny);
         let (nx, ny, nz) = (nx * inverse, ny * inverse, nz * inverse);
         let facing = ux * nx + uy * ny + uz * nz;
-        let head_on = s.pick(facing, facing, zero - facing);
+        let head_on = s.select(facing, facing, zero - facing);
         // The pressure acts on the triangle as it is now, shared out as its mass is.
-        let stretch = Number::min(s.splat(0.5) * double_area / rest_area.max(tiny), s.splat(4.0));
+        let stretch = Float::min(s.splat(0.5) * double_area / rest_area.max(tiny), s.splat(4.0));
         let most = s.splat(self.most);
-        let push = Number::min(s.splat(self.drag) * head_on, most) * facing * stretch;
+        let push = Float::min(s.splat(self.drag) * head_on, most) * facing * stretch;
         let mut force = [nx * push, ny * push, nz * push];
         if LIFT {
             let speed2 = ux * ux + uy * uy + uz * uz;
-            let sign = s.pick(zero - facing, s.splat(-1.0), s.splat(1.0));
-            let rate = Number::min(s.splat(self.lift) * head_on, most) * sign * stretch;
+            let sign = s.select(zero - facing, s.splat(-1.0), s.splat(1.0));
+            let rate = Float::min(s.splat(self.lift) * head_on, most) * sign * stretch;
             let share = rate / speed2.sqrt().max(tiny);
             force[0] = force[0] + (nx * speed2 - ux * facing) * share;
             force[1] = force[1] + (ny * speed2 - uy * facing) * share;

@@ -26,21 +26,25 @@ pub(crate) fn advance(world: &mut World) {
     let is_long = AtomicBool::new(false);
     let write = scratch.displacement.all_mut();
     let read = (p.moved.all(), p.v_ahead.all(), scratch.acceleration.all(), &p.w[..]);
-    threads.over((write, read), MIN_PARTICLES_PER_THREAD, |(write, (moved, v_ahead, a, w))| {
-        let mut is_one_long = false;
-        for (((way, moved), v_ahead), a) in write.into_iter().zip(moved).zip(v_ahead).zip(a) {
-            plan(level, way, [moved, v_ahead, a, w], scheme, limit, &mut is_one_long);
-        }
-        if is_one_long {
-            is_long.store(true, Ordering::Relaxed);
-        }
-    });
+    threads.parallel_for(
+        (write, read),
+        MIN_PARTICLES_PER_THREAD,
+        |(write, (moved, v_ahead, a, w))| {
+            let mut is_one_long = false;
+            for (((way, moved), v_ahead), a) in write.into_iter().zip(moved).zip(v_ahead).zip(a) {
+                plan(level, way, [moved, v_ahead, a, w], scheme, limit, &mut is_one_long);
+            }
+            if is_one_long {
+                is_long.store(true, Ordering::Relaxed);
+            }
+        },
+    );
     if is_long.into_inner() {
         clamp_displacement(world, reach);
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let columns = (p.x.all_mut(), scratch.displacement.all(), scratch.predicted.all_mut());
-    threads.over(columns, MIN_PARTICLES_PER_THREAD, |(x, way, predicted)| {
+    threads.parallel_for(columns, MIN_PARTICLES_PER_THREAD, |(x, way, predicted)| {
         for ((x, way), predicted) in x.into_iter().zip(way).zip(predicted) {
             go(level, x, way, predicted);
         }
@@ -99,7 +103,7 @@ fn clamp_displacement(world: &mut World, reach: f32) {
     let (x, mass, w) = (p.x.all(), &p.mass[..], &p.w[..]);
     let rigid = RigidMotion::of_free(level, Free { x, way: way.all(), mass, w });
     let is_clamped = AtomicBool::new(false);
-    world.threads.over((way.all_mut(), x, w), MIN_PARTICLES_PER_THREAD, |(way, x, w)| {
+    world.threads.parallel_for((way.all_mut(), x, w), MIN_PARTICLES_PER_THREAD, |(way, x, w)| {
         let mut is_one_clamped = false;
         clamp(level, way, [x[0], x[1], x[2], w], rigid, reach, &mut is_one_clamped);
         if is_one_clamped {

@@ -41,7 +41,7 @@ fn is_all_sound(world: &World) -> bool {
     let (level, p) = (world.level, &world.particles);
     let is_one_not = AtomicBool::new(false);
     let columns = (p.x.all(), p.moved.all(), p.v.all(), p.v_ahead.all());
-    world.threads.over(columns, MIN_PARTICLES_PER_THREAD, |(x, moved, v, v_ahead)| {
+    world.threads.parallel_for(columns, MIN_PARTICLES_PER_THREAD, |(x, moved, v, v_ahead)| {
         let mut all_sound = true;
         for column in [x, moved, v, v_ahead].into_iter().flatten() {
             look_over(level, column, &mut all_sound);

@@ -1,7 +1,7 @@
 //! The motion of a solid body: a shift and a turn about the centre of mass.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Lanes, Level, Number, Scalar, Simd, vectored};
+use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
 use crate::math::trig::{cos, sin};
 use glam::{Mat3, Vec3};
 
@@ -135,32 +135,32 @@ impl<'a> Free<'a> {
         (
             [s.load(x, at), s.load(y, at), s.load(z, at)],
             [s.load(way_x, at), s.load(way_y, at), s.load(way_z, at)],
-            s.keep(s.load(self.w, at), s.load(self.mass, at)),
+            s.select_or_zero(s.load(self.w, at), s.load(self.mass, at)),
         )
     }
 }
 
 vectored! {
     /// Sums of masses, and of places and ways by mass. Every eighth particle goes to the same lane.
-    fn sum_ways(free: Free<'_>, sums: &mut [Lanes; 7]) = sum_ways_of, Avx2, sum_ways_apart
+    fn sum_ways(free: Free<'_>, sums: &mut [LaneArray; 7]) = sum_ways_of, Avx2, sum_ways_apart
 }
 
 vectored! {
     /// Sums of spins about a center of mass that moves, and of the products of what leads from there.
-    fn sum_turns(free: Free<'_>, mean: [[f32; 3]; 2], sums: &mut [Lanes; 9])
+    fn sum_turns(free: Free<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9])
         = sum_turns_of, Avx2, sum_turns_apart
 }
 
-fn sum_ways_apart(free: Free<'_>, sums: &mut [Lanes; 7]) {
+fn sum_ways_apart(free: Free<'_>, sums: &mut [LaneArray; 7]) {
     sum_ways_of(Scalar, free, sums);
 }
 
-fn sum_turns_apart(free: Free<'_>, mean: [[f32; 3]; 2], sums: &mut [Lanes; 9]) {
+fn sum_turns_apart(free: Free<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9]) {
     sum_turns_of(Scalar, free, mean, sums);
 }
 
 #[inline(always)]
-fn sum_ways_of<S: Simd>(s: S, free: Free<'_>, sums: &mut [Lanes; 7]) {
+fn sum_ways_of<S: Simd>(s: S, free: Free<'_>, sums: &mut [LaneArray; 7]) {
     let count = free.w.len();
     let whole = free.all_in(0, count / LANES * LANES);
     for first in (0..LANES).step_by(S::LANES) {
@@ -187,7 +187,7 @@ fn sum_turns_of<S: Simd>(
     s: S,
     free: Free<'_>,
     [center, shift]: [[f32; 3]; 2],
-    sums: &mut [Lanes; 9],
+    sums: &mut [LaneArray; 9],
 ) {
     let count = free.w.len();
     let whole = free.all_in(0, count / LANES * LANES);
@@ -215,7 +215,7 @@ fn sum_turns_of<S: Simd>(
 }
 
 #[inline(always)]
-fn add_ways<F: Number>(sum: &mut [F; 7], (x, way, mass): ([F; 3], [F; 3], F)) {
+fn add_ways<F: Float>(sum: &mut [F; 7], (x, way, mass): ([F; 3], [F; 3], F)) {
     sum[0] = sum[0] + mass;
     for axis in 0..3 {
         sum[1 + axis] = sum[1 + axis] + x[axis] * mass;
@@ -224,7 +224,7 @@ fn add_ways<F: Number>(sum: &mut [F; 7], (x, way, mass): ([F; 3], [F; 3], F)) {
 }
 
 #[inline(always)]
-fn add_turns<F: Number>(
+fn add_turns<F: Float>(
     sum: &mut [F; 9],
     [center, shift]: [[F; 3]; 2],
     (x, way, mass): ([F; 3], [F; 3], F),
@@ -249,7 +249,7 @@ fn add_turns<F: Number>(
 }
 
 /// What all lanes sum up to.
-fn total_of(lanes: Lanes) -> f32 {
+fn total_of(lanes: LaneArray) -> f32 {
     lanes.into_iter().sum()
 }
 

@@ -3,7 +3,7 @@
 //! The other half of `Scheme`. Damping scales the velocity and its whole history alike, which makes a
 //! free particle slow down by exactly exp(-damping h).
 
-use crate::solver::collide::response::settle;
+use crate::solver::collide::response::resolve_velocities;
 use crate::solver::kinematic::anchors;
 
 use crate::math::simd::leveled;
@@ -20,15 +20,19 @@ pub(crate) fn derive(world: &mut World) {
     let level = world.level;
     let read = (p.x.all(), predicted.all(), way.all());
     let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());
-    world.threads.over((read, write), MIN_PARTICLES_PER_THREAD, |((x, predicted, way), write)| {
-        let (moved, v, v_ahead) = write;
-        let read = x.into_iter().zip(predicted).zip(way);
-        let write = moved.into_iter().zip(v).zip(v_ahead);
-        for (((x, predicted), way), ((moved, v), v_ahead)) in read.zip(write) {
-            renew(level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
-        }
-    });
-    settle(world, keep);
+    world.threads.parallel_for(
+        (read, write),
+        MIN_PARTICLES_PER_THREAD,
+        |((x, predicted, way), write)| {
+            let (moved, v, v_ahead) = write;
+            let read = x.into_iter().zip(predicted).zip(way);
+            let write = moved.into_iter().zip(v).zip(v_ahead);
+            for (((x, predicted), way), ((moved, v), v_ahead)) in read.zip(write) {
+                renew(level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
+            }
+        },
+    );
+    resolve_velocities(world, keep);
     anchors::settle(world, keep);
 }
 

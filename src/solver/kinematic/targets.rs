@@ -74,8 +74,8 @@ impl Carriage {
     /// as the tick ends.
     fn carry(&self, pin: &Pin, share: f32) -> Vec3 {
         let Some([last, now]) = &self.frames else { return pin.target };
-        let late = pin.from - last.outward(pin.local);
-        now.outward(pin.local) + late * (1.0 - share)
+        let late = pin.from - last.point_to_world(pin.local);
+        now.point_to_world(pin.local) + late * (1.0 - share)
     }
 }
 

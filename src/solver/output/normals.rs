@@ -10,7 +10,7 @@ use crate::solver::vertex_sums::triangles;
 
 use crate::math::columns::Columns;
 use crate::math::max;
-use crate::math::simd::{Number, Scalar, Simd, leveled, vectored};
+use crate::math::simd::{Float, Scalar, Simd, leveled, vectored};
 use crate::model::links::LinkKind;
 use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
@@ -48,7 +48,9 @@ pub(crate) fn normals(world: &World, x: &Columns, sums: &mut Columns) {
     in_bands(world.threads, surface, sums, |band, sums| {
         sum_normals(level, surface, Doubled, band, sums);
     });
-    world.threads.over(sums.all_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
+    world
+        .threads
+        .parallel_for(sums.all_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
 }
 
 /// Where the particles are at a share of the way from the last tick to this one.
@@ -108,7 +110,11 @@ fn normalized<S: Simd>(s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
     let inverse = s.splat(1.0) / length;
     // Where numbers end there is no normal either.
     let is_one = length.min(s.splat(f32::INFINITY) - length);
-    [s.keep(is_one, x * inverse), s.keep(is_one, y * inverse), s.keep(is_one, z * inverse)]
+    [
+        s.select_or_zero(is_one, x * inverse),
+        s.select_or_zero(is_one, y * inverse),
+        s.select_or_zero(is_one, z * inverse),
+    ]
 }
 
 /// A triangle's normal, as long as twice its area.

@@ -139,8 +139,8 @@ impl Give for Along {
         let (du1, dv1) = (ub[0] - ua[0], ub[1] - ua[1]);
         let (du2, dv2) = (uc[0] - ua[0], uc[1] - ua[1]);
         let is_mirrored = zero - (du1 * dv2 - du2 * dv1);
-        let dv1 = s.pick(is_mirrored, minus - dv1, dv1);
-        let dv2 = s.pick(is_mirrored, minus - dv2, dv2);
+        let dv1 = s.select(is_mirrored, minus - dv1, dv1);
+        let dv2 = s.select(is_mirrored, minus - dv2, dv2);
         let mut along = [zero; 3];
         for (axis, along) in along.iter_mut().enumerate() {
             *along = (b[axis] - a[axis]) * dv2 - (c[axis] - a[axis]) * dv1;

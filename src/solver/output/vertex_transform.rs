@@ -1,11 +1,11 @@
 //! Stage `Outputs`: vertices as a renderer wants them placed, a block of them at a time.
 
-use crate::math::pack::{BLOCK, Numbers};
+use crate::math::pack::{BLOCK, FloatBlock};
 use crate::math::simd::{Level, leveled};
 use glam::{Affine3, DMat3, Mat3};
 
 /// A vector of each vertex of a block.
-pub(crate) type Vectors = [Numbers; 3];
+pub(crate) type Vectors = [FloatBlock; 3];
 
 /// How vertices are placed.
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +96,7 @@ impl Placing {
         level: Level,
         sums: &mut Vectors,
         normals: &Vectors,
-        hands: &mut Numbers,
+        hands: &mut FloatBlock,
     ) {
         square(level, sums, normals);
         if let Some(turn) = &self.turn {
@@ -109,14 +109,14 @@ impl Placing {
 }
 
 /// Takes the numbers of a block from columns; what is beyond `count` stays as it is.
-pub(crate) fn load(to: &mut [Numbers], columns: &[&[f32]], first: usize, count: usize) {
+pub(crate) fn load(to: &mut [FloatBlock], columns: &[&[f32]], first: usize, count: usize) {
     for (numbers, column) in to.iter_mut().zip(columns) {
         numbers[..count].copy_from_slice(&column[first..first + count]);
     }
 }
 
 /// As `load`, from the entries `at`.
-pub(crate) fn gather(to: &mut [Numbers], columns: &[&[f32]], at: &[u32]) {
+pub(crate) fn gather(to: &mut [FloatBlock], columns: &[&[f32]], at: &[u32]) {
     for (numbers, column) in to.iter_mut().zip(columns) {
         for (number, at) in numbers.iter_mut().zip(at) {
             *number = column[*at as usize];

@@ -1,7 +1,7 @@
 //! Particles one after the other, x, y, z and inverse mass of each together: what pairs of anything want.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Arithmetic, Base, Number, Scalar, Simd, turned};
+use crate::math::simd::{Baseline, Float, Scalar, Simd, transpose_4x4};
 use crate::math::wide4::{Float4, Four, xyz};
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use core::array;
@@ -25,20 +25,20 @@ pub(crate) fn push(spot: &mut Float4, by: Four) {
 /// some it is done twice.
 macro_rules! each {
     ($count:expr, |$simd:ident, $at:ident| $work:expr) => {
-        if $count < Base::LANES {
+        if $count < Baseline::LANES {
             let $simd = Scalar;
             for $at in 0..$count {
                 $work;
             }
         } else {
-            let ($simd, last) = (Base::new(), $count - Base::LANES);
+            let ($simd, last) = (Baseline::new(), $count - Baseline::LANES);
             let mut $at = 0;
             loop {
                 $work;
                 if $at == last {
                     break;
                 }
-                $at = last.min($at + Base::LANES);
+                $at = last.min($at + Baseline::LANES);
             }
         }
     };
@@ -51,7 +51,7 @@ fn fetch<S: Simd>(s: S, spots: &[Float4], at: usize) -> [S::F; 4] {
     if S::LANES == 1 {
         return array::from_fn(|k| s.load(&spots[0], k));
     }
-    turned(s, array::from_fn(|k| s.load(&spots[k], 0)))
+    transpose_4x4(s, array::from_fn(|k| s.load(&spots[k], 0)))
 }
 
 /// Puts them back.
@@ -62,7 +62,7 @@ fn put<S: Simd>(s: S, spots: &mut [Float4], at: usize, numbers: [S::F; 4]) {
         numbers.into_iter().enumerate().for_each(|(k, number)| s.store(&mut spots[0], k, number));
         return;
     }
-    for (spot, row) in spots.iter_mut().zip(turned(s, numbers)) {
+    for (spot, row) in spots.iter_mut().zip(transpose_4x4(s, numbers)) {
         s.store(spot, 0, row);
     }
 }
@@ -175,7 +175,7 @@ pub(crate) fn give_room(
         let (before, after) = (fetch(s, start, at), fetch(s, now, at));
         let way = [0, 1, 2].map(|axis| after[axis] - before[axis]);
         let [x, y, z] = [0, 1, 2].map(|axis| way[axis] - s.splat(drift[axis]));
-        let against = Number::sqrt(x * x + y * y + z * z);
+        let against = Float::sqrt(x * x + y * y + z * z);
         let room = against * s.splat(share) + s.splat(spare);
         let [x, y, z] = way;
         put(s, from, at, [x - room, y - room, z - room, s.splat(0.0)]);
@@ -210,7 +210,7 @@ mod tests {
         for count in 0..10 {
             let number = |i: usize, k: usize| ((i * 7 + k * 13) % 31) as f32 / 7.0 - 2.0;
             let vector = |i: usize, k: usize| Vec3::new(number(i, k), number(i, k + 1), -0.0);
-            let [mut x, mut motion, mut ways] = [(); 3].map(|()| Columns::filled(count));
+            let [mut x, mut motion, mut ways] = [(); 3].map(|()| Columns::zeros(count));
             let w: Vec<f32> = (0..count).map(|i| number(i, 5)).collect();
             for i in 0..count {
                 x.set(i, vector(i, 0));

@@ -134,9 +134,9 @@ impl ParticleCollision {
         listed_at.clear();
         listed_at.extend(world.particles.x.iter());
         let most = self.distance + 2.0 * margin;
-        grid.fill(listed_at, CELL * most);
+        grid.rebuild(listed_at, CELL * most);
         pairs.clear();
-        grid.list_pairs(world.level, most * most, pairs);
+        grid.push_close_pairs(world.level, most * most, pairs);
         let mut count = 0;
         for at in 0..pairs.len() {
             let pair = pairs[at];

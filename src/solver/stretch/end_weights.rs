@@ -8,8 +8,8 @@
 //! Written by `inverse_masses::refresh`; read by the kernels of `grid_links`, `mesh_kernel`, `sparse`.
 //! Invariant: `ends` and `is_even` have one entry per link of `constraints.links`.
 
-use crate::math::are_same;
 use crate::math::column::Column;
+use crate::math::same_bits;
 use crate::model::links::Links;
 use crate::solver::stretch::link_projection::relative_weights;
 use core::ops::Range;
@@ -39,7 +39,7 @@ impl EndWeights {
 
     /// Whether the weights were computed from these inverse masses and these rigid kinds.
     pub fn is_current(&self, w: &[f32], rigid: [bool; 3]) -> bool {
-        are_same(&self.w, w) && self.rigid == rigid
+        same_bits(&self.w, w) && self.rigid == rigid
     }
 
     /// Notes the inverse masses to compute from, and resizes the lists to `links` entries.

@@ -15,7 +15,7 @@
 
 use crate::math::column::Column;
 use crate::math::columns::Columns;
-use crate::math::simd::{Base, Level, Simd, vectored};
+use crate::math::simd::{Baseline, Level, Simd, vectored};
 use crate::model::grid_rows::{GridRows, Pattern, Row};
 use crate::model::links::Links;
 use crate::solver::particle_stage::access::ParticleAccess;
@@ -198,14 +198,14 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
         let (start, mut done) = (lists.spot::<PATTERN>(row, count), 0);
         // SAFETY: the row was just found to lie within the lists; there is room for whole chunks, or none is made.
         unsafe {
-            while S::LANES > Base::LANES && done < count {
+            while S::LANES > Baseline::LANES && done < count {
                 let spot = start.after::<PATTERN>(done);
                 if !lists.have_room::<PATTERN>(spot, S::LANES) {
                     break;
                 }
                 let place = lists.place::<S, PATTERN>(spot);
                 let first = Chunk::first(s, S::LANES.min(count - done));
-                let keep = s.keep(first, Chunk::in_row(s, place, 0));
+                let keep = s.select_or_zero(first, Chunk::in_row(s, place, 0));
                 let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
                 chunk.finish_only::<LAW, PATTERN>(s, place, keep);
                 done += S::LANES;
@@ -286,16 +286,16 @@ pub(crate) unsafe fn solve_last<const LAW: u8, const PATTERN: u8>(
     count: usize,
     terms: Terms,
 ) {
-    let s = Base::new();
+    let s = Baseline::new();
     while done < count {
-        let from = done.min(count - Base::LANES);
+        let from = done.min(count - Baseline::LANES);
         // SAFETY: the caller's promise.
         unsafe {
-            let place = lists.place::<Base, PATTERN>(row.after::<PATTERN>(from));
+            let place = lists.place::<Baseline, PATTERN>(row.after::<PATTERN>(from));
             let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
             let keep = Chunk::in_row(s, place, done - from);
             chunk.finish_only::<LAW, PATTERN>(s, place, keep);
         }
-        done = from + Base::LANES;
+        done = from + Baseline::LANES;
     }
 }

@@ -7,7 +7,9 @@
     allow(dead_code)
 )]
 
-use crate::math::simd::{LANES, Level, Number, Scalar, Simd, turn, turn_back, vectored};
+use crate::math::simd::{
+    Float, LANES, Level, Scalar, Simd, gather_transpose, scatter_transpose, vectored,
+};
 use crate::model::line_blocks;
 use crate::solver::stretch::line_solver::{Step, excess, length, limited, longest};
 use crate::solver::world::World;
@@ -52,14 +54,14 @@ impl Seats<'_> {
         laid: &line_blocks::Step,
         step: &mut Step,
     ) {
-        let to = turn(s, self.points, &laid.to[first..]);
+        let to = gather_transpose(s, self.points, &laid.to[first..]);
         for (lanes, to) in step.to.iter_mut().zip(to) {
             s.store(lanes, first, to);
         }
         if SOFT {
             return step.rest(s, first, &laid.rest);
         }
-        let start = turn(s, self.starts, &laid.to[first..]);
+        let start = gather_transpose(s, self.starts, &laid.to[first..]);
         let span = [start[0] - was[0], start[1] - was[1], start[2] - was[2]];
         step.mend(s, first, length(s, span), &laid.rest);
         *was = start;
@@ -135,9 +137,9 @@ fn put_lanes<S: Simd>(
             way = step.way(s, first, way);
             most = excess(s, longest(s, way), &laid.rest, first).max(most);
             let [x, y, z] = step.there(s, first, way);
-            turn_back(s, points, &laid.to[first..], [x, y, z, s.load(&step.to[3], first)]);
+            scatter_transpose(s, points, &laid.to[first..], [x, y, z, s.load(&step.to[3], first)]);
         }
-        *is_far |= s.is_any_positive(most);
+        *is_far |= s.any_positive(most);
     }
 }
 
@@ -190,7 +192,7 @@ fn seat_lanes<S: Simd>(s: S, [x, y, z]: [&[f32]; 3], w: &[f32], seats: &mut [[f3
     let mut first = 0;
     while first + S::LANES <= count {
         let numbers = [s.load(x, first), s.load(y, first), s.load(z, first), s.load(w, first)];
-        turn_back(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
+        scatter_transpose(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
         first += S::LANES;
     }
     seat_apart([&x[first..], &y[first..], &z[first..]], &w[first..], &mut seats[first..]);
@@ -212,7 +214,7 @@ fn seat_back_lanes<S: Simd>(s: S, to: [&[f32]; 3], way: [&[f32]; 3], seats: &mut
         for axis in 0..3 {
             numbers[axis] = s.load(to[axis], first) - s.load(way[axis], first);
         }
-        turn_back(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
+        scatter_transpose(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
         first += S::LANES;
     }
     seat_back_apart(to.map(|to| &to[first..]), way.map(|way| &way[first..]), &mut seats[first..]);
@@ -234,7 +236,7 @@ fn unseat_lanes<S: Simd>(s: S, seats: &[[f32; 4]], columns: [&mut [f32]; 3]) {
     let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
     let mut first = 0;
     while first + S::LANES <= count {
-        let numbers = turn(s, &seats[first..first + S::LANES], &IN_TURN);
+        let numbers = gather_transpose(s, &seats[first..first + S::LANES], &IN_TURN);
         s.store(x, first, numbers[0]);
         s.store(y, first, numbers[1]);
         s.store(z, first, numbers[2]);

@@ -26,7 +26,7 @@ use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::stretch::{line_gather, line_strided};
 
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Lanes, Level, Number, Scalar, Simd, vectored};
+use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
 use crate::math::{TINY, max};
 use crate::mesh::NONE;
 use crate::model::line_blocks;
@@ -44,7 +44,7 @@ const MEND: f32 = 0.3;
 const EARTH: f32 = 9.81;
 
 /// Three columns of eight.
-type Lanes3 = [Lanes; 3];
+type Lanes3 = [LaneArray; 3];
 
 /// Room to work in.
 #[derive(Clone, Debug, Default)]
@@ -64,19 +64,19 @@ pub(crate) struct LineScratch {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Step {
     /// Where the particles are, and their inverse mass.
-    pub to: [Lanes; 4],
+    pub to: [LaneArray; 4],
     /// What the links are to be long; then how long they are as a share of that.
-    pub aim: Lanes,
+    pub aim: LaneArray,
     /// One over what they are to be long.
-    pub over: Lanes,
+    pub over: LaneArray,
     /// Their directions; then how the particles move beside what those before do.
     n: Lanes3,
     /// How each link hangs on the one before: less what it has to do with it in the system.
-    before: Lanes,
+    before: LaneArray,
     /// One over its pivot.
-    inverse: Lanes,
+    inverse: LaneArray,
     /// The right side of the system; then the share that the particles move by of what those before do.
-    right: Lanes,
+    right: LaneArray,
 }
 
 impl LineScratch {
@@ -299,12 +299,12 @@ impl<S: Simd> Run<S> {
     }
 
     #[inline(always)]
-    fn load(&self, lanes: &Lanes) -> S::F {
+    fn load(&self, lanes: &LaneArray) -> S::F {
         self.s.load(lanes, self.first)
     }
 
     #[inline(always)]
-    fn store(&self, lanes: &mut Lanes, v: S::F) {
+    fn store(&self, lanes: &mut LaneArray, v: S::F) {
         self.s.store(lanes, self.first, v);
     }
 
@@ -361,7 +361,7 @@ impl<S: Simd> Run<S> {
         let short = length - self.load(&step.aim);
         self.store(&mut step.aim, length * self.load(&step.over));
         let (rest, last_w) = (self.load(&laid.rest), self.load(from_w));
-        let before = s.keep(rest, last_w * along);
+        let before = s.select_or_zero(rest, last_w * along);
         self.store(&mut step.before, before);
         let both = last_w + self.load(to_w);
         let mut weight = both * s.splat(1.0 + GIVE);
@@ -371,7 +371,7 @@ impl<S: Simd> Run<S> {
         let share = before * there.inverse;
         let pivot = (weight - share * before).max(both * s.splat(GIVE));
         // Between two that are held there is nothing to solve.
-        there.inverse = s.keep(both.min(rest), one / pivot);
+        there.inverse = s.select_or_zero(both.min(rest), one / pivot);
         there.right = short + share * there.right;
         self.store(&mut step.inverse, there.inverse);
         self.store(&mut step.right, there.right);
@@ -400,8 +400,8 @@ impl<S: Simd> Run<S> {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
         let after = (self.load(&step.right) + back.after) * self.load(&step.inverse);
-        let q = s.keep(after, after * self.load(&step.over));
-        let tension = s.pick(after, after * self.load(&step.aim), after);
+        let q = s.select_or_zero(after, after * self.load(&step.over));
+        let tension = s.select(after, after * self.load(&step.aim), after);
         let w = self.load(&step.to[3]);
         let give = w / (one + w * (q + back.hold));
         let share = give * q;
@@ -431,7 +431,7 @@ impl<S: Simd> Run<S> {
 impl Step {
     /// Sets what links are to be long that give way: as long as at rest.
     #[inline(always)]
-    pub fn rest<S: Simd>(&mut self, s: S, first: usize, rest: &Lanes) {
+    pub fn rest<S: Simd>(&mut self, s: S, first: usize, rest: &LaneArray) {
         let aim = s.load(rest, first);
         s.store(&mut self.aim, first, aim);
         s.store(&mut self.over, first, s.splat(1.0) / aim);
@@ -439,7 +439,7 @@ impl Step {
 
     /// Sets what links are to be long that were so long when the substep began: a little of it mended.
     #[inline(always)]
-    pub fn mend<S: Simd>(&mut self, s: S, first: usize, was: S::F, rest: &Lanes) {
+    pub fn mend<S: Simd>(&mut self, s: S, first: usize, was: S::F, rest: &LaneArray) {
         let rest = s.load(rest, first);
         let aim = rest + (was - rest) * s.splat(1.0 - MEND);
         s.store(&mut self.aim, first, aim);
@@ -480,7 +480,7 @@ pub(crate) fn size<S: Simd>(s: S, v: S::F) -> S::F {
 /// than 0.577 of what it may be. Squares would tell for sure, but where the cloth rests they are so small that
 /// processors take long for them.
 #[inline(always)]
-pub(crate) fn excess<S: Simd>(s: S, longest: S::F, most: &Lanes, first: usize) -> S::F {
+pub(crate) fn excess<S: Simd>(s: S, longest: S::F, most: &LaneArray, first: usize) -> S::F {
     longest - size(s, s.load(most, first)) * s.splat(0.577)
 }
 

@@ -12,13 +12,13 @@ use crate::model::line_blocks;
 use crate::solver::stretch::line_solver::{Step, excess, length, limited, longest, size};
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Arithmetic, Base, LANES, Level, Number, Scalar, Simd, leveled, turned};
+use crate::math::simd::{Baseline, Float, LANES, Level, Scalar, Simd, leveled, transpose_4x4};
 use crate::model::line_blocks::Strip;
 
 /// What every machine with vectors has in one, and how many steps are turned at once.
 const FOUR: usize = 4;
 
-type Vector = <Base as Arithmetic>::F;
+type Vector = <Baseline as Simd>::F;
 
 /// Finds where particles were when the substep began, after one that is nobody's.
 pub(crate) fn find_starts(level: Level, predicted: &Columns, way: &Columns, starts: &mut Columns) {
@@ -64,7 +64,7 @@ pub(crate) fn fetch(strip: Strip, x: &Columns, w: &[f32], room: &mut [Step]) {
 /// The whole strip lies within the columns; so for all that follow.
 #[inline(never)]
 unsafe fn fetch_straight(strip: Strip, columns: [*const f32; 4], room: &mut [Step]) {
-    let (s, mut at) = (Base::new(), strip.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strip.at(0, 0));
     for step in room {
         for (to, column) in step.to.iter_mut().zip(columns) {
             // SAFETY: the caller's promise.
@@ -82,14 +82,15 @@ unsafe fn fetch_straight(strip: Strip, columns: [*const f32; 4], room: &mut [Ste
 /// As above; there are four steps at least.
 #[inline(never)]
 unsafe fn fetch_turned(strip: Strip, columns: [*const f32; 4], room: &mut [Step]) {
-    let s = Base::new();
+    let s = Baseline::new();
     for start in fours(room.len()) {
         let steps = &mut room[start..start + FOUR];
         for first in [0, FOUR] {
             let at = strip.at(first, start);
             for (axis, column) in columns.into_iter().enumerate() {
                 // SAFETY: the caller's promise.
-                let rows = unsafe { turned(s, four_by_four(s, column.add(at), strip.across)) };
+                let rows =
+                    unsafe { transpose_4x4(s, four_by_four(s, column.add(at), strip.across)) };
                 for (step, row) in steps.iter_mut().zip(rows) {
                     s.store(&mut step.to[axis], first, row);
                 }
@@ -103,7 +104,7 @@ unsafe fn fetch_turned(strip: Strip, columns: [*const f32; 4], room: &mut [Step]
 /// # Safety
 /// They are there.
 #[inline(always)]
-unsafe fn four_by_four(s: Base, place: *const f32, across: usize) -> [Vector; FOUR] {
+unsafe fn four_by_four(s: Baseline, place: *const f32, across: usize) -> [Vector; FOUR] {
     // SAFETY: the caller's promise.
     unsafe {
         [
@@ -152,7 +153,7 @@ unsafe fn aim_straight(
     laid: &[line_blocks::Step],
     room: &mut [Step],
 ) {
-    let (s, mut at) = (Base::new(), strip.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strip.at(0, 0));
     // Where a line begins nobody asks for what is found.
     let mut last = at;
     for (step, laid) in room.iter_mut().zip(laid) {
@@ -180,7 +181,7 @@ unsafe fn aim_turned(
     laid: &[line_blocks::Step],
     room: &mut [Step],
 ) {
-    let s = Base::new();
+    let s = Baseline::new();
     // Links run from the particle before, or from one that is none of the line's: as above.
     let was = |at: usize| {
         // SAFETY: the caller's promise.
@@ -197,7 +198,7 @@ unsafe fn aim_turned(
         for first in [0, FOUR] {
             let (at, across) = (strip.at(first, start), strip.across);
             let lines = [was(at), was(at + across), was(at + 2 * across), was(at + 3 * across)];
-            for ((step, laid), was) in steps.iter_mut().zip(laid).zip(turned(s, lines)) {
+            for ((step, laid), was) in steps.iter_mut().zip(laid).zip(transpose_4x4(s, lines)) {
                 step.mend(s, first, was, &laid.rest);
             }
         }
@@ -249,7 +250,7 @@ unsafe fn put_straight(
     room: &[Step],
     columns: [*mut f32; 3],
 ) -> bool {
-    let (s, mut at) = (Base::new(), strip.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strip.at(0, 0));
     let zero = s.splat(0.0);
     let (mut way, mut other_way) = ([zero; 3], [zero; 3]);
     let (mut most, mut other_most) = (zero, zero);
@@ -270,7 +271,7 @@ unsafe fn put_straight(
         }
         at += strip.along;
     }
-    !(s.is_any_positive(most) || s.is_any_positive(other_most))
+    !(s.any_positive(most) || s.any_positive(other_most))
 }
 
 /// The same of lines that run along a column.
@@ -284,7 +285,7 @@ unsafe fn put_turned(
     room: &[Step],
     columns: [*mut f32; 3],
 ) -> bool {
-    let s = Base::new();
+    let s = Baseline::new();
     let zero = s.splat(0.0);
     let mut most = zero;
     for first in [0, FOUR] {
@@ -305,7 +306,7 @@ unsafe fn put_turned(
                     there[number] = way + s.load(&step.to[axis], first);
                     far[number] = size(s, way).max(far[number]);
                 }
-                for (line, row) in turned(s, there).into_iter().enumerate() {
+                for (line, row) in transpose_4x4(s, there).into_iter().enumerate() {
                     // SAFETY: the caller's promise.
                     unsafe { s.store_to(columns[axis].add(place + line * strip.across), row) };
                 }
@@ -315,7 +316,7 @@ unsafe fn put_turned(
             }
         }
     }
-    !s.is_any_positive(most)
+    !s.any_positive(most)
 }
 
 /// One line, number by number: there are fewer lines than lanes, or ways that may be too long.

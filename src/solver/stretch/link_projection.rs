@@ -20,7 +20,7 @@
 //! Invariant: every SIMD kernel calls [`compute_correction`], so that all kernels give the same bits
 //! as the scalar code.
 
-use crate::math::simd::{Arithmetic, Number, Scalar};
+use crate::math::simd::{Float, Scalar, Simd};
 use crate::math::{TINY, max};
 use crate::model::links::{LinkKind, Links};
 use crate::model::material::Material;
@@ -105,7 +105,7 @@ pub(crate) fn relative_weights([wa, wb]: [f32; 2]) -> [f32; 2] {
 /// `scale` is 1/h² [1/s²] under `SOFT`, the largest allowed length over `rest` under `BOUND`, and
 /// unused under `RIGID`. λ changes under `SOFT` only.
 #[inline(always)]
-pub(crate) fn compute_correction<const LAW: u8, S: Arithmetic>(
+pub(crate) fn compute_correction<const LAW: u8, S: Simd>(
     s: S,
     [dx, dy, dz]: [S::F; 3],
     [wa, wb]: [S::F; 2],

@@ -15,8 +15,8 @@
     allow(dead_code)
 )]
 
-use crate::math::shared::Points;
-use crate::math::simd::{Between, Level, vectored};
+use crate::math::shared_points::SharedPoints;
+use crate::math::simd::{GatherPairs, Level, vectored};
 use crate::math::threads::Threads;
 use crate::model::links::Links;
 use crate::solver::particle_stage::access::ParticleAccess;
@@ -62,12 +62,12 @@ pub(crate) fn solve<const LAW: u8>(
     let [wa, wb] = &weights.ends;
     let most = links.a.most().max(links.b.most());
     assert!((most as usize) < points.len(), "every link ends at a particle");
-    let (points, w) = (Points::new(points), &w[..]);
+    let (points, w) = (SharedPoints::new(points), &w[..]);
     let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);
     let weights = ((&wa[range.clone()], &wb[range.clone()]), &weights.is_even[range.clone()]);
     let lengths = (&links.rest[range.clone()], &links.compliance[range.clone()]);
     let all = (joins, weights, lengths, &mut links.lambda[range]);
-    threads.over(
+    threads.parallel_for(
         all,
         MIN_LINKS_PER_THREAD,
         |(((a, b), active), (weights, is_even), lengths, lambda)| {
@@ -97,7 +97,7 @@ struct MeshColor<'a> {
     rest: &'a [f32],
     compliance: &'a [f32],
     lambda: &'a mut [f32],
-    points: Points<'a>,
+    points: SharedPoints<'a>,
     w: &'a [f32],
 }
 
@@ -123,7 +123,7 @@ fn solve_scalar<const LAW: u8>(mut color: MeshColor<'_>, scale: f32) {
 }
 
 #[inline(always)]
-fn solve_color<S: Between, const LAW: u8>(s: S, color: MeshColor<'_>, scale: f32) {
+fn solve_color<S: GatherPairs, const LAW: u8>(s: S, color: MeshColor<'_>, scale: f32) {
     // Equal lengths let the compiler drop all bounds checks but one.
     let count = color.a.len();
     let mut color = MeshColor {
@@ -199,7 +199,7 @@ impl ParticleAccess for MeshColor<'_> {
     fn particle(&self, i: usize) -> (Vec3, f32) {
         assert!(i < self.points.len(), "every link ends at a particle");
         // SAFETY: the point exists, and only this thread accesses it.
-        let [x, y, z, _] = unsafe { *self.points.at(i as u32).cast::<[f32; 4]>() };
+        let [x, y, z, _] = unsafe { *self.points.ptr(i as u32).cast::<[f32; 4]>() };
         (Vec3::new(x, y, z), self.w[i])
     }
 
@@ -207,7 +207,7 @@ impl ParticleAccess for MeshColor<'_> {
     fn set_position(&mut self, i: usize, x: Vec3) {
         assert!(i < self.points.len(), "every link ends at a particle");
         // SAFETY: as in `particle`.
-        unsafe { *self.points.at(i as u32).cast::<[f32; 3]>() = x.to_array() };
+        unsafe { *self.points.ptr(i as u32).cast::<[f32; 3]>() = x.to_array() };
     }
 }
 
@@ -220,7 +220,7 @@ const EVEN: [bool; 8] = [true; 8];
 /// # Safety
 /// Both ends of each link are below the number of points, and no other thread accesses these points.
 #[inline(always)]
-unsafe fn solve_chunk<S: Between, const LAW: u8, const MASKED: bool, const IS_EVEN: bool>(
+unsafe fn solve_chunk<S: GatherPairs, const LAW: u8, const MASKED: bool, const IS_EVEN: bool>(
     s: S,
     first: usize,
     color: &mut MeshColor<'_>,
@@ -246,18 +246,18 @@ unsafe fn solve_chunk<S: Between, const LAW: u8, const MASKED: bool, const IS_EV
         [s.load(color.wa, first), s.load(color.wb, first)]
     };
     // SAFETY: the caller guarantees it.
-    let (pairs, span) = unsafe { s.fetch(color.points, at) };
+    let (pairs, span) = unsafe { s.gather_pairs(color.points, at) };
     let (shares, mut multiplier) =
         compute_correction::<LAW, S>(s, span, weights, rest, compliance, lambda, scale);
     // SAFETY: the caller guarantees it, and `active` has an entry for each lane.
-    unsafe { s.put::<MASKED>(color.points, at, pairs, shares, active) };
+    unsafe { s.scatter_pairs::<MASKED>(color.points, at, pairs, shares, active) };
     if LAW == SOFT {
         if MASKED {
             let mut mask = [0.0; 16];
             for (mask, is_active) in mask.iter_mut().zip(active) {
                 *mask = f32::from(u8::from(*is_active));
             }
-            multiplier = s.pick(s.load(&mask, 0), multiplier, lambda);
+            multiplier = s.select(s.load(&mask, 0), multiplier, lambda);
         }
         s.store(color.lambda, first, multiplier);
     }

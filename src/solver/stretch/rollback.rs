@@ -44,7 +44,9 @@ pub(crate) fn compute(world: &mut World) {
             let free = particles().filter(|i| p.w[*i] > 0.0);
             match attachment_frames(world, particles()) {
                 Some([last, next]) => {
-                    free.for_each(|i| positions.set(i, next.outward(last.inward(p.x_last.at(i)))));
+                    free.for_each(|i| {
+                        positions.set(i, next.point_to_world(last.point_to_local(p.x_last.at(i))))
+                    });
                 }
                 None => free.for_each(|i| positions.set(i, p.x_last.at(i) + shift)),
             }

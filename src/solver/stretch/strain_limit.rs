@@ -95,7 +95,7 @@ fn draw_together(world: &mut World, most: f32) {
                 .rev()
                 .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, aim));
         }
-        collide::keep_out(world);
+        collide::project_out(world);
         anchors::keep_in(world);
         if first_over(world, most).is_none() {
             break;

@@ -7,7 +7,7 @@
 )]
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, MOST_LANES, Number, Scalar, Simd, vectored};
+use crate::math::simd::{Float, Level, MAX_LANES, Scalar, Simd, vectored};
 use crate::math::threads::Threads;
 use crate::math::{max, min};
 use crate::model::tethers::TetherSet;
@@ -181,11 +181,13 @@ fn pull_packed(
     let only = set.only.map(|pin| points[pin as usize]);
     let particles = (&mut points[..], &w[..], &set.length[..]);
     match only {
-        Some(pin) => threads.over(particles, MIN_PARTICLES_PER_THREAD, |(points, w, length)| {
-            packed_to_one(points, pin, length, slack, w);
-        }),
+        Some(pin) => {
+            threads.parallel_for(particles, MIN_PARTICLES_PER_THREAD, |(points, w, length)| {
+                packed_to_one(points, pin, length, slack, w);
+            })
+        }
         None => {
-            threads.over(
+            threads.parallel_for(
                 (particles, found.all()),
                 MIN_PARTICLES_PER_THREAD,
                 |((points, w, length), pins)| {
@@ -240,13 +242,17 @@ fn pull_set(
     match set.only {
         Some(pin) => {
             let pin = x.at(pin as usize).to_array();
-            threads.over((x.all_mut(), length, w), MIN_PARTICLES_PER_THREAD, |(x, length, w)| {
-                pull_to_one(level, x, pin, length, slack, w);
-            });
+            threads.parallel_for(
+                (x.all_mut(), length, w),
+                MIN_PARTICLES_PER_THREAD,
+                |(x, length, w)| {
+                    pull_to_one(level, x, pin, length, slack, w);
+                },
+            );
         }
         None => {
             let particles = (x.all_mut(), found.all(), length, w);
-            threads.over(particles, MIN_PARTICLES_PER_THREAD, |(x, pins, length, w)| {
+            threads.parallel_for(particles, MIN_PARTICLES_PER_THREAD, |(x, pins, length, w)| {
                 pull_to_many(level, x, pins, length, slack, w);
             });
         }
@@ -374,14 +380,14 @@ pub(crate) fn within<S: Simd>(
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     let length2 = dx * dx + dy * dy + dz * dz;
     let is_far = (length2 - reach * reach).min(w);
-    if !s.is_any_positive(is_far) {
+    if !s.any_positive(is_far) {
         return None;
     }
     let share = reach / length2.sqrt();
     Some([
-        s.pick(is_far, pin[0] + dx * share, x[0]),
-        s.pick(is_far, pin[1] + dy * share, x[1]),
-        s.pick(is_far, pin[2] + dz * share, x[2]),
+        s.select(is_far, pin[0] + dx * share, x[0]),
+        s.select(is_far, pin[1] + dy * share, x[1]),
+        s.select(is_far, pin[2] + dz * share, x[2]),
     ])
 }
 
@@ -446,7 +452,7 @@ fn from_many_apart(
 /// The greatest number of all lanes.
 #[inline(always)]
 fn greatest<S: Simd>(s: S, numbers: S::F) -> f32 {
-    let mut lanes = [0.0; MOST_LANES];
+    let mut lanes = [0.0; MAX_LANES];
     s.store(&mut lanes, 0, numbers);
     lanes.into_iter().fold(0.0, max)
 }
@@ -454,7 +460,7 @@ fn greatest<S: Simd>(s: S, numbers: S::F) -> f32 {
 /// The square of how far a particle is from its pin over the way. A pin is no way from itself, which is no
 /// number here, and counts for nothing.
 #[inline(always)]
-fn ratio2<F: Number>(x: [F; 3], pin: [F; 3], length: F) -> F {
+fn ratio2<F: Float>(x: [F; 3], pin: [F; 3], length: F) -> F {
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     (dx * dx + dy * dy + dz * dz) / (length * length)
 }

@@ -81,8 +81,10 @@ pub(crate) fn solve<const LAW: u8>(
     let zone = |part: usize| Zone { from: band(part) as u32, end: band(part + 1) as u32 };
     let [x, y, z] = p.x.all_mut().map(|column| &mut column[..rows * columns]);
     let mut part = Part { sweep: &sweep, first_particle: 0, x, y, z, lambda };
-    world.threads.parted(parts, part.all(), band, |at, mut part| part.solve_band::<LAW>(zone(at)));
-    world.threads.parted(parts - 1, part, gap, |at, mut part| {
+    world.threads.parallel_for_parts(parts, part.all(), band, |at, mut part| {
+        part.solve_band::<LAW>(zone(at))
+    });
+    world.threads.parallel_for_parts(parts - 1, part, gap, |at, mut part| {
         part.solve_gap::<LAW>(zone(at), zone(at + 1));
     });
     true

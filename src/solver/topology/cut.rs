@@ -151,7 +151,10 @@ struct Draft<'a> {
 impl<'a> Draft<'a> {
     fn new(world: &'a World, blade: &Blade) -> Self {
         let x: Vec<Vec3> = world.particles.x.iter().collect();
-        let is_on = x.iter().map(|x| blade.side(*x) == 0.0 && blade.holds(x.as_dvec3())).collect();
+        let is_on = x
+            .iter()
+            .map(|x| blade.signed_side(*x) == 0.0 && blade.contains(x.as_dvec3()))
+            .collect();
         let rest = world.mesh.source.iter().map(|site| world.rest[*site as usize]).collect();
         Self { world, mesh: world.mesh.clone(), rest, x, is_on, divisions: Vec::new() }
     }
@@ -161,7 +164,7 @@ impl<'a> Draft<'a> {
         let mut crossed: Vec<(Corner, f32)> = Vec::new();
         for edge in self.mesh.edges() {
             let [a, b] = self.ends(edge).map(|end| self.x[end]);
-            if let Some(share) = blade.crossing(a, b) {
+            if let Some(share) = blade.segment_crossing(a, b) {
                 crossed.push((edge, share as f32));
             }
         }
@@ -272,14 +275,14 @@ impl<'a> Draft<'a> {
     fn side(&self, blade: &Blade, triangle: u32) -> bool {
         let corners = self.mesh.triangles[triangle as usize].map(|v| v as usize);
         let off = || corners.into_iter().filter(|v| !self.is_on[*v]);
-        let on_positive = |v: usize| blade.side(self.x[v]) > 0.0;
+        let on_positive = |v: usize| blade.signed_side(self.x[v]) > 0.0;
         let positive = off().filter(|v| on_positive(*v)).count();
         match (positive, off().count()) {
             (0, all) if all > 0 => false,
             (some, all) if some == all && all > 0 => true,
             _ => {
                 let [a, b, c] = corners.map(|v| self.x[v]);
-                blade.side((a + b + c) * (1.0 / 3.0)) > 0.0
+                blade.signed_side((a + b + c) * (1.0 / 3.0)) > 0.0
             }
         }
     }

@@ -14,7 +14,7 @@
 //! Invariant: at most `max_tears_per_tick` links tear per tick and none of them share a vertex.
 //! A tear that the vertex reserve cannot hold does not happen, and one event reports that.
 
-use crate::math::mixer::unit;
+use crate::math::hasher::unit;
 use crate::math::sort::sort;
 use crate::mesh::split_vertex::{Arc, Opening, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};

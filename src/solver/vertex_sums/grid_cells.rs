@@ -11,7 +11,7 @@
 //! theirs one by one.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{LANES, Lanes, Simd};
+use crate::math::simd::{LANES, LaneArray, Simd};
 use crate::mesh::grid::falls;
 use crate::model::grid_cells::GridCells;
 use crate::solver::vertex_sums::triangles::{
@@ -276,7 +276,7 @@ fn corners<S: Simd>(
 
 #[inline(always)]
 fn pick<S: Simd>(s: S, keep: S::F, a: V<S>, b: V<S>) -> V<S> {
-    [s.pick(keep, a[0], b[0]), s.pick(keep, a[1], b[1]), s.pick(keep, a[2], b[2])]
+    [s.select(keep, a[0], b[0]), s.select(keep, a[1], b[1]), s.select(keep, a[2], b[2])]
 }
 
 #[inline(always)]
@@ -312,7 +312,7 @@ fn give_torn(
     surface: Surface<'_>,
     row: Row<'_>,
     [triangles, corners]: [&[u32]; 2],
-    found: &[Lanes; 3],
+    found: &[LaneArray; 3],
     by_area: bool,
     given: &mut Given<'_>,
     out: &mut [&mut [f32]; 3],
@@ -345,7 +345,7 @@ fn take<S: Simd, G: Give, const TORN: bool>(
     let (quarter, half) = (s.splat(G::part(area)), s.splat(G::part(2.0 * area)));
     // Where the cell below falls, all diagonals around meet here.
     let meets = s.load(&BY_TURNS, usize::from(!falls(row.number as u32, first as u32)));
-    let (shared, own) = (s.keep(meets, quarter), s.pick(meets, quarter, half));
+    let (shared, own) = (s.select_or_zero(meets, quarter), s.select(meets, quarter, half));
     let ([above, below], mut sums) = (seen, [zero; 3]);
     add::<S, TORN>(s, above, first, 2, shared, &mut sums);
     add::<S, TORN>(s, above, first, 4, own, &mut sums);
@@ -371,7 +371,7 @@ fn add<S: Simd, const TORN: bool>(
     sums: &mut [S::F; 3],
 ) {
     if TORN && seen.is_torn {
-        part = s.keep(s.load(seen.kept[corner], from), part);
+        part = s.select_or_zero(s.load(seen.kept[corner], from), part);
     }
     for axis in 0..3 {
         sums[axis] = sums[axis] + s.load(seen.by[corner / 3 * 3 + axis], from) * part;

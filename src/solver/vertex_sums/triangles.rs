@@ -5,14 +5,14 @@
 //! add to rows of their own: the cells between two of them are looked at by both, and each adds its half.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Arithmetic, LANES, Lanes, Scalar, Simd};
+use crate::math::simd::{LANES, LaneArray, Scalar, Simd};
 use crate::math::threads::Threads;
 use crate::model::grid_cells::GridCells;
 use crate::solver::vertex_sums::grid_cells;
 use core::ops::Range;
 
 /// A vector in each lane.
-pub(crate) type V<S> = [<S as Arithmetic>::F; 3];
+pub(crate) type V<S> = [<S as Simd>::F; 3];
 
 /// What a triangle gives.
 pub(crate) trait Give: Copy {
@@ -82,7 +82,12 @@ pub(crate) fn in_bands(
             let add = |part: usize, out: [&mut [f32]; 3]| {
                 sum(Band { first: row(part), end: row(part + 1) }, out);
             };
-            return threads.parted(parts, out.all_mut(), |part| columns * row(part), add);
+            return threads.parallel_for_parts(
+                parts,
+                out.all_mut(),
+                |part| columns * row(part),
+                add,
+            );
         }
     }
     let _ = (threads, surface);
@@ -135,7 +140,7 @@ fn add_triangles<S: Simd, G: Give>(
 /// Adds what up to eight triangles give to their corners, one by one.
 #[inline(never)]
 fn add_apart(
-    given: &[Lanes; 3],
+    given: &[LaneArray; 3],
     corners: &[[u32; 3]],
     areas: &[[f32; 3]],
     by_area: bool,
@@ -152,7 +157,7 @@ fn add_apart(
 }
 
 /// The areas at rest of up to eight triangles [m²].
-pub(crate) fn rest_areas_of(surface: Surface<'_>, triangles: &[u32]) -> Lanes {
+pub(crate) fn rest_areas_of(surface: Surface<'_>, triangles: &[u32]) -> LaneArray {
     let mut rest_areas = [0.0; LANES];
     for (rest, at) in rest_areas.iter_mut().zip(triangles) {
         let [a, b, c] = surface.areas[*at as usize];
@@ -167,9 +172,9 @@ pub(crate) fn given_by<S: Simd, G: Give>(
     s: S,
     surface: Surface<'_>,
     triangles: &[[u32; 3]],
-    rest_areas: &Lanes,
+    rest_areas: &LaneArray,
     give: G,
-) -> [Lanes; 3] {
+) -> [LaneArray; 3] {
     let x = gather(surface.x, triangles);
     let air = if G::FEELS_AIR { gather(surface.air, triangles) } else { x };
     let mut given = [[0.0; LANES]; 3];
@@ -186,7 +191,7 @@ pub(crate) fn given_by<S: Simd, G: Give>(
 /// What is known of the corners of up to eight triangles. Once for all kernels: it is long and the same at
 /// every level.
 #[inline(never)]
-fn gather(of: &Columns, triangles: &[[u32; 3]]) -> [[Lanes; 3]; 3] {
+fn gather(of: &Columns, triangles: &[[u32; 3]]) -> [[LaneArray; 3]; 3] {
     // All as long as each other, so that one check does for all.
     let count = of.x.len();
     let of = [&of.x[..count], &of.y[..count], &of.z[..count]];
@@ -204,7 +209,7 @@ fn gather(of: &Columns, triangles: &[[u32; 3]]) -> [[Lanes; 3]; 3] {
 }
 
 #[inline(always)]
-fn corners<S: Simd>(s: S, of: &[[Lanes; 3]; 3], first: usize) -> [V<S>; 3] {
+fn corners<S: Simd>(s: S, of: &[[LaneArray; 3]; 3], first: usize) -> [V<S>; 3] {
     let mut corners = [[s.splat(0.0); 3]; 3];
     for corner in 0..3 {
         for axis in 0..3 {

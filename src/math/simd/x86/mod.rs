@@ -1,20 +1,29 @@
-//! Vectors of x86-64: four, eight and sixteen lanes.
+//! The instruction sets of x86-64: SSE2 with 4, AVX2 with 8 and AVX-512 with 16 lanes.
+//!
+//! One vector type per register width (`F32x4`, `F32x8`, `F32x16`) and one token per instruction set.
+//! Each operation is one intrinsic; `_mm_max_ps` and `_mm_min_ps` return their second operand for NaN,
+//! as [`Float`] demands. Shuffles of 256 and 512 bits work within each 128-bit part, hence the
+//! shuffled order of [`Simd::to_shuffled_order`].
+//!
+//! Reads and writes only through `load_from` and `store_to`.
+//! Invariant: a token exists only where the CPU has its instructions: `Avx2::new` and `Avx512::new` can
+//! be called only from a function that enables them.
 
 mod gather;
 
-use super::{Arithmetic, Number, Simd};
+use super::lanes::{Float, Simd};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
-/// Four lanes; every x86-64 has them.
+/// SSE2, four lanes: every x86-64 CPU has it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sse2(());
 
-/// Eight lanes.
+/// AVX2, eight lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
-/// Sixteen lanes.
+/// AVX-512 F and VL, sixteen lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(());
 
@@ -41,16 +50,15 @@ impl Avx512 {
     }
 }
 
-/// A vector type with its operations, one instruction each.
+/// Defines a vector type and its arithmetic, one instruction for each operation.
 ///
-/// A vector is only made by what its token lets one make, and the token says that the machine has the
-/// instructions.
+/// A vector can be made only with a token, and a token exists only where the CPU has the instructions.
 macro_rules! vector {
     (
-        $token:ident, $vector:ident($raw:ty), $set:ident, $add:ident, $sub:ident, $mul:ident,
+        $vector:ident($raw:ty), $add:ident, $sub:ident, $mul:ident,
         $div:ident, $sqrt:ident, $max:ident, $min:ident
     ) => {
-        /// Numbers in lanes.
+        /// One `f32` per lane.
         #[derive(Clone, Copy, Debug)]
         pub(crate) struct $vector($raw);
 
@@ -59,7 +67,7 @@ macro_rules! vector {
 
             #[inline(always)]
             fn add(self, other: Self) -> Self {
-                // SAFETY: there is a vector, so the machine has its instructions; so for all others.
+                // SAFETY: a vector exists, so the CPU has its instructions.
                 Self(unsafe { $add(self.0, other.0) })
             }
         }
@@ -94,7 +102,7 @@ macro_rules! vector {
             }
         }
 
-        impl Number for $vector {
+        impl Float for $vector {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 // SAFETY: as for `add`.
@@ -113,287 +121,303 @@ macro_rules! vector {
                 Self(unsafe { $min(self.0, other.0) })
             }
         }
-
-        impl Arithmetic for $token {
-            type F = $vector;
-
-            #[inline(always)]
-            fn splat(self, value: f32) -> $vector {
-                // SAFETY: there is a token, so the machine has the instructions.
-                $vector(unsafe { $set(value) })
-            }
-        }
     };
 }
 
 vector! {
-    Sse2, Four(__m128), _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps,
+    F32x4(__m128), _mm_add_ps, _mm_sub_ps, _mm_mul_ps,
     _mm_div_ps, _mm_sqrt_ps, _mm_max_ps, _mm_min_ps
 }
 
 vector! {
-    Avx2, Eight(__m256), _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps,
+    F32x8(__m256), _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps,
     _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps, _mm256_min_ps
 }
 
 vector! {
-    Avx512, Sixteen(__m512), _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps,
+    F32x16(__m512), _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps,
     _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps, _mm512_min_ps
 }
 
-// SAFETY of all that follows: a token says that the machine has the instructions, and loads and stores
-// are as their callers promise.
+// SAFETY of all functions below: `self` is a token, so the CPU has the instructions.
 
 impl Simd for Sse2 {
+    type F = F32x4;
+
     const LANES: usize = 4;
 
     #[inline(always)]
-    unsafe fn load_from(self, place: *const f32) -> Four {
-        // SAFETY: the caller's promise, and see above.
-        Four(unsafe { _mm_loadu_ps(place) })
+    fn splat(self, value: f32) -> F32x4 {
+        // SAFETY: see above.
+        F32x4(unsafe { _mm_set1_ps(value) })
     }
 
     #[inline(always)]
-    unsafe fn store_to(self, place: *mut f32, v: Four) {
-        // SAFETY: the caller's promise, and see above.
-        unsafe { _mm_storeu_ps(place, v.0) };
+    unsafe fn load_from(self, source: *const f32) -> F32x4 {
+        // SAFETY: the caller guarantees the pointer; see above.
+        F32x4(unsafe { _mm_loadu_ps(source) })
     }
 
     #[inline(always)]
-    fn pick(self, keep: Four, new: Four, old: Four) -> Four {
+    unsafe fn store_to(self, target: *mut f32, v: F32x4) {
+        // SAFETY: the caller guarantees the pointer; see above.
+        unsafe { _mm_storeu_ps(target, v.0) };
+    }
+
+    #[inline(always)]
+    fn select(self, condition: F32x4, new: F32x4, old: F32x4) -> F32x4 {
         // SAFETY: see above.
         unsafe {
-            let keep = _mm_cmpgt_ps(keep.0, _mm_setzero_ps());
-            Four(_mm_or_ps(_mm_and_ps(keep, new.0), _mm_andnot_ps(keep, old.0)))
+            let mask = _mm_cmpgt_ps(condition.0, _mm_setzero_ps());
+            F32x4(_mm_or_ps(_mm_and_ps(mask, new.0), _mm_andnot_ps(mask, old.0)))
         }
     }
 
     #[inline(always)]
-    fn keep(self, keep: Four, v: Four) -> Four {
+    fn select_or_zero(self, condition: F32x4, v: F32x4) -> F32x4 {
         // SAFETY: see above.
-        Four(unsafe { _mm_and_ps(v.0, _mm_cmpgt_ps(keep.0, _mm_setzero_ps())) })
+        F32x4(unsafe { _mm_and_ps(v.0, _mm_cmpgt_ps(condition.0, _mm_setzero_ps())) })
     }
 
     #[inline(always)]
-    fn is_any_positive(self, v: Four) -> bool {
+    fn any_positive(self, v: F32x4) -> bool {
         // SAFETY: see above.
         unsafe { _mm_movemask_ps(_mm_cmpgt_ps(v.0, _mm_setzero_ps())) != 0 }
     }
 
     #[inline(always)]
-    fn positives(self, v: Four) -> u32 {
+    fn positive_mask(self, v: F32x4) -> u32 {
         // SAFETY: see above.
         unsafe { _mm_movemask_ps(_mm_cmpgt_ps(v.0, _mm_setzero_ps())) as u32 }
     }
 
     #[inline(always)]
-    fn deal(self, low: Four, high: Four) -> (Four, Four) {
+    fn deinterleave(self, low: F32x4, high: F32x4) -> (F32x4, F32x4) {
         // SAFETY: see above.
         unsafe {
             let even = _mm_shuffle_ps::<0x88>(low.0, high.0);
-            (Four(even), Four(_mm_shuffle_ps::<0xdd>(low.0, high.0)))
+            (F32x4(even), F32x4(_mm_shuffle_ps::<0xdd>(low.0, high.0)))
         }
     }
 
     #[inline(always)]
-    fn gather_up(self, even: Four, odd: Four) -> (Four, Four) {
+    fn interleave(self, even: F32x4, odd: F32x4) -> (F32x4, F32x4) {
         // SAFETY: see above.
-        unsafe { (Four(_mm_unpacklo_ps(even.0, odd.0)), Four(_mm_unpackhi_ps(even.0, odd.0))) }
+        unsafe { (F32x4(_mm_unpacklo_ps(even.0, odd.0)), F32x4(_mm_unpackhi_ps(even.0, odd.0))) }
     }
 
     #[inline(always)]
-    fn deal_twos(self, low: Four, high: Four) -> (Four, Four) {
+    fn deinterleave_pairs(self, low: F32x4, high: F32x4) -> (F32x4, F32x4) {
         // SAFETY: see above.
-        unsafe { (Four(_mm_movelh_ps(low.0, high.0)), Four(_mm_shuffle_ps::<0xee>(low.0, high.0))) }
+        unsafe {
+            (F32x4(_mm_movelh_ps(low.0, high.0)), F32x4(_mm_shuffle_ps::<0xee>(low.0, high.0)))
+        }
     }
 
     #[inline(always)]
-    fn dealt(self, v: Four) -> Four {
+    fn to_shuffled_order(self, v: F32x4) -> F32x4 {
         v
     }
 
     #[inline(always)]
-    fn undealt(self, v: Four) -> Four {
+    fn from_shuffled_order(self, v: F32x4) -> F32x4 {
         v
     }
 }
 
 impl Simd for Avx2 {
+    type F = F32x8;
+
     const LANES: usize = 8;
 
     #[inline(always)]
-    unsafe fn load_from(self, place: *const f32) -> Eight {
-        // SAFETY: the caller's promise, and see above.
-        Eight(unsafe { _mm256_loadu_ps(place) })
+    fn splat(self, value: f32) -> F32x8 {
+        // SAFETY: see above.
+        F32x8(unsafe { _mm256_set1_ps(value) })
     }
 
     #[inline(always)]
-    unsafe fn store_to(self, place: *mut f32, v: Eight) {
-        // SAFETY: the caller's promise, and see above.
-        unsafe { _mm256_storeu_ps(place, v.0) };
+    unsafe fn load_from(self, source: *const f32) -> F32x8 {
+        // SAFETY: the caller guarantees the pointer; see above.
+        F32x8(unsafe { _mm256_loadu_ps(source) })
     }
 
     #[inline(always)]
-    fn pick(self, keep: Eight, new: Eight, old: Eight) -> Eight {
+    unsafe fn store_to(self, target: *mut f32, v: F32x8) {
+        // SAFETY: the caller guarantees the pointer; see above.
+        unsafe { _mm256_storeu_ps(target, v.0) };
+    }
+
+    #[inline(always)]
+    fn select(self, condition: F32x8, new: F32x8, old: F32x8) -> F32x8 {
         // SAFETY: see above.
         unsafe {
-            let keep = _mm256_cmp_ps::<_CMP_GT_OQ>(keep.0, _mm256_setzero_ps());
-            Eight(_mm256_blendv_ps(old.0, new.0, keep))
+            let mask = _mm256_cmp_ps::<_CMP_GT_OQ>(condition.0, _mm256_setzero_ps());
+            F32x8(_mm256_blendv_ps(old.0, new.0, mask))
         }
     }
 
     #[inline(always)]
-    fn keep(self, keep: Eight, v: Eight) -> Eight {
+    fn select_or_zero(self, condition: F32x8, v: F32x8) -> F32x8 {
         // SAFETY: see above.
         unsafe {
-            let keep = _mm256_cmp_ps::<_CMP_GT_OQ>(keep.0, _mm256_setzero_ps());
-            Eight(_mm256_and_ps(v.0, keep))
+            let mask = _mm256_cmp_ps::<_CMP_GT_OQ>(condition.0, _mm256_setzero_ps());
+            F32x8(_mm256_and_ps(v.0, mask))
         }
     }
 
     #[inline(always)]
-    fn is_any_positive(self, v: Eight) -> bool {
+    fn any_positive(self, v: F32x8) -> bool {
         // SAFETY: see above.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(v.0, _mm256_setzero_ps())) != 0 }
     }
 
     #[inline(always)]
-    fn positives(self, v: Eight) -> u32 {
+    fn positive_mask(self, v: F32x8) -> u32 {
         // SAFETY: see above.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(v.0, _mm256_setzero_ps())) as u32 }
     }
 
     #[inline(always)]
-    fn deal(self, low: Eight, high: Eight) -> (Eight, Eight) {
+    fn deinterleave(self, low: F32x8, high: F32x8) -> (F32x8, F32x8) {
         // SAFETY: see above.
         unsafe {
             let even = _mm256_shuffle_ps::<0x88>(low.0, high.0);
-            (Eight(even), Eight(_mm256_shuffle_ps::<0xdd>(low.0, high.0)))
+            (F32x8(even), F32x8(_mm256_shuffle_ps::<0xdd>(low.0, high.0)))
         }
     }
 
     #[inline(always)]
-    fn gather_up(self, even: Eight, odd: Eight) -> (Eight, Eight) {
+    fn interleave(self, even: F32x8, odd: F32x8) -> (F32x8, F32x8) {
         // SAFETY: see above.
         unsafe {
-            (Eight(_mm256_unpacklo_ps(even.0, odd.0)), Eight(_mm256_unpackhi_ps(even.0, odd.0)))
+            (F32x8(_mm256_unpacklo_ps(even.0, odd.0)), F32x8(_mm256_unpackhi_ps(even.0, odd.0)))
         }
     }
 
     #[inline(always)]
-    fn deal_twos(self, low: Eight, high: Eight) -> (Eight, Eight) {
+    fn deinterleave_pairs(self, low: F32x8, high: F32x8) -> (F32x8, F32x8) {
         // SAFETY: see above.
         unsafe {
             let even = _mm256_shuffle_ps::<0x44>(low.0, high.0);
-            (Eight(even), Eight(_mm256_shuffle_ps::<0xee>(low.0, high.0)))
+            (F32x8(even), F32x8(_mm256_shuffle_ps::<0xee>(low.0, high.0)))
         }
     }
 
     #[inline(always)]
-    fn dealt(self, v: Eight) -> Eight {
-        // SAFETY: see above. Instructions deal within halves, so twos go by turns; and back by the
-        // same.
+    fn to_shuffled_order(self, v: F32x8) -> F32x8 {
+        // SAFETY: see above. AVX2 shuffles within halves, so pairs of numbers alternate between the
+        // halves. The permutation is its own inverse.
         unsafe {
-            let twos = _mm256_castps_pd(v.0);
-            Eight(_mm256_castpd_ps(_mm256_permute4x64_pd::<0b11_01_10_00>(twos)))
+            let pairs = _mm256_castps_pd(v.0);
+            F32x8(_mm256_castpd_ps(_mm256_permute4x64_pd::<0b11_01_10_00>(pairs)))
         }
     }
 
     #[inline(always)]
-    fn undealt(self, v: Eight) -> Eight {
-        self.dealt(v)
+    fn from_shuffled_order(self, v: F32x8) -> F32x8 {
+        self.to_shuffled_order(v)
     }
 }
 
 impl Simd for Avx512 {
+    type F = F32x16;
+
     const LANES: usize = 16;
 
     #[inline(always)]
-    unsafe fn load_from(self, place: *const f32) -> Sixteen {
-        // SAFETY: the caller's promise, and see above.
-        Sixteen(unsafe { _mm512_loadu_ps(place) })
+    fn splat(self, value: f32) -> F32x16 {
+        // SAFETY: see above.
+        F32x16(unsafe { _mm512_set1_ps(value) })
     }
 
     #[inline(always)]
-    unsafe fn store_to(self, place: *mut f32, v: Sixteen) {
-        // SAFETY: the caller's promise, and see above.
-        unsafe { _mm512_storeu_ps(place, v.0) };
+    unsafe fn load_from(self, source: *const f32) -> F32x16 {
+        // SAFETY: the caller guarantees the pointer; see above.
+        F32x16(unsafe { _mm512_loadu_ps(source) })
     }
 
     #[inline(always)]
-    fn pick(self, keep: Sixteen, new: Sixteen, old: Sixteen) -> Sixteen {
+    unsafe fn store_to(self, target: *mut f32, v: F32x16) {
+        // SAFETY: the caller guarantees the pointer; see above.
+        unsafe { _mm512_storeu_ps(target, v.0) };
+    }
+
+    #[inline(always)]
+    fn select(self, condition: F32x16, new: F32x16, old: F32x16) -> F32x16 {
         // SAFETY: see above.
         unsafe {
-            let keep = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(keep.0, _mm512_setzero_ps());
-            Sixteen(_mm512_mask_blend_ps(keep, old.0, new.0))
+            let mask = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(condition.0, _mm512_setzero_ps());
+            F32x16(_mm512_mask_blend_ps(mask, old.0, new.0))
         }
     }
 
     #[inline(always)]
-    fn keep(self, keep: Sixteen, v: Sixteen) -> Sixteen {
+    fn select_or_zero(self, condition: F32x16, v: F32x16) -> F32x16 {
         // SAFETY: see above.
         unsafe {
-            let keep = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(keep.0, _mm512_setzero_ps());
-            Sixteen(_mm512_maskz_mov_ps(keep, v.0))
+            let mask = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(condition.0, _mm512_setzero_ps());
+            F32x16(_mm512_maskz_mov_ps(mask, v.0))
         }
     }
 
     #[inline(always)]
-    fn is_any_positive(self, v: Sixteen) -> bool {
+    fn any_positive(self, v: F32x16) -> bool {
         // SAFETY: see above.
         unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) != 0 }
     }
 
     #[inline(always)]
-    fn positives(self, v: Sixteen) -> u32 {
+    fn positive_mask(self, v: F32x16) -> u32 {
         // SAFETY: see above.
         u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) })
     }
 
     #[inline(always)]
-    fn deal(self, low: Sixteen, high: Sixteen) -> (Sixteen, Sixteen) {
+    fn deinterleave(self, low: F32x16, high: F32x16) -> (F32x16, F32x16) {
         // SAFETY: see above.
         unsafe {
             let even = _mm512_shuffle_ps::<0x88>(low.0, high.0);
-            (Sixteen(even), Sixteen(_mm512_shuffle_ps::<0xdd>(low.0, high.0)))
+            (F32x16(even), F32x16(_mm512_shuffle_ps::<0xdd>(low.0, high.0)))
         }
     }
 
     #[inline(always)]
-    fn gather_up(self, even: Sixteen, odd: Sixteen) -> (Sixteen, Sixteen) {
+    fn interleave(self, even: F32x16, odd: F32x16) -> (F32x16, F32x16) {
         // SAFETY: see above.
         unsafe {
             let low = _mm512_unpacklo_ps(even.0, odd.0);
-            (Sixteen(low), Sixteen(_mm512_unpackhi_ps(even.0, odd.0)))
+            (F32x16(low), F32x16(_mm512_unpackhi_ps(even.0, odd.0)))
         }
     }
 
     #[inline(always)]
-    fn deal_twos(self, low: Sixteen, high: Sixteen) -> (Sixteen, Sixteen) {
+    fn deinterleave_pairs(self, low: F32x16, high: F32x16) -> (F32x16, F32x16) {
         // SAFETY: see above.
         unsafe {
             let even = _mm512_shuffle_ps::<0x44>(low.0, high.0);
-            (Sixteen(even), Sixteen(_mm512_shuffle_ps::<0xee>(low.0, high.0)))
+            (F32x16(even), F32x16(_mm512_shuffle_ps::<0xee>(low.0, high.0)))
         }
     }
 
     #[inline(always)]
-    fn dealt(self, v: Sixteen) -> Sixteen {
-        // SAFETY: see above. Instructions deal within quarters, so twos come from either half by turns.
+    fn to_shuffled_order(self, v: F32x16) -> F32x16 {
+        // SAFETY: see above. AVX-512 shuffles within quarters, so pairs of numbers come from the two
+        // halves alternately.
         unsafe {
             let order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
-            let twos = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
-            Sixteen(_mm512_castpd_ps(twos))
+            let pairs = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
+            F32x16(_mm512_castpd_ps(pairs))
         }
     }
 
     #[inline(always)]
-    fn undealt(self, v: Sixteen) -> Sixteen {
+    fn from_shuffled_order(self, v: F32x16) -> F32x16 {
         // SAFETY: see above.
         unsafe {
             let order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
-            let twos = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
-            Sixteen(_mm512_castpd_ps(twos))
+            let pairs = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
+            F32x16(_mm512_castpd_ps(pairs))
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Where a vertex and a triangle are closest, or two edges: a pair in each lane.
 
-use crate::math::simd::{Number, Simd};
+use crate::math::simd::{Float, Simd};
 use crate::solver::self_collide::surface::contact::{Kind, VERTEX};
 
-/// From the closest point of a triangle to a vertex (as `geom::closest::of_triangle`), and what each particle counts
+/// From the closest point of a triangle to a vertex (as `geom::closest::triangle_to_origin`), and what each particle counts
 /// for.
 #[inline(always)]
 pub(crate) fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) {
@@ -24,17 +24,17 @@ pub(crate) fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 
     weights = choose(s, off, weights, [zero, a2 / (a2 - c2)]);
     let off = beyond(over_ab, zero - a1, b1);
     weights = choose(s, off, weights, [a1 / (a1 - b1), zero]);
-    let off = Number::max(zero - c2, c1 - c2);
+    let off = Float::max(zero - c2, c1 - c2);
     weights = choose(s, off, weights, [zero, one]);
-    let off = Number::max(zero - b1, b2 - b1);
+    let off = Float::max(zero - b1, b2 - b1);
     weights = choose(s, off, weights, [one, zero]);
-    let off = Number::max(a1, a2);
+    let off = Float::max(a1, a2);
     let [v, w] = choose(s, off, weights, [zero; 2]);
     let to = a.plus(ab.times(v)).plus(ac.times(w));
     (to.times(zero - one), [one, v + w - one, zero - v, zero - w])
 }
 
-/// From the closest point of the second edge to that of the first (as `geom::closest::of_segments`), and what each
+/// From the closest point of the second edge to that of the first (as `geom::closest::segment_to_segment`), and what each
 /// particle counts for.
 #[inline(always)]
 pub(crate) fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) {
@@ -43,11 +43,11 @@ pub(crate) fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) 
     let (ur, vr) = (u.dot(r), v.dot(r));
     let across = uu * vv - uv * uv;
     let amid = share(s, (uv * vr - ur * vv) / across);
-    let amid = s.pick(across - s.splat(1.0e-6) * uu * vv, amid, s.splat(0.5));
+    let amid = s.select(across - s.splat(1.0e-6) * uu * vv, amid, s.splat(0.5));
     let t = (uv * amid + vr) / vv;
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
-    let low = s.pick(zero - t, share(s, (zero - ur) / uu), amid);
-    let along = s.pick(t - one, share(s, (uv - ur) / uu), low);
+    let low = s.select(zero - t, share(s, (zero - ur) / uu), amid);
+    let along = s.select(t - one, share(s, (uv - ur) / uu), low);
     let across = share(s, t);
     let way = r.plus(u.times(along)).minus(v.times(across));
     (way, [one - along, along, across - one, zero - across])
@@ -55,28 +55,28 @@ pub(crate) fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) 
 
 /// How far one side is from the other along a direction, at least; `x` is how far each particle is along it.
 #[inline(always)]
-pub(crate) fn between<F: Number, const FIRST: Kind>([a, b, c, d]: [F; 4]) -> F {
+pub(crate) fn between<F: Float, const FIRST: Kind>([a, b, c, d]: [F; 4]) -> F {
     if FIRST == VERTEX {
-        a - Number::max(b, Number::max(c, d))
+        a - Float::max(b, Float::max(c, d))
     } else {
-        Number::min(a, b) - Number::max(c, d)
+        Float::min(a, b) - Float::max(c, d)
     }
 }
 
 #[inline(always)]
 fn choose<S: Simd>(s: S, keep: S::F, old: [S::F; 2], new: [S::F; 2]) -> [S::F; 2] {
-    [s.pick(keep, old[0], new[0]), s.pick(keep, old[1], new[1])]
+    [s.select(keep, old[0], new[0]), s.select(keep, old[1], new[1])]
 }
 
 #[inline(always)]
-fn beyond<F: Number>(p: F, q: F, r: F) -> F {
-    Number::max(Number::max(p, q), r)
+fn beyond<F: Float>(p: F, q: F, r: F) -> F {
+    Float::max(Float::max(p, q), r)
 }
 
 /// Between 0 and 1.
 #[inline(always)]
 fn share<S: Simd>(s: S, t: S::F) -> S::F {
-    Number::min(Number::max(t, s.splat(0.0)), s.splat(1.0))
+    Float::min(Float::max(t, s.splat(0.0)), s.splat(1.0))
 }
 
 /// A vector in each lane.
@@ -87,7 +87,7 @@ pub(crate) struct V<F> {
     pub z: F,
 }
 
-impl<F: Number> V<F> {
+impl<F: Float> V<F> {
     #[inline(always)]
     pub fn new([x, y, z, _]: [F; 4]) -> Self {
         Self { x, y, z }

@@ -4,7 +4,7 @@
 //! follow the cloth.
 
 use crate::geometry::aabb::Aabb;
-use crate::math::simd::{Arithmetic, Base, Level, Number, Simd};
+use crate::math::simd::{Baseline, Float, Level, Simd};
 use crate::math::sort::{sort, sort_by};
 use crate::math::wide4::Float4;
 use crate::mesh::{Mesh, NONE, after};
@@ -139,7 +139,7 @@ impl Patches {
             let own = &patches.triangles[from..to];
             own.iter().for_each(|triangle| patches.patch_of[*triangle as usize] = at as u32);
             let all = own.iter().flat_map(|triangle| sites(*triangle));
-            patch.rest = Aabb::around(all.map(|site| rest[site as usize]));
+            patch.rest = Aabb::from_points(all.map(|site| rest[site as usize]));
             patch.piece = piece(own[0]);
         }
         patches.find_parts(mesh);
@@ -176,8 +176,8 @@ impl Patches {
         } else {
             let middle = if is_whole {
                 let mut all = Aabb::EMPTY;
-                part.iter().for_each(|triangle| all.add(center(*triangle)));
-                let size = all.half().to_array();
+                part.iter().for_each(|triangle| all.include(center(*triangle)));
+                let size = all.half_extents().to_array();
                 let axis = if size[0] >= size[1] && size[0] >= size[2] {
                     0
                 } else if size[1] >= size[2] {
@@ -389,8 +389,8 @@ impl Patches {
 /// How vertices went since they were where they were `before`: from, to.
 #[inline(always)]
 fn step_of(vertices: &[u32], now: &[Float4], before: &[Float4]) -> [Float4; 2] {
-    let (simd, mut step, mut sound) = (Base::new(), [[0.0; 4]; 2], [0.0; 4]);
-    for k in (0..4).step_by(Base::LANES) {
+    let (simd, mut step, mut sound) = (Baseline::new(), [[0.0; 4]; 2], [0.0; 4]);
+    for k in (0..4).step_by(Baseline::LANES) {
         let zero = simd.splat(0.0);
         let mut still = zero;
         let [mut least, mut most] =
@@ -400,7 +400,7 @@ fn step_of(vertices: &[u32], now: &[Float4], before: &[Float4]) -> [Float4; 2] {
             let way = load(now) - load(before);
             // What is no number, or has no end, leaves none in the last.
             (least, most, still) =
-                (Number::min(way, least), Number::max(way, most), still + way * zero);
+                (Float::min(way, least), Float::max(way, most), still + way * zero);
         }
         simd.store(&mut step[0], k, least);
         simd.store(&mut step[1], k, most);

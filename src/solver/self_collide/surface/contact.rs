@@ -72,8 +72,8 @@ struct Closest {
 #[inline(always)]
 fn vertex_closest([v, a, b, c]: [Vec3; 4]) -> Closest {
     let corners = [a - v, b - v, c - v];
-    let weights = closest_points::of_triangle(corners);
-    let way = -closest_points::blend(corners, weights);
+    let weights = closest_points::triangle_to_origin(corners);
+    let way = -closest_points::interpolate(corners, weights);
     let distance = way.length();
     let [wa, wb, wc] = weights;
     let is_inside = wa > 0.0 && wb > 0.0 && wc > 0.0;
@@ -84,7 +84,7 @@ fn vertex_closest([v, a, b, c]: [Vec3; 4]) -> Closest {
 /// Two edges.
 #[inline(always)]
 fn edge_closest([p, q, r, s]: [Vec3; 4]) -> Closest {
-    let (t, u) = closest_points::of_segments([p, q], [r, s]);
+    let (t, u) = closest_points::segment_to_segment([p, q], [r, s]);
     let (along, across) = (q - p, s - r);
     let way = p - r + along * t - across * u;
     let distance = way.length();
@@ -119,7 +119,7 @@ fn told_apart(x: [Vec3; 4], closest: Closest) -> Closest {
         ([p, q], [s; 2], None, Some(1.0)),
     ];
     for (one, other, at_one, at_other) in ends {
-        let (t, u) = closest_points::of_segments(one, other);
+        let (t, u) = closest_points::segment_to_segment(one, other);
         let (t, u) = (at_one.unwrap_or(t), at_other.unwrap_or(u));
         look([1.0 - t, t, u - 1.0, -u], p - r + (q - p) * t - (s - r) * u);
     }

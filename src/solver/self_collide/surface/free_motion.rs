@@ -8,7 +8,7 @@
 use crate::solver::particle_stage::interleaved;
 
 use crate::math::wide4::Float4;
-use crate::solver::collide::response::Touch;
+use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
 
 use crate::solver::integrate::momentum;
@@ -22,7 +22,7 @@ const FLAT: f32 = 0.999;
 /// The floor that a cloth lies on which is kept still, zero if there is none; nothing if it is not.
 pub(crate) fn floor(world: &World) -> Option<Vec3> {
     let is_free = world.pieces == 1 && !momentum::is_held(world);
-    if is_free { normal(&world.scratch.contacts.touches) } else { None }
+    if is_free { normal(&world.scratch.contacts.collider_contacts) } else { None }
 }
 
 /// Moves all back as a whole by what they were moved by since they were at `before`, which is room to work in then.
@@ -48,7 +48,7 @@ pub(crate) fn keep(
 }
 
 /// The normal of the floor that all touches are with, zero if there is none; nothing if they are with more.
-fn normal(touches: &[Touch]) -> Option<Vec3> {
+fn normal(touches: &[ColliderContact]) -> Option<Vec3> {
     let Some(first) = touches.first() else { return Some(Vec3::ZERO) };
     touches.iter().all(|touch| touch.normal.dot(first.normal) > FLAT).then_some(first.normal)
 }

@@ -215,7 +215,7 @@ impl SurfaceCollision {
         let went_back = self.fence(world);
         let now = &mut self.motion.now;
         if went_back
-            && world.scratch.contacts.touches.is_empty()
+            && world.scratch.contacts.collider_contacts.is_empty()
             && !crate::solver::particle_stage::interleaved::is_any_held(now)
         {
             let w = now.iter().map(|spot| spot[3]);
@@ -331,7 +331,7 @@ pub(crate) fn pair(world: &mut World) {
     );
     layers.weights.clear();
     layers.weights.extend(world.particles.w.iter().map(|w| Weight { w: *w, yields: 1.0 }));
-    for touch in &world.scratch.contacts.touches {
+    for touch in &world.scratch.contacts.collider_contacts {
         let at = touch.particle as usize;
         layers.motion.now[at][3] = world.particles.w[at] * contact_solver::BORNE;
         layers.weights[at].yields = contact_solver::BORNE;
@@ -423,7 +423,7 @@ pub(crate) fn calm(world: &mut World) {
     };
     let SurfaceCollision { contacts, active, open, weights, motion, ways, tangles, .. } =
         &mut *layers;
-    let is_free = world.scratch.contacts.touches.is_empty()
+    let is_free = world.scratch.contacts.collider_contacts.is_empty()
         && !crate::solver::particle_stage::interleaved::is_any_held(&motion.start);
     let p = &mut world.particles;
     contact_solver::find_hits(contacts, active, &p.v, speed, open);

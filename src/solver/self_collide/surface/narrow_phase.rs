@@ -2,7 +2,7 @@
 //!
 //! As `Contact::find` does it one by one for what no direction tells apart well.
 
-use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
+use crate::math::simd::{Float, Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
 use crate::solver::self_collide::surface::contact::{
@@ -146,8 +146,8 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
         let nothing = V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) };
         let [mut then, mut x] = [[nothing; 4]; 2];
         for k in 0..4 {
-            then[k] = V::new(turn(s, start, &ids[k][own.clone()]));
-            x[k] = V::new(turn(s, now, &ids[k][own.clone()]));
+            then[k] = V::new(gather_transpose(s, start, &ids[k][own.clone()]));
+            x[k] = V::new(gather_transpose(s, now, &ids[k][own.clone()]));
         }
         let before = closest::<S, FIRST>(s, then);
         let after = closest::<S, FIRST>(s, x);
@@ -155,7 +155,7 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
         let turned = along::<_, FIRST>(then, after.n);
         let mut is_sure = before.distance - s.splat(NOTHING);
         if FIRST == EDGES {
-            is_sure = Number::min(is_sure, apart - s.splat(CLEAR) * before.distance);
+            is_sure = Float::min(is_sure, apart - s.splat(CLEAR) * before.distance);
         }
         // What came nearer than the gap takes the direction that it has now, if that told sides apart before, and not
         // much less.
@@ -163,21 +163,21 @@ fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
         for k in 0..4 {
             distance = distance + before.share[k] * before.n.dot(x[k]);
         }
-        let is_near = Number::min(turned, after.distance) - s.splat(NOTHING);
+        let is_near = Float::min(turned, after.distance) - s.splat(NOTHING);
         let gap = s.load(gaps, at);
         let enough = gap * s.splat(SLIT * ENOUGH);
-        let is_better = Number::min(turned, enough) - s.splat(WORSE) * Number::min(apart, enough);
-        let turns = Number::min(Number::min(gap - distance, is_near), is_better);
-        apart = s.pick(turns, turned, apart);
+        let is_better = Float::min(turned, enough) - s.splat(WORSE) * Float::min(apart, enough);
+        let turns = Float::min(Float::min(gap - distance, is_near), is_better);
+        apart = s.select(turns, turned, apart);
         let n = [before.n.x, before.n.y, before.n.z].into_iter();
         let new = [after.n.x, after.n.y, after.n.z];
         for ((list, old), new) in normals.iter_mut().zip(n).zip(new) {
-            s.store(list, at, s.pick(turns, new, old));
+            s.store(list, at, s.select(turns, new, old));
         }
         for (list, (old, new)) in shares.iter_mut().zip(before.share.into_iter().zip(after.share)) {
-            s.store(list, at, s.pick(turns, new, old));
+            s.store(list, at, s.select(turns, new, old));
         }
-        s.store(aparts, at, s.pick(is_sure, apart, s.splat(UNSURE)));
+        s.store(aparts, at, s.select(is_sure, apart, s.splat(UNSURE)));
     }
 }
 
@@ -195,30 +195,30 @@ fn closest<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4]) -> Closest<S::F> {
     let distance = way.dot(way).sqrt();
     // Inside of a triangle or of both edges the way is along the normal, which is more exact where it is short.
     let (normal, inside) = if FIRST == VERTEX {
-        let most = Number::max(share[1], Number::max(share[2], share[3]));
+        let most = Float::max(share[1], Float::max(share[2], share[3]));
         (x[2].minus(x[1]).cross(x[3].minus(x[1])), zero - most)
     } else {
-        let first = Number::min(share[0], share[1]);
-        let second = Number::max(share[2], share[3]);
-        (x[1].minus(x[0]).cross(x[3].minus(x[2])), Number::min(first, zero - second))
+        let first = Float::min(share[0], share[1]);
+        let second = Float::max(share[2], share[3]);
+        (x[1].minus(x[0]).cross(x[3].minus(x[2])), Float::min(first, zero - second))
     };
     let (along, length) = (way.dot(normal), normal.dot(normal).sqrt());
     let least = s.splat(SAME) * distance * distance * length * length;
-    let is_normal = Number::min(inside, along * along - least);
+    let is_normal = Float::min(inside, along * along - least);
     let one = s.splat(1.0);
-    let side = s.pick(along, one, zero - one);
+    let side = s.select(along, one, zero - one);
     let by_normal = normal.times(side / length);
     let by_way = way.times(one / distance);
     let n = V {
-        x: s.pick(is_normal, by_normal.x, by_way.x),
-        y: s.pick(is_normal, by_normal.y, by_way.y),
-        z: s.pick(is_normal, by_normal.z, by_way.z),
+        x: s.select(is_normal, by_normal.x, by_way.x),
+        y: s.select(is_normal, by_normal.y, by_way.y),
+        z: s.select(is_normal, by_normal.z, by_way.z),
     };
     Closest { share, n, distance }
 }
 
 /// How far one side is from the other along a direction, at least.
 #[inline(always)]
-fn along<F: Number, const FIRST: Kind>(x: [V<F>; 4], n: V<F>) -> F {
+fn along<F: Float, const FIRST: Kind>(x: [V<F>; 4], n: V<F>) -> F {
     between::<_, FIRST>([n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])])
 }

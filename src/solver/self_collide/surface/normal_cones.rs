@@ -2,7 +2,9 @@
 //! other. Eight patches go side by side, and so do eight pairs of them.
 
 use crate::math::min;
-use crate::math::simd::{Arithmetic, Level, Number, Scalar, Simd, turn, turn_back, vectored};
+use crate::math::simd::{
+    Float, Level, Scalar, Simd, gather_transpose, scatter_transpose, vectored,
+};
 use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::V;
 use crate::solver::self_collide::surface::cluster_bvh::PATCH;
@@ -180,42 +182,42 @@ fn lean<S: Simd>(s: S, blocks: &[Block], x: &[Float4], leans: &mut [Lean], only_
     for (number, block) in blocks.iter().enumerate() {
         for at in (0..LANES).step_by(S::LANES) {
             let turning = s.load(&block.turning, at);
-            if only_turning && !s.is_any_positive(turning) {
+            if only_turning && !s.any_positive(turning) {
                 continue;
             }
             let counts = s.load(&block.counts, at);
             let nothing = V { x: zero, y: zero, z: zero };
             let (mut normals, mut sum) = ([nothing; PATCH], nothing);
             for (k, normal) in normals.iter_mut().enumerate() {
-                let [a, b, c] =
-                    [0, 1, 2].map(|corner| V::new(turn(s, x, &block.corners[k][corner][at..])));
+                let [a, b, c] = [0, 1, 2]
+                    .map(|corner| V::new(gather_transpose(s, x, &block.corners[k][corner][at..])));
                 let doubled = b.minus(a).cross(c.minus(a));
                 *normal = doubled.times(one / doubled.dot(doubled).sqrt());
                 let (more, is_own) = (sum.plus(*normal), counts - s.splat(k as f32));
                 sum = V {
-                    x: s.pick(is_own, more.x, sum.x),
-                    y: s.pick(is_own, more.y, sum.y),
-                    z: s.pick(is_own, more.z, sum.z),
+                    x: s.select(is_own, more.x, sum.x),
+                    y: s.select(is_own, more.y, sum.y),
+                    z: s.select(is_own, more.z, sum.z),
                 };
             }
             let mean = sum.times(one / sum.dot(sum).sqrt());
             let mut cone = one;
             for normal in normals {
-                cone = Number::min(normal.dot(mean), cone);
+                cone = Float::min(normal.dot(mean), cone);
             }
             // Where there is no mean, nothing is known.
-            let is_known = Number::min(counts, mean.dot(mean));
-            let cone = s.pick(is_known, cone, zero - one);
+            let is_known = Float::min(counts, mean.dot(mean));
+            let cone = s.select(is_known, cone, zero - one);
             let ids: [u32; LANES] =
                 core::array::from_fn(|lane| (number * LANES + at + lane) as u32);
             let mut found = [mean.x, mean.y, mean.z, cone];
             if only_turning {
-                let before = turn(s, leans, &ids);
+                let before = gather_transpose(s, leans, &ids);
                 for (found, before) in found.iter_mut().zip(before) {
-                    *found = s.pick(turning, *found, before);
+                    *found = s.select(turning, *found, before);
                 }
             }
-            turn_back(s, leans, &ids, found);
+            scatter_transpose(s, leans, &ids, found);
         }
     }
 }
@@ -232,13 +234,16 @@ fn look<S: Simd>(s: S, pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], q
                 if are_quiet == 0 {
                     break;
                 }
-                let (one, other) = (turn(s, leans, &one[at..]), turn(s, leans, &other[at..]));
+                let (one, other) = (
+                    gather_transpose(s, leans, &one[at..]),
+                    gather_transpose(s, leans, &other[at..]),
+                );
                 let (a, b) = (V::new(one), V::new(other));
-                are_quiet &= are_alike(s, [a, b], Number::min(one[3], other[3]));
+                are_quiet &= are_alike(s, [a, b], Float::min(one[3], other[3]));
                 if number >= first_parted {
                     // Around a common vertex all may lean alike that lie on each other, if what is between them is
                     // turned over.
-                    let between = turn(s, leans, &between[at..]);
+                    let between = gather_transpose(s, leans, &between[at..]);
                     are_quiet &= faces(s, V::new(between), between[3], a.plus(b));
                 }
             }
@@ -253,22 +258,22 @@ fn look<S: Simd>(s: S, pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], q
 #[inline(always)]
 fn are_alike<S: Simd>(s: S, [a, b]: [V<S::F>; 2], cone: S::F) -> u32 {
     let (half, one) = (s.splat(0.5), s.splat(1.0));
-    let amid = Number::min((one + a.dot(b)) * half, one).sqrt();
+    let amid = Float::min((one + a.dot(b)) * half, one).sqrt();
     let steep = s.splat(STEEP);
-    s.positives(cone - steep) & s.positives(cosine_of_sum(s, amid, cone) - steep)
+    s.positive_mask(cone - steep) & s.positive_mask(cosine_of_sum(s, amid, cone) - steep)
 }
 
 /// Which have all normals on the side that a way leads to.
 #[inline(always)]
 fn faces<S: Simd>(s: S, normal: V<S::F>, cone: S::F, way: V<S::F>) -> u32 {
     let cosine = normal.dot(way) / way.dot(way).sqrt();
-    let sum = cosine_of_sum(s, Number::min(cosine, s.splat(1.0)), cone);
-    s.positives(cosine) & s.positives(cone) & s.positives(sum)
+    let sum = cosine_of_sum(s, Float::min(cosine, s.splat(1.0)), cone);
+    s.positive_mask(cosine) & s.positive_mask(cone) & s.positive_mask(sum)
 }
 
 /// The cosine of the sum of two angles up to a right one, of their cosines.
 #[inline(always)]
-fn cosine_of_sum<S: Arithmetic>(s: S, a: S::F, b: S::F) -> S::F {
+fn cosine_of_sum<S: Simd>(s: S, a: S::F, b: S::F) -> S::F {
     let one = s.splat(1.0);
     a * b - ((one - a * a) * (one - b * b)).sqrt()
 }

@@ -385,6 +385,6 @@ impl Patches {
     /// Whether what is in two patches may be near at rest.
     fn are_near_at_rest(&self, pair: [u32; 2], near: f32) -> bool {
         let (a, b) = (&self.patches[pair[0] as usize], &self.patches[pair[1] as usize]);
-        a.piece == b.piece && a.rest.grown(near).meets(&b.rest)
+        a.piece == b.piece && a.rest.expanded(near).overlaps(&b.rest)
     }
 }

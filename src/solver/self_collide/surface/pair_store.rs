@@ -1,7 +1,7 @@
 //! Pairs of one kind that may meet for as long as particles stay in their reach, each with how far apart its sides
 //! were where particles were based: what has not gone that far since needs no look.
 
-use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
+use crate::math::simd::{Float, Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
 use crate::solver::self_collide::surface::contact::{EDGES, Kind, VERTEX};
@@ -127,12 +127,12 @@ fn measure<S: Simd, const FIRST: Kind>(s: S, ids: &[[u32; 4]], base: &[Float4], 
         let ids = turned::<S>(&ids[at..]);
         let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
         for k in 0..4 {
-            x[k] = V::new(turn(s, base, &ids[k]));
+            x[k] = V::new(gather_transpose(s, base, &ids[k]));
         }
         let (way, _) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
         let n = way.times(s.splat(1.0) / way.dot(way).sqrt());
         let distance = between::<_, FIRST>([n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])]);
-        s.store(apart, at, Number::max(distance, s.splat(f32::NEG_INFINITY)));
+        s.store(apart, at, Float::max(distance, s.splat(f32::NEG_INFINITY)));
     }
 }
 

@@ -37,8 +37,8 @@ impl RestGap<'_> {
         let rest = |at: usize| self.world.rest[sites[at]];
         let x = [rest(0), rest(1), rest(2), rest(3)];
         let (one, other) = x.split_at(FIRST as usize);
-        let sides = [one, other].map(|side: &[Vec3]| Aabb::around(side.iter().copied()));
-        if !sides[0].grown(self.near()).meets(&sides[1]) {
+        let sides = [one, other].map(|side: &[Vec3]| Aabb::from_points(side.iter().copied()));
+        if !sides[0].expanded(self.near()).overlaps(&sides[1]) {
             return self.gap;
         }
         // The sides of a slit are at the same place at rest, and a hair apart as they part.

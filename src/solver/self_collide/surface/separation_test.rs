@@ -3,7 +3,7 @@
 //! What leads from one side to the other where they are closest as the substep begins tells most pairs apart then
 //! and, wherever they may get, in the end. What it does not is looked at one by one (`contacts`).
 
-use crate::math::simd::{Level, Number, Scalar, Simd, turn, vectored};
+use crate::math::simd::{Float, Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
 use crate::solver::self_collide::surface::contact::{CLEAR, EDGES, Kind, NOTHING, VERTEX};
@@ -160,11 +160,14 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
         let mut rooms = [[x[0]; 2]; 4];
         for k in 0..4 {
-            x[k] = V::new(turn(s, start, &ids[k]));
-            rooms[k] = [V::new(turn(s, from, &ids[k])), V::new(turn(s, to, &ids[k]))];
+            x[k] = V::new(gather_transpose(s, start, &ids[k]));
+            rooms[k] = [
+                V::new(gather_transpose(s, from, &ids[k])),
+                V::new(gather_transpose(s, to, &ids[k])),
+            ];
         }
         let boxed = between_boxes::<S, FIRST>(s, x, rooms, gap);
-        if s.positives(boxed) == (1 << S::LANES) - 1 {
+        if s.positive_mask(boxed) == (1 << S::LANES) - 1 {
             continue;
         }
         let (way, share) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
@@ -181,23 +184,23 @@ fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
         }
         let [p, q, r, t] = ends;
         let after = if FIRST == VERTEX {
-            p[0] - Number::max(q[1], Number::max(r[1], t[1]))
+            p[0] - Float::max(q[1], Float::max(r[1], t[1]))
         } else {
-            Number::min(p[0], q[0]) - Number::max(r[1], t[1])
+            Float::min(p[0], q[0]) - Float::max(r[1], t[1])
         };
         let then = between::<_, FIRST>(before);
-        let is_clear = Number::min(then - s.splat(NOTHING), after - s.splat(gap));
-        let is_clear = s.positives(Number::max(is_clear, boxed));
+        let is_clear = Float::min(then - s.splat(NOTHING), after - s.splat(gap));
+        let is_clear = s.positive_mask(Float::max(is_clear, boxed));
         may_meet[at / BITS] |= u64::from(is_clear ^ ((1 << S::LANES) - 1)) << (at % BITS);
         for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
             s.store(list, at, n);
         }
         // Rooms are as large on all sides, so that particles are in the middle. What others push back to where it came
         // from is as near as it was.
-        let mut distance = Number::min(length, length + s.splat(0.5) * now);
+        let mut distance = Float::min(length, length + s.splat(0.5) * now);
         if FIRST == EDGES {
             let is_clear = then - s.splat(CLEAR) * length;
-            distance = s.pick(is_clear, distance, s.splat(f32::INFINITY));
+            distance = s.select(is_clear, distance, s.splat(f32::INFINITY));
         }
         s.store(lanes.distance, at, distance);
     }
@@ -234,26 +237,26 @@ fn between_boxes<S: Simd, const FIRST: Kind>(
             [0, 1].map(|end: usize| [rooms[0][end].along(axis), rooms[2][end].along(axis)]);
         for (side, k) in [(1, 3), (2 - FIRST as usize, 1)] {
             let (place, [from, to]) = (x[k].along(axis), rooms[k]);
-            low[side] = Number::min(low[side], place);
-            high[side] = Number::max(high[side], place);
-            least[side] = Number::min(least[side], from.along(axis));
-            most[side] = Number::max(most[side], to.along(axis));
+            low[side] = Float::min(low[side], place);
+            high[side] = Float::max(high[side], place);
+            least[side] = Float::min(least[side], from.along(axis));
+            most[side] = Float::max(most[side], to.along(axis));
         }
         let (back, ahead) = (most[1] - least[0], most[0] - least[1]);
-        let above = (low[0] - gap) - high[1] - Number::max(zero, back);
-        let below = low[1] - (high[0] + gap) - Number::max(zero, ahead);
-        clear = Number::max(Number::max(above, below), clear);
+        let above = (low[0] - gap) - high[1] - Float::max(zero, back);
+        let below = low[1] - (high[0] + gap) - Float::max(zero, ahead);
+        clear = Float::max(Float::max(above, below), clear);
     }
     clear
 }
 
 /// The least and the most that something gets along `n`.
 #[inline(always)]
-fn ends_along<F: Number>(n: V<F>, [from, to]: [V<F>; 2]) -> [F; 2] {
+fn ends_along<F: Float>(n: V<F>, [from, to]: [V<F>; 2]) -> [F; 2] {
     let (ax, ay, az) = (n.x * from.x, n.y * from.y, n.z * from.z);
     let (bx, by, bz) = (n.x * to.x, n.y * to.y, n.z * to.z);
-    let least = Number::min(ax, bx) + Number::min(ay, by) + Number::min(az, bz);
-    [least, Number::max(ax, bx) + Number::max(ay, by) + Number::max(az, bz)]
+    let least = Float::min(ax, bx) + Float::min(ay, by) + Float::min(az, bz);
+    [least, Float::max(ax, bx) + Float::max(ay, by) + Float::max(az, bz)]
 }
 
 #[cfg(test)]

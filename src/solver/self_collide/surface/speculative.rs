@@ -1,7 +1,7 @@
 //! Pairs that may meet in a substep but are too far from each other to push: a direction told them apart as it
 //! began, and the fence asks whether it still does.
 
-use crate::math::simd::{Level, Scalar, Simd, turn, vectored};
+use crate::math::simd::{Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
 use crate::solver::self_collide::surface::closest_lanes::{V, between};
 use crate::solver::self_collide::surface::contact::{Contact, EDGES, Kind, SLIT, VERTEX};
@@ -91,11 +91,11 @@ fn look_at<S: Simd>(s: S, distant: &[Distant], now: &[Float4], apart: &mut [u8])
             let n = V { x: s.load(&n[0], at), y: s.load(&n[1], at), z: s.load(&n[2], at) };
             let mut along = [s.splat(0.0); 4];
             for k in 0..4 {
-                along[k] = n.dot(V::new(turn(s, now, &ids[k][at..])));
+                along[k] = n.dot(V::new(gather_transpose(s, now, &ids[k][at..])));
             }
             let vertices = between::<_, VERTEX>(along);
-            let distance = s.pick(s.load(&edges, at), between::<_, EDGES>(along), vertices);
-            *bits |= (s.positives(distance - s.load(&slits, at)) << at) as u8;
+            let distance = s.select(s.load(&edges, at), between::<_, EDGES>(along), vertices);
+            *bits |= (s.positive_mask(distance - s.load(&slits, at)) << at) as u8;
         }
     }
 }

@@ -7,7 +7,7 @@
 //!                └────┘
 //! ```
 
-use crate::math::simd::{Arithmetic, Base, Number, Simd};
+use crate::math::simd::{Baseline, Float, Simd};
 use crate::math::wide4::Float4;
 use crate::math::{max, min};
 
@@ -46,15 +46,15 @@ impl Sweep {
     /// What holds some particles: where they are, and from where to where they go.
     #[inline(always)]
     pub fn around(particles: &[u32], [places, from, to]: [&[Float4]; 3]) -> Self {
-        let (simd, mut all) = (Base::new(), Self::EMPTY);
-        for k in (0..4).step_by(Base::LANES) {
+        let (simd, mut all) = (Baseline::new(), Self::EMPTY);
+        for k in (0..4).step_by(Baseline::LANES) {
             let [none, endless] = [f32::INFINITY, f32::NEG_INFINITY].map(|end| simd.splat(end));
             let ([mut low, mut first], [mut high, mut last]) = ([none; 2], [endless; 2]);
             for particle in particles {
                 let load = |spots: &[Float4]| simd.load(&spots[*particle as usize], k);
                 let place = load(places);
-                (low, high) = (Number::min(low, place), Number::max(high, place));
-                (first, last) = (Number::min(first, load(from)), Number::max(last, load(to)));
+                (low, high) = (Float::min(low, place), Float::max(high, place));
+                (first, last) = (Float::min(first, load(from)), Float::max(last, load(to)));
             }
             simd.store(&mut all.low, k, low);
             simd.store(&mut all.high, k, high);
@@ -68,16 +68,16 @@ impl Sweep {
     /// everywhere.
     #[inline(always)]
     pub fn meets(&self, other: &Self, gap: f32) -> bool {
-        let (simd, a, b) = (Base::new(), self, other);
+        let (simd, a, b) = (Baseline::new(), self, other);
         let (zero, gap) = (simd.splat(0.0), simd.splat(gap));
         let mut apart = 0;
-        for k in (0..4).step_by(Base::LANES) {
+        for k in (0..4).step_by(Baseline::LANES) {
             let load = |all: &Float4| simd.load(all, k);
-            let down = Number::min(load(&a.from) - load(&b.to), zero);
-            let up = Number::max(load(&a.to) - load(&b.from), zero);
+            let down = Float::min(load(&a.from) - load(&b.to), zero);
+            let up = Float::max(load(&a.to) - load(&b.from), zero);
             let below = load(&a.low) + down - (load(&b.high) + gap);
             let above = load(&b.low) - gap - (load(&a.high) + up);
-            apart |= (simd.positives(below) | simd.positives(above)) << k;
+            apart |= (simd.positive_mask(below) | simd.positive_mask(above)) << k;
         }
         // Inverse masses are no places.
         apart & 0b111 == 0
@@ -132,10 +132,10 @@ impl Sweeps {
     /// Which of them may come nearer than `gap` to one: a bit for each.
     #[inline(always)]
     pub fn meet(&self, one: &Sweep, gap: f32) -> u32 {
-        let simd = Base::new();
+        let simd = Baseline::new();
         let zero = simd.splat(0.0);
         let mut bits = 0;
-        for lane in (0..LANES).step_by(Base::LANES) {
+        for lane in (0..LANES).step_by(Baseline::LANES) {
             let mut clear = simd.splat(f32::NEG_INFINITY);
             for k in 0..3 {
                 let back = simd.load(&self.to[k], lane) - simd.splat(one.from[k]);
@@ -143,13 +143,13 @@ impl Sweeps {
                 let above = simd.splat(one.low[k] - gap) - simd.load(&self.high[k], lane);
                 let below = simd.load(&self.low[k], lane) - simd.splat(one.high[k] + gap);
                 let (above, below) =
-                    (above - Number::max(back, zero), below - Number::max(ahead, zero));
-                clear = Number::max(Number::max(above, below), clear);
+                    (above - Float::max(back, zero), below - Float::max(ahead, zero));
+                clear = Float::max(Float::max(above, below), clear);
             }
-            if simd.is_any_positive(zero - clear) {
+            if simd.any_positive(zero - clear) {
                 let mut each = [0.0; LANES];
                 simd.store(&mut each, 0, clear);
-                for (at, clear) in each[..Base::LANES].iter().enumerate() {
+                for (at, clear) in each[..Baseline::LANES].iter().enumerate() {
                     bits |= u32::from(*clear < 0.0) << (lane + at);
                 }
             }

@@ -3,7 +3,7 @@
 //!
 //! Ways are told against how all move in the mean, so that a cloth that falls as a whole stays where it is.
 
-use crate::math::simd::{Arithmetic, Base, Number, Simd};
+use crate::math::simd::{Baseline, Float, Simd};
 use crate::math::wide4::{Float4, xyz};
 use crate::math::{max, min};
 use crate::solver::particle_stage::interleaved::drift;
@@ -65,13 +65,13 @@ impl Reach {
 
     /// Whether all particles stay where they were thought to get in this substep.
     pub fn holds(&self, motion: &Motion) -> bool {
-        let simd = Base::new();
+        let simd = Baseline::new();
         let [starts, leasts, mosts] = motion.rooms();
         let drifts = self.drifts.map(|drift| drift.extend(0.0).to_array());
         // Inverse masses are no ways.
         let is_way = [1.0, 1.0, 1.0, 0.0];
         let mut is_within = true;
-        for k in (0..4).step_by(Base::LANES) {
+        for k in (0..4).step_by(Baseline::LANES) {
             let [before_drift, after_drift] = drifts.map(|drift| simd.load(&drift, k));
             let is_way = simd.load(&is_way, k);
             let zero = simd.splat(0.0);
@@ -83,16 +83,16 @@ impl Reach {
             {
                 let way = (simd.load(start, k) - simd.load(base, k)) * is_way;
                 let before = way - before_drift;
-                let least = Number::min(before, way + simd.load(least, k) - after_drift);
-                let most = Number::max(before, way + simd.load(most, k) - after_drift);
-                let left = Number::min(least - simd.load(from, k), simd.load(to, k) - most);
+                let least = Float::min(before, way + simd.load(least, k) - after_drift);
+                let most = Float::max(before, way + simd.load(most, k) - after_drift);
+                let left = Float::min(least - simd.load(from, k), simd.load(to, k) - most);
                 // What is no number leaves none in the second.
-                (room, sound) = (Number::min(room, left), sound + (least + most) * zero);
+                (room, sound) = (Float::min(room, left), sound + (least + most) * zero);
             }
             let mut ends = [[0.0; 4]; 2];
             simd.store(&mut ends[0], k, room);
             simd.store(&mut ends[1], k, sound);
-            let [room, sound] = ends.each_ref().map(|end| &end[k..k + Base::LANES]);
+            let [room, sound] = ends.each_ref().map(|end| &end[k..k + Baseline::LANES]);
             is_within &= room.iter().all(|room| *room >= 0.0);
             is_within &= sound.iter().all(|sound| *sound == 0.0);
         }

@@ -160,15 +160,15 @@ impl Tangles {
         let whole = Aabb { low: xyz(&sweep.low), high: xyz(&sweep.high) };
         for ends in edges {
             let edge = ends.map(at);
-            let bounds = Aabb::around(edge);
-            if !whole.meets(&bounds) {
+            let bounds = Aabb::from_points(edge);
+            if !whole.overlaps(&bounds) {
                 continue;
             }
             for triangle in triangles {
                 let corners = mesh.triangles[*triangle as usize];
                 let all = corners.map(at);
                 let are_joined = corners.iter().any(|corner| ends.contains(corner));
-                if are_joined || !Aabb::around(all).meets(&bounds) {
+                if are_joined || !Aabb::from_points(all).overlaps(&bounds) {
                     continue;
                 }
                 if let Some(share) = pierces(edge, all) {

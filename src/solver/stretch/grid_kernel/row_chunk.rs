@@ -6,7 +6,7 @@
     allow(dead_code)
 )]
 
-use crate::math::simd::{MOST_LANES, Number, Simd};
+use crate::math::simd::{Float, MAX_LANES, Simd};
 use crate::model::grid_rows::Pattern;
 use crate::solver::stretch::grid_kernel::row_layout::Place;
 use crate::solver::stretch::grid_links::STRAIGHT;
@@ -38,7 +38,7 @@ pub(crate) struct Chunk<F> {
     lambda: F,
 }
 
-impl<F: Number> Chunk<F> {
+impl<F: Float> Chunk<F> {
     /// Looks at links.
     ///
     /// # Safety
@@ -94,13 +94,13 @@ impl<F: Number> Chunk<F> {
     #[inline(always)]
     pub unsafe fn in_row(s: impl Simd<F = F>, place: Place, done: usize) -> F {
         // SAFETY: the caller's promise.
-        unsafe { s.keep(s.load(&COUNTS, MOST_LANES - done), s.load_from(place.mask)) }
+        unsafe { s.select_or_zero(s.load(&COUNTS, MAX_LANES - done), s.load_from(place.mask)) }
     }
 
     /// The first `count` links.
     #[inline(always)]
     pub fn first(s: impl Simd<F = F>, count: usize) -> F {
-        s.load(&COUNTS, 2 * MOST_LANES - count)
+        s.load(&COUNTS, 2 * MAX_LANES - count)
     }
 
     /// Moves the ends of all links.
@@ -128,7 +128,7 @@ impl<F: Number> Chunk<F> {
     }
 
     #[inline(always)]
-    unsafe fn store<const LAW: u8, const PATTERN: u8, const CHOOSY: bool>(
+    unsafe fn store<const LAW: u8, const PATTERN: u8, const MASKED: bool>(
         self,
         s: impl Simd<F = F>,
         place: Place,
@@ -138,18 +138,19 @@ impl<F: Number> Chunk<F> {
         // SAFETY: the caller's promise.
         unsafe {
             if LAW == SOFT {
-                let lambda = if CHOOSY {
+                let lambda = if MASKED {
                     let old = in_order::<_, PATTERN>(s, s.load_from(place.lambda));
-                    s.pick(keep, lambda, old)
+                    s.select(keep, lambda, old)
                 } else {
                     lambda
                 };
-                let lambda = if PATTERN == STRAIGHT { lambda } else { s.undealt(lambda) };
+                let lambda =
+                    if PATTERN == STRAIGHT { lambda } else { s.from_shuffled_order(lambda) };
                 s.store_to(place.lambda, lambda);
             }
-            let x = pushed::<_, PATTERN, CHOOSY>(s, x, dx, shares, keep);
-            let y = pushed::<_, PATTERN, CHOOSY>(s, y, dy, shares, keep);
-            let z = pushed::<_, PATTERN, CHOOSY>(s, z, dz, shares, keep);
+            let x = pushed::<_, PATTERN, MASKED>(s, x, dx, shares, keep);
+            let y = pushed::<_, PATTERN, MASKED>(s, y, dy, shares, keep);
+            let z = pushed::<_, PATTERN, MASKED>(s, z, dz, shares, keep);
             for (to, [low, high]) in [(place.x, x), (place.y, y), (place.z, z)] {
                 s.store_to(to[0], low);
                 s.store_to(to[1], high);
@@ -161,14 +162,14 @@ impl<F: Number> Chunk<F> {
 /// What lies link by link, dealt as the ends are.
 #[inline(always)]
 fn in_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
-    if PATTERN == STRAIGHT { v } else { s.dealt(v) }
+    if PATTERN == STRAIGHT { v } else { s.to_shuffled_order(v) }
 }
 
 /// 0 as often as there may be lanes, then 1 as often, then 0 again.
-const COUNTS: [f32; 3 * MOST_LANES] = {
-    let mut counts = [0.0; 3 * MOST_LANES];
-    let mut at = MOST_LANES;
-    while at < 2 * MOST_LANES {
+const COUNTS: [f32; 3 * MAX_LANES] = {
+    let mut counts = [0.0; 3 * MAX_LANES];
+    let mut at = MAX_LANES;
+    while at < 2 * MAX_LANES {
         counts[at] = 1.0;
         at += 1;
     }
@@ -195,14 +196,14 @@ unsafe fn halves<S: Simd>(s: S, [a, b]: [*const f32; 2]) -> [S::F; 2] {
 fn dealt<S: Simd, const PATTERN: u8>(s: S, [low, high]: [S::F; 2]) -> (S::F, S::F) {
     match PATTERN {
         STRAIGHT => (low, high),
-        PAIRS => s.deal(low, high),
-        _ => s.deal_twos(low, high),
+        PAIRS => s.deinterleave(low, high),
+        _ => s.deinterleave_pairs(low, high),
     }
 }
 
 /// Both halves of one column, moved: lower ends along a span by their share, upper ones against it.
 #[inline(always)]
-fn pushed<S: Simd, const PATTERN: u8, const CHOOSY: bool>(
+fn pushed<S: Simd, const PATTERN: u8, const MASKED: bool>(
     s: S,
     [low, high]: [S::F; 2],
     span: S::F,
@@ -211,7 +212,7 @@ fn pushed<S: Simd, const PATTERN: u8, const CHOOSY: bool>(
 ) -> [S::F; 2] {
     // What changes no number at all, not even a zero's sign, when it is added, and when it is taken.
     let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
-    let chosen = |v: S::F, nothing: S::F| if CHOOSY { s.pick(keep, v, nothing) } else { v };
+    let chosen = |v: S::F, nothing: S::F| if MASKED { s.select(keep, v, nothing) } else { v };
     if PATTERN == STRAIGHT {
         let (added, taken) = (chosen(span * to_a, nothing), chosen(span * to_b, zero));
         return [low + added, high - taken];
@@ -219,6 +220,6 @@ fn pushed<S: Simd, const PATTERN: u8, const CHOOSY: bool>(
     let against = to_b * s.splat(-1.0);
     let (to_a, to_b) = (chosen(span * to_a, nothing), chosen(span * against, nothing));
     let (to_low, to_high) =
-        if PATTERN == PAIRS { s.gather_up(to_a, to_b) } else { s.deal_twos(to_a, to_b) };
+        if PATTERN == PAIRS { s.interleave(to_a, to_b) } else { s.deinterleave_pairs(to_a, to_b) };
     [low + to_low, high + to_high]
 }

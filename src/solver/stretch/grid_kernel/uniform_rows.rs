@@ -6,7 +6,7 @@
     allow(dead_code)
 )]
 
-use crate::math::simd::{MOST_LANES, Simd};
+use crate::math::simd::{MAX_LANES, Simd};
 use crate::model::grid_rows::Row;
 use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
 use crate::solver::stretch::grid_kernel::row_layout::{Lists, Spot, in_chunks_of};
@@ -168,7 +168,7 @@ impl Alike {
             roomy -= 1;
         }
         let (mut spot, mut step) = (end(rows.start), self.step);
-        let (mut keep, mut count) = ([0.0; MOST_LANES], roomy - rows.start);
+        let (mut keep, mut count) = ([0.0; MAX_LANES], roomy - rows.start);
         keep[..left].fill(1.0);
         if PATTERN != STRAIGHT {
             spot.b = spot.a + S::LANES;

@@ -4,30 +4,30 @@
 ///
 /// Multiply and rotate, finished by the avalanche of splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mixer(u64);
+pub(crate) struct StateHasher(u64);
 
-impl Mixer {
+impl StateHasher {
     pub fn new(seed: u64) -> Self {
         Self(seed ^ 0x9e37_79b9_7f4a_7c15)
     }
 
     #[inline(always)]
-    pub fn word(&mut self, word: u32) {
+    pub fn write_u32(&mut self, word: u32) {
         self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0xff51_afd7_ed55_8ccd).rotate_left(29);
     }
 
-    pub fn float(&mut self, value: f32) {
-        self.word(value.to_bits());
+    pub fn write_f32(&mut self, value: f32) {
+        self.write_u32(value.to_bits());
     }
 
     #[inline(never)]
-    pub fn floats(&mut self, values: &[f32]) {
-        values.iter().for_each(|v| self.float(*v));
+    pub fn write_f32s(&mut self, values: &[f32]) {
+        values.iter().for_each(|v| self.write_f32(*v));
     }
 
     #[inline(never)]
-    pub fn words(&mut self, values: &[u32]) {
-        values.iter().for_each(|v| self.word(*v));
+    pub fn write_u32s(&mut self, values: &[u32]) {
+        values.iter().for_each(|v| self.write_u32(*v));
     }
 
     pub fn finish(self) -> u64 {
@@ -39,7 +39,7 @@ impl Mixer {
 
 /// A number in 0..1 that belongs to these words for ever.
 pub(crate) fn unit(seed: u32, words: &[u32]) -> f32 {
-    let mut mixer = Mixer::new(u64::from(seed));
-    mixer.words(words);
-    (mixer.finish() >> 40) as f32 / (1u32 << 24) as f32
+    let mut hasher = StateHasher::new(u64::from(seed));
+    hasher.write_u32s(words);
+    (hasher.finish() >> 40) as f32 / (1u32 << 24) as f32
 }
