@@ -39,7 +39,7 @@ impl BlendedSurface {
     pub fn moved(&mut self) {
         self.share = None;
         if let Some(tangents) = &mut self.tangents {
-            tangents.moved();
+            tangents.invalidate_positions();
         }
     }
 
@@ -47,7 +47,7 @@ impl BlendedSurface {
     pub fn retied(&mut self) {
         self.share = None;
         if let Some(tangents) = &mut self.tangents {
-            tangents.retied();
+            tangents.invalidate_triangles();
         }
     }
 
@@ -55,20 +55,21 @@ impl BlendedSurface {
     /// texture coordinates for them; unless it has.
     pub fn follow(&mut self, world: &World, share: f32, uvs: Option<&[Vec2]>) {
         let needs_normals = self.share != Some(share);
-        let has_tangents = self.tangents.as_ref().is_some_and(|tangents| tangents.is_of(share));
+        let has_tangents =
+            self.tangents.as_ref().is_some_and(|tangents| tangents.is_current(share));
         let uvs = uvs.filter(|_| !has_tangents);
         if share != 1.0 && (needs_normals || uvs.is_some()) {
             self.between.reserve(self.capacity);
-            normals::between(world, share, &mut self.between);
+            normals::blend_positions(world, share, &mut self.between);
         }
         let x = if share == 1.0 { &world.particles.x } else { &self.between };
         if needs_normals {
-            normals::normals(world, x, &mut self.normals);
+            normals::compute(world, x, &mut self.normals);
             self.share = Some(share);
         }
         if let Some(uvs) = uvs {
             let make = || Box::new(Tangents::with_capacity(world.vertex_capacity()));
-            self.tangents.get_or_insert_with(make).follow(world, uvs, x, share);
+            self.tangents.get_or_insert_with(make).update(world, uvs, x, share);
         }
     }
 }

@@ -291,7 +291,7 @@ impl Cloth {
 
     /// Runs exactly `ticks` ticks.
     pub fn step(&mut self, ticks: u32) {
-        self.world.profile.restart();
+        self.world.profile.reset();
         if ticks == 0 {
             return;
         }

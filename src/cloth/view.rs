@@ -8,7 +8,7 @@ use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
 use crate::mesh::split_edge::Crossing;
 use crate::model::grid_cells::GridCells;
-use crate::solver::output::normals;
+use crate::solver::output::{normals, stats};
 use crate::solver::stage::Stage;
 
 use crate::solver::world::World;
@@ -47,7 +47,7 @@ pub struct View<'a> {
     pub particles: &'a [u32],
 }
 
-/// Numbers about a cloth.
+/// FloatBlock about a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stats {
     /// How many particles there are.
@@ -214,7 +214,7 @@ impl Outputs {
     fn follow_normals(&mut self, world: &World) {
         if !self.normals_current {
             self.drawn.follow(world, 1.0, None);
-            normals::hand_out(world, &self.drawn.normals, &mut self.normals);
+            normals::scatter_to_vertices(world, &self.drawn.normals, &mut self.normals);
             self.normals_current = true;
         }
     }
@@ -358,11 +358,11 @@ impl Cloth {
         self.state_revision
     }
 
-    /// Numbers about the cloth as it is now.
+    /// FloatBlock about the cloth as it is now.
     pub fn stats(&self) -> Stats {
         let world = &self.world;
         let ((max_stretch, mean_stretch), kinetic_energy) =
-            with_float_env(|| (normals::stretch(world), normals::kinetic_energy(world)));
+            with_float_env(|| (stats::stretch(world), stats::kinetic_energy(world)));
         Stats {
             particles: world.particles.len() as u32,
             triangles: world.mesh.triangles.len() as u32,
@@ -375,7 +375,7 @@ impl Cloth {
             mean_stretch,
             over_stretched: world.over_stretched,
             kinetic_energy,
-            max_speed: with_float_env(|| normals::max_speed(world)),
+            max_speed: with_float_env(|| stats::max_speed(world)),
             asleep: world.is_asleep(),
             bytes: self.bytes(),
             seconds: world.profile.seconds(),

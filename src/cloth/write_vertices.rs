@@ -13,7 +13,7 @@ use crate::solver::output::normals;
 use crate::solver::output::vertex_transform;
 use crate::solver::stage::Stage;
 
-use crate::solver::output::vertex_transform::{Placing, Vectors};
+use crate::solver::output::vertex_transform::{VertexBlock, VertexTransform};
 use core::ops::Range;
 use glam::Vec2;
 
@@ -91,9 +91,9 @@ impl Cloth {
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
         let placing = with_float_env(|| {
-            Placing::new(desc.blend, desc.offset, desc.flip_normals, desc.transform)
+            VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, desc.transform)
         });
-        let can_turn = placing.can_turn() || !(normals || tangents);
+        let can_turn = placing.can_transform_directions() || !(normals || tangents);
         check(can_turn, "transform", "be one that can be inverted, for normals or tangents")?;
         if normals || tangents || placing.is_offset() {
             world.threads.run_in_pool(world.particles.len(), || {
@@ -135,7 +135,7 @@ fn turn<const SIZE: usize>(
 /// What vertices are written from.
 struct Writer<'a> {
     level: Level,
-    placing: Placing,
+    placing: VertexTransform,
     x: [&'a [f32]; 3],
     last: [&'a [f32]; 3],
     drawn: &'a BlendedSurface,
@@ -183,21 +183,21 @@ impl Writer<'_> {
                     load_of(from, &self.last);
                     blend(self.level, vector, from, block.len(), self.placing.share);
                 }
-                self.placing.positions(self.level, vector, normals);
+                self.placing.transform_positions(self.level, vector, normals);
                 last.fill(1.0);
             }
             Attribute::Normal => {
                 load_of(vector, &self.drawn.normals.all());
-                self.placing.normals(self.level, vector);
+                self.placing.transform_normals(self.level, vector);
                 last.fill(0.0);
             }
             Attribute::Tangent => {
                 // Whoever asked for them had them made.
                 let Some(tangents) = &self.drawn.tangents else { return };
-                let (sums, hands) = tangents.lists();
+                let (sums, hands) = tangents.columns();
                 load(vector, &sums);
                 load(core::slice::from_mut(last), &[hands]);
-                self.placing.tangents(self.level, vector, normals, last);
+                self.placing.transform_tangents(self.level, vector, normals, last);
             }
             Attribute::Uv => {
                 let [u, v, ..] = vector;
@@ -216,7 +216,7 @@ impl Writer<'_> {
 }
 
 /// Goes back towards the last tick.
-fn blend(level: Level, x: &mut Vectors, last: &Vectors, count: usize, share: f32) {
+fn blend(level: Level, x: &mut VertexBlock, last: &VertexBlock, count: usize, share: f32) {
     for (x, last) in x.iter_mut().zip(last) {
         normals::blend(level, &mut x[..count], &last[..count], share);
     }
@@ -225,13 +225,13 @@ fn blend(level: Level, x: &mut Vectors, last: &Vectors, count: usize, share: f32
 /// Room for a block of vertices.
 struct Room {
     /// What is written: up to three numbers, and a fourth.
-    vector: Vectors,
+    vector: VertexBlock,
     fourth: FloatBlock,
     /// What they are packed into.
     halves: [HalfBlock; 4],
-    normals: Vectors,
+    normals: VertexBlock,
     /// Where they were a tick ago.
-    from: Vectors,
+    from: VertexBlock,
 }
 
 impl Default for Room {

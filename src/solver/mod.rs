@@ -1,4 +1,14 @@
-//! The tick: what it works on, its stages, and the order they run in (see `pipeline`).
+//! The solver: one tick of the simulation, its data and its stages.
+//!
+//! ```text
+//! pipeline        order of the stages           world      data that all stages share
+//! integrate       forces, prediction, velocities, recovery, sleep
+//! kinematic       pins, grabs, attachments, anchors
+//! stretch, bend   constraints of the cloth      vertex_sums, particle_stage   shared kernels
+//! collide         collision with colliders      self_collide                 with itself
+//! topology        tears and cuts                output     normals, tangents, vertices, stats
+//! ```
+//! Start to read at `pipeline`.
 
 pub(crate) mod bend;
 pub(crate) mod collide;

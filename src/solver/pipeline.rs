@@ -1,4 +1,37 @@
-//! The tick, read from top to bottom.
+//! The tick: the order of the stages, from top to bottom.
+//!
+//! ```text
+//! tick
+//! ├─ asleep?      advance the clock and return
+//! ├─ Limit        store the velocities at the start of the tick
+//! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
+//! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
+//! ├─ substep × substeps
+//! │  ├─ Predict       x ← x + displacement
+//! │  ├─ Hold          pins and grabs move their particles
+//! │  ├─ Bend          first implicit solve   Stretch  start of damping, particle layout
+//! │  ├─ sweep × iterations
+//! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
+//! │  │    odd    Bend ▶ Shear ▶ Stretch ▶ Tethers        (backward)
+//! │  ├─ Stretch       end of damping         Limit  one sweep of strain limiting
+//! │  ├─ SelfContacts  particle collision, then angular momentum of a free piece
+//! │  ├─ Contacts      colliders: narrow phase and response
+//! │  ├─ Hold          anchors: max distance and backstop
+//! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass
+//! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts
+//! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
+//! ├─ Guard        restore particles with invalid numbers
+//! ├─ Tear         split vertices of overstretched links
+//! ├─ last pass    Limit ▶ Hold ▶ SelfContacts ▶ Guard     (with a strain limit or anchors)
+//! └─ finish       targets reach the end of the tick, sleep timer
+//! ```
+//! Method: extended position-based dynamics with small substeps (Macklin, Müller, Chentanez, "XPBD",
+//! MIG 2016; Macklin et al., "Small Steps in Physics Simulation", SCA 2019). Sweeps alternate in
+//! direction, because the BDF2 scheme (`state::settings::Scheme`) needs a symmetric solver.
+//!
+//! Reads and writes `World`. Each line of the code below is one stage, timed under its `Stage`.
+//! Invariant: the order of the stages is part of the result; the same input gives the same bits.
+//! The last pass is the last stage that moves particles, so its bounds hold when the tick ends.
 
 use crate::solver::stage::Stage;
 use crate::solver::{bend, collide};
@@ -17,28 +50,30 @@ use crate::model::links::LinkKind;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::world::World;
 
-/// Times one stage.
+/// Runs one stage and adds its time to the profile.
 macro_rules! timed {
     ($world:ident, $stage:ident, $work:expr) => {{
         let start = $world.profile.start();
-        apart($world, |$world| {
+        run_stage($world, |$world| {
             $work;
         });
         $world.profile.book(Stage::$stage, start);
     }};
 }
 
-/// Each stage is a function of its own: engines leave one that is too long as it is, uncompiled.
+/// Runs one stage in a function of its own.
+///
+/// `#[inline(never)]`: V8 does not optimise functions above 61,440 bytes of bytecode.
 #[inline(never)]
-fn apart(world: &mut World, work: impl FnOnce(&mut World)) {
+fn run_stage(world: &mut World, work: impl FnOnce(&mut World)) {
     work(world);
 }
 
-/// Runs one tick; false if the cloth sleeps through it.
+/// Runs one tick. Returns false if the cloth sleeps through it; then only the clock advances.
 pub(crate) fn tick(world: &mut World) -> bool {
     if sleep::is_tick_skipped(world) {
-        targets::arrive(world);
-        end(world);
+        targets::finish_tick(world);
+        advance_clock(world);
         return false;
     }
     world.particles.x_last.copy_from(&world.particles.x);
@@ -47,7 +82,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     }
     timed!(world, Colliders, collide::begin_tick(world));
     timed!(world, Pairs, surface::begin(world));
-    timed!(world, Forces, forces::gather(world));
+    timed!(world, Forces, forces::compute_acceleration(world));
     if world.settings.tethers {
         timed!(world, Tethers, tethers::measure_slack(world));
     } else {
@@ -59,9 +94,9 @@ pub(crate) fn tick(world: &mut World) -> bool {
     timed!(world, Bend, bend::update_folds(world));
     world.pins.arrive();
     timed!(world, Colliders, collide::finish_tick(world));
-    end(world);
-    // What is no longer a number must not steer a tear.
-    timed!(world, Guard, recover::mend(world));
+    advance_clock(world);
+    // Restore invalid particles first, so that a NaN does not cause a tear.
+    timed!(world, Guard, recover::restore_invalid(world));
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
         timed!(world, Tear, tear::tear_overstretched(world));
     }
@@ -71,26 +106,26 @@ pub(crate) fn tick(world: &mut World) -> bool {
         if is_bounded {
             timed!(world, Limit, strain_limit::enforce(world));
         }
-        timed!(world, Hold, anchors::keep_in(world));
+        timed!(world, Hold, anchors::project_at_end(world));
         timed!(world, SelfContacts, surface::hold_at_last(world));
-        // What was put as far off as a number can say is no number when it is pulled at.
-        timed!(world, Guard, recover::mend(world));
+        // Corrections of particles near the largest f32 overflow, so check once more.
+        timed!(world, Guard, recover::restore_invalid(world));
     }
-    targets::arrive(world);
+    targets::finish_tick(world);
     sleep::update_timer(world);
     true
 }
 
-/// Time goes on.
-fn end(world: &mut World) {
+/// Advances time and tick count by one tick.
+fn advance_clock(world: &mut World) {
     world.time += f64::from(world.settings.tick);
     world.tick = world.tick.wrapping_add(1);
 }
 
-/// Substep `number` of the tick.
+/// Runs substep `number` of the tick, counted from 0.
 fn run_substep(world: &mut World, number: u32) {
-    timed!(world, Predict, predict::advance(world));
-    timed!(world, Hold, targets::hold(world, number));
+    timed!(world, Predict, predict::predict_positions(world));
+    timed!(world, Hold, targets::apply(world, number));
     if world.settings.tethers && !world.is_pin_stretch_current {
         timed!(world, Tethers, tethers::look(world));
     }
@@ -111,23 +146,23 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, momentum::keep(world));
     timed!(world, Pairs, collide::broad_phase::refresh(world));
     timed!(world, Contacts, collide::solve(world, number));
-    timed!(world, Hold, anchors::keep(world, number));
+    timed!(world, Hold, anchors::project(world, number));
     timed!(world, Pairs, surface::pair(world));
     timed!(world, SelfContacts, surface::solve(world));
     timed!(world, SelfContacts, surface::hold(world));
-    timed!(world, Velocities, velocities::derive(world));
+    timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, surface::calm(world));
 }
 
-/// Sweep `iteration` of a substep: to and fro in turn.
+/// Runs solver sweep `iteration` of a substep: forward if even, backward if odd.
 fn run_iteration(world: &mut World, iteration: u32) {
-    let is_back = !iteration.is_multiple_of(2);
-    if is_back {
+    let is_backward = !iteration.is_multiple_of(2);
+    if is_backward {
         timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Backward, iteration));
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Backward));
         timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, SweepOrder::Backward));
     } else if iteration == 0 && line_solver::are_used(world) {
-        // Lines bear a load as wholes, so that tethers and sweeps have little left to do.
+        // The line solver solves each chain exactly, so tethers and later sweeps have little to do.
         timed!(world, Stretch, line_solver::solve(world));
     } else {
         timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, SweepOrder::Forward));
@@ -135,7 +170,7 @@ fn run_iteration(world: &mut World, iteration: u32) {
     if world.settings.tethers {
         timed!(world, Tethers, tethers::solve(world));
     }
-    if !is_back {
+    if !is_backward {
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Forward));
         timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Forward, iteration));
     }

@@ -1,11 +1,15 @@
-//! Where the time of a tick goes, when somebody asks.
+//! Profile: seconds per stage, measured only while the host provides a clock.
+//!
+//! The library reads no clock by itself, so that ticks stay deterministic and run on platforms
+//! without one. Reads the clock of the host; writes `seconds`.
+//! Invariant: the profile never changes the result of a tick.
 
 use crate::solver::stage::Stage;
 
-/// A clock: seconds since any moment.
+/// A clock: returns seconds since an arbitrary fixed moment.
 pub type Clock = fn() -> f64;
 
-/// Seconds spent in each stage since the last call that ran ticks began.
+/// Seconds spent in each stage since the start of the last call that ran ticks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Profile {
     clock: Option<Clock>,
@@ -13,7 +17,7 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Starts (or stops, with `None`) timing by a clock.
+    /// Sets the clock, or stops timing with `None`, and clears all times.
     pub fn set_clock(&mut self, clock: Option<Clock>) {
         *self = Self { clock, seconds: [0.0; Stage::COUNT] };
     }
@@ -26,18 +30,18 @@ impl Profile {
         self.seconds
     }
 
-    /// Forgets the times so far.
-    pub fn restart(&mut self) {
+    /// Sets all times to zero.
+    pub fn reset(&mut self) {
         self.seconds = [0.0; Stage::COUNT];
     }
 
-    /// The time now, if anybody asks.
+    /// Returns the time now [s], or 0 without a clock.
     #[inline]
     pub fn start(&self) -> f64 {
         self.clock.map_or(0.0, |clock| clock())
     }
 
-    /// Books the time since `start` under a stage.
+    /// Adds the time since `start` to a stage.
     #[inline]
     pub fn book(&mut self, stage: Stage, start: f64) {
         if let Some(clock) = self.clock {

@@ -1,7 +1,19 @@
-//! Stage `Forces`: gravity and the air, as an acceleration of each particle.
+//! Stage `Forces`: gravity and aerodynamics, as an acceleration of each particle.
 //!
-//! The air pushes each triangle along its normal by the square of the relative speed,
-//! p = ½ ρ C |u·n| (u·n), and across the wind by ½ ρ C_L sin α cos α |u|². Gathered once a tick.
+//! ```text
+//!        n ▲   ▲ lift          u: mean velocity of the air relative to the triangle
+//!          │  ╱                drag pressure  p = ½ ρ C_d |u·n| (u·n), along n
+//!   ───────┼─╱───── triangle   lift pressure  p = ½ ρ C_l sin α cos α |u|², across u
+//!        ╱                     α: angle between u and the triangle
+//!      u
+//! ```
+//! Method: a quadratic pressure per triangle as in flat-plate aerodynamics, shared among its corners
+//! by their rest areas. It runs once per tick and is explicit in time, so the pressure is clamped to
+//! the range where explicit drag is stable.
+//!
+//! Reads positions, velocities, masses, wind and material; writes `scratch.acceleration` and
+//! `scratch.relative_wind`.
+//! Invariant: forces add up in triangle order, so the bits do not depend on threads or SIMD level.
 
 use crate::solver::vertex_sums::triangles;
 
@@ -12,45 +24,49 @@ use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::wind::{Breeze, WindModel};
 use glam::Vec3;
 
-/// The largest share of a triangle's relative speed that the air may take in one tick: explicit
-/// drag is stable up to one, and without ringing up to this.
-const MAX_BRAKE: f32 = 0.5;
+/// Largest share of a triangle's relative speed that drag may remove in one tick. Explicit drag is
+/// stable up to 1 and does not oscillate up to this value.
+const MAX_DRAG_SHARE: f32 = 0.5;
 
-/// Particles in the wind that one thread does at least.
-const SWIRLS: usize = 2048;
+/// Smallest number of particles that a thread gets when it evaluates the turbulent wind.
+const MIN_WIND_PARTICLES_PER_THREAD: usize = 2048;
 
-/// Fills `scratch.acceleration`.
-pub(crate) fn gather(world: &mut World) {
+/// Fills `scratch.acceleration` [m/s²] with gravity and the force of the air over mass.
+pub(crate) fn compute_acceleration(world: &mut World) {
     let gravity = world.settings.gravity;
     match world.wind.model {
-        WindModel::Surface if feels_air(world) => push_surfaces(world, gravity),
-        WindModel::SineField if world.wind.velocity != Vec3::ZERO => push_particles(world, gravity),
+        WindModel::Surface if has_aerodynamics(world) => add_surface_wind(world, gravity),
+        WindModel::SineField if world.wind.velocity != Vec3::ZERO => add_sine_wind(world, gravity),
         _ => world.scratch.acceleration.fill(gravity),
     }
 }
 
-fn feels_air(world: &World) -> bool {
+fn has_aerodynamics(world: &World) -> bool {
     let material = &world.material;
     world.wind.air_density > 0.0 && (material.drag > 0.0 || material.lift > 0.0)
 }
 
-fn push_particles(world: &mut World, gravity: Vec3) {
+/// Adds a field of sine waves as an acceleration, whatever the orientation of the cloth.
+fn add_sine_wind(world: &mut World, gravity: Vec3) {
     for i in 0..world.particles.len() {
-        let push = world.wind.sine_field(world.time, world.particles.x.at(i));
-        world.scratch.acceleration.set(i, gravity + push);
+        let wind = world.wind.sine_field(world.time, world.particles.x.at(i));
+        world.scratch.acceleration.set(i, gravity + wind);
     }
 }
 
-fn push_surfaces(world: &mut World, gravity: Vec3) {
+/// Adds the pressure of the air on each triangle.
+fn add_surface_wind(world: &mut World, gravity: Vec3) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
     let breeze = world.wind.at(world.time);
     let particles = (p.x.all(), p.v.all(), world.scratch.relative_wind.all_mut());
-    threads.parallel_for(particles, SWIRLS, |(x, v, air)| face_air(level, &breeze, x, v, air));
+    threads.parallel_for(particles, MIN_WIND_PARTICLES_PER_THREAD, |(x, v, air)| {
+        subtract_velocity(level, &breeze, x, v, air)
+    });
     let half_density = 0.5 * world.wind.air_density;
     let pressure = Pressure {
         drag: half_density * world.material.drag,
         lift: half_density * world.material.lift,
-        most: MAX_BRAKE * world.material.density / world.settings.tick,
+        max_mass_flux: MAX_DRAG_SHARE * world.material.density / world.settings.tick,
     };
     let surface = Surface {
         triangles: &world.mesh.triangles,
@@ -63,9 +79,9 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
     force.fill(Vec3::ZERO);
     in_bands(threads, surface, force, |band, force| {
         if pressure.lift > 0.0 {
-            push_and_lift(level, surface, WithLift(pressure), band, force);
+            sum_drag_and_lift(level, surface, DragAndLift(pressure), band, force);
         } else {
-            push(level, surface, pressure, band, force);
+            sum_drag(level, surface, pressure, band, force);
         }
     });
     threads.parallel_for(
@@ -73,20 +89,25 @@ fn push_surfaces(world: &mut World, gravity: Vec3) {
         MIN_PARTICLES_PER_THREAD,
         |(force, mass)| {
             for (force, gravity) in force.into_iter().zip(gravity.to_array()) {
-                accelerate(level, force, mass, gravity);
+                apply_mass_and_gravity(level, force, mass, gravity);
             }
         },
     );
 }
 
 leveled! {
-    /// The air's velocity against each particle.
-    fn face_air(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
-        = face_air_lanes
+    /// Computes the velocity of the air relative to each particle [m/s].
+    fn subtract_velocity(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
+        = subtract_velocity_lanes
 }
 
 #[inline(always)]
-fn face_air_lanes(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], mut air: [&mut [f32]; 3]) {
+fn subtract_velocity_lanes(
+    breeze: &Breeze,
+    x: [&[f32]; 3],
+    v: [&[f32]; 3],
+    mut air: [&mut [f32]; 3],
+) {
     for ((air, mean), v) in air.iter_mut().zip(breeze.mean.to_array()).zip(v) {
         for (air, v) in air.iter_mut().zip(v) {
             *air = mean - v;
@@ -106,41 +127,44 @@ fn face_air_lanes(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], mut air: [&mu
 }
 
 vectored! {
-    fn push(surface: Surface<'_>, pressure: Pressure, band: Band, force: [&mut [f32]; 3])
+    /// Adds the drag of each triangle to its corners.
+    fn sum_drag(surface: Surface<'_>, pressure: Pressure, band: Band, force: [&mut [f32]; 3])
         = triangles::sum, Avx2, triangles::sum_apart
 }
 
 vectored! {
-    fn push_and_lift(surface: Surface<'_>, pressure: WithLift, band: Band, force: [&mut [f32]; 3])
+    /// Adds the drag and the lift of each triangle to its corners.
+    fn sum_drag_and_lift(surface: Surface<'_>, pressure: DragAndLift, band: Band, force: [&mut [f32]; 3])
         = triangles::sum, Avx2, triangles::sum_apart
 }
 
 leveled! {
-    /// From force to acceleration.
-    fn accelerate(force: &mut [f32], mass: &[f32], gravity: f32) = accelerate_column
+    /// Divides force by mass and adds gravity.
+    fn apply_mass_and_gravity(force: &mut [f32], mass: &[f32], gravity: f32) = apply_mass_and_gravity_column
 }
 
 #[inline(always)]
-fn accelerate_column(force: &mut [f32], mass: &[f32], gravity: f32) {
+fn apply_mass_and_gravity_column(force: &mut [f32], mass: &[f32], gravity: f32) {
     for (force, mass) in force.iter_mut().zip(mass) {
         *force = *force / max(*mass, 1.0e-12) + gravity;
     }
 }
 
-/// The air's force on a triangle over its area at rest [N/m²].
+/// Parameters of the air's force on a triangle per rest area [N/m²].
 #[derive(Clone, Copy)]
 struct Pressure {
-    /// ½ ρ C [kg/m³].
+    /// ½ ρ C_d [kg/m³].
     drag: f32,
-    /// ½ ρ C_L [kg/m³].
+    /// ½ ρ C_l [kg/m³].
     lift: f32,
-    /// The most mass of air that may meet an area in a second [kg/m²/s].
-    most: f32,
+    /// Largest mass of air that may act on a unit of area per second [kg/m²/s].
+    max_mass_flux: f32,
 }
 
 impl Pressure {
+    /// Force on a triangle with corners `a`, `b`, `c` and relative wind `air` at these corners.
     #[inline(always)]
-    fn on<S: Simd, const LIFT: bool>(
+    fn force_on<S: Simd, const LIFT: bool>(
         self,
         s: S,
         [a, b, c]: [V<S>; 3],
@@ -161,15 +185,15 @@ impl Pressure {
         let (nx, ny, nz) = (nx * inverse, ny * inverse, nz * inverse);
         let facing = ux * nx + uy * ny + uz * nz;
         let head_on = s.select(facing, facing, zero - facing);
-        // The pressure acts on the triangle as it is now, shared out as its mass is.
+        // The pressure acts on the current area; the corners get shares by rest area, like mass.
         let stretch = Float::min(s.splat(0.5) * double_area / rest_area.max(tiny), s.splat(4.0));
-        let most = s.splat(self.most);
-        let push = Float::min(s.splat(self.drag) * head_on, most) * facing * stretch;
+        let max_mass_flux = s.splat(self.max_mass_flux);
+        let push = Float::min(s.splat(self.drag) * head_on, max_mass_flux) * facing * stretch;
         let mut force = [nx * push, ny * push, nz * push];
         if LIFT {
             let speed2 = ux * ux + uy * uy + uz * uz;
             let sign = s.select(zero - facing, s.splat(-1.0), s.splat(1.0));
-            let rate = Float::min(s.splat(self.lift) * head_on, most) * sign * stretch;
+            let rate = Float::min(s.splat(self.lift) * head_on, max_mass_flux) * sign * stretch;
             let share = rate / speed2.sqrt().max(tiny);
             force[0] = force[0] + (nx * speed2 - ux * facing) * share;
             force[1] = force[1] + (ny * speed2 - uy * facing) * share;
@@ -184,19 +208,19 @@ impl Give for Pressure {
 
     #[inline(always)]
     fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
-        self.on::<S, false>(s, x, air, rest_area)
+        self.force_on::<S, false>(s, x, air, rest_area)
     }
 }
 
-/// Pressure that lifts too.
+/// Pressure with drag and lift.
 #[derive(Clone, Copy)]
-struct WithLift(Pressure);
+struct DragAndLift(Pressure);
 
-impl Give for WithLift {
+impl Give for DragAndLift {
     const BY_AREA: bool = true;
 
     #[inline(always)]
     fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
-        self.0.on::<S, true>(s, x, air, rest_area)
+        self.0.force_on::<S, true>(s, x, air, rest_area)
     }
 }

@@ -9,7 +9,7 @@
 //! sum above is what the spin grew by, so it is turned back by that.
 
 use crate::solver::bend;
-use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
+use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
 
 use crate::solver::world::World;
 
@@ -29,10 +29,15 @@ pub(crate) fn keep(world: &mut World) {
             *by = x - predicted;
         }
     }
-    let free = Free { x: scratch.relative_wind.all(), way: moves.all(), mass: &p.mass, w: &p.w };
+    let free = FreeParticles {
+        x: scratch.relative_wind.all(),
+        displacement: moves.all(),
+        mass: &p.mass,
+        w: &p.w,
+    };
     let whole = RigidMotion::of_free(world.level, free);
     for i in 0..p.len() {
-        p.x.add(i, -whole.at(p.x.at(i)));
+        p.x.add(i, -whole.displacement_at(p.x.at(i)));
     }
 }
 

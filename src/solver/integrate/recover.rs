@@ -1,4 +1,10 @@
-//! Stage `Guard`: what is no longer a number, or has run away, goes back to where it last was.
+//! Stage `Guard`: particles with invalid numbers return to their position one tick ago.
+//!
+//! Method: a number is invalid if it is NaN, infinite or beyond `MAX_COORDINATE`. Such a particle
+//! gets its last position, velocity zero and the history of free fall.
+//!
+//! Reads and writes position, history and velocities of particles; writes one event `Recovered`.
+//! Invariant: after this stage every number of every particle is finite.
 
 use crate::math::simd::leveled;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
@@ -6,72 +12,72 @@ use crate::state::events::{Event, EventKind};
 use core::sync::atomic::{AtomicBool, Ordering};
 use glam::Vec3;
 
-/// No cloth is this far from its origin [m]; f32 would have lost the millimetres long before.
-const REALM: f32 = 1.0e6;
+/// Largest valid coordinate [m]; f32 cannot resolve millimetres long before this distance.
+const MAX_COORDINATE: f32 = 1.0e6;
 
-/// Mends the state and reports how many particles it mended.
-pub(crate) fn mend(world: &mut World) {
-    if is_all_sound(world) {
+/// Restores all invalid particles, and pushes one event with their number if there are any.
+pub(crate) fn restore_invalid(world: &mut World) {
+    if is_all_valid(world) {
         return;
     }
     let (h, gravity) = (world.settings.scheme().h, world.settings.gravity);
     let p = &mut world.particles;
-    let (mut mended, mut first) = (0, Vec3::ZERO);
+    let (mut restored, mut first) = (0, Vec3::ZERO);
     for i in 0..p.len() {
-        let sound =
-            [&p.x, &p.moved, &p.v, &p.v_ahead].iter().all(|columns| is_sound(columns.at(i)));
-        if sound {
+        let is_valid =
+            [&p.x, &p.moved, &p.v, &p.v_ahead].iter().all(|columns| is_valid_vector(columns.at(i)));
+        if is_valid {
             continue;
         }
         let last = p.x_last.at(i);
-        if mended == 0 {
+        if restored == 0 {
             first = last;
         }
-        mended += 1;
+        restored += 1;
         p.place(i, last, Vec3::ZERO, gravity, h);
     }
-    if mended > 0 {
+    if restored > 0 {
         let mut event = Event::new(EventKind::Recovered, world.tick, first);
-        event.count = mended;
+        event.count = restored;
         world.events.push(event);
     }
 }
 
-fn is_all_sound(world: &World) -> bool {
+fn is_all_valid(world: &World) -> bool {
     let (level, p) = (world.level, &world.particles);
-    let is_one_not = AtomicBool::new(false);
+    let is_one_invalid = AtomicBool::new(false);
     let columns = (p.x.all(), p.moved.all(), p.v.all(), p.v_ahead.all());
     world.threads.parallel_for(columns, MIN_PARTICLES_PER_THREAD, |(x, moved, v, v_ahead)| {
-        let mut all_sound = true;
+        let mut all_valid = true;
         for column in [x, moved, v, v_ahead].into_iter().flatten() {
-            look_over(level, column, &mut all_sound);
+            check_column(level, column, &mut all_valid);
         }
-        if !all_sound {
-            is_one_not.store(true, Ordering::Relaxed);
+        if !all_valid {
+            is_one_invalid.store(true, Ordering::Relaxed);
         }
     });
-    !is_one_not.into_inner()
+    !is_one_invalid.into_inner()
 }
 
 leveled! {
-    /// Whether all numbers of a column are sound, and all before it were.
-    fn look_over(column: &[f32], all_sound: &mut bool) = look_over_column
+    /// Clears `all_valid` if a number of the column is invalid.
+    fn check_column(column: &[f32], all_valid: &mut bool) = check_column_lanes
 }
 
 #[inline(always)]
-fn look_over_column(column: &[f32], all_sound: &mut bool) {
-    let mut sound = *all_sound;
+fn check_column_lanes(column: &[f32], all_valid: &mut bool) {
+    let mut is_valid = *all_valid;
     for c in column {
-        sound &= is_within(*c);
+        is_valid &= is_valid_number(*c);
     }
-    *all_sound = sound;
+    *all_valid = is_valid;
 }
 
-fn is_sound(v: Vec3) -> bool {
-    is_within(v.x) && is_within(v.y) && is_within(v.z)
+fn is_valid_vector(v: Vec3) -> bool {
+    is_valid_number(v.x) && is_valid_number(v.y) && is_valid_number(v.z)
 }
 
 #[inline(always)]
-fn is_within(c: f32) -> bool {
-    c > -REALM && c < REALM
+fn is_valid_number(c: f32) -> bool {
+    c > -MAX_COORDINATE && c < MAX_COORDINATE
 }

@@ -1,45 +1,56 @@
-//! The motion of a solid body: a shift and a turn about the centre of mass.
+//! Rigid motion: the translation and rotation about the centre of mass that fits given displacements.
+//!
+//! ```text
+//! c = Σ m x / Σ m      t = Σ m d / Σ m      ω = I⁻¹ Σ m (x − c) × (d − t)
+//! displacement of a rigid body at x:   t + ω × (x − c)
+//! ```
+//! Method: the rigid displacement with the same linear and angular momentum, as in the global damping
+//! of Müller et al., "Position based dynamics", 2007, sec. 3.5.
+//!
+//! Reads positions, displacements and masses; writes nothing.
+//! Invariant: the sums use eight lanes in a fixed order, so the bits do not depend on the SIMD level.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
 use crate::math::trig::{cos, sin};
 use glam::{Mat3, Vec3};
 
-/// How a body moves.
+/// A rigid displacement: translation [m] and small rotation vector [rad] about `center` [m].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RigidMotion {
     center: Vec3,
-    shift: Vec3,
-    turn: Vec3,
+    translation: Vec3,
+    rotation: Vec3,
 }
 
 impl RigidMotion {
-    /// The rigid motion with the momentum and angular momentum of the ways of some particles at `x`.
+    /// Fits the rigid motion with the linear and angular momentum of the displacements of some
+    /// particles at `x`.
     pub fn fit<I: Iterator<Item = usize>>(
         particles: impl Fn() -> I,
         x: &Columns,
-        way: impl Fn(usize) -> Vec3,
+        displacement: impl Fn(usize) -> Vec3,
         mass: &[f32],
     ) -> Self {
-        Self::of_points(|| particles().map(|i| (x.at(i), way(i), mass[i])))
+        Self::of_points(|| particles().map(|i| (x.at(i), displacement(i), mass[i])))
     }
 
-    /// The same of points, each where it is, its way, and its mass.
+    /// As `fit`, for points given as position, displacement and mass.
     pub fn of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(points: impl Fn() -> I) -> Self {
-        let (mut total, mut center, mut shift) = (0.0, Vec3::ZERO, Vec3::ZERO);
-        for (x, way, mass) in points() {
+        let (mut total, mut center, mut translation) = (0.0, Vec3::ZERO, Vec3::ZERO);
+        for (x, displacement, mass) in points() {
             total += mass;
             center += x * mass;
-            shift += way * mass;
+            translation += displacement * mass;
         }
         if total <= 0.0 {
-            return Self { center, shift: Vec3::ZERO, turn: Vec3::ZERO };
+            return Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO };
         }
-        (center, shift) = (center * (1.0 / total), shift * (1.0 / total));
+        (center, translation) = (center * (1.0 / total), translation * (1.0 / total));
         let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
-        for (x, way, mass) in points() {
+        for (x, displacement, mass) in points() {
             let r = x - center;
-            spin += r.cross(way - shift) * mass;
+            spin += r.cross(displacement - translation) * mass;
             let r2 = r.length_squared();
             let columns = [r * r.x, r * r.y, r * r.z];
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];
@@ -48,189 +59,203 @@ impl RigidMotion {
             inertia.y_axis += solid(1);
             inertia.z_axis += solid(2);
         }
-        Self { center, shift, turn: solve(&inertia, spin) }
+        Self { center, translation, rotation: solve(&inertia, spin) }
     }
 
-    /// The same of all particles that are free, of which there may be many.
-    pub fn of_free(level: Level, free: Free<'_>) -> Self {
+    /// As `fit`, for all free particles, in SIMD lanes.
+    pub fn of_free(level: Level, free: FreeParticles<'_>) -> Self {
         let mut sums = [[0.0; LANES]; 7];
-        sum_ways(level, free, &mut sums);
-        let [total, x, y, z, way_x, way_y, way_z] = sums.map(total_of);
-        let (center, shift) = (Vec3::new(x, y, z), Vec3::new(way_x, way_y, way_z));
+        sum_momentum(level, free, &mut sums);
+        let [total, x, y, z, dx, dy, dz] = sums.map(sum_of_lanes);
+        let (center, translation) = (Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
         if total <= 0.0 {
-            return Self { center, shift: Vec3::ZERO, turn: Vec3::ZERO };
+            return Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO };
         }
-        let (center, shift) = (center * (1.0 / total), shift * (1.0 / total));
+        let (center, translation) = (center * (1.0 / total), translation * (1.0 / total));
         let mut sums = [[0.0; LANES]; 9];
-        sum_turns(level, free, [center.to_array(), shift.to_array()], &mut sums);
-        let [spin_x, spin_y, spin_z, xx, yy, zz, xy, yz, zx] = sums.map(total_of);
+        sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
+        let [spin_x, spin_y, spin_z, xx, yy, zz, xy, yz, zx] = sums.map(sum_of_lanes);
         let inertia = Mat3::from_cols(
             Vec3::new(yy + zz, -xy, -zx),
             Vec3::new(-xy, zz + xx, -yz),
             Vec3::new(-zx, -yz, xx + yy),
         );
-        Self { center, shift, turn: solve(&inertia, Vec3::new(spin_x, spin_y, spin_z)) }
+        Self { center, translation, rotation: solve(&inertia, Vec3::new(spin_x, spin_y, spin_z)) }
     }
 
-    /// The part of it that leaves a body on a floor with this normal.
-    pub fn along(self, normal: Vec3) -> Self {
-        let Self { center, shift, turn } = self;
-        Self { center, shift: shift - normal * shift.dot(normal), turn: normal * turn.dot(normal) }
+    /// The part of the motion that keeps a body on a floor with this normal: translation in the
+    /// plane of the floor and rotation about the normal.
+    pub fn project_on_floor(self, normal: Vec3) -> Self {
+        let Self { center, translation, rotation } = self;
+        Self {
+            center,
+            translation: translation - normal * translation.dot(normal),
+            rotation: normal * rotation.dot(normal),
+        }
     }
 
-    /// How far points move with the body, as `at` has it.
+    /// As `displacement_at`, for points in SIMD lanes.
     #[inline(always)]
-    pub fn ways<S: Simd>(&self, s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
-        let Self { center, shift, turn } = self;
+    pub fn displacement_lanes<S: Simd>(&self, s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
+        let Self { center, translation, rotation } = self;
         let (x, y, z) = (x - s.splat(center.x), y - s.splat(center.y), z - s.splat(center.z));
-        let (tx, ty, tz) = (s.splat(turn.x), s.splat(turn.y), s.splat(turn.z));
+        let (tx, ty, tz) = (s.splat(rotation.x), s.splat(rotation.y), s.splat(rotation.z));
         [
-            s.splat(shift.x) + (ty * z - tz * y),
-            s.splat(shift.y) + (tz * x - tx * z),
-            s.splat(shift.z) + (tx * y - ty * x),
+            s.splat(translation.x) + (ty * z - tz * y),
+            s.splat(translation.y) + (tz * x - tx * z),
+            s.splat(translation.z) + (tx * y - ty * x),
         ]
     }
 
-    /// How far a point moves with the body, as if it turned by little.
-    pub fn at(&self, point: Vec3) -> Vec3 {
-        self.shift + self.turn.cross(point - self.center)
+    /// Displacement of a point with the body [m], linear in the rotation.
+    pub fn displacement_at(&self, point: Vec3) -> Vec3 {
+        self.translation + self.rotation.cross(point - self.center)
     }
 
-    /// Where a point gets to with the body, however far that turns: distances stay as they are.
-    pub fn place(&self, point: Vec3) -> Vec3 {
-        let (r, angle) = (point - self.center, self.turn.length());
+    /// Position of a point after the motion [m], with the exact rotation, so distances stay.
+    pub fn transform(&self, point: Vec3) -> Vec3 {
+        let (r, angle) = (point - self.center, self.rotation.length());
         let mut turned = r;
         if angle > 0.0 {
-            let axis = self.turn * (1.0 / angle);
+            let axis = self.rotation * (1.0 / angle);
             let (sin, cos) = (sin(f64::from(angle)), cos(f64::from(angle)));
             turned = r * cos + axis.cross(r) * sin + axis * (axis.dot(r) * (1.0 - cos));
         }
-        self.center + self.shift + turned
+        self.center + self.translation + turned
     }
 }
 
-/// All particles: where they are, their ways, masses and inverse masses. Those with none of the last are held.
+/// All particles: positions, displacements, masses and inverse masses. The sums skip those with
+/// zero inverse mass.
 #[derive(Clone, Copy)]
-pub(crate) struct Free<'a> {
+pub(crate) struct FreeParticles<'a> {
     pub x: [&'a [f32]; 3],
-    pub way: [&'a [f32]; 3],
+    pub displacement: [&'a [f32]; 3],
     pub mass: &'a [f32],
     pub w: &'a [f32],
 }
 
-impl<'a> Free<'a> {
-    /// Those in a range.
+impl<'a> FreeParticles<'a> {
+    /// The particles of a range.
     #[inline(always)]
-    fn all_in(&self, from: usize, to: usize) -> Self {
-        let Self { x, way, mass, w } = *self;
-        let [x, way] =
-            [x, way].map(|columns: [&'a [f32]; 3]| columns.map(|column| &column[from..to]));
-        Self { x, way, mass: &mass[from..to], w: &w[from..to] }
+    fn slice(&self, from: usize, to: usize) -> Self {
+        let Self { x, displacement, mass, w } = *self;
+        let [x, displacement] = [x, displacement]
+            .map(|columns: [&'a [f32]; 3]| columns.map(|column| &column[from..to]));
+        Self { x, displacement, mass: &mass[from..to], w: &w[from..to] }
     }
 
-    /// Places, ways and masses of some.
+    /// Positions, displacements and masses in lanes; the mass of a held particle is 0.
     #[inline(always)]
     fn load<S: Simd>(&self, s: S, at: usize) -> ([S::F; 3], [S::F; 3], S::F) {
-        let ([x, y, z], [way_x, way_y, way_z]) = (self.x, self.way);
+        let ([x, y, z], [dx, dy, dz]) = (self.x, self.displacement);
         (
             [s.load(x, at), s.load(y, at), s.load(z, at)],
-            [s.load(way_x, at), s.load(way_y, at), s.load(way_z, at)],
+            [s.load(dx, at), s.load(dy, at), s.load(dz, at)],
             s.select_or_zero(s.load(self.w, at), s.load(self.mass, at)),
         )
     }
 }
 
 vectored! {
-    /// Sums of masses, and of places and ways by mass. Every eighth particle goes to the same lane.
-    fn sum_ways(free: Free<'_>, sums: &mut [LaneArray; 7]) = sum_ways_of, Avx2, sum_ways_apart
+    /// Sums m, m x and m d. Particle i goes to lane i mod 8.
+    fn sum_momentum(free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) = sum_momentum_lanes, Avx2, sum_momentum_scalar
 }
 
 vectored! {
-    /// Sums of spins about a center of mass that moves, and of the products of what leads from there.
-    fn sum_turns(free: Free<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9])
-        = sum_turns_of, Avx2, sum_turns_apart
+    /// Sums m r × (d − t) and the products of m r, where r leads from the centre of mass.
+    fn sum_angular_momentum(free: FreeParticles<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9])
+        = sum_angular_momentum_lanes, Avx2, sum_angular_momentum_scalar
 }
 
-fn sum_ways_apart(free: Free<'_>, sums: &mut [LaneArray; 7]) {
-    sum_ways_of(Scalar, free, sums);
+fn sum_momentum_scalar(free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {
+    sum_momentum_lanes(Scalar, free, sums);
 }
 
-fn sum_turns_apart(free: Free<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9]) {
-    sum_turns_of(Scalar, free, mean, sums);
+fn sum_angular_momentum_scalar(
+    free: FreeParticles<'_>,
+    mean: [[f32; 3]; 2],
+    sums: &mut [LaneArray; 9],
+) {
+    sum_angular_momentum_lanes(Scalar, free, mean, sums);
 }
 
 #[inline(always)]
-fn sum_ways_of<S: Simd>(s: S, free: Free<'_>, sums: &mut [LaneArray; 7]) {
+fn sum_momentum_lanes<S: Simd>(s: S, free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {
     let count = free.w.len();
-    let whole = free.all_in(0, count / LANES * LANES);
+    let whole = free.slice(0, count / LANES * LANES);
     for first in (0..LANES).step_by(S::LANES) {
         let mut sum = [s.splat(0.0); 7];
         let mut at = first;
         while at + S::LANES <= whole.w.len() {
-            add_ways(&mut sum, whole.load(s, at));
+            add_momentum(&mut sum, whole.load(s, at));
             at += LANES;
         }
         for (sums, sum) in sums.iter_mut().zip(sum) {
             s.store(sums, first, sum);
         }
     }
-    let rest = free.all_in(whole.w.len(), count);
+    let rest = free.slice(whole.w.len(), count);
     for lane in 0..rest.w.len() {
         let mut sum = sums.map(|sums| sums[lane]);
-        add_ways(&mut sum, rest.load(Scalar, lane));
+        add_momentum(&mut sum, rest.load(Scalar, lane));
         sums.iter_mut().zip(sum).for_each(|(sums, sum)| sums[lane] = sum);
     }
 }
 
 #[inline(always)]
-fn sum_turns_of<S: Simd>(
+fn sum_angular_momentum_lanes<S: Simd>(
     s: S,
-    free: Free<'_>,
-    [center, shift]: [[f32; 3]; 2],
+    free: FreeParticles<'_>,
+    [center, translation]: [[f32; 3]; 2],
     sums: &mut [LaneArray; 9],
 ) {
     let count = free.w.len();
-    let whole = free.all_in(0, count / LANES * LANES);
+    let whole = free.slice(0, count / LANES * LANES);
     let mean = [
         [s.splat(center[0]), s.splat(center[1]), s.splat(center[2])],
-        [s.splat(shift[0]), s.splat(shift[1]), s.splat(shift[2])],
+        [s.splat(translation[0]), s.splat(translation[1]), s.splat(translation[2])],
     ];
     for first in (0..LANES).step_by(S::LANES) {
         let mut sum = [s.splat(0.0); 9];
         let mut at = first;
         while at + S::LANES <= whole.w.len() {
-            add_turns(&mut sum, mean, whole.load(s, at));
+            add_angular_momentum(&mut sum, mean, whole.load(s, at));
             at += LANES;
         }
         for (sums, sum) in sums.iter_mut().zip(sum) {
             s.store(sums, first, sum);
         }
     }
-    let rest = free.all_in(whole.w.len(), count);
+    let rest = free.slice(whole.w.len(), count);
     for lane in 0..rest.w.len() {
         let mut sum = sums.map(|sums| sums[lane]);
-        add_turns(&mut sum, [center, shift], rest.load(Scalar, lane));
+        add_angular_momentum(&mut sum, [center, translation], rest.load(Scalar, lane));
         sums.iter_mut().zip(sum).for_each(|(sums, sum)| sums[lane] = sum);
     }
 }
 
 #[inline(always)]
-fn add_ways<F: Float>(sum: &mut [F; 7], (x, way, mass): ([F; 3], [F; 3], F)) {
+fn add_momentum<F: Float>(sum: &mut [F; 7], (x, displacement, mass): ([F; 3], [F; 3], F)) {
     sum[0] = sum[0] + mass;
     for axis in 0..3 {
         sum[1 + axis] = sum[1 + axis] + x[axis] * mass;
-        sum[4 + axis] = sum[4 + axis] + way[axis] * mass;
+        sum[4 + axis] = sum[4 + axis] + displacement[axis] * mass;
     }
 }
 
 #[inline(always)]
-fn add_turns<F: Float>(
+fn add_angular_momentum<F: Float>(
     sum: &mut [F; 9],
-    [center, shift]: [[F; 3]; 2],
-    (x, way, mass): ([F; 3], [F; 3], F),
+    [center, translation]: [[F; 3]; 2],
+    (x, displacement, mass): ([F; 3], [F; 3], F),
 ) {
     let [x, y, z] = [x[0] - center[0], x[1] - center[1], x[2] - center[2]];
-    let (dx, dy, dz) = (way[0] - shift[0], way[1] - shift[1], way[2] - shift[2]);
+    let (dx, dy, dz) = (
+        displacement[0] - translation[0],
+        displacement[1] - translation[1],
+        displacement[2] - translation[2],
+    );
     let (mx, my, mz) = (x * mass, y * mass, z * mass);
     let new = [
         my * dz - mz * dy,
@@ -248,12 +273,12 @@ fn add_turns<F: Float>(
     }
 }
 
-/// What all lanes sum up to.
-fn total_of(lanes: LaneArray) -> f32 {
+/// Sum of all lanes.
+fn sum_of_lanes(lanes: LaneArray) -> f32 {
     lanes.into_iter().sum()
 }
 
-/// Cramer's rule; nothing if the matrix has no inverse to speak of.
+/// Solves m y = v by Cramer's rule; zero if the matrix is close to singular.
 fn solve(m: &Mat3, v: Vec3) -> Vec3 {
     let det = m.x_axis.dot(m.y_axis.cross(m.z_axis));
     let size = m.x_axis.x + m.y_axis.y + m.z_axis.z;
@@ -272,52 +297,60 @@ mod tests {
     use super::*;
 
     #[test]
-    fn free_particles_move_as_points_do_whatever_the_lanes() {
+    fn fit_of_free_particles_equals_fit_of_points_at_every_simd_level() {
         let mut number = 0.7_f32;
         let mut next = || {
             number = (number * 1.37 + 0.61) % 3.0;
             number - 1.5
         };
         let count = 67;
-        let (mut x, mut way) = (Columns::default(), Columns::default());
+        let (mut x, mut displacement) = (Columns::default(), Columns::default());
         for _ in 0..count {
             x.push(Vec3::new(next(), next(), next()));
-            way.push(Vec3::new(next(), next(), next()));
+            displacement.push(Vec3::new(next(), next(), next()));
         }
         let mass: Vec<f32> = (0..count).map(|_| 2.0 + next()).collect();
         let w: Vec<f32> =
             (0..count).map(|i| if i % 9 == 4 { 0.0 } else { 1.0 / mass[i] }).collect();
         let free = || (0..count).filter(|i| w[*i] > 0.0);
-        let one = RigidMotion::fit(free, &x, |i| way.at(i), &mass);
-        let free = Free { x: x.all(), way: way.all(), mass: &mass, w: &w };
+        let one = RigidMotion::fit(free, &x, |i| displacement.at(i), &mass);
+        let free =
+            FreeParticles { x: x.all(), displacement: displacement.all(), mass: &mass, w: &w };
         let bits = |v: Vec3| v.to_array().map(f32::to_bits);
         let all: Vec<_> =
             Level::all().into_iter().map(|level| RigidMotion::of_free(level, free)).collect();
         for other in &all {
             for point in [Vec3::ZERO, Vec3::new(1.0, -2.0, 0.5)] {
-                assert!((one.at(point) - other.at(point)).length() < 1.0e-4);
-                assert_eq!(bits(other.at(point)), bits(all[0].at(point)));
+                assert!(
+                    (one.displacement_at(point) - other.displacement_at(point)).length() < 1.0e-4
+                );
+                assert_eq!(bits(other.displacement_at(point)), bits(all[0].displacement_at(point)));
             }
         }
     }
 
     #[test]
-    fn a_body_that_turns_far_keeps_its_size() {
+    fn a_large_rotation_keeps_distances() {
         let mut x = Columns::default();
         let corners = [Vec3::ZERO, Vec3::X, Vec3::new(0.3, 2.0, 0.0), Vec3::new(0.1, 0.4, 1.0)];
         corners.iter().for_each(|corner| x.push(*corner));
-        let turn = |r: Vec3, share: f32| Vec3::new(0.4, -0.3, 0.8).cross(r) * share + Vec3::X;
+        let rotation = |r: Vec3, share: f32| Vec3::new(0.4, -0.3, 0.8).cross(r) * share + Vec3::X;
         let fit = |share: f32| {
-            RigidMotion::fit(|| 0..4, &x, |i| turn(corners[i], share), &[1.0, 2.0, 0.5, 1.0])
+            RigidMotion::fit(|| 0..4, &x, |i| rotation(corners[i], share), &[1.0, 2.0, 0.5, 1.0])
         };
         let (far, near) = (fit(1.0), fit(0.01));
-        let placed = corners.map(|corner| far.place(corner));
+        let moved = corners.map(|corner| far.transform(corner));
         for i in 0..4 {
-            assert!((far.at(corners[i]) - turn(corners[i], 1.0)).length() < 1.0e-5);
-            let apart = |at: &[Vec3; 4]| at[i].distance(at[(i + 1) % 4]);
-            assert!((apart(&placed) - apart(&corners)).abs() < 1.0e-6);
-            let little = corners[i] + turn(corners[i], 0.01);
-            assert!(near.place(corners[i]).distance(little) < 1.0e-4, "a small turn is straight");
+            assert!(
+                (far.displacement_at(corners[i]) - rotation(corners[i], 1.0)).length() < 1.0e-5
+            );
+            let edge = |at: &[Vec3; 4]| at[i].distance(at[(i + 1) % 4]);
+            assert!((edge(&moved) - edge(&corners)).abs() < 1.0e-6);
+            let little = corners[i] + rotation(corners[i], 0.01);
+            assert!(
+                near.transform(corners[i]).distance(little) < 1.0e-4,
+                "a small rotation is linear"
+            );
         }
     }
 }

@@ -1,7 +1,14 @@
-//! Stage `Velocities`: what the substep made of each particle's motion.
+//! Stage `Velocities`: velocities and history from the corrected positions.
 //!
-//! The other half of `Scheme`. Damping scales the velocity and its whole history alike, which makes a
-//! free particle slow down by exactly exp(-damping h).
+//! ```text
+//! d = displacement + (x − predicted)       v = (lead · d − trail · moved) / h       moved ← d
+//! ```
+//! Method: the corrector of `state::settings::Scheme` (BDF1 or BDF2). Damping scales the velocity
+//! and its whole history alike, so a free particle slows down by exactly exp(−damping · h).
+//! Particles in contact with a collider or moved by an anchor get their velocities afterwards.
+//!
+//! Reads positions, `scratch.displacement` and `scratch.predicted`; writes `moved`, `v`, `v_ahead`.
+//! Invariant: positions stay as they are.
 
 use crate::solver::collide::response::resolve_velocities;
 use crate::solver::kinematic::anchors;
@@ -11,52 +18,58 @@ use crate::math::trig::exp_decay;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::Scheme;
 
-/// Derives velocities and moves the history on.
-pub(crate) fn derive(world: &mut World) {
+/// Updates velocities and history at the end of a substep.
+pub(crate) fn update(world: &mut World) {
     let scheme = world.settings.scheme();
-    let keep = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
+    let decay = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
     let p = &mut world.particles;
-    let (way, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
+    let (displacement, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
     let level = world.level;
-    let read = (p.x.all(), predicted.all(), way.all());
+    let read = (p.x.all(), predicted.all(), displacement.all());
     let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());
     world.threads.parallel_for(
         (read, write),
         MIN_PARTICLES_PER_THREAD,
-        |((x, predicted, way), write)| {
+        |((x, predicted, displacement), write)| {
             let (moved, v, v_ahead) = write;
-            let read = x.into_iter().zip(predicted).zip(way);
+            let read = x.into_iter().zip(predicted).zip(displacement);
             let write = moved.into_iter().zip(v).zip(v_ahead);
-            for (((x, predicted), way), ((moved, v), v_ahead)) in read.zip(write) {
-                renew(level, [x, predicted, way], [moved, v, v_ahead], scheme, keep);
+            for (((x, predicted), displacement), ((moved, v), v_ahead)) in read.zip(write) {
+                update_column(
+                    level,
+                    [x, predicted, displacement],
+                    [moved, v, v_ahead],
+                    scheme,
+                    decay,
+                );
             }
         },
     );
-    resolve_velocities(world, keep);
-    anchors::settle(world, keep);
+    resolve_velocities(world, decay);
+    anchors::reset_history(world, decay);
 }
 
 leveled! {
-    /// Velocity and history in one direction.
-    fn renew(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: Scheme, keep: f32) = renew_column
+    /// Updates one component of velocity and history.
+    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: Scheme, decay: f32) = update_column_lanes
 }
 
 #[inline(always)]
-fn renew_column(
-    [x, predicted, way]: [&[f32]; 3],
+fn update_column_lanes(
+    [x, predicted, displacement]: [&[f32]; 3],
     [moved, v, v_ahead]: [&mut [f32]; 3],
     scheme: Scheme,
-    keep: f32,
+    decay: f32,
 ) {
     let (lead, trail) = (scheme.lead / scheme.h, scheme.trail / scheme.h);
-    let read = x.iter().zip(predicted).zip(way);
+    let read = x.iter().zip(predicted).zip(displacement);
     let write = moved.iter_mut().zip(v).zip(v_ahead);
-    for (((x, predicted), way), ((moved, v), v_ahead)) in read.zip(write) {
-        // What the solver corrected is small, so that this difference is exact.
-        let step = way + (x - predicted);
+    for (((x, predicted), displacement), ((moved, v), v_ahead)) in read.zip(write) {
+        // The correction is small, so this difference is exact in f32.
+        let step = displacement + (x - predicted);
         let v_new = step * lead - *moved * trail;
-        *v_ahead = (v_new + (v_new - *v) * scheme.carry) * keep;
-        *v = v_new * keep;
-        *moved = step * keep;
+        *v_ahead = (v_new + (v_new - *v) * scheme.carry) * decay;
+        *v = v_new * decay;
+        *moved = step * decay;
     }
 }

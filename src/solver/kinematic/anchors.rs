@@ -1,43 +1,55 @@
-//! Stage `Hold`, once more: leashes keep their particles near where animation has them.
+//! Stage `Hold`, anchors: max distance and backstop constraints to animated positions.
 //!
-//! They come last of all, for what they promise holds whatever else pulls or pushes: a particle is never
-//! farther from its anchor than it may be, nor in its backstop. What is pinned or grabbed is not on a leash.
+//! ```text
+//!        ╭───────╮   the particle stays inside the sphere of max_distance about its anchor ●
+//!        │   ●   │   and outside the backstop sphere behind it
+//!        ╰─╭───╮─╯
+//!          │   │
+//!          ╰───╯
+//! ```
+//! Method: projection onto the nearest valid position (`AnchorConstraint::keep`), one pass, because
+//! each anchor constrains one particle only.
+//!
+//! Reads anchors and inverse masses; writes positions, and the list `scratch.anchor_moved`.
+//! Invariant: this runs after all other constraints of a substep, so the bound of an anchor holds
+//! whatever else pulls at the particle. Pinned and grabbed particles ignore their anchors.
 
 use crate::solver::world::World;
-use crate::state::anchors::AnchorConstraint;
 
-/// Keeps all that leashes hold where it may be, as the anchors are after substep `number`.
-pub(crate) fn keep(world: &mut World, number: u32) {
+/// Projects all anchor constraints, with the anchors where they are after substep `number`.
+pub(crate) fn project(world: &mut World, number: u32) {
     if world.anchors.is_empty() {
         return;
     }
     let share = (number + 1) as f32 / world.settings.substeps as f32;
-    world.scratch.anchor_moved.clear();
-    pull(world, share, |pulled, leash| pulled.push(leash.particle));
+    project_at(world, share);
 }
 
-/// Once more at the end of a tick, after other stages moved particles.
-pub(crate) fn keep_in(world: &mut World) {
-    world.scratch.anchor_moved.clear();
-    pull(world, 1.0, |pulled, leash| pulled.push(leash.particle));
+/// Projects all anchor constraints with the anchors where they are at the end of the tick.
+pub(crate) fn project_at_end(world: &mut World) {
+    project_at(world, 1.0);
 }
 
-fn pull(world: &mut World, share: f32, tell: impl Fn(&mut Vec<u32>, &AnchorConstraint)) {
-    let p = &mut world.particles;
-    for leash in world.anchors.iter() {
-        let at = leash.particle as usize;
+fn project_at(world: &mut World, share: f32) {
+    let (p, moved) = (&mut world.particles, &mut world.scratch.anchor_moved);
+    moved.clear();
+    for anchor in world.anchors.iter() {
+        let at = anchor.particle as usize;
         let x = p.x.at(at);
-        let kept = leash.keep(x, share);
-        if kept != x && p.w[at] > 0.0 {
-            p.x.set(at, kept);
-            tell(&mut world.scratch.anchor_moved, leash);
+        let valid = anchor.keep(x, share);
+        if valid != x && p.w[at] > 0.0 {
+            p.x.set(at, valid);
+            moved.push(anchor.particle);
         }
     }
 }
 
-/// What was pulled in this substep begins a new history: the second-order scheme must not look back across
-/// it, or it would throw the particle back.
-pub(crate) fn settle(world: &mut World, keep: f32) {
+/// Resets the history of the particles that anchors moved in this substep, with velocities scaled
+/// by `decay`.
+///
+/// The second-order scheme must not extrapolate over the correction; it would throw the particle
+/// back.
+pub(crate) fn reset_history(world: &mut World, decay: f32) {
     if world.anchors.is_empty() {
         return;
     }
@@ -45,21 +57,21 @@ pub(crate) fn settle(world: &mut World, keep: f32) {
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in scratch.anchor_moved.iter().map(|i| *i as usize) {
         let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
-        let v = step * (keep / h);
+        let v = step * (decay / h);
         p.v.set(i, v);
         p.v_ahead.set(i, v);
-        p.moved.set(i, step * keep);
+        p.moved.set(i, step * decay);
     }
 }
 
 impl World {
-    /// Sees to room for leashes, if there are any.
+    /// Reserves the buffers of the anchor constraints, if there are any.
     pub fn reserve_anchor_scratch(&mut self) {
         let capacity = self.capacity();
         self.anchors.reserve(capacity);
         if !self.anchors.is_empty() {
-            let pulled = &mut self.scratch.anchor_moved;
-            pulled.reserve_exact(capacity.saturating_sub(pulled.len()));
+            let moved = &mut self.scratch.anchor_moved;
+            moved.reserve_exact(capacity.saturating_sub(moved.len()));
         }
     }
 }

@@ -1,9 +1,18 @@
-//! Stage `Hold`: pins and grabs put their particles where they are to be.
+//! Stage `Hold`, targets: pins and grabs move their particles to kinematic targets.
 //!
-//! A soft pin is a spring of stiffness k to its target, solved as if it ended the substep there: of inertia
-//! m / step² and stiffness k it makes one, (m + k step²) / step², about where both together would have
-//! their particle. So the stages after it see the spring as a greater mass, and what they do leaves it
-//! in balance: no sweep has to come back to it, however stiff it is.
+//! ```text
+//! hard pin   x ← target, w = 0
+//! soft pin   spring of stiffness k:   x ← x + k s² w' (target − x),   w' = 1 / (m + k s²),   s = step
+//! grab       x ← towards the pointer, at most max_displacement per substep, w = 0
+//! ```
+//! Method: a soft pin is solved implicitly together with the inertia of its particle, m / s². Both
+//! are springs, so their sum is one spring of stiffness (m + k s²) / s² about their common minimum.
+//! Later stages see this spring as a larger effective mass, m + k s², and leave it in balance, so no
+//! sweep has to solve the pin again, however stiff it is.
+//!
+//! Reads pins, grabs, attachments and the predicted positions; writes positions.
+//! Invariant: targets move evenly over the substeps and are reached exactly in the last one. A grab
+//! whose target is too far away follows at its largest speed.
 
 use crate::geometry::transform::Transform;
 use crate::solver::world::World;
@@ -11,22 +20,21 @@ use crate::state::attachments::Attachments;
 use crate::state::pins::Pin;
 use glam::Vec3;
 
-/// Pins and grabs move evenly over the tick, of which substep `number` is run; a grabbed particle
-/// follows its pointer as fast as it may.
-pub(crate) fn hold(world: &mut World, number: u32) {
+/// Moves pinned and grabbed particles to their targets after substep `number` of the tick.
+pub(crate) fn apply(world: &mut World, number: u32) {
     let count = world.settings.substeps;
     let share = (number + 1) as f32 / count as f32;
-    let rest_of_way = 1.0 / (count - number) as f32;
+    let share_of_rest = 1.0 / (count - number) as f32;
     let step = world.settings.scheme().step;
-    let mut carriage = Carriage::default();
+    let mut carrier = CarrierFrames::default();
     let p = &mut world.particles;
     for pin in world.pins.iter() {
         let at = pin.particle as usize;
         let to = if pin.carrier == 0 {
             pin.from + (pin.target - pin.from) * share
         } else {
-            carriage.see_to(&world.attachments, pin.carrier, number + 1, count);
-            carriage.carry(pin, share)
+            carrier.update(&world.attachments, pin.carrier, number + 1, count);
+            carrier.target(pin, share)
         };
         if pin.is_soft() {
             let from = p.x.at(at);
@@ -35,32 +43,36 @@ pub(crate) fn hold(world: &mut World, number: u32) {
             p.x.set(at, to);
         }
     }
-    let reach = world.settings.max_displacement * world.mean_edge;
-    for held in world.grabs.iter() {
-        let at = held.particle as usize;
+    let max_length = world.settings.max_displacement * world.mean_edge;
+    for grab in world.grabs.iter() {
+        let at = grab.particle as usize;
         let from = world.scratch.predicted.at(at);
-        let way = (held.target - from) * rest_of_way;
-        let length = way.length();
-        let to = if number + 1 == count { held.target } else { from + way };
-        p.x.set(at, if length <= reach { to } else { from + way * (reach / length) });
+        let displacement = (grab.target - from) * share_of_rest;
+        let length = displacement.length();
+        let to = if number + 1 == count { grab.target } else { from + displacement };
+        let is_in_range = length <= max_length;
+        p.x.set(at, if is_in_range { to } else { from + displacement * (max_length / length) });
     }
 }
 
-/// The tick is over: what carries pins is where it was to be, and so are anchors.
-pub(crate) fn arrive(world: &mut World) {
+/// Ends the motion of attachments and anchors: their poses at the end of the tick become those at
+/// the start of the next.
+pub(crate) fn finish_tick(world: &mut World) {
     world.attachments.iter_mut().for_each(|carrier| carrier.last = carrier.next);
     world.anchors.arrive();
 }
 
-/// How one attachment stands: as the tick begins, and now. Pins of one mostly follow each other.
+/// Transforms of one attachment at the start of the tick and now, cached because consecutive pins
+/// mostly share their attachment.
 #[derive(Default)]
-struct Carriage {
+struct CarrierFrames {
     carrier: u32,
     frames: Option<[Transform; 2]>,
 }
 
-impl Carriage {
-    fn see_to(&mut self, attachments: &Attachments, carrier: u32, moment: u32, count: u32) {
+impl CarrierFrames {
+    /// Loads the transforms of `carrier` after substep `moment` of `count`, if it is another one.
+    fn update(&mut self, attachments: &Attachments, carrier: u32, moment: u32, count: u32) {
         if self.carrier == carrier {
             return;
         }
@@ -70,41 +82,43 @@ impl Carriage {
             .map(|pose| [pose.last.frame(), pose.last.after(&pose.next, moment, count).frame()]);
     }
 
-    /// Where a pin is, a `share` of the tick on. One that was not yet where the attachment has it gets there
-    /// as the tick ends.
-    fn carry(&self, pin: &Pin, share: f32) -> Vec3 {
+    /// Target of a pin after a `share` of the tick [m]. The initial offset of a pin from its place on the
+    /// attachment decreases to zero over the tick.
+    fn target(&self, pin: &Pin, share: f32) -> Vec3 {
         let Some([last, now]) = &self.frames else { return pin.target };
-        let late = pin.from - last.point_to_world(pin.local);
-        now.point_to_world(pin.local) + late * (1.0 - share)
+        let offset = pin.from - last.point_to_world(pin.local);
+        now.point_to_world(pin.local) + offset * (1.0 - share)
     }
 }
 
 impl World {
-    /// What resists a push at each particle: its mass, and what a soft pin adds to it [kg]. `None` where that
-    /// is its mass everywhere.
+    /// Computes the effective mass of each particle [kg]: its mass plus k · step² of a soft pin.
+    ///
+    /// `None` without soft pins. The list is a scratch buffer: give it back to
+    /// `scratch.effective_mass` after use.
     pub fn compute_effective_mass(&mut self) -> Option<Vec<f32>> {
         if !self.pins.are_any_soft() {
             return None;
         }
-        let mut inertia = core::mem::take(&mut self.scratch.effective_mass);
+        let mut effective_mass = core::mem::take(&mut self.scratch.effective_mass);
         let step = self.settings.scheme().step;
-        inertia.clone_from(&self.particles.mass);
+        effective_mass.clone_from(&self.particles.mass);
         for pin in self.pins.iter().filter(|pin| pin.is_soft()) {
-            inertia[pin.particle as usize] += pin.stiffness * step * step;
+            effective_mass[pin.particle as usize] += pin.stiffness * step * step;
         }
-        Some(inertia)
+        Some(effective_mass)
     }
 
-    /// Sees to room for what soft pins add, if there are any.
+    /// Reserves the buffer of the effective masses, if there are soft pins.
     pub fn reserve_effective_mass(&mut self) {
-        let (capacity, inertia) = (self.capacity(), &mut self.scratch.effective_mass);
+        let (capacity, effective_mass) = (self.capacity(), &mut self.scratch.effective_mass);
         if self.pins.are_any_soft() {
-            inertia.clear();
-            inertia.reserve_exact(capacity);
+            effective_mass.clear();
+            effective_mass.reserve_exact(capacity);
         }
     }
 
-    /// The inverse masses of what soft pins hold, after the length of a substep changed.
+    /// Updates the inverse masses of particles with soft pins, after the length of a substep changed.
     pub fn refresh_soft_pin_masses(&mut self) {
         let step = self.settings.scheme().step;
         let (pins, grabs, p) = (&self.pins, &self.grabs, &mut self.particles);

@@ -1,12 +1,17 @@
-//! Stage `Outputs`: tangents, along which the texture coordinate u grows.
+//! Stage `Outputs`: vertex tangents, the direction in which the texture coordinate u grows.
 //!
 //! ```text
-//! triangle   T = (p dv₂ - q dv₁) sign(d),  d = du₁ dv₂ - du₂ dv₁     p, q: its edges from corner a
-//! vertex     t = ΣT - n (n · ΣT), at unit length;  w = sign(Σd)
+//! triangle   T = (p dv₂ − q dv₁) sign(d),  d = du₁ dv₂ − du₂ dv₁     p, q: its edges from corner a
+//! vertex     t = ΣT − n (n · ΣT), normalised;  handedness w = sign(Σd)
 //! ```
-//! T is as long as the triangle is large in the texture, so large ones count for more. w says on which
-//! side of the surface v grows: along w (n × t). Where a texture says nothing, t is any unit vector square
-//! to n, and w is 1.
+//! Method: tangents from texture gradients as in Lengyel's method. T grows with the area of the
+//! triangle in the texture, so large triangles weigh more. The handedness w tells on which side v
+//! grows: along w (n × t). If the texture defines no direction, t is a unit vector normal to n and
+//! w is 1.
+//!
+//! Reads triangles, texture coordinates and positions; writes `Tangents`.
+//! Invariant: the sums are cached until positions or triangles change. `vertex_transform` makes them
+//! orthogonal to the normals.
 
 use crate::solver::vertex_sums::triangles;
 use crate::solver::world::World;
@@ -16,66 +21,67 @@ use crate::math::simd::{Simd, vectored};
 use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
 use glam::{Vec2, Vec3};
 
-/// The sums over triangles, each vertex's direction still to be made square to its normal.
+/// Sums of triangle tangents per render vertex, not yet orthogonal to the vertex normals.
 #[derive(Debug)]
 pub(crate) struct Tangents {
     capacity: usize,
     uvs: Columns,
-    /// Where the vertices are, if there are seams.
+    /// Position of each render vertex, if vertices share particles.
     x: Columns,
     sums: Columns,
-    /// Of each vertex, 1 or -1.
-    hands: Vec<f32>,
-    /// Whether `uvs` and `hands` are those of the triangles as they are.
-    follows: bool,
-    /// The share between ticks that `sums` are of.
+    /// Handedness of each vertex: 1 or −1.
+    handedness: Vec<f32>,
+    /// Whether `uvs` and `handedness` match the current triangles.
+    is_texture_current: bool,
+    /// Share between two ticks for which `sums` were computed.
     share: Option<f32>,
 }
 
 impl Tangents {
-    /// Room for `capacity` vertices.
+    /// Allocates buffers for `capacity` render vertices.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
             capacity,
             uvs: Columns::with_capacity(capacity),
             x: Columns::default(),
             sums: Columns::with_capacity(capacity),
-            hands: Vec::with_capacity(capacity),
-            follows: false,
+            handedness: Vec::with_capacity(capacity),
+            is_texture_current: false,
             share: None,
         }
     }
 
-    /// Bytes that it holds.
+    /// Size of the buffers [bytes].
     pub fn bytes(&self) -> usize {
         let of_seams = if self.x.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
         self.capacity * (size_of::<[f32; 7]>() + of_seams)
     }
 
-    /// Tells of a change of positions.
-    pub fn moved(&mut self) {
+    /// Marks the sums as outdated, after positions changed.
+    pub fn invalidate_positions(&mut self) {
         self.share = None;
     }
 
-    /// Tells of a change of triangles.
-    pub fn retied(&mut self) {
-        self.follows = false;
+    /// Marks texture data and sums as outdated, after triangles changed.
+    pub fn invalidate_triangles(&mut self) {
+        self.is_texture_current = false;
         self.share = None;
     }
 
-    /// Whether the sums are those at a share between two ticks.
-    pub fn is_of(&self, share: f32) -> bool {
+    /// Whether the sums are those at `share` between two ticks.
+    pub fn is_current(&self, share: f32) -> bool {
         self.share == Some(share)
     }
 
-    /// Sums up the surface whose particles are at `x`, which is at a share between two ticks.
-    pub fn follow(&mut self, world: &World, uvs: &[Vec2], x: &Columns, share: f32) {
-        if !self.follows {
-            self.take(world.render_triangles(), uvs);
-            self.follows = true;
+    /// Computes the sums for particles at positions `x`, which are those at `share` between two
+    /// ticks.
+    pub fn update(&mut self, world: &World, uvs: &[Vec2], x: &Columns, share: f32) {
+        if !self.is_texture_current {
+            self.load_texture(world.render_triangles(), uvs);
+            self.is_texture_current = true;
         }
         self.share = Some(share);
-        // Vertices that share a particle lie elsewhere in the texture, so they are summed up by themselves.
+        // Vertices that share a particle differ in the texture, so the sums are per vertex.
         let (x, cells) = match &world.seams {
             Some(seams) => {
                 self.x.reserve(self.capacity);
@@ -95,42 +101,42 @@ impl Tangents {
         };
         let level = world.level;
         in_bands(world.threads, surface, &mut self.sums, |band, sums| {
-            sum_tangents(level, surface, Along, band, sums);
+            sum_tangents(level, surface, TextureTangent, band, sums);
         });
     }
 
-    /// Takes on the texture, and finds which way it lies.
-    fn take(&mut self, triangles: &[[u32; 3]], uvs: &[Vec2]) {
+    /// Loads the texture coordinates and computes the handedness of each vertex.
+    fn load_texture(&mut self, triangles: &[[u32; 3]], uvs: &[Vec2]) {
         self.uvs.set_all(uvs.iter().map(|uv| uv.extend(0.0)));
-        self.hands.clear();
-        self.hands.resize(uvs.len(), 0.0);
+        self.handedness.clear();
+        self.handedness.resize(uvs.len(), 0.0);
         for corners in triangles {
             let [a, b, c] = corners.map(|v| uvs[v as usize]);
             let area = (b - a).perp_dot(c - a);
-            corners.iter().for_each(|v| self.hands[*v as usize] += area);
+            corners.iter().for_each(|v| self.handedness[*v as usize] += area);
         }
-        for hand in &mut self.hands {
-            *hand = if *hand < 0.0 { -1.0 } else { 1.0 };
+        for sign in &mut self.handedness {
+            *sign = if *sign < 0.0 { -1.0 } else { 1.0 };
         }
     }
 
-    /// The sums, and on which side v grows.
-    pub fn lists(&self) -> ([&[f32]; 3], &[f32]) {
-        (self.sums.all(), &self.hands)
+    /// Columns of the sums, and the handedness.
+    pub fn columns(&self) -> ([&[f32]; 3], &[f32]) {
+        (self.sums.all(), &self.handedness)
     }
 }
 
 vectored! {
-    fn sum_tangents(surface: Surface<'_>, give: Along, band: Band, sums: [&mut [f32]; 3])
+    fn sum_tangents(surface: Surface<'_>, give: TextureTangent, band: Band, sums: [&mut [f32]; 3])
         = triangles::sum, Avx2, triangles::sum_apart
 }
 
-/// The direction in which u grows on a triangle, as long as it is large in the texture. What is `air` of
-/// others is here where its corners lie in the texture.
+/// Direction in which u grows on a triangle, scaled by its area in the texture. The per-vertex input
+/// that other sums use for the wind holds the texture coordinates here.
 #[derive(Clone, Copy)]
-struct Along;
+struct TextureTangent;
 
-impl Give for Along {
+impl Give for TextureTangent {
     const BY_AREA: bool = false;
 
     #[inline(always)]

@@ -1,37 +1,47 @@
-//! Stage `Outputs`: vertices as a renderer wants them placed, a block of them at a time.
+//! Stage `Outputs`: transforms vertices for the renderer, one block at a time.
+//!
+//! ```text
+//! position   p' = M (p ± offset · n) + t
+//! normal     n' = normalise(cof(M) sign(det M) · n)        tangent   t' = normalise(M · t)
+//! ```
+//! Method: normals use the cofactor matrix, which is the inverse transpose up to a factor, so that
+//! non-uniform scale keeps them normal. Blocks of `BLOCK` vertices stay in the cache and vectorise.
+//!
+//! Reads columns of positions, normals and tangent sums; writes blocks (`VertexBlock`).
+//! Invariant: an identity transform without offset keeps the bits of its input.
 
 use crate::math::pack::{BLOCK, FloatBlock};
 use crate::math::simd::{Level, leveled};
 use glam::{Affine3, DMat3, Mat3};
 
-/// A vector of each vertex of a block.
-pub(crate) type Vectors = [FloatBlock; 3];
+/// One vector per vertex of a block, as columns x, y, z.
+pub(crate) type VertexBlock = [FloatBlock; 3];
 
-/// How vertices are placed.
+/// Transform of vertices from the cloth to the renderer.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placing {
-    /// How far from the last tick to this one.
+pub(crate) struct VertexTransform {
+    /// Blend between the previous tick (0) and the last (1).
     pub share: f32,
-    /// Along the normals, as they are written [m].
+    /// Offset along the written normals [m].
     pub offset: f32,
-    /// To the other side of the surface.
+    /// Whether normals point to the other side of the surface.
     pub flip: bool,
-    /// For positions; none leaves them where they are.
+    /// Transform of positions; `None` for the identity.
     transform: Option<Affine3>,
-    /// For normals and for tangents, so scaled that nothing overflows.
-    turn: Option<Turn>,
+    /// Matrices for normals and tangents, scaled so that nothing overflows.
+    directions: Option<DirectionMatrices>,
 }
 
-/// How directions are turned.
+/// Matrices that transform directions.
 #[derive(Clone, Copy, Debug)]
-struct Turn {
+struct DirectionMatrices {
     normals: Mat3,
     tangents: Mat3,
     is_mirror: bool,
 }
 
-impl Turn {
-    /// None if the matrix cannot be inverted.
+impl DirectionMatrices {
+    /// Computes the matrices; `None` if `matrix` is singular.
     fn of(matrix: Mat3) -> Option<Self> {
         let unit = |m: DMat3| {
             let largest = m.to_cols_array().into_iter().fold(0.0, |most: f64, x| x.abs().max(most));
@@ -40,82 +50,85 @@ impl Turn {
         let m = matrix.as_dmat3();
         let determinant = m.determinant();
         let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
-        // The inverse transpose but for the determinant's size, which keeps normals on their side.
-        let turned = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * determinant.signum();
+        // The inverse transpose times |det|; the sign keeps normals on their side of the surface.
+        let cofactor = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * determinant.signum();
         (determinant != 0.0 && determinant.is_finite()).then(|| Self {
-            normals: unit(turned),
+            normals: unit(cofactor),
             tangents: unit(m),
             is_mirror: determinant < 0.0,
         })
     }
 }
 
-impl Placing {
-    /// Nothing of what is left alone is computed, so that it keeps its bits.
+impl VertexTransform {
+    /// Skips every step that has no effect, so that its input keeps its bits.
     pub fn new(share: f32, offset: f32, flip: bool, transform: Affine3) -> Self {
-        let is_still = transform == Affine3::IDENTITY;
-        let turn =
-            if transform.matrix3 == Mat3::IDENTITY { None } else { Turn::of(transform.matrix3) };
-        Self { share, offset, flip, transform: (!is_still).then_some(transform), turn }
+        let is_identity = transform == Affine3::IDENTITY;
+        let directions = if transform.matrix3 == Mat3::IDENTITY {
+            None
+        } else {
+            DirectionMatrices::of(transform.matrix3)
+        };
+        Self { share, offset, flip, transform: (!is_identity).then_some(transform), directions }
     }
 
-    /// Whether directions can go with positions: whether the transform can be inverted.
-    pub fn can_turn(&self) -> bool {
-        self.turn.is_some() || self.transform.is_none_or(|t| t.matrix3 == Mat3::IDENTITY)
+    /// Whether normals and tangents can be transformed: whether the matrix is invertible.
+    pub fn can_transform_directions(&self) -> bool {
+        self.directions.is_some() || self.transform.is_none_or(|t| t.matrix3 == Mat3::IDENTITY)
     }
 
-    /// Whether positions go along normals.
+    /// Whether positions are offset along normals.
     pub fn is_offset(&self) -> bool {
         self.offset != 0.0
     }
 
-    /// Positions from where they are at `x`, with the cloth's normals if they are offset.
-    pub fn positions(&self, level: Level, x: &mut Vectors, normals: &Vectors) {
+    /// Transforms positions `x` in place; `normals` are those of the cloth, used for the offset.
+    pub fn transform_positions(&self, level: Level, x: &mut VertexBlock, normals: &VertexBlock) {
         if self.is_offset() {
             let distance = if self.flip { -self.offset } else { self.offset };
             add(level, x, normals, distance);
         }
         if let Some(transform) = &self.transform {
-            place(level, x, transform);
+            transform_points(level, x, transform);
         }
     }
 
-    /// Normals from the cloth's.
-    pub fn normals(&self, level: Level, normals: &mut Vectors) {
+    /// Transforms normals of the cloth in place.
+    pub fn transform_normals(&self, level: Level, normals: &mut VertexBlock) {
         if self.flip {
             negate(level, normals);
         }
-        if let Some(turn) = &self.turn {
-            self::turn(level, normals, &turn.normals);
+        if let Some(matrices) = &self.directions {
+            transform_directions(level, normals, &matrices.normals);
         }
     }
 
-    /// Tangents from their sums and the cloth's normals; `hands` say on which side v grows.
-    pub fn tangents(
+    /// Transforms tangent sums to unit tangents in place; `normals` are those of the cloth.
+    pub fn transform_tangents(
         &self,
         level: Level,
-        sums: &mut Vectors,
-        normals: &Vectors,
-        hands: &mut FloatBlock,
+        sums: &mut VertexBlock,
+        normals: &VertexBlock,
+        handedness: &mut FloatBlock,
     ) {
-        square(level, sums, normals);
-        if let Some(turn) = &self.turn {
-            self::turn(level, sums, &turn.tangents);
+        orthogonalize(level, sums, normals);
+        if let Some(matrices) = &self.directions {
+            transform_directions(level, sums, &matrices.tangents);
         }
-        if self.flip != self.turn.is_some_and(|turn| turn.is_mirror) {
-            hands.iter_mut().for_each(|hand| *hand = -*hand);
+        if self.flip != self.directions.is_some_and(|matrices| matrices.is_mirror) {
+            handedness.iter_mut().for_each(|sign| *sign = -*sign);
         }
     }
 }
 
-/// Takes the numbers of a block from columns; what is beyond `count` stays as it is.
+/// Copies `count` entries of each column from `first` on to a block; entries beyond stay.
 pub(crate) fn load(to: &mut [FloatBlock], columns: &[&[f32]], first: usize, count: usize) {
     for (numbers, column) in to.iter_mut().zip(columns) {
         numbers[..count].copy_from_slice(&column[first..first + count]);
     }
 }
 
-/// As `load`, from the entries `at`.
+/// Gathers the entries `at` of each column to a block.
 pub(crate) fn gather(to: &mut [FloatBlock], columns: &[&[f32]], at: &[u32]) {
     for (numbers, column) in to.iter_mut().zip(columns) {
         for (number, at) in numbers.iter_mut().zip(at) {
@@ -125,31 +138,31 @@ pub(crate) fn gather(to: &mut [FloatBlock], columns: &[&[f32]], at: &[u32]) {
 }
 
 leveled! {
-    fn add(x: &mut Vectors, along: &Vectors, distance: f32) = add_lanes
+    fn add(x: &mut VertexBlock, along: &VertexBlock, distance: f32) = add_lanes
 }
 
 #[inline(always)]
-fn add_lanes(x: &mut Vectors, along: &Vectors, distance: f32) {
+fn add_lanes(x: &mut VertexBlock, along: &VertexBlock, distance: f32) {
     for (x, along) in x.as_flattened_mut().iter_mut().zip(along.as_flattened()) {
         *x += *along * distance;
     }
 }
 
 leveled! {
-    fn negate(v: &mut Vectors) = negate_lanes
+    fn negate(v: &mut VertexBlock) = negate_lanes
 }
 
 #[inline(always)]
-fn negate_lanes(v: &mut Vectors) {
+fn negate_lanes(v: &mut VertexBlock) {
     v.as_flattened_mut().iter_mut().for_each(|x| *x = -*x);
 }
 
 leveled! {
-    fn place(v: &mut Vectors, by: &Affine3) = place_lanes
+    fn transform_points(v: &mut VertexBlock, by: &Affine3) = transform_points_lanes
 }
 
 #[inline(always)]
-fn place_lanes([x, y, z]: &mut Vectors, by: &Affine3) {
+fn transform_points_lanes([x, y, z]: &mut VertexBlock, by: &Affine3) {
     let [a, b, c] = [by.matrix3.x_axis, by.matrix3.y_axis, by.matrix3.z_axis];
     let t = by.translation;
     for k in 0..BLOCK {
@@ -161,11 +174,11 @@ fn place_lanes([x, y, z]: &mut Vectors, by: &Affine3) {
 }
 
 leveled! {
-    fn turn(v: &mut Vectors, by: &Mat3) = turn_lanes
+    fn transform_directions(v: &mut VertexBlock, by: &Mat3) = transform_directions_lanes
 }
 
 #[inline(always)]
-fn turn_lanes([x, y, z]: &mut Vectors, by: &Mat3) {
+fn transform_directions_lanes([x, y, z]: &mut VertexBlock, by: &Mat3) {
     let [a, b, c] = [by.x_axis, by.y_axis, by.z_axis];
     for k in 0..BLOCK {
         let (px, py, pz) = (x[k], y[k], z[k]);
@@ -179,14 +192,14 @@ fn turn_lanes([x, y, z]: &mut Vectors, by: &Mat3) {
 }
 
 leveled! {
-    fn square(t: &mut Vectors, normals: &Vectors) = square_lanes
+    fn orthogonalize(t: &mut VertexBlock, normals: &VertexBlock) = orthogonalize_lanes
 }
 
-/// Directions square to the normals, at unit length. Where nothing of one is left, the x or z axis stands
-/// in, whichever is less along the normal.
+/// Makes directions orthogonal to the normals and of unit length (Gram–Schmidt). If nothing of a
+/// direction remains, the x or z axis replaces it, whichever is less parallel to the normal.
 #[inline(always)]
-fn square_lanes([x, y, z]: &mut Vectors, [nx, ny, nz]: &Vectors) {
-    /// Of the square of a direction's length, below which the rest of it is rounding.
+fn orthogonalize_lanes([x, y, z]: &mut VertexBlock, [nx, ny, nz]: &VertexBlock) {
+    /// Share of the squared length below which the orthogonal part is rounding error.
     const ROUNDING: f32 = 1.0e-10;
     for k in 0..BLOCK {
         let (nx, ny, nz) = (nx[k], ny[k], nz[k]);

@@ -103,7 +103,7 @@ pub(crate) fn list_ways(from: &[Float4], to: &[Float4], ways: &mut Columns) {
 pub(crate) fn take_back(spots: &[Float4], whole: &RigidMotion, to: &mut [Float4]) {
     each!(spots.len(), |s, at| {
         let [x, y, z, w] = fetch(s, spots, at);
-        let by = whole.ways(s, [x, y, z]);
+        let by = whole.displacement_lanes(s, [x, y, z]);
         put(s, to, at, [x - by[0], y - by[1], z - by[2], w]);
     });
 }
@@ -119,7 +119,7 @@ pub(crate) fn gather_against(
     let motion = motion.all();
     ways.resize(x.len(), [0.0; 4]);
     each!(x.len(), |s, at| {
-        let by = whole.ways(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
+        let by = whole.displacement_lanes(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
         let mut way = [s.splat(0.0); 4];
         for axis in 0..3 {
             way[axis] = s.load(motion[axis], at) - by[axis];
@@ -138,7 +138,7 @@ pub(crate) fn scatter_along(
     let [x, y, z] = x.all();
     let motion = motion.all_mut();
     each!(x.len(), |s, at| {
-        let by = whole.ways(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
+        let by = whole.displacement_lanes(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
         let way = fetch(s, ways, at);
         for axis in 0..3 {
             s.store(motion[axis], at, way[axis] + by[axis]);
@@ -223,7 +223,7 @@ mod tests {
             gather_against(&whole, &x, &motion, &mut turned);
             list_ways(&spots, &turned, &mut ways);
             for i in 0..count {
-                let against = vector(i, 3) - whole.at(vector(i, 0));
+                let against = vector(i, 3) - whole.displacement_at(vector(i, 0));
                 assert_eq!(spots[i].map(f32::to_bits), with(vector(i, 0), w[i]), "{i} of {count}");
                 assert_eq!(turned[i].map(f32::to_bits), with(against, 0.0), "{i} of {count}");
                 assert_eq!(bits(ways.at(i)), bits(against - vector(i, 0)), "{i} of {count}");
@@ -232,7 +232,7 @@ mod tests {
             take_back(&spots, &whole, &mut turned);
             scatter(&turned, &mut ways);
             for i in 0..count {
-                let at = whole.at(vector(i, 0));
+                let at = whole.displacement_at(vector(i, 0));
                 let along = (vector(i, 3) - at) + at;
                 assert_eq!(bits(motion.at(i)), bits(along), "{i} of {count}");
                 assert_eq!(bits(ways.at(i)), bits(vector(i, 0) - at), "{i} of {count}");

@@ -60,7 +60,7 @@ pub(crate) fn compute(world: &mut World) {
             } else {
                 RigidMotion::fit(particles, &p.x_last, displacement, &p.mass)
             };
-            particles().for_each(|i| positions.set(i, motion.place(p.x_last.at(i))));
+            particles().for_each(|i| positions.set(i, motion.transform(p.x_last.at(i))));
         }
     }
     world.scratch.rollback = rollback;

@@ -96,7 +96,7 @@ fn draw_together(world: &mut World, most: f32) {
                 .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, aim));
         }
         collide::project_out(world);
-        anchors::keep_in(world);
+        anchors::project_at_end(world);
         if first_over(world, most).is_none() {
             break;
         }
@@ -109,7 +109,7 @@ fn draw_together(world: &mut World, most: f32) {
         if !(was_over && is_led) {
             go_back(world, most);
         }
-        anchors::keep_in(world);
+        anchors::project_at_end(world);
         follow(world);
     }
 }

@@ -9,7 +9,7 @@ use crate::solver::particle_stage::interleaved;
 
 use crate::math::wide4::Float4;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
+use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
 
 use crate::solver::integrate::momentum;
 
@@ -35,14 +35,14 @@ pub(crate) fn keep(
     momentum::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
     interleaved::list_ways(before, now, &mut scratch.tether_anchor);
-    let free = Free {
+    let free = FreeParticles {
         x: scratch.relative_wind.all(),
-        way: scratch.tether_anchor.all(),
+        displacement: scratch.tether_anchor.all(),
         mass: &p.mass,
         w: &p.w,
     };
     let whole = RigidMotion::of_free(world.level, free);
-    let whole = if floor == Vec3::ZERO { whole } else { whole.along(floor) };
+    let whole = if floor == Vec3::ZERO { whole } else { whole.project_on_floor(floor) };
     interleaved::take_back(now, &whole, before);
     core::mem::swap(now, before);
 }

@@ -30,7 +30,7 @@ pub(crate) mod warm_start;
 
 use crate::math::wide4::Float4;
 use crate::math::{max, min};
-use crate::solver::integrate::rigid_motion::{Free, RigidMotion};
+use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
 use crate::solver::self_collide::particle_pairs;
 use crate::solver::self_collide::surface::cluster_bvh::Patches;
 use crate::solver::self_collide::surface::contact::Contact;
@@ -431,7 +431,8 @@ pub(crate) fn calm(world: &mut World) {
         contact_solver::calm(contacts, active, open, columns);
         tangles.calm(weights, columns);
         if !active.is_empty() {
-            let particles = Free { x: p.x.all(), way: columns.all(), mass: &p.mass, w: &p.w };
+            let particles =
+                FreeParticles { x: p.x.all(), displacement: columns.all(), mass: &p.mass, w: &p.w };
             let whole = RigidMotion::of_free(world.level, particles);
             crate::solver::particle_stage::interleaved::gather_against(&whole, &p.x, columns, ways);
             contact_solver::soothe(contacts, active, weights, ways, h, !is_free);
