@@ -30,7 +30,7 @@ use crate::solver::profile::Profile;
 use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::world::{TickScratch, World};
 
-use crate::solver::stretch::{damping_scratch, line_solver};
+use crate::solver::stretch::{damping_scratch, line_scratch};
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
@@ -331,7 +331,7 @@ impl World {
         }
         let has_strips = self.constraints.rows.is_some();
         let steps = self.constraints.lines.abreast.most_steps();
-        self.scratch.lines = line_solver::LineScratch::new(steps, capacity, has_strips);
+        self.scratch.lines = line_scratch::LineScratch::new(steps, capacity, has_strips);
         self.scratch.bend = bend::bend_scratch::BendScratch::new(
             self.plate_elements.as_ref(),
             self.mesh.triangles.len(),

@@ -161,7 +161,7 @@ fn run_iteration(world: &mut World, iteration: u32) {
         timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Backward, iteration));
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Backward));
         timed!(world, Stretch, distance::solve(world, LinkKind::Stretch, SweepOrder::Backward));
-    } else if iteration == 0 && line_solver::are_used(world) {
+    } else if iteration == 0 && line_solver::is_needed(world) {
         // The line solver solves each chain exactly, so tethers and later sweeps have little to do.
         timed!(world, Stretch, line_solver::solve(world));
     } else {

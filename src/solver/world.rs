@@ -155,7 +155,7 @@ pub(crate) struct TickScratch {
     pub anchor_moved: Vec<u32>,
     pub end_weights: crate::solver::stretch::end_weights::EndWeights,
     pub interleaved: crate::solver::particle_stage::interleaved_particles::InterleavedParticles,
-    pub lines: crate::solver::stretch::line_solver::LineScratch,
+    pub lines: crate::solver::stretch::line_scratch::LineScratch,
     pub bend: BendScratch,
     pub damping: crate::solver::stretch::damping_scratch::DampingScratch,
     pub contacts: crate::solver::collide::ContactScratch,
@@ -186,7 +186,7 @@ impl TickScratch {
             interleaved:
                 crate::solver::particle_stage::interleaved_particles::InterleavedParticles::default(
                 ),
-            lines: crate::solver::stretch::line_solver::LineScratch::default(),
+            lines: crate::solver::stretch::line_scratch::LineScratch::default(),
             bend: BendScratch::default(),
             damping: crate::solver::stretch::damping_scratch::DampingScratch::default(),
             contacts: crate::solver::collide::ContactScratch::default(),

@@ -1,7 +1,17 @@
-//! Where lines find their particles: each has a seat, a point beside the others with all that is asked of
-//! it in one place, after a first seat that is nobody's.
+//! Gather and scatter of lines whose particles are at arbitrary indices.
+//!
+//! ```text
+//! columns or interleaved  ──gather──▶  points [x, y, z, w]  ──gather_step──▶  LineStep (8 lanes)
+//!                         ◀─scatter──                       ◀─scatter_block─
+//! ```
+//! A particle is one load of `[x, y, z, w]`, and eight of them are transposed to lanes. Entry 0 of the
+//! points is a sentinel: lanes without a link read and write it, so that no lane needs a branch.
+//!
+//! Reads positions, inverse masses and `scratch.predicted − scratch.displacement`, the positions at the
+//! start of the substep; writes `scratch.lines` and at the end the positions.
+//! Invariant: the particle with index i has the entry i + 1.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code)
@@ -11,245 +21,293 @@ use crate::math::simd::{
     Float, LANES, Level, Scalar, Simd, gather_transpose, scatter_transpose, vectored,
 };
 use crate::model::line_blocks;
-use crate::solver::stretch::line_solver::{Step, excess, length, limited, longest};
+use crate::solver::stretch::line_step::{
+    LineStep, clamp_length, length, limit_excess, max_component,
+};
 use crate::solver::world::World;
 
-/// Copies the particles to their seats.
-pub(crate) fn take(world: &mut World, is_rigid: bool) {
+/// Copies the particles to `scratch.lines.points`, and their positions at the start of the substep if
+/// links are rigid.
+pub(crate) fn gather(world: &mut World, is_rigid: bool) {
     let (level, p, scratch) = (world.level, &world.particles, &mut world.scratch);
     let s = &mut scratch.lines;
     s.points.resize(p.len() + 1, [0.0; 4]);
     s.points[0] = [0.0; 4];
     if scratch.interleaved.is_current {
         let particles = scratch.interleaved.points.iter().zip(&p.w);
-        for (seat, ([x, y, z, _], w)) in s.points[1..].iter_mut().zip(particles) {
-            *seat = [*x, *y, *z, *w];
+        for (point, ([x, y, z, _], w)) in s.points[1..].iter_mut().zip(particles) {
+            *point = [*x, *y, *z, *w];
         }
     } else {
-        seat(level, p.x.all(), &p.w, &mut s.points[1..]);
+        interleave(level, p.x.all(), &p.w, &mut s.points[1..]);
     }
-    s.starts.clear();
+    s.start_points.clear();
     if is_rigid {
-        s.starts.resize(p.len() + 1, [0.0; 4]);
-        seat_back(level, scratch.predicted.all(), scratch.displacement.all(), &mut s.starts[1..]);
+        s.start_points.resize(p.len() + 1, [0.0; 4]);
+        interleave_starts(
+            level,
+            scratch.predicted.all(),
+            scratch.displacement.all(),
+            &mut s.start_points[1..],
+        );
     }
 }
 
-/// Where particles sit, and where they sat when the substep began, if links do not give way.
+/// Gathered particles, after a sentinel.
 #[derive(Clone, Copy)]
-pub(crate) struct Seats<'a> {
+pub(crate) struct LinePoints<'a> {
+    /// `[x, y, z, w]` now.
     pub points: &'a [[f32; 4]],
-    pub starts: &'a [[f32; 4]],
+    /// `[x, y, z, 0]` at the start of the substep; empty if links are compliant.
+    pub start_points: &'a [[f32; 4]],
 }
 
-impl Seats<'_> {
-    /// Brings what some lanes of a step ask of their particles: where they are, their inverse mass, and what links
-    /// are to be long. `was` goes along, where the particles of the step before were.
+impl LinePoints<'_> {
+    /// Gathers the positions, inverse masses and target lengths of `S::LANES` lanes of a step.
+    ///
+    /// `start` holds the positions at the start of the substep: of the step before on entry, of this
+    /// step on return.
     #[inline(always)]
-    pub fn bring<S: Simd, const SOFT: bool>(
+    pub fn gather_step<S: Simd, const SOFT: bool>(
         &self,
         s: S,
         first: usize,
-        was: &mut [S::F; 4],
+        start: &mut [S::F; 4],
         laid: &line_blocks::Step,
-        step: &mut Step,
+        step: &mut LineStep,
     ) {
         let to = gather_transpose(s, self.points, &laid.to[first..]);
         for (lanes, to) in step.to.iter_mut().zip(to) {
             s.store(lanes, first, to);
         }
         if SOFT {
-            return step.rest(s, first, &laid.rest);
+            return step.set_rest_target(s, first, &laid.rest);
         }
-        let start = gather_transpose(s, self.starts, &laid.to[first..]);
-        let span = [start[0] - was[0], start[1] - was[1], start[2] - was[2]];
-        step.mend(s, first, length(s, span), &laid.rest);
-        *was = start;
+        let last = *start;
+        *start = gather_transpose(s, self.start_points, &laid.to[first..]);
+        let span = [start[0] - last[0], start[1] - last[1], start[2] - last[2]];
+        step.set_relaxed_target(s, first, length(s, span), &laid.rest);
     }
 }
 
 vectored! {
-    /// Brings all that a block asks, if links do not give way.
-    pub(crate) fn fetch_rigid(laid: &[line_blocks::Step], seats: Seats<'_>, room: &mut [Step])
-        = fetch_lanes::<_, false>, Avx2, fetch_apart::<false>
+    /// Gathers a whole block of rigid links.
+    pub(crate) fn gather_rigid(
+        block: &[line_blocks::Step],
+        points: LinePoints<'_>,
+        steps: &mut [LineStep],
+    ) = gather_lanes::<_, false>, Avx2, gather_scalar::<false>
 }
 
 vectored! {
-    /// The same, if they do.
-    pub(crate) fn fetch_soft(laid: &[line_blocks::Step], seats: Seats<'_>, room: &mut [Step])
-        = fetch_lanes::<_, true>, Avx2, fetch_apart::<true>
+    /// Gathers a whole block of compliant links.
+    pub(crate) fn gather_soft(
+        block: &[line_blocks::Step],
+        points: LinePoints<'_>,
+        steps: &mut [LineStep],
+    ) = gather_lanes::<_, true>, Avx2, gather_scalar::<true>
 }
 
-fn fetch_apart<const SOFT: bool>(laid: &[line_blocks::Step], seats: Seats<'_>, room: &mut [Step]) {
-    fetch_lanes::<_, SOFT>(Scalar, laid, seats, room);
+fn gather_scalar<const SOFT: bool>(
+    block: &[line_blocks::Step],
+    points: LinePoints<'_>,
+    steps: &mut [LineStep],
+) {
+    gather_lanes::<_, SOFT>(Scalar, block, points, steps);
 }
 
 #[inline(always)]
-fn fetch_lanes<S: Simd, const SOFT: bool>(
+fn gather_lanes<S: Simd, const SOFT: bool>(
     s: S,
-    laid: &[line_blocks::Step],
-    seats: Seats<'_>,
-    room: &mut [Step],
+    block: &[line_blocks::Step],
+    points: LinePoints<'_>,
+    steps: &mut [LineStep],
 ) {
     for first in (0..LANES).step_by(S::LANES) {
-        let mut was = [s.splat(0.0); 4];
-        for (laid, step) in laid.iter().zip(&mut *room) {
-            seats.bring::<S, SOFT>(s, first, &mut was, laid, step);
+        let mut start = [s.splat(0.0); 4];
+        for (laid, step) in block.iter().zip(&mut *steps) {
+            points.gather_step::<S, SOFT>(s, first, &mut start, laid, step);
         }
     }
 }
 
-/// Has the particles of a block go their ways.
-pub(crate) fn put(
+/// Displaces the particles of a block; none moves farther than the rest length of its link.
+pub(crate) fn scatter_block(
     level: Level,
-    laid: &[line_blocks::Step],
-    room: &[Step],
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
     points: &mut [[f32; 4]],
 ) {
-    let mut is_far = false;
-    put_at_once(level, laid, room, points, &mut is_far);
-    if is_far {
-        put_apart(laid, room, points, &mut is_far);
+    let mut may_exceed = false;
+    scatter_unclamped(level, block, steps, points, &mut may_exceed);
+    if may_exceed {
+        scatter_clamped(block, steps, points, &mut may_exceed);
     }
 }
 
 vectored! {
-    /// The same as long as no way may be too long; else finds that.
-    fn put_at_once(
-        laid: &[line_blocks::Step],
-        room: &[Step],
+    /// Displaces the particles of a block without a limit, and sets `may_exceed` if one may move
+    /// farther than its limit; then [`scatter_clamped`] must repeat it.
+    fn scatter_unclamped(
+        block: &[line_blocks::Step],
+        steps: &[LineStep],
         points: &mut [[f32; 4]],
-        is_far: &mut bool,
-    ) = put_lanes, Avx2, put_apart
+        may_exceed: &mut bool,
+    ) = scatter_lanes, Avx2, scatter_clamped
 }
 
 #[inline(always)]
-fn put_lanes<S: Simd>(
+fn scatter_lanes<S: Simd>(
     s: S,
-    laid: &[line_blocks::Step],
-    room: &[Step],
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
     points: &mut [[f32; 4]],
-    is_far: &mut bool,
+    may_exceed: &mut bool,
 ) {
     for first in (0..LANES).step_by(S::LANES) {
-        let (mut way, mut most) = ([s.splat(0.0); 3], s.splat(0.0));
-        for (laid, step) in laid.iter().zip(room) {
-            way = step.way(s, first, way);
-            most = excess(s, longest(s, way), &laid.rest, first).max(most);
-            let [x, y, z] = step.there(s, first, way);
+        let (mut u, mut excess) = ([s.splat(0.0); 3], s.splat(0.0));
+        for (laid, step) in block.iter().zip(steps) {
+            u = step.displacement(s, first, u);
+            excess = limit_excess(s, max_component(s, u), &laid.rest, first).max(excess);
+            let [x, y, z] = step.displaced(s, first, u);
             scatter_transpose(s, points, &laid.to[first..], [x, y, z, s.load(&step.to[3], first)]);
         }
-        *is_far |= s.any_positive(most);
+        *may_exceed |= s.any_positive(excess);
     }
 }
 
 #[inline(never)]
-fn put_apart(laid: &[line_blocks::Step], room: &[Step], points: &mut [[f32; 4]], _: &mut bool) {
+fn scatter_clamped(
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
+    points: &mut [[f32; 4]],
+    _: &mut bool,
+) {
     for lane in 0..LANES {
-        let mut way = [0.0; 3];
-        for (laid, step) in laid.iter().zip(room) {
-            way = step.way(Scalar, lane, way);
-            let [x, y, z] = step.there(Scalar, lane, limited(way, laid.rest[lane].abs()));
+        let mut u = [0.0; 3];
+        for (laid, step) in block.iter().zip(steps) {
+            u = step.displacement(Scalar, lane, u);
+            let limit = laid.rest[lane].abs();
+            let [x, y, z] = step.displaced(Scalar, lane, clamp_length(u, limit));
             points[laid.to[lane] as usize] = [x, y, z, step.to[3][lane]];
         }
     }
 }
 
-/// Copies them back.
-pub(crate) fn leave(world: &mut World) {
-    let seats = &world.scratch.lines.points[1..];
+/// Copies the positions of all particles back to the layout that they came from.
+pub(crate) fn scatter(world: &mut World) {
+    let points = &world.scratch.lines.points[1..];
     if world.scratch.interleaved.is_current {
-        for (point, [x, y, z, _]) in world.scratch.interleaved.points.iter_mut().zip(seats) {
-            *point = [*x, *y, *z, 0.0];
+        let interleaved = &mut world.scratch.interleaved.points;
+        for (to, [x, y, z, _]) in interleaved.iter_mut().zip(points) {
+            *to = [*x, *y, *z, 0.0];
         }
     } else {
-        unseat(world.level, seats, world.particles.x.all_mut());
+        deinterleave(world.level, points, world.particles.x.all_mut());
     }
 }
 
 vectored! {
-    /// Points from columns and a column of weights.
-    fn seat(columns: [&[f32]; 3], w: &[f32], seats: &mut [[f32; 4]])
-        = seat_lanes, Avx2, seat_apart
+    /// Interleaves columns of positions and inverse masses.
+    fn interleave(columns: [&[f32]; 3], w: &[f32], points: &mut [[f32; 4]])
+        = interleave_lanes, Avx2, interleave_scalar
 }
 
 vectored! {
-    /// Points from columns, less another way.
-    fn seat_back(columns: [&[f32]; 3], way: [&[f32]; 3], seats: &mut [[f32; 4]])
-        = seat_back_lanes, Avx2, seat_back_apart
+    /// Interleaves predicted positions minus displacements.
+    fn interleave_starts(
+        predicted: [&[f32]; 3],
+        displacement: [&[f32]; 3],
+        points: &mut [[f32; 4]],
+    ) = interleave_starts_lanes, Avx2, interleave_starts_scalar
 }
 
 vectored! {
-    /// Columns from points.
-    fn unseat(seats: &[[f32; 4]], columns: [&mut [f32]; 3]) = unseat_lanes, Avx2, unseat_apart
+    /// Copies positions from interleaved points to columns.
+    fn deinterleave(points: &[[f32; 4]], columns: [&mut [f32]; 3])
+        = deinterleave_lanes, Avx2, deinterleave_scalar
 }
 
 #[inline(always)]
-fn seat_lanes<S: Simd>(s: S, [x, y, z]: [&[f32]; 3], w: &[f32], seats: &mut [[f32; 4]]) {
-    // One length for all, so that one check does.
-    let count = seats.len();
+fn interleave_lanes<S: Simd>(s: S, [x, y, z]: [&[f32]; 3], w: &[f32], points: &mut [[f32; 4]]) {
+    // Equal lengths let the compiler drop all bounds checks but one.
+    let count = points.len();
     let (x, y, z, w) = (&x[..count], &y[..count], &z[..count], &w[..count]);
     let mut first = 0;
     while first + S::LANES <= count {
         let numbers = [s.load(x, first), s.load(y, first), s.load(z, first), s.load(w, first)];
-        scatter_transpose(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
+        scatter_transpose(s, &mut points[first..first + S::LANES], &CONSECUTIVE, numbers);
         first += S::LANES;
     }
-    seat_apart([&x[first..], &y[first..], &z[first..]], &w[first..], &mut seats[first..]);
+    interleave_scalar([&x[first..], &y[first..], &z[first..]], &w[first..], &mut points[first..]);
 }
 
-fn seat_apart([x, y, z]: [&[f32]; 3], w: &[f32], seats: &mut [[f32; 4]]) {
-    for ((((seat, x), y), z), w) in seats.iter_mut().zip(x).zip(y).zip(z).zip(w) {
-        *seat = [*x, *y, *z, *w];
+fn interleave_scalar([x, y, z]: [&[f32]; 3], w: &[f32], points: &mut [[f32; 4]]) {
+    for ((((point, x), y), z), w) in points.iter_mut().zip(x).zip(y).zip(z).zip(w) {
+        *point = [*x, *y, *z, *w];
     }
 }
 
 #[inline(always)]
-fn seat_back_lanes<S: Simd>(s: S, to: [&[f32]; 3], way: [&[f32]; 3], seats: &mut [[f32; 4]]) {
-    let count = seats.len();
-    let [to, way] = [to, way].map(|columns| columns.map(|column| &column[..count]));
+fn interleave_starts_lanes<S: Simd>(
+    s: S,
+    predicted: [&[f32]; 3],
+    displacement: [&[f32]; 3],
+    points: &mut [[f32; 4]],
+) {
+    let count = points.len();
+    let [predicted, displacement] =
+        [predicted, displacement].map(|columns| columns.map(|column| &column[..count]));
     let mut first = 0;
     while first + S::LANES <= count {
         let mut numbers = [s.splat(0.0); 4];
         for axis in 0..3 {
-            numbers[axis] = s.load(to[axis], first) - s.load(way[axis], first);
+            numbers[axis] = s.load(predicted[axis], first) - s.load(displacement[axis], first);
         }
-        scatter_transpose(s, &mut seats[first..first + S::LANES], &IN_TURN, numbers);
+        scatter_transpose(s, &mut points[first..first + S::LANES], &CONSECUTIVE, numbers);
         first += S::LANES;
     }
-    seat_back_apart(to.map(|to| &to[first..]), way.map(|way| &way[first..]), &mut seats[first..]);
+    interleave_starts_scalar(
+        predicted.map(|column| &column[first..]),
+        displacement.map(|column| &column[first..]),
+        &mut points[first..],
+    );
 }
 
-fn seat_back_apart(to: [&[f32]; 3], way: [&[f32]; 3], seats: &mut [[f32; 4]]) {
-    for (at, seat) in seats.iter_mut().enumerate() {
+fn interleave_starts_scalar(
+    predicted: [&[f32]; 3],
+    displacement: [&[f32]; 3],
+    points: &mut [[f32; 4]],
+) {
+    for (at, point) in points.iter_mut().enumerate() {
         for axis in 0..3 {
-            seat[axis] = to[axis][at] - way[axis][at];
+            point[axis] = predicted[axis][at] - displacement[axis][at];
         }
-        seat[3] = 0.0;
+        point[3] = 0.0;
     }
 }
 
 #[inline(always)]
-fn unseat_lanes<S: Simd>(s: S, seats: &[[f32; 4]], columns: [&mut [f32]; 3]) {
-    let count = seats.len();
+fn deinterleave_lanes<S: Simd>(s: S, points: &[[f32; 4]], columns: [&mut [f32]; 3]) {
+    let count = points.len();
     let [x, y, z] = columns;
     let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
     let mut first = 0;
     while first + S::LANES <= count {
-        let numbers = gather_transpose(s, &seats[first..first + S::LANES], &IN_TURN);
+        let numbers = gather_transpose(s, &points[first..first + S::LANES], &CONSECUTIVE);
         s.store(x, first, numbers[0]);
         s.store(y, first, numbers[1]);
         s.store(z, first, numbers[2]);
         first += S::LANES;
     }
-    unseat_apart(&seats[first..], [&mut x[first..], &mut y[first..], &mut z[first..]]);
+    deinterleave_scalar(&points[first..], [&mut x[first..], &mut y[first..], &mut z[first..]]);
 }
 
-fn unseat_apart(seats: &[[f32; 4]], [x, y, z]: [&mut [f32]; 3]) {
-    for (((seat, x), y), z) in seats.iter().zip(x).zip(y).zip(z) {
-        [*x, *y, *z, _] = *seat;
+fn deinterleave_scalar(points: &[[f32; 4]], [x, y, z]: [&mut [f32]; 3]) {
+    for (((point, x), y), z) in points.iter().zip(x).zip(y).zip(z) {
+        [*x, *y, *z, _] = *point;
     }
 }
 
-/// The places of points that lie next to each other.
-const IN_TURN: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
+/// The indices of eight neighbouring points.
+const CONSECUTIVE: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];

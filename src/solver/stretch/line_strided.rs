@@ -1,73 +1,90 @@
-//! Lines whose particles lie evenly, as those of a grid do: what is asked of their particles comes straight
-//! from the columns, four lines at a time. Of lines that lie side by side a step is one vector; of those that
-//! run along a column four steps of four lines are four vectors, turned. Fewer than eight lines go number by number.
+//! Gather and scatter of lines whose particles are at a fixed stride, as those of a grid (strips).
+//!
+//! No index is read: particles come straight from the columns, four lines at a time.
+//!
+//! ```text
+//! lines side by side (across = 1)       a step of four lines is one load          *_direct
+//! lines along a column (along = 1)      four steps of four lines are four loads,
+//!                                       transposed 4 × 4                          *_transposed
+//! strips of fewer than eight lines      scalar                                    *_scalar
+//! ```
+//! Reads positions, inverse masses and `scratch.predicted − scratch.displacement`; writes the steps
+//! (`LineStep`) and at the end the positions.
+//! Invariant: every function that takes pointers is called for strips that lie within the columns,
+//! which `Strip::assert_within` checked; a strip has at least four steps.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code, unused_imports)
 )]
 
-use crate::model::line_blocks;
-use crate::solver::stretch::line_solver::{Step, excess, length, limited, longest, size};
-
 use crate::math::columns::Columns;
 use crate::math::simd::{Baseline, Float, LANES, Level, Scalar, Simd, leveled, transpose_4x4};
-use crate::model::line_blocks::Strip;
+use crate::model::line_blocks::{self, Strip};
+use crate::solver::stretch::line_step::{
+    LineStep, abs, clamp_length, length, limit_excess, max_component,
+};
 
-/// What every machine with vectors has in one, and how many steps are turned at once.
+/// The lanes of the smallest vector (`Baseline`), and the number of steps that are transposed at once.
 const FOUR: usize = 4;
 
 type Vector = <Baseline as Simd>::F;
 
-/// Finds where particles were when the substep began, after one that is nobody's.
-pub(crate) fn find_starts(level: Level, predicted: &Columns, way: &Columns, starts: &mut Columns) {
+/// Computes the positions at the start of the substep, after one sentinel entry.
+pub(crate) fn compute_starts(
+    level: Level,
+    predicted: &Columns,
+    displacement: &Columns,
+    starts: &mut Columns,
+) {
     starts.resize(predicted.x.len() + 1);
-    for ((start, to), way) in starts.all_mut().into_iter().zip(predicted.all()).zip(way.all()) {
-        go_back(level, to, way, &mut start[1..]);
+    let columns = starts.all_mut().into_iter().zip(predicted.all()).zip(displacement.all());
+    for ((start, predicted), displacement) in columns {
+        subtract(level, predicted, displacement, &mut start[1..]);
     }
 }
 
 leveled! {
-    fn go_back(to: &[f32], way: &[f32], start: &mut [f32]) = go_back_lanes
+    fn subtract(a: &[f32], b: &[f32], difference: &mut [f32]) = subtract_lanes
 }
 
 #[inline(always)]
-fn go_back_lanes(to: &[f32], way: &[f32], start: &mut [f32]) {
-    for ((start, to), way) in start.iter_mut().zip(to).zip(way) {
-        *start = to - way;
+fn subtract_lanes(a: &[f32], b: &[f32], difference: &mut [f32]) {
+    for ((difference, a), b) in difference.iter_mut().zip(a).zip(b) {
+        *difference = a - b;
     }
 }
 
-// What has loops of its own is a function of its own: in long ones engines run out of registers.
+// `#[inline(never)]` on the loops below: WebAssembly engines run out of registers in long functions.
 
-/// Fetches where the particles are, and their inverse mass.
-pub(crate) fn fetch(strip: Strip, x: &Columns, w: &[f32], room: &mut [Step]) {
+/// Gathers the positions and inverse masses of a strip.
+pub(crate) fn gather(strip: Strip, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
     let [x, y, z] = x.all();
     let columns = [x, y, z, w];
     if strip.lines < LANES {
-        return fetch_apart(strip, columns, room);
+        return gather_scalar(strip, columns, steps);
     }
-    strip.assert_within(room.len(), columns);
+    strip.assert_within(steps.len(), columns);
     let columns = columns.map(<[f32]>::as_ptr);
-    // SAFETY: it was just found to be within.
+    // SAFETY: the strip lies within the columns, as was just checked.
     unsafe {
         if strip.across == 1 {
-            fetch_straight(strip, columns, room);
+            gather_direct(strip, columns, steps);
         } else {
-            fetch_turned(strip, columns, room);
+            gather_transposed(strip, columns, steps);
         }
     }
 }
 
 /// # Safety
-/// The whole strip lies within the columns; so for all that follow.
+/// The strip lies within the columns.
 #[inline(never)]
-unsafe fn fetch_straight(strip: Strip, columns: [*const f32; 4], room: &mut [Step]) {
+unsafe fn gather_direct(strip: Strip, columns: [*const f32; 4], steps: &mut [LineStep]) {
     let (s, mut at) = (Baseline::new(), strip.at(0, 0));
-    for step in room {
+    for step in steps {
         for (to, column) in step.to.iter_mut().zip(columns) {
-            // SAFETY: the caller's promise.
+            // SAFETY: the caller guarantees it.
             unsafe {
                 let column = column.add(at);
                 s.store(to, 0, s.load_from(column));
@@ -79,18 +96,17 @@ unsafe fn fetch_straight(strip: Strip, columns: [*const f32; 4], room: &mut [Ste
 }
 
 /// # Safety
-/// As above; there are four steps at least.
+/// The strip lies within the columns and has at least four steps.
 #[inline(never)]
-unsafe fn fetch_turned(strip: Strip, columns: [*const f32; 4], room: &mut [Step]) {
+unsafe fn gather_transposed(strip: Strip, columns: [*const f32; 4], steps: &mut [LineStep]) {
     let s = Baseline::new();
-    for start in fours(room.len()) {
-        let steps = &mut room[start..start + FOUR];
+    for start in blocks_of_four(steps.len()) {
+        let steps = &mut steps[start..start + FOUR];
         for first in [0, FOUR] {
             let at = strip.at(first, start);
             for (axis, column) in columns.into_iter().enumerate() {
-                // SAFETY: the caller's promise.
-                let rows =
-                    unsafe { transpose_4x4(s, four_by_four(s, column.add(at), strip.across)) };
+                // SAFETY: the caller guarantees it.
+                let rows = unsafe { transpose_4x4(s, load_4x4(s, column.add(at), strip.across)) };
                 for (step, row) in steps.iter_mut().zip(rows) {
                     s.store(&mut step.to[axis], first, row);
                 }
@@ -99,25 +115,25 @@ unsafe fn fetch_turned(strip: Strip, columns: [*const f32; 4], room: &mut [Step]
     }
 }
 
-/// Four numbers from a place on, and from three more.
+/// Loads four numbers each from four addresses that are `across` numbers apart.
 ///
 /// # Safety
-/// They are there.
+/// All sixteen numbers are readable.
 #[inline(always)]
-unsafe fn four_by_four(s: Baseline, place: *const f32, across: usize) -> [Vector; FOUR] {
-    // SAFETY: the caller's promise.
+unsafe fn load_4x4(s: Baseline, first: *const f32, across: usize) -> [Vector; FOUR] {
+    // SAFETY: the caller guarantees it.
     unsafe {
         [
-            s.load_from(place),
-            s.load_from(place.add(across)),
-            s.load_from(place.add(2 * across)),
-            s.load_from(place.add(3 * across)),
+            s.load_from(first),
+            s.load_from(first.add(across)),
+            s.load_from(first.add(2 * across)),
+            s.load_from(first.add(3 * across)),
         ]
     }
 }
 
-fn fetch_apart(strip: Strip, columns: [&[f32]; 4], room: &mut [Step]) {
-    for (number, step) in room.iter_mut().enumerate() {
+fn gather_scalar(strip: Strip, columns: [&[f32]; 4], steps: &mut [LineStep]) {
+    for (number, step) in steps.iter_mut().enumerate() {
         for (to, column) in step.to.iter_mut().zip(columns) {
             for lane in 0..LANES {
                 to[lane] = if lane < strip.lines { column[strip.at(lane, number)] } else { 0.0 };
@@ -126,39 +142,44 @@ fn fetch_apart(strip: Strip, columns: [&[f32]; 4], room: &mut [Step]) {
     }
 }
 
-/// Finds what links that do not give way are to be long, from where the substep began.
-pub(crate) fn aim(strip: Strip, starts: &Columns, laid: &[line_blocks::Step], room: &mut [Step]) {
+/// Sets the target lengths of rigid links, from their lengths at the start of the substep.
+pub(crate) fn set_relaxed_targets(
+    strip: Strip,
+    starts: &Columns,
+    block: &[line_blocks::Step],
+    steps: &mut [LineStep],
+) {
     let starts = starts.all();
     if strip.lines < LANES {
-        return aim_apart(strip, starts, laid, room);
+        return set_relaxed_targets_scalar(strip, starts, block, steps);
     }
     let own = starts.map(|column| &column[1..]);
-    strip.assert_within(room.len(), own);
-    // SAFETY: it was just found to be within, and there is a number in front of all.
+    strip.assert_within(steps.len(), own);
+    // SAFETY: the strip lies within the columns, as was just checked, and the sentinel is before them.
     unsafe {
         if strip.across == 1 {
-            aim_straight(strip, own.map(<[f32]>::as_ptr), laid, room);
+            set_relaxed_targets_direct(strip, own.map(<[f32]>::as_ptr), block, steps);
         } else {
-            aim_turned(strip, starts.map(<[f32]>::as_ptr), laid, room);
+            set_relaxed_targets_transposed(strip, starts.map(<[f32]>::as_ptr), block, steps);
         }
     }
 }
 
 /// # Safety
-/// As above.
+/// The strip lies within the columns.
 #[inline(never)]
-unsafe fn aim_straight(
+unsafe fn set_relaxed_targets_direct(
     strip: Strip,
     [x, y, z]: [*const f32; 3],
-    laid: &[line_blocks::Step],
-    room: &mut [Step],
+    block: &[line_blocks::Step],
+    steps: &mut [LineStep],
 ) {
     let (s, mut at) = (Baseline::new(), strip.at(0, 0));
-    // Where a line begins nobody asks for what is found.
+    // The first step of a line has no link, so its target is not used.
     let mut last = at;
-    for (step, laid) in room.iter_mut().zip(laid) {
+    for (step, laid) in steps.iter_mut().zip(block) {
         for first in [0, FOUR] {
-            // SAFETY: the caller's promise.
+            // SAFETY: the caller guarantees it.
             let span = unsafe {
                 [
                     s.load_from(x.add(at + first)) - s.load_from(x.add(last + first)),
@@ -166,25 +187,26 @@ unsafe fn aim_straight(
                     s.load_from(z.add(at + first)) - s.load_from(z.add(last + first)),
                 ]
             };
-            step.mend(s, first, length(s, span), &laid.rest);
+            step.set_relaxed_target(s, first, length(s, span), &laid.rest);
         }
         (last, at) = (at, at + strip.along);
     }
 }
 
 /// # Safety
-/// As above, of what is behind the first numbers; there are four steps at least.
+/// The strip lies within the columns behind their first entry, and has at least four steps.
 #[inline(never)]
-unsafe fn aim_turned(
+unsafe fn set_relaxed_targets_transposed(
     strip: Strip,
     [x, y, z]: [*const f32; 3],
-    laid: &[line_blocks::Step],
-    room: &mut [Step],
+    block: &[line_blocks::Step],
+    steps: &mut [LineStep],
 ) {
     let s = Baseline::new();
-    // Links run from the particle before, or from one that is none of the line's: as above.
-    let was = |at: usize| {
-        // SAFETY: the caller's promise.
+    // The length of the link that runs to particle `at`. For the first particle of a line the result
+    // belongs to no link and is not used.
+    let start_length = |at: usize| {
+        // SAFETY: the caller guarantees it.
         unsafe {
             let (x, y, z) = (x.add(at), y.add(at), z.add(at));
             let dx = s.load_from(x.add(1)) - s.load_from(x);
@@ -193,167 +215,192 @@ unsafe fn aim_turned(
             length(s, [dx, dy, dz])
         }
     };
-    for start in fours(room.len()) {
-        let (steps, laid) = (&mut room[start..start + FOUR], &laid[start..start + FOUR]);
+    for start in blocks_of_four(steps.len()) {
+        let (steps, block) = (&mut steps[start..start + FOUR], &block[start..start + FOUR]);
         for first in [0, FOUR] {
             let (at, across) = (strip.at(first, start), strip.across);
-            let lines = [was(at), was(at + across), was(at + 2 * across), was(at + 3 * across)];
-            for ((step, laid), was) in steps.iter_mut().zip(laid).zip(transpose_4x4(s, lines)) {
-                step.mend(s, first, was, &laid.rest);
+            let lengths = [
+                start_length(at),
+                start_length(at + across),
+                start_length(at + 2 * across),
+                start_length(at + 3 * across),
+            ];
+            for ((step, laid), start_length) in
+                steps.iter_mut().zip(block).zip(transpose_4x4(s, lengths))
+            {
+                step.set_relaxed_target(s, first, start_length, &laid.rest);
             }
         }
     }
 }
 
-fn aim_apart(strip: Strip, starts: [&[f32]; 3], laid: &[line_blocks::Step], room: &mut [Step]) {
+fn set_relaxed_targets_scalar(
+    strip: Strip,
+    starts: [&[f32]; 3],
+    block: &[line_blocks::Step],
+    steps: &mut [LineStep],
+) {
     for lane in 0..LANES {
         let mut last = [0.0; 3];
-        for (number, (step, laid)) in room.iter_mut().zip(laid).enumerate() {
+        for (number, (step, laid)) in steps.iter_mut().zip(block).enumerate() {
             let at = strip.at(lane, number) + 1;
             let start = if lane < strip.lines { starts.map(|column| column[at]) } else { last };
-            let was = length(Scalar, [0, 1, 2].map(|axis| start[axis] - last[axis]));
-            step.mend(Scalar, lane, was, &laid.rest);
+            let start_length = length(Scalar, [0, 1, 2].map(|axis| start[axis] - last[axis]));
+            step.set_relaxed_target(Scalar, lane, start_length, &laid.rest);
             last = start;
         }
     }
 }
 
-/// Has the particles go their ways.
-pub(crate) fn put(strip: Strip, laid: &[line_blocks::Step], room: &[Step], x: &mut Columns) {
+/// Displaces the particles of a strip; none moves farther than the rest length of its link.
+pub(crate) fn scatter(
+    strip: Strip,
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
+    x: &mut Columns,
+) {
     let columns = &mut x.all_mut();
     let mut is_done = strip.lines == LANES;
     if is_done {
-        strip.assert_within(room.len(), columns.each_ref().map(|column| &**column));
+        strip.assert_within(steps.len(), columns.each_ref().map(|column| &**column));
         let columns = columns.each_mut().map(|column| column.as_mut_ptr());
-        // SAFETY: it was just found to be within.
+        // SAFETY: the strip lies within the columns, as was just checked.
         is_done = unsafe {
             if strip.across == 1 {
-                put_straight(strip, laid, room, columns)
+                scatter_direct(strip, block, steps, columns)
             } else {
-                put_turned(strip, laid, room, columns)
+                scatter_transposed(strip, block, steps, columns)
             }
         };
     }
     if !is_done {
-        (0..strip.lines).for_each(|line| put_line(strip, laid, room, columns, line));
+        (0..strip.lines).for_each(|line| scatter_line_clamped(strip, block, steps, columns, line));
     }
 }
 
-/// Whether surely no way is too long; else all are to be put again.
+/// Displaces the particles of a strip without a limit. Returns true if no displacement exceeds its
+/// limit; otherwise [`scatter_line_clamped`] must repeat all lines.
 ///
 /// # Safety
-/// As above.
+/// The strip lies within the columns.
 #[inline(never)]
-unsafe fn put_straight(
+unsafe fn scatter_direct(
     strip: Strip,
-    laid: &[line_blocks::Step],
-    room: &[Step],
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
     columns: [*mut f32; 3],
 ) -> bool {
     let (s, mut at) = (Baseline::new(), strip.at(0, 0));
     let zero = s.splat(0.0);
-    let (mut way, mut other_way) = ([zero; 3], [zero; 3]);
-    let (mut most, mut other_most) = (zero, zero);
-    for (step, laid) in room.iter().zip(laid) {
-        way = step.way(s, 0, way);
-        most = excess(s, longest(s, way), &laid.rest, 0).max(most);
-        let there = step.there(s, 0, way);
-        other_way = step.way(s, FOUR, other_way);
-        other_most = excess(s, longest(s, other_way), &laid.rest, FOUR).max(other_most);
-        let other_there = step.there(s, FOUR, other_way);
+    let (mut u, mut other_u) = ([zero; 3], [zero; 3]);
+    let (mut excess, mut other_excess) = (zero, zero);
+    for (step, laid) in steps.iter().zip(block) {
+        u = step.displacement(s, 0, u);
+        excess = limit_excess(s, max_component(s, u), &laid.rest, 0).max(excess);
+        let moved = step.displaced(s, 0, u);
+        other_u = step.displacement(s, FOUR, other_u);
+        other_excess =
+            limit_excess(s, max_component(s, other_u), &laid.rest, FOUR).max(other_excess);
+        let other_moved = step.displaced(s, FOUR, other_u);
         for axis in 0..3 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the caller guarantees it.
             unsafe {
                 let column = columns[axis].add(at);
-                s.store_to(column, there[axis]);
-                s.store_to(column.add(FOUR), other_there[axis]);
+                s.store_to(column, moved[axis]);
+                s.store_to(column.add(FOUR), other_moved[axis]);
             }
         }
         at += strip.along;
     }
-    !(s.any_positive(most) || s.any_positive(other_most))
+    !(s.any_positive(excess) || s.any_positive(other_excess))
 }
 
-/// The same of lines that run along a column.
+/// As [`scatter_direct`], for lines that run along a column.
 ///
 /// # Safety
-/// As above; there are four steps at least.
+/// The strip lies within the columns and has at least four steps.
 #[inline(never)]
-unsafe fn put_turned(
+unsafe fn scatter_transposed(
     strip: Strip,
-    laid: &[line_blocks::Step],
-    room: &[Step],
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
     columns: [*mut f32; 3],
 ) -> bool {
     let s = Baseline::new();
     let zero = s.splat(0.0);
-    let mut most = zero;
+    let mut excess = zero;
     for first in [0, FOUR] {
-        let (mut ways, mut done) = ([[zero; FOUR]; 3], 0);
-        for start in fours(room.len()) {
-            let (steps, laid) = (&room[start..start + FOUR], &laid[start..start + FOUR]);
-            let place = strip.at(first, start);
-            // The last four reach back over some that went.
+        let (mut displacements, mut done) = ([[zero; FOUR]; 3], 0);
+        for start in blocks_of_four(steps.len()) {
+            let (steps, block) = (&steps[start..start + FOUR], &block[start..start + FOUR]);
+            let at = strip.at(first, start);
+            // The last four steps overlap with steps that are done.
             let before = FOUR - 1 - (done - start);
             done = start + FOUR;
-            let mut far = [zero; FOUR];
-            // Axis by axis: registers are few.
+            let mut largest = [zero; FOUR];
+            // One axis at a time needs fewer registers.
             for axis in 0..3 {
-                let (mut way, mut there) = (ways[axis][before], [zero; FOUR]);
+                let (mut u, mut moved) = (displacements[axis][before], [zero; FOUR]);
                 for (number, step) in steps.iter().enumerate() {
-                    way = step.way_along(s, axis, first, way);
-                    ways[axis][number] = way;
-                    there[number] = way + s.load(&step.to[axis], first);
-                    far[number] = size(s, way).max(far[number]);
+                    u = step.displacement_along(s, axis, first, u);
+                    displacements[axis][number] = u;
+                    moved[number] = u + s.load(&step.to[axis], first);
+                    largest[number] = abs(s, u).max(largest[number]);
                 }
-                for (line, row) in transpose_4x4(s, there).into_iter().enumerate() {
-                    // SAFETY: the caller's promise.
-                    unsafe { s.store_to(columns[axis].add(place + line * strip.across), row) };
+                for (line, row) in transpose_4x4(s, moved).into_iter().enumerate() {
+                    // SAFETY: the caller guarantees it.
+                    unsafe { s.store_to(columns[axis].add(at + line * strip.across), row) };
                 }
             }
-            for (far, laid) in far.into_iter().zip(laid) {
-                most = excess(s, far, &laid.rest, first).max(most);
+            for (component, laid) in largest.into_iter().zip(block) {
+                excess = limit_excess(s, component, &laid.rest, first).max(excess);
             }
         }
     }
-    !s.any_positive(most)
+    !s.any_positive(excess)
 }
 
-/// One line, number by number: there are fewer lines than lanes, or ways that may be too long.
-fn put_line(
+/// Displaces the particles of one line, none farther than its limit.
+fn scatter_line_clamped(
     strip: Strip,
-    laid: &[line_blocks::Step],
-    room: &[Step],
+    block: &[line_blocks::Step],
+    steps: &[LineStep],
     columns: &mut [&mut [f32]; 3],
     line: usize,
 ) {
-    let mut way = [0.0; 3];
-    for (number, (step, laid)) in room.iter().zip(laid).enumerate() {
-        way = step.way(Scalar, line, way);
-        let there = step.there(Scalar, line, limited(way, laid.rest[line].abs()));
-        for (column, there) in columns.iter_mut().zip(there) {
-            column[strip.at(line, number)] = there;
+    let mut u = [0.0; 3];
+    for (number, (step, laid)) in steps.iter().zip(block).enumerate() {
+        u = step.displacement(Scalar, line, u);
+        let moved = step.displaced(Scalar, line, clamp_length(u, laid.rest[line].abs()));
+        for (column, moved) in columns.iter_mut().zip(moved) {
+            column[strip.at(line, number)] = moved;
         }
     }
 }
 
-/// Where four steps at a time begin; the last ones reach back.
-fn fours(count: usize) -> impl Iterator<Item = usize> {
+/// The starts of blocks of four steps that cover `count` steps; the last block may overlap with the one
+/// before.
+fn blocks_of_four(count: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by(FOUR).map(move |start| start.min(count - FOUR))
 }
 
 impl Strip {
-    /// The particle that a step of a line runs to.
+    /// The index of the particle that a step of a line runs to.
     #[inline(always)]
     fn at(&self, line: usize, step: usize) -> usize {
         self.first + line * self.across + step * self.along
     }
 
+    /// Checks that eight lines of so many steps lie within columns.
+    ///
     /// # Panics
-    /// If the strip does not lie within columns.
+    /// If they do not.
     fn assert_within<const N: usize>(&self, steps: usize, columns: [&[f32]; N]) {
         let last = self.at(LANES - 1, steps - 1);
-        assert!(columns.iter().all(|column| last < column.len()), "lines run over particles");
+        assert!(
+            columns.iter().all(|column| last < column.len()),
+            "every line runs over existing particles"
+        );
     }
 }
 

@@ -8,7 +8,9 @@ pub(crate) mod grid_kernel;
 pub(crate) mod grid_links;
 pub(crate) mod inverse_masses;
 pub(crate) mod line_gather;
+pub(crate) mod line_scratch;
 pub(crate) mod line_solver;
+pub(crate) mod line_step;
 pub(crate) mod line_strided;
 pub(crate) mod link_projection;
 pub(crate) mod mesh_kernel;
@@ -20,3 +22,4 @@ pub(crate) mod sweep_order;
 pub(crate) mod tethers;
 #[cfg(feature = "parallel")]
 pub(crate) mod tiling;
+pub(crate) mod tridiagonal;

@@ -1,0 +1,34 @@
+//! Scratch buffers of the line solver.
+//!
+//! Written and read by `line_solver`, `line_gather` and `line_strided`.
+//! Invariant: entry 0 of every list is a sentinel that belongs to no particle and no link; lanes of a
+//! block without a link use it.
+
+use crate::math::columns::Columns;
+use crate::solver::stretch::line_step::LineStep;
+
+/// Gathered particles, and the steps of the block that is solved.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LineScratch {
+    /// `[x, y, z, w]` of each particle, after the sentinel.
+    pub points: Vec<[f32; 4]>,
+    /// `[x, y, z, 0]` of each particle at the start of the substep, after the sentinel.
+    pub start_points: Vec<[f32; 4]>,
+    /// Positions at the start of the substep as columns, after the sentinel; used by strips.
+    pub start_columns: Columns,
+    /// The steps of one block, after the sentinel.
+    pub steps: Vec<LineStep>,
+}
+
+impl LineScratch {
+    /// Allocates buffers for blocks of at most `steps` steps over `particles` particles, and columns
+    /// if the blocks may be strips.
+    pub fn new(steps: usize, particles: usize, has_strips: bool) -> Self {
+        Self {
+            points: Vec::with_capacity(particles + 1),
+            start_points: Vec::with_capacity(particles + 1),
+            start_columns: Columns::with_capacity(if has_strips { particles + 1 } else { 0 }),
+            steps: vec![LineStep::default(); steps + 1],
+        }
+    }
+}
