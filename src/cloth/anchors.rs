@@ -6,7 +6,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::math::float_env::with_float_env;
-use crate::state::anchors::{AnchorConstraint, unit};
+use crate::state::anchors::{AnchorConstraint, unit_or_zero};
 use glam::Vec3;
 
 impl Cloth {
@@ -78,12 +78,12 @@ impl Cloth {
         positions.iter().try_for_each(|position| check_finite(*position, "positions"))?;
         normals.iter().try_for_each(|normal| check_finite(*normal, "normals"))?;
         let normals =
-            with_float_env(|| -> Vec<Vec3> { normals.iter().map(|n| unit(*n)).collect() });
+            with_float_env(|| -> Vec<Vec3> { normals.iter().map(|n| unit_or_zero(*n)).collect() });
         let are_directions = normals.iter().all(|n| n.is_finite() && *n != Vec3::ZERO);
         check(are_directions, "normals", "have a length that numbers can tell from 0")?;
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
-            let leash = world.anchors.of(*particle, positions[at]);
+            let leash = world.anchors.get_or_insert(*particle, positions[at]);
             leash.anchor = positions[at];
             if let Some(normal) = normals.get(at) {
                 leash.normal = *normal;
@@ -111,7 +111,7 @@ impl Cloth {
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
             let x = world.particles.x.at(*particle as usize);
-            change(at, world.anchors.of(*particle, x));
+            change(at, world.anchors.get_or_insert(*particle, x));
         }
         world.reserve_anchor_scratch();
         world.wake();

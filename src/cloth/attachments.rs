@@ -5,7 +5,7 @@ use crate::error::{Result, check_index};
 use crate::math::float_env::with_float_env;
 use crate::math::saturate;
 use crate::solver::world::World;
-use crate::state::attachments::{Attachment, Carrier};
+use crate::state::attachments::{Attachment, AttachmentPose};
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};
 
@@ -36,15 +36,15 @@ impl Cloth {
         with_float_env(|| {
             check_pose(position, rotation, OF_ATTACHMENT)?;
             let pose = Pose::new(position, rotation);
-            let carrier = Carrier { last: pose, next: pose };
+            let carrier = AttachmentPose { last: pose, next: pose };
             let handle = self.world.attachments.insert(carrier, "another attachment")?;
-            let frame = pose.frame();
+            let frame = pose.to_transform();
             for particle in particles {
                 let x = self.world.particles.x.at(*particle as usize);
                 let local = saturate(frame.point_to_local(x));
                 self.put_pin(*particle, saturate(frame.point_to_world(local)));
-                if let Some(pin) = self.world.pins.find_mut(*particle) {
-                    (pin.from, pin.carrier, pin.local) = (x, handle, local);
+                if let Some(pin) = self.world.pins.get_mut(*particle) {
+                    (pin.from, pin.attachment, pin.local) = (x, handle, local);
                 }
             }
             Ok(Attachment(handle))
@@ -68,8 +68,8 @@ impl Cloth {
         with_float_env(|| {
             check_pose(position, rotation, OF_ATTACHMENT)?;
             carrier.next = Pose::new(position, rotation);
-            let frame = carrier.next.frame();
-            for pin in self.world.pins.iter_mut().filter(|pin| pin.carrier == attachment.0) {
+            let frame = carrier.next.to_transform();
+            for pin in self.world.pins.iter_mut().filter(|pin| pin.attachment == attachment.0) {
                 pin.target = saturate(frame.point_to_world(pin.local));
             }
             Ok(())
@@ -83,7 +83,7 @@ impl Cloth {
     pub fn detach(&mut self, attachment: Attachment) -> Result<()> {
         self.world.attachments.remove(attachment.0, "attachment")?;
         self.world.wake();
-        if self.world.pins.remove_carried(attachment.0) {
+        if self.world.pins.remove_attached(attachment.0) {
             with_float_env(|| {
                 (0..self.world.particles.len() as u32)
                     .for_each(|i| self.world.refresh_inverse_mass(i));
@@ -99,7 +99,7 @@ impl Cloth {
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was detached.
     pub fn attached(&self, attachment: Attachment) -> Result<impl Iterator<Item = u32> + '_> {
         self.world.attachments.get(attachment.0, "attachment")?;
-        let pins = self.world.pins.iter().filter(move |pin| pin.carrier == attachment.0);
+        let pins = self.world.pins.iter().filter(move |pin| pin.attachment == attachment.0);
         Ok(pins.map(|pin| pin.particle))
     }
 }
@@ -107,11 +107,11 @@ impl Cloth {
 impl World {
     /// A pin, if there is one, holds a particle where it was put; what carries it goes on to do so.
     pub(super) fn bring_pin(&mut self, particle: u32, position: Vec3) {
-        let Some(pin) = self.pins.find_mut(particle) else { return };
+        let Some(pin) = self.pins.get_mut(particle) else { return };
         (pin.from, pin.target) = (position, position);
-        if let Ok(carrier) = self.attachments.get(pin.carrier, "attachment") {
-            pin.local = saturate(carrier.last.frame().point_to_local(position));
-            pin.target = saturate(carrier.next.frame().point_to_world(pin.local));
+        if let Ok(carrier) = self.attachments.get(pin.attachment, "attachment") {
+            pin.local = saturate(carrier.last.to_transform().point_to_local(position));
+            pin.target = saturate(carrier.next.to_transform().point_to_world(pin.local));
         }
     }
 }

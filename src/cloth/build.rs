@@ -21,9 +21,9 @@ use crate::mesh::grid::GridFrame;
 use crate::mesh::intake;
 
 use crate::mesh::grid_detection::DetectedGrid;
-use crate::mesh::intake::Intake;
+use crate::mesh::intake::RepairedMesh;
 use crate::mesh::report::MeshReport;
-use crate::mesh::{Mesh, NONE, after};
+use crate::mesh::{Mesh, NONE, next_corner};
 use crate::solver::bend;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
@@ -108,11 +108,11 @@ fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
 fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     let (positions, indices) = (&desc.positions, &desc.indices);
     let most = |particles: usize| desc.capacity(particles);
-    let Intake { mesh, places, seams, mut report } =
+    let RepairedMesh { mesh, source_vertices: places, seams, mut report } =
         intake::repair(positions, indices, desc.weld_distance, most)?;
     let rest: Vec<Vec3> = places.iter().map(|vertex| positions[*vertex as usize]).collect();
     let capacity = desc.capacity(rest.len())?;
-    let fabric = match DetectedGrid::find(&mesh.triangles, &rest) {
+    let fabric = match DetectedGrid::detect(&mesh.triangles, &rest) {
         Some(lattice) => {
             report.is_grid = true;
             Fabric::sheet(&lattice, mesh, rest, capacity)
@@ -127,7 +127,7 @@ fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     world.seams = seams;
     let extra = capacity - world.particles.len();
     if let Some(seams) = &mut world.seams {
-        seams.make_room(extra, world.triangle_capacity);
+        seams.set_capacity(extra, world.triangle_capacity);
     }
     Ok((world, report))
 }
@@ -148,8 +148,8 @@ impl Fabric {
     fn sheet(lattice: &DetectedGrid, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
         let DetectedGrid { columns, rows, frame } = *lattice;
         let openings = opening_capacity(&mesh, capacity);
-        let mut constraints = Constraints::grid(columns, rows, frame.spacing, &mesh, openings);
-        constraints.run_along([frame.right, frame.down]);
+        let mut constraints = Constraints::from_grid(columns, rows, frame.spacing, &mesh, openings);
+        constraints.set_thread_directions([frame.right, frame.down]);
         let areas = grid::corner_areas(columns, rows, frame.spacing);
         let mut cells = GridCells::new(columns, rows, frame.spacing);
         let mut plates =
@@ -164,8 +164,9 @@ impl Fabric {
 
     /// Any sound mesh.
     fn any(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
-        let mut constraints = Constraints::mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
-        constraints.hinges = Hinges::find(&mesh, &constraints.links, &rest);
+        let mut constraints =
+            Constraints::from_mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
+        constraints.hinges = Hinges::new(&mesh, &constraints.links, &rest);
         let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
         let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
         Self { mesh, constraints, rest, frame: None, areas, cells: None, plates: None }
@@ -180,14 +181,14 @@ fn build(
     settings: &Settings,
 ) -> World {
     let Fabric { mesh, mut constraints, rest, frame, areas, cells, plates } = fabric;
-    constraints.lines = Chains::find(&constraints.links, &rest, capacity > rest.len());
+    constraints.chains = Chains::new(&constraints.links, &rest, capacity > rest.len());
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
-    let max_tears = settings.most_tears(triangle_capacity);
+    let max_tears = settings.max_tears(triangle_capacity);
     let mut folds = match &plates {
         Some(plates) => Folds::of_plates(plates),
         None => Folds::of_hinges(&constraints.hinges),
     };
-    folds.reserve_wear(material);
+    folds.reserve_hardening(material);
     let mut world = World {
         mean_edge: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, capacity),
@@ -244,10 +245,10 @@ fn build(
         world.pins.insert(particle, x, x);
     }
     world.pieces =
-        world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
+        world.mesh.label_pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
     world.rebuild_crack_tips();
     world.compute_masses();
-    world.constraints.stiffen(material);
+    world.constraints.update_compliances(material);
     world.rebuild_tethers();
     world.reset_history();
     world
@@ -264,7 +265,7 @@ fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
     let (mut sum, mut count) = (0.0, 0.0);
     // The shorter two edges of each triangle: on a grid that is the spacing, not the diagonal.
     for triangle in 0..mesh.triangles.len() as u32 {
-        let length = |corner: u32| (at(after(corner)) - at(corner)).length();
+        let length = |corner: u32| (at(next_corner(corner)) - at(corner)).length();
         let [a, b, c] = [0, 1, 2].map(|k| length(3 * triangle + k));
         let longest = if a > b { a } else { b };
         let longest = if longest > c { longest } else { c };
@@ -302,7 +303,7 @@ impl World {
             self.particles.len(),
             capacity,
             self.mesh.triangles.len(),
-            self.settings.most_tears(self.triangle_capacity),
+            self.settings.max_tears(self.triangle_capacity),
         );
         self.reserve_packed(capacity);
         self.reserve_effective_mass();
@@ -310,7 +311,7 @@ impl World {
         self.reserve_contacts();
         self.see_to_crowd();
         self.see_to_layers();
-        self.mesh.pieces(&mut self.scratch.pieces.label, &mut self.scratch.piece_stack);
+        self.mesh.label_pieces(&mut self.scratch.pieces.label, &mut self.scratch.piece_stack);
     }
 
     /// Sees to room for all that tears may still need, after a cut made more triangles.
@@ -330,7 +331,7 @@ impl World {
             self.scratch.interleaved.reserve(capacity);
         }
         let has_strips = self.constraints.rows.is_some();
-        let steps = self.constraints.lines.abreast.most_steps();
+        let steps = self.constraints.chains.blocks.max_steps();
         self.scratch.lines = line_scratch::LineScratch::new(steps, capacity, has_strips);
         self.scratch.bend = bend::bend_scratch::BendScratch::new(
             self.plate_elements.as_ref(),

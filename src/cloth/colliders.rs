@@ -4,7 +4,7 @@ use crate::cloth::Cloth;
 use crate::error::Result;
 use crate::math::float_env::with_float_env;
 use crate::state::collider_desc::ColliderDesc;
-use crate::state::colliders::{Body, Collider, Impulse};
+use crate::state::colliders::{Collider, ColliderBody, Impulse};
 use glam::{Quat, Vec3};
 
 impl Cloth {
@@ -14,7 +14,7 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule,
     /// [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
     pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
-        let body = with_float_env(|| Body::new(desc.clone()))?;
+        let body = with_float_env(|| ColliderBody::new(desc.clone()))?;
         let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
         self.world.reserve_contacts();
         self.world.wake();

@@ -3,7 +3,7 @@
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_index};
 use crate::math::float_env::with_float_env;
-use crate::state::mass_scales::is_scale;
+use crate::state::mass_scales::is_valid_scale;
 
 impl Cloth {
     /// Makes particles heavier or lighter than their material, by a factor each: 1, as at first, is what
@@ -20,7 +20,7 @@ impl Cloth {
         check(particles.len() == scales.len(), "scales", "be as many as `particles`")?;
         let count = self.world.particles.len();
         particles.iter().try_for_each(|particle| check_index(*particle, count, "particles"))?;
-        let are_scales = scales.iter().all(|scale| is_scale(*scale));
+        let are_scales = scales.iter().all(|scale| is_valid_scale(*scale));
         check(are_scales, "scales", "be from 0.001 to 1000")?;
         let world = &mut self.world;
         for (particle, scale) in particles.iter().zip(scales) {

@@ -39,7 +39,7 @@ use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::cloth::view::Outputs;
 use crate::solver::world::World;
 use crate::state::events::Event;
-use crate::state::grabs::{Grab, Held};
+use crate::state::grabs::{Grab, GrabbedParticle};
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -145,7 +145,7 @@ impl Cloth {
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
         fresh.settings = self.world.settings.clone();
         fresh.material = self.world.material.clone();
-        fresh.folds.reserve_wear(&fresh.material);
+        fresh.folds.reserve_hardening(&fresh.material);
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
         fresh.threads = self.world.threads;
@@ -154,12 +154,12 @@ impl Cloth {
         fresh.grabs.clear();
         core::mem::swap(&mut fresh.attachments, &mut self.world.attachments);
         fresh.attachments.clear();
-        fresh.scratch.tear.reserve(fresh.settings.most_tears(fresh.triangle_capacity));
+        fresh.scratch.tear.reserve(fresh.settings.max_tears(fresh.triangle_capacity));
         self.world = fresh;
         self.world.reserve_contacts();
         with_float_env(|| {
             self.world.compute_masses();
-            self.world.constraints.stiffen(&self.world.material);
+            self.world.constraints.update_compliances(&self.world.material);
             self.world.rebuild_tethers();
             self.world.reset_history();
             self.world.see_to_crowd();
@@ -189,7 +189,7 @@ impl Cloth {
         let touches = |settings: &Settings| (settings.self_collision, settings.self_distance);
         let touches_otherwise = touches(&settings) != touches(&world.settings);
         let is_new = world.surface_collision.is_none();
-        world.scratch.tear.reserve(settings.most_tears(world.triangle_capacity));
+        world.scratch.tear.reserve(settings.max_tears(world.triangle_capacity));
         let is_unsorted = world.settings.max_stretch == 0.0;
         if settings != world.settings {
             world.wake();
@@ -239,9 +239,9 @@ impl Cloth {
         let reweigh = material.density != world.material.density;
         world.scratch.contacts.nearby.invalidate();
         world.material = material;
-        world.folds.reserve_wear(&world.material);
+        world.folds.reserve_hardening(&world.material);
         with_float_env(|| {
-            world.constraints.stiffen(&world.material);
+            world.constraints.update_compliances(&world.material);
             if reweigh {
                 world.compute_masses();
             }
@@ -336,7 +336,7 @@ impl Cloth {
         with_float_env(|| {
             let v = world.particles.v.at(at);
             world.set_particle_state(at, position, v);
-            world.particles.x_last.set(at, position);
+            world.particles.x_prev_tick.set(at, position);
             world.bring_pin(particle, position);
             world.is_tangled = true;
         });
@@ -370,7 +370,8 @@ impl Cloth {
     pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
         check_index(particle, self.world.particles.len(), "particle")?;
         let target = self.world.particles.x.at(particle as usize);
-        let handle = self.world.grabs.insert(Held { particle, target }, "another grab")?;
+        let handle =
+            self.world.grabs.insert(GrabbedParticle { particle, target }, "another grab")?;
         with_float_env(|| self.world.refresh_inverse_mass(particle));
         Ok(Grab(handle))
     }
@@ -394,7 +395,7 @@ impl Cloth {
     pub fn release(&mut self, grab: Grab) -> Result<()> {
         let held = self.world.grabs.remove(grab.0, "grab")?;
         let (at, world) = (held.particle, &mut self.world);
-        if let Some(pin) = world.pins.find_mut(at) {
+        if let Some(pin) = world.pins.get_mut(at) {
             pin.from = world.particles.x.at(at as usize);
         }
         with_float_env(|| world.refresh_inverse_mass(at));

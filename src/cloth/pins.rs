@@ -90,11 +90,11 @@ impl Cloth {
         check(is_stiffness, "stiffness", "be at least 0 and finite")?;
         for particle in particles {
             check_index(*particle, self.world.particles.len(), "particles")?;
-            let is_pinned = self.world.pins.find(*particle).is_some();
+            let is_pinned = self.world.pins.get(*particle).is_some();
             check(is_pinned, "particles", "be pinned")?;
         }
         for particle in particles {
-            let Some(pin) = self.world.pins.find_mut(*particle) else { continue };
+            let Some(pin) = self.world.pins.get_mut(*particle) else { continue };
             let is_other_kind = pin.is_soft() != (stiffness > 0.0);
             pin.stiffness = stiffness;
             with_float_env(|| self.world.refresh_inverse_mass(*particle));
@@ -112,7 +112,7 @@ impl Cloth {
     /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
     pub fn pin_stiffness(&self, particle: u32) -> Result<Option<f32>> {
         check_index(particle, self.world.particles.len(), "particle")?;
-        Ok(self.world.pins.find(particle).map(|pin| pin.stiffness))
+        Ok(self.world.pins.get(particle).map(|pin| pin.stiffness))
     }
 
     pub(super) fn changed_pins(&mut self) {

@@ -30,7 +30,7 @@ pub struct Hit {
 impl Cloth {
     /// The links that hold, each once: two particles and what it resists.
     pub fn links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
-        self.world.constraints.active()
+        self.world.constraints.active_links()
     }
 
     /// The colours that links are solved in, in order: what they resist, and how many of the links that

@@ -13,17 +13,17 @@ use crate::math::columns::Columns;
 use crate::math::float_env::with_float_env;
 use crate::math::hasher::StateHasher;
 use crate::mesh::seams::Seams;
-use crate::mesh::split_edge::Crossing;
+use crate::mesh::split_edge::CutSite;
 use crate::mesh::{NONE, validate};
-use crate::model::dynamic_links::Changes;
+use crate::model::dynamic_links::LinkChanges;
 use crate::model::material::Material;
-use crate::model::plate_elements::Each;
+use crate::model::plate_elements::PerKind;
 use crate::model::tethers::TetherSet;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraints;
-use crate::state::attachments::{Attachments, Carrier, MAX_ATTACHMENTS};
+use crate::state::attachments::{AttachmentPose, Attachments, MAX_ATTACHMENTS};
 use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
@@ -49,13 +49,13 @@ struct Saved<'a> {
     wind: Owned<'a, Wind>,
     triangles: Owned<'a, Vec<[u32; 3]>>,
     sources: Owned<'a, Vec<u32>>,
-    crossings: Owned<'a, Vec<Crossing>>,
+    crossings: Owned<'a, Vec<CutSite>>,
     hems: Owned<'a, Vec<u8>>,
     seams: Owned<'a, Option<Seams>>,
-    links: Changes,
+    links: LinkChanges,
     /// What tears made of tethers; none where measuring gives the same.
     tethers: Vec<TetherSet>,
-    folds: Each<Vec<f32>>,
+    folds: PerKind<Vec<f32>>,
     /// What folds gave way by; none if nothing did.
     wear: Vec<f32>,
     particles: Owned<'a, Particles>,
@@ -98,12 +98,12 @@ impl Cloth {
             triangles: Owned::Borrowed(&world.mesh.triangles),
             sources: Owned::Borrowed(&world.mesh.source),
             crossings: Owned::Borrowed(&world.crossings),
-            hems: Owned::Borrowed(&world.mesh.hems),
+            hems: Owned::Borrowed(&world.mesh.rest_borders),
             seams: Owned::Borrowed(&world.seams),
-            links: world.constraints.changes(),
+            links: world.constraints.link_changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
-            folds: world.folds.kept(),
-            wear: world.folds.wear.kept().to_vec(),
+            folds: world.folds.saved_angles(),
+            wear: world.folds.hardening.saved().to_vec(),
             particles: Owned::Borrowed(&world.particles),
             mass_scales: Owned::Borrowed(&world.mass_scales),
             pins: Owned::Borrowed(&world.pins),
@@ -189,8 +189,8 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     must(triangles.len() >= woven && triangles.len() <= world.triangle_capacity)?;
     for crossing in saved.crossings.iter() {
         let is_known = crossing.ends.iter().all(|end| (*end as usize) < world.rest.len());
-        must(is_known && crossing.share > 0.0 && crossing.share < 1.0)?;
-        world.rest.push(crossing.between(|end| world.rest[end as usize]));
+        must(is_known && crossing.fraction > 0.0 && crossing.fraction < 1.0)?;
+        world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
     }
     world.crossings = saved.crossings.into_owned();
     must(sources.iter().all(|site| (*site as usize) < world.rest.len()))?;
@@ -204,16 +204,16 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
 
     let rest: Vec<Vec3> = sources.iter().map(|site| world.rest[*site as usize]).collect();
     let original_count = world.mesh.original_count;
-    let mesh = validate::mesh(triangles, &rest, capacity).map_err(|_| bad())?;
+    let mesh = validate::validated_mesh(triangles, &rest, capacity).map_err(|_| bad())?;
     must(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
     let fresh = core::mem::replace(&mut world.mesh, mesh);
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
     must(saved.hems.len() == world.mesh.triangles.len())?;
-    world.mesh.hems = saved.hems.into_owned();
+    world.mesh.rest_borders = saved.hems.into_owned();
     must(match (saved.seams.into_owned(), &mut world.seams) {
         (Some(mut seams), Some(fresh)) => {
-            let fits = seams.is_restored(fresh, &world.mesh);
+            let fits = seams.restore_checked(fresh, &world.mesh);
             *fresh = seams;
             fits
         }
@@ -222,19 +222,19 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })?;
     world.refresh_corner_areas(&fresh);
     world.particles = particles;
-    must(saved.mass_scales.are_sound(count))?;
+    must(saved.mass_scales.are_valid(count))?;
     world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
     world.check_self_distance(&world.settings)?;
     world.reserve(capacity);
-    must(world.constraints.change(&world.mesh, &saved.links, &world.material))?;
-    world.constraints.stiffen(&world.material);
+    must(world.constraints.apply_changes(&world.mesh, &saved.links, &world.material))?;
+    world.constraints.update_compliances(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
     must(world.restore_folds(saved.folds) && world.restore_hardening(saved.wear))?;
     world.reserve_for_tears();
     world.rebuild_irregular_lists();
-    must(saved.anchors.are_sound(count))?;
+    must(saved.anchors.are_valid(count))?;
     world.anchors = saved.anchors.into_owned();
     world.reserve_anchor_scratch();
     must(saved.warm_start.are_sound(count))?;
@@ -248,7 +248,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     let mut colliders = saved.colliders.into_owned();
     must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
     for body in colliders.iter_mut() {
-        body.revive()?;
+        body.restore()?;
     }
     world.colliders = colliders;
     world.reserve_contacts();
@@ -262,7 +262,7 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     world.over_stretch_reported = saved.over_stretch_reported;
     must(saved.tether_slack >= 0.0)?;
     world.pieces =
-        world.mesh.pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
+        world.mesh.label_pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
     world.rebuild_crack_tips();
     world.compute_masses();
     world.rebuild_tethers();
@@ -295,7 +295,7 @@ fn is_pose(pose: &Pose) -> bool {
 
 /// Whether they are such as a cloth can have.
 fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
-    let is_sound = |carrier: &Carrier| is_pose(&carrier.last) && is_pose(&carrier.next);
+    let is_sound = |carrier: &AttachmentPose| is_pose(&carrier.last) && is_pose(&carrier.next);
     let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
     world.attachments = attachments;
@@ -312,7 +312,7 @@ fn restore_holds(
     let is_carried_well =
         |carrier| carrier == 0 || world.attachments.get(carrier, "attachment").is_ok();
     let pins_fit = pins.iter().all(|pin| {
-        (pin.particle as usize) < count && pin.is_sound() && is_carried_well(pin.carrier)
+        (pin.particle as usize) < count && pin.is_valid() && is_carried_well(pin.attachment)
     });
     let grabs_fit =
         grabs.iter().all(|held| (held.particle as usize) < count && held.target.is_finite());
@@ -327,7 +327,13 @@ fn restore_holds(
 
 fn is_finite(particles: &Particles) -> bool {
     let finite = |columns: &Columns| columns.iter().all(|v| v.is_finite());
-    [&particles.x, &particles.moved, &particles.v, &particles.v_ahead, &particles.x_last]
-        .into_iter()
-        .all(finite)
+    [
+        &particles.x,
+        &particles.displacement,
+        &particles.v,
+        &particles.v_extrapolated,
+        &particles.x_prev_tick,
+    ]
+    .into_iter()
+    .all(finite)
 }

@@ -9,7 +9,7 @@ impl Cloth {
     pub fn state_hash(&self) -> u64 {
         let (world, mut hasher) = (&self.world, StateHasher::new(0));
         let p = &world.particles;
-        for columns in [&p.x, &p.moved, &p.v, &p.v_ahead] {
+        for columns in [&p.x, &p.displacement, &p.v, &p.v_extrapolated] {
             for column in [&columns.x, &columns.y, &columns.z] {
                 hasher.write_f32s(column);
             }
@@ -20,12 +20,12 @@ impl Cloth {
         hasher.write_u32s(&world.mesh.source);
         for crossing in &world.crossings {
             hasher.write_u32s(&crossing.ends);
-            hasher.write_f32s(&[crossing.share]);
+            hasher.write_f32s(&[crossing.fraction]);
         }
-        if world.folds.are_any {
+        if world.folds.has_any {
             world.folds.angle.iter().for_each(|angle| hasher.write_f32s(angle));
         }
-        hasher.write_f32s(world.folds.wear.kept());
+        hasher.write_f32s(world.folds.hardening.saved());
         for pin in world.pins.iter() {
             hasher.write_u32(pin.particle);
             hasher.write_f32s(&pin.from.to_array());
@@ -33,8 +33,8 @@ impl Cloth {
             if pin.is_soft() {
                 hasher.write_f32s(&[pin.stiffness]);
             }
-            if pin.carrier != 0 {
-                hasher.write_u32(pin.carrier);
+            if pin.attachment != 0 {
+                hasher.write_u32(pin.attachment);
                 hasher.write_f32s(&pin.local.to_array());
             }
         }

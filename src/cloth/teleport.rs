@@ -83,7 +83,7 @@ struct Move {
 
 impl Move {
     fn new(from: Pose, to: Pose) -> Self {
-        Self { from, to, frames: [from.frame(), to.frame()] }
+        Self { from, to, frames: [from.to_transform(), to.to_transform()] }
     }
 
     fn point(&self, x: Vec3) -> Vec3 {
@@ -95,7 +95,7 @@ impl Move {
     }
 
     fn pose(&self, pose: &Pose) -> Pose {
-        pose.jump(&self.from, &self.to)
+        pose.moved_with(&self.from, &self.to)
     }
 }
 
@@ -120,7 +120,7 @@ impl World {
         let unfelt = match inertia {
             1.0 => from,
             0.0 => to,
-            felt => to.toward(&from, felt),
+            felt => to.interpolate(&from, felt),
         };
         let (unfelt, all) = (Move::new(from, unfelt), Move::new(from, to));
         self.check_reach(&unfelt, &all)?;
@@ -136,8 +136,8 @@ impl World {
     fn check_reach(&self, now: &Move, then: &Move) -> Result<()> {
         let p = &self.particles;
         let is_near = |i: usize| {
-            let places = [&p.x, &p.x_last].map(|places| now.point(places.at(i)));
-            let ways = [&p.v, &p.v_ahead, &p.moved].map(|ways| now.turn(ways.at(i)));
+            let places = [&p.x, &p.x_prev_tick].map(|places| now.point(places.at(i)));
+            let ways = [&p.v, &p.v_extrapolated, &p.displacement].map(|ways| now.turn(ways.at(i)));
             places.iter().chain(&ways).all(|v| v.is_finite())
         };
         let mut bodies = self.colliders.iter();
@@ -152,8 +152,10 @@ impl World {
                 ends.iter().all(|pose| pose.position.is_finite())
             })
             && pins.all(|pin| {
-                let target = match self.attachments.get(pin.carrier, "attachment") {
-                    Ok(carrier) => then.pose(&carrier.next).frame().point_to_world(pin.local),
+                let target = match self.attachments.get(pin.attachment, "attachment") {
+                    Ok(carrier) => {
+                        then.pose(&carrier.next).to_transform().point_to_world(pin.local)
+                    }
                     Err(_) => then.point(pin.target),
                 };
                 target.is_finite() && now.point(pin.from).is_finite()
@@ -171,8 +173,8 @@ impl World {
         }
         self.attachments.iter_mut().for_each(|carrier| carrier.next = then.pose(&carrier.next));
         for pin in self.pins.iter_mut() {
-            pin.target = match self.attachments.get(pin.carrier, "attachment") {
-                Ok(carrier) => carrier.next.frame().point_to_world(pin.local),
+            pin.target = match self.attachments.get(pin.attachment, "attachment") {
+                Ok(carrier) => carrier.next.to_transform().point_to_world(pin.local),
                 Err(_) => then.point(pin.target),
             };
         }
@@ -185,10 +187,10 @@ impl World {
     fn carry_starts(&mut self, by: &Move) {
         let p = &mut self.particles;
         for i in 0..p.len() {
-            for places in [&mut p.x, &mut p.x_last] {
+            for places in [&mut p.x, &mut p.x_prev_tick] {
                 places.set(i, by.point(places.at(i)));
             }
-            for ways in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
+            for ways in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
                 ways.set(i, by.turn(ways.at(i)));
             }
         }

@@ -6,7 +6,7 @@ use crate::cloth::build::Origin;
 use crate::cloth::changes::{Change, differing};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
-use crate::mesh::split_edge::Crossing;
+use crate::mesh::split_edge::CutSite;
 use crate::model::grid_cells::GridCells;
 use crate::solver::output::{normals, stats};
 use crate::solver::stage::Stage;
@@ -162,7 +162,7 @@ impl Outputs {
         next.sources.extend(sites.of_vertices.iter().map(|site| self.site_sources[*site as usize]));
         next.particles.clear();
         next.frayed.clear();
-        world.mesh.find_frayed(&mut next.frayed_particles);
+        world.mesh.mark_torn_borders(&mut next.frayed_particles);
         let frayed = &next.frayed_particles;
         match &world.seams {
             Some(seams) => {
@@ -206,8 +206,8 @@ impl Outputs {
         self.site_uvs.truncate(known);
         self.site_sources.truncate(known);
         for crossing in &crossings[self.site_uvs.len() - original..] {
-            self.site_uvs.push(crossing.between(|end| self.site_uvs[end as usize]));
-            self.site_sources.push(self.site_sources[crossing.nearer() as usize]);
+            self.site_uvs.push(crossing.interpolate(|end| self.site_uvs[end as usize]));
+            self.site_sources.push(self.site_sources[crossing.nearest_end() as usize]);
         }
     }
 
@@ -224,7 +224,7 @@ impl Outputs {
 struct Sites<'a> {
     /// Vertices that were given: the first sites.
     original: usize,
-    crossings: &'a [Crossing],
+    crossings: &'a [CutSite],
     of_vertices: &'a [u32],
 }
 
@@ -233,7 +233,7 @@ impl<'a> Sites<'a> {
         match &world.seams {
             Some(seams) => Self {
                 original: seams.original_count as usize,
-                crossings: &seams.crossings,
+                crossings: &seams.cut_sites,
                 of_vertices: &seams.sites,
             },
             None => Self {
@@ -367,7 +367,7 @@ impl Cloth {
             particles: world.particles.len() as u32,
             triangles: world.mesh.triangles.len() as u32,
             constraints: world.constraints.links.len() as u32,
-            active_constraints: world.constraints.active().count() as u32,
+            active_constraints: world.constraints.active_links().count() as u32,
             pieces: world.pieces,
             ticks: world.tick,
             blend: self.blend(),

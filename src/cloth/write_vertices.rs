@@ -106,7 +106,7 @@ impl Cloth {
             level: world.level,
             placing,
             x: world.particles.x.all(),
-            last: world.particles.x_last.all(),
+            last: world.particles.x_prev_tick.all(),
             drawn: &self.outputs.drawn,
             particles,
             uvs,

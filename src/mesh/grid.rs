@@ -42,7 +42,7 @@ pub(crate) fn cell_triangles(columns: u32, row: u32, column: u32) -> [[u32; 3]; 
     let top_left = row * columns + column;
     let (top_right, bottom_left) = (top_left + 1, top_left + columns);
     let bottom_right = bottom_left + 1;
-    if falls(row, column) {
+    if has_falling_diagonal(row, column) {
         [[top_left, bottom_left, bottom_right], [top_left, bottom_right, top_right]]
     } else {
         [[top_left, bottom_left, top_right], [bottom_left, bottom_right, top_right]]
@@ -50,7 +50,7 @@ pub(crate) fn cell_triangles(columns: u32, row: u32, column: u32) -> [[u32; 3]; 
 }
 
 /// Whether the diagonal of a cell falls from top left to bottom right.
-pub(crate) fn falls(row: u32, column: u32) -> bool {
+pub(crate) fn has_falling_diagonal(row: u32, column: u32) -> bool {
     (row + column).is_multiple_of(2)
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn corner_areas(columns: u32, rows: u32, spacing: f32) -> Vec<[f32; 3
     let (half, quarter) = (0.25 * spacing * spacing, 0.125 * spacing * spacing);
     let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (row, column)));
     let areas = |(row, column)| {
-        if falls(row, column) {
+        if has_falling_diagonal(row, column) {
             [[quarter, half, quarter], [quarter, quarter, half]]
         } else {
             [[half, quarter, quarter], [quarter, half, quarter]]

@@ -10,7 +10,7 @@ use glam::Vec3;
 const ROUNDING: f32 = 4.0 * f32::EPSILON;
 
 /// So many numbers on either side of a first guess may be the spacing.
-const GUESSES: i32 = 16;
+const SPACING_GUESSES: i32 = 16;
 
 /// A regular grid: its vertices and triangles are in the order of `grid`.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ impl DetectedGrid {
     /// The grid that a mesh is, if it is one: in its order, square, and but for rounding evenly spaced.
     ///
     /// Its frame gives the very positions if one does whose directions are those of axes.
-    pub fn find(triangles: &[[u32; 3]], positions: &[Vec3]) -> Option<Self> {
+    pub fn detect(triangles: &[[u32; 3]], positions: &[Vec3]) -> Option<Self> {
         let columns = triangles.first()?[1];
         if columns < 2 || !positions.len().is_multiple_of(columns as usize) {
             return None;
@@ -51,12 +51,12 @@ impl DetectedGrid {
             return None;
         }
         let bits = frame.spacing.to_bits();
-        let mut ways = (0..=GUESSES).flat_map(|off| [off, -off]);
+        let mut offsets = (0..=SPACING_GUESSES).flat_map(|off| [off, -off]);
         let with = |off: i32| {
             let spacing = f32::from_bits(bits.wrapping_add_signed(off));
             Self { frame: GridFrame { spacing, ..frame }, ..guess }
         };
-        let exact = ways.find(|off| with(*off).is_exact(positions));
+        let exact = offsets.find(|off| with(*off).is_exact(positions));
         Some(exact.map_or(guess, with))
     }
 
@@ -100,20 +100,20 @@ mod tests {
     fn a_grid_is_found_with_its_very_positions() {
         for (columns, rows) in [(2, 2), (40, 40), (7, 31)] {
             let (triangles, positions) = sheet(columns, rows, FRAME);
-            let found = DetectedGrid::find(&triangles, &positions).unwrap();
+            let found = DetectedGrid::detect(&triangles, &positions).unwrap();
             assert_eq!((found.columns, found.rows), (columns, rows));
             assert_eq!(grid::positions(columns, rows, &found.frame), positions);
         }
         let whole = GridFrame { origin: Vec3::Y, ..FRAME };
         let (triangles, positions) = sheet(40, 40, whole);
-        assert_eq!(DetectedGrid::find(&triangles, &positions).unwrap().frame.spacing, 0.05);
+        assert_eq!(DetectedGrid::detect(&triangles, &positions).unwrap().frame.spacing, 0.05);
     }
 
     #[test]
     fn a_grid_that_is_turned_is_found_within_rounding() {
         let (right, down) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.8, 0.0, -0.6));
         let (triangles, positions) = sheet(20, 10, GridFrame { right, down, ..FRAME });
-        let found = DetectedGrid::find(&triangles, &positions).unwrap();
+        let found = DetectedGrid::detect(&triangles, &positions).unwrap();
         assert!((found.frame.spacing - 0.05).abs() < 1.0e-6);
     }
 
@@ -122,12 +122,12 @@ mod tests {
         let (triangles, positions) = sheet(6, 5, FRAME);
         let mut moved = positions.clone();
         moved[8].z += 1.0e-4;
-        assert!(DetectedGrid::find(&triangles, &moved).is_none());
+        assert!(DetectedGrid::detect(&triangles, &moved).is_none());
         let longer: Vec<Vec3> = positions.iter().map(|x| *x * Vec3::new(1.0, 1.01, 1.0)).collect();
-        assert!(DetectedGrid::find(&triangles, &longer).is_none());
+        assert!(DetectedGrid::detect(&triangles, &longer).is_none());
         let mut other = triangles.clone();
         other[5].rotate_left(1);
-        assert!(DetectedGrid::find(&other, &positions).is_none());
-        assert!(DetectedGrid::find(&triangles[1..], &positions).is_none());
+        assert!(DetectedGrid::detect(&other, &positions).is_none());
+        assert!(DetectedGrid::detect(&triangles[1..], &positions).is_none());
     }
 }

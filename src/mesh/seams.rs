@@ -6,8 +6,8 @@
 //! one with all of them on one side goes there.
 
 use crate::math::sort::sort;
-use crate::mesh::split_edge::{Crossing, Division};
-use crate::mesh::{Corner, Mesh, after, before, triangle_of};
+use crate::mesh::split_edge::{CutSite, EdgeSplit};
+use crate::mesh::{Corner, Mesh, next_corner, prev_corner, triangle_of};
 use serde::{Deserialize, Serialize};
 
 /// The vertices of a mesh whose particles are shared.
@@ -22,12 +22,12 @@ pub(crate) struct Seams {
     /// The site of each vertex: the given vertex that it came from, or a crossing, which follow those.
     pub sites: Vec<u32>,
     /// Where cuts made vertices, between two sites.
-    pub crossings: Vec<Crossing>,
+    pub cut_sites: Vec<CutSite>,
     /// Vertices that were given.
     pub original_count: u32,
     /// How many corners each vertex has.
     #[serde(skip)]
-    uses: Vec<u32>,
+    corner_counts: Vec<u32>,
     /// How many vertices there may be in all.
     #[serde(skip)]
     capacity: usize,
@@ -41,20 +41,20 @@ impl Seams {
             triangles,
             particles,
             sites: (0..original_count).collect(),
-            crossings: Vec::new(),
+            cut_sites: Vec::new(),
             original_count,
-            uses: Vec::new(),
+            corner_counts: Vec::new(),
             capacity: original_count as usize,
         };
-        seams.count_uses();
+        seams.count_corners();
         seams
     }
 
-    fn count_uses(&mut self) {
-        self.uses.clear();
-        self.uses.resize(self.particles.len(), 0);
+    fn count_corners(&mut self) {
+        self.corner_counts.clear();
+        self.corner_counts.resize(self.particles.len(), 0);
         for vertex in self.triangles.as_flattened() {
-            self.uses[*vertex as usize] += 1;
+            self.corner_counts[*vertex as usize] += 1;
         }
     }
 
@@ -67,9 +67,9 @@ impl Seams {
     ///
     /// A particle that is split gives at most all of its vertices to the new one as copies, so the most
     /// vertices that any has is enough for each; and no corner needs more than a vertex of its own.
-    pub fn make_room(&mut self, extra: usize, triangles: usize) {
+    pub fn set_capacity(&mut self, extra: usize, triangles: usize) {
         let mut used: Vec<u32> = (0..self.particles.len())
-            .filter(|vertex| self.uses[*vertex] > 0)
+            .filter(|vertex| self.corner_counts[*vertex] > 0)
             .map(|vertex| self.particles[vertex])
             .collect();
         sort(&mut used);
@@ -82,14 +82,19 @@ impl Seams {
 
     /// Makes the room that there was in the list that this is a clone of.
     pub fn reserve(&mut self) {
-        for list in [&mut self.particles, &mut self.sites, &mut self.uses] {
+        for list in [&mut self.particles, &mut self.sites, &mut self.corner_counts] {
             list.reserve_exact(self.capacity.saturating_sub(list.len()));
         }
     }
 
     /// Follows a split: `corners` are those of the new particle. Tells each new vertex and the one that it
     /// was; or, if there is none, the lowest vertex that went to the new particle, twice.
-    pub fn part(&mut self, particle: u32, corners: &[Corner], mut tell: impl FnMut(u32, u32)) {
+    pub fn split_particle(
+        &mut self,
+        particle: u32,
+        corners: &[Corner],
+        mut on_new_vertex: impl FnMut(u32, u32),
+    ) {
         let first = self.particles.len() as u32;
         let mut lowest = u32::MAX;
         for (at, corner) in corners.iter().enumerate() {
@@ -97,9 +102,9 @@ impl Seams {
             if self.particles[old as usize] == particle {
                 continue;
             }
-            let leaves = |other: &&Corner| self.vertex(**other) == old;
-            let leaving = corners[at..].iter().filter(leaves).count() as u32;
-            if leaving == self.uses[old as usize] {
+            let moves = |other: &&Corner| self.vertex(**other) == old;
+            let moving = corners[at..].iter().filter(moves).count() as u32;
+            if moving == self.corner_counts[old as usize] {
                 self.particles[old as usize] = particle;
                 lowest = lowest.min(old);
                 continue;
@@ -112,39 +117,40 @@ impl Seams {
             }
             self.particles.push(particle);
             self.sites.push(self.sites[old as usize]);
-            self.uses.push(leaving);
-            self.uses[old as usize] -= leaving;
-            tell(new, old);
+            self.corner_counts.push(moving);
+            self.corner_counts[old as usize] -= moving;
+            on_new_vertex(new, old);
         }
         if self.particles.len() as u32 == first && lowest != u32::MAX {
-            tell(lowest, lowest);
+            on_new_vertex(lowest, lowest);
         }
     }
 
     /// Follows the division of the edge between two particles, `share` of it from the first. Gives the
     /// vertex that came to be on the first side; where the edge is a seam, there is another one beyond.
-    pub fn divide(&mut self, division: &Division, ends: [u32; 2], share: f32) -> u32 {
+    pub fn split_edge(&mut self, split: &EdgeSplit, ends: [u32; 2], share: f32) -> u32 {
         let first = self.particles.len() as u32;
-        for side in division.sides() {
+        for side in split.sides() {
             let edge = side.edge;
-            let [near, far, opposite] = [edge, after(edge), before(edge)].map(|c| self.vertex(c));
+            let [near, far, opposite] =
+                [edge, next_corner(edge), prev_corner(edge)].map(|c| self.vertex(c));
             let [near_site, far_site] = [near, far].map(|vertex| self.sites[vertex as usize]);
             let is_turned = self.particles[near as usize] != ends[0];
             let ends = if is_turned { [far_site, near_site] } else { [near_site, far_site] };
-            let crossing = Crossing { ends, share };
+            let cut_site = CutSite { ends, fraction: share };
             // The other side has the same vertices, unless the edge is a seam.
             let is_met =
-                self.particles.len() as u32 > first && self.crossings.last() == Some(&crossing);
+                self.particles.len() as u32 > first && self.cut_sites.last() == Some(&cut_site);
             let new = self.particles.len() as u32 - u32::from(is_met);
             if !is_met {
-                self.particles.push(division.vertex);
-                self.sites.push(self.original_count + self.crossings.len() as u32);
-                self.crossings.push(crossing);
-                self.uses.push(0);
+                self.particles.push(split.vertex);
+                self.sites.push(self.original_count + self.cut_sites.len() as u32);
+                self.cut_sites.push(cut_site);
+                self.corner_counts.push(0);
             }
-            self.uses[new as usize] += 2;
-            self.uses[opposite as usize] += 1;
-            self.triangles[edge as usize / 3][after(edge) as usize % 3] = new;
+            self.corner_counts[new as usize] += 2;
+            self.corner_counts[opposite as usize] += 1;
+            self.triangles[edge as usize / 3][next_corner(edge) as usize % 3] = new;
             self.triangles.push([new, far, opposite]);
         }
         first
@@ -164,14 +170,14 @@ impl Seams {
 
     /// Takes on what bytes from outside say of the seams of a mesh that was made with `fresh` ones; false
     /// if that does not fit.
-    pub fn is_restored(&mut self, fresh: &Self, mesh: &Mesh) -> bool {
+    pub fn restore_checked(&mut self, fresh: &Self, mesh: &Mesh) -> bool {
         let count = self.particles.len();
         let original = fresh.original_count as usize;
-        let sites = original + self.crossings.len();
-        let are_known = self.crossings.iter().enumerate().all(|(at, crossing)| {
-            crossing.ends.iter().all(|end| (*end as usize) < original + at)
-                && crossing.share > 0.0
-                && crossing.share < 1.0
+        let sites = original + self.cut_sites.len();
+        let are_known = self.cut_sites.iter().enumerate().all(|(at, cut_site)| {
+            cut_site.ends.iter().all(|end| (*end as usize) < original + at)
+                && cut_site.fraction > 0.0
+                && cut_site.fraction < 1.0
         });
         let fits = self.original_count == fresh.original_count
             && are_known
@@ -188,7 +194,7 @@ impl Seams {
                 .all(|(vertex, particle)| self.particles.get(*vertex as usize) == Some(particle));
         if fits {
             self.capacity = fresh.capacity;
-            self.count_uses();
+            self.count_corners();
             self.reserve();
         }
         fits

@@ -3,16 +3,16 @@
 use crate::mesh::{Corner, Fan, Mesh, NONE, triangle_of};
 
 /// An edge that opened: where it starts in the triangle on either side. Both are borders now.
-pub(crate) type Opening = [Corner; 2];
+pub(crate) type OpenedEdge = [Corner; 2];
 
 /// Part of a fan: `count` triangles from `first` on, around the end of a closed fan if need be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Arc {
+pub(crate) struct FanArc {
     pub first: usize,
     pub count: usize,
 }
 
-impl Arc {
+impl FanArc {
     fn contains(self, at: usize, fan: &Fan) -> bool {
         (at + fan.corners.len() - self.first) % fan.corners.len() < self.count
     }
@@ -20,16 +20,16 @@ impl Arc {
 
 /// The arc that best holds the triangles marked `moves` and no others, leaving at least one behind
 /// and taking at least one; of equals the first. `None` if the fan has but one triangle.
-pub(crate) fn best_arc(fan: &Fan, moves: &[bool]) -> Option<Arc> {
+pub(crate) fn best_arc(fan: &Fan, moves: &[bool]) -> Option<FanArc> {
     let n = fan.corners.len();
-    let mut best: Option<(usize, Arc)> = None;
+    let mut best: Option<(usize, FanArc)> = None;
     for first in 0..n {
         for count in 1..n {
             let touches_border = first == 0 || first + count == n;
             if !fan.is_closed && (first + count > n || !touches_border) {
                 continue;
             }
-            let arc = Arc { first, count };
+            let arc = FanArc { first, count };
             let right = (0..n).filter(|at| arc.contains(*at, fan) == moves[*at]).count();
             if best.is_none_or(|(most, _)| right > most) {
                 best = Some((right, arc));
@@ -43,15 +43,15 @@ impl Mesh {
     /// Gives the triangles of `arc` a new vertex, and tells which edges opened.
     ///
     /// `fan` is the fan of the old vertex. The caller has seen to room for one more vertex.
-    pub fn split(&mut self, fan: &Fan, arc: Arc, opened: &mut Vec<Opening>) -> u32 {
+    pub fn split_vertex(&mut self, fan: &Fan, arc: FanArc, opened: &mut Vec<OpenedEdge>) -> u32 {
         let n = fan.corners.len();
         let old = self.vertex(fan.corners[0]);
         let new = self.source.len() as u32;
-        for (at, spoke) in fan.spokes.iter().enumerate().take(n) {
+        for (at, far_end) in fan.ring.iter().enumerate().take(n) {
             let has_neighbour = at > 0 || fan.is_closed;
             let before = (at + n - 1) % n;
             if has_neighbour && arc.contains(at, fan) != arc.contains(before, fan) {
-                opened.push(self.open(old, *spoke, fan.corners[before], fan.corners[at]));
+                opened.push(self.open_edge(old, *far_end, fan.corners[before], fan.corners[at]));
             }
         }
         let moved = |at: &usize| arc.contains(*at, fan);
@@ -70,9 +70,9 @@ impl Mesh {
         new
     }
 
-    /// Parts two triangles that share the edge from `vertex` to `spoke`.
-    fn open(&mut self, vertex: u32, spoke: u32, left: Corner, right: Corner) -> Opening {
-        let ends = (vertex.min(spoke), vertex.max(spoke));
+    /// Parts two triangles that share the edge from `vertex` to `far_end`.
+    fn open_edge(&mut self, vertex: u32, far_end: u32, left: Corner, right: Corner) -> OpenedEdge {
+        let ends = (vertex.min(far_end), vertex.max(far_end));
         [left, right].map(|corner| {
             let first = corner - corner % 3;
             let edge = (first..first + 3).find(|edge| self.ends(*edge) == ends).unwrap_or(corner);
@@ -85,8 +85,13 @@ impl Mesh {
     /// If opening an edge left `vertex` as a mere point between two fans, parts them.
     ///
     /// `before` is its fan from before the edge opened, `scratch` gets the fan that keeps the vertex.
-    pub fn part_fans(&mut self, vertex: u32, before: &Fan, scratch: &mut Fan) -> Option<u32> {
-        self.fan(self.corner_of[vertex as usize], scratch);
+    pub fn split_non_manifold_vertex(
+        &mut self,
+        vertex: u32,
+        before: &Fan,
+        scratch: &mut Fan,
+    ) -> Option<u32> {
+        self.gather_fan(self.corner_of[vertex as usize], scratch);
         if scratch.corners.len() == before.corners.len() {
             return None;
         }
@@ -105,7 +110,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{after, grid};
+    use crate::mesh::{grid, next_corner};
 
     /// 3 × 3 vertices; the middle one, 4, has eight triangles around it or four.
     fn three_by_three() -> Mesh {
@@ -114,7 +119,7 @@ mod tests {
 
     fn fan_of(mesh: &Mesh, vertex: u32) -> Fan {
         let mut fan = Fan::default();
-        mesh.fan(mesh.corner_of[vertex as usize], &mut fan);
+        mesh.gather_fan(mesh.corner_of[vertex as usize], &mut fan);
         fan
     }
 
@@ -128,11 +133,11 @@ mod tests {
         let arc = best_arc(&fan, &moves).unwrap();
         assert_eq!(arc.count, 4);
         let mut opened = Vec::new();
-        assert_eq!(mesh.split(&fan, arc, &mut opened), 9);
+        assert_eq!(mesh.split_vertex(&fan, arc, &mut opened), 9);
         assert_eq!(opened.len(), 2);
         let mut far: Vec<u32> = opened
             .iter()
-            .map(|[edge, _]| [mesh.vertex(*edge), mesh.vertex(after(*edge))])
+            .map(|[edge, _]| [mesh.vertex(*edge), mesh.vertex(next_corner(*edge))])
             .map(|[a, b]| if a == 4 || a == 9 { b } else { a })
             .collect();
         far.sort_unstable();
@@ -140,7 +145,7 @@ mod tests {
         assert_eq!(mesh.source[9], 4);
         assert_eq!((fan_of(&mesh, 4).corners.len(), fan_of(&mesh, 9).corners.len()), (4, 4));
         let whole = mesh.clone();
-        mesh.connect();
+        mesh.rebuild_adjacency();
         assert_eq!(mesh, whole, "what splitting keeps up to date is what connecting finds");
     }
 
@@ -152,12 +157,12 @@ mod tests {
         let lower = |corner: &Corner| mesh.triangles[triangle_of(*corner)].iter().any(|v| *v > 5);
         let moves: Vec<bool> = fan.corners.iter().map(lower).collect();
         let mut opened = Vec::new();
-        mesh.split(&fan, best_arc(&fan, &moves).unwrap(), &mut opened);
+        mesh.split_vertex(&fan, best_arc(&fan, &moves).unwrap(), &mut opened);
         let mut scratch = Fan::default();
-        assert_eq!(mesh.part_fans(3, &before[0], &mut scratch), Some(10));
-        assert_eq!(mesh.part_fans(5, &before[1], &mut scratch), Some(11));
+        assert_eq!(mesh.split_non_manifold_vertex(3, &before[0], &mut scratch), Some(10));
+        assert_eq!(mesh.split_non_manifold_vertex(5, &before[1], &mut scratch), Some(11));
         let mut label = vec![0; mesh.triangles.len()];
-        assert_eq!(mesh.pieces(&mut label, &mut Vec::new()), 2, "torn in two");
+        assert_eq!(mesh.label_pieces(&mut label, &mut Vec::new()), 2, "torn in two");
         let mut uses = vec![0; mesh.vertex_count()];
         mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);
         for vertex in 0..mesh.vertex_count() as u32 {

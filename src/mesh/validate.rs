@@ -9,7 +9,11 @@ use glam::Vec3;
 
 /// Refuses triangles that cannot be cloth: indices out of range, no area, a third triangle at an
 /// edge, fans that meet at a point only.
-pub(crate) fn mesh(triangles: Vec<[u32; 3]>, positions: &[Vec3], capacity: usize) -> Result<Mesh> {
+pub(crate) fn validated_mesh(
+    triangles: Vec<[u32; 3]>,
+    positions: &[Vec3],
+    capacity: usize,
+) -> Result<Mesh> {
     for (at, triangle) in triangles.iter().enumerate() {
         let refuse = |must| Err(Error::BadMesh { at: at as u32, must });
         if let Some(index) = triangle.iter().find(|v| **v as usize >= positions.len()) {
@@ -26,13 +30,13 @@ pub(crate) fn mesh(triangles: Vec<[u32; 3]>, positions: &[Vec3], capacity: usize
             return refuse("give every triangle an area");
         }
     }
-    refuse_crowded_edges(&triangles)?;
+    check_edges_manifold(&triangles)?;
     let mesh = Mesh::new(triangles, positions.len(), capacity);
-    refuse_points_between_fans(&mesh)?;
+    check_vertices_manifold(&mesh)?;
     Ok(mesh)
 }
 
-fn refuse_crowded_edges(triangles: &[[u32; 3]]) -> Result<()> {
+fn check_edges_manifold(triangles: &[[u32; 3]]) -> Result<()> {
     let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
     for (at, [a, b, c]) in triangles.iter().enumerate() {
         for (a, b) in [(a, b), (b, c), (c, a)] {
@@ -48,7 +52,7 @@ fn refuse_crowded_edges(triangles: &[[u32; 3]]) -> Result<()> {
     }
 }
 
-fn refuse_points_between_fans(mesh: &Mesh) -> Result<()> {
+fn check_vertices_manifold(mesh: &Mesh) -> Result<()> {
     let mut uses = vec![0usize; mesh.vertex_count()];
     mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);
     let mut fan = Fan::default();
@@ -56,7 +60,7 @@ fn refuse_points_between_fans(mesh: &Mesh) -> Result<()> {
         if *corner == NONE {
             continue;
         }
-        mesh.fan(*corner, &mut fan);
+        mesh.gather_fan(*corner, &mut fan);
         if fan.corners.len() != uses[vertex] {
             let at = vertex as u32;
             return Err(Error::BadMesh { at, must: "join triangles by edges, not by one vertex" });

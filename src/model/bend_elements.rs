@@ -15,7 +15,7 @@
 //! they are off to either side: half of each is taken.
 
 use crate::math::max;
-use crate::model::hinges::Hinge;
+use crate::model::hinge::{CurvatureResponse, Hinge};
 use glam::{Vec2, Vec3};
 
 /// No hinge.
@@ -23,35 +23,32 @@ const NONE: u32 = u32::MAX;
 
 /// Below this determinant of M its hinges hardly differ in what they tell, so that noise would be stiff: M has
 /// the rest added to its diagonal.
-const LEAST_APART: f32 = 0.15;
+const MIN_DETERMINANT: f32 = 0.15;
 
 /// The pairs among three.
 pub(crate) const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
-/// What a hinge shows of a curvature whose parts along its edge, across and between are these.
-pub(crate) type Shows = [f32; 3];
-
 /// One triangle.
 #[derive(Clone, Copy, Debug)]
-struct Facet {
+struct BendTriangle {
     /// Its hinges, and which of a hinge's two triangles it is.
     hinges: [u32; 3],
     sides: [u8; 3],
     /// √A / |c| of each, and 1 / 2 √A, which the slopes of neighbours give [1/m].
     sizes: [f32; 3],
-    slope: f32,
+    slope_size: f32,
     /// M of the first and second, of the first and third, of the second and third; and for slopes.
-    alike: [f32; 3],
-    aligned: [f32; 3],
+    coupling: [f32; 3],
+    slope_coupling: [f32; 3],
 }
 
 /// All triangles that have hinges.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct BendElements(Vec<Facet>);
+pub(crate) struct BendElements(Vec<BendTriangle>);
 
 /// The energy of a triangle over ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Element {
+pub(crate) struct TriangleStiffness {
     /// Its hinges; those whose own energy is 0 may be none.
     pub hinges: [u32; 3],
     /// [1/m²].
@@ -62,72 +59,77 @@ pub(crate) struct Element {
 
 /// A hinge at an edge of a triangle.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct HingeSide {
     triangle: u32,
     hinge: u32,
     side: u8,
 }
 
 impl BendElements {
-    /// The triangles at these hinges: `triangles` says which two, `shows` what each shows, and `corners` where
+    /// The triangles at these hinges: `triangles` says which two, `responses` what each shows, and `corners` where
     /// the corners of a triangle are at rest.
-    pub fn find(
+    pub fn new(
         hinges: &[Hinge],
         triangles: &[[u32; 2]],
-        shows: &[Shows],
+        responses: &[CurvatureResponse],
         corners: impl Fn(u32) -> [Vec3; 3],
         rest: impl Fn(u32) -> Vec3,
     ) -> Self {
         let mut edges = Vec::with_capacity(2 * hinges.len());
         for (hinge, of) in triangles.iter().enumerate() {
             for (side, triangle) in of.iter().enumerate() {
-                edges.push(Edge { triangle: *triangle, hinge: hinge as u32, side: side as u8 });
+                edges.push(HingeSide {
+                    triangle: *triangle,
+                    hinge: hinge as u32,
+                    side: side as u8,
+                });
             }
         }
         crate::math::sort::sort_by(&mut edges, |p, q| {
             (p.triangle, p.hinge).cmp(&(q.triangle, q.hinge))
         });
-        let mut facets = Vec::new();
+        let mut triangles_with_hinges = Vec::new();
         for own in edges.chunk_by(|p, q| p.triangle == q.triangle) {
             let [a, b, c] = corners(own[0].triangle);
             let (right, across) = ((b - a).normalize_or_zero(), (b - a).cross(c - a));
             let up = across.normalize_or_zero().cross(right);
             let flat = |way: Vec3| Vec2::new(way.dot(right), way.dot(up));
-            let mut facet = Facet {
+            let mut triangle_element = BendTriangle {
                 hinges: [NONE; 3],
                 sides: [0; 3],
                 sizes: [0.0; 3],
-                slope: 1.0 / (2.0 * across.length()).sqrt(),
-                alike: [0.0; 3],
-                aligned: [0.0; 3],
+                slope_size: 1.0 / (2.0 * across.length()).sqrt(),
+                coupling: [0.0; 3],
+                slope_coupling: [0.0; 3],
             };
-            let (mut told, mut ways) = ([Vec3::ZERO; 3], [Vec2::ZERO; 3]);
+            let (mut unit_responses, mut across_directions) = ([Vec3::ZERO; 3], [Vec2::ZERO; 3]);
             for (slot, edge) in own.iter().take(3).enumerate() {
                 let hinge = &hinges[edge.hinge as usize];
-                let [p, q] = [hinge.at[0], hinge.at[1]].map(&rest);
+                let [p, q] = [hinge.particles[0], hinge.particles[1]].map(&rest);
                 let along = flat(q - p).normalize_or_zero();
                 // The hinge's own way across leads to the apex of its first triangle.
-                let to_apex = flat(rest(hinge.at[2 + usize::from(edge.side)]) - p);
+                let to_apex = flat(rest(hinge.particles[2 + usize::from(edge.side)]) - p);
                 let to_apex = to_apex - along * along.dot(to_apex);
                 let to_first = if edge.side == 0 { to_apex } else { -to_apex };
-                ways[slot] = to_first.normalize_or_zero();
-                let c = tell(shows[edge.hinge as usize], along, ways[slot]);
+                across_directions[slot] = to_first.normalize_or_zero();
+                let c =
+                    response_vector(responses[edge.hinge as usize], along, across_directions[slot]);
                 let size = c.length();
                 if size > 0.0 {
-                    told[slot] = c * (1.0 / size);
-                    facet.hinges[slot] = edge.hinge;
-                    facet.sides[slot] = edge.side;
-                    facet.sizes[slot] = (0.5 * across.length()).sqrt() / size;
+                    unit_responses[slot] = c * (1.0 / size);
+                    triangle_element.hinges[slot] = edge.hinge;
+                    triangle_element.sides[slot] = edge.side;
+                    triangle_element.sizes[slot] = (0.5 * across.length()).sqrt() / size;
                 }
             }
             for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
-                let aligned = ways[p].dot(ways[q]);
-                facet.alike[pair] = told[p].dot(told[q]);
-                facet.aligned[pair] = aligned * aligned;
+                let slope_coupling = across_directions[p].dot(across_directions[q]);
+                triangle_element.coupling[pair] = unit_responses[p].dot(unit_responses[q]);
+                triangle_element.slope_coupling[pair] = slope_coupling * slope_coupling;
             }
-            facets.push(facet);
+            triangles_with_hinges.push(triangle_element);
         }
-        Self(facets)
+        Self(triangles_with_hinges)
     }
 
     /// How many there are.
@@ -138,99 +140,102 @@ impl BendElements {
     /// The hinges of each.
     pub fn hinges(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
         let is_one = |hinge: &u32| *hinge != NONE;
-        self.0
-            .iter()
-            .map(move |facet| facet.hinges.into_iter().filter(is_one).map(|at| at as usize))
+        self.0.iter().map(move |triangle_element| {
+            triangle_element.hinges.into_iter().filter(is_one).map(|at| at as usize)
+        })
     }
 
     /// The curvature of one that is flat [1/m], if its hinges were bent by so much [rad].
-    pub fn curve(&self, at: usize, hinges: &[Hinge], bent: impl Fn(usize) -> f32) -> f32 {
-        let facet = &self.0[at];
-        let (mut times, mut shown) = ([0.0; 3], [0.0; 3]);
-        for (slot, hinge) in facet.hinges.into_iter().enumerate() {
+    pub fn curvature(&self, at: usize, hinges: &[Hinge], bent: impl Fn(usize) -> f32) -> f32 {
+        let triangle_element = &self.0[at];
+        let (mut multipliers, mut shown) = ([0.0; 3], [0.0; 3]);
+        for (slot, hinge) in triangle_element.hinges.into_iter().enumerate() {
             if hinge != NONE {
-                (times[slot], shown[slot]) =
+                (multipliers[slot], shown[slot]) =
                     (1.0, bent(hinge as usize) * hinges[hinge as usize].length);
             }
         }
         if shown == [0.0; 3] {
             return 0.0;
         }
-        let element = facet.element(times);
+        let element = triangle_element.element(multipliers);
         let own = element.own.into_iter().zip(shown).map(|(own, c)| own * (c * c));
         let pairs = element.between.into_iter().zip(PAIRS);
         let between = pairs.map(|(between, [p, q])| 2.0 * between * (shown[p] * shown[q]));
         // A |S|², where the slopes know A.
         let energy = own.sum::<f32>() + between.sum::<f32>();
-        2.0 * facet.slope * max(energy, 0.0).sqrt()
+        2.0 * triangle_element.slope_size * max(energy, 0.0).sqrt()
     }
 
-    /// What triangles resist whose hinges hold in part, where some particles are held; `left` is what there is
+    /// What triangles resist whose hinges hold in part, where some particles are held; `stiffness_scale` is what there is
     /// left of a triangle's stiffness. Where a mesh goes on into a clamp only the half of a hinge outside bends,
     /// and has all of the angle.
-    pub fn resist(
+    pub fn compute_stiffness(
         &self,
         hinges: &[Hinge],
         holds: impl Fn(usize) -> bool,
         is_held: impl Fn(u32) -> bool,
-        left: impl Fn(usize) -> f32,
-        elements: &mut Vec<Element>,
+        stiffness_scale: impl Fn(usize) -> f32,
+        elements: &mut Vec<TriangleStiffness>,
     ) {
         elements.clear();
-        elements.extend(self.0.iter().enumerate().map(|(at, facet)| {
-            let mut times = [0.0; 3];
-            for (slot, times) in times.iter_mut().enumerate() {
-                let hinge = facet.hinges[slot] as usize;
-                if facet.hinges[slot] != NONE && holds(hinge) {
-                    let [p, q, a, b] = hinges[hinge].at.map(&is_held);
-                    let (own, other) = if facet.sides[slot] == 0 { (a, b) } else { (b, a) };
-                    *times = match (p && q, own, other) {
+        elements.extend(self.0.iter().enumerate().map(|(at, triangle_element)| {
+            let mut multipliers = [0.0; 3];
+            for (slot, multipliers) in multipliers.iter_mut().enumerate() {
+                let hinge = triangle_element.hinges[slot] as usize;
+                if triangle_element.hinges[slot] != NONE && holds(hinge) {
+                    let [p, q, a, b] = hinges[hinge].particles.map(&is_held);
+                    let (own, other) =
+                        if triangle_element.sides[slot] == 0 { (a, b) } else { (b, a) };
+                    *multipliers = match (p && q, own, other) {
                         (true, true, false) => 0.0,
                         (true, false, true) => 2.0,
                         _ => 1.0,
                     };
                 }
             }
-            let (mut element, left) = (facet.element(times), left(at));
+            let (mut element, stiffness_scale) =
+                (triangle_element.element(multipliers), stiffness_scale(at));
             let terms = element.own.iter_mut().chain(&mut element.between);
-            terms.for_each(|term| *term *= left);
+            terms.for_each(|term| *term *= stiffness_scale);
             element
         }));
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        self.0.len() * size_of::<Facet>()
+        self.0.len() * size_of::<BendTriangle>()
     }
 }
 
-impl Facet {
+impl BendTriangle {
     /// Its energy, if hinges are bent so many times as they show: those at 0 tell nothing.
-    fn element(&self, times: [f32; 3]) -> Element {
-        let mut alike = self.alike;
-        for (alike, [p, q]) in alike.iter_mut().zip(PAIRS) {
-            if times[p] * times[q] == 0.0 {
-                *alike = 0.0;
+    fn element(&self, multipliers: [f32; 3]) -> TriangleStiffness {
+        let mut coupling = self.coupling;
+        for (coupling, [p, q]) in coupling.iter_mut().zip(PAIRS) {
+            if multipliers[p] * multipliers[q] == 0.0 {
+                *coupling = 0.0;
             }
         }
-        let [ab, ac, bc] = alike;
-        let apart = 1.0 + 2.0 * (ab * ac * bc) - (ab * ab + ac * ac + bc * bc);
-        let d = 1.0 + max(LEAST_APART - apart, 0.0);
+        let [ab, ac, bc] = coupling;
+        let determinant = 1.0 + 2.0 * (ab * ac * bc) - (ab * ab + ac * ac + bc * bc);
+        let d = 1.0 + max(MIN_DETERMINANT - determinant, 0.0);
         let minors = [d * d - bc * bc, d * d - ac * ac, d * d - ab * ab];
         let mixed = [ac * bc - ab * d, ab * bc - ac * d, ab * ac - bc * d];
         let over = 1.0 / (d * minors[0] + (ab * mixed[0] + ac * mixed[1]));
-        let slope = self.slope * self.slope;
-        let mut element = Element { hinges: self.hinges, own: [0.0; 3], between: [0.0; 3] };
+        let slope_size = self.slope_size * self.slope_size;
+        let mut element =
+            TriangleStiffness { hinges: self.hinges, own: [0.0; 3], between: [0.0; 3] };
         for slot in 0..3 {
             let size = self.sizes[slot] * self.sizes[slot];
-            let mean = 0.5 * (minors[slot] * over * size + slope);
-            element.own[slot] = mean * (times[slot] * times[slot]);
+            let mean = 0.5 * (minors[slot] * over * size + slope_size);
+            element.own[slot] = mean * (multipliers[slot] * multipliers[slot]);
         }
         for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
             let size = self.sizes[p] * self.sizes[q];
-            let mean = 0.5 * (mixed[pair] * over * size + self.aligned[pair] * slope);
-            if mean.abs() > NEGLIGIBLE * slope {
-                element.between[pair] = mean * (times[p] * times[q]);
+            let mean = 0.5 * (mixed[pair] * over * size + self.slope_coupling[pair] * slope_size);
+            if mean.abs() > NEGLIGIBLE * slope_size {
+                element.between[pair] = mean * (multipliers[p] * multipliers[q]);
             }
         }
         element
@@ -242,7 +247,7 @@ const NEGLIGIBLE: f32 = 1.0e-4;
 
 /// What a hinge shows of a curvature's parts along x, along y and √2 times that between, for where its own
 /// ways lead.
-fn tell([along, across, between]: Shows, t: Vec2, n: Vec2) -> Vec3 {
+fn response_vector([along, across, between]: CurvatureResponse, t: Vec2, n: Vec2) -> Vec3 {
     let half_root = 0.5_f32.sqrt();
     let parts =
         |u: Vec2, v: Vec2| Vec3::new(u.x * v.x, u.y * v.y, half_root * (u.x * v.y + u.y * v.x));

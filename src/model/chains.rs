@@ -6,40 +6,48 @@
 use crate::math::simd::LANES;
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
-use crate::model::line_blocks::{LineBlocks, Member};
+use crate::model::chain_blocks::{ChainBlocks, ChainLink};
 use crate::model::links::{LinkKind, Links};
 use core::mem::take;
 use glam::Vec3;
 
 /// Links continue each other up to a turn of which this is the cosine.
-const STRAIGHT: f32 = 0.8;
+const MIN_STRAIGHTNESS: f32 = 0.8;
 
 /// So many unfinished blocks are looked at for room.
 const OPEN_BLOCKS: usize = 16;
 
-type Line = Vec<Member>;
+type Chain = Vec<ChainLink>;
 
 /// All lines of a weave.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chains {
     /// Eight that share no particle side by side in a block.
-    pub abreast: LineBlocks,
+    pub blocks: ChainBlocks,
     /// Links of the longest one as it was woven.
     pub longest: usize,
 }
 
 impl Chains {
-    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex; `breaks`
+    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex; `can_break`
     /// says to have room for lines to break.
-    pub fn find(links: &Links, rest: &[Vec3], breaks: bool) -> Self {
+    pub fn new(links: &Links, rest: &[Vec3], can_break: bool) -> Self {
         let next = continuations(links, rest);
         let mut lines = Vec::new();
         let mut seen = vec![false; links.len()];
         let mut visited = vec![NONE; rest.len()];
         for link in stretch_links(links) {
             if !seen[link as usize] {
-                let start = walk_back(links, &next, link, &seen, lines.len() as u32, &mut visited);
-                lines.push(walk(links, &next, start, &mut seen, lines.len() as u32, &mut visited));
+                let start =
+                    find_chain_start(links, &next, link, &seen, lines.len() as u32, &mut visited);
+                lines.push(collect_chain(
+                    links,
+                    &next,
+                    start,
+                    &mut seen,
+                    lines.len() as u32,
+                    &mut visited,
+                ));
             }
             // A line that ran into itself from behind did not come by.
             if !seen[link as usize] {
@@ -51,10 +59,11 @@ impl Chains {
         let mut order: Vec<[u32; 2]> =
             lines.iter().zip(0..).map(|(line, at)| [!(line.len() as u32), at]).collect();
         sort(&mut order);
-        let lines: Vec<Line> = order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
-        let blocks = arrange(links, &lines, rest.len());
+        let lines: Vec<Chain> =
+            order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
+        let blocks = pack_into_blocks(links, &lines, rest.len());
         Self {
-            abreast: LineBlocks::new(links, &blocks, breaks),
+            blocks: ChainBlocks::new(links, &blocks, can_break),
             longest: lines.first().map_or(0, Vec::len),
         }
     }
@@ -79,7 +88,7 @@ fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
         for (at, (p, along)) in around.iter().enumerate() {
             for (q, back) in &around[at + 1..] {
                 let straight = -along.dot(*back);
-                if straight > STRAIGHT {
+                if straight > MIN_STRAIGHTNESS {
                     pairs.push((straight, *p, *q));
                 }
             }
@@ -102,7 +111,7 @@ fn far_end(links: &Links, (link, turned): (u32, bool)) -> u32 {
 }
 
 /// The next link of a walk, if it leads to a new vertex.
-fn step(
+fn next_link(
     links: &Links,
     next: &[[u32; 2]],
     from: (u32, bool),
@@ -119,7 +128,7 @@ fn step(
 }
 
 /// The link where a line begins that has `link` in it, in the direction it runs.
-fn walk_back(
+fn find_chain_start(
     links: &Links,
     next: &[[u32; 2]],
     link: u32,
@@ -132,27 +141,27 @@ fn walk_back(
     let number = number | 1 << 31;
     visited[links.b[link as usize] as usize] = number;
     visited[links.a[link as usize] as usize] = number;
-    while let Some(to) = step(links, next, at, seen, (number, visited)) {
+    while let Some(to) = next_link(links, next, at, seen, (number, visited)) {
         visited[far_end(links, to) as usize] = number;
         at = to;
     }
     (at.0, !at.1)
 }
 
-fn walk(
+fn collect_chain(
     links: &Links,
     next: &[[u32; 2]],
     start: (u32, bool),
     seen: &mut [bool],
     number: u32,
     visited: &mut [u32],
-) -> Line {
+) -> Chain {
     let mut line = vec![start];
     seen[start.0 as usize] = true;
     visited[links.a[start.0 as usize] as usize] = number;
     visited[links.b[start.0 as usize] as usize] = number;
     let mut at = start;
-    while let Some(to) = step(links, next, at, seen, (number, visited)) {
+    while let Some(to) = next_link(links, next, at, seen, (number, visited)) {
         seen[to.0 as usize] = true;
         visited[far_end(links, to) as usize] = number;
         line.push(to);
@@ -162,8 +171,12 @@ fn walk(
 }
 
 /// Puts lines side by side, so that those in a block share no vertex.
-fn arrange<'a>(links: &Links, lines: &'a [Line], vertex_count: usize) -> Vec<Vec<&'a [Member]>> {
-    let mut blocks: Vec<Vec<&[Member]>> = Vec::new();
+fn pack_into_blocks<'a>(
+    links: &Links,
+    lines: &'a [Chain],
+    vertex_count: usize,
+) -> Vec<Vec<&'a [ChainLink]>> {
+    let mut blocks: Vec<Vec<&[ChainLink]>> = Vec::new();
     // The blocks that each vertex is in.
     let mut member: Vec<Vec<u32>> = vec![Vec::new(); vertex_count];
     for line in lines {
@@ -189,8 +202,8 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
     use crate::mesh::grid;
+    use crate::model::chain_blocks::{NO_PARTICLE, StridedBlock};
     use crate::model::constraints::Constraints;
-    use crate::model::line_blocks::{NOBODY, Strip};
 
     use crate::mesh::grid::GridFrame;
 
@@ -204,20 +217,23 @@ mod tests {
     /// Every stretch link is in one line, lines in a block share no particle, and lines are chains.
     fn assert_sound(lines: &Chains, links: &Links) {
         let mut uses = vec![0; links.len()];
-        for steps in lines.abreast.blocks() {
+        for steps in lines.blocks.blocks() {
             let mut lane_of = std::collections::HashMap::new();
-            let mut end = [NOBODY; LANES];
-            for step in steps {
+            let mut end = [NO_PARTICLE; LANES];
+            for next_link in steps {
                 for lane in 0..LANES {
-                    let (link, to) = (step.links[lane], step.to[lane]);
-                    assert_eq!(link == NONE, step.rest[lane] <= 0.0);
+                    let (link, to) = (next_link.links[lane], next_link.to[lane]);
+                    assert_eq!(link == NONE, next_link.rest[lane] <= 0.0);
                     if link != NONE {
                         uses[link as usize] += 1;
                         let seats = [links.a[link as usize] + 1, links.b[link as usize] + 1];
                         let ends = [end[lane], to];
                         assert!(seats == ends || seats == [to, end[lane]], "a line is a chain");
                     }
-                    assert!(to == NOBODY || lane_of.insert(to, lane).is_none(), "one place each");
+                    assert!(
+                        to == NO_PARTICLE || lane_of.insert(to, lane).is_none(),
+                        "one place each"
+                    );
                     end[lane] = to;
                 }
             }
@@ -231,52 +247,58 @@ mod tests {
     #[test]
     fn lines_of_a_grid_are_its_rows_and_columns() {
         let (mesh, rest) = sheet(11, 19);
-        let constraints = Constraints::grid(11, 19, 0.1, &mesh, 0);
-        let lines = Chains::find(&constraints.links, &rest, false);
+        let constraints = Constraints::from_grid(11, 19, 0.1, &mesh, 0);
+        let lines = Chains::new(&constraints.links, &rest, false);
         assert_sound(&lines, &constraints.links);
         // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
-        let lengths: Vec<usize> = lines.abreast.blocks().map(<[_]>::len).collect();
+        let lengths: Vec<usize> = lines.blocks.blocks().map(<[_]>::len).collect();
         assert_eq!(lengths, [19, 19, 11, 11, 11]);
     }
 
     #[test]
-    fn lines_of_a_grid_are_strips_until_one_breaks() {
+    fn lines_of_a_grid_are_all_strided_until_one_breaks() {
         let (mesh, rest) = sheet(11, 19);
-        let mut constraints = Constraints::grid(11, 19, 0.1, &mesh, 0);
-        let mut lines = Chains::find(&constraints.links, &rest, true);
-        let strip = |first, along, across, lines| Strip { first, along, across, lines };
-        let columns = [strip(0, 11, 1, 8), strip(8, 11, 1, 3)];
-        let rows = [strip(0, 1, 11, 8), strip(88, 1, 11, 8), strip(176, 1, 11, 3)];
-        assert!(lines.abreast.are_strips());
-        let strips: Vec<Strip> = lines.abreast.strips().map(|(strip, _)| strip).collect();
+        let mut constraints = Constraints::from_grid(11, 19, 0.1, &mesh, 0);
+        let mut lines = Chains::new(&constraints.links, &rest, true);
+        let strided = |first, link_stride, chain_stride, chain_count| StridedBlock {
+            first,
+            link_stride,
+            chain_stride,
+            chain_count,
+        };
+        let columns = [strided(0, 11, 1, 8), strided(8, 11, 1, 3)];
+        let rows = [strided(0, 1, 11, 8), strided(88, 1, 11, 8), strided(176, 1, 11, 3)];
+        assert!(lines.blocks.are_all_strided());
+        let strips: Vec<StridedBlock> =
+            lines.blocks.strided_blocks().map(|(strip, _)| strip).collect();
         assert_eq!(strips, [&columns[..], &rows[..]].concat());
         constraints.links.active[17] = false;
-        lines.abreast.forget(17);
-        lines.abreast.lay(&constraints.links);
-        assert!(!lines.abreast.are_strips());
-        assert_eq!(lines.abreast.strips().count(), 4);
+        lines.blocks.mark_stale(17);
+        lines.blocks.rebuild_stale(&constraints.links);
+        assert!(!lines.blocks.are_all_strided());
+        assert_eq!(lines.blocks.strided_blocks().count(), 4);
     }
 
     #[test]
     fn pieces_of_broken_lines_follow_each_other() {
         let (mesh, rest) = sheet(17, 9);
-        let mut constraints = Constraints::grid(17, 9, 0.1, &mesh, 0);
-        let mut lines = Chains::find(&constraints.links, &rest, true);
-        let count = |lines: &Chains| lines.abreast.blocks().map(<[_]>::len).sum::<usize>();
+        let mut constraints = Constraints::from_grid(17, 9, 0.1, &mesh, 0);
+        let mut lines = Chains::new(&constraints.links, &rest, true);
+        let count = |lines: &Chains| lines.blocks.blocks().map(<[_]>::len).sum::<usize>();
         let whole = count(&lines);
         // Every fifth link goes, and then all of them but every seventh.
-        for step in [5, 7] {
+        for next_link in [5, 7] {
             for link in 0..constraints.links.len() {
-                constraints.links.active[link] = (link % step == 0) == (step == 7);
-                lines.abreast.forget(link);
+                constraints.links.active[link] = (link % next_link == 0) == (next_link == 7);
+                lines.blocks.mark_stale(link);
             }
-            lines.abreast.lay(&constraints.links);
+            lines.blocks.rebuild_stale(&constraints.links);
             assert_sound(&lines, &constraints.links);
             assert_ne!(count(&lines), whole);
         }
         constraints.links.active.fill(true);
-        (0..constraints.links.len()).for_each(|link| lines.abreast.forget(link));
-        lines.abreast.lay(&constraints.links);
+        (0..constraints.links.len()).for_each(|link| lines.blocks.mark_stale(link));
+        lines.blocks.rebuild_stale(&constraints.links);
         assert_sound(&lines, &constraints.links);
         assert_eq!(count(&lines), whole);
     }
@@ -287,8 +309,8 @@ mod tests {
         for (i, x) in rest.iter_mut().enumerate() {
             x.z = (i as f32 * 1.3).sin() * 0.03;
         }
-        let constraints = Constraints::mesh(&mesh, &rest, 0);
-        let lines = Chains::find(&constraints.links, &rest, false);
+        let constraints = Constraints::from_mesh(&mesh, &rest, 0);
+        let lines = Chains::new(&constraints.links, &rest, false);
         assert_sound(&lines, &constraints.links);
         assert_eq!(lines.longest, 8, "from border to border");
     }

@@ -1,14 +1,14 @@
 //! The weave: from a mesh to all its links, and how they follow when it splits.
 
 use crate::math::sort::sort;
-use crate::mesh::{Corner, Mesh, NONE, after, before, triangle_of};
+use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner, triangle_of};
 use crate::model::chains::Chains;
 use crate::model::coloring;
+use crate::model::coloring::Coloring;
 use crate::model::grid_rows::GridRows;
 use crate::model::hinges::Hinges;
-use crate::model::links::{Batch, LinkKind, Links, Spec, Support, Thread};
+use crate::model::links::{LinkBatch, LinkKind, LinkSpec, LinkSupport, Links, ThreadDirection};
 use crate::model::material::Material;
-use crate::model::recoloring::Recoloring;
 use crate::model::sparse_links::SparseLinks;
 use core::ops::Range;
 use glam::Vec3;
@@ -18,45 +18,45 @@ use glam::Vec3;
 pub(crate) struct Constraints {
     /// The links that it was woven with, batch by batch.
     pub links: Links,
-    pub batches: Vec<Batch>,
+    pub batches: Vec<LinkBatch>,
     /// Where the links of a grid lie in rows.
     pub rows: Option<GridRows>,
     /// The stretch links as lines.
-    pub lines: Chains,
+    pub chains: Chains,
     /// What resists bending on any mesh.
     pub hinges: Hinges,
     /// Whether a link that it was woven with is anchored or as strong as it was no longer.
     pub(super) is_changed: Vec<bool>,
-    /// The second sides of opened edges and what cuts made, in the order they came, see `extra`.
-    pub extra: Links,
+    /// The second sides of opened edges and what cuts made, in the order they came, see `dynamic`.
+    pub dynamic: Links,
     /// Those of them that hold by colour; as of the last time they were gathered.
-    pub loose: SparseLinks,
-    pub(super) palette: Recoloring,
+    pub sparse: SparseLinks,
+    pub(super) coloring: Coloring,
     /// The sites that each extra link involves; `NONE` where there are fewer.
-    pub(super) extra_sites: Vec<[u32; 4]>,
-    /// The link along the edge that starts at each corner, by its number as in `extra`; `NONE` on the
+    pub(super) dynamic_sites: Vec<[u32; 4]>,
+    /// The link along the edge that starts at each corner, by its number as in `dynamic`; `NONE` on the
     /// second side of an inner edge.
     pub(super) link_of_edge: Vec<u32>,
-    /// Links that involve each original vertex: `involved[first[v]..first[v + 1]]`.
-    pub(super) first: Vec<u32>,
-    pub(super) involved: Vec<u32>,
+    /// Links that involve each original vertex: `links_by_site[first_of_site[v]..first_of_site[v + 1]]`.
+    pub(super) first_of_site: Vec<u32>,
+    pub(super) links_by_site: Vec<u32>,
     /// The extra links of each site as chains.
-    pub(super) extra_head: Vec<u32>,
-    pub(super) extra_next: Vec<[u32; 4]>,
+    pub(super) dynamic_head: Vec<u32>,
+    pub(super) dynamic_next: Vec<[u32; 4]>,
     /// Which way the threads of a grid run; any mesh has none.
-    pub(super) threads: Option<[Vec3; 2]>,
+    pub(super) thread_directions: Option<[Vec3; 2]>,
 }
 
 /// A link about to be woven.
-struct Draft {
-    spec: Spec,
+struct LinkDraft {
+    spec: LinkSpec,
     rest: f32,
     color: u32,
 }
 
 impl Constraints {
     /// Weaves a regular grid: four colours for each kind of link.
-    pub fn grid(
+    pub fn from_grid(
         columns: u32,
         rows: u32,
         spacing: f32,
@@ -65,13 +65,14 @@ impl Constraints {
     ) -> Self {
         let edges = EdgeIndex::new(mesh);
         let at = |row: u32, column: u32| row * columns + column;
-        let border = |at_border: bool| if at_border { 0.5 } else { 1.0 };
+        let border_scale = |at_border: bool| if at_border { 0.5 } else { 1.0 };
         let mut drafts = Vec::new();
-        for (thread, base) in [(Thread::Weft, 0), (Thread::Warp, 2)] {
-            each(columns, rows, thread, 1, |along, at_border, a, b| {
-                let (edge, shape) = (edges.find(a, b), border(at_border));
-                let spec = edge_spec(mesh, edge, [a, b], LinkKind::Stretch, thread, shape);
-                drafts.push(Draft { spec, rest: spacing, color: base + along % 2 });
+        for (thread, base) in [(ThreadDirection::Weft, 0), (ThreadDirection::Warp, 2)] {
+            for_each_grid_link(columns, rows, thread, 1, |along, at_border, a, b| {
+                let (edge, stiffness_scale) = (edges.edge_between(a, b), border_scale(at_border));
+                let spec =
+                    edge_link(mesh, edge, [a, b], LinkKind::Stretch, thread, stiffness_scale);
+                drafts.push(LinkDraft { spec, rest: spacing, color: base + along % 2 });
             });
         }
         let diagonal = spacing * 2.0_f32.sqrt();
@@ -86,55 +87,55 @@ impl Constraints {
                     let first = 2 * (row * (columns - 1) + column);
                     let is_edge = (row + column).is_multiple_of(2) == falls;
                     let spec = if is_edge {
-                        edge_spec(
+                        edge_link(
                             mesh,
-                            edges.find(a, b),
+                            edges.edge_between(a, b),
                             [a, b],
                             LinkKind::Shear,
-                            Thread::Warp,
+                            ThreadDirection::Warp,
                             1.0,
                         )
                     } else {
-                        let edge = shared_edge(mesh, first, first + 1);
+                        let edge = edge_between_triangles(mesh, first, first + 1);
                         let (ta, tb) = if mesh.corner_in(first, a).is_some() {
                             (first, first + 1)
                         } else {
                             (first + 1, first)
                         };
-                        let anchors = [corner(mesh, ta, a), corner(mesh, tb, b)];
-                        let support = Support::Flap(edge);
-                        Spec {
+                        let ends = [corner(mesh, ta, a), corner(mesh, tb, b)];
+                        let support = LinkSupport::AcrossEdge(edge);
+                        LinkSpec {
                             kind: LinkKind::Shear,
-                            thread: Thread::Warp,
-                            anchors,
+                            direction: ThreadDirection::Warp,
+                            ends,
                             support,
-                            shape: 1.0,
+                            stiffness_scale: 1.0,
                         }
                     };
-                    drafts.push(Draft { spec, rest: diagonal, color: base + row % 2 });
+                    drafts.push(LinkDraft { spec, rest: diagonal, color: base + row % 2 });
                 }
             }
         }
-        for (thread, base) in [(Thread::Weft, 8), (Thread::Warp, 10)] {
-            each(columns, rows, thread, 2, |along, at_border, a, b| {
+        for (thread, base) in [(ThreadDirection::Weft, 8), (ThreadDirection::Warp, 10)] {
+            for_each_grid_link(columns, rows, thread, 2, |along, at_border, a, b| {
                 let middle = (a + b) / 2;
-                let (left, right) = (edges.find(a, middle), edges.find(middle, b));
-                let spec = Spec {
+                let (left, right) = (edges.edge_between(a, middle), edges.edge_between(middle, b));
+                let spec = LinkSpec {
                     kind: LinkKind::Bend,
-                    thread,
-                    anchors: [corner(mesh, left / 3, a), corner(mesh, right / 3, b)],
-                    support: Support::Pair([
+                    direction: thread,
+                    ends: [corner(mesh, left / 3, a), corner(mesh, right / 3, b)],
+                    support: LinkSupport::TwoEdges([
                         corner(mesh, left / 3, middle),
                         corner(mesh, right / 3, middle),
                     ]),
-                    shape: border(at_border) * bend_shape(spacing, 2.0 * spacing),
+                    stiffness_scale: border_scale(at_border) * bend_shape(spacing, 2.0 * spacing),
                 };
-                drafts.push(Draft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
+                drafts.push(LinkDraft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
             });
         }
         let mut constraints = Self::from_drafts(mesh, drafts, opening_capacity);
         let starts: Vec<usize> = constraints.batches.iter().map(|batch| batch.first).collect();
-        let mut rows = GridRows::find(
+        let mut rows = GridRows::new(
             columns,
             [&constraints.links.a, &constraints.links.b],
             &constraints.links.rest,
@@ -148,7 +149,7 @@ impl Constraints {
     }
 
     /// Weaves any mesh: a stretch link along every edge, a bend link across every inner one.
-    pub fn mesh(mesh: &Mesh, rest: &[Vec3], opening_capacity: usize) -> Self {
+    pub fn from_mesh(mesh: &Mesh, rest: &[Vec3], opening_capacity: usize) -> Self {
         let edges: Vec<Corner> = mesh.edges().collect();
         let distance = |a: u32, b: u32| (rest[a as usize] - rest[b as usize]).length();
         let area = |triangle: usize| {
@@ -157,34 +158,47 @@ impl Constraints {
         };
         let mut drafts = Vec::new();
         for edge in &edges {
-            let (a, b) = (mesh.vertex(*edge), mesh.vertex(after(*edge)));
+            let (a, b) = (mesh.vertex(*edge), mesh.vertex(next_corner(*edge)));
             let length = distance(a, b);
             let beyond = mesh.across(*edge);
             let both =
                 area(triangle_of(*edge)) + if beyond == NONE { 0.0 } else { area(beyond as usize) };
             // Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
-            let shape = both / (length * length);
-            let spec = edge_spec(mesh, *edge, [a, b], LinkKind::Stretch, Thread::Warp, shape);
-            drafts.push(Draft { spec, rest: length, color: 0 });
+            let stiffness_scale = both / (length * length);
+            let spec = edge_link(
+                mesh,
+                *edge,
+                [a, b],
+                LinkKind::Stretch,
+                ThreadDirection::Warp,
+                stiffness_scale,
+            );
+            drafts.push(LinkDraft { spec, rest: length, color: 0 });
         }
         for edge in edges.iter().filter(|edge| mesh.across(**edge) != NONE) {
             let beyond = mesh.across(*edge);
-            let (a, b) = (mesh.vertex(*edge), mesh.vertex(after(*edge)));
-            let opposite = before(*edge);
+            let (a, b) = (mesh.vertex(*edge), mesh.vertex(next_corner(*edge)));
+            let opposite = prev_corner(*edge);
             let far =
                 (3 * beyond..3 * beyond + 3).find(|c| mesh.vertex(*c) != a && mesh.vertex(*c) != b);
-            let anchors = [opposite, far.unwrap_or(opposite)];
-            let length = distance(mesh.vertex(anchors[0]), mesh.vertex(anchors[1]));
-            let shape = bend_shape(distance(a, b), length.max(1.0e-6));
-            let support = Support::Flap(*edge);
-            let spec = Spec { kind: LinkKind::Bend, thread: Thread::Warp, anchors, support, shape };
-            if mesh.vertex(anchors[0]) != mesh.vertex(anchors[1]) {
-                drafts.push(Draft { spec, rest: length, color: 0 });
+            let ends = [opposite, far.unwrap_or(opposite)];
+            let length = distance(mesh.vertex(ends[0]), mesh.vertex(ends[1]));
+            let stiffness_scale = bend_shape(distance(a, b), length.max(1.0e-6));
+            let support = LinkSupport::AcrossEdge(*edge);
+            let spec = LinkSpec {
+                kind: LinkKind::Bend,
+                direction: ThreadDirection::Warp,
+                ends,
+                support,
+                stiffness_scale,
+            };
+            if mesh.vertex(ends[0]) != mesh.vertex(ends[1]) {
+                drafts.push(LinkDraft { spec, rest: length, color: 0 });
             }
         }
         let pairs: Vec<[u32; 2]> =
-            drafts.iter().map(|d| d.spec.anchors.map(|c| mesh.vertex(c))).collect();
-        let of_kind = |draft: &Draft| draft.spec.kind as u32;
+            drafts.iter().map(|d| d.spec.ends.map(|c| mesh.vertex(c))).collect();
+        let of_kind = |draft: &LinkDraft| draft.spec.kind as u32;
         let bend = drafts.iter().position(|draft| of_kind(draft) == 2).unwrap_or(drafts.len());
         let count = mesh.vertex_count();
         let mut colors = coloring::greedy(&pairs[..bend], count);
@@ -196,19 +210,19 @@ impl Constraints {
         Self::from_drafts(mesh, drafts, opening_capacity)
     }
 
-    fn from_drafts(mesh: &Mesh, drafts: Vec<Draft>, opening_capacity: usize) -> Self {
+    fn from_drafts(mesh: &Mesh, drafts: Vec<LinkDraft>, opening_capacity: usize) -> Self {
         // Those of a colour stay in the order in which they were drafted.
         let mut order: Vec<[u32; 2]> =
             drafts.iter().zip(0..).map(|(draft, at)| [draft.color, at]).collect();
         sort(&mut order);
         let mut links = Links::default();
         links.reserve(drafts.len());
-        let mut batches: Vec<Batch> = Vec::new();
+        let mut batches: Vec<LinkBatch> = Vec::new();
         let mut last_color = u32::MAX;
         for (at, [_, draft]) in order.into_iter().enumerate() {
             let draft = &drafts[draft as usize];
             if draft.color != last_color {
-                batches.push(Batch { kind: draft.spec.kind, first: at, count: 0 });
+                batches.push(LinkBatch { kind: draft.spec.kind, first: at, count: 0 });
                 last_color = draft.color;
             }
             if let Some(batch) = batches.last_mut() {
@@ -218,55 +232,56 @@ impl Constraints {
         }
         let mut link_of_edge = vec![NONE; 3 * mesh.triangles.len()];
         for (at, spec) in links.spec.iter().enumerate() {
-            if spec.support == Support::Edge {
-                link_of_edge[edge_of(spec.anchors) as usize] = at as u32;
+            if spec.support == LinkSupport::Edge {
+                link_of_edge[edge_of(spec.ends) as usize] = at as u32;
             }
         }
-        let (first, involved) = involvement(mesh, &links);
+        let (first_of_site, links_by_site) = index_links_by_site(mesh, &links);
         let is_changed = vec![false; links.len()];
-        let mut extra = Links::default();
-        extra.reserve(opening_capacity);
-        let (mut loose, mut palette) = (SparseLinks::default(), Recoloring::default());
-        loose.reserve(opening_capacity);
-        palette.reserve(opening_capacity, mesh.source.capacity());
+        let mut dynamic = Links::default();
+        dynamic.reserve(opening_capacity);
+        let (mut sparse, mut coloring) = (SparseLinks::default(), Coloring::default());
+        sparse.reserve(opening_capacity);
+        coloring.reserve(opening_capacity, mesh.source.capacity());
         Self {
             links,
             batches,
             rows: None,
-            lines: Chains::default(),
+            chains: Chains::default(),
             hinges: Hinges::none(),
             is_changed,
-            extra,
-            loose,
-            palette,
-            extra_sites: Vec::with_capacity(opening_capacity),
+            dynamic,
+            sparse,
+            coloring,
+            dynamic_sites: Vec::with_capacity(opening_capacity),
             link_of_edge,
-            first,
-            involved,
-            extra_head: vec![NONE; mesh.original_count as usize],
-            extra_next: Vec::with_capacity(opening_capacity),
-            threads: None,
+            first_of_site,
+            links_by_site,
+            dynamic_head: vec![NONE; mesh.original_count as usize],
+            dynamic_next: Vec::with_capacity(opening_capacity),
+            thread_directions: None,
         }
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let each = size_of::<Spec>() + 5 * size_of::<f32>() + size_of::<bool>();
-        let links = self.links.len() + self.extra.rest.capacity();
-        links * each
+        let for_each_grid_link = size_of::<LinkSpec>() + 5 * size_of::<f32>() + size_of::<bool>();
+        let links = self.links.len() + self.dynamic.rest.capacity();
+        links * for_each_grid_link
             + self.rows.as_ref().map_or(0, GridRows::bytes)
-            + self.lines.abreast.bytes()
-            + self.loose.bytes()
-            + self.palette.bytes()
+            + self.chains.blocks.bytes()
+            + self.sparse.bytes()
+            + self.coloring.bytes()
             + self.hinges.bytes()
-            + size_of::<u32>() * (self.involved.len() + self.first.len() + self.link_of_edge.len())
-            + size_of::<[u32; 8]>() * self.extra_next.capacity()
+            + size_of::<u32>()
+                * (self.links_by_site.len() + self.first_of_site.len() + self.link_of_edge.len())
+            + size_of::<[u32; 8]>() * self.dynamic_next.capacity()
     }
 
     /// Takes on a material's stiffnesses.
-    pub fn stiffen(&mut self, material: &Material) {
-        for links in [&mut self.links, &mut self.extra] {
-            (0..links.len()).for_each(|link| links.stiffen(link, material));
+    pub fn update_compliances(&mut self, material: &Material) {
+        for links in [&mut self.links, &mut self.dynamic] {
+            (0..links.len()).for_each(|link| links.update_compliance(link, material));
         }
     }
 
@@ -278,18 +293,18 @@ impl Constraints {
 
     /// The links of a kind that left their rows, if there are rows, and still hold.
     #[cfg(feature = "parallel")]
-    pub fn strays_of(&self, kind: LinkKind) -> &[u32] {
+    pub fn irregular_links_of(&self, kind: LinkKind) -> &[u32] {
         let batches = &self.batches[self.batches_of(kind)];
         let (Some(rows), Some(first), Some(last)) = (&self.rows, batches.first(), batches.last())
         else {
             return &[];
         };
-        rows.strays(first.first..last.first + last.count)
+        rows.irregular_in(first.first..last.first + last.count)
     }
 
     /// All links that hold, as particle, particle and kind.
-    pub fn active(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
-        [&self.links, &self.extra].into_iter().flat_map(|links| {
+    pub fn active_links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
+        [&self.links, &self.dynamic].into_iter().flat_map(|links| {
             let held = (0..links.len()).filter(|link| links.active[*link]);
             held.map(|link| (links.a[link], links.b[link], links.kind(link)))
         })
@@ -305,46 +320,46 @@ pub(super) fn bend_shape(width: f32, span: f32) -> f32 {
     512.0 * width / (span * span * span)
 }
 
-/// Calls `visit(along, at_border, a, b)` for links of `reach` cells along a thread: `along` counts
+/// Calls `visit(along, at_border, a, b)` for links of `span` cells along a thread: `along` counts
 /// cells from its start, `at_border` is whether the thread is a border of the grid.
-fn each(
+fn for_each_grid_link(
     columns: u32,
     rows: u32,
-    thread: Thread,
-    reach: u32,
+    thread: ThreadDirection,
+    span: u32,
     mut visit: impl FnMut(u32, bool, u32, u32),
 ) {
     let (last_row, last_column, step) = match thread {
-        Thread::Weft => (rows, columns.saturating_sub(reach), 1),
-        Thread::Warp => (rows.saturating_sub(reach), columns, columns),
+        ThreadDirection::Weft => (rows, columns.saturating_sub(span), 1),
+        ThreadDirection::Warp => (rows.saturating_sub(span), columns, columns),
     };
     for row in 0..last_row {
         for column in 0..last_column {
             let a = row * columns + column;
-            let (along, across, lines) = match thread {
-                Thread::Weft => (column, row, rows),
-                Thread::Warp => (row, column, columns),
+            let (along, across, chains) = match thread {
+                ThreadDirection::Weft => (column, row, rows),
+                ThreadDirection::Warp => (row, column, columns),
             };
-            visit(along, across == 0 || across == lines - 1, a, a + reach * step);
+            visit(along, across == 0 || across == chains - 1, a, a + span * step);
         }
     }
 }
 
-fn edge_spec(
+fn edge_link(
     mesh: &Mesh,
     edge: Corner,
     ends: [u32; 2],
     kind: LinkKind,
-    thread: Thread,
-    shape: f32,
-) -> Spec {
-    let anchors = ends.map(|end| if mesh.vertex(edge) == end { edge } else { after(edge) });
-    Spec { kind, thread, anchors, support: Support::Edge, shape }
+    thread: ThreadDirection,
+    stiffness_scale: f32,
+) -> LinkSpec {
+    let ends = ends.map(|end| if mesh.vertex(edge) == end { edge } else { next_corner(edge) });
+    LinkSpec { kind, direction: thread, ends, support: LinkSupport::Edge, stiffness_scale }
 }
 
 /// The edge between two corners of one triangle: the corner where it starts.
-pub(super) fn edge_of(anchors: [Corner; 2]) -> Corner {
-    if after(anchors[0]) == anchors[1] { anchors[0] } else { anchors[1] }
+pub(super) fn edge_of(ends: [Corner; 2]) -> Corner {
+    if next_corner(ends[0]) == ends[1] { ends[0] } else { ends[1] }
 }
 
 fn corner(mesh: &Mesh, triangle: u32, vertex: u32) -> Corner {
@@ -353,17 +368,17 @@ fn corner(mesh: &Mesh, triangle: u32, vertex: u32) -> Corner {
     found.unwrap_or(3 * triangle)
 }
 
-fn shared_edge(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
+fn edge_between_triangles(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
     let found = (3 * triangle..3 * triangle + 3).find(|edge| mesh.across(*edge) == other);
     debug_assert!(found.is_some(), "triangles {triangle} and {other} share an edge");
     found.unwrap_or(3 * triangle)
 }
 
 /// For each original vertex the links that change when it splits: its own, and those it supports.
-fn involvement(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
+fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
     let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * links.len());
     for (at, spec) in links.spec.iter().enumerate() {
-        pairs.extend(spec.corners().map(|corner| (mesh.vertex(corner), at as u32)));
+        pairs.extend(spec.dependent_corners().map(|corner| (mesh.vertex(corner), at as u32)));
     }
     sort(&mut pairs);
     pairs.dedup();
@@ -390,7 +405,7 @@ impl EdgeIndex {
     }
 
     /// The corner where the edge starts in its first triangle.
-    fn find(&self, a: u32, b: u32) -> Corner {
+    fn edge_between(&self, a: u32, b: u32) -> Corner {
         let ends = (a.min(b), a.max(b));
         let found = self.sorted.binary_search_by_key(&ends, |(ends, _)| *ends);
         debug_assert!(found.is_ok(), "{ends:?} is an edge");

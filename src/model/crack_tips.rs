@@ -9,48 +9,49 @@
 //! What the solver has not got to of a load looks like strain too, and at a tip it is greatest. Threads
 //! there tear at no less than that, so that a slit cloth does not come apart under its own weight.
 
-use crate::mesh::{Fan, Mesh, NONE, after, before};
+use crate::mesh::{Fan, Mesh, NONE, next_corner, prev_corner};
 use crate::model::material::Material;
 use glam::Vec3;
 
 /// Over how many thicknesses of the cloth strain spreads at a tip.
-const ZONE: f32 = 16.0;
+const PROCESS_ZONE: f32 = 16.0;
 
 /// Threads at a tip tear at this share of the strain at least, however coarse the mesh is.
-const LEAST: f32 = 0.2;
+const MIN_STRAIN_RATIO: f32 = 0.2;
 
 /// From so much cloth around it on [rad], a vertex at a border is a tip: five sixths of a circle, well past
 /// any corner.
-const AROUND: f32 = 5.235_988;
+const MIN_TIP_ANGLE: f32 = 5.235_988;
 
 /// The strain at which threads at a tip tear, where the solver may leave them with so much.
-pub(crate) fn strain(material: &Material, spacing: f32, left: f32) -> f32 {
+pub(crate) fn tear_strain(material: &Material, spacing: f32, solver_residual: f32) -> f32 {
     let others = material.tear_stretch - 1.0;
-    let at_tip = others * weakness(material, spacing);
-    let at_least = if left < others { left } else { others };
+    let at_tip = others * tip_strain_ratio(material, spacing);
+    let at_least = if solver_residual < others { solver_residual } else { others };
     if at_tip < at_least { at_least } else { at_tip }
 }
 
 /// At what share of the strain that others do threads at a tip tear.
-fn weakness(material: &Material, spacing: f32) -> f32 {
-    let share = (ZONE * material.thickness / spacing).sqrt();
-    let share = if share > LEAST { share } else { LEAST };
+fn tip_strain_ratio(material: &Material, spacing: f32) -> f32 {
+    let share = (PROCESS_ZONE * material.thickness / spacing).sqrt();
+    let share = if share > MIN_STRAIN_RATIO { share } else { MIN_STRAIN_RATIO };
     if share < 1.0 { share } else { 1.0 }
 }
 
 /// Whether a vertex is a tip. `rest` is the rest position of each site, `fan` room to work in.
-pub(crate) fn is_tip(mesh: &Mesh, rest: &[Vec3], vertex: u32, fan: &mut Fan) -> bool {
+pub(crate) fn is_crack_tip(mesh: &Mesh, rest: &[Vec3], vertex: u32, fan: &mut Fan) -> bool {
     let corner = mesh.corner_of[vertex as usize];
     if corner == NONE {
         return false;
     }
-    mesh.fan(corner, fan);
+    mesh.gather_fan(corner, fan);
     let at = |corner: u32| rest[mesh.source[mesh.vertex(corner) as usize] as usize];
     let angle = |corner: &u32| {
-        let (p, q) = (at(after(*corner)) - at(*corner), at(before(*corner)) - at(*corner));
+        let (p, q) =
+            (at(next_corner(*corner)) - at(*corner), at(prev_corner(*corner)) - at(*corner));
         angle_between(p, q)
     };
-    !fan.is_closed && fan.corners.iter().map(angle).sum::<f32>() > AROUND
+    !fan.is_closed && fan.corners.iter().map(angle).sum::<f32>() > MIN_TIP_ANGLE
 }
 
 /// The angle between two ways [rad], to a hundredth.
@@ -97,7 +98,8 @@ mod tests {
         let slit = [edge(&mesh, 4, 5), edge(&mesh, 5, 6)];
         mesh.open_edges(&slit, &mut Vec::new(), &mut Vec::new());
         let mut fan = Fan::default();
-        let tips = (0..mesh.vertex_count() as u32).filter(|v| is_tip(&mesh, &rest, *v, &mut fan));
+        let tips =
+            (0..mesh.vertex_count() as u32).filter(|v| is_crack_tip(&mesh, &rest, *v, &mut fan));
         assert_eq!(tips.collect::<Vec<_>>(), [6]);
     }
 }

@@ -6,30 +6,30 @@
 //! in a row are gone with either of them. New links are extra ones, so that no colour changes.
 
 use crate::math::sort::sort;
-use crate::mesh::split_edge::{Division, Side};
-use crate::mesh::{Corner, Mesh, NONE, after, before};
+use crate::mesh::split_edge::{EdgeSplit, SplitTriangle};
+use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner};
 use crate::model::constraints::{Constraints, bend_shape, edge_of};
-use crate::model::dynamic_links::EXTRA;
-use crate::model::links::{LinkKind, Spec, Support, Thread};
+use crate::model::dynamic_links::DYNAMIC;
+use crate::model::links::{LinkKind, LinkSpec, LinkSupport, ThreadDirection};
 use crate::model::material::Material;
 use glam::Vec3;
 
 /// Which links touch each triangle; some may have left it since.
-pub(crate) type Touching = Vec<Vec<u32>>;
+pub(crate) type LinksOfTriangle = Vec<Vec<u32>>;
 
 /// How far a thread's direction may be from an edge along it: the cosine of a sixteenth of a circle.
-const ALONG: f32 = 0.923_879_5;
+const MIN_ALIGNMENT: f32 = 0.923_879_5;
 
 /// The cloth at rest, and what it is made of.
 #[derive(Clone, Copy)]
-pub(crate) struct Recipe<'a> {
+pub(crate) struct RestShape<'a> {
     pub mesh: &'a Mesh,
     /// Rest position of each site [m].
     pub rest: &'a [Vec3],
     pub material: &'a Material,
 }
 
-impl Recipe<'_> {
+impl RestShape<'_> {
     fn at(&self, corner: Corner) -> Vec3 {
         self.rest[self.mesh.source[self.mesh.vertex(corner) as usize] as usize]
     }
@@ -46,232 +46,273 @@ impl Recipe<'_> {
 
 impl Constraints {
     /// Which links touch which triangles.
-    pub fn touching(&self, triangles: usize) -> Touching {
-        let mut touching = vec![Vec::new(); triangles];
-        let woven = (0..self.links.len() as u32).map(|link| (link, &self.links.spec));
-        let extra = (0..self.extra.len() as u32).map(|link| (EXTRA | link, &self.extra.spec));
-        for (number, specs) in woven.chain(extra) {
-            touch(&mut touching, number, &specs[(number & !EXTRA) as usize]);
+    pub fn links_of_triangles(&self, triangles: usize) -> LinksOfTriangle {
+        let mut links_of = vec![Vec::new(); triangles];
+        let created = (0..self.links.len() as u32).map(|link| (link, &self.links.spec));
+        let dynamic =
+            (0..self.dynamic.len() as u32).map(|link| (DYNAMIC | link, &self.dynamic.spec));
+        for (number, specs) in created.chain(dynamic) {
+            register(&mut links_of, number, &specs[(number & !DYNAMIC) as usize]);
         }
-        touching
+        links_of
     }
 
     /// Brings the links in line with a division of the mesh, which is done already.
-    pub fn divide(&mut self, recipe: Recipe<'_>, division: &Division, touching: &mut Touching) {
-        self.link_of_edge.resize(3 * recipe.mesh.triangles.len(), NONE);
-        touching.resize(recipe.mesh.triangles.len(), Vec::new());
-        let along = self.along(division);
-        let mut met: Vec<u32> = division
-            .sides()
-            .flat_map(|side| touching[side.kept() as usize].iter().copied())
-            .collect();
-        sort(&mut met);
-        met.dedup();
-        for number in met {
+    pub fn split_edge(
+        &mut self,
+        rest_shape: RestShape<'_>,
+        split: &EdgeSplit,
+        links_of: &mut LinksOfTriangle,
+    ) {
+        self.link_of_edge.resize(3 * rest_shape.mesh.triangles.len(), NONE);
+        links_of.resize(rest_shape.mesh.triangles.len(), Vec::new());
+        let link_along = self.link_along(split);
+        let mut affected: Vec<u32> =
+            split.sides().flat_map(|side| links_of[side.kept() as usize].iter().copied()).collect();
+        sort(&mut affected);
+        affected.dedup();
+        for number in affected {
             let (links, at) = self.link(number);
             match links.spec[at].support {
-                Support::Edge => self.keep_edge(division, number, touching),
-                Support::Flap(_) => self.knot_flap(recipe, division, number, touching),
-                Support::Pair(_) => self.keep_pair(division, number, touching),
-                Support::Gone => {}
+                LinkSupport::Edge => self.update_edge_link(split, number, links_of),
+                LinkSupport::AcrossEdge(_) => {
+                    self.replace_across_link(rest_shape, split, number, links_of)
+                }
+                LinkSupport::TwoEdges(_) => self.update_two_edge_link(split, number, links_of),
+                LinkSupport::Removed => {}
             }
         }
-        if let Some(along) = along {
-            self.part(recipe, division, along, touching);
+        if let Some(link_along) = link_along {
+            self.split_link(rest_shape, split, link_along, links_of);
         }
-        for side in division.sides() {
-            self.cross(recipe, side, touching);
+        for side in split.sides() {
+            self.add_inner_edge_link(rest_shape, side, links_of);
         }
-        self.fold(recipe, division, touching);
+        self.add_bend_links(rest_shape, split, links_of);
     }
 
     /// The link along the edge that is divided.
-    fn along(&self, division: &Division) -> Option<u32> {
-        let mut found = division.sides().map(|side| self.link_of_edge[side.edge as usize]);
+    fn link_along(&self, split: &EdgeSplit) -> Option<u32> {
+        let mut found = split.sides().map(|side| self.link_of_edge[side.edge as usize]);
         found.find(|number| *number != NONE)
     }
 
     /// A link along the edge that moved moves with it.
-    fn keep_edge(&mut self, division: &Division, number: u32, touching: &mut Touching) {
+    fn update_edge_link(&mut self, split: &EdgeSplit, number: u32, links_of: &mut LinksOfTriangle) {
         let (links, at) = self.link(number);
-        let edge = edge_of(links.spec[at].anchors);
-        let Some(side) = division.sides().find(|side| side.moved_edge() == edge) else { return };
+        let edge = edge_of(links.spec[at].ends);
+        let Some(side) = split.sides().find(|side| side.moved_edge() == edge) else { return };
         let (links, at) = self.link_mut(number);
         let spec = &mut links.spec[at];
-        spec.anchors = spec.anchors.map(|corner| moved(side, corner));
-        touching[side.added as usize].push(number);
+        spec.ends = spec.ends.map(|corner| moved_corner(side, corner));
+        links_of[side.added as usize].push(number);
         self.link_of_edge[side.moved_edge() as usize] = NONE;
         self.link_of_edge[side.new_edge() as usize] = number;
     }
 
     /// A link over two edges in a row lasts if neither was divided.
-    fn keep_pair(&mut self, division: &Division, number: u32, touching: &mut Touching) {
+    fn update_two_edge_link(
+        &mut self,
+        split: &EdgeSplit,
+        number: u32,
+        links_of: &mut LinksOfTriangle,
+    ) {
         let (links, at) = self.link(number);
         let spec = links.spec[at];
-        let Support::Pair(middles) = spec.support else { return };
-        let (mut anchors, mut middles) = (spec.anchors, middles);
-        for (anchor, middle) in anchors.iter_mut().zip(&mut middles) {
-            let edge = edge_of([*anchor, *middle]);
-            if division.sides().any(|side| side.edge == edge) {
-                return self.retire(number);
+        let LinkSupport::TwoEdges(middles) = spec.support else { return };
+        let (mut ends, mut middles) = (spec.ends, middles);
+        for (end, middle) in ends.iter_mut().zip(&mut middles) {
+            let edge = edge_of([*end, *middle]);
+            if split.sides().any(|side| side.edge == edge) {
+                return self.remove_link(number);
             }
-            if let Some(side) = division.sides().find(|side| side.moved_edge() == edge) {
-                (*anchor, *middle) = (moved(side, *anchor), moved(side, *middle));
-                touching[side.added as usize].push(number);
+            if let Some(side) = split.sides().find(|side| side.moved_edge() == edge) {
+                (*end, *middle) = (moved_corner(side, *end), moved_corner(side, *middle));
+                links_of[side.added as usize].push(number);
             }
         }
         let (links, at) = self.link_mut(number);
-        links.spec[at] = Spec { anchors, support: Support::Pair(middles), ..spec };
+        links.spec[at] = LinkSpec { ends, support: LinkSupport::TwoEdges(middles), ..spec };
     }
 
     /// A link across an edge has lost an end: the new vertex is across that edge now. If the edge itself
     /// was divided, the folds across its parts get their own.
-    fn knot_flap(
+    fn replace_across_link(
         &mut self,
-        recipe: Recipe<'_>,
-        division: &Division,
+        rest_shape: RestShape<'_>,
+        split: &EdgeSplit,
         number: u32,
-        touching: &mut Touching,
+        links_of: &mut LinksOfTriangle,
     ) {
         let (links, at) = self.link(number);
         let (mut spec, held) = (links.spec[at], links.active[at]);
-        let Support::Flap(mut edge) = spec.support else { return };
+        let LinkSupport::AcrossEdge(mut edge) = spec.support else { return };
         let mut is_met = false;
-        for side in division.sides() {
-            for anchor in &mut spec.anchors {
-                if *anchor / 3 != side.kept() {
+        for side in split.sides() {
+            for end in &mut spec.ends {
+                if *end / 3 != side.kept() {
                     continue;
                 }
                 is_met = true;
-                if *anchor == before(side.edge) {
-                    return self.retire(number);
+                if *end == prev_corner(side.edge) {
+                    return self.remove_link(number);
                 }
                 // The near end was across from the edge that moved, the far end from the one that stays.
-                *anchor = if *anchor == side.edge { 3 * side.added } else { after(side.edge) };
+                *end = if *end == side.edge { 3 * side.added } else { next_corner(side.edge) };
             }
             edge = if edge == side.moved_edge() { side.new_edge() } else { edge };
         }
         if !is_met {
             return;
         }
-        self.retire(number);
-        let rest = recipe.distance(spec.anchors[0], spec.anchors[1]);
+        self.remove_link(number);
+        let rest = rest_shape.distance(spec.ends[0], spec.ends[1]);
         if !held || rest <= 0.0 {
             return;
         }
-        spec.support = Support::Flap(edge);
+        spec.support = LinkSupport::AcrossEdge(edge);
         if spec.kind == LinkKind::Bend {
-            spec.shape = bend_shape(recipe.distance(edge, after(edge)), rest);
+            spec.stiffness_scale = bend_shape(rest_shape.distance(edge, next_corner(edge)), rest);
         }
-        self.put(recipe, spec, rest, touching);
+        self.add_link(rest_shape, spec, rest, links_of);
     }
 
     /// The link along the divided edge becomes two.
-    fn part(
+    fn split_link(
         &mut self,
-        recipe: Recipe<'_>,
-        division: &Division,
-        along: u32,
-        touching: &mut Touching,
+        rest_shape: RestShape<'_>,
+        split: &EdgeSplit,
+        link_along: u32,
+        links_of: &mut LinksOfTriangle,
     ) {
-        let (links, at) = self.link(along);
+        let (links, at) = self.link(link_along);
         let (spec, rest) = (links.spec[at], links.rest[at]);
-        self.retire(along);
-        let Some(side) = division.sides().next() else { return };
-        let near = recipe.distance(side.edge, after(side.edge));
-        let far = recipe.distance(3 * side.added, 3 * side.added + 1);
+        self.remove_link(link_along);
+        let Some(side) = split.sides().next() else { return };
+        let near = rest_shape.distance(side.edge, next_corner(side.edge));
+        let far = rest_shape.distance(3 * side.added, 3 * side.added + 1);
         for (edge, length) in [(side.edge, near), (3 * side.added, far)] {
             let share = length / (near + far);
-            let (anchors, shape) = ([edge, after(edge)], spec.shape / share);
-            let part = Spec { anchors, shape, support: Support::Edge, ..spec };
-            self.put(recipe, part, rest * share, touching);
+            let (ends, stiffness_scale) = ([edge, next_corner(edge)], spec.stiffness_scale / share);
+            let split_link = LinkSpec { ends, stiffness_scale, support: LinkSupport::Edge, ..spec };
+            self.add_link(rest_shape, split_link, rest * share, links_of);
         }
     }
 
     /// The edge from the new vertex to the opposite one gets a link.
-    fn cross(&mut self, recipe: Recipe<'_>, side: Side, touching: &mut Touching) {
-        let edge = after(side.edge);
-        let way = recipe.at(after(edge)) - recipe.at(edge);
+    fn add_inner_edge_link(
+        &mut self,
+        rest_shape: RestShape<'_>,
+        side: SplitTriangle,
+        links_of: &mut LinksOfTriangle,
+    ) {
+        let edge = next_corner(side.edge);
+        let way = rest_shape.at(next_corner(edge)) - rest_shape.at(edge);
         let length = way.length();
-        let both = recipe.area(side.kept()) + recipe.area(side.added);
-        let (kind, thread) = self.kind_along(way * (1.0 / length));
-        let spec = Spec {
+        let both = rest_shape.area(side.kept()) + rest_shape.area(side.added);
+        let (kind, thread) = self.kind_in_direction(way * (1.0 / length));
+        let spec = LinkSpec {
             kind,
-            thread,
-            anchors: [edge, after(edge)],
-            support: Support::Edge,
-            shape: both / (length * length),
+            direction: thread,
+            ends: [edge, next_corner(edge)],
+            support: LinkSupport::Edge,
+            stiffness_scale: both / (length * length),
         };
-        self.put(recipe, spec, length, touching);
+        self.add_link(rest_shape, spec, length, links_of);
     }
 
     /// Bend links across the new edges: within the divided triangles, and over the divided edge.
-    fn fold(&mut self, recipe: Recipe<'_>, division: &Division, touching: &mut Touching) {
-        for side in division.sides() {
+    fn add_bend_links(
+        &mut self,
+        rest_shape: RestShape<'_>,
+        split: &EdgeSplit,
+        links_of: &mut LinksOfTriangle,
+    ) {
+        for side in split.sides() {
             let across = [side.edge, 3 * side.added + 1];
-            self.put_fold(recipe, after(side.edge), across, touching);
+            self.add_bend_link(rest_shape, next_corner(side.edge), across, links_of);
         }
-        let [Some(one), Some(_)] = division.sides else { return };
+        let [Some(one), Some(_)] = split.sides else { return };
         for edge in [one.edge, 3 * one.added] {
-            let beyond = recipe.mesh.across(edge);
-            let ends = recipe.mesh.ends(edge);
-            let twin = (3 * beyond..3 * beyond + 3).find(|other| recipe.mesh.ends(*other) == ends);
+            let beyond = rest_shape.mesh.across(edge);
+            let ends = rest_shape.mesh.ends(edge);
+            let twin =
+                (3 * beyond..3 * beyond + 3).find(|other| rest_shape.mesh.ends(*other) == ends);
             if let Some(twin) = twin {
-                self.put_fold(recipe, edge, [before(edge), before(twin)], touching);
+                self.add_bend_link(
+                    rest_shape,
+                    edge,
+                    [prev_corner(edge), prev_corner(twin)],
+                    links_of,
+                );
             }
         }
     }
 
-    fn put_fold(
+    fn add_bend_link(
         &mut self,
-        recipe: Recipe<'_>,
+        rest_shape: RestShape<'_>,
         edge: Corner,
-        anchors: [Corner; 2],
-        touching: &mut Touching,
+        ends: [Corner; 2],
+        links_of: &mut LinksOfTriangle,
     ) {
-        let rest = recipe.distance(anchors[0], anchors[1]);
+        let rest = rest_shape.distance(ends[0], ends[1]);
         if rest <= 0.0 {
             return;
         }
-        let shape = bend_shape(recipe.distance(edge, after(edge)), rest);
-        let (kind, thread) = (LinkKind::Bend, Thread::Warp);
-        let spec = Spec { kind, thread, anchors, support: Support::Flap(edge), shape };
-        self.put(recipe, spec, rest, touching);
+        let stiffness_scale = bend_shape(rest_shape.distance(edge, next_corner(edge)), rest);
+        let (kind, thread) = (LinkKind::Bend, ThreadDirection::Warp);
+        let spec = LinkSpec {
+            kind,
+            direction: thread,
+            ends,
+            support: LinkSupport::AcrossEdge(edge),
+            stiffness_scale,
+        };
+        self.add_link(rest_shape, spec, rest, links_of);
     }
 
     /// What a link along a direction resists: on a grid, one across the threads only shear.
-    fn kind_along(&self, direction: Vec3) -> (LinkKind, Thread) {
-        let Some([weft, warp]) = self.threads else { return (LinkKind::Stretch, Thread::Warp) };
-        if direction.dot(weft).abs() > ALONG {
-            (LinkKind::Stretch, Thread::Weft)
-        } else if direction.dot(warp).abs() > ALONG {
-            (LinkKind::Stretch, Thread::Warp)
+    fn kind_in_direction(&self, direction: Vec3) -> (LinkKind, ThreadDirection) {
+        let Some([weft, warp]) = self.thread_directions else {
+            return (LinkKind::Stretch, ThreadDirection::Warp);
+        };
+        if direction.dot(weft).abs() > MIN_ALIGNMENT {
+            (LinkKind::Stretch, ThreadDirection::Weft)
+        } else if direction.dot(warp).abs() > MIN_ALIGNMENT {
+            (LinkKind::Stretch, ThreadDirection::Warp)
         } else {
-            (LinkKind::Shear, Thread::Warp)
+            (LinkKind::Shear, ThreadDirection::Warp)
         }
     }
 
-    fn put(&mut self, recipe: Recipe<'_>, spec: Spec, rest: f32, touching: &mut Touching) {
-        let number = self.add(recipe.mesh, spec, rest, recipe.material);
-        touch(touching, number, &spec);
+    fn add_link(
+        &mut self,
+        rest_shape: RestShape<'_>,
+        spec: LinkSpec,
+        rest: f32,
+        links_of: &mut LinksOfTriangle,
+    ) {
+        let number = self.push_dynamic(rest_shape.mesh, spec, rest, rest_shape.material);
+        register(links_of, number, &spec);
     }
 
-    fn retire(&mut self, number: u32) {
+    fn remove_link(&mut self, number: u32) {
         let (links, at) = self.link_mut(number);
         let spec = links.spec[at];
-        links.spec[at].support = Support::Gone;
+        links.spec[at].support = LinkSupport::Removed;
         links.active[at] = false;
         self.hinges.revision = self.hinges.revision.wrapping_add(1);
-        let slot = edge_of(spec.anchors) as usize;
-        if spec.support == Support::Edge && self.link_of_edge[slot] == number {
+        let slot = edge_of(spec.ends) as usize;
+        if spec.support == LinkSupport::Edge && self.link_of_edge[slot] == number {
             self.link_of_edge[slot] = NONE;
         }
     }
 }
 
-fn touch(touching: &mut Touching, number: u32, spec: &Spec) {
-    for corner in spec.corners() {
-        let list = &mut touching[corner as usize / 3];
+fn register(links_of: &mut LinksOfTriangle, number: u32, spec: &LinkSpec) {
+    for corner in spec.dependent_corners() {
+        let list = &mut links_of[corner as usize / 3];
         if list.last() != Some(&number) {
             list.push(number);
         }
@@ -279,6 +320,6 @@ fn touch(touching: &mut Touching, number: u32, spec: &Spec) {
 }
 
 /// Where a corner at an end of the moved edge is now.
-fn moved(side: Side, corner: Corner) -> Corner {
-    if corner == after(side.edge) { 3 * side.added + 1 } else { 3 * side.added + 2 }
+fn moved_corner(side: SplitTriangle, corner: Corner) -> Corner {
+    if corner == next_corner(side.edge) { 3 * side.added + 1 } else { 3 * side.added + 2 }
 }

@@ -1,31 +1,31 @@
 //! Extra links, and how all links follow the mesh: an opened edge needs a link on its second side, and
 //! what a cut divides needs new ones.
 //!
-//! A link has a number: that in its list, plus `EXTRA` for an extra one.
+//! A link has a number: that in its list, plus `DYNAMIC` for an extra one.
 
-use crate::mesh::{Corner, Mesh, NONE, after};
+use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::constraints::{Constraints, edge_of};
-use crate::model::links::{Links, Spec, Support};
+use crate::model::links::{LinkSpec, LinkSupport, Links};
 use crate::model::material::Material;
 use glam::Vec3;
 
 /// Marks the number of an extra link.
-pub(super) const EXTRA: u32 = 1 << 31;
+pub(super) const DYNAMIC: u32 = 1 << 31;
 
 impl Constraints {
     /// Which way the threads of a grid run, unit vectors along the weft and the warp.
-    pub fn run_along(&mut self, threads: [Vec3; 2]) {
-        self.threads = Some(threads);
+    pub fn set_thread_directions(&mut self, thread_directions: [Vec3; 2]) {
+        self.thread_directions = Some(thread_directions);
     }
 
     /// Makes room for `count` more extra links, and for `sites` in all.
     pub fn reserve(&mut self, count: usize, sites: usize) {
-        self.extra.reserve(count);
-        self.loose.reserve(self.extra.len() + count);
-        self.palette.reserve(self.extra.len() + count, sites);
-        self.extra_sites.reserve_exact(count);
-        self.extra_next.reserve_exact(count);
-        self.extra_head.reserve_exact(sites.saturating_sub(self.extra_head.len()));
+        self.dynamic.reserve(count);
+        self.sparse.reserve(self.dynamic.len() + count);
+        self.coloring.reserve(self.dynamic.len() + count, sites);
+        self.dynamic_sites.reserve_exact(count);
+        self.dynamic_next.reserve_exact(count);
+        self.dynamic_head.reserve_exact(sites.saturating_sub(self.dynamic_head.len()));
         if let Some(rows) = &mut self.rows {
             rows.reserve();
         }
@@ -33,8 +33,8 @@ impl Constraints {
 
     /// A link by its number.
     pub(super) fn link(&self, number: u32) -> (&Links, usize) {
-        if number >= EXTRA {
-            (&self.extra, (number - EXTRA) as usize)
+        if number >= DYNAMIC {
+            (&self.dynamic, (number - DYNAMIC) as usize)
         } else {
             (&self.links, number as usize)
         }
@@ -42,8 +42,8 @@ impl Constraints {
 
     /// A link by its number, to change what it is anchored to or how strong it is.
     pub(super) fn link_mut(&mut self, number: u32) -> (&mut Links, usize) {
-        if number >= EXTRA {
-            (&mut self.extra, (number - EXTRA) as usize)
+        if number >= DYNAMIC {
+            (&mut self.dynamic, (number - DYNAMIC) as usize)
         } else {
             self.is_changed[number as usize] = true;
             (&mut self.links, number as usize)
@@ -51,32 +51,39 @@ impl Constraints {
     }
 
     /// Adds an extra link, and gives its number.
-    pub(super) fn add(&mut self, mesh: &Mesh, spec: Spec, rest: f32, material: &Material) -> u32 {
-        let new = self.extra.len();
-        self.extra.push(mesh, spec, rest);
-        self.extra.stiffen(new, material);
-        if spec.support == Support::Gone {
-            self.extra.active[new] = false;
+    pub(super) fn push_dynamic(
+        &mut self,
+        mesh: &Mesh,
+        spec: LinkSpec,
+        rest: f32,
+        material: &Material,
+    ) -> u32 {
+        let new = self.dynamic.len();
+        self.dynamic.push(mesh, spec, rest);
+        self.dynamic.update_compliance(new, material);
+        if spec.support == LinkSupport::Removed {
+            self.dynamic.active[new] = false;
         }
-        let mut sites = spec.corners().map(|corner| mesh.source[mesh.vertex(corner) as usize]);
+        let mut sites =
+            spec.dependent_corners().map(|corner| mesh.source[mesh.vertex(corner) as usize]);
         for at in 1..4 {
             if sites[..at].contains(&sites[at]) {
                 sites[at] = NONE;
             }
         }
         let most = sites.iter().filter(|site| **site != NONE).max().map_or(0, |site| site + 1);
-        if self.extra_head.len() < most as usize {
-            self.extra_head.resize(most as usize, NONE);
+        if self.dynamic_head.len() < most as usize {
+            self.dynamic_head.resize(most as usize, NONE);
         }
-        let heads = &mut self.extra_head;
-        self.extra_next.push(sites.map(|site| heads.get(site as usize).copied().unwrap_or(NONE)));
+        let heads = &mut self.dynamic_head;
+        self.dynamic_next.push(sites.map(|site| heads.get(site as usize).copied().unwrap_or(NONE)));
         for site in sites.into_iter().filter(|site| *site != NONE) {
             heads[site as usize] = new as u32;
         }
-        self.extra_sites.push(sites);
-        let number = EXTRA | new as u32;
-        if spec.support == Support::Edge {
-            self.link_of_edge[edge_of(spec.anchors) as usize] = number;
+        self.dynamic_sites.push(sites);
+        let number = DYNAMIC | new as u32;
+        if spec.support == LinkSupport::Edge {
+            self.link_of_edge[edge_of(spec.ends) as usize] = number;
         }
         number
     }
@@ -84,7 +91,7 @@ impl Constraints {
     /// Gives the second side of an opened edge a link of its own; either side keeps half the strength.
     ///
     /// The cloth has seen to room for it.
-    pub fn open(&mut self, mesh: &Mesh, sides: [Corner; 2], material: &Material) {
+    pub fn open_edge(&mut self, mesh: &Mesh, sides: [Corner; 2], material: &Material) {
         let of = |edge: Corner| self.link_of_edge[edge as usize];
         let (number, bare) =
             if of(sides[0]) == NONE { (of(sides[1]), sides[0]) } else { (of(sides[0]), sides[1]) };
@@ -93,94 +100,107 @@ impl Constraints {
             return;
         }
         let (links, at) = self.link_mut(number);
-        links.spec[at].shape *= 0.5;
-        links.stiffen(at, material);
-        let spec = Spec { anchors: [bare, after(bare)], ..links.spec[at] };
+        links.spec[at].stiffness_scale *= 0.5;
+        links.update_compliance(at, material);
+        let spec = LinkSpec { ends: [bare, next_corner(bare)], ..links.spec[at] };
         let rest = links.rest[at];
-        self.add(mesh, spec, rest, material);
+        self.push_dynamic(mesh, spec, rest, material);
     }
 
     /// Brings every link of a site in line with the mesh.
-    pub fn follow(&mut self, mesh: &Mesh, site: u32) {
-        for at in self.involved_range(site) {
-            let link = self.involved[at] as usize;
-            self.links.follow(mesh, link);
-            self.lines.abreast.forget(link);
-            self.hinges.follow_link(mesh, &self.links, link);
+    pub fn update_site(&mut self, mesh: &Mesh, site: u32) {
+        for at in self.site_range(site) {
+            let link = self.links_by_site[at] as usize;
+            self.links.update(mesh, link);
+            self.chains.blocks.mark_stale(link);
+            self.hinges.update_link(mesh, &self.links, link);
             if let Some(rows) = &mut self.rows {
                 let ends = (self.links.a[link], self.links.b[link]);
-                rows.follow(link, ends, self.links.active[link]);
+                rows.update_link(link, ends, self.links.active[link]);
             }
         }
-        let mut at = self.first_extra(site);
+        let mut at = self.first_dynamic(site);
         while at != NONE {
-            self.extra.follow(mesh, at as usize);
-            at = self.next_extra(at, site);
+            self.dynamic.update(mesh, at as usize);
+            at = self.next_dynamic(at, site);
         }
     }
 
     /// Gathers the links that sweeps find in no row, after some changed. `particles` is how many there
     /// are.
-    pub fn gather(&mut self, particles: usize) {
-        self.loose.color(&self.extra, particles, &mut self.palette);
+    pub fn rebuild_sparse(&mut self, particles: usize) {
+        self.sparse.rebuild_colored(&self.dynamic, particles, &mut self.coloring);
         if let Some(rows) = &mut self.rows {
-            rows.gather(&self.links, &self.batches);
+            rows.rebuild_sparse(&self.links, &self.batches);
         }
     }
 
     /// The links that it was woven with of a site.
-    pub fn of_vertex(&self, site: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
-        let range = self.involved_range(site);
-        self.involved[range].iter().map(|link| (&self.links, *link as usize))
+    pub fn links_of_site(&self, site: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
+        let range = self.site_range(site);
+        self.links_by_site[range].iter().map(|link| (&self.links, *link as usize))
     }
 
     /// The extra links of a site, the newest first.
-    pub fn extra_of_vertex(&self, site: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
+    pub fn dynamic_links_of_site(&self, site: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
         let some = |at: u32| (at != NONE).then_some(at);
-        let first = some(self.first_extra(site));
-        core::iter::successors(first, move |at| some(self.next_extra(*at, site)))
-            .map(|at| (&self.extra, at as usize))
+        let first = some(self.first_dynamic(site));
+        core::iter::successors(first, move |at| some(self.next_dynamic(*at, site)))
+            .map(|at| (&self.dynamic, at as usize))
     }
 
-    fn involved_range(&self, site: u32) -> core::ops::Range<usize> {
-        let bound = |at: usize| self.first.get(at).map_or(self.involved.len(), |at| *at as usize);
+    fn site_range(&self, site: u32) -> core::ops::Range<usize> {
+        let bound = |at: usize| {
+            self.first_of_site.get(at).map_or(self.links_by_site.len(), |at| *at as usize)
+        };
         bound(site as usize)..bound(site as usize + 1)
     }
 
-    fn first_extra(&self, site: u32) -> u32 {
-        self.extra_head.get(site as usize).copied().unwrap_or(NONE)
+    fn first_dynamic(&self, site: u32) -> u32 {
+        self.dynamic_head.get(site as usize).copied().unwrap_or(NONE)
     }
 
-    fn next_extra(&self, at: u32, site: u32) -> u32 {
-        let slot = self.extra_sites[at as usize].iter().position(|other| *other == site);
-        slot.map_or(NONE, |slot| self.extra_next[at as usize][slot])
+    fn next_dynamic(&self, at: u32, site: u32) -> u32 {
+        let slot = self.dynamic_sites[at as usize].iter().position(|other| *other == site);
+        slot.map_or(NONE, |slot| self.dynamic_next[at as usize][slot])
     }
 
     /// What became of the links since they were woven: those that changed, and the extra ones.
-    pub fn changes(&self) -> Changes {
+    pub fn link_changes(&self) -> LinkChanges {
         let changed = (0..self.links.len()).filter(|link| self.is_changed[*link]);
-        Changes {
-            woven: changed.map(|link| (link as u32, self.links.spec[link])).collect(),
-            extra: self.extra.spec.iter().copied().zip(self.extra.rest.iter().copied()).collect(),
+        LinkChanges {
+            created: changed.map(|link| (link as u32, self.links.spec[link])).collect(),
+            dynamic: self
+                .dynamic
+                .spec
+                .iter()
+                .copied()
+                .zip(self.dynamic.rest.iter().copied())
+                .collect(),
         }
     }
 
     /// Makes those changes to a fresh weave over the changed mesh; false if they do not fit it.
     ///
     /// Links follow the mesh only when they are told to.
-    pub fn change(&mut self, mesh: &Mesh, changes: &Changes, material: &Material) -> bool {
+    pub fn apply_changes(
+        &mut self,
+        mesh: &Mesh,
+        link_changes: &LinkChanges,
+        material: &Material,
+    ) -> bool {
         let corners = 3 * mesh.triangles.len() as u32;
-        let fits = |spec: &Spec| {
-            spec.corners().iter().all(|corner| *corner < corners)
-                && (spec.support != Support::Edge || spec.anchors[0] / 3 == spec.anchors[1] / 3)
-                && spec.shape.is_finite()
-                && spec.shape >= 0.0
+        let fits = |spec: &LinkSpec| {
+            spec.dependent_corners().iter().all(|corner| *corner < corners)
+                && (spec.support != LinkSupport::Edge || spec.ends[0] / 3 == spec.ends[1] / 3)
+                && spec.stiffness_scale.is_finite()
+                && spec.stiffness_scale >= 0.0
         };
         self.link_of_edge.resize(corners as usize, NONE);
-        for (link, spec) in &changes.woven {
+        for (link, spec) in &link_changes.created {
             let at = *link as usize;
-            let Some(woven) = self.links.spec.get(at).copied() else { return false };
-            if !(fits(spec) && spec.kind == woven.kind && spec.thread == woven.thread) {
+            let Some(created) = self.links.spec.get(at).copied() else { return false };
+            if !(fits(spec) && spec.kind == created.kind && spec.direction == created.direction) {
                 return false;
             }
             self.links.spec[at] = *spec;
@@ -188,16 +208,16 @@ impl Constraints {
         }
         self.link_of_edge.fill(NONE);
         for (at, spec) in self.links.spec.iter().enumerate() {
-            if spec.support == Support::Edge {
-                self.link_of_edge[edge_of(spec.anchors) as usize] = at as u32;
+            if spec.support == LinkSupport::Edge {
+                self.link_of_edge[edge_of(spec.ends) as usize] = at as u32;
             }
         }
-        self.reserve(changes.extra.len(), self.extra_head.len());
-        for (spec, rest) in &changes.extra {
+        self.reserve(link_changes.dynamic.len(), self.dynamic_head.len());
+        for (spec, rest) in &link_changes.dynamic {
             if !(fits(spec) && rest.is_finite() && *rest > 0.0) {
                 return false;
             }
-            self.add(mesh, *spec, *rest, material);
+            self.push_dynamic(mesh, *spec, *rest, material);
         }
         true
     }
@@ -205,7 +225,7 @@ impl Constraints {
 
 /// What became of the links of a cloth since it was woven.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-pub(crate) struct Changes {
-    woven: Vec<(u32, Spec)>,
-    extra: Vec<(Spec, f32)>,
+pub(crate) struct LinkChanges {
+    created: Vec<(u32, LinkSpec)>,
+    dynamic: Vec<(LinkSpec, f32)>,
 }

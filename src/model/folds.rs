@@ -4,20 +4,21 @@
 //! or on several, as the mesh has it, so that none of them can tell by itself: what counts is the angle
 //! along some length of the sheet. With φ that angle and φ_y the material's, a fold that is let go keeps
 //! φ − φ_y; each element keeps its part of it. If the material hardens or weakens, φ_y grows by H for each angle that
-//! the fold gives way by, see `wear`, so that of one folded for the first time (φ − φ_y) / (1 + H) stays.
+//! the fold gives way by, see `hardening`, so that of one folded for the first time (φ − φ_y) / (1 + H) stays.
 
 use crate::math::columns::Columns;
 use crate::math::trig::{asin, sin};
 use crate::math::{max, min};
 use crate::model::hardening::Hardening;
-use crate::model::hinges::{Hinge, Hinges, normal};
+use crate::model::hinge::{Hinge, hinge_normal};
+use crate::model::hinges::Hinges;
 use crate::model::material::Material;
-use crate::model::plate_elements::{Each, PlateElements};
+use crate::model::plate_elements::{PerKind, PlateElements};
 use glam::Vec3;
 
 /// A fold counts over at least and at most so many elements in a row.
-const LEAST: usize = 3;
-const MOST_IN_A_ROW: usize = 128;
+const MIN_FOLD_ELEMENTS: usize = 3;
+const MAX_FOLD_ELEMENTS: usize = 128;
 
 /// Angles below this are no folds [rad].
 const TINY_ANGLE: f32 = 1.0e-3;
@@ -27,21 +28,21 @@ const TINY_ANGLE: f32 = 1.0e-3;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Folds {
     /// Angles at rest [rad], …
-    pub angle: Each<Vec<f32>>,
+    pub angle: PerKind<Vec<f32>>,
     /// … and what curvatures are by them [m].
-    pub offset: Each<Vec<f32>>,
+    pub offset: PerKind<Vec<f32>>,
     /// Whether there is any.
-    pub are_any: bool,
+    pub has_any: bool,
     /// How much folds have given way so far.
-    pub wear: Hardening,
+    pub hardening: Hardening,
     /// How bent each particle of a grid is, or was at rest [rad].
     bent: Vec<f32>,
     /// What each particle's cells are to be twisted by more [rad].
-    more: Vec<f32>,
+    twist_increment: Vec<f32>,
     /// If that counts: how each particle of a grid or hinge rested before it gave way [rad], and what each hinge
     /// had given way by in all.
-    was: Vec<[f32; 3]>,
-    worn: Vec<f32>,
+    previous_rest: Vec<[f32; 3]>,
+    hinge_hardening: Vec<f32>,
 }
 
 impl Folds {
@@ -53,8 +54,8 @@ impl Folds {
             angle: each(),
             offset: each(),
             bent: list(),
-            more: list(),
-            wear: Hardening::of(plates.count()),
+            twist_increment: list(),
+            hardening: Hardening::new(plates.count()),
             ..Self::default()
         }
     }
@@ -65,15 +66,19 @@ impl Folds {
         Self {
             angle: [list(), Vec::new(), Vec::new()],
             offset: [list(), Vec::new(), Vec::new()],
-            wear: Hardening::of(hinges.facets.count()),
+            hardening: Hardening::new(hinges.elements.count()),
             ..Self::default()
         }
     }
 
     /// Takes over angles from elsewhere; false if they do not fit.
-    pub fn take_over(&mut self, angle: Each<Vec<f32>>, lengths: &Lengths<'_>) -> bool {
+    pub fn restore_angles(
+        &mut self,
+        angle: PerKind<Vec<f32>>,
+        lengths: &ElementLengths<'_>,
+    ) -> bool {
         let fits = |(own, new): (&Vec<f32>, &Vec<f32>)| {
-            own.len() == new.len() && new.iter().all(|angle| angle.abs() <= MOST)
+            own.len() == new.len() && new.iter().all(|angle| angle.abs() <= MAX_ANGLE)
         };
         if angle.iter().all(Vec::is_empty) {
             return true;
@@ -82,37 +87,38 @@ impl Folds {
             return false;
         }
         self.angle = angle;
-        self.are_any = true;
+        self.has_any = true;
         for kind in 0..3 {
             for at in 0..self.angle[kind].len() {
-                self.bend(kind, at, self.angle[kind][at], lengths);
+                self.set_angle(kind, at, self.angle[kind][at], lengths);
             }
         }
         true
     }
 
     /// Makes room for how much folds give way, if the material counts it.
-    pub fn reserve_wear(&mut self, material: &Material) {
-        self.wear.reserve(material);
-        if material.wears() {
-            self.was.resize(self.angle[0].len(), [0.0; 3]);
-            self.worn.resize(if self.bent.is_empty() { self.angle[0].len() } else { 0 }, 0.0);
+    pub fn reserve_hardening(&mut self, material: &Material) {
+        self.hardening.reserve(material);
+        if material.tracks_hardening() {
+            self.previous_rest.resize(self.angle[0].len(), [0.0; 3]);
+            self.hinge_hardening
+                .resize(if self.bent.is_empty() { self.angle[0].len() } else { 0 }, 0.0);
         }
     }
 
     /// The angles to keep; none if all is flat.
-    pub fn kept(&self) -> Each<Vec<f32>> {
-        if self.are_any { self.angle.clone() } else { Each::default() }
+    pub fn saved_angles(&self) -> PerKind<Vec<f32>> {
+        if self.has_any { self.angle.clone() } else { PerKind::default() }
     }
 
     /// Sets an element's angle at rest.
-    fn bend(&mut self, kind: usize, at: usize, angle: f32, lengths: &Lengths<'_>) {
-        let angle = max(min(angle, MOST), -MOST);
+    fn set_angle(&mut self, kind: usize, at: usize, angle: f32, lengths: &ElementLengths<'_>) {
+        let angle = max(min(angle, MAX_ANGLE), -MAX_ANGLE);
         self.angle[kind][at] = angle;
-        self.are_any |= angle != 0.0;
+        self.has_any |= angle != 0.0;
         let length = match lengths {
-            Lengths::Grid(spacing) => *spacing,
-            Lengths::Hinges(hinges) => hinges[at].length,
+            ElementLengths::Grid(spacing) => *spacing,
+            ElementLengths::Hinges(hinges) => hinges[at].length,
         };
         self.offset[kind][at] =
             if kind == 2 { length * angle } else { 2.0 * length * sin(f64::from(0.5 * angle)) };
@@ -126,138 +132,167 @@ impl Folds {
         x: &Columns,
         normal: &Columns,
     ) {
-        let yields = Yield::new(material, plates.spacing);
+        let yield_rule = YieldRule::new(material, plates.spacing);
         let (columns, count) = (plates.columns, plates.count());
-        let now = Now { plates, x, normal };
+        let bent_grid = BentGrid { plates, x, normal };
         let mut bent = core::mem::take(&mut self.bent);
-        let mut is_any = false;
+        let mut any_bent = false;
         for (at, bent) in bent.iter_mut().enumerate() {
-            let (q, rest) = (now.tensor(at), self.tensor(plates, at));
+            let (q, rest) = (bent_grid.tensor(at), self.tensor(plates, at));
             *bent = max(norm(q), norm(rest));
-            is_any |= *bent > TINY_ANGLE;
-            if material.wears() {
-                self.was[at] = rest;
+            any_bent |= *bent > TINY_ANGLE;
+            if material.tracks_hardening() {
+                self.previous_rest[at] = rest;
             }
         }
-        if is_any {
+        if any_bent {
             let mut gives_way = false;
-            self.more.fill(0.0);
+            self.twist_increment.fill(0.0);
             for at in 0..count {
                 if bent[at] > TINY_ANGLE {
-                    gives_way |= self.yield_plate(&now, &yields, &bent, at);
+                    gives_way |= self.yield_plate(&bent_grid, &yield_rule, &bent, at);
                 }
             }
             for at in 0..count - columns - 1 {
                 let corners = [at, at + 1, at + columns, at + columns + 1];
-                let more: f32 = corners.iter().map(|at| self.more[*at]).sum::<f32>() * 0.25;
-                if more != 0.0 && plates.share[2][at] > 0.0 {
-                    self.bend(2, at, self.angle[2][at] + more, &Lengths::Grid(plates.spacing));
+                let twist_increment: f32 =
+                    corners.iter().map(|at| self.twist_increment[*at]).sum::<f32>() * 0.25;
+                if twist_increment != 0.0 && plates.area_fraction[2][at] > 0.0 {
+                    self.set_angle(
+                        2,
+                        at,
+                        self.angle[2][at] + twist_increment,
+                        &ElementLengths::Grid(plates.spacing),
+                    );
                 }
             }
-            if gives_way && material.wears() {
-                self.wear_plates(plates);
+            if gives_way && material.tracks_hardening() {
+                self.accumulate_plate_hardening(plates);
             }
         }
         self.bent = bent;
     }
 
     /// Takes note of how a grid rests, before it gives way.
-    fn remember(&mut self, plates: &PlateElements) {
+    fn store_rest_angles(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
-            self.was[at] = self.tensor(plates, at);
+            self.previous_rest[at] = self.tensor(plates, at);
         }
     }
 
     /// Counts by how much a grid rests otherwise than it was.
-    fn wear_plates(&mut self, plates: &PlateElements) {
+    fn accumulate_plate_hardening(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
-            let (is, was) = (self.tensor(plates, at), self.was[at]);
-            let by = norm([is[0] - was[0], is[1] - was[1], is[2] - was[2]]);
-            self.wear.grow(at, by / plates.spacing);
+            let (is, previous_rest) = (self.tensor(plates, at), self.previous_rest[at]);
+            let by = norm([
+                is[0] - previous_rest[0],
+                is[1] - previous_rest[1],
+                is[2] - previous_rest[2],
+            ]);
+            self.hardening.add(at, by / plates.spacing);
         }
     }
 
     /// Lets the elements of a particle follow; whether they do.
-    fn yield_plate(&mut self, now: &Now<'_>, yields: &Yield, bent: &[f32], at: usize) -> bool {
-        let plates = now.plates;
-        let (q, rest) = (now.tensor(at), self.tensor(plates, at));
+    fn yield_plate(
+        &mut self,
+        bent_grid: &BentGrid<'_>,
+        yield_rule: &YieldRule,
+        bent: &[f32],
+        at: usize,
+    ) -> bool {
+        let plates = bent_grid.plates;
+        let (q, rest) = (bent_grid.tensor(at), self.tensor(plates, at));
         let larger = if norm(q) > norm(rest) { q } else { rest };
-        let fold = sum_across(plates, yields.over, bent, larger, at);
+        let fold = fold_angle(plates, yield_rule.fold_elements, bent, larger, at);
         // This element's part of what the whole fold may give way by.
-        let limit = yields.angle * bent[at] / max(fold, bent[at]);
-        let limit = yields.harden(limit, self.wear.at(at) * plates.spacing);
-        let Some(new) = yields.follow(q, rest, limit) else { return false };
-        let lengths = Lengths::Grid(plates.spacing);
+        let limit = yield_rule.angle * bent[at] / max(fold, bent[at]);
+        let limit = yield_rule.hardened_limit(limit, self.hardening.at(at) * plates.spacing);
+        let Some(new) = yield_rule.yielded_rest(q, rest, limit) else { return false };
+        let lengths = ElementLengths::Grid(plates.spacing);
         for kind in 0..2 {
-            if plates.share[kind][at] > 0.0 {
-                self.bend(kind, at, new[kind], &lengths);
+            if plates.area_fraction[kind][at] > 0.0 {
+                self.set_angle(kind, at, new[kind], &lengths);
             }
         }
-        self.more[at] = new[2] - rest[2];
+        self.twist_increment[at] = new[2] - rest[2];
         true
     }
 
     fn tensor(&self, plates: &PlateElements, at: usize) -> [f32; 3] {
         let of_kind = |kind: usize, at: usize| {
-            if plates.share[kind][at] > 0.0 { self.angle[kind][at] } else { 0.0 }
+            if plates.area_fraction[kind][at] > 0.0 { self.angle[kind][at] } else { 0.0 }
         };
         [of_kind(0, at), of_kind(1, at), mean_twist(plates, at, |cell| self.angle[2][cell])]
     }
 
     /// Lets the folds at hinges follow where they are bent beyond what their material bears.
     pub fn yield_hinges(&mut self, hinges: &Hinges, material: &Material, mean: f32, x: &Columns) {
-        let (wears, mut gives_way) = (material.wears(), false);
-        if wears {
-            self.remember_hinges(hinges);
+        let (tracks_hardening, mut gives_way) = (material.tracks_hardening(), false);
+        if tracks_hardening {
+            self.store_hinge_state(hinges);
         }
-        let yields = Yield::new(material, mean);
-        let over = max(material.fold_length, 3.0 * mean);
+        let yield_rule = YieldRule::new(material, mean);
+        let fold_elements = max(material.fold_length, 3.0 * mean);
         for (at, hinge) in hinges.all.iter().enumerate() {
-            let corners = hinge.at.map(|vertex| x.at(vertex as usize));
-            let curve = hinge.curve(corners).dot(normal(corners)) - hinge.rest;
+            let corners = hinge.particles.map(|vertex| x.at(vertex as usize));
+            let curve = hinge.curvature(corners).dot(hinge_normal(corners)) - hinge.rest;
             let q = angle_of(curve / hinge.length);
-            let worn = if wears { self.worn[at] } else { 0.0 };
-            let limit = yields.harden(yields.angle * hinge.reach() / over, worn);
+            let hinge_hardening = if tracks_hardening { self.hinge_hardening[at] } else { 0.0 };
+            let limit = yield_rule.hardened_limit(
+                yield_rule.angle * hinge.fold_width() / fold_elements,
+                hinge_hardening,
+            );
             let rest = self.angle[0][at];
-            if let Some([new, ..]) = yields.follow([q, 0.0, 0.0], [rest, 0.0, 0.0], limit) {
-                self.bend(0, at, new, &Lengths::Hinges(&hinges.all));
+            if let Some([new, ..]) = yield_rule.yielded_rest([q, 0.0, 0.0], [rest, 0.0, 0.0], limit)
+            {
+                self.set_angle(0, at, new, &ElementLengths::Hinges(&hinges.all));
                 gives_way = true;
             }
         }
-        if gives_way && wears {
-            self.wear_hinges(hinges);
+        if gives_way && tracks_hardening {
+            self.accumulate_hinge_hardening(hinges);
         }
     }
 
     /// Takes note of how hinges rest before they give way, and of what each has given way by: half of what both its
     /// triangles have, over what a fold along it has of them.
-    fn remember_hinges(&mut self, hinges: &Hinges) {
-        for (was, rest) in self.was.iter_mut().zip(&self.angle[0]) {
-            *was = [*rest, 0.0, 0.0];
+    fn store_hinge_state(&mut self, hinges: &Hinges) {
+        for (previous_rest, rest) in self.previous_rest.iter_mut().zip(&self.angle[0]) {
+            *previous_rest = [*rest, 0.0, 0.0];
         }
-        self.worn.fill(0.0);
-        for (triangle, own) in hinges.facets.hinges().enumerate() {
-            let curve = 0.5 * self.wear.at(triangle);
-            own.for_each(|hinge| self.worn[hinge] += curve * hinges.all[hinge].reach());
+        self.hinge_hardening.fill(0.0);
+        for (triangle, own) in hinges.elements.hinges().enumerate() {
+            let curve = 0.5 * self.hardening.at(triangle);
+            own.for_each(|hinge| {
+                self.hinge_hardening[hinge] += curve * hinges.all[hinge].fold_width()
+            });
         }
     }
 
     /// Counts by how much triangles rest otherwise than they did.
-    fn wear_hinges(&mut self, hinges: &Hinges) {
-        for triangle in 0..hinges.facets.count() {
-            let more = |hinge: usize| self.angle[0][hinge] - self.was[hinge][0];
-            let by = hinges.facets.curve(triangle, &hinges.all, more);
-            self.wear.grow(triangle, by);
+    fn accumulate_hinge_hardening(&mut self, hinges: &Hinges) {
+        for triangle in 0..hinges.elements.count() {
+            let twist_increment =
+                |hinge: usize| self.angle[0][hinge] - self.previous_rest[hinge][0];
+            let by = hinges.elements.curvature(triangle, &hinges.all, twist_increment);
+            self.hardening.add(triangle, by);
         }
     }
 
     /// Adds a fold along a line of a grid, in the grid's own plane [m].
-    pub fn crease_plates(&mut self, plates: &PlateElements, line: Line2, angle: f32, wears: bool) {
-        if wears {
-            self.remember(plates);
+    pub fn crease_plates(
+        &mut self,
+        plates: &PlateElements,
+        line: CreaseLine,
+        angle: f32,
+        tracks_hardening: bool,
+    ) {
+        if tracks_hardening {
+            self.store_rest_angles(plates);
         }
         let (spacing, columns) = (plates.spacing, plates.columns);
-        let lengths = Lengths::Grid(spacing);
+        let lengths = ElementLengths::Grid(spacing);
         let ([nx, ny], width) = (line.normal, spacing * line.widest());
         for at in 0..plates.count() {
             let (row, column) = ((at / columns) as f32, (at % columns) as f32);
@@ -267,13 +302,13 @@ impl Folds {
             let whole = angle * spacing / width;
             let folds = [nx * nx * share, ny * ny * share, nx * ny * of_cell];
             for (kind, fold) in folds.into_iter().enumerate() {
-                if fold != 0.0 && plates.share[kind][at] > 0.0 {
-                    self.bend(kind, at, self.angle[kind][at] + whole * fold, &lengths);
+                if fold != 0.0 && plates.area_fraction[kind][at] > 0.0 {
+                    self.set_angle(kind, at, self.angle[kind][at] + whole * fold, &lengths);
                 }
             }
         }
-        if wears {
-            self.wear_plates(plates);
+        if tracks_hardening {
+            self.accumulate_plate_hardening(plates);
         }
     }
 
@@ -285,16 +320,16 @@ impl Folds {
         [from, to]: [Vec3; 2],
         width: f32,
         angle: f32,
-        wears: bool,
+        tracks_hardening: bool,
     ) {
-        if wears {
-            self.remember_hinges(hinges);
+        if tracks_hardening {
+            self.store_hinge_state(hinges);
         }
         let (length, along) = ((to - from).length(), (to - from).normalize_or_zero());
         for (at, hinge) in hinges.all.iter().enumerate() {
             let x = corners(hinge);
             let middle = (x[0] + x[1]) * 0.5 - from;
-            let side = normal(x).cross(along).normalize_or_zero();
+            let side = hinge_normal(x).cross(along).normalize_or_zero();
             let (ahead, off) = (middle.dot(along), middle.dot(side));
             let near = (middle - along * ahead).length();
             if near >= width || ahead < -0.5 * width || ahead > length + 0.5 * width {
@@ -306,34 +341,39 @@ impl Folds {
                 weight * d * d
             });
             let curve = 0.5 * density * terms.sum::<f32>();
-            let more = angle_of(curve / hinge.length);
-            self.bend(0, at, self.angle[0][at] + more, &Lengths::Hinges(&hinges.all));
+            let twist_increment = angle_of(curve / hinge.length);
+            self.set_angle(
+                0,
+                at,
+                self.angle[0][at] + twist_increment,
+                &ElementLengths::Hinges(&hinges.all),
+            );
         }
-        if wears {
-            self.wear_hinges(hinges);
+        if tracks_hardening {
+            self.accumulate_hinge_hardening(hinges);
         }
     }
 }
 
 /// The most that an element is bent by at rest [rad]: a half turn would have no side.
-const MOST: f32 = 3.0;
+const MAX_ANGLE: f32 = 3.0;
 
 /// The length of each element, over which its curvature is an angle.
-pub(crate) enum Lengths<'a> {
+pub(crate) enum ElementLengths<'a> {
     Grid(f32),
     Hinges(&'a [Hinge]),
 }
 
 /// A line on a grid's plane: where it starts, which way it goes and how far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Line2 {
+pub(crate) struct CreaseLine {
     pub from: [f32; 2],
     pub along: [f32; 2],
     pub normal: [f32; 2],
     pub length: f32,
 }
 
-impl Line2 {
+impl CreaseLine {
     /// From one point to another that is apart from it.
     pub fn new(from: [f32; 2], to: [f32; 2]) -> Self {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -357,48 +397,48 @@ impl Line2 {
 }
 
 /// When and how far folds follow.
-struct Yield {
+struct YieldRule {
     angle: f32,
-    keeps: f32,
-    hardens: f32,
+    creep: f32,
+    hardening_rate: f32,
     /// Elements in a row that count as one fold.
-    over: usize,
+    fold_elements: usize,
 }
 
-impl Yield {
+impl YieldRule {
     fn new(material: &Material, spacing: f32) -> Self {
-        let over = (material.fold_length / spacing + 1.0) as usize;
+        let fold_elements = (material.fold_length / spacing + 1.0) as usize;
         Self {
             angle: material.yield_angle,
-            keeps: material.yield_creep,
-            hardens: material.hardens(),
-            over: over.clamp(LEAST, MOST_IN_A_ROW),
+            creep: material.yield_creep,
+            hardening_rate: material.effective_hardening(),
+            fold_elements: fold_elements.clamp(MIN_FOLD_ELEMENTS, MAX_FOLD_ELEMENTS),
         }
     }
 
-    /// How far an element bends and still opens, of which that is `limit` before it has given way by `worn`.
-    fn harden(&self, limit: f32, worn: f32) -> f32 {
-        if worn > 0.0 { limit + self.hardens * worn } else { limit }
+    /// How far an element bends and still opens, of which that is `limit` before it has given way by `hinge_hardening`.
+    fn hardened_limit(&self, limit: f32, hinge_hardening: f32) -> f32 {
+        if hinge_hardening > 0.0 { limit + self.hardening_rate * hinge_hardening } else { limit }
     }
 
     /// What the angle at rest becomes; nothing if it stays. The limit grows with what this adds to it.
-    fn follow(&self, q: [f32; 3], rest: [f32; 3], limit: f32) -> Option<[f32; 3]> {
+    fn yielded_rest(&self, q: [f32; 3], rest: [f32; 3], limit: f32) -> Option<[f32; 3]> {
         let by = [q[0] - rest[0], q[1] - rest[1], q[2] - rest[2]];
         let (strain, size) = (norm(by), norm(q));
         if strain <= limit {
             return None;
         }
-        let grows = 1.0 + self.keeps * self.hardens;
+        let grows = 1.0 + self.creep * self.hardening_rate;
         if dot(by, q) > 0.0 {
             // Folded more: it keeps a share of all that is beyond the limit, and no less than before.
             if size <= limit {
                 return None;
             }
-            let kept = self.keeps * (size - limit) - dot(rest, q) / size;
-            let share = kept / (size * grows);
-            return (kept > 0.0).then(|| core::array::from_fn(|k| rest[k] + q[k] * share));
+            let saved_angles = self.creep * (size - limit) - dot(rest, q) / size;
+            let share = saved_angles / (size * grows);
+            return (saved_angles > 0.0).then(|| core::array::from_fn(|k| rest[k] + q[k] * share));
         }
-        let share = self.keeps * (1.0 - limit / strain) / grows;
+        let share = self.creep * (1.0 - limit / strain) / grows;
         Some(core::array::from_fn(|k| rest[k] + by[k] * share))
     }
 }
@@ -421,28 +461,28 @@ fn norm(q: [f32; 3]) -> f32 {
 }
 
 /// A grid as it is bent now.
-struct Now<'a> {
+struct BentGrid<'a> {
     plates: &'a PlateElements,
     x: &'a Columns,
     normal: &'a Columns,
 }
 
-impl Now<'_> {
+impl BentGrid<'_> {
     fn tensor(&self, at: usize) -> [f32; 3] {
         let plates = self.plates;
         let n = self.normal.at(at);
-        let over = 1.0 / plates.spacing;
+        let fold_elements = 1.0 / plates.spacing;
         let along = |kind: usize, step: usize| {
-            if plates.share[kind][at] == 0.0 {
+            if plates.area_fraction[kind][at] == 0.0 {
                 return 0.0;
             }
             let curve = self.x.at(at - step) + self.x.at(at + step) - self.x.at(at) * 2.0;
-            angle_of(curve.dot(n) * over)
+            angle_of(curve.dot(n) * fold_elements)
         };
         let twist = mean_twist(plates, at, |cell| {
             let x = |at: usize| self.x.at(at);
             let below = cell + plates.columns;
-            ((x(cell) - x(cell + 1)) - (x(below) - x(below + 1))).dot(n) * over
+            ((x(cell) - x(cell + 1)) - (x(below) - x(below + 1))).dot(n) * fold_elements
         });
         [along(0, 1), along(1, plates.columns), twist]
     }
@@ -455,7 +495,7 @@ fn mean_twist(plates: &PlateElements, at: usize, of: impl Fn(usize) -> f32) -> f
     for (up, left) in [(1, 1), (1, 0), (0, 1), (0, 0)] {
         if row >= up && column >= left {
             let cell = at - up * plates.columns - left;
-            if plates.share[2][cell] > 0.0 {
+            if plates.area_fraction[2][cell] > 0.0 {
                 (sum, count) = (sum + of(cell), count + 1.0);
             }
         }
@@ -465,7 +505,13 @@ fn mean_twist(plates: &PlateElements, at: usize, of: impl Fn(usize) -> f32) -> f
 
 /// The angle of the fold that goes through a particle: what its row or column has of it, whichever it crosses
 /// more squarely, as a fold square to it would have.
-fn sum_across(plates: &PlateElements, over: usize, bent: &[f32], q: [f32; 3], at: usize) -> f32 {
+fn fold_angle(
+    plates: &PlateElements,
+    fold_elements: usize,
+    bent: &[f32],
+    q: [f32; 3],
+    at: usize,
+) -> f32 {
     let columns = plates.columns;
     let (row, column) = (at / columns, at % columns);
     let (weft, warp) = (q[0].abs(), q[1].abs());
@@ -476,15 +522,15 @@ fn sum_across(plates: &PlateElements, over: usize, bent: &[f32], q: [f32; 3], at
         (row, plates.rows - 1, columns, warp)
     };
     let squarely = if both > 0.0 { (main / both).sqrt() } else { 1.0 };
-    let (before, behind) = (place.min(over - 1), (last - place).min(over - 1));
+    let (before, behind) = (place.min(fold_elements - 1), (last - place).min(fold_elements - 1));
     let first = at - before * step;
     let of = |k: usize| bent[first + k * step];
     let count = before + behind + 1;
     // The most that a stretch of this length has that the particle is in.
-    let mut sum: f32 = (0..count.min(over)).map(of).sum();
+    let mut sum: f32 = (0..count.min(fold_elements)).map(of).sum();
     let mut most = sum;
-    for k in over..count {
-        sum += of(k) - of(k - over);
+    for k in fold_elements..count {
+        sum += of(k) - of(k - fold_elements);
         most = max(most, sum);
     }
     most * squarely

@@ -4,15 +4,15 @@
 //! colours. A link that tears or gets another particle leaves its row (its mask turns 0); if it still
 //! holds, it goes on as a stray.
 
-use crate::math::simd::MAX_LANES;
-use crate::model::links::{Batch, Links};
+use crate::math::simd::MOST_LANES;
+use crate::model::link_set::LinkSet;
+use crate::model::links::{LinkBatch, Links};
 use crate::model::sparse_links::SparseLinks;
-use crate::model::stray_links::StrayLinks;
 use core::ops::Range;
 
 /// How the particles of a row's links lie in memory. Link `k` of a row joins …
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Pattern {
+pub(crate) enum RowPattern {
     /// … `a + k` and `b + k`: between two rows of the grid.
     Straight,
     /// … `a + 2k` and `a + 2k + 1`: neighbours in one row.
@@ -23,8 +23,8 @@ pub(crate) enum Pattern {
 
 /// Links that lie in a row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Row {
-    pub pattern: Pattern,
+pub(crate) struct LinkRow {
+    pub pattern: RowPattern,
     pub a: u32,
     pub b: u32,
     pub first: u32,
@@ -34,22 +34,22 @@ pub(crate) struct Row {
     /// Whether a link has left it.
     pub is_torn: bool,
     /// From which link to before which the two ends weigh the same; see `solver::weights`.
-    pub even: [u32; 2],
+    pub equal_mass: [u32; 2],
     /// How many rows from this one on are alike: whole, the same links even, one as far behind the other
     /// as the next; 0 if this one itself is torn.
-    pub alike: u32,
+    pub uniform_run: u32,
 }
 
 /// All rows of a grid's weave.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GridRows {
-    pub rows: Vec<Row>,
+    pub rows: Vec<LinkRow>,
     /// 1 for a link in its row, 0 for one that left it.
     pub mask: Vec<f32>,
     /// Links that left their row and still hold.
-    strays: StrayLinks,
+    irregular: LinkSet,
     /// The same as sweeps want them, batch by batch; as of the last time they were gathered.
-    pub loose: SparseLinks,
+    pub sparse: SparseLinks,
     /// The row of each link.
     row_of: Vec<u32>,
 }
@@ -57,18 +57,19 @@ pub(crate) struct GridRows {
 impl GridRows {
     /// Finds the rows in links that are sorted as a grid of so many columns weaves them; the ends are
     /// those it wove.
-    pub fn find(columns: u32, [a, b]: [&[u32]; 2], rest: &[f32], batch_starts: &[usize]) -> Self {
-        let mut rows: Vec<Row> = Vec::new();
+    pub fn new(columns: u32, [a, b]: [&[u32]; 2], rest: &[f32], batch_starts: &[usize]) -> Self {
+        let mut rows: Vec<LinkRow> = Vec::new();
         let mut row_of = Vec::with_capacity(a.len());
         for link in 0..a.len() {
             let goes_on = rows.last_mut().is_some_and(|row| {
                 let may_go_on = rest[link] == row.rest && !row.is_full(columns);
-                let fits = may_go_on && !batch_starts.contains(&link) && row.take(a[link], b[link]);
+                let fits =
+                    may_go_on && !batch_starts.contains(&link) && row.accepts(a[link], b[link]);
                 row.count += u32::from(fits);
                 fits
             });
             if !goes_on {
-                rows.push(Row::starting(link as u32, (a[link], b[link]), rest[link]));
+                rows.push(LinkRow::new(link as u32, (a[link], b[link]), rest[link]));
             }
             row_of.push(rows.len() as u32 - 1);
         }
@@ -77,116 +78,129 @@ impl GridRows {
     }
 
     /// The rows that hold the links `range`, which are a batch.
-    pub fn between(&self, range: Range<usize>) -> Range<usize> {
+    pub fn rows_of_batch(&self, range: Range<usize>) -> Range<usize> {
         let row = |link: usize| self.row_of.get(link).map_or(self.rows.len(), |row| *row as usize);
         row(range.start)..row(range.end)
     }
 
     /// The strays among the links `range`.
     #[cfg(feature = "parallel")]
-    pub fn strays(&self, range: Range<usize>) -> &[u32] {
-        self.strays.among(range)
+    pub fn irregular_in(&self, range: Range<usize>) -> &[u32] {
+        self.irregular.in_range(range)
     }
 
     /// Takes note of what became of a link.
-    pub fn follow(&mut self, link: usize, ends: (u32, u32), holds: bool) {
+    pub fn update_link(&mut self, link: usize, ends: (u32, u32), holds: bool) {
         let row = &self.rows[self.row_of[link] as usize];
         let is_in_place = row.ends(link as u32 - row.first) == ends;
         self.mask[link] = if is_in_place && holds { 1.0 } else { 0.0 };
         if self.mask[link] == 0.0 {
-            self.tear(self.row_of[link] as usize);
+            self.mark_torn(self.row_of[link] as usize);
         }
-        self.strays.follow(link, holds && !is_in_place);
+        self.irregular.set(link, holds && !is_in_place);
     }
 
     /// Takes note that a link left a row.
-    fn tear(&mut self, row: usize) {
-        (self.rows[row].is_torn, self.rows[row].alike) = (true, 0);
+    fn mark_torn(&mut self, row: usize) {
+        (self.rows[row].is_torn, self.rows[row].uniform_run) = (true, 0);
         let before = self.rows[..row].iter_mut().rev().zip(1..);
-        for (row, until) in before.take_while(|(row, until)| row.alike > *until) {
-            row.alike = until;
+        for (row, until) in before.take_while(|(row, until)| row.uniform_run > *until) {
+            row.uniform_run = until;
         }
     }
 
     /// Finds the rows that are alike, after it became known which links are even.
-    pub fn find_alike(&mut self) {
+    pub fn rebuild_uniform_runs(&mut self) {
         for at in (0..self.rows.len()).rev() {
             let (rows, behind) = self.rows.split_at_mut(at + 1);
             let row = &mut rows[at];
-            row.alike = match behind {
+            row.uniform_run = match behind {
                 _ if row.is_torn => 0,
-                [next, ..] if !row.is_followed_by(next) => 1,
-                [next, after, ..] if next.alike > 1 && after.a - next.a != next.a - row.a => 2,
-                [next, ..] => next.alike + 1,
+                [next, ..] if !row.has_same_layout(next) => 1,
+                [next, after, ..] if next.uniform_run > 1 && after.a - next.a != next.a - row.a => {
+                    2
+                }
+                [next, ..] => next.uniform_run + 1,
                 [] => 1,
             };
         }
     }
 
     /// Gathers the strays, after links changed.
-    pub fn gather(&mut self, links: &Links, batches: &[Batch]) {
-        self.loose.clear();
+    pub fn rebuild_sparse(&mut self, links: &Links, batches: &[LinkBatch]) {
+        self.sparse.clear();
         for batch in batches {
-            let own = self.strays.among(batch.first..batch.first + batch.count);
-            self.loose.add(batch.kind, links, own);
+            let own = self.irregular.in_range(batch.first..batch.first + batch.count);
+            self.sparse.push_batch(batch.kind, links, own);
         }
     }
 
     /// Makes room for every link to stray.
     pub fn reserve(&mut self) {
-        self.strays.reserve(self.mask.len());
-        self.loose.reserve(self.mask.len());
+        self.irregular.reserve(self.mask.len());
+        self.sparse.reserve(self.mask.len());
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        12 * self.mask.len() + size_of::<Row>() * self.rows.len() + self.loose.bytes()
+        12 * self.mask.len() + size_of::<LinkRow>() * self.rows.len() + self.sparse.bytes()
     }
 }
 
-impl Row {
-    fn starting(first: u32, (a, b): (u32, u32), rest: f32) -> Self {
+impl LinkRow {
+    fn new(first: u32, (a, b): (u32, u32), rest: f32) -> Self {
         let pattern = match b - a {
-            1 => Pattern::Pairs,
-            2 => Pattern::Quads,
-            _ => Pattern::Straight,
+            1 => RowPattern::Pairs,
+            2 => RowPattern::Quads,
+            _ => RowPattern::Straight,
         };
-        Self { pattern, a, b, first, count: 1, rest, is_torn: false, even: [first; 2], alike: 0 }
+        Self {
+            pattern,
+            a,
+            b,
+            first,
+            count: 1,
+            rest,
+            is_torn: false,
+            equal_mass: [first; 2],
+            uniform_run: 0,
+        }
     }
 
     /// Whether it has all links of one row of the grid and they fill chunks: those of the next row would
     /// only bring what is uneven, at borders, between what is even.
     fn is_full(&self, columns: u32) -> bool {
-        let is_whole = self.pattern != Pattern::Straight && 2 * self.count == columns;
-        is_whole && self.count.is_multiple_of(MAX_LANES as u32)
+        let is_whole = self.pattern != RowPattern::Straight && 2 * self.count == columns;
+        is_whole && self.count.is_multiple_of(MOST_LANES as u32)
     }
 
     /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper
     /// ones where it is straight.
-    fn take(&self, a: u32, b: u32) -> bool {
-        let has_room = self.pattern != Pattern::Straight || a < self.b;
+    fn accepts(&self, a: u32, b: u32) -> bool {
+        let has_room = self.pattern != RowPattern::Straight || a < self.b;
         has_room && self.ends(self.count) == (a, b)
     }
 
     /// Whether one that is behind it differs from it in nothing but its place.
-    fn is_followed_by(&self, next: &Self) -> bool {
-        next.alike > 0
+    fn has_same_layout(&self, next: &Self) -> bool {
+        next.uniform_run > 0
             && next.pattern == self.pattern
             && next.count == self.count
             && next.rest == self.rest
             && next.first == self.first + self.count
             && next.a > self.a
             && next.b - next.a == self.b - self.a
-            && next.even.map(|link| link - next.first) == self.even.map(|link| link - self.first)
+            && next.equal_mass.map(|link| link - next.first)
+                == self.equal_mass.map(|link| link - self.first)
     }
 
     /// The particles of its link `k`.
     #[inline(always)]
     pub fn ends(&self, k: u32) -> (u32, u32) {
         let along = match self.pattern {
-            Pattern::Straight => k,
-            Pattern::Pairs => 2 * k,
-            Pattern::Quads => k / 2 * 4 + k % 2,
+            RowPattern::Straight => k,
+            RowPattern::Pairs => 2 * k,
+            RowPattern::Quads => k / 2 * 4 + k % 2,
         };
         (self.a + along, self.b + along)
     }
@@ -196,20 +210,20 @@ impl Row {
     pub fn count_before(&self, particle: u32) -> u32 {
         let along = particle.saturating_sub(self.a);
         let count = match self.pattern {
-            Pattern::Straight => along,
-            Pattern::Pairs => along.div_ceil(2),
-            Pattern::Quads => along / 4 * 2 + (along % 4).min(2),
+            RowPattern::Straight => along,
+            RowPattern::Pairs => along.div_ceil(2),
+            RowPattern::Quads => along / 4 * 2 + (along % 4).min(2),
         };
         count.min(self.count)
     }
 
     /// The part of it that holds such links, of which there are some. A row of quads is cut between two.
     #[cfg(feature = "parallel")]
-    pub fn part(&self, links: Range<u32>) -> Self {
+    pub fn slice(&self, links: Range<u32>) -> Self {
         let from = links.start.max(self.first) - self.first;
         let end = links.end.min(self.first + self.count) - self.first;
         let (a, b) = self.ends(from);
-        Self { a, b, first: self.first + from, count: end - from, alike: 0, ..*self }
+        Self { a, b, first: self.first + from, count: end - from, uniform_run: 0, ..*self }
     }
 }
 
@@ -221,39 +235,39 @@ mod tests {
     fn four_rows() -> GridRows {
         let a: Vec<u32> = (0..4).flat_map(|row| (0..5).map(move |k| 10 * row + k)).collect();
         let b: Vec<u32> = a.iter().map(|a| a + 5).collect();
-        let mut rows = GridRows::find(5, [&a, &b], &[0.1; 20], &[0]);
+        let mut rows = GridRows::new(5, [&a, &b], &[0.1; 20], &[0]);
         for row in &mut rows.rows {
-            row.even = [row.first, row.first + row.count];
+            row.equal_mass = [row.first, row.first + row.count];
         }
         rows
     }
 
-    fn alike(rows: &GridRows) -> Vec<u32> {
-        rows.rows.iter().map(|row| row.alike).collect()
+    fn uniform_run(rows: &GridRows) -> Vec<u32> {
+        rows.rows.iter().map(|row| row.uniform_run).collect()
     }
 
     #[test]
     fn rows_are_alike_up_to_one_that_is_uneven_or_elsewhere() {
         let mut rows = four_rows();
-        rows.find_alike();
-        assert_eq!(alike(&rows), [4, 3, 2, 1]);
-        rows.rows[1].even[0] += 1;
-        rows.find_alike();
-        assert_eq!(alike(&rows), [1, 1, 2, 1]);
+        rows.rebuild_uniform_runs();
+        assert_eq!(uniform_run(&rows), [4, 3, 2, 1]);
+        rows.rows[1].equal_mass[0] += 1;
+        rows.rebuild_uniform_runs();
+        assert_eq!(uniform_run(&rows), [1, 1, 2, 1]);
         let mut rows = four_rows();
         (rows.rows[3].a, rows.rows[3].b) = (rows.rows[3].a + 1, rows.rows[3].b + 1);
-        rows.find_alike();
-        assert_eq!(alike(&rows), [3, 2, 2, 1]);
+        rows.rebuild_uniform_runs();
+        assert_eq!(uniform_run(&rows), [3, 2, 2, 1]);
     }
 
     #[test]
     fn rows_are_alike_up_to_one_that_tears() {
         let mut rows = four_rows();
-        rows.find_alike();
+        rows.rebuild_uniform_runs();
         let (link, ends) = (11, (21, 26));
-        rows.follow(link, ends, true);
-        assert_eq!(alike(&rows), [4, 3, 2, 1], "nothing changed");
-        rows.follow(link, ends, false);
-        assert_eq!(alike(&rows), [2, 1, 0, 1]);
+        rows.update_link(link, ends, true);
+        assert_eq!(uniform_run(&rows), [4, 3, 2, 1], "nothing changed");
+        rows.update_link(link, ends, false);
+        assert_eq!(uniform_run(&rows), [2, 1, 0, 1]);
     }
 }

@@ -15,19 +15,19 @@
 
 use crate::math::{max, min};
 use crate::model::material::Material;
-use crate::model::plate_elements::Each;
+use crate::model::plate_elements::PerKind;
 
 /// What is left of a stiffness at least.
-const LEAST: f32 = 1.0e-3;
+const MIN_STIFFNESS_SCALE: f32 = 1.0e-3;
 
 /// What is counted at most [1/m], so that sums stay numbers.
-const MOST: f32 = 1.0e30;
+const MAX_CURVATURE: f32 = 1.0e30;
 
 /// By how much the sheet has been bent for good so far, at each particle of a grid or triangle of another mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Hardening {
     /// Curvatures, all that were added or taken away [1/m]; none until a material counts them.
-    curve: Vec<f32>,
+    curvature: Vec<f32>,
     /// How many there are to be.
     count: usize,
     /// Whether there is any.
@@ -38,50 +38,54 @@ pub(crate) struct Hardening {
 
 impl Hardening {
     /// None yet, of so many.
-    pub fn of(count: usize) -> Self {
+    pub fn new(count: usize) -> Self {
         Self { count, ..Self::default() }
     }
 
     /// Makes room, if the material counts it.
     pub fn reserve(&mut self, material: &Material) {
-        if material.wears() {
-            self.curve.resize(self.count, 0.0);
+        if material.tracks_hardening() {
+            self.curvature.resize(self.count, 0.0);
         }
     }
 
     /// Takes over what there was; false if that does not fit.
-    pub fn take_over(&mut self, curve: Vec<f32>) -> bool {
-        let is_sound = curve.iter().all(|curve| curve.is_finite() && *curve >= 0.0);
-        self.is_any = !curve.is_empty();
-        let fits = !self.is_any || curve.len() == self.count;
-        self.curve = curve;
+    pub fn restore(&mut self, curvature: Vec<f32>) -> bool {
+        let is_sound = curvature.iter().all(|curvature| curvature.is_finite() && *curvature >= 0.0);
+        self.is_any = !curvature.is_empty();
+        let fits = !self.is_any || curvature.len() == self.count;
+        self.curvature = curvature;
         is_sound && fits
     }
 
     /// What to keep; none if nothing has given way.
-    pub fn kept(&self) -> &[f32] {
-        if self.is_any { &self.curve } else { &[] }
+    pub fn saved(&self) -> &[f32] {
+        if self.is_any { &self.curvature } else { &[] }
     }
 
     /// What there is in one place [1/m].
     pub fn at(&self, at: usize) -> f32 {
-        self.curve.get(at).copied().unwrap_or(0.0)
+        self.curvature.get(at).copied().unwrap_or(0.0)
     }
 
     /// One place is bent for good by so much more or less [1/m].
-    pub fn grow(&mut self, at: usize, by: f32) {
-        if by > 0.0 && by.is_finite() {
-            self.curve[at] = min(self.curve[at] + by, MOST);
+    pub fn add(&mut self, at: usize, factor: f32) {
+        if factor > 0.0 && factor.is_finite() {
+            self.curvature[at] = min(self.curvature[at] + factor, MAX_CURVATURE);
             self.is_any = true;
             self.revision = self.revision.wrapping_add(1);
         }
     }
 
     /// How much softer that makes it; nothing if it does not.
-    pub fn softens(&self, material: &Material) -> Option<Softening<'_>> {
-        let by = material.yield_weakening * material.fold_length;
-        let is_softer = self.is_any && by > 0.0;
-        is_softer.then_some(Softening { curve: &self.curve, by, revision: self.revision })
+    pub fn softening(&self, material: &Material) -> Option<Softening<'_>> {
+        let factor = material.yield_weakening * material.fold_length;
+        let is_softer = self.is_any && factor > 0.0;
+        is_softer.then_some(Softening {
+            curvature: &self.curvature,
+            factor,
+            revision: self.revision,
+        })
     }
 }
 
@@ -89,33 +93,37 @@ impl Hardening {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Softening<'a> {
     /// What gave way in each place [1/m].
-    pub curve: &'a [f32],
-    by: f32,
+    pub curvature: &'a [f32],
+    factor: f32,
     revision: u32,
 }
 
 impl Softening<'_> {
     /// What changes whenever any of it does.
     pub fn key(&self) -> (u32, f32) {
-        (self.revision, self.by)
+        (self.revision, self.factor)
     }
 
     /// What is left of the stiffness where so much gave way.
-    pub fn left(&self, curve: f32) -> f32 {
-        if curve > 0.0 { max(1.0 / (1.0 + self.by * curve), LEAST) } else { 1.0 }
+    pub fn stiffness_scale(&self, curvature: f32) -> f32 {
+        if curvature > 0.0 {
+            max(1.0 / (1.0 + self.factor * curvature), MIN_STIFFNESS_SCALE)
+        } else {
+            1.0
+        }
     }
 
     /// Takes off how stiff the elements of a grid are what they are softer by: of a cell the mean of its corners.
-    pub fn soften(&self, columns: usize, [weft, warp, twist]: &mut Each<Vec<f32>>) {
-        let curve = self.curve;
-        for ((weft, warp), curve) in weft.iter_mut().zip(warp).zip(curve) {
-            let left = self.left(*curve);
-            (*weft, *warp) = (*weft * left, *warp * left);
+    pub fn apply(&self, columns: usize, [weft, warp, twist]: &mut PerKind<Vec<f32>>) {
+        let curvature = self.curvature;
+        for ((weft, warp), curvature) in weft.iter_mut().zip(warp).zip(curvature) {
+            let stiffness_scale = self.stiffness_scale(*curvature);
+            (*weft, *warp) = (*weft * stiffness_scale, *warp * stiffness_scale);
         }
-        let upper = curve.iter().zip(&curve[1..]);
-        let lower = curve[columns..].iter().zip(&curve[columns + 1..]);
+        let upper = curvature.iter().zip(&curvature[1..]);
+        let lower = curvature[columns..].iter().zip(&curvature[columns + 1..]);
         for (twist, ((a, b), (c, d))) in twist.iter_mut().zip(upper.zip(lower)) {
-            *twist *= self.left(((a + b) + (c + d)) * 0.25);
+            *twist *= self.stiffness_scale(((a + b) + (c + d)) * 0.25);
         }
     }
 }

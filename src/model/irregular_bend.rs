@@ -2,8 +2,8 @@
 //! bend where they meet. What a substep needs of them lies side by side here, colour by colour.
 
 use crate::mesh::Mesh;
-use crate::model::links::{Links, Support, Thread};
-use crate::model::recoloring::{GROUPS, Group, Recoloring};
+use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
+use crate::model::links::{LinkSupport, Links, ThreadDirection};
 
 /// All elbows, as of the last time they were gathered.
 #[derive(Clone, Debug, Default)]
@@ -14,55 +14,55 @@ pub(crate) struct IrregularBends {
     pub b: Vec<u32>,
     /// The particle in the middle of the plate's element that each was woven as, and what there was of that,
     /// over one that lies inside.
-    pub woven: Vec<u32>,
-    pub share: Vec<f32>,
+    pub element: Vec<u32>,
+    pub area_fraction: Vec<f32>,
     /// Those of a colour and of elements along the weft (0) or the warp (1), next to each other.
-    pub groups: Vec<Group>,
-    palette: Recoloring,
+    pub groups: Vec<ColorGroup>,
+    coloring: Coloring,
 }
 
 impl IrregularBends {
     /// Makes room for so many, and for `particles`.
     pub fn reserve(&mut self, count: usize, particles: usize) {
-        let lists = [&mut self.a, &mut self.middle, &mut self.b, &mut self.woven];
+        let lists = [&mut self.a, &mut self.middle, &mut self.b, &mut self.element];
         lists.into_iter().for_each(|list| list.reserve_exact(count.saturating_sub(list.len())));
-        self.share.reserve_exact(count.saturating_sub(self.share.len()));
-        self.groups.reserve_exact(GROUPS.saturating_sub(self.groups.len()));
-        self.palette.reserve(count, particles);
+        self.area_fraction.reserve_exact(count.saturating_sub(self.area_fraction.len()));
+        self.groups.reserve_exact(MAX_GROUPS.saturating_sub(self.groups.len()));
+        self.coloring.reserve(count, particles);
     }
 
-    /// Gathers those that some bend links are; `woven` says of a link along weft or warp what it was woven as.
-    pub fn gather(
+    /// Gathers those that some bend links are; `element_of` says of a link along weft or warp what it was woven as.
+    pub fn rebuild(
         &mut self,
         mesh: &Mesh,
         links: &Links,
-        strays: &[u32],
-        woven: impl Fn(u32, usize) -> (u32, f32),
+        bend_links: &[u32],
+        element_of: impl Fn(u32, usize) -> (u32, f32),
     ) {
         let ends = |at: usize| {
-            let link = strays[at] as usize;
+            let link = bend_links[at] as usize;
             let spec = &links.spec[link];
-            let Support::Pair([left, _]) = spec.support else { return None };
-            let kind = if spec.thread == Thread::Weft { 0 } else { 1 };
+            let LinkSupport::TwoEdges([left, _]) = spec.support else { return None };
+            let kind = if spec.direction == ThreadDirection::Weft { 0 } else { 1 };
             Some((kind, [links.a[link], mesh.vertex(left), links.b[link]]))
         };
-        let Self { a, middle, b, woven: middles, share, groups, palette } = self;
-        let order = palette.color(strays.len(), mesh.vertex_count(), ends, groups);
-        [&mut *a, middle, b, middles].into_iter().for_each(Vec::clear);
-        share.clear();
+        let Self { a, middle, b, element: elements, area_fraction, groups, coloring } = self;
+        let order = coloring.assign(bend_links.len(), mesh.vertex_count(), ends, groups);
+        [&mut *a, middle, b, elements].into_iter().for_each(Vec::clear);
+        area_fraction.clear();
         for at in order {
             let Some((kind, ends)) = ends(*at as usize) else { continue };
-            let (woven_middle, woven_share) = woven(strays[*at as usize], kind);
+            let (element, fraction) = element_of(bend_links[*at as usize], kind);
             a.push(ends[0]);
             middle.push(ends[1]);
             b.push(ends[2]);
-            middles.push(woven_middle);
-            share.push(woven_share);
+            elements.push(element);
+            area_fraction.push(fraction);
         }
     }
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        5 * size_of::<u32>() * self.a.capacity() + self.palette.bytes()
+        5 * size_of::<u32>() * self.a.capacity() + self.coloring.bytes()
     }
 }

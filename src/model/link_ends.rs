@@ -4,16 +4,16 @@ use core::ops::Deref;
 
 /// A list of particles, read as a slice.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Ends {
+pub(crate) struct LinkEnds {
     list: Vec<u32>,
     /// None of them is above it, nor was any before.
-    most: u32,
+    max_particle: u32,
 }
 
-impl Ends {
+impl LinkEnds {
     /// A number that none of them is above.
-    pub fn most(&self) -> u32 {
-        self.most
+    pub fn max_particle(&self) -> u32 {
+        self.max_particle
     }
 
     /// Makes room for `additional` more.
@@ -22,17 +22,17 @@ impl Ends {
     }
 
     pub fn push(&mut self, particle: u32) {
-        self.most = self.most.max(particle);
+        self.max_particle = self.max_particle.max(particle);
         self.list.push(particle);
     }
 
     pub fn set(&mut self, at: usize, particle: u32) {
-        self.most = self.most.max(particle);
+        self.max_particle = self.max_particle.max(particle);
         self.list[at] = particle;
     }
 }
 
-impl Deref for Ends {
+impl Deref for LinkEnds {
     type Target = [u32];
 
     #[inline(always)]
@@ -47,12 +47,12 @@ mod tests {
 
     #[test]
     fn none_is_above_the_most() {
-        let mut ends = Ends::default();
+        let mut ends = LinkEnds::default();
         [3, 7, 5].into_iter().for_each(|particle| ends.push(particle));
-        assert_eq!((&*ends, ends.most()), (&[3, 7, 5][..], 7));
+        assert_eq!((&*ends, ends.max_particle()), (&[3, 7, 5][..], 7));
         ends.set(0, 9);
         ends.set(0, 1);
         assert_eq!(&*ends, [1, 7, 5]);
-        assert!(ends.iter().all(|particle| *particle <= ends.most()));
+        assert!(ends.iter().all(|particle| *particle <= ends.max_particle()));
     }
 }

@@ -4,8 +4,8 @@
 //! follows the triangle that it lies on, and one whose triangles have parted is gone.
 
 use crate::math::column::Column;
-use crate::mesh::{Corner, Mesh, NONE, after};
-use crate::model::link_ends::Ends;
+use crate::mesh::{Corner, Mesh, NONE, next_corner};
+use crate::model::link_ends::LinkEnds;
 use crate::model::material::Material;
 use serde::{Deserialize, Serialize};
 
@@ -23,43 +23,43 @@ pub enum LinkKind {
 
 /// Which of the material's two stretch stiffnesses holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Thread {
+pub(crate) enum ThreadDirection {
     Weft,
     Warp,
 }
 
 /// What a link lies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Support {
+pub(crate) enum LinkSupport {
     /// An edge of a triangle: for ever.
     Edge,
     /// The edge, starting at this corner, across which it reaches: until that opens.
-    Flap(Corner),
+    AcrossEdge(Corner),
     /// Two edges in a row: until these two corners are no longer the same vertex.
-    Pair([Corner; 2]),
+    TwoEdges([Corner; 2]),
     /// Nothing any more: a cut divided what it lay on, and other links have taken its place.
-    Gone,
+    Removed,
 }
 
 /// What stays of a link when its particles change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Spec {
+pub(crate) struct LinkSpec {
     pub kind: LinkKind,
-    pub thread: Thread,
-    pub anchors: [Corner; 2],
-    pub support: Support,
+    pub direction: ThreadDirection,
+    pub ends: [Corner; 2],
+    pub support: LinkSupport,
     /// Spring constant over material stiffness: 1 for a stretch link inside a grid.
-    pub shape: f32,
+    pub stiffness_scale: f32,
 }
 
-impl Spec {
+impl LinkSpec {
     /// The corners that it depends on, some of them named more than once.
-    pub fn corners(&self) -> [Corner; 4] {
-        let [a, b] = self.anchors;
+    pub fn dependent_corners(&self) -> [Corner; 4] {
+        let [a, b] = self.ends;
         match self.support {
-            Support::Edge | Support::Gone => [a, b, a, a],
-            Support::Flap(edge) => [a, b, edge, after(edge)],
-            Support::Pair([left, right]) => [a, b, left, right],
+            LinkSupport::Edge | LinkSupport::Removed => [a, b, a, a],
+            LinkSupport::AcrossEdge(edge) => [a, b, edge, next_corner(edge)],
+            LinkSupport::TwoEdges([left, right]) => [a, b, left, right],
         }
     }
 }
@@ -67,8 +67,8 @@ impl Spec {
 /// Links as columns, one entry a link.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Links {
-    pub a: Ends,
-    pub b: Ends,
+    pub a: LinkEnds,
+    pub b: LinkEnds,
     /// Length at rest [m].
     pub rest: Column,
     /// Inverse spring constant [m/N]; 0 is rigid.
@@ -77,7 +77,7 @@ pub(crate) struct Links {
     pub lambda: Column,
     /// False once torn.
     pub active: Vec<bool>,
-    pub spec: Vec<Spec>,
+    pub spec: Vec<LinkSpec>,
 }
 
 impl Links {
@@ -100,9 +100,9 @@ impl Links {
         self.spec.reserve_exact(capacity);
     }
 
-    pub fn push(&mut self, mesh: &Mesh, spec: Spec, rest: f32) {
-        self.a.push(mesh.vertex(spec.anchors[0]));
-        self.b.push(mesh.vertex(spec.anchors[1]));
+    pub fn push(&mut self, mesh: &Mesh, spec: LinkSpec, rest: f32) {
+        self.a.push(mesh.vertex(spec.ends[0]));
+        self.b.push(mesh.vertex(spec.ends[1]));
         self.rest.push(rest);
         self.compliance.push(0.0);
         self.lambda.push(0.0);
@@ -111,25 +111,25 @@ impl Links {
     }
 
     /// Follows the mesh after a split.
-    pub fn follow(&mut self, mesh: &Mesh, link: usize) {
+    pub fn update(&mut self, mesh: &Mesh, link: usize) {
         let spec = &self.spec[link];
         // One that is gone keeps its particles, which no other link of its colour has.
-        if spec.support == Support::Gone {
+        if spec.support == LinkSupport::Removed {
             self.active[link] = false;
             return;
         }
-        self.a.set(link, mesh.vertex(spec.anchors[0]));
-        self.b.set(link, mesh.vertex(spec.anchors[1]));
+        self.a.set(link, mesh.vertex(spec.ends[0]));
+        self.b.set(link, mesh.vertex(spec.ends[1]));
         self.active[link] = match spec.support {
-            Support::Edge => true,
-            Support::Flap(edge) => mesh.across(edge) != NONE,
-            Support::Pair([left, right]) => mesh.vertex(left) == mesh.vertex(right),
-            Support::Gone => false,
+            LinkSupport::Edge => true,
+            LinkSupport::AcrossEdge(edge) => mesh.across(edge) != NONE,
+            LinkSupport::TwoEdges([left, right]) => mesh.vertex(left) == mesh.vertex(right),
+            LinkSupport::Removed => false,
         };
     }
 
     /// Takes on a material's stiffness.
-    pub fn stiffen(&mut self, link: usize, material: &Material) {
+    pub fn update_compliance(&mut self, link: usize, material: &Material) {
         let spec = &self.spec[link];
         self.compliance[link] = compliance(spec, material);
     }
@@ -137,22 +137,22 @@ impl Links {
 
 /// Links of one kind and colour, next to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Batch {
+pub(crate) struct LinkBatch {
     pub kind: LinkKind,
     pub first: usize,
     pub count: usize,
 }
 
-fn compliance(spec: &Spec, material: &Material) -> f32 {
+fn compliance(spec: &LinkSpec, material: &Material) -> f32 {
     let (weft, warp) = (material.stretch_stiffness_weft, material.stretch_stiffness_warp);
-    let stiffness = match (spec.kind, spec.thread) {
-        (LinkKind::Stretch, Thread::Weft) => weft,
-        (LinkKind::Stretch, Thread::Warp) => warp,
+    let stiffness = match (spec.kind, spec.direction) {
+        (LinkKind::Stretch, ThreadDirection::Weft) => weft,
+        (LinkKind::Stretch, ThreadDirection::Warp) => warp,
         (LinkKind::Shear, _) if material.shear_stiffness > 0.0 => material.shear_stiffness,
         (LinkKind::Shear, _) => 0.5 * (weft + warp),
         (LinkKind::Bend, _) if material.bend_stiffness >= 1.0 => 0.0,
         (LinkKind::Bend, _) => material.bend_stiffness,
     };
-    let spring = stiffness * spec.shape;
+    let spring = stiffness * spec.stiffness_scale;
     if spring > 0.0 { 1.0 / spring } else { 0.0 }
 }

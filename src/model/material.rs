@@ -137,12 +137,12 @@ impl Material {
     }
 
     /// Whether it matters what folds have given way by.
-    pub(crate) fn wears(&self) -> bool {
+    pub(crate) fn tracks_hardening(&self) -> bool {
         self.yield_hardening > 0.0 || self.yield_weakening > 0.0
     }
 
     /// How much more a fold opens again for each angle that it has given way by.
-    pub(crate) fn hardens(&self) -> f32 {
+    pub(crate) fn effective_hardening(&self) -> f32 {
         self.yield_hardening + self.yield_weakening * self.yield_angle
     }
 

@@ -20,7 +20,7 @@ impl PinOrder {
     }
 
     /// Sorts anew, after tethers were measured.
-    pub fn sort(&mut self, tethers: &Tethers, particle_count: usize, links: &Links) {
+    pub fn rebuild(&mut self, tethers: &Tethers, particle_count: usize, links: &Links) {
         self.distance.clear();
         self.distance.resize(particle_count, f32::INFINITY);
         for set in tethers.sets() {

@@ -12,19 +12,19 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// With this many pins or fewer each particle is tethered to every one, else to the nearest.
-const FEW_PINS: usize = 4;
+const MAX_SEPARATE_PINS: usize = 4;
 
 /// Each particle's attachment to one pin.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct TetherSet {
     /// The pinned particle; itself where no way leads to a pin.
-    pub anchor: Vec<u32>,
+    pub pin: Vec<u32>,
     /// Length of the way [m]; infinite where there is none.
     pub length: Vec<f32>,
     /// The triangle over which it comes; `NONE` at a pin and where there is none.
-    by: Vec<u32>,
+    via_triangle: Vec<u32>,
     /// The only pin of the set, if there is but one.
-    pub only: Option<u32>,
+    pub single_pin: Option<u32>,
 }
 
 /// The tethers of a cloth.
@@ -33,55 +33,55 @@ pub(crate) struct Tethers {
     sets: Vec<TetherSet>,
     used: usize,
     pin_count: usize,
-    room: Room,
+    scratch: TetherScratch,
 }
 
 /// Room to find out what tears did.
 #[derive(Clone, Debug, Default)]
-struct Room {
+struct TetherScratch {
     fan: Fan,
     /// Particles whose ways are gone.
-    lost: Vec<u32>,
+    invalid: Vec<u32>,
     /// Whether each triangle is at one of those, and which ones are.
-    is_near: Vec<bool>,
-    near: Vec<u32>,
+    is_affected: Vec<bool>,
+    affected: Vec<u32>,
 }
 
 impl Tethers {
     /// No tethers, with room for those of `capacity` particles.
     pub fn with_capacity(capacity: usize) -> Self {
         let list = || TetherSet {
-            anchor: Vec::with_capacity(capacity),
+            pin: Vec::with_capacity(capacity),
             length: Vec::with_capacity(capacity),
-            by: Vec::with_capacity(capacity),
-            only: None,
+            via_triangle: Vec::with_capacity(capacity),
+            single_pin: None,
         };
-        let sets = (0..FEW_PINS).map(|_| list()).collect();
-        Self { sets, used: 0, pin_count: 0, room: Room::default() }
+        let sets = (0..MAX_SEPARATE_PINS).map(|_| list()).collect();
+        Self { sets, used: 0, pin_count: 0, scratch: TetherScratch::default() }
     }
 
     /// Makes room for `capacity` particles and so many triangles in all.
     pub fn reserve(&mut self, capacity: usize, triangles: usize) {
         for set in &mut self.sets {
-            set.anchor.reserve_exact(capacity.saturating_sub(set.anchor.len()));
+            set.pin.reserve_exact(capacity.saturating_sub(set.pin.len()));
             set.length.reserve_exact(capacity.saturating_sub(set.length.len()));
-            set.by.reserve_exact(capacity.saturating_sub(set.by.len()));
+            set.via_triangle.reserve_exact(capacity.saturating_sub(set.via_triangle.len()));
         }
-        let Room { fan, lost, is_near, near } = &mut self.room;
+        let TetherScratch { fan, invalid, is_affected, affected } = &mut self.scratch;
         fan.corners.reserve(64);
-        fan.spokes.reserve(65);
-        lost.reserve_exact(capacity.saturating_sub(lost.len()));
-        is_near.reserve_exact(triangles.saturating_sub(is_near.len()));
-        near.reserve_exact(triangles.saturating_sub(near.len()));
+        fan.ring.reserve(65);
+        invalid.reserve_exact(capacity.saturating_sub(invalid.len()));
+        is_affected.reserve_exact(triangles.saturating_sub(is_affected.len()));
+        affected.reserve_exact(triangles.saturating_sub(affected.len()));
     }
 
     /// Bytes that they hold.
     pub fn bytes(&self) -> usize {
         let of_set = |set: &TetherSet| {
-            4 * (set.anchor.capacity() + set.length.capacity() + set.by.capacity())
+            4 * (set.pin.capacity() + set.length.capacity() + set.via_triangle.capacity())
         };
-        let room = 4 * self.room.lost.capacity() + 5 * self.room.near.capacity();
-        self.sets.iter().map(of_set).sum::<usize>() + room
+        let scratch = 4 * self.scratch.invalid.capacity() + 5 * self.scratch.affected.capacity();
+        self.sets.iter().map(of_set).sum::<usize>() + scratch
     }
 
     /// How many pins there were when ways were measured.
@@ -95,68 +95,69 @@ impl Tethers {
 
     /// Measures all ways to the `pinned` particles anew. `rest` is the rest position of each original
     /// vertex.
-    pub fn measure(
+    pub fn rebuild(
         &mut self,
         mesh: &Mesh,
         rest: &[Vec3],
         pinned: impl Iterator<Item = u32> + Clone,
     ) {
         self.pin_count = pinned.clone().count();
-        let few = self.pin_count <= FEW_PINS;
-        self.used = if few { self.pin_count } else { 1 };
+        let is_few = self.pin_count <= MAX_SEPARATE_PINS;
+        self.used = if is_few { self.pin_count } else { 1 };
         for (at, set) in self.sets[..self.used].iter_mut().enumerate() {
-            set.anchor.clear();
-            set.anchor.resize(mesh.vertex_count(), NONE);
+            set.pin.clear();
+            set.pin.resize(mesh.vertex_count(), NONE);
             set.length.clear();
             set.length.resize(mesh.vertex_count(), f32::INFINITY);
-            set.by.clear();
-            set.by.resize(mesh.vertex_count(), NONE);
+            set.via_triangle.clear();
+            set.via_triangle.resize(mesh.vertex_count(), NONE);
             for (number, pin) in pinned.clone().enumerate() {
-                if !few || number == at {
-                    set.anchor[pin as usize] = pin;
+                if !is_few || number == at {
+                    set.pin[pin as usize] = pin;
                     set.length[pin as usize] = 0.0;
                 }
             }
-            set.spread(mesh, rest, 0..mesh.triangles.len() as u32);
-            set.only = if few { pinned.clone().nth(at) } else { None };
-            set.anchor_rest();
+            set.sweep_triangles(mesh, rest, 0..mesh.triangles.len() as u32);
+            set.single_pin = if is_few { pinned.clone().nth(at) } else { None };
+            set.set_unreached_to_self();
         }
     }
 
-    /// A particle more, as a copy of another one; `follow` finds out what that did.
-    pub fn admit(&mut self, from: u32) {
+    /// A particle more, as a copy of another one; `update_after_tear` finds out what that did.
+    pub fn push_copy_of(&mut self, from: u32) {
         for set in &mut self.sets[..self.used] {
-            let (from, new) = (from as usize, set.anchor.len() as u32);
+            let (from, new) = (from as usize, set.pin.len() as u32);
             let is_reached = set.length[from].is_finite();
-            set.anchor.push(if is_reached { set.anchor[from] } else { new });
+            set.pin.push(if is_reached { set.pin[from] } else { new });
             set.length.push(set.length[from]);
-            set.by.push(set.by[from]);
+            set.via_triangle.push(set.via_triangle[from]);
         }
     }
 
     /// Measures the ways anew that led over what tore: around the particles that were `touched`, which
     /// are all that have other triangles than before. The pins are the same.
-    pub fn follow(&mut self, mesh: &Mesh, rest: &[Vec3], touched: &[u32]) {
-        let room = &mut self.room;
+    pub fn update_after_tear(&mut self, mesh: &Mesh, rest: &[Vec3], touched: &[u32]) {
+        let scratch = &mut self.scratch;
         for set in &mut self.sets[..self.used] {
-            set.lose(mesh, touched, room);
-            if room.lost.is_empty() {
+            set.invalidate(mesh, touched, scratch);
+            if scratch.invalid.is_empty() {
                 continue;
             }
-            room.is_near.clear();
-            room.is_near.resize(mesh.triangles.len(), false);
-            for particle in &room.lost {
-                mesh.fan(mesh.corner_of[*particle as usize], &mut room.fan);
-                for corner in &room.fan.corners {
-                    room.is_near[triangle_of(*corner)] = true;
+            scratch.is_affected.clear();
+            scratch.is_affected.resize(mesh.triangles.len(), false);
+            for particle in &scratch.invalid {
+                mesh.gather_fan(mesh.corner_of[*particle as usize], &mut scratch.fan);
+                for corner in &scratch.fan.corners {
+                    scratch.is_affected[triangle_of(*corner)] = true;
                 }
             }
-            room.near.clear();
-            let near = |triangle: &usize| room.is_near[*triangle];
-            let near = (0..mesh.triangles.len()).filter(near).map(|triangle| triangle as u32);
-            room.near.extend(near);
-            set.spread(mesh, rest, room.near.iter().copied());
-            set.anchor_rest();
+            scratch.affected.clear();
+            let affected = |triangle: &usize| scratch.is_affected[*triangle];
+            let affected =
+                (0..mesh.triangles.len()).filter(affected).map(|triangle| triangle as u32);
+            scratch.affected.extend(affected);
+            set.sweep_triangles(mesh, rest, scratch.affected.iter().copied());
+            set.set_unreached_to_self();
         }
     }
 
@@ -171,10 +172,10 @@ impl Tethers {
             let is_within = |list: &[u32], most: usize| {
                 list.iter().all(|at| *at == NONE || (*at as usize) < most)
             };
-            saved.only == set.only
-                && [saved.anchor.len(), saved.length.len(), saved.by.len()] == [particles; 3]
-                && saved.anchor.iter().all(|anchor| (*anchor as usize) < particles)
-                && is_within(&saved.by, triangles)
+            saved.single_pin == set.single_pin
+                && [saved.pin.len(), saved.length.len(), saved.via_triangle.len()] == [particles; 3]
+                && saved.pin.iter().all(|pin| (*pin as usize) < particles)
+                && is_within(&saved.via_triangle, triangles)
                 && saved.length.iter().all(|length| *length >= 0.0)
         };
         let sets = &mut self.sets[..self.used];
@@ -184,9 +185,9 @@ impl Tethers {
             return false;
         }
         for (set, saved) in sets.iter_mut().zip(saved) {
-            set.anchor.copy_from_slice(&saved.anchor);
+            set.pin.copy_from_slice(&saved.pin);
             set.length.copy_from_slice(&saved.length);
-            set.by.copy_from_slice(&saved.by);
+            set.via_triangle.copy_from_slice(&saved.via_triangle);
         }
         true
     }
@@ -194,7 +195,7 @@ impl Tethers {
 
 impl TetherSet {
     /// Sweeps over some of the triangles to and fro until nothing changes.
-    fn spread(
+    fn sweep_triangles(
         &mut self,
         mesh: &Mesh,
         rest: &[Vec3],
@@ -222,32 +223,32 @@ impl TetherSet {
     }
 
     /// Where no way leads to a pin, a particle is its own anchor.
-    fn anchor_rest(&mut self) {
-        for (particle, anchor) in self.anchor.iter_mut().enumerate() {
-            if *anchor == NONE {
-                *anchor = particle as u32;
+    fn set_unreached_to_self(&mut self) {
+        for (particle, pin) in self.pin.iter_mut().enumerate() {
+            if *pin == NONE {
+                *pin = particle as u32;
             }
         }
     }
 
     /// Finds the particles whose ways are gone, after the `touched` ones lost triangles: those whose way
     /// came over a triangle that they lost, and all whose ways came from there.
-    fn lose(&mut self, mesh: &Mesh, touched: &[u32], room: &mut Room) {
-        room.lost.clear();
+    fn invalidate(&mut self, mesh: &Mesh, touched: &[u32], scratch: &mut TetherScratch) {
+        scratch.invalid.clear();
         for particle in touched {
-            let by = self.by[*particle as usize];
-            if by != NONE && !mesh.triangles[by as usize].contains(particle) {
-                self.forget(*particle, &mut room.lost);
+            let via_triangle = self.via_triangle[*particle as usize];
+            if via_triangle != NONE && !mesh.triangles[via_triangle as usize].contains(particle) {
+                self.reset(*particle, &mut scratch.invalid);
             }
         }
         let mut at = 0;
-        while let Some(particle) = room.lost.get(at).copied() {
-            mesh.fan(mesh.corner_of[particle as usize], &mut room.fan);
-            for corner in &room.fan.corners {
+        while let Some(particle) = scratch.invalid.get(at).copied() {
+            mesh.gather_fan(mesh.corner_of[particle as usize], &mut scratch.fan);
+            for corner in &scratch.fan.corners {
                 let triangle = triangle_of(*corner);
                 for other in mesh.triangles[triangle] {
-                    if self.by[other as usize] == triangle as u32 {
-                        self.forget(other, &mut room.lost);
+                    if self.via_triangle[other as usize] == triangle as u32 {
+                        self.reset(other, &mut scratch.invalid);
                     }
                 }
             }
@@ -255,10 +256,10 @@ impl TetherSet {
         }
     }
 
-    fn forget(&mut self, particle: u32, lost: &mut Vec<u32>) {
+    fn reset(&mut self, particle: u32, invalid: &mut Vec<u32>) {
         let at = particle as usize;
-        (self.anchor[at], self.length[at], self.by[at]) = (NONE, f32::INFINITY, NONE);
-        lost.push(particle);
+        (self.pin[at], self.length[at], self.via_triangle[at]) = (NONE, f32::INFINITY, NONE);
+        invalid.push(particle);
     }
 
     /// Shortens the way to `c` through the edge a–b of a triangle; true if it did.
@@ -271,21 +272,21 @@ impl TetherSet {
         let (pa, pb, pc) = (at(a), at(b), at(c));
         let through_a = la + (pc - pa).length();
         let through_b = lb + (pc - pb).length();
-        let (mut best, mut anchor) = if through_a <= through_b {
-            (through_a, self.anchor[a as usize])
+        let (mut best, mut pin) = if through_a <= through_b {
+            (through_a, self.pin[a as usize])
         } else {
-            (through_b, self.anchor[b as usize])
+            (through_b, self.pin[b as usize])
         };
-        if self.anchor[a as usize] == self.anchor[b as usize]
+        if self.pin[a as usize] == self.pin[b as usize]
             && let Some(straight) = unfold(pa, pb, pc, la, lb)
             && straight < best
         {
-            (best, anchor) = (straight, self.anchor[a as usize]);
+            (best, pin) = (straight, self.pin[a as usize]);
         }
         // A hair of slack ends the sweeps: f32 could go on shaving bits off.
         if best < old * (1.0 - 1.0e-5) {
-            (self.length[c as usize], self.anchor[c as usize]) = (best, anchor);
-            self.by[c as usize] = triangle;
+            (self.length[c as usize], self.pin[c as usize]) = (best, pin);
+            self.via_triangle[c as usize] = triangle;
             return true;
         }
         false
@@ -324,7 +325,7 @@ mod tests {
         let rest = grid::positions(21, 17, &frame);
         let mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len());
         let mut tethers = Tethers::with_capacity(rest.len());
-        tethers.measure(&mesh, &rest, [0, 20].into_iter());
+        tethers.rebuild(&mesh, &rest, [0, 20].into_iter());
         assert_eq!(tethers.sets().len(), 2);
         for (set, corner) in tethers.sets().iter().zip([0usize, 20]) {
             for (particle, length) in set.length.iter().enumerate() {
@@ -345,12 +346,12 @@ mod tests {
         let mut mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len() + 40);
         let mut tethers = Tethers::with_capacity(rest.len() + 40);
         tethers.reserve(rest.len() + 40, mesh.triangles.len());
-        tethers.measure(&mesh, &rest, 0..21);
+        tethers.rebuild(&mesh, &rest, 0..21);
         // A slit along a row in the middle, vertex by vertex.
         for column in 5..16 {
             let mut fan = Fan::default();
             let vertex = 8 * 21 + column;
-            mesh.fan(mesh.corner_of[vertex], &mut fan);
+            mesh.gather_fan(mesh.corner_of[vertex], &mut fan);
             let below = |corner: &u32| {
                 mesh.triangles[triangle_of(*corner)]
                     .iter()
@@ -358,12 +359,12 @@ mod tests {
             };
             let moves: Vec<bool> = fan.corners.iter().map(below).collect();
             let Some(arc) = crate::mesh::split_vertex::best_arc(&fan, &moves) else { continue };
-            let new = mesh.split(&fan, arc, &mut Vec::new());
-            tethers.admit(vertex as u32);
-            tethers.follow(&mesh, &rest, &[vertex as u32, new]);
+            let new = mesh.split_vertex(&fan, arc, &mut Vec::new());
+            tethers.push_copy_of(vertex as u32);
+            tethers.update_after_tear(&mesh, &rest, &[vertex as u32, new]);
         }
         let mut anew = Tethers::with_capacity(mesh.vertex_count());
-        anew.measure(&mesh, &rest, 0..21);
+        anew.rebuild(&mesh, &rest, 0..21);
         let below = 9 * 21 + 10;
         let straight = 0.9;
         assert!(anew.sets()[0].length[below] > 1.1 * straight, "the way leads around the slit");

@@ -76,7 +76,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         advance_clock(world);
         return false;
     }
-    world.particles.x_last.copy_from(&world.particles.x);
+    world.particles.x_prev_tick.copy_from(&world.particles.x);
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, strain_limit::begin(world));
     }
@@ -92,7 +92,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         run_substep(world, substep);
     }
     timed!(world, Bend, bend::update_folds(world));
-    world.pins.arrive();
+    world.pins.finish_tick();
     timed!(world, Colliders, collide::finish_tick(world));
     advance_clock(world);
     // Restore invalid particles first, so that a NaN does not cause a tear.

@@ -21,8 +21,8 @@ use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
 use crate::mesh::seams::Seams;
-use crate::mesh::split_edge::Crossing;
-use crate::mesh::split_vertex::Opening;
+use crate::mesh::split_edge::CutSite;
+use crate::mesh::split_vertex::OpenedEdge;
 use crate::mesh::{Corner, Fan, Mesh, triangle_of};
 use crate::model::constraints::Constraints;
 use crate::model::crack_tips;
@@ -73,7 +73,7 @@ pub(crate) struct World {
     /// Rest position of each site [m].
     pub rest: Vec<Vec3>,
     /// The edge points where cuts made sites; these sites follow those of the original vertices.
-    pub crossings: Vec<Crossing>,
+    pub crossings: Vec<CutSite>,
     /// Share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
     /// Origin, axes and spacing of the rest grid; `None` for other meshes.
@@ -162,7 +162,7 @@ pub(crate) struct TickScratch {
     pub tear: TearScratch,
     pub rollback: crate::solver::stretch::rollback_state::RollbackState,
     /// Edges that the current vertex split opened.
-    pub openings: Vec<Opening>,
+    pub openings: Vec<OpenedEdge>,
     pub pieces: PieceLabels,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
@@ -245,25 +245,25 @@ impl World {
     ///
     /// Call `rebuild_irregular_lists` after the last site.
     pub fn refresh_constraints_at(&mut self, site: u32) {
-        self.constraints.follow(&self.mesh, site);
+        self.constraints.update_site(&self.mesh, site);
         if let Some(cells) = &mut self.grid_cells {
-            cells.follow(&self.mesh, site);
+            cells.update_site(&self.mesh, site);
         }
         if let Some(plates) = &mut self.plate_elements {
-            plates.follow_cells(&self.mesh, site);
-            let of_site = self.constraints.of_vertex(site);
-            of_site.for_each(|(links, link)| plates.follow_link(&self.mesh, links, link));
+            plates.update_cells(&self.mesh, site);
+            let of_site = self.constraints.links_of_site(site);
+            of_site.for_each(|(links, link)| plates.update_link(&self.mesh, links, link));
         }
     }
 
     /// Rebuilds the lists of links, cells and plate elements that left the regular grid layout.
     pub fn rebuild_irregular_lists(&mut self) {
-        self.constraints.gather(self.particles.len());
+        self.constraints.rebuild_sparse(self.particles.len());
         if let Some(cells) = &mut self.grid_cells {
-            cells.gather(&self.mesh);
+            cells.rebuild_torn(&self.mesh);
         }
         if let Some(plates) = &mut self.plate_elements {
-            plates.gather(&self.mesh, &self.constraints.links);
+            plates.rebuild_irregular(&self.mesh, &self.constraints.links);
         }
     }
 
@@ -274,14 +274,14 @@ impl World {
     pub fn refresh_inverse_mass(&mut self, particle: u32) {
         self.wake();
         let at = particle as usize;
-        let pin = self.pins.find(particle);
+        let pin = self.pins.get(particle);
         let held = pin.is_some_and(|pin| !pin.is_soft())
             || self.grabs.iter().any(|held| held.particle == particle);
         let mass = self.particles.mass[at];
         self.particles.w[at] = if held || mass <= 0.0 {
             0.0
         } else if let Some(pin) = pin {
-            pin.weigh(mass, self.settings.scheme().step)
+            pin.effective_inverse_mass(mass, self.settings.scheme().velocity_step)
         } else {
             1.0 / mass
         };
@@ -316,7 +316,7 @@ impl World {
     /// Rebuilds `crack_tips` for all vertices.
     pub fn rebuild_crack_tips(&mut self) {
         let mut fan = Fan::default();
-        let is_tip = |vertex| crack_tips::is_tip(&self.mesh, &self.rest, vertex, &mut fan);
+        let is_tip = |vertex| crack_tips::is_crack_tip(&self.mesh, &self.rest, vertex, &mut fan);
         self.crack_tips.clear();
         self.crack_tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
     }
@@ -327,7 +327,7 @@ impl World {
     pub fn set_particle_state(&mut self, particle: usize, x: Vec3, v: Vec3) {
         self.wake();
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
-        self.particles.place(particle, x, v, gravity, h);
+        self.particles.set_motion(particle, x, v, gravity, h);
         self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
     }
@@ -336,7 +336,7 @@ impl World {
     /// substep changed. Positions and velocities stay.
     pub fn reset_history(&mut self) {
         let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
-        self.particles.restart_history(gravity, h);
+        self.particles.reset_history(gravity, h);
     }
 
     /// Largest displacement of a particle per substep relative to the rigid motion of the
@@ -347,16 +347,16 @@ impl World {
 
     /// Rebuilds all tethers, after pins or pieces changed.
     pub fn rebuild_tethers(&mut self) {
-        self.tethers.measure(&self.mesh, &self.rest, self.pins.hard());
+        self.tethers.rebuild(&self.mesh, &self.rest, self.pins.hard_particles());
         self.refresh_after_tether_change();
     }
 
     /// Updates the tethers that tears changed, searching from the `touched` particles.
     pub fn update_tethers(&mut self, touched: &[u32]) {
-        if self.tethers.pin_count() != self.pins.hard().count() {
+        if self.tethers.pin_count() != self.pins.hard_particles().count() {
             return self.rebuild_tethers();
         }
-        self.tethers.follow(&self.mesh, &self.rest, touched);
+        self.tethers.update_after_tear(&self.mesh, &self.rest, touched);
         self.refresh_after_tether_change();
     }
 
@@ -370,7 +370,7 @@ impl World {
     /// Does nothing while there is no strain limit.
     pub fn rebuild_pin_order(&mut self) {
         if self.settings.max_stretch > 0.0 {
-            self.pin_order.sort(&self.tethers, self.particles.len(), &self.constraints.links);
+            self.pin_order.rebuild(&self.tethers, self.particles.len(), &self.constraints.links);
         }
     }
 }

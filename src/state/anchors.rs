@@ -57,8 +57,8 @@ impl AnchorConstraint {
             particle,
             from: point(a.from, b.from),
             anchor: point(a.anchor, b.anchor),
-            normal_from: unit(point(a.normal_from, b.normal_from)),
-            normal: unit(point(a.normal, b.normal)),
+            normal_from: unit_or_zero(point(a.normal_from, b.normal_from)),
+            normal: unit_or_zero(point(a.normal, b.normal)),
             max_distance: number(a.max_distance, b.max_distance),
             backstop_distance: number(a.backstop_distance, b.backstop_distance),
             backstop_radius: number(a.backstop_radius, b.backstop_radius),
@@ -71,7 +71,7 @@ impl AnchorConstraint {
     }
 
     /// Whether its numbers are such as a leash can have; for bytes from outside.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let vectors = [self.from, self.anchor, self.normal_from, self.normal];
         let is_length = |v: f32| v.is_finite() && v >= 0.0;
         vectors.iter().all(|v| v.is_finite())
@@ -81,65 +81,73 @@ impl AnchorConstraint {
     }
 
     /// Where a particle at `x` may be at a `share` of the tick: there, or the nearest place that it may.
-    pub fn keep(&self, x: Vec3, share: f32) -> Vec3 {
+    pub fn project(&self, x: Vec3, share: f32) -> Vec3 {
         let anchor =
             if share < 1.0 { self.from + (self.anchor - self.from) * share } else { self.anchor };
-        let within = within(x, anchor, self.max_distance);
+        let clamped = clamp_to_sphere(x, anchor, self.max_distance);
         if self.backstop_radius == 0.0 {
-            return within;
+            return clamped;
         }
         let normal = if share < 1.0 {
-            unit(self.normal_from + (self.normal - self.normal_from) * share)
+            unit_or_zero(self.normal_from + (self.normal - self.normal_from) * share)
         } else {
             self.normal
         };
         if normal == Vec3::ZERO {
-            return within;
+            return clamped;
         }
         let center = anchor - normal * (self.backstop_distance + self.backstop_radius);
-        let r = within - center;
+        let r = clamped - center;
         if r.length_squared() >= self.backstop_radius * self.backstop_radius {
-            return within;
+            return clamped;
         }
-        self.out_of_backstop(x, center, normal, anchor)
+        self.project_out_of_backstop(x, center, normal, anchor)
     }
 
     /// Out of the backstop, and no farther from the anchor than may be: where both spheres meet if it must be.
-    fn out_of_backstop(&self, x: Vec3, center: Vec3, normal: Vec3, anchor: Vec3) -> Vec3 {
-        let (radius, most) = (self.backstop_radius, self.max_distance);
+    fn project_out_of_backstop(&self, x: Vec3, center: Vec3, normal: Vec3, anchor: Vec3) -> Vec3 {
+        let (radius, max_distance) = (self.backstop_radius, self.max_distance);
         let r = x - center;
         let out =
             if r.length_squared() > 0.0 { r * (radius / r.length()) } else { normal * radius };
-        if (center + out - anchor).length_squared() <= most * most {
+        if (center + out - anchor).length_squared() <= max_distance * max_distance {
             return center + out;
         }
         let apart = self.backstop_distance + radius;
         // How far along the normal from the backstop's centre the spheres meet, and how far off it.
-        let along = (apart * apart + radius * radius - most * most) / (2.0 * apart);
+        let along = (apart * apart + radius * radius - max_distance * max_distance) / (2.0 * apart);
         let off = radius * radius - along * along;
         let side = r - normal * r.dot(normal);
-        let side = if side.length_squared() > 0.0 { unit(side) } else { across(normal) };
+        let side = if side.length_squared() > 0.0 {
+            unit_or_zero(side)
+        } else {
+            any_perpendicular(normal)
+        };
         center + normal * along + side * if off > 0.0 { off.sqrt() } else { 0.0 }
     }
 }
 
-/// `x`, or if that is farther than `most` from a point, the nearest place that is not.
-fn within(x: Vec3, point: Vec3, most: f32) -> Vec3 {
+/// `x`, or if that is farther than `max_distance` from a point, the nearest place that is not.
+fn clamp_to_sphere(x: Vec3, point: Vec3, max_distance: f32) -> Vec3 {
     let r = x - point;
     let length2 = r.length_squared();
-    if length2 > most * most { point + r * (most / length2.sqrt()) } else { x }
+    if length2 > max_distance * max_distance {
+        point + r * (max_distance / length2.sqrt())
+    } else {
+        x
+    }
 }
 
 /// The direction of a vector; nothing for nothing.
-pub(crate) fn unit(v: Vec3) -> Vec3 {
+pub(crate) fn unit_or_zero(v: Vec3) -> Vec3 {
     let length2 = v.length_squared();
     if length2 > 0.0 { v * (1.0 / length2.sqrt()) } else { Vec3::ZERO }
 }
 
 /// Some direction across another one.
-fn across(normal: Vec3) -> Vec3 {
+fn any_perpendicular(normal: Vec3) -> Vec3 {
     let axis = if normal.x * normal.x < 0.5 { Vec3::X } else { Vec3::Y };
-    unit(normal.cross(axis))
+    unit_or_zero(normal.cross(axis))
 }
 
 /// All leashes, sorted by particle, so that order comes from the mesh.
@@ -168,17 +176,17 @@ impl AnchorConstraints {
         self.list.iter_mut()
     }
 
-    fn place_of(&self, particle: u32) -> Result<usize, usize> {
-        self.list.binary_search_by_key(&particle, |leash| leash.particle)
+    fn search(&self, particle: u32) -> Result<usize, usize> {
+        self.list.binary_search_by_key(&particle, |constraint| constraint.particle)
     }
 
-    pub fn find(&self, particle: u32) -> Option<&AnchorConstraint> {
-        Some(&self.list[self.place_of(particle).ok()?])
+    pub fn get(&self, particle: u32) -> Option<&AnchorConstraint> {
+        Some(&self.list[self.search(particle).ok()?])
     }
 
     /// The leash of a particle, which it gets now if it has none: with an anchor at `x`, and no end.
-    pub fn of(&mut self, particle: u32, x: Vec3) -> &mut AnchorConstraint {
-        let at = match self.place_of(particle) {
+    pub fn get_or_insert(&mut self, particle: u32, x: Vec3) -> &mut AnchorConstraint {
+        let at = match self.search(particle) {
             Ok(at) => at,
             Err(at) => {
                 self.list.insert(at, AnchorConstraint::new(particle, x));
@@ -189,9 +197,9 @@ impl AnchorConstraints {
     }
 
     /// Adds the leash of a particle that has none.
-    pub fn insert(&mut self, leash: AnchorConstraint) {
-        if let Err(at) = self.place_of(leash.particle) {
-            self.list.insert(at, leash);
+    pub fn insert(&mut self, constraint: AnchorConstraint) {
+        if let Err(at) = self.search(constraint.particle) {
+            self.list.insert(at, constraint);
         }
     }
 
@@ -200,16 +208,17 @@ impl AnchorConstraints {
     }
 
     /// Whether they are such as a cloth of `count` particles can have; for bytes from outside.
-    pub fn are_sound(&self, count: usize) -> bool {
-        let is_sound =
-            |leash: &AnchorConstraint| (leash.particle as usize) < count && leash.is_sound();
-        self.list.iter().all(is_sound) && self.list.is_sorted_by(|a, b| a.particle < b.particle)
+    pub fn are_valid(&self, count: usize) -> bool {
+        let is_valid = |constraint: &AnchorConstraint| {
+            (constraint.particle as usize) < count && constraint.is_valid()
+        };
+        self.list.iter().all(is_valid) && self.list.is_sorted_by(|a, b| a.particle < b.particle)
     }
 
     /// The tick is over: every anchor is where it was to be.
-    pub fn arrive(&mut self) {
-        for leash in &mut self.list {
-            (leash.from, leash.normal_from) = (leash.anchor, leash.normal);
+    pub fn finish_tick(&mut self) {
+        for constraint in &mut self.list {
+            (constraint.from, constraint.normal_from) = (constraint.anchor, constraint.normal);
         }
     }
 }
@@ -218,7 +227,11 @@ impl AnchorConstraints {
 mod tests {
     use super::*;
 
-    fn leash(max_distance: f32, backstop_distance: f32, backstop_radius: f32) -> AnchorConstraint {
+    fn constraint(
+        max_distance: f32,
+        backstop_distance: f32,
+        backstop_radius: f32,
+    ) -> AnchorConstraint {
         let (normal, anchor) = (Vec3::Y, Vec3::new(0.5, 1.0, -2.0));
         let free = AnchorConstraint::new(0, anchor);
         AnchorConstraint {
@@ -233,22 +246,27 @@ mod tests {
 
     #[test]
     fn wherever_a_particle_is_it_is_kept_where_it_may_be() {
-        for most in [0.0, 0.02, 0.3, 1.1, 2.5, f32::INFINITY] {
+        for max_distance in [0.0, 0.02, 0.3, 1.1, 2.5, f32::INFINITY] {
             for (behind, radius) in [(0.0, 0.0), (0.0, 0.1), (0.0, 1.0), (0.05, 0.5), (0.3, 2.0)] {
-                let leash = leash(most, behind, radius);
-                let center = leash.anchor - Vec3::Y * (behind + radius);
+                let constraint = constraint(max_distance, behind, radius);
+                let center = constraint.anchor - Vec3::Y * (behind + radius);
                 for i in 0..1000 {
                     let number = |k: i32| ((i * k % 101) - 50) as f32 / 25.0;
-                    let x = leash.anchor + Vec3::new(number(7), number(13), number(29));
-                    let kept = leash.keep(x, 1.0);
-                    let [far, near] = [kept.distance(leash.anchor), kept.distance(center)];
-                    assert!(far <= most + 1e-5, "{far} from the anchor, not {most}");
+                    let x = constraint.anchor + Vec3::new(number(7), number(13), number(29));
+                    let projected = constraint.project(x, 1.0);
+                    let [far, near] =
+                        [projected.distance(constraint.anchor), projected.distance(center)];
+                    assert!(
+                        far <= max_distance + 1e-5,
+                        "{far} from the anchor, not {max_distance}"
+                    );
                     assert!(
                         near >= radius - 1e-5,
                         "{near} from the backstop's centre, not {radius}"
                     );
-                    let may = x.distance(leash.anchor) <= most && x.distance(center) >= radius;
-                    assert!(!may || kept == x, "{x} is moved to {kept}");
+                    let may = x.distance(constraint.anchor) <= max_distance
+                        && x.distance(center) >= radius;
+                    assert!(!may || projected == x, "{x} is moved to {projected}");
                 }
             }
         }
@@ -256,12 +274,13 @@ mod tests {
 
     #[test]
     fn the_middle_of_a_backstop_and_the_line_through_it_lead_out_too() {
-        let leash = leash(0.2, 0.0, 0.5);
-        let center = leash.anchor - Vec3::Y * 0.5;
+        let constraint = constraint(0.2, 0.0, 0.5);
+        let center = constraint.anchor - Vec3::Y * 0.5;
         for x in [center, center - Vec3::Y * 0.1, center - Vec3::Y * 3.0, center + Vec3::Y * 0.1] {
-            let kept = leash.keep(x, 1.0);
+            let projected = constraint.project(x, 1.0);
             assert!(
-                kept.distance(center) >= 0.5 - 1e-6 && kept.distance(leash.anchor) <= 0.2 + 1e-6
+                projected.distance(center) >= 0.5 - 1e-6
+                    && projected.distance(constraint.anchor) <= 0.2 + 1e-6
             );
         }
     }

@@ -22,7 +22,7 @@ impl Attachment {
 
 /// A transform on its way.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Carrier {
+pub(crate) struct AttachmentPose {
     /// Where it was at the end of the last tick.
     pub last: Pose,
     /// Where it is at the end of the next tick.
@@ -33,4 +33,4 @@ pub(crate) struct Carrier {
 pub(crate) const MAX_ATTACHMENTS: u16 = 64;
 
 /// All attachments of a cloth.
-pub(crate) type Attachments = Arena<Carrier>;
+pub(crate) type Attachments = Arena<AttachmentPose>;

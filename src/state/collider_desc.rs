@@ -5,7 +5,7 @@ use crate::geometry::convex_hull;
 use crate::geometry::features::ShapeFeatures;
 use crate::geometry::shape::{Capsule, CollisionShape, Cuboid, HalfSpace, Sphere};
 use crate::geometry::triangle_surface;
-use crate::state::pose::{OF_COLLIDER, check_pose};
+use crate::state::pose::{COLLIDER_FIELDS, check_pose};
 
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::triangle_surface::TriangleSurface;
@@ -133,16 +133,16 @@ const MAX_HULL_POINTS: usize = 1024;
 const MAX_HEIGHTS: u32 = 4096;
 
 /// No size or place within a shape is as much [m], so that f32 can still square it.
-const FAR: f32 = 1.0e6;
+const MAX_COORDINATE: f32 = 1.0e6;
 
 fn is_size(v: f32) -> bool {
-    v > 0.0 && v < FAR
+    v > 0.0 && v < MAX_COORDINATE
 }
 
 impl ColliderDesc {
     /// Refuses a collider that cannot be.
     pub(crate) fn check(&self) -> Result<()> {
-        check_pose(self.position, self.rotation, OF_COLLIDER)?;
+        check_pose(self.position, self.rotation, COLLIDER_FIELDS)?;
         self.check_shape()?;
         let size = "be at least 0 and finite, or -1";
         let not_negative = |v: f32| v == -1.0 || (v.is_finite() && v >= 0.0);
@@ -205,14 +205,14 @@ impl ColliderDesc {
                     "collider.heights",
                     "be `columns` times `rows`",
                 )?;
-                let near = |height: &f32| height.abs() < FAR;
+                let near = |height: &f32| height.abs() < MAX_COORDINATE;
                 check(self.heights.iter().all(near), "collider.heights", "be between -1e6 and 1e6")
             }
         }
     }
 
     fn check_positions(&self) -> Result<()> {
-        let near = |x: &Vec3| x.to_array().iter().all(|c| c.abs() < FAR);
+        let near = |x: &Vec3| x.to_array().iter().all(|c| c.abs() < MAX_COORDINATE);
         let all_near = self.positions.iter().all(near);
         check(all_near, "collider.positions", "be between -1e6 and 1e6")
     }

@@ -2,10 +2,10 @@
 
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
-use crate::geometry::shape::CollisionShape;
+use crate::geometry::shape::Form;
 use crate::math::max;
 use crate::state::collider_desc::ColliderDesc;
-use crate::state::pose::{OF_COLLIDER, Pose, check_pose};
+use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -38,7 +38,7 @@ pub struct Impulse {
 
 /// One collider of a cloth.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Body {
+pub(crate) struct ColliderBody {
     pub desc: ColliderDesc,
     /// Where it was at the end of the last tick.
     pub last: Pose,
@@ -48,37 +48,37 @@ pub(crate) struct Body {
     pub impulse: Impulse,
     /// Its shape, made from the descriptor.
     #[serde(skip)]
-    collision_shape: Option<Arc<CollisionShape>>,
+    form: Option<Arc<Form>>,
 }
 
-impl Body {
+impl ColliderBody {
     pub fn new(desc: ColliderDesc) -> Result<Self> {
         desc.check()?;
         let pose = Pose::new(desc.position, desc.rotation);
-        let collision_shape = Some(Arc::new(desc.collision_shape()?));
-        Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), collision_shape })
+        let form = Some(Arc::new(desc.form()?));
+        Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), form })
     }
 
     /// Refuses a body that cannot be, and sees to its shape; for bytes from outside.
-    pub fn revive(&mut self) -> Result<()> {
+    pub fn restore(&mut self) -> Result<()> {
         self.desc.check()?;
         check_finite(self.impulse.linear, "collider.impulse")?;
         check_finite(self.impulse.angular, "collider.impulse")?;
-        check_pose(self.last.position, self.last.rotation, OF_COLLIDER)?;
-        check_pose(self.next.position, self.next.rotation, OF_COLLIDER)?;
-        self.collision_shape = Some(Arc::new(self.desc.collision_shape()?));
+        check_pose(self.last.position, self.last.rotation, COLLIDER_FIELDS)?;
+        check_pose(self.next.position, self.next.rotation, COLLIDER_FIELDS)?;
+        self.form = Some(Arc::new(self.desc.form()?));
         Ok(())
     }
 
     /// Its shape; nothing before it was revived.
-    pub fn collision_shape(&self) -> Option<&CollisionShape> {
-        self.collision_shape.as_deref()
+    pub fn form(&self) -> Option<&Form> {
+        self.form.as_deref()
     }
 
     /// How far a point of it is at most from the straight way between where the tick finds it and where it leaves
     /// it, because it turns [m].
-    pub fn turns_aside(&self, collision_shape: &CollisionShape) -> f32 {
-        let bounds = collision_shape.bounds();
+    pub fn max_arc_deviation(&self, form: &Form) -> f32 {
+        let bounds = form.bounds();
         let farthest = bounds.low.abs().max(bounds.high.abs()).length();
         let dot: f32 = {
             let (from, to) = (self.last.rotation.to_array(), self.next.rotation.to_array());
@@ -90,7 +90,7 @@ impl Body {
 
     /// Sends the collider on its way; it arrives at the end of the next tick.
     pub fn move_to(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
-        check_pose(position, rotation, OF_COLLIDER)?;
+        check_pose(position, rotation, COLLIDER_FIELDS)?;
         self.next = Pose::new(position, rotation);
         Ok(())
     }
@@ -98,12 +98,12 @@ impl Body {
     /// Puts the collider somewhere at once.
     pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         self.move_to(position, rotation)?;
-        self.arrive();
+        self.finish_tick();
         Ok(())
     }
 
     /// The tick is over: it is where it was to be.
-    pub fn arrive(&mut self) {
+    pub fn finish_tick(&mut self) {
         self.last = self.next;
         self.desc.position = self.next.position;
         self.desc.rotation = self.next.rotation;
@@ -114,4 +114,4 @@ impl Body {
 pub(crate) const MAX_COLLIDERS: u16 = 1024;
 
 /// All colliders of a cloth.
-pub(crate) type Colliders = Arena<Box<Body>>;
+pub(crate) type Colliders = Arena<Box<ColliderBody>>;

@@ -22,7 +22,7 @@ impl Grab {
 
 /// One held particle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Held {
+pub(crate) struct GrabbedParticle {
     pub particle: u32,
     /// Where the pointer is [m]; the particle follows as fast as it may.
     pub target: Vec3,
@@ -32,4 +32,4 @@ pub(crate) struct Held {
 pub(crate) const MAX_GRABS: u16 = 64;
 
 /// All grabs of a cloth.
-pub(crate) type Grabs = Arena<Held>;
+pub(crate) type Grabs = Arena<GrabbedParticle>;

@@ -22,7 +22,7 @@ impl MassScales {
         self.list[particle as usize] = scale;
     }
 
-    pub fn of(&self, particle: usize) -> f32 {
+    pub fn get(&self, particle: usize) -> f32 {
         self.list.get(particle).copied().unwrap_or(1.0)
     }
 
@@ -40,20 +40,20 @@ impl MassScales {
 
     /// The least and the greatest factor; 1 where there are none.
     pub fn range(&self) -> [f32; 2] {
-        let first = self.of(0);
+        let first = self.get(0);
         self.list.iter().fold([first; 2], |[least, most], scale| {
             [if *scale < least { *scale } else { least }, if *scale > most { *scale } else { most }]
         })
     }
 
     /// Whether they are such as a cloth of `count` particles can have; for bytes from outside.
-    pub fn are_sound(&self, count: usize) -> bool {
+    pub fn are_valid(&self, count: usize) -> bool {
         (self.list.is_empty() || self.list.len() == count)
-            && self.list.iter().all(|scale| is_scale(*scale))
+            && self.list.iter().all(|scale| is_valid_scale(*scale))
     }
 }
 
 /// Whether masses may be multiplied by it.
-pub(crate) fn is_scale(scale: f32) -> bool {
+pub(crate) fn is_valid_scale(scale: f32) -> bool {
     (1.0e-3..=1.0e3).contains(&scale)
 }

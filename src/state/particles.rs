@@ -1,7 +1,7 @@
 //! What moves: positions, their history, velocities and masses.
 
 use crate::math::columns::Columns;
-use crate::math::{lerp, saturate};
+use crate::math::{between, finite};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -12,13 +12,13 @@ pub(crate) struct Particles {
     pub x: Columns,
     /// How far they moved in the last substep [m], kept apart because a difference of positions
     /// would lose most of its digits.
-    pub moved: Columns,
+    pub displacement: Columns,
     /// Velocity [m/s].
     pub v: Columns,
     /// Velocity as its history lets expect it for the next substep, (4 v - v_prev) / 3 [m/s].
-    pub v_ahead: Columns,
+    pub v_extrapolated: Columns,
     /// Where they were one tick ago [m]: to blend between ticks when drawing, and to mend from.
-    pub x_last: Columns,
+    pub x_prev_tick: Columns,
     /// Mass [kg].
     pub mass: Vec<f32>,
     /// Inverse mass that the solver sees [1/kg]: 0 while pinned or grabbed.
@@ -33,10 +33,10 @@ impl Particles {
         let mut v = Columns::with_capacity(capacity);
         positions.iter().for_each(|_| v.push(Vec3::ZERO));
         let mut particles = Self {
-            moved: v.clone(),
-            x_last: x.clone(),
+            displacement: v.clone(),
+            x_prev_tick: x.clone(),
             x,
-            v_ahead: v.clone(),
+            v_extrapolated: v.clone(),
             v,
             mass: vec![0.0; positions.len()],
             w: vec![0.0; positions.len()],
@@ -46,7 +46,13 @@ impl Particles {
     }
 
     fn all_columns(&mut self) -> [&mut Columns; 5] {
-        [&mut self.x, &mut self.moved, &mut self.v, &mut self.v_ahead, &mut self.x_last]
+        [
+            &mut self.x,
+            &mut self.displacement,
+            &mut self.v,
+            &mut self.v_extrapolated,
+            &mut self.x_prev_tick,
+        ]
     }
 
     /// Makes room for `capacity` particles in all.
@@ -70,7 +76,8 @@ impl Particles {
 
     /// Whether every list has `count` entries.
     pub fn is_consistent(&self, count: usize) -> bool {
-        let columns = [&self.x, &self.moved, &self.v, &self.v_ahead, &self.x_last];
+        let columns =
+            [&self.x, &self.displacement, &self.v, &self.v_extrapolated, &self.x_prev_tick];
         let three = |c: &Columns| c.x.len() == count && c.y.len() == count && c.z.len() == count;
         columns.into_iter().all(three) && self.mass.len() == count && self.w.len() == count
     }
@@ -90,7 +97,7 @@ impl Particles {
     pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
         for columns in self.all_columns() {
             let (from, to) = (columns.at(a), columns.at(b));
-            columns.push(lerp(from, to, share));
+            columns.push(between(from, to, share));
         }
         self.mass.push(0.0);
         self.w.push(0.0);
@@ -98,17 +105,17 @@ impl Particles {
     }
 
     /// Puts a particle somewhere with a velocity, as if it had been falling freely for ever.
-    pub fn place(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
+    pub fn set_motion(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);
         self.v.set(i, v);
-        self.moved.set(i, saturate(v * h - gravity * (0.5 * h * h)));
-        self.v_ahead.set(i, saturate(v + gravity * (h * (1.0 / 3.0))));
+        self.displacement.set(i, finite(v * h - gravity * (0.5 * h * h)));
+        self.v_extrapolated.set(i, finite(v + gravity * (h * (1.0 / 3.0))));
     }
 
     /// Begins every history anew, for another kind of substep. Velocities stay.
-    pub fn restart_history(&mut self, gravity: Vec3, h: f32) {
+    pub fn reset_history(&mut self, gravity: Vec3, h: f32) {
         for i in 0..self.len() {
-            self.place(i, self.x.at(i), self.v.at(i), gravity, h);
+            self.set_motion(i, self.x.at(i), self.v.at(i), gravity, h);
         }
     }
 }

@@ -14,7 +14,7 @@ pub(crate) struct Pin {
     /// How hard it pulls towards its target [N/m]; 0 if it holds the particle exactly there.
     pub stiffness: f32,
     /// The attachment that carries it, 0 if none does, …
-    pub carrier: u32,
+    pub attachment: u32,
     /// … and where its target is as that sees it [m].
     pub local: Vec3,
 }
@@ -22,7 +22,7 @@ pub(crate) struct Pin {
 impl Pin {
     /// A pin that holds a particle exactly, on its way between two places.
     fn new(particle: u32, from: Vec3, target: Vec3) -> Self {
-        Self { particle, from, target, stiffness: 0.0, carrier: 0, local: Vec3::ZERO }
+        Self { particle, from, target, stiffness: 0.0, attachment: 0, local: Vec3::ZERO }
     }
 
     /// Whether it gives way to the cloth.
@@ -31,12 +31,12 @@ impl Pin {
     }
 
     /// The inverse of a mass and of what a soft pin adds to it over a step [1/kg], see `solver::hold`.
-    pub fn weigh(&self, mass: f32, step: f32) -> f32 {
+    pub fn effective_inverse_mass(&self, mass: f32, step: f32) -> f32 {
         1.0 / (mass + self.stiffness * step * step)
     }
 
     /// Whether its numbers are such as a pin can have; for bytes from outside.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let places = [self.from, self.target, self.local];
         places.iter().all(|v| v.is_finite()) && self.stiffness.is_finite() && self.stiffness >= 0.0
     }
@@ -63,34 +63,34 @@ impl Pins {
     }
 
     /// The particles that are held exactly.
-    pub fn hard(&self) -> impl Iterator<Item = u32> + Clone {
+    pub fn hard_particles(&self) -> impl Iterator<Item = u32> + Clone {
         self.list.iter().filter(|pin| !pin.is_soft()).map(|pin| pin.particle)
     }
 
     /// Whether any gives way to the cloth.
-    pub fn are_any_soft(&self) -> bool {
+    pub fn has_soft(&self) -> bool {
         self.list.iter().any(Pin::is_soft)
     }
 
-    fn place_of(&self, particle: u32) -> Result<usize, usize> {
+    fn search(&self, particle: u32) -> Result<usize, usize> {
         self.list.binary_search_by_key(&particle, |pin| pin.particle)
     }
 
-    pub fn find(&self, particle: u32) -> Option<&Pin> {
-        Some(&self.list[self.place_of(particle).ok()?])
+    pub fn get(&self, particle: u32) -> Option<&Pin> {
+        Some(&self.list[self.search(particle).ok()?])
     }
 
-    pub fn find_mut(&mut self, particle: u32) -> Option<&mut Pin> {
-        let at = self.place_of(particle).ok()?;
+    pub fn get_mut(&mut self, particle: u32) -> Option<&mut Pin> {
+        let at = self.search(particle).ok()?;
         Some(&mut self.list[at])
     }
 
     /// Pins a particle that is at `x`, or gives an old pin a new target, which nothing carries. True if it is
     /// a new pin.
     pub fn insert(&mut self, particle: u32, x: Vec3, target: Vec3) -> bool {
-        match self.place_of(particle) {
+        match self.search(particle) {
             Ok(at) => {
-                (self.list[at].target, self.list[at].carrier) = (target, 0);
+                (self.list[at].target, self.list[at].attachment) = (target, 0);
                 false
             }
             Err(at) => {
@@ -102,20 +102,20 @@ impl Pins {
 
     /// Pins a particle that was not pinned just as another one.
     pub fn insert_copy(&mut self, particle: u32, pin: Pin) {
-        if let Err(at) = self.place_of(particle) {
+        if let Err(at) = self.search(particle) {
             self.list.insert(at, Pin { particle, ..pin });
         }
     }
 
     /// True if there was such a pin.
     pub fn remove(&mut self, particle: u32) -> bool {
-        self.place_of(particle).map(|at| self.list.remove(at)).is_ok()
+        self.search(particle).map(|at| self.list.remove(at)).is_ok()
     }
 
     /// Removes all that an attachment carries. True if there were any.
-    pub fn remove_carried(&mut self, carrier: u32) -> bool {
+    pub fn remove_attached(&mut self, attachment: u32) -> bool {
         let before = self.list.len();
-        self.list.retain(|pin| pin.carrier != carrier);
+        self.list.retain(|pin| pin.attachment != attachment);
         self.list.len() < before
     }
 
@@ -129,7 +129,7 @@ impl Pins {
     }
 
     /// The tick is over: every pin is where it was to be.
-    pub fn arrive(&mut self) {
+    pub fn finish_tick(&mut self) {
         self.list.iter_mut().for_each(|pin| pin.from = pin.target);
     }
 }

@@ -13,7 +13,7 @@ pub(crate) struct Pose {
 }
 
 /// What the numbers of a collider's pose are called.
-pub(crate) const OF_COLLIDER: [&str; 2] = ["collider.position", "collider.rotation"];
+pub(crate) const COLLIDER_FIELDS: [&str; 2] = ["collider.position", "collider.rotation"];
 
 /// Refuses a pose that cannot be; `names` is what its position and its rotation are called.
 pub(crate) fn check_pose(position: Vec3, rotation: Quat, names: [&'static str; 2]) -> Result<()> {
@@ -35,50 +35,53 @@ impl Pose {
     }
 
     /// `v` turned as it is. Written out, so that every target computes the same.
-    fn turn(&self, v: Vec3) -> Vec3 {
+    fn rotate(&self, v: Vec3) -> Vec3 {
         let [x, y, z, w] = self.rotation.to_array();
         let axis = Vec3::new(x, y, z);
         let twice = axis.cross(v) * 2.0;
         v + twice * w + axis.cross(twice)
     }
 
-    /// The pose a `share` of the way to `next`.
-    pub fn toward(&self, next: &Self, share: f32) -> Self {
+    /// The pose a `t` of the way to `next`.
+    pub fn interpolate(&self, next: &Self, t: f32) -> Self {
         let (from, to) = (self.rotation.to_array(), next.rotation.to_array());
         let dot: f32 = (0..4).map(|i| from[i] * to[i]).sum();
         let sign = if dot < 0.0 { -1.0 } else { 1.0 };
-        let blend = |i: usize| from[i] + (to[i] * sign - from[i]) * share;
+        let blend = |i: usize| from[i] + (to[i] * sign - from[i]) * t;
         Self::new(
-            self.position + (next.position - self.position) * share,
+            self.position + (next.position - self.position) * t,
             Quat::from_xyzw(blend(0), blend(1), blend(2), blend(3)),
         )
     }
 
     /// The pose after some of `count` even moments on the way to `next`: itself at first, that at last.
-    pub fn after(&self, next: &Self, moment: u32, count: u32) -> Self {
-        match moment {
+    pub fn at_substep(&self, next: &Self, substep: u32, count: u32) -> Self {
+        match substep {
             0 => *self,
             end if end == count => *next,
-            _ => self.toward(next, moment as f32 / count as f32),
+            _ => self.interpolate(next, substep as f32 / count as f32),
         }
     }
 
     /// Where it gets to with a body that jumps from one pose to another.
-    pub fn jump(&self, from: &Self, to: &Self) -> Self {
-        let position = to.frame().point_to_world(from.frame().point_to_local(self.position));
+    pub fn moved_with(&self, from: &Self, to: &Self) -> Self {
+        let position = to.to_transform().outward(from.to_transform().inward(self.position));
         let [x, y, z, w] = from.rotation.to_array();
-        let turn = product(to.rotation, Quat::from_xyzw(-x, -y, -z, w));
-        Self::new(position, product(turn, self.rotation))
+        let turn = quat_product(to.rotation, Quat::from_xyzw(-x, -y, -z, w));
+        Self::new(position, quat_product(turn, self.rotation))
     }
 
     /// Ready to be used on many points.
-    pub fn frame(&self) -> Transform {
-        Transform { origin: self.position, axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.turn(v)) }
+    pub fn to_transform(&self) -> Transform {
+        Transform {
+            origin: self.position,
+            axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.rotate(v)),
+        }
     }
 }
 
 /// First turned by `b`, then by `a`. Written out, so that every target computes the same.
-fn product(a: Quat, b: Quat) -> Quat {
+fn quat_product(a: Quat, b: Quat) -> Quat {
     let ([ax, ay, az, aw], [bx, by, bz, bw]) = (a.to_array(), b.to_array());
     Quat::from_xyzw(
         aw * bx + ax * bw + ay * bz - az * by,

@@ -125,14 +125,14 @@ impl Settings {
     }
 
     /// How many links of so many triangles may tear in one tick: no more than there can ever be.
-    pub(crate) fn most_tears(&self, triangles: usize) -> usize {
+    pub(crate) fn max_tears(&self, triangles: usize) -> usize {
         (self.max_tears_per_tick as usize).min(4 * triangles)
     }
 
     /// How positions follow from velocities in these settings.
-    pub(crate) fn scheme(&self) -> Scheme {
+    pub(crate) fn scheme(&self) -> BdfScheme {
         let h = self.tick / self.substeps as f32;
-        if self.iterations >= 2 { Scheme::second_order(h) } else { Scheme::first_order(h) }
+        if self.iterations >= 2 { BdfScheme::second_order(h) } else { BdfScheme::first_order(h) }
     }
 }
 
@@ -148,23 +148,29 @@ impl Settings {
 /// nonconforming elements", 2008, sec. 3). It needs links that are solved symmetrically, to and fro:
 /// the phase error of a one-way sweep would feed it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Scheme {
+pub(crate) struct BdfScheme {
     /// Length of a substep [s].
     pub h: f32,
     /// The part of it that a new velocity acts for [s].
-    pub step: f32,
+    pub velocity_step: f32,
     /// Share of the last change that goes on.
-    pub carry: f32,
-    pub lead: f32,
-    pub trail: f32,
+    pub extrapolation: f32,
+    pub new_weight: f32,
+    pub old_weight: f32,
 }
 
-impl Scheme {
+impl BdfScheme {
     fn first_order(h: f32) -> Self {
-        Self { h, step: h, carry: 0.0, lead: 1.0, trail: 0.0 }
+        Self { h, velocity_step: h, extrapolation: 0.0, new_weight: 1.0, old_weight: 0.0 }
     }
 
     fn second_order(h: f32) -> Self {
-        Self { h, step: h * (2.0 / 3.0), carry: 1.0 / 3.0, lead: 1.5, trail: 0.5 }
+        Self {
+            h,
+            velocity_step: h * (2.0 / 3.0),
+            extrapolation: 1.0 / 3.0,
+            new_weight: 1.5,
+            old_weight: 0.5,
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The air around a cloth: a steady wind that gusts, wanders and swirls, always the same way.
 
 use crate::error::{Result, check, check_finite};
-use crate::math::hasher::unit;
-use crate::math::trig::{cos, sin, sin_branchless};
+use crate::math::mixer::unit;
+use crate::math::trig::{cos, sin, wave};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -72,30 +72,30 @@ impl Wind {
     }
 
     /// The wind at `time` [s]: gusts and wandering done, swirls yet to come.
-    pub(crate) fn at(&self, time: f64) -> Breeze {
+    pub(crate) fn sample(&self, time: f64) -> WindSample {
         let speed = self.velocity.length();
         if speed == 0.0 {
-            return Breeze { mean: Vec3::ZERO, swirl: 0.0, phase: [0.0; 3] };
+            return WindSample { mean: Vec3::ZERO, turbulence: 0.0, phase: [0.0; 3] };
         }
         let phase = f64::from(unit(self.seed, &[0])) * 100.0;
         let t = time + phase;
         // Periods of 6, 2.6 and 1.1 s: slow swells, faster gusts, a flutter.
         let swell = 0.55 * sin(1.05 * t) + 0.3 * sin(2.4 * t + 1.3) + 0.15 * sin(5.7 * t + 0.4);
-        let stray = 0.6 * sin(0.41 * t + 2.0) + 0.4 * sin(1.13 * t);
+        let wander_angle = 0.6 * sin(0.41 * t + 2.0) + 0.4 * sin(1.13 * t);
         let along = self.velocity * (1.0 / speed);
         // Two directions across the wind, whichever way is up.
         let helper = if along.y * along.y < 0.5 { Vec3::Y } else { Vec3::X };
         let across = along.cross(helper);
         let across = across * (1.0 / across.length());
         let lift = across.cross(along);
-        let angle = f64::from(self.wander * stray);
+        let angle = f64::from(self.wander * wander_angle);
         let side = across * sin(angle) + lift * (0.35 * sin(angle * 0.7 + 0.2 * angle));
         let heading = along * cos(angle) + side;
         let mean = heading * (speed * (1.0 + self.gust * swell));
         let turn = core::f64::consts::TAU;
         // Reduced while it is exact, for the lanes have f32 only.
         let phase = [2.9, 3.7, 4.3].map(|rate| ((t * rate + phase * 4.8) % turn) as f32);
-        Breeze { mean, swirl: self.turbulence * speed, phase }
+        WindSample { mean, turbulence: self.turbulence * speed, phase }
     }
 
     /// The receipt's field at `time` [s], for a particle at `x` [m]: an acceleration [m/s²].
@@ -112,25 +112,25 @@ impl Wind {
 
 /// The wind at one moment.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Breeze {
+pub(crate) struct WindSample {
     /// The velocity that it has everywhere [m/s].
     pub mean: Vec3,
-    swirl: f32,
+    turbulence: f32,
     phase: [f32; 3],
 }
 
-impl Breeze {
-    pub fn swirls(&self) -> bool {
-        self.swirl > 0.0
+impl WindSample {
+    pub fn is_turbulent(&self) -> bool {
+        self.turbulence > 0.0
     }
 
     /// What swirls add to the velocity at a place [m/s].
     #[inline(always)]
-    pub fn swirl_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
+    pub fn turbulence_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
         [
-            sin_branchless(y * 3.1 + z * 1.7 + self.phase[0]) * self.swirl,
-            sin_branchless(z * 3.1 + x * 1.7 + self.phase[1]) * self.swirl,
-            sin_branchless(x * 3.1 + y * 1.7 + self.phase[2]) * self.swirl,
+            wave(y * 3.1 + z * 1.7 + self.phase[0]) * self.turbulence,
+            wave(z * 3.1 + x * 1.7 + self.phase[1]) * self.turbulence,
+            wave(x * 3.1 + y * 1.7 + self.phase[2]) * self.turbulence,
         ]
     }
 }
@@ -143,8 +143,8 @@ mod tests {
     fn a_steady_wind_is_its_velocity_at_any_time() {
         let wind = Wind { velocity: Vec3::new(0.0, 0.0, 2.0), ..Wind::default() };
         for time in [0.0, 1.7, 33.0] {
-            let breeze = wind.at(time);
-            assert!((breeze.mean - wind.velocity).length() < 1.0e-6 && !breeze.swirls());
+            let sample = wind.sample(time);
+            assert!((sample.mean - wind.velocity).length() < 1.0e-6 && !sample.is_turbulent());
         }
     }
 
@@ -153,7 +153,7 @@ mod tests {
         let velocity = Vec3::new(3.0, 0.0, 0.0);
         let wind = Wind { velocity, gust: 0.5, ..Wind::default() };
         let speeds: Vec<f32> =
-            (0..600).map(|i| wind.at(f64::from(i) * 0.1).mean.length()).collect();
+            (0..600).map(|i| wind.sample(f64::from(i) * 0.1).mean.length()).collect();
         let (low, high) = (
             speeds.iter().copied().fold(9.0, f32::min),
             speeds.iter().copied().fold(0.0, f32::max),

@@ -5,13 +5,13 @@ use crate::math::sort::sort;
 use glam::Vec3;
 
 /// A triangle whose height is at most this share of its longest edge has no area but by rounding.
-const FLAT: f64 = 1.0e-6;
+const MIN_RELATIVE_HEIGHT: f64 = 1.0e-6;
 
 /// What is left of some triangles.
 #[derive(Clone, Debug)]
-pub(super) struct Sifted {
+pub(super) struct KeptTriangles {
     /// Their numbers, lowest first.
-    pub kept: Vec<u32>,
+    pub triangles: Vec<u32>,
     /// How many had no area.
     pub degenerate: u32,
     /// How many had the corners of an earlier one.
@@ -19,7 +19,11 @@ pub(super) struct Sifted {
 }
 
 /// Sifts triangles, as they are and as welding leaves them.
-pub(super) fn sift(positions: &[Vec3], given: &[[u32; 3]], welded: &[u32]) -> Result<Sifted> {
+pub(super) fn remove_degenerate(
+    positions: &[Vec3],
+    given: &[[u32; 3]],
+    welded: &[u32],
+) -> Result<KeptTriangles> {
     let mut kept = Vec::with_capacity(given.len());
     for (at, corners) in given.iter().enumerate() {
         let joined = corners.map(|v| welded[v as usize]);
@@ -54,7 +58,7 @@ pub(super) fn sift(positions: &[Vec3], given: &[[u32; 3]], welded: &[u32]) -> Re
     if kept.is_empty() {
         return Err(Error::BadMesh { at: 0, must: "hold at least one triangle with an area" });
     }
-    Ok(Sifted { kept, degenerate, duplicates })
+    Ok(KeptTriangles { triangles: kept, degenerate, duplicates })
 }
 
 /// Whether a triangle names a vertex twice or has no area.
@@ -63,14 +67,14 @@ pub(super) fn is_degenerate(positions: &[Vec3], corners: &[u32; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
     }
-    let places = corners.map(|v| positions[v as usize]);
-    let [a, b, c] = places.map(|x| x.as_dvec3());
+    let corner_positions = corners.map(|v| positions[v as usize]);
+    let [a, b, c] = corner_positions.map(|x| x.as_dvec3());
     let longest = [b - a, c - b, a - c].iter().fold(0.0_f64, |longest, edge| {
         let squared = edge.length_squared();
         if squared > longest { squared } else { longest }
     });
     // What rounds to nothing in the numbers of the solver is nothing too.
-    (b - a).cross(c - a).length() <= FLAT * longest || area(places) == 0.0
+    (b - a).cross(c - a).length() <= MIN_RELATIVE_HEIGHT * longest || area(corner_positions) == 0.0
 }
 
 /// Twice the area [m²].
@@ -93,16 +97,23 @@ mod tests {
 
     #[test]
     fn the_first_of_equal_triangles_stays_whichever_way_it_winds() {
-        let places = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE];
+        let corner_positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE];
         let triangles = [[1, 2, 3], [0, 1, 2], [2, 1, 0], [1, 1, 2], [1, 2, 0]];
-        let sifted = sift(&places, &triangles, &[0, 1, 2, 3]).unwrap();
-        assert_eq!((sifted.kept, sifted.degenerate, sifted.duplicates), (vec![0, 1], 1, 2));
+        let kept_triangles =
+            remove_degenerate(&corner_positions, &triangles, &[0, 1, 2, 3]).unwrap();
+        assert_eq!(
+            (kept_triangles.triangles, kept_triangles.degenerate, kept_triangles.duplicates),
+            (vec![0, 1], 1, 2)
+        );
     }
 
     #[test]
     fn welding_may_leave_a_triangle_without_an_area() {
-        let places = [Vec3::ZERO, Vec3::X, Vec3::new(0.5, 1.0e-3, 0.0), Vec3::X * 0.5, Vec3::Y];
-        let sifted = sift(&places, &[[0, 1, 4], [0, 1, 2]], &[0, 1, 3, 3, 4]).unwrap();
-        assert_eq!((sifted.kept, sifted.degenerate), (vec![0], 1));
+        let corner_positions =
+            [Vec3::ZERO, Vec3::X, Vec3::new(0.5, 1.0e-3, 0.0), Vec3::X * 0.5, Vec3::Y];
+        let kept_triangles =
+            remove_degenerate(&corner_positions, &[[0, 1, 4], [0, 1, 2]], &[0, 1, 3, 3, 4])
+                .unwrap();
+        assert_eq!((kept_triangles.triangles, kept_triangles.degenerate), (vec![0], 1));
     }
 }

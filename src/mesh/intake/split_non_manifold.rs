@@ -10,54 +10,55 @@
 //! others, and so on; of equally flat ones the first. The sheet with the first triangle keeps the particle.
 
 use crate::math::sort::{sort, sort_by};
-use crate::mesh::{Corner, after, before, triangle_of};
+use crate::mesh::{Corner, next_corner, prev_corner, triangle_of};
 use glam::{DVec3, Vec3};
 
 /// So many triangles at an edge are looked at for such that lie flat; others stand alone.
-const MOST: usize = 32;
+const MAX_PAIRED_SIDES: usize = 32;
 
 /// What parting did.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Parted {
+pub(super) struct ManifoldSplit {
     /// The particles that came to be: the one that each is a copy of, and its corners, lowest first.
-    pub copies: Vec<Copied>,
+    pub copies: Vec<SplitParticle>,
     /// How many edges had more than two triangles.
     pub split_edges: u32,
 }
 
-/// Parts triangles that have an area and are there once, over `count` particles. `place` is where each is.
-pub(super) fn part(
+/// Parts triangles that have an area and are there once, over `count` particles. `position` is where each is.
+pub(super) fn split_non_manifold(
     triangles: &mut Vec<[u32; 3]>,
     count: usize,
-    place: impl Fn(u32) -> Vec3,
-) -> Parted {
-    let edges = Edges::new(triangles);
+    position: impl Fn(u32) -> Vec3,
+) -> ManifoldSplit {
+    let edges = EdgeSides::new(triangles);
     let split_edges = edges.runs().filter(|run| run.len() > 2).count() as u32;
-    let mut is_alone = vec![false; triangles.len()];
+    let mut is_isolated = vec![false; triangles.len()];
     loop {
-        let pairs = edges.pairs(triangles, &is_alone, &place);
-        let (corners, copies) = fans(triangles, &pairs, count);
-        let offenders = if split_edges > 0 { offenders(&corners, &pairs) } else { Vec::new() };
-        if offenders.is_empty() {
+        let pairs = edges.pairs(triangles, &is_isolated, &position);
+        let (corners, copies) = split_fans(triangles, &pairs, count);
+        let excess_triangles =
+            if split_edges > 0 { excess_triangles(&corners, &pairs) } else { Vec::new() };
+        if excess_triangles.is_empty() {
             *triangles = corners;
-            return Parted { copies, split_edges };
+            return ManifoldSplit { copies, split_edges };
         }
         // A sheet that folds back onto one of its own edges: what is too much there stands alone.
-        offenders.into_iter().for_each(|triangle| is_alone[triangle] = true);
+        excess_triangles.into_iter().for_each(|triangle| is_isolated[triangle] = true);
     }
 }
 
 /// Edges by their ends, lower first, each with where it starts in a triangle.
-struct Edges {
+struct EdgeSides {
     sorted: Vec<([u32; 2], Corner)>,
 }
 
-impl Edges {
+impl EdgeSides {
     fn new(triangles: &[[u32; 3]]) -> Self {
         let vertex = |corner: Corner| triangles[triangle_of(corner)][corner as usize % 3];
         let mut sorted: Vec<([u32; 2], Corner)> = (0..3 * triangles.len() as u32)
             .map(|edge| {
-                let (a, b) = (vertex(edge), vertex(after(edge)));
+                let (a, b) = (vertex(edge), vertex(next_corner(edge)));
                 ([a.min(b), a.max(b)], edge)
             })
             .collect();
@@ -74,19 +75,20 @@ impl Edges {
     fn pairs(
         &self,
         triangles: &[[u32; 3]],
-        is_alone: &[bool],
-        place: &impl Fn(u32) -> Vec3,
+        is_isolated: &[bool],
+        position: &impl Fn(u32) -> Vec3,
     ) -> Vec<[Corner; 2]> {
         let mut pairs = Vec::with_capacity(self.sorted.len() / 2);
         for run in self.runs() {
             if let [(_, one), (_, other)] = run {
-                if !is_alone[triangle_of(*one)] && !is_alone[triangle_of(*other)] {
+                if !is_isolated[triangle_of(*one)] && !is_isolated[triangle_of(*other)] {
                     pairs.push([*one, *other]);
                 }
             } else if run.len() > 2 {
                 let free = run.iter().map(|(_, edge)| *edge);
-                let free = free.filter(|edge| !is_alone[triangle_of(*edge)]).take(MOST);
-                flattest(triangles, free.collect(), place, &mut pairs);
+                let free =
+                    free.filter(|edge| !is_isolated[triangle_of(*edge)]).take(MAX_PAIRED_SIDES);
+                pair_flattest(triangles, free.collect(), position, &mut pairs);
             }
         }
         pairs
@@ -94,28 +96,34 @@ impl Edges {
 }
 
 /// Pairs the sides of an edge, the flattest first.
-fn flattest(
+fn pair_flattest(
     triangles: &[[u32; 3]],
     sides: Vec<Corner>,
-    place: &impl Fn(u32) -> Vec3,
+    position: &impl Fn(u32) -> Vec3,
     pairs: &mut Vec<[Corner; 2]>,
 ) {
-    let at = |corner: Corner| place(triangles[triangle_of(corner)][corner as usize % 3]).as_dvec3();
+    let at =
+        |corner: Corner| position(triangles[triangle_of(corner)][corner as usize % 3]).as_dvec3();
     // The way from the edge into each triangle, square to the edge.
-    let away = |edge: &Corner| -> DVec3 {
-        let (from, to) = (at(*edge), at(after(*edge)));
+    let inward_direction = |edge: &Corner| -> DVec3 {
+        let (from, to) = (at(*edge), at(next_corner(*edge)));
         let along = (to - from).normalize_or_zero();
-        let way = at(before(*edge)) - from;
-        (way - along * way.dot(along)).normalize_or_zero()
+        let inward = at(prev_corner(*edge)) - from;
+        (inward - along * inward.dot(along)).normalize_or_zero()
     };
-    let ways: Vec<DVec3> = sides.iter().map(away).collect();
-    let mut folds: Vec<(f64, usize, usize)> = Vec::new();
+    let directions: Vec<DVec3> = sides.iter().map(inward_direction).collect();
+    let mut dihedral_cosines: Vec<(f64, usize, usize)> = Vec::new();
     for one in 0..sides.len() {
-        folds.extend((one + 1..sides.len()).map(|other| (ways[one].dot(ways[other]), one, other)));
+        dihedral_cosines.extend(
+            (one + 1..sides.len())
+                .map(|other| (directions[one].dot(directions[other]), one, other)),
+        );
     }
-    sort_by(&mut folds, |p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+    sort_by(&mut dihedral_cosines, |p, q| {
+        p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2))
+    });
     let mut is_free = vec![true; sides.len()];
-    for (_, one, other) in folds {
+    for (_, one, other) in dihedral_cosines {
         if is_free[one] && is_free[other] {
             (is_free[one], is_free[other]) = (false, false);
             pairs.push([sides[one], sides[other]]);
@@ -124,38 +132,38 @@ fn flattest(
 }
 
 /// A particle whose fan got one of its own, and the corners of that fan.
-type Copied = (u32, Vec<Corner>);
+type SplitParticle = (u32, Vec<Corner>);
 
 /// Gives every fan but the first of a particle one of its own, from number `count` on.
-fn fans(
+fn split_fans(
     triangles: &[[u32; 3]],
     pairs: &[[Corner; 2]],
     count: usize,
-) -> (Vec<[u32; 3]>, Vec<Copied>) {
+) -> (Vec<[u32; 3]>, Vec<SplitParticle>) {
     let vertex = |corner: Corner| triangles[triangle_of(corner)][corner as usize % 3];
     let mut fan: Vec<Corner> = (0..3 * triangles.len() as u32).collect();
     for [one, other] in pairs {
-        let ends = [*one, after(*one)];
-        let there = [*other, after(*other)];
+        let ends = [*one, next_corner(*one)];
+        let there = [*other, next_corner(*other)];
         let turned = usize::from(vertex(ends[0]) != vertex(there[0]));
-        join(&mut fan, ends[0], there[turned]);
-        join(&mut fan, ends[1], there[1 - turned]);
+        union(&mut fan, ends[0], there[turned]);
+        union(&mut fan, ends[1], there[1 - turned]);
     }
     let mut out = triangles.to_vec();
-    let mut copies: Vec<Copied> = Vec::new();
+    let mut copies: Vec<SplitParticle> = Vec::new();
     // The first fan of each particle, and the copy that each later one got, by its lowest corner.
-    let mut keeps = vec![u32::MAX; count];
-    let mut copy = vec![u32::MAX; fan.len()];
+    let mut first_fan = vec![u32::MAX; count];
+    let mut copy_of_fan = vec![u32::MAX; fan.len()];
     for corner in 0..fan.len() as u32 {
-        let (root, old) = (lowest(&mut fan, corner), vertex(corner));
-        let keeper = &mut keeps[old as usize];
-        if *keeper == u32::MAX {
-            *keeper = root;
+        let (root, old) = (find_root(&mut fan, corner), vertex(corner));
+        let first = &mut first_fan[old as usize];
+        if *first == u32::MAX {
+            *first = root;
         }
-        if *keeper == root {
+        if *first == root {
             continue;
         }
-        let at = &mut copy[root as usize];
+        let at = &mut copy_of_fan[root as usize];
         if *at == u32::MAX {
             *at = copies.len() as u32;
             copies.push((old, Vec::new()));
@@ -167,7 +175,7 @@ fn fans(
 }
 
 /// The lowest corner of a fan; on the way there every second step is halved.
-fn lowest(fan: &mut [Corner], mut corner: Corner) -> Corner {
+fn find_root(fan: &mut [Corner], mut corner: Corner) -> Corner {
     while fan[corner as usize] != corner {
         fan[corner as usize] = fan[fan[corner as usize] as usize];
         corner = fan[corner as usize];
@@ -175,24 +183,24 @@ fn lowest(fan: &mut [Corner], mut corner: Corner) -> Corner {
     corner
 }
 
-fn join(fan: &mut [Corner], one: Corner, other: Corner) {
-    let (one, other) = (lowest(fan, one), lowest(fan, other));
+fn union(fan: &mut [Corner], one: Corner, other: Corner) {
+    let (one, other) = (find_root(fan, one), find_root(fan, other));
     fan[one.max(other) as usize] = one.min(other);
 }
 
 /// The triangles that are too much at an edge even now: all there but the first pair that is joined.
-fn offenders(triangles: &[[u32; 3]], pairs: &[[Corner; 2]]) -> Vec<usize> {
-    let edges = Edges::new(triangles);
-    let mut offenders = Vec::new();
+fn excess_triangles(triangles: &[[u32; 3]], pairs: &[[Corner; 2]]) -> Vec<usize> {
+    let edges = EdgeSides::new(triangles);
+    let mut excess_triangles = Vec::new();
     for run in edges.runs().filter(|run| run.len() > 2) {
         let sides: Vec<Corner> = run.iter().map(|(_, edge)| *edge).collect();
         let joined = pairs.iter().find(|pair| pair.iter().all(|edge| sides.contains(edge)));
         let stays = joined.map_or([sides[0], sides[1]], |pair| *pair);
-        offenders.extend(
+        excess_triangles.extend(
             sides.iter().filter(|edge| !stays.contains(edge)).map(|edge| triangle_of(*edge)),
         );
     }
-    offenders
+    excess_triangles
 }
 
 #[cfg(test)]
@@ -201,78 +209,89 @@ mod tests {
     use crate::mesh::{Fan, Mesh};
 
     /// Parts what lies at these places, and checks that what is left is sound.
-    fn parted(places: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<[u32; 3]>, Parted) {
+    fn split_and_check(
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+    ) -> (Vec<[u32; 3]>, ManifoldSplit) {
         let mut out = triangles.to_vec();
-        let parted = part(&mut out, places.len(), |particle| places[particle as usize]);
-        let count = places.len() + parted.copies.len();
+        let split_result =
+            split_non_manifold(&mut out, positions.len(), |particle| positions[particle as usize]);
+        let count = positions.len() + split_result.copies.len();
         let mesh = Mesh::new(out.clone(), count, count);
         let mut uses = vec![0; count];
         out.iter().flatten().for_each(|v| uses[*v as usize] += 1);
         let mut fan = Fan::default();
         for (particle, uses) in uses.iter().enumerate().filter(|(_, uses)| **uses > 0) {
-            mesh.fan(mesh.corner_of[particle], &mut fan);
+            mesh.gather_fan(mesh.corner_of[particle], &mut fan);
             assert_eq!(fan.corners.len(), *uses, "particle {particle} of {out:?}");
         }
-        let edges = Edges::new(&out);
+        let edges = EdgeSides::new(&out);
         assert!(edges.runs().all(|run| run.len() < 3), "{out:?}");
-        (out, parted)
+        (out, split_result)
     }
 
-    const SPINE: [Vec3; 2] = [Vec3::ZERO, Vec3::Y];
+    const HINGE: [Vec3; 2] = [Vec3::ZERO, Vec3::Y];
 
     /// A place off the spine at so many sixteenths of a turn.
-    fn page(sixteenths: f32) -> Vec3 {
+    fn ring_point(sixteenths: f32) -> Vec3 {
         let (sine, cosine) = (sixteenths * core::f32::consts::TAU / 16.0).sin_cos();
         Vec3::new(cosine, 0.5, sine)
     }
 
     #[test]
     fn the_flattest_two_of_three_triangles_at_an_edge_stay_joined() {
-        let places = [SPINE[0], SPINE[1], page(0.0), page(3.0), page(7.0)];
-        let (out, parted) = parted(&places, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]);
+        let positions = [HINGE[0], HINGE[1], ring_point(0.0), ring_point(3.0), ring_point(7.0)];
+        let (out, split_result) = split_and_check(&positions, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]);
         assert_eq!(out, [[0, 1, 2], [5, 6, 3], [0, 1, 4]]);
-        assert_eq!(parted.split_edges, 1);
-        assert_eq!(parted.copies, [(0, vec![3]), (1, vec![4])]);
+        assert_eq!(split_result.split_edges, 1);
+        assert_eq!(split_result.copies, [(0, vec![3]), (1, vec![4])]);
     }
 
     #[test]
     fn sheets_that_cross_stay_whole() {
-        let places = [SPINE[0], SPINE[1], page(0.0), page(4.0), page(8.0), page(12.0)];
-        let (out, _) = parted(&places, &[[0, 1, 2], [1, 0, 3], [1, 0, 4], [0, 1, 5]]);
+        let positions = [
+            HINGE[0],
+            HINGE[1],
+            ring_point(0.0),
+            ring_point(4.0),
+            ring_point(8.0),
+            ring_point(12.0),
+        ];
+        let (out, _) = split_and_check(&positions, &[[0, 1, 2], [1, 0, 3], [1, 0, 4], [0, 1, 5]]);
         assert_eq!(out, [[0, 1, 2], [6, 7, 3], [1, 0, 4], [7, 6, 5]]);
     }
 
     #[test]
     fn a_mere_point_between_two_fans_is_parted() {
-        let places = [0.0, 1.0, 2.0, 3.0, 4.0].map(|x: f32| Vec3::new(x, x * x, 0.0));
-        let (out, parted) = parted(&places, &[[0, 1, 2], [2, 3, 4]]);
+        let positions = [0.0, 1.0, 2.0, 3.0, 4.0].map(|x: f32| Vec3::new(x, x * x, 0.0));
+        let (out, split_result) = split_and_check(&positions, &[[0, 1, 2], [2, 3, 4]]);
         assert_eq!(out, [[0, 1, 2], [5, 3, 4]]);
-        assert_eq!((parted.split_edges, parted.copies), (0, vec![(2, vec![3])]));
+        assert_eq!((split_result.split_edges, split_result.copies), (0, vec![(2, vec![3])]));
     }
 
     #[test]
     fn a_sheet_that_meets_its_own_edge_again_is_parted_there() {
         // Around the spine and back to it: the last page lies on the first edge, joined to it all around.
-        let mut places = SPINE.to_vec();
-        places.extend((0..5).map(|at| page(3.0 * at as f32)));
+        let mut positions = HINGE.to_vec();
+        positions.extend((0..5).map(|at| ring_point(3.0 * at as f32)));
         let mut triangles = vec![[0, 1, 2], [0, 1, 4], [0, 1, 6]];
         for at in 2..6 {
             triangles.extend([[0, at, at + 1], [1, at, at + 1]]);
         }
-        parted(&places, &triangles);
+        split_and_check(&positions, &triangles);
     }
 
     #[test]
     fn every_triangle_between_seven_points_is_parted_soundly() {
-        let places: Vec<Vec3> =
-            (0..7).map(|at| page(2.3 * at as f32) * (1.0 + at as f32)).collect();
+        let positions: Vec<Vec3> =
+            (0..7).map(|at| ring_point(2.3 * at as f32) * (1.0 + at as f32)).collect();
         let mut triangles = Vec::new();
         for a in 0..7 {
             for b in a + 1..7 {
                 triangles.extend((b + 1..7).map(|c| [a, b, c]));
             }
         }
-        let (_, parted) = parted(&places, &triangles);
-        assert_eq!(parted.split_edges, 21);
+        let (_, split_result) = split_and_check(&positions, &triangles);
+        assert_eq!(split_result.split_edges, 21);
     }
 }

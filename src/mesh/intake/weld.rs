@@ -12,41 +12,42 @@ use std::collections::HashMap;
 
 /// For each vertex the one that it joins, which may be itself. Below a distance of 0 that is all.
 pub(super) fn weld(positions: &[Vec3], triangles: &[[u32; 3]], distance: f32) -> Vec<u32> {
-    let mut joined: Vec<u32> = (0..positions.len() as u32).collect();
+    let mut welded_to: Vec<u32> = (0..positions.len() as u32).collect();
     if distance < 0.0 {
-        return joined;
+        return welded_to;
     }
-    let around = Around::new(positions, triangles);
-    let mut apart = Apart::new(f64::from(distance), positions.len());
-    for (vertex, place) in positions.iter().enumerate() {
-        let at = place.as_dvec3();
+    let neighbors = VertexNeighbors::new(positions, triangles);
+    let mut kept = KeptVertices::new(f64::from(distance), positions.len());
+    for (vertex, position) in positions.iter().enumerate() {
+        let at = position.as_dvec3();
         let mut nearest: Option<(f64, u32)> = None;
-        for other in apart.near(at) {
-            let far = (positions[other as usize].as_dvec3() - at).length_squared();
-            let is_nearer = nearest
-                .is_none_or(|(least, lowest)| far < least || (far == least && other < lowest));
-            if far <= apart.distance * apart.distance
+        for other in kept.candidates(at) {
+            let distance_squared = (positions[other as usize].as_dvec3() - at).length_squared();
+            let is_nearer = nearest.is_none_or(|(least, lowest)| {
+                distance_squared < least || (distance_squared == least && other < lowest)
+            });
+            if distance_squared <= kept.distance * kept.distance
                 && is_nearer
-                && !around.share_a_triangle(vertex as u32, other, &joined)
+                && !neighbors.share_a_triangle(vertex as u32, other, &welded_to)
             {
-                nearest = Some((far, other));
+                nearest = Some((distance_squared, other));
             }
         }
         match nearest {
-            Some((_, other)) => joined[vertex] = other,
-            None => apart.add(vertex as u32, at),
+            Some((_, other)) => welded_to[vertex] = other,
+            None => kept.insert(vertex as u32, at),
         }
     }
-    joined
+    welded_to
 }
 
 /// The triangles with an area around each vertex: `corners[first[v]..first[v + 1]]`, two others each.
-struct Around {
+struct VertexNeighbors {
     first: Vec<u32>,
     others: Vec<[u32; 2]>,
 }
 
-impl Around {
+impl VertexNeighbors {
     fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let has_area = |corners: &&[u32; 3]| !is_degenerate(positions, corners);
         let mut first = vec![0u32; positions.len() + 1];
@@ -69,20 +70,20 @@ impl Around {
     }
 
     /// Whether a vertex has a triangle with `other`, or with one before it that joined `other`.
-    fn share_a_triangle(&self, vertex: u32, other: u32, joined: &[u32]) -> bool {
+    fn share_a_triangle(&self, vertex: u32, other: u32, welded_to: &[u32]) -> bool {
         let range = self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize;
-        self.others[range].as_flattened().iter().any(|v| joined[*v as usize] == other)
+        self.others[range].as_flattened().iter().any(|v| welded_to[*v as usize] == other)
     }
 }
 
 /// The vertices that stayed apart, by cells twice as wide as the distance, as chains.
-struct Apart {
+struct KeptVertices {
     distance: f64,
     head: HashMap<[i64; 3], u32>,
     next: Vec<u32>,
 }
 
-impl Apart {
+impl KeptVertices {
     fn new(distance: f64, count: usize) -> Self {
         Self { distance, head: HashMap::with_capacity(count), next: vec![NONE; count] }
     }
@@ -101,22 +102,22 @@ impl Apart {
         }
     }
 
-    fn add(&mut self, vertex: u32, at: DVec3) {
+    fn insert(&mut self, vertex: u32, at: DVec3) {
         let head = self.head.entry(self.cell(at)).or_insert(NONE);
         self.next[vertex as usize] = *head;
         *head = vertex;
     }
 
     /// All that may be near a place: those of its cell, and of the neighbours on the sides it is nearer to.
-    fn near(&self, at: DVec3) -> impl Iterator<Item = u32> {
+    fn candidates(&self, at: DVec3) -> impl Iterator<Item = u32> {
         let cell = self.cell(at);
-        let steps = self.scaled(at).map(|x| if x - x.floor() < 0.5 { -1 } else { 1 });
-        let ways = if self.distance > 0.0 { 8 } else { 1 };
-        (0..ways).flat_map(move |way: usize| {
+        let nearer_side = self.scaled(at).map(|x| if x - x.floor() < 0.5 { -1 } else { 1 });
+        let cell_count = if self.distance > 0.0 { 8 } else { 1 };
+        (0..cell_count).flat_map(move |offset: usize| {
             let mut other = cell;
             for axis in 0..3 {
-                if way >> axis & 1 == 1 {
-                    other[axis] = other[axis].saturating_add(steps[axis]);
+                if offset >> axis & 1 == 1 {
+                    other[axis] = other[axis].saturating_add(nearer_side[axis]);
                 }
             }
             let some = |at: u32| (at != NONE).then_some(at);
@@ -146,29 +147,32 @@ mod tests {
 
     #[test]
     fn distance_zero_joins_equal_places_and_less_joins_nothing() {
-        let places = along(&[0.0, -0.0, 1.0, 1.0, 1.0 + f32::EPSILON]);
-        assert_eq!(weld(&places, &[], 0.0), [0, 0, 2, 2, 4]);
-        assert_eq!(weld(&places, &[], -1.0), [0, 1, 2, 3, 4]);
+        let points = along(&[0.0, -0.0, 1.0, 1.0, 1.0 + f32::EPSILON]);
+        assert_eq!(weld(&points, &[], 0.0), [0, 0, 2, 2, 4]);
+        assert_eq!(weld(&points, &[], -1.0), [0, 1, 2, 3, 4]);
     }
 
     #[test]
     fn a_triangle_keeps_its_corners_apart() {
-        let places = [Vec3::ZERO, Vec3::X * 0.1, Vec3::Y, Vec3::X * 0.12, Vec3::X * 0.04];
+        let points = [Vec3::ZERO, Vec3::X * 0.1, Vec3::Y, Vec3::X * 0.12, Vec3::X * 0.04];
         // 1 may not join 0; 3 joins 1, and 4 the nearer of both.
-        assert_eq!(weld(&places, &[[0, 1, 2]], 0.2), [0, 1, 2, 1, 0]);
+        assert_eq!(weld(&points, &[[0, 1, 2]], 0.2), [0, 1, 2, 1, 0]);
         // 3 may not join 1, to which it is nearest.
-        assert_eq!(weld(&places, &[[0, 1, 2], [1, 3, 2]], 0.2), [0, 1, 2, 0, 0]);
+        assert_eq!(weld(&points, &[[0, 1, 2], [1, 3, 2]], 0.2), [0, 1, 2, 0, 0]);
     }
 
     #[test]
     fn places_across_the_borders_of_cells_are_found() {
-        let mut places = Vec::new();
+        let mut points = Vec::new();
         for at in 0..64 {
-            places.push(Vec3::new((at % 4) as f32, (at / 4 % 4) as f32, (at / 16) as f32) * 0.25);
+            points.push(Vec3::new((at % 4) as f32, (at / 4 % 4) as f32, (at / 16) as f32) * 0.25);
         }
-        let moved: Vec<Vec3> = places.iter().map(|p| *p + Vec3::new(0.06, -0.06, 0.06)).collect();
-        places.extend(moved);
-        let joined = weld(&places, &[], 0.11);
-        assert!((0..64).all(|v| joined[v] == v as u32 && joined[v + 64] == v as u32), "{joined:?}");
+        let moved: Vec<Vec3> = points.iter().map(|p| *p + Vec3::new(0.06, -0.06, 0.06)).collect();
+        points.extend(moved);
+        let welded_to = weld(&points, &[], 0.11);
+        assert!(
+            (0..64).all(|v| welded_to[v] == v as u32 && welded_to[v + 64] == v as u32),
+            "{welded_to:?}"
+        );
     }
 }

@@ -5,7 +5,7 @@
 //! whether or not a cache is still valid.
 
 use crate::math::columns::Columns;
-use crate::model::plate_elements::{Each, PlateElements};
+use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::mesh_implicit::MeshBendScratch;
 use crate::solver::bend::plate::PlateScratch;
 
@@ -16,7 +16,7 @@ pub(crate) struct BendScratch {
     /// Unit normals of a grid at its particles; filled when folds need them.
     pub normal: Columns,
     /// Unit direction in which each plate element is curved at rest, per element kind.
-    pub rest_direction: Each<Columns>,
+    pub rest_direction: PerKind<Columns>,
     pub mesh: MeshBendScratch,
 }
 

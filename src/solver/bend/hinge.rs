@@ -6,7 +6,7 @@
 //! A vector with a vector for its multiplier: its gradient is always the same, so there is no root to
 //! take. Each gives way by its compliance as in Macklin, Müller, Chentanez, "XPBD", MIG 2016.
 
-use crate::model::hinges::{Hinge, normal};
+use crate::model::hinge::{Hinge, hinge_normal};
 use crate::solver::particle_stage::access::ParticleAccess;
 use glam::Vec3;
 
@@ -27,7 +27,7 @@ pub(crate) fn project<S: ParticleAccess>(
     start: impl Fn(usize) -> Vec3,
     spots: &mut S,
 ) {
-    let at = hinge.at.map(|vertex| vertex as usize);
+    let at = hinge.particles.map(|vertex| vertex as usize);
     let seats = at.map(|i| spots.particle(i));
     let (mut curve, mut weight) = (Vec3::ZERO, 0.0);
     for ((x, w), c) in seats.iter().zip(hinge.weight) {
@@ -40,7 +40,7 @@ pub(crate) fn project<S: ParticleAccess>(
         }
     }
     if hinge.rest != 0.0 {
-        let n = normal(seats.map(|(x, _)| x));
+        let n = hinge_normal(seats.map(|(x, _)| x));
         curve -= n * (hinge.rest * (1.0 - step.start_share));
     }
     let compliance = 1.0 / (hinge.shape * step.stiffness);

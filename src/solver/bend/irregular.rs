@@ -84,7 +84,7 @@ fn bend_some<S: Simd, P: ParticleAccess>(
 ) {
     let (elbows, own) = (step.elements, first..first + S::LANES);
     let (a, middle) = (&elbows.a[own.clone()], &elbows.middle[own.clone()]);
-    let (b, woven) = (&elbows.b[own.clone()], &elbows.woven[own]);
+    let (b, woven) = (&elbows.b[own.clone()], &elbows.element[own]);
     let ((xa, wa), (xm, wm)) = (gather_particles(s, spots, a), gather_particles(s, spots, middle));
     let (xb, wb) = gather_particles(s, spots, b);
     let mut bow = bow(s, xa, xm, xb);
@@ -98,11 +98,11 @@ fn bend_some<S: Simd, P: ParticleAccess>(
     // A middle that is held is stiffer between one end that is held and one that is not, see `plates`.
     let lean = s.select(wa, zero, one) - s.select(wb, zero, one);
     let clamped = s.select(wm, one, one + lean * lean);
-    let mut stiffness = s.load(&elbows.share, first) * clamped * s.splat(step.stiffness);
+    let mut stiffness = s.load(&elbows.area_fraction, first) * clamped * s.splat(step.stiffness);
     if let Some(softening) = step.softening {
         let mut left = [0.0; LANES];
         for (left, at) in left.iter_mut().zip(woven) {
-            *left = softening.left(softening.curve[*at as usize]);
+            *left = softening.stiffness_scale(softening.curvature[*at as usize]);
         }
         stiffness = stiffness * s.load(&left, 0);
     }

@@ -8,9 +8,10 @@
 //! where sweeps over hinges would take as many as itself.
 
 use crate::math::TINY;
-use crate::model::bend_elements::{Element, PAIRS};
+use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::hardening::Softening;
-use crate::model::hinges::{Hinge, Hinges, normal};
+use crate::model::hinge::{Hinge, hinge_normal};
+use crate::model::hinges::Hinges;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::hinge::HingeStep;
 use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
@@ -34,7 +35,7 @@ const LEFT: f32 = 1.0e-8;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MeshBendScratch {
     /// As long as links and what is held stay: what triangles resist, and that as a matrix.
-    elements: Vec<Element>,
+    elements: Vec<TriangleStiffness>,
     stiffness: StiffnessMatrix,
     revision: u32,
     /// Of what made triangles softer.
@@ -158,11 +159,11 @@ impl MeshBend<'_> {
         let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
         let left = |triangle: usize| match &self.softening {
-            Some(softening) => softening.left(softening.curve[triangle]),
+            Some(softening) => softening.stiffness_scale(softening.curvature[triangle]),
             None => 1.0,
         };
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
-        self.hinges.facets.resist(all, holds, is_held, left, elements);
+        self.hinges.elements.compute_stiffness(all, holds, is_held, left, elements);
         stiffness.assemble(all, elements, self.step.stiffness, count);
         let each = over.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.own());
         for (((over, w), mass), own) in each {
@@ -210,9 +211,9 @@ impl MeshBend<'_> {
             *bow = if rest == 0.0 {
                 Vec4::ZERO
             } else {
-                let corners = hinge.at.map(|vertex| spots.particle(vertex as usize).0);
+                let corners = hinge.particles.map(|vertex| spots.particle(vertex as usize).0);
                 let rest = rest * (1.0 - self.step.start_share) * self.step.stiffness;
-                (normal(corners) * rest).extend(0.0)
+                (hinge_normal(corners) * rest).extend(0.0)
             };
         }
         for element in &room.elements {
@@ -266,7 +267,7 @@ fn descend(room: &mut MeshBendScratch, descent: &ChebyshevSteps) {
 }
 
 /// Pushes the particles of a triangle's hinges that are bent so much at rest: all together by naught.
-fn push(hinges: &[Hinge], element: &Element, bow: &[Vec4], force: &mut [Vec4]) {
+fn push(hinges: &[Hinge], element: &TriangleStiffness, bow: &[Vec4], force: &mut [Vec4]) {
     let own = [0, 1, 2].map(|slot| {
         if element.own[slot] > 0.0 { bow[element.hinges[slot] as usize] } else { Vec4::ZERO }
     });
@@ -283,7 +284,8 @@ fn push(hinges: &[Hinge], element: &Element, bow: &[Vec4], force: &mut [Vec4]) {
     }
     for (slot, push) in push.into_iter().enumerate() {
         if element.own[slot] > 0.0 {
-            let Hinge { at, weight: [_, q, a, b], .. } = hinges[element.hinges[slot] as usize];
+            let Hinge { particles: at, weight: [_, q, a, b], .. } =
+                hinges[element.hinges[slot] as usize];
             let mut sum = Vec4::ZERO;
             for (vertex, weight) in at[1..].iter().zip([q, a, b]) {
                 let push = push * weight;

@@ -47,7 +47,7 @@ fn is_elastic(world: &World) -> bool {
 /// An implicit solve with few iterations leaves a residual, and damping measures from the start of
 /// the substep. Both exert a torque once folds or damping are in use.
 pub(crate) fn may_add_spin(world: &World) -> bool {
-    is_elastic(world) && (world.folds.are_any || world.material.bend_damping > 0.0)
+    is_elastic(world) && (world.folds.has_any || world.material.bend_damping > 0.0)
 }
 
 /// Runs the first bending solve of a substep.
@@ -81,7 +81,8 @@ fn solve_elements(world: &mut World, order: SweepOrder) {
     let scheme = world.settings.scheme();
     // Damping acts on the change of curvature since the start of the substep.
     let lag = world.material.bend_damping / scheme.h;
-    let stiffness = world.material.bend_stiffness * scheme.step * scheme.step * (1.0 + lag);
+    let stiffness =
+        world.material.bend_stiffness * scheme.velocity_step * scheme.velocity_step * (1.0 + lag);
     let step = HingeStep { stiffness, start_share: lag / (1.0 + lag) };
     if world.plate_elements.is_some() {
         solve_plates(world, step, order);
@@ -104,7 +105,7 @@ fn solve_plates(world: &mut World, step: HingeStep, order: SweepOrder) {
     let Some(plates) = &world.plate_elements else { return };
     let area = plates.spacing * plates.spacing;
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let rest = if world.folds.are_any {
+    let rest = if world.folds.has_any {
         let (normal, directions) = (&mut scratch.bend.normal, &mut scratch.bend.rest_direction);
         let offset = &world.folds.offset;
         rest_direction::compute_normals(world.level, plates, &p.x, normal);
@@ -122,7 +123,7 @@ fn solve_plates(world: &mut World, step: HingeStep, order: SweepOrder) {
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
         rest,
-        softening: world.folds.wear.softens(&world.material),
+        softening: world.folds.hardening.softening(&world.material),
     };
     let mass = effective_mass.as_deref().unwrap_or(&p.mass);
     plate::solve(plates, &mut scratch.bend.plates, step, &mut p.x, &p.w, mass);
@@ -153,13 +154,13 @@ fn solve_irregular(world: &mut World, step: HingeStep) {
     let Some(plates) = &world.plate_elements else { return };
     let (scratch, [weft, warp, _]) = (&world.scratch, &world.folds.offset);
     let step = irregular::IrregularStep {
-        elements: &plates.elbows,
+        elements: &plates.irregular,
         stiffness: step.stiffness / (plates.spacing * plates.spacing),
         start_share: step.start_share,
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
-        rest: world.folds.are_any.then_some([weft, warp]),
-        softening: world.folds.wear.softens(&world.material),
+        rest: world.folds.has_any.then_some([weft, warp]),
+        softening: world.folds.hardening.softening(&world.material),
     };
     irregular::solve(world.level, step, &mut world.particles);
 }
@@ -167,15 +168,15 @@ fn solve_irregular(world: &mut World, step: HingeStep) {
 /// Bends the hinges that cuts added, one after the other.
 #[inline(never)]
 fn solve_cut_hinges(world: &mut World, step: HingeStep) {
-    let links = &world.constraints.extra;
-    if world.constraints.loose.batches_of(LinkKind::Bend).is_empty() {
+    let links = &world.constraints.dynamic;
+    if world.constraints.sparse.batches_of(LinkKind::Bend).is_empty() {
         return;
     }
     for link in 0..links.len() {
         if links.kind(link) != LinkKind::Bend || !links.active[link] {
             continue;
         }
-        let hinge = world.constraints.hinges.late(&world.mesh, links, link, &world.rest);
+        let hinge = world.constraints.hinges.dynamic_hinge(&world.mesh, links, link, &world.rest);
         if let Some(hinge) = hinge {
             let scratch = &world.scratch;
             let start = |i: usize| scratch.predicted.at(i) - scratch.displacement.at(i);
@@ -193,8 +194,8 @@ fn solve_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
     let solver = MeshBend {
         hinges: &world.constraints.hinges,
         active: &world.constraints.links.active,
-        folds: world.folds.are_any.then_some(&world.folds.offset[0][..]),
-        softening: world.folds.wear.softens(&world.material),
+        folds: world.folds.has_any.then_some(&world.folds.offset[0][..]),
+        softening: world.folds.hardening.softening(&world.material),
         step,
         stiffness_over_mass: step.stiffness / (world.material.density * cell * cell),
         is_first: order == SweepOrder::Forward,

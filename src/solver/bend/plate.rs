@@ -17,7 +17,7 @@ use crate::math::columns::Columns;
 use crate::math::same_bits;
 use crate::math::simd::{Level, leveled};
 use crate::model::hardening::Softening;
-use crate::model::plate_elements::{Each, PlateElements};
+use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::banded::{GridLine, PentadiagonalFactor, VectorColumns};
 use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::spectral_bound;
@@ -34,9 +34,9 @@ const MOST: f32 = 3.0e4;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlateScratch {
     /// How stiff each element is, over one inside.
-    weight: Each<Vec<f32>>,
+    weight: PerKind<Vec<f32>>,
     /// The curvature of each element in one direction, with room around it.
-    curve: Each<Vec<f32>>,
+    curve: PerKind<Vec<f32>>,
     /// Where particles are taken to be, if that is not where they are; then what pulls them back.
     seen: Vec<f32>,
     force: VectorColumns,
@@ -78,7 +78,7 @@ pub(crate) struct PlateStep<'a> {
     pub predicted: &'a Columns,
     pub displacement: &'a Columns,
     /// What each element is curved by at rest [m], and which way.
-    pub rest: Option<(&'a Each<Vec<f32>>, &'a Each<Columns>)>,
+    pub rest: Option<(&'a PerKind<Vec<f32>>, &'a PerKind<Columns>)>,
     /// How much softer elements are by what gave way, if they are.
     pub softening: Option<Softening<'a>>,
 }
@@ -123,7 +123,7 @@ impl PlateScratch {
         (self.revision, self.softer) = (plates.revision, softer);
         self.w.copy_from_slice(w);
         self.mass.copy_from_slice(mass);
-        for (weight, share) in self.weight.iter_mut().zip(&plates.share) {
+        for (weight, share) in self.weight.iter_mut().zip(&plates.area_fraction) {
             weight.copy_from_slice(share);
         }
         let steps = [1, plates.columns];
@@ -135,7 +135,7 @@ impl PlateScratch {
             }
         }
         if let Some(softening) = softening {
-            softening.soften(plates.columns, &mut self.weight);
+            softening.apply(plates.columns, &mut self.weight);
         }
         self.most = if is_torn {
             let room = (&mut self.seen[..], &mut self.curve);
@@ -299,7 +299,13 @@ impl Round {
         Self { stiffness: -1.0, shift: 0.0, weft, warp }
     }
 
-    fn factor(&mut self, plates: &PlateElements, weight: &Each<Vec<f32>>, w: &[f32], mass: &[f32]) {
+    fn factor(
+        &mut self,
+        plates: &PlateElements,
+        weight: &PerKind<Vec<f32>>,
+        w: &[f32],
+        mass: &[f32],
+    ) {
         let (columns, rows) = (plates.columns, plates.rows);
         let (stiffness, shift) = (self.stiffness, self.shift);
         for row in 0..rows {
@@ -334,8 +340,8 @@ leveled! {
     /// The curvature of each element, times how stiff it is.
     fn find_curves(
         x: &[f32],
-        weight: &Each<Vec<f32>>,
-        curve: &mut Each<Vec<f32>>,
+        weight: &PerKind<Vec<f32>>,
+        curve: &mut PerKind<Vec<f32>>,
         columns: usize,
     ) = find_curves_lanes
 }
@@ -343,8 +349,8 @@ leveled! {
 #[inline(always)]
 fn find_curves_lanes(
     x: &[f32],
-    [weft, warp, _]: &Each<Vec<f32>>,
-    [to_weft, to_warp, _]: &mut Each<Vec<f32>>,
+    [weft, warp, _]: &PerKind<Vec<f32>>,
+    [to_weft, to_warp, _]: &mut PerKind<Vec<f32>>,
     columns: usize,
 ) {
     let (count, edge) = (x.len(), columns + 1);
@@ -397,7 +403,7 @@ fn take_rest_lanes(weight: &[f32], rest: &[f32], way: &[f32], share: f32, curve:
 leveled! {
     /// What pushes each particle, times the square of the substep.
     fn gather(
-        curve: &Each<Vec<f32>>,
+        curve: &PerKind<Vec<f32>>,
         stiffness: f32,
         force: &mut [f32],
         columns: usize,
@@ -406,7 +412,7 @@ leveled! {
 
 #[inline(always)]
 fn gather_lanes(
-    [weft, warp, twist]: &Each<Vec<f32>>,
+    [weft, warp, twist]: &PerKind<Vec<f32>>,
     stiffness: f32,
     force: &mut [f32],
     columns: usize,

@@ -3,7 +3,7 @@
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::math::{TINY, max, min};
-use crate::model::plate_elements::{Each, PlateElements};
+use crate::model::plate_elements::{PerKind, PlateElements};
 
 /// From this share of its curvature at rest on an element is bent the way that it is, …
 const IS_BENT: f32 = 0.25;
@@ -68,10 +68,10 @@ fn square([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> [f32; 3] {
 pub(crate) fn compute(
     level: Level,
     plates: &PlateElements,
-    offset: &Each<Vec<f32>>,
+    offset: &PerKind<Vec<f32>>,
     x: &Columns,
     normal: &Columns,
-    [weft, warp, cell]: &mut Each<Columns>,
+    [weft, warp, cell]: &mut PerKind<Columns>,
 ) {
     let (columns, count) = (plates.columns, plates.count());
     for axis in 0..3 {

@@ -2,11 +2,11 @@
 //!
 //! With K the matrix of the bending energy and M the masses, it is what no eigenvalue of M⁻¹ K is beyond.
 
-use crate::model::plate_elements::Each;
+use crate::model::plate_elements::PerKind;
 
 /// Of a whole sheet, where a particle's own stiffness over its mass tells: that of an element is at most four
 /// times what the element adds to its particles' own.
-pub(crate) fn of_whole(columns: usize, [weft, warp, twist]: &Each<Vec<f32>>, w: &[f32]) -> f32 {
+pub(crate) fn of_whole(columns: usize, [weft, warp, twist]: &PerKind<Vec<f32>>, w: &[f32]) -> f32 {
     let before = |list: &[f32], at: usize, steps: usize| {
         if at >= steps { list[at - steps] } else { 0.0 }
     };
@@ -29,9 +29,9 @@ pub(crate) fn of_whole(columns: usize, [weft, warp, twist]: &Each<Vec<f32>>, w: 
 /// elements have, with room around as plates have it.
 pub(crate) fn of_torn(
     columns: usize,
-    weight: &Each<Vec<f32>>,
+    weight: &PerKind<Vec<f32>>,
     w: &[f32],
-    (z, pull): (&mut [f32], &mut Each<Vec<f32>>),
+    (z, pull): (&mut [f32], &mut PerKind<Vec<f32>>),
 ) -> f32 {
     let (count, edge) = (w.len(), columns + 1);
     for (z, w) in z.iter_mut().zip(w) {
@@ -71,7 +71,7 @@ mod tests {
 
     /// A sheet with one particle that is held, and two that hang from the cells above them with a fourth of
     /// their mass.
-    fn torn() -> (Each<Vec<f32>>, Vec<f32>) {
+    fn torn() -> (PerKind<Vec<f32>>, Vec<f32>) {
         let mut weight = [const { Vec::new() }; 3];
         for at in 0..COLUMNS * ROWS {
             let (row, column) = (at / COLUMNS, at % COLUMNS);
@@ -93,7 +93,7 @@ mod tests {
     }
 
     /// The most stiffness over mass that there is, by power iteration.
-    fn exact([weft, warp, twist]: &Each<Vec<f32>>, w: &[f32]) -> f64 {
+    fn exact([weft, warp, twist]: &PerKind<Vec<f32>>, w: &[f32]) -> f64 {
         let count = w.len();
         let mut x: Vec<f64> = (0..count).map(|at| (at as f64 * 2.3).sin()).collect();
         let mut most = 0.0;
@@ -120,7 +120,7 @@ mod tests {
         most
     }
 
-    fn bound_of_torn(weight: &Each<Vec<f32>>, w: &[f32]) -> f32 {
+    fn bound_of_torn(weight: &PerKind<Vec<f32>>, w: &[f32]) -> f32 {
         let around = || vec![0.0; w.len() + 2 * (COLUMNS + 1)];
         let (mut z, mut pull) = (vec![0.0; w.len()], [around(), around(), around()]);
         of_torn(COLUMNS, weight, w, (&mut z, &mut pull))

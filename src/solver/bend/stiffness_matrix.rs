@@ -6,8 +6,8 @@
 //! as it pulls: so it does not matter where the mesh is, and momentum stays.
 
 use crate::math::sort::sort_by;
-use crate::model::bend_elements::{Element, PAIRS};
-use crate::model::hinges::Hinge;
+use crate::model::bend_elements::{PAIRS, TriangleStiffness};
+use crate::model::hinge::Hinge;
 use glam::Vec4;
 
 /// Later ones that a row has room for: those around a particle that eight triangles meet at. What is more comes
@@ -55,7 +55,7 @@ impl StiffnessMatrix {
     pub fn assemble(
         &mut self,
         hinges: &[Hinge],
-        elements: &[Element],
+        elements: &[TriangleStiffness],
         stiffness: f32,
         count: usize,
     ) {
@@ -157,13 +157,13 @@ struct ElementStencil {
 }
 
 impl ElementStencil {
-    fn of(hinges: &[Hinge], element: &Element) -> Self {
+    fn of(hinges: &[Hinge], element: &TriangleStiffness) -> Self {
         let zero = [[0.0; CORNERS]; 3];
         let mut patch = Self { at: [0; CORNERS], count: 0, shows: zero, resists: zero };
         for slot in 0..3 {
             if element.own[slot] > 0.0 {
                 let hinge = &hinges[element.hinges[slot] as usize];
-                for (vertex, weight) in hinge.at.into_iter().zip(hinge.weight) {
+                for (vertex, weight) in hinge.particles.into_iter().zip(hinge.weight) {
                     let place = patch.place_of(vertex);
                     patch.shows[slot][place] += weight;
                 }

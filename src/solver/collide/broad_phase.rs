@@ -15,7 +15,7 @@ use crate::math::simd::leveled;
 use crate::solver::collide::mid_phase::{Pairs, Sharp, Span};
 use crate::solver::collide::{gap, is_pointed, relent};
 use crate::solver::world::World;
-use crate::state::colliders::Body;
+use crate::state::colliders::ColliderBody;
 use crate::state::pose::Pose;
 use glam::Vec3;
 
@@ -114,10 +114,10 @@ impl NearbyBlocks {
 }
 
 impl Room {
-    fn of(body: &Body, collision_shape: &CollisionShape, gap: f32) -> Self {
+    fn of(body: &ColliderBody, collision_shape: &CollisionShape, gap: f32) -> Self {
         let poses = [&body.last, &body.next];
         if let CollisionShape::HalfSpace(_) = collision_shape {
-            return Self::Below(poses.map(|pose| (pose.position, pose.frame().axes[1])));
+            return Self::Below(poses.map(|pose| (pose.position, pose.to_transform().axes[1])));
         }
         let shape = collision_shape.bounds();
         let mut bounds = Aabb::EMPTY;
@@ -159,8 +159,8 @@ impl Room {
 }
 
 /// Bounds of a shape in a pose of a body; of all its turns, if it turns.
-fn around(shape: &Aabb, pose: &Pose, body: &Body) -> Aabb {
-    let frame = pose.frame();
+fn around(shape: &Aabb, pose: &Pose, body: &ColliderBody) -> Aabb {
+    let frame = pose.to_transform();
     if body.last.rotation == body.next.rotation {
         let (center, half) = (frame.point_to_world(shape.center()), shape.half_extents());
         let size = |v: Vec3| Vec3::new(v.x.abs(), v.y.abs(), v.z.abs());
@@ -287,7 +287,7 @@ fn find(world: &mut World, margin: f32) {
             near.longest = longest(world.mesh.triangles.iter(), |i| x.at(i)) + 2.0 * margin;
         }
         if is_sharp {
-            let (last, next) = (body.last.frame(), body.next.frame());
+            let (last, next) = (body.last.to_transform(), body.next.to_transform());
             let places = |i: usize| {
                 let [now, before] = both(i);
                 [
@@ -297,7 +297,7 @@ fn find(world: &mut World, margin: f32) {
                     next.point_to_local(before),
                 ]
             };
-            let far = margin + gap + reach.bulge + body.turns_aside(collision_shape);
+            let far = margin + gap + reach.bulge + body.max_arc_deviation(collision_shape);
             let search = mid_phase::Search { reach: far, mild: reach.mild };
             reach.sharp = near.pairs.find(collision_shape, &world.mesh, count, places, search);
         }

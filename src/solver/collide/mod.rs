@@ -24,8 +24,8 @@ use crate::solver::collide::broad_phase::{Found, NearbyBlocks};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::push_accumulator::Lifts;
 use crate::solver::world::World;
-use crate::state::colliders::{Body, Impulse};
-use crate::state::settings::Scheme;
+use crate::state::colliders::{ColliderBody, Impulse};
+use crate::state::settings::BdfScheme;
 use glam::Vec3;
 
 /// How often triangles are pushed out of a shape in a substep, each time all of them: at least, and at most
@@ -96,7 +96,7 @@ pub(crate) fn begin_tick(world: &mut World) {
 /// The tick is over: every collider is where it was to be, and knows what pushed it.
 pub(crate) fn finish_tick(world: &mut World) {
     for (body, impulse) in world.colliders.iter_mut().zip(&world.scratch.contacts.impulses) {
-        body.arrive();
+        body.finish_tick();
         let Impulse { linear, angular } = *impulse;
         let angular = angular - body.next.position.cross(linear);
         body.impulse = Impulse { linear: saturate(linear), angular: saturate(angular) };
@@ -110,7 +110,7 @@ pub(crate) fn project_out(world: &mut World) {
         return;
     }
     broad_phase::refresh(world);
-    touch(world, &|body| [body.next.frame(); 2], true);
+    touch(world, &|body| [body.next.to_transform(); 2], true);
     world.scratch.contacts.collider_contacts.clear();
 }
 
@@ -123,7 +123,7 @@ pub(crate) fn solve(world: &mut World, number: u32) {
 
 /// Goes over all colliders, of which `frames` tells how they stand at the start and at the end; `is_bare`
 /// leaves out friction, and triangles.
-fn touch(world: &mut World, frames: &dyn Fn(&Body) -> [Transform; 2], is_bare: bool) {
+fn touch(world: &mut World, frames: &dyn Fn(&ColliderBody) -> [Transform; 2], is_bare: bool) {
     let scheme = world.settings.scheme();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
@@ -227,16 +227,17 @@ fn rounds(
 }
 
 /// The gap that a body keeps from the cloth [m].
-fn gap(body: &Body, thickness: f32) -> f32 {
+fn gap(body: &ColliderBody, thickness: f32) -> f32 {
     if body.desc.thickness < 0.0 { thickness } else { body.desc.thickness }
 }
 
 /// How a body stands when substep `number` starts and when it ends.
-fn frames(body: &Body, number: u32, substeps: u32) -> [Transform; 2] {
+fn frames(body: &ColliderBody, number: u32, substeps: u32) -> [Transform; 2] {
     if body.last == body.next {
-        return [body.next.frame(); 2];
+        return [body.next.to_transform(); 2];
     }
-    [number, number + 1].map(|moment| body.last.after(&body.next, moment, substeps).frame())
+    [number, number + 1]
+        .map(|moment| body.last.at_substep(&body.next, moment, substeps).to_transform())
 }
 
 /// How a collider and a material feel to each other.
@@ -250,7 +251,7 @@ struct Feel {
 impl Feel {
     const NONE: Self = Self { friction: 0.0, restitution: 0.0, tangential_restitution: 1.0 };
 
-    fn of(body: &Body, friction: f32, restitution: f32) -> Self {
+    fn of(body: &ColliderBody, friction: f32, restitution: f32) -> Self {
         let own = |value: f32, default: f32| if value < 0.0 { default } else { value };
         Self {
             friction: own(body.desc.friction, friction),
@@ -313,7 +314,7 @@ struct Place<'a> {
     feel: Feel,
     gap: f32,
     rise: Rise,
-    scheme: Scheme,
+    scheme: BdfScheme,
     body: u32,
     touches: &'a mut Vec<ColliderContact>,
     slots: &'a mut [u32],

@@ -32,8 +32,8 @@ pub(crate) fn resolve_velocities(world: &mut World, keep: f32) {
         gravity,
         rest_speed: 2.0 * scheme.h * gravity.length(),
         keep,
-        force: scheme.h / (scheme.step * scheme.step),
-        gain: scheme.lead / scheme.h,
+        force: scheme.h / (scheme.velocity_step * scheme.velocity_step),
+        gain: scheme.new_weight / scheme.h,
     };
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for touch in &scratch.contacts.collider_contacts {
@@ -60,12 +60,12 @@ fn bounce(p: &mut Particles, touch: &ColliderContact, i: usize, step: Vec3, law:
         let v = surface + along(step * (1.0 / h)) - n * (approach * touch.restitution);
         let v = shared(p.v.at(i), v);
         let change = v - p.v.at(i);
-        p.place(i, p.x.at(i), v, law.gravity, h);
+        p.set_motion(i, p.x.at(i), v, law.gravity, h);
         return (change + touch.push * law.gain) * p.mass[i];
     }
     let kept = |v: Vec3| shared(v, surface + along(v - surface));
     p.v.set(i, kept(p.v.at(i)));
-    p.v_ahead.set(i, kept(p.v_ahead.at(i)));
-    p.moved.set(i, shared(p.moved.at(i), surface * h + along(step * law.keep)));
+    p.v_extrapolated.set(i, kept(p.v_extrapolated.at(i)));
+    p.displacement.set(i, shared(p.displacement.at(i), surface * h + along(step * law.keep)));
     touch.push * (law.force * p.mass[i])
 }

@@ -21,7 +21,7 @@ use crate::math::simd::{Float, Simd, leveled, vectored};
 use crate::math::{TINY, max};
 use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
-use crate::state::wind::{Breeze, WindModel};
+use crate::state::wind::{WindModel, WindSample};
 use glam::Vec3;
 
 /// Largest share of a triangle's relative speed that drag may remove in one tick. Explicit drag is
@@ -57,7 +57,7 @@ fn add_sine_wind(world: &mut World, gravity: Vec3) {
 /// Adds the pressure of the air on each triangle.
 fn add_surface_wind(world: &mut World, gravity: Vec3) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
-    let breeze = world.wind.at(world.time);
+    let breeze = world.wind.sample(world.time);
     let particles = (p.x.all(), p.v.all(), world.scratch.relative_wind.all_mut());
     threads.parallel_for(particles, MIN_WIND_PARTICLES_PER_THREAD, |(x, v, air)| {
         subtract_velocity(level, &breeze, x, v, air)
@@ -97,13 +97,13 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
 
 leveled! {
     /// Computes the velocity of the air relative to each particle [m/s].
-    fn subtract_velocity(breeze: &Breeze, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
+    fn subtract_velocity(breeze: &WindSample, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
         = subtract_velocity_lanes
 }
 
 #[inline(always)]
 fn subtract_velocity_lanes(
-    breeze: &Breeze,
+    breeze: &WindSample,
     x: [&[f32]; 3],
     v: [&[f32]; 3],
     mut air: [&mut [f32]; 3],
@@ -113,12 +113,12 @@ fn subtract_velocity_lanes(
             *air = mean - v;
         }
     }
-    if breeze.swirls() {
+    if breeze.is_turbulent() {
         let ([x, y, z], [ax, ay, az]) = (x, air);
         let particles = x.iter().zip(y).zip(z);
         let air = ax.iter_mut().zip(ay).zip(az);
         for (((x, y), z), ((ax, ay), az)) in particles.zip(air) {
-            let [sx, sy, sz] = breeze.swirl_at(*x, *y, *z);
+            let [sx, sy, sz] = breeze.turbulence_at(*x, *y, *z);
             *ax += sx;
             *ay += sy;
             *az += sz;

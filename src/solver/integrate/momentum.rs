@@ -43,16 +43,16 @@ pub(crate) fn keep(world: &mut World) {
 
 /// Whether anything else than itself may have moved it so far in this substep.
 pub(crate) fn is_held(world: &World) -> bool {
-    world.pins.are_any_soft() || world.particles.w.iter().any(|w| *w <= 0.0)
+    world.pins.has_soft() || world.particles.w.iter().any(|w| *w <= 0.0)
 }
 
 /// Lists where velocities count from. Air counts once in a tick, and what nothing holds has no anchors: so
 /// starts are in the one and moves in the other.
 pub(crate) fn list_starts(world: &mut World) {
     let scheme = world.settings.scheme();
-    let back = scheme.trail / scheme.lead;
+    let back = scheme.old_weight / scheme.new_weight;
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    let ways = scratch.displacement.all().into_iter().zip(p.moved.all());
+    let ways = scratch.displacement.all().into_iter().zip(p.displacement.all());
     let read = scratch.predicted.all().into_iter().zip(ways);
     for ((predicted, (way, moved)), from) in read.zip(scratch.relative_wind.all_mut()) {
         let read = predicted.iter().zip(way).zip(moved);

@@ -22,7 +22,7 @@ use crate::math::simd::{Scalar, Simd, leveled, vectored};
 use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
 use crate::solver::stretch::tethers::within;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
-use crate::state::settings::Scheme;
+use crate::state::settings::BdfScheme;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Moves every free particle to its predicted position, and stores displacement and position.
@@ -35,7 +35,7 @@ pub(crate) fn predict_positions(world: &mut World) {
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let is_long = AtomicBool::new(false);
     let write = scratch.displacement.all_mut();
-    let read = (p.moved.all(), p.v_ahead.all(), scratch.acceleration.all(), &p.w[..]);
+    let read = (p.displacement.all(), p.v_extrapolated.all(), scratch.acceleration.all(), &p.w[..]);
     threads.parallel_for(
         (write, read),
         MIN_PARTICLES_PER_THREAD,
@@ -75,7 +75,7 @@ leveled! {
     fn compute_displacement(
         displacement: &mut [f32],
         from: [&[f32]; 4],
-        scheme: Scheme,
+        scheme: BdfScheme,
         limit: f32,
         is_long: &mut bool,
     ) = compute_displacement_column
@@ -85,11 +85,11 @@ leveled! {
 fn compute_displacement_column(
     displacement: &mut [f32],
     [moved, v_ahead, a, w]: [&[f32]; 4],
-    scheme: Scheme,
+    scheme: BdfScheme,
     limit: f32,
     is_long: &mut bool,
 ) {
-    let Scheme { step, carry, .. } = scheme;
+    let BdfScheme { velocity_step: step, extrapolation: carry, .. } = scheme;
     // Accumulated without a branch, so that the compiler vectorises the loop.
     let mut long = 0_u32;
     for ((((displacement, moved), v_ahead), a), w) in

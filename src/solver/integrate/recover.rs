@@ -24,17 +24,18 @@ pub(crate) fn restore_invalid(world: &mut World) {
     let p = &mut world.particles;
     let (mut restored, mut first) = (0, Vec3::ZERO);
     for i in 0..p.len() {
-        let is_valid =
-            [&p.x, &p.moved, &p.v, &p.v_ahead].iter().all(|columns| is_valid_vector(columns.at(i)));
+        let is_valid = [&p.x, &p.displacement, &p.v, &p.v_extrapolated]
+            .iter()
+            .all(|columns| is_valid_vector(columns.at(i)));
         if is_valid {
             continue;
         }
-        let last = p.x_last.at(i);
+        let last = p.x_prev_tick.at(i);
         if restored == 0 {
             first = last;
         }
         restored += 1;
-        p.place(i, last, Vec3::ZERO, gravity, h);
+        p.set_motion(i, last, Vec3::ZERO, gravity, h);
     }
     if restored > 0 {
         let mut event = Event::new(EventKind::Recovered, world.tick, first);
@@ -46,7 +47,7 @@ pub(crate) fn restore_invalid(world: &mut World) {
 fn is_all_valid(world: &World) -> bool {
     let (level, p) = (world.level, &world.particles);
     let is_one_invalid = AtomicBool::new(false);
-    let columns = (p.x.all(), p.moved.all(), p.v.all(), p.v_ahead.all());
+    let columns = (p.x.all(), p.displacement.all(), p.v.all(), p.v_extrapolated.all());
     world.threads.parallel_for(columns, MIN_PARTICLES_PER_THREAD, |(x, moved, v, v_ahead)| {
         let mut all_valid = true;
         for column in [x, moved, v, v_ahead].into_iter().flatten() {

@@ -41,7 +41,7 @@ impl World {
             || self.pins.iter().any(|pin| pin.from != pin.target)
             || self.anchors.iter().any(AnchorConstraint::is_moving)
             || self.grabs.iter().any(|grab| {
-                self.pins.find(grab.particle).is_none()
+                self.pins.get(grab.particle).is_none()
                     && self.particles.x.at(grab.particle as usize) != grab.target
             })
             || self.colliders.iter().any(|body| body.last != body.next)
@@ -75,7 +75,7 @@ pub(crate) fn update_timer(world: &mut World) {
     if world.is_asleep() {
         let p = &mut world.particles;
         p.v.fill(Vec3::ZERO);
-        p.x_last.copy_from(&p.x);
+        p.x_prev_tick.copy_from(&p.x);
         world.reset_history();
     }
 }

@@ -16,7 +16,7 @@ use crate::solver::kinematic::anchors;
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
-use crate::state::settings::Scheme;
+use crate::state::settings::BdfScheme;
 
 /// Updates velocities and history at the end of a substep.
 pub(crate) fn update(world: &mut World) {
@@ -26,7 +26,7 @@ pub(crate) fn update(world: &mut World) {
     let (displacement, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
     let level = world.level;
     let read = (p.x.all(), predicted.all(), displacement.all());
-    let write = (p.moved.all_mut(), p.v.all_mut(), p.v_ahead.all_mut());
+    let write = (p.displacement.all_mut(), p.v.all_mut(), p.v_extrapolated.all_mut());
     world.threads.parallel_for(
         (read, write),
         MIN_PARTICLES_PER_THREAD,
@@ -51,24 +51,24 @@ pub(crate) fn update(world: &mut World) {
 
 leveled! {
     /// Updates one component of velocity and history.
-    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: Scheme, decay: f32) = update_column_lanes
+    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: BdfScheme, decay: f32) = update_column_lanes
 }
 
 #[inline(always)]
 fn update_column_lanes(
     [x, predicted, displacement]: [&[f32]; 3],
     [moved, v, v_ahead]: [&mut [f32]; 3],
-    scheme: Scheme,
+    scheme: BdfScheme,
     decay: f32,
 ) {
-    let (lead, trail) = (scheme.lead / scheme.h, scheme.trail / scheme.h);
+    let (lead, trail) = (scheme.new_weight / scheme.h, scheme.old_weight / scheme.h);
     let read = x.iter().zip(predicted).zip(displacement);
     let write = moved.iter_mut().zip(v).zip(v_ahead);
     for (((x, predicted), displacement), ((moved, v), v_ahead)) in read.zip(write) {
         // The correction is small, so this difference is exact in f32.
         let step = displacement + (x - predicted);
         let v_new = step * lead - *moved * trail;
-        *v_ahead = (v_new + (v_new - *v) * scheme.carry) * decay;
+        *v_ahead = (v_new + (v_new - *v) * scheme.extrapolation) * decay;
         *v = v_new * decay;
         *moved = step * decay;
     }

@@ -36,7 +36,7 @@ fn project_at(world: &mut World, share: f32) {
     for anchor in world.anchors.iter() {
         let at = anchor.particle as usize;
         let x = p.x.at(at);
-        let valid = anchor.keep(x, share);
+        let valid = anchor.project(x, share);
         if valid != x && p.w[at] > 0.0 {
             p.x.set(at, valid);
             moved.push(anchor.particle);
@@ -59,8 +59,8 @@ pub(crate) fn reset_history(world: &mut World, decay: f32) {
         let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
         let v = step * (decay / h);
         p.v.set(i, v);
-        p.v_ahead.set(i, v);
-        p.moved.set(i, step * decay);
+        p.v_extrapolated.set(i, v);
+        p.displacement.set(i, step * decay);
     }
 }
 

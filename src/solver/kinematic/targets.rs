@@ -25,15 +25,15 @@ pub(crate) fn apply(world: &mut World, number: u32) {
     let count = world.settings.substeps;
     let share = (number + 1) as f32 / count as f32;
     let share_of_rest = 1.0 / (count - number) as f32;
-    let step = world.settings.scheme().step;
+    let step = world.settings.scheme().velocity_step;
     let mut carrier = CarrierFrames::default();
     let p = &mut world.particles;
     for pin in world.pins.iter() {
         let at = pin.particle as usize;
-        let to = if pin.carrier == 0 {
+        let to = if pin.attachment == 0 {
             pin.from + (pin.target - pin.from) * share
         } else {
-            carrier.update(&world.attachments, pin.carrier, number + 1, count);
+            carrier.update(&world.attachments, pin.attachment, number + 1, count);
             carrier.target(pin, share)
         };
         if pin.is_soft() {
@@ -59,7 +59,7 @@ pub(crate) fn apply(world: &mut World, number: u32) {
 /// the start of the next.
 pub(crate) fn finish_tick(world: &mut World) {
     world.attachments.iter_mut().for_each(|carrier| carrier.last = carrier.next);
-    world.anchors.arrive();
+    world.anchors.finish_tick();
 }
 
 /// Transforms of one attachment at the start of the tick and now, cached because consecutive pins
@@ -78,8 +78,12 @@ impl CarrierFrames {
         }
         let pose = attachments.get(carrier, "attachment").ok();
         self.carrier = carrier;
-        self.frames = pose
-            .map(|pose| [pose.last.frame(), pose.last.after(&pose.next, moment, count).frame()]);
+        self.frames = pose.map(|pose| {
+            [
+                pose.last.to_transform(),
+                pose.last.at_substep(&pose.next, moment, count).to_transform(),
+            ]
+        });
     }
 
     /// Target of a pin after a `share` of the tick [m]. The initial offset of a pin from its place on the
@@ -97,11 +101,11 @@ impl World {
     /// `None` without soft pins. The list is a scratch buffer: give it back to
     /// `scratch.effective_mass` after use.
     pub fn compute_effective_mass(&mut self) -> Option<Vec<f32>> {
-        if !self.pins.are_any_soft() {
+        if !self.pins.has_soft() {
             return None;
         }
         let mut effective_mass = core::mem::take(&mut self.scratch.effective_mass);
-        let step = self.settings.scheme().step;
+        let step = self.settings.scheme().velocity_step;
         effective_mass.clone_from(&self.particles.mass);
         for pin in self.pins.iter().filter(|pin| pin.is_soft()) {
             effective_mass[pin.particle as usize] += pin.stiffness * step * step;
@@ -112,7 +116,7 @@ impl World {
     /// Reserves the buffer of the effective masses, if there are soft pins.
     pub fn reserve_effective_mass(&mut self) {
         let (capacity, effective_mass) = (self.capacity(), &mut self.scratch.effective_mass);
-        if self.pins.are_any_soft() {
+        if self.pins.has_soft() {
             effective_mass.clear();
             effective_mass.reserve_exact(capacity);
         }
@@ -120,12 +124,12 @@ impl World {
 
     /// Updates the inverse masses of particles with soft pins, after the length of a substep changed.
     pub fn refresh_soft_pin_masses(&mut self) {
-        let step = self.settings.scheme().step;
+        let step = self.settings.scheme().velocity_step;
         let (pins, grabs, p) = (&self.pins, &self.grabs, &mut self.particles);
         for pin in pins.iter().filter(|pin| pin.is_soft()) {
             let at = pin.particle as usize;
             if p.w[at] > 0.0 && grabs.iter().all(|held| held.particle != pin.particle) {
-                p.w[at] = pin.weigh(p.mass[at], step);
+                p.w[at] = pin.effective_inverse_mass(p.mass[at], step);
             }
         }
     }

@@ -64,7 +64,7 @@ pub(crate) fn compute(world: &World, x: &Columns, sums: &mut Columns) {
 /// Computes the positions of all particles at `share` between the previous tick (0) and the last (1).
 pub(crate) fn blend_positions(world: &World, share: f32, out: &mut Columns) {
     out.copy_from(&world.particles.x);
-    let lists = out.all_mut().into_iter().zip(world.particles.x_last.all());
+    let lists = out.all_mut().into_iter().zip(world.particles.x_prev_tick.all());
     lists.for_each(|(x, last)| blend(world.level, x, last, share));
 }
 

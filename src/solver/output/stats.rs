@@ -13,7 +13,7 @@ use crate::solver::world::World;
 pub(crate) fn stretch(world: &World) -> (f32, f32) {
     let x = &world.particles.x;
     let (mut largest, mut sum, mut count) = (0.0_f32, 0.0_f64, 0_u32);
-    for links in [&world.constraints.links, &world.constraints.extra] {
+    for links in [&world.constraints.links, &world.constraints.dynamic] {
         for link in 0..links.len() {
             if links.active[link] && links.kind(link) == LinkKind::Stretch {
                 let span = x.at(links.b[link] as usize) - x.at(links.a[link] as usize);

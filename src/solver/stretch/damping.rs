@@ -32,7 +32,7 @@ pub(crate) fn apply(world: &mut World) {
     let ratio = world.material.stretch_damping / world.settings.scheme().h;
     let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
     let start = |i: u32| predicted.at(i as usize) - displacement.at(i as usize);
-    let Constraints { links, extra, .. } = &mut world.constraints;
+    let Constraints { links, dynamic: extra, .. } = &mut world.constraints;
     let undamped = &mut world.scratch.damping.undamped;
     for (links, [rest, compliance]) in [links, extra].into_iter().zip(undamped) {
         rest.clone_from(&links.rest);
@@ -47,7 +47,7 @@ pub(crate) fn remove(world: &mut World) {
     if !is_on(world) {
         return;
     }
-    let Constraints { links, extra, .. } = &mut world.constraints;
+    let Constraints { links, dynamic: extra, .. } = &mut world.constraints;
     let undamped = &world.scratch.damping.undamped;
     for (links, [rest, compliance]) in [links, extra].into_iter().zip(undamped) {
         links.rest.copy_from_slice(rest);
@@ -71,9 +71,9 @@ fn damp(links: &mut Links, start: impl Fn(u32) -> Vec3, ratio: f32) {
 
 /// Copies the rest lengths to the line blocks and the sparse links.
 fn update_copies(constraints: &mut Constraints) {
-    constraints.lines.abreast.measure(&constraints.links);
-    constraints.loose.measure(&constraints.extra);
+    constraints.chains.blocks.update_rest_lengths(&constraints.links);
+    constraints.sparse.update_rest_lengths(&constraints.dynamic);
     if let Some(rows) = &mut constraints.rows {
-        rows.loose.measure(&constraints.links);
+        rows.sparse.update_rest_lengths(&constraints.links);
     }
 }

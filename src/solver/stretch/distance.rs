@@ -32,7 +32,7 @@ pub(crate) fn reset(world: &mut World) {
     inverse_masses::refresh(world);
     if !is_rigid(&world.material, LinkKind::Shear) {
         world.constraints.links.lambda.fill(0.0);
-        world.constraints.extra.lambda.fill(0.0);
+        world.constraints.dynamic.lambda.fill(0.0);
     }
 }
 
@@ -45,7 +45,7 @@ pub(crate) fn solve(world: &mut World, kind: LinkKind, order: SweepOrder) {
         sweep::<RIGID>(world, kind, order, 0.0);
     } else {
         // A correction changes the velocity through `step`, so the compliance is divided by step².
-        let step = world.settings.scheme().step;
+        let step = world.settings.scheme().velocity_step;
         sweep::<SOFT>(world, kind, order, 1.0 / (step * step));
     }
 }
@@ -65,11 +65,11 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: SweepOrder, sc
     match order {
         SweepOrder::Forward => {
             solve_batches::<LAW>(world, kind, order, scale);
-            let batches = world.constraints.loose.batches_of(kind);
+            let batches = world.constraints.sparse.batches_of(kind);
             batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
         }
         SweepOrder::Backward => {
-            let batches = world.constraints.loose.batches_of(kind).rev();
+            let batches = world.constraints.sparse.batches_of(kind).rev();
             batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
             solve_batches::<LAW>(world, kind, order, scale);
         }
@@ -107,7 +107,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
         }
         // The strays of one batch share no particle, so that the order does not matter.
         let (links, order) = (&mut constraints.links, SweepOrder::Forward);
-        sparse::solve::<LAW, _>(world.level, &grid.loose, (at, order), links, p, scale);
+        sparse::solve::<LAW, _>(world.level, &grid.sparse, (at, order), links, p, scale);
     } else if interleaved.is_current {
         let (links, weights) = (&mut constraints.links, &world.scratch.end_weights);
         mesh_kernel::solve::<LAW>(
@@ -128,7 +128,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
 fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: SweepOrder, scale: f32) {
     let (level, at) = (world.level, (at, order));
     let (p, interleaved) = (&mut world.particles, &mut world.scratch.interleaved);
-    let (loose, links) = (&world.constraints.loose, &mut world.constraints.extra);
+    let (loose, links) = (&world.constraints.sparse, &mut world.constraints.dynamic);
     if interleaved.is_current {
         sparse::solve::<LAW, _>(level, loose, at, links, interleaved, scale);
     } else {

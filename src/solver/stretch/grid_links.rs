@@ -16,7 +16,7 @@
 use crate::math::column::Column;
 use crate::math::columns::Columns;
 use crate::math::simd::{Baseline, Level, Simd, vectored};
-use crate::model::grid_rows::{GridRows, Pattern, Row};
+use crate::model::grid_rows::{GridRows, LinkRow, RowPattern};
 use crate::model::links::Links;
 use crate::solver::particle_stage::access::ParticleAccess;
 use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
@@ -28,9 +28,9 @@ use core::ops::Range;
 use glam::Vec3;
 
 /// The patterns as numbers that a kernel can be compiled for.
-pub(crate) const STRAIGHT: u8 = Pattern::Straight as u8;
-const PAIRS: u8 = Pattern::Pairs as u8;
-const QUADS: u8 = Pattern::Quads as u8;
+pub(crate) const STRAIGHT: u8 = RowPattern::Straight as u8;
+const PAIRS: u8 = RowPattern::Pairs as u8;
+const QUADS: u8 = RowPattern::Quads as u8;
 
 /// Solves the links `range`, which are a batch, but for those that left their rows.
 pub(crate) fn solve<const LAW: u8>(
@@ -57,13 +57,13 @@ pub(crate) fn solve<const LAW: u8>(
         ends: ends.each_ref().map(|list| &list[..]),
         lambda,
     };
-    solve_rows::<LAW>(level, &grid.rows[grid.between(range)], &mut sheet, scale);
+    solve_rows::<LAW>(level, &grid.rows[grid.rows_of_batch(range)], &mut sheet, scale);
 }
 
 /// Solves rows, all within the sheet.
 pub(crate) fn solve_rows<const LAW: u8>(
     level: Level,
-    rows: &[Row],
+    rows: &[LinkRow],
     sheet: &mut Sheet<'_>,
     scale: f32,
 ) {
@@ -73,15 +73,15 @@ pub(crate) fn solve_rows<const LAW: u8>(
     let mut left = rows;
     while let Some(first) = left.first() {
         let [solve_whole, solve_torn] = match (LAW, first.pattern) {
-            (SOFT, Pattern::Straight) => [soft_straight, torn_soft_straight],
-            (SOFT, Pattern::Pairs) => [soft_pairs, torn_soft_pairs],
-            (SOFT, Pattern::Quads) => [soft_quads, torn_soft_quads],
-            (RIGID, Pattern::Straight) => [rigid_straight, torn_rigid_straight],
-            (RIGID, Pattern::Pairs) => [rigid_pairs, torn_rigid_pairs],
-            (RIGID, Pattern::Quads) => [rigid_quads, torn_rigid_quads],
-            (_, Pattern::Straight) => [bound_straight, torn_bound_straight],
-            (_, Pattern::Pairs) => [bound_pairs, torn_bound_pairs],
-            (_, Pattern::Quads) => [bound_quads, torn_bound_quads],
+            (SOFT, RowPattern::Straight) => [soft_straight, torn_soft_straight],
+            (SOFT, RowPattern::Pairs) => [soft_pairs, torn_soft_pairs],
+            (SOFT, RowPattern::Quads) => [soft_quads, torn_soft_quads],
+            (RIGID, RowPattern::Straight) => [rigid_straight, torn_rigid_straight],
+            (RIGID, RowPattern::Pairs) => [rigid_pairs, torn_rigid_pairs],
+            (RIGID, RowPattern::Quads) => [rigid_quads, torn_rigid_quads],
+            (_, RowPattern::Straight) => [bound_straight, torn_bound_straight],
+            (_, RowPattern::Pairs) => [bound_pairs, torn_bound_pairs],
+            (_, RowPattern::Quads) => [bound_quads, torn_bound_quads],
         };
         let mut pass = Pass { rows: left.len(), ..Pass::default() };
         solve_whole(level, left, sheet, scale, &mut pass);
@@ -114,7 +114,7 @@ macro_rules! kernels {
     ($solve:ident, $widest:ident; $($name:ident: $law:ident $pattern:ident;)*) => {$(
         vectored! {
             #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // there `vectored` says so
-            fn $name(rows: &[Row], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
+            fn $name(rows: &[LinkRow], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
                 = $solve::<_, $law, $pattern>, $widest, none
         }
     )*};
@@ -148,13 +148,13 @@ kernels! {
 }
 
 /// Without vectors there are no chunks.
-fn none(_: &[Row], _: &mut Sheet<'_>, _: f32, _: &mut Pass) {}
+fn none(_: &[LinkRow], _: &mut Sheet<'_>, _: f32, _: &mut Pass) {}
 
 /// The rows that no link has left, as far as all are of the pattern.
 #[inline(always)]
 fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
-    rows: &[Row],
+    rows: &[LinkRow],
     sheet: &mut Sheet<'_>,
     scale: f32,
     pass: &mut Pass,
@@ -173,7 +173,7 @@ fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
             continue;
         }
         let left = &rows[number..];
-        let alike = &left[..left.len().min(row.alike.max(1) as usize)];
+        let alike = &left[..left.len().min(row.uniform_run.max(1) as usize)];
         Alike::of::<PATTERN>(&lists, alike).solve::<S, LAW, PATTERN>(
             s,
             &lists,
@@ -187,7 +187,7 @@ fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
 #[inline(always)]
 fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
-    rows: &[Row],
+    rows: &[LinkRow],
     sheet: &mut Sheet<'_>,
     scale: f32,
     _: &mut Pass,
@@ -217,7 +217,7 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
 
 /// Links of a row one by one, from some link on.
 #[inline(never)]
-fn solve_apart<const LAW: u8>(row: &Row, from: usize, sheet: &mut Sheet<'_>, scale: f32) {
+fn solve_apart<const LAW: u8>(row: &LinkRow, from: usize, sheet: &mut Sheet<'_>, scale: f32) {
     let row = &sheet.own(row);
     for k in from..row.count as usize {
         let link = row.first as usize + k;
@@ -254,9 +254,9 @@ pub(crate) struct Sheet<'a> {
 impl Sheet<'_> {
     /// A row as it lies in these lists.
     #[inline(always)]
-    fn own(&self, row: &Row) -> Row {
+    fn own(&self, row: &LinkRow) -> LinkRow {
         let (a, b) = (row.a - self.first_particle, row.b - self.first_particle);
-        Row { a, b, first: row.first - self.first_link, ..*row }
+        LinkRow { a, b, first: row.first - self.first_link, ..*row }
     }
 }
 

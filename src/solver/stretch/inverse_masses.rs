@@ -19,8 +19,9 @@ pub(crate) fn refresh(world: &mut World) {
     let rigid = kinds.map(|kind| is_rigid(&world.material, kind));
     let (constraints, weights) = (&mut world.constraints, &mut world.scratch.end_weights);
     let w = &world.particles.w;
-    let rows_are_weighed = constraints.rows.as_ref().is_none_or(|rows| rows.loose.is_weighed());
-    let are_weighed = constraints.loose.is_weighed() && rows_are_weighed;
+    let rows_are_weighed =
+        constraints.rows.as_ref().is_none_or(|rows| rows.sparse.has_inverse_masses());
+    let are_weighed = constraints.sparse.has_inverse_masses() && rows_are_weighed;
     if weights.is_current(w, rigid) && are_weighed {
         return;
     }
@@ -31,23 +32,23 @@ pub(crate) fn refresh(world: &mut World) {
     }
     if let Some(rows) = &mut constraints.rows {
         update_even_ranges(rows, &weights.is_even);
-        rows.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
+        rows.sparse.compute_inverse_masses(|kind, ends| weights.of(ends, rigid[kind]));
     }
-    constraints.loose.weigh(|kind, ends| weights.of(ends, rigid[kind]));
+    constraints.sparse.compute_inverse_masses(|kind, ends| weights.of(ends, rigid[kind]));
 }
 
 /// Sets each row's `even` to its longest run of links whose ends have equal weights.
 fn update_even_ranges(rows: &mut GridRows, is_even: &[bool]) {
     for row in &mut rows.rows {
-        row.even = [row.first; 2];
+        row.equal_mass = [row.first; 2];
         let mut from = row.first;
         for link in row.first..row.first + row.count {
             if !is_even[link as usize] {
                 from = link + 1;
-            } else if link + 1 - from > row.even[1] - row.even[0] {
-                row.even = [from, link + 1];
+            } else if link + 1 - from > row.equal_mass[1] - row.equal_mass[0] {
+                row.equal_mass = [from, link + 1];
             }
         }
     }
-    rows.find_alike();
+    rows.rebuild_uniform_runs();
 }

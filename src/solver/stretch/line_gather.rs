@@ -20,7 +20,7 @@
 use crate::math::simd::{
     Float, LANES, Level, Scalar, Simd, gather_transpose, scatter_transpose, vectored,
 };
-use crate::model::line_blocks;
+use crate::model::chain_blocks;
 use crate::solver::stretch::line_step::{
     LineStep, clamp_length, length, limit_excess, max_component,
 };
@@ -73,7 +73,7 @@ impl LinePoints<'_> {
         s: S,
         first: usize,
         start: &mut [S::F; 4],
-        laid: &line_blocks::Step,
+        laid: &chain_blocks::ChainStep,
         step: &mut LineStep,
     ) {
         let to = gather_transpose(s, self.points, &laid.to[first..]);
@@ -93,7 +93,7 @@ impl LinePoints<'_> {
 vectored! {
     /// Gathers a whole block of rigid links.
     pub(crate) fn gather_rigid(
-        block: &[line_blocks::Step],
+        block: &[chain_blocks::ChainStep],
         points: LinePoints<'_>,
         steps: &mut [LineStep],
     ) = gather_lanes::<_, false>, Avx2, gather_scalar::<false>
@@ -102,14 +102,14 @@ vectored! {
 vectored! {
     /// Gathers a whole block of compliant links.
     pub(crate) fn gather_soft(
-        block: &[line_blocks::Step],
+        block: &[chain_blocks::ChainStep],
         points: LinePoints<'_>,
         steps: &mut [LineStep],
     ) = gather_lanes::<_, true>, Avx2, gather_scalar::<true>
 }
 
 fn gather_scalar<const SOFT: bool>(
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
     steps: &mut [LineStep],
 ) {
@@ -119,7 +119,7 @@ fn gather_scalar<const SOFT: bool>(
 #[inline(always)]
 fn gather_lanes<S: Simd, const SOFT: bool>(
     s: S,
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
     steps: &mut [LineStep],
 ) {
@@ -134,7 +134,7 @@ fn gather_lanes<S: Simd, const SOFT: bool>(
 /// Displaces the particles of a block; none moves farther than the rest length of its link.
 pub(crate) fn scatter_block(
     level: Level,
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     points: &mut [[f32; 4]],
 ) {
@@ -149,7 +149,7 @@ vectored! {
     /// Displaces the particles of a block without a limit, and sets `may_exceed` if one may move
     /// farther than its limit; then [`scatter_clamped`] must repeat it.
     fn scatter_unclamped(
-        block: &[line_blocks::Step],
+        block: &[chain_blocks::ChainStep],
         steps: &[LineStep],
         points: &mut [[f32; 4]],
         may_exceed: &mut bool,
@@ -159,7 +159,7 @@ vectored! {
 #[inline(always)]
 fn scatter_lanes<S: Simd>(
     s: S,
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     points: &mut [[f32; 4]],
     may_exceed: &mut bool,
@@ -178,7 +178,7 @@ fn scatter_lanes<S: Simd>(
 
 #[inline(never)]
 fn scatter_clamped(
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     points: &mut [[f32; 4]],
     _: &mut bool,

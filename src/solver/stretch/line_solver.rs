@@ -42,7 +42,7 @@
 
 use crate::math::max;
 use crate::math::simd::{LANES, Level, Scalar};
-use crate::model::line_blocks;
+use crate::model::chain_blocks;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::stretch::line_gather::LinePoints;
 use crate::solver::stretch::line_scratch::LineScratch;
@@ -67,18 +67,18 @@ pub(crate) fn is_needed(world: &World) -> bool {
     let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
     let load = max(settings.gravity.length(), MIN_LOAD);
     let strain =
-        load * h * h * world.constraints.lines.longest as f32 / (2.0 * sweeps * world.mean_edge);
+        load * h * h * world.constraints.chains.longest as f32 / (2.0 * sweeps * world.mean_edge);
     settings.tethers && settings.iterations > 1 && strain > MAX_SWEEP_STRAIN
 }
 
 /// Solves all lines.
 pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(&world.material, LinkKind::Stretch);
-    let step = world.settings.scheme().step;
+    let step = world.settings.scheme().velocity_step;
     let scale = if is_rigid { None } else { Some(1.0 / (step * step)) };
-    world.constraints.lines.abreast.lay(&world.constraints.links);
+    world.constraints.chains.blocks.rebuild_stale(&world.constraints.links);
     let are_in_columns = world.level != Level::Scalar && !world.scratch.interleaved.is_current;
-    if are_in_columns && world.constraints.lines.abreast.are_strips() {
+    if are_in_columns && world.constraints.chains.blocks.are_all_strided() {
         solve_strips(world, scale);
     } else {
         line_gather::gather(world, is_rigid);
@@ -95,7 +95,7 @@ const GATHERS_BLOCK_FIRST: bool = cfg!(target_arch = "wasm32");
 
 /// Solves blocks whose particles are at arbitrary indices.
 fn solve_blocks(world: &mut World, scale: Option<f32>) {
-    let (level, lines) = (world.level, &world.constraints.lines.abreast);
+    let (level, lines) = (world.level, &world.constraints.chains.blocks);
     let links = &mut world.constraints.links;
     let LineScratch { points, start_points, steps: scratch, .. } = &mut world.scratch.lines;
     for block in lines.blocks() {
@@ -123,12 +123,12 @@ fn solve_blocks(world: &mut World, scale: Option<f32>) {
 /// Solves blocks whose particles are at a fixed stride in the columns.
 fn solve_strips(world: &mut World, scale: Option<f32>) {
     let (level, scratch, p) = (world.level, &mut world.scratch, &mut world.particles);
-    let (lines, links) = (&world.constraints.lines.abreast, &mut world.constraints.links);
+    let (lines, links) = (&world.constraints.chains.blocks, &mut world.constraints.links);
     let LineScratch { start_columns: starts, steps, .. } = &mut scratch.lines;
     if scale.is_none() {
         line_strided::compute_starts(level, &scratch.predicted, &scratch.displacement, starts);
     }
-    for (strip, block) in lines.strips() {
+    for (strip, block) in lines.strided_blocks() {
         let steps = &mut steps[..=block.len()];
         line_strided::gather(strip, &p.x, &p.w, &mut steps[1..]);
         if scale.is_none() {
@@ -142,7 +142,7 @@ fn solve_strips(world: &mut World, scale: Option<f32>) {
 }
 
 /// Sets the target lengths of compliant links.
-fn set_rest_targets(block: &[line_blocks::Step], steps: &mut [LineStep]) {
+fn set_rest_targets(block: &[chain_blocks::ChainStep], steps: &mut [LineStep]) {
     for (step, laid) in steps.iter_mut().zip(block) {
         (0..LANES).for_each(|lane| step.set_rest_target(Scalar, lane, &laid.rest));
     }
@@ -151,7 +151,7 @@ fn set_rest_targets(block: &[line_blocks::Step], steps: &mut [LineStep]) {
 /// Solves a block that was gathered; `scale` is 1/h² [1/s²] for compliant links, none for rigid ones.
 fn solve_gathered(
     level: Level,
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
     links: &mut Links,
     scale: Option<f32>,

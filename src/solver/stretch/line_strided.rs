@@ -21,7 +21,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Baseline, Float, LANES, Level, Scalar, Simd, leveled, transpose_4x4};
-use crate::model::line_blocks::{self, Strip};
+use crate::model::chain_blocks::{self, StridedBlock};
 use crate::solver::stretch::line_step::{
     LineStep, abs, clamp_length, length, limit_excess, max_component,
 };
@@ -59,17 +59,17 @@ fn subtract_lanes(a: &[f32], b: &[f32], difference: &mut [f32]) {
 // `#[inline(never)]` on the loops below: WebAssembly engines run out of registers in long functions.
 
 /// Gathers the positions and inverse masses of a strip.
-pub(crate) fn gather(strip: Strip, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
+pub(crate) fn gather(strip: StridedBlock, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
     let [x, y, z] = x.all();
     let columns = [x, y, z, w];
-    if strip.lines < LANES {
+    if strip.chain_count < LANES {
         return gather_scalar(strip, columns, steps);
     }
     strip.assert_within(steps.len(), columns);
     let columns = columns.map(<[f32]>::as_ptr);
     // SAFETY: the strip lies within the columns, as was just checked.
     unsafe {
-        if strip.across == 1 {
+        if strip.chain_stride == 1 {
             gather_direct(strip, columns, steps);
         } else {
             gather_transposed(strip, columns, steps);
@@ -80,7 +80,7 @@ pub(crate) fn gather(strip: Strip, x: &Columns, w: &[f32], steps: &mut [LineStep
 /// # Safety
 /// The strip lies within the columns.
 #[inline(never)]
-unsafe fn gather_direct(strip: Strip, columns: [*const f32; 4], steps: &mut [LineStep]) {
+unsafe fn gather_direct(strip: StridedBlock, columns: [*const f32; 4], steps: &mut [LineStep]) {
     let (s, mut at) = (Baseline::new(), strip.at(0, 0));
     for step in steps {
         for (to, column) in step.to.iter_mut().zip(columns) {
@@ -91,14 +91,14 @@ unsafe fn gather_direct(strip: Strip, columns: [*const f32; 4], steps: &mut [Lin
                 s.store(to, FOUR, s.load_from(column.add(FOUR)));
             }
         }
-        at += strip.along;
+        at += strip.link_stride;
     }
 }
 
 /// # Safety
 /// The strip lies within the columns and has at least four steps.
 #[inline(never)]
-unsafe fn gather_transposed(strip: Strip, columns: [*const f32; 4], steps: &mut [LineStep]) {
+unsafe fn gather_transposed(strip: StridedBlock, columns: [*const f32; 4], steps: &mut [LineStep]) {
     let s = Baseline::new();
     for start in blocks_of_four(steps.len()) {
         let steps = &mut steps[start..start + FOUR];
@@ -106,7 +106,8 @@ unsafe fn gather_transposed(strip: Strip, columns: [*const f32; 4], steps: &mut 
             let at = strip.at(first, start);
             for (axis, column) in columns.into_iter().enumerate() {
                 // SAFETY: the caller guarantees it.
-                let rows = unsafe { transpose_4x4(s, load_4x4(s, column.add(at), strip.across)) };
+                let rows =
+                    unsafe { transpose_4x4(s, load_4x4(s, column.add(at), strip.chain_stride)) };
                 for (step, row) in steps.iter_mut().zip(rows) {
                     s.store(&mut step.to[axis], first, row);
                 }
@@ -132,11 +133,12 @@ unsafe fn load_4x4(s: Baseline, first: *const f32, across: usize) -> [Vector; FO
     }
 }
 
-fn gather_scalar(strip: Strip, columns: [&[f32]; 4], steps: &mut [LineStep]) {
+fn gather_scalar(strip: StridedBlock, columns: [&[f32]; 4], steps: &mut [LineStep]) {
     for (number, step) in steps.iter_mut().enumerate() {
         for (to, column) in step.to.iter_mut().zip(columns) {
             for lane in 0..LANES {
-                to[lane] = if lane < strip.lines { column[strip.at(lane, number)] } else { 0.0 };
+                to[lane] =
+                    if lane < strip.chain_count { column[strip.at(lane, number)] } else { 0.0 };
             }
         }
     }
@@ -144,20 +146,20 @@ fn gather_scalar(strip: Strip, columns: [&[f32]; 4], steps: &mut [LineStep]) {
 
 /// Sets the target lengths of rigid links, from their lengths at the start of the substep.
 pub(crate) fn set_relaxed_targets(
-    strip: Strip,
+    strip: StridedBlock,
     starts: &Columns,
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
     let starts = starts.all();
-    if strip.lines < LANES {
+    if strip.chain_count < LANES {
         return set_relaxed_targets_scalar(strip, starts, block, steps);
     }
     let own = starts.map(|column| &column[1..]);
     strip.assert_within(steps.len(), own);
     // SAFETY: the strip lies within the columns, as was just checked, and the sentinel is before them.
     unsafe {
-        if strip.across == 1 {
+        if strip.chain_stride == 1 {
             set_relaxed_targets_direct(strip, own.map(<[f32]>::as_ptr), block, steps);
         } else {
             set_relaxed_targets_transposed(strip, starts.map(<[f32]>::as_ptr), block, steps);
@@ -169,9 +171,9 @@ pub(crate) fn set_relaxed_targets(
 /// The strip lies within the columns.
 #[inline(never)]
 unsafe fn set_relaxed_targets_direct(
-    strip: Strip,
+    strip: StridedBlock,
     [x, y, z]: [*const f32; 3],
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
     let (s, mut at) = (Baseline::new(), strip.at(0, 0));
@@ -189,7 +191,7 @@ unsafe fn set_relaxed_targets_direct(
             };
             step.set_relaxed_target(s, first, length(s, span), &laid.rest);
         }
-        (last, at) = (at, at + strip.along);
+        (last, at) = (at, at + strip.link_stride);
     }
 }
 
@@ -197,9 +199,9 @@ unsafe fn set_relaxed_targets_direct(
 /// The strip lies within the columns behind their first entry, and has at least four steps.
 #[inline(never)]
 unsafe fn set_relaxed_targets_transposed(
-    strip: Strip,
+    strip: StridedBlock,
     [x, y, z]: [*const f32; 3],
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
     let s = Baseline::new();
@@ -218,7 +220,7 @@ unsafe fn set_relaxed_targets_transposed(
     for start in blocks_of_four(steps.len()) {
         let (steps, block) = (&mut steps[start..start + FOUR], &block[start..start + FOUR]);
         for first in [0, FOUR] {
-            let (at, across) = (strip.at(first, start), strip.across);
+            let (at, across) = (strip.at(first, start), strip.chain_stride);
             let lengths = [
                 start_length(at),
                 start_length(at + across),
@@ -235,16 +237,17 @@ unsafe fn set_relaxed_targets_transposed(
 }
 
 fn set_relaxed_targets_scalar(
-    strip: Strip,
+    strip: StridedBlock,
     starts: [&[f32]; 3],
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
     for lane in 0..LANES {
         let mut last = [0.0; 3];
         for (number, (step, laid)) in steps.iter_mut().zip(block).enumerate() {
             let at = strip.at(lane, number) + 1;
-            let start = if lane < strip.lines { starts.map(|column| column[at]) } else { last };
+            let start =
+                if lane < strip.chain_count { starts.map(|column| column[at]) } else { last };
             let start_length = length(Scalar, [0, 1, 2].map(|axis| start[axis] - last[axis]));
             step.set_relaxed_target(Scalar, lane, start_length, &laid.rest);
             last = start;
@@ -254,19 +257,19 @@ fn set_relaxed_targets_scalar(
 
 /// Displaces the particles of a strip; none moves farther than the rest length of its link.
 pub(crate) fn scatter(
-    strip: Strip,
-    block: &[line_blocks::Step],
+    strip: StridedBlock,
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     x: &mut Columns,
 ) {
     let columns = &mut x.all_mut();
-    let mut is_done = strip.lines == LANES;
+    let mut is_done = strip.chain_count == LANES;
     if is_done {
         strip.assert_within(steps.len(), columns.each_ref().map(|column| &**column));
         let columns = columns.each_mut().map(|column| column.as_mut_ptr());
         // SAFETY: the strip lies within the columns, as was just checked.
         is_done = unsafe {
-            if strip.across == 1 {
+            if strip.chain_stride == 1 {
                 scatter_direct(strip, block, steps, columns)
             } else {
                 scatter_transposed(strip, block, steps, columns)
@@ -274,7 +277,8 @@ pub(crate) fn scatter(
         };
     }
     if !is_done {
-        (0..strip.lines).for_each(|line| scatter_line_clamped(strip, block, steps, columns, line));
+        (0..strip.chain_count)
+            .for_each(|line| scatter_line_clamped(strip, block, steps, columns, line));
     }
 }
 
@@ -285,8 +289,8 @@ pub(crate) fn scatter(
 /// The strip lies within the columns.
 #[inline(never)]
 unsafe fn scatter_direct(
-    strip: Strip,
-    block: &[line_blocks::Step],
+    strip: StridedBlock,
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     columns: [*mut f32; 3],
 ) -> bool {
@@ -310,7 +314,7 @@ unsafe fn scatter_direct(
                 s.store_to(column.add(FOUR), other_moved[axis]);
             }
         }
-        at += strip.along;
+        at += strip.link_stride;
     }
     !(s.any_positive(excess) || s.any_positive(other_excess))
 }
@@ -321,8 +325,8 @@ unsafe fn scatter_direct(
 /// The strip lies within the columns and has at least four steps.
 #[inline(never)]
 unsafe fn scatter_transposed(
-    strip: Strip,
-    block: &[line_blocks::Step],
+    strip: StridedBlock,
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     columns: [*mut f32; 3],
 ) -> bool {
@@ -349,7 +353,7 @@ unsafe fn scatter_transposed(
                 }
                 for (line, row) in transpose_4x4(s, moved).into_iter().enumerate() {
                     // SAFETY: the caller guarantees it.
-                    unsafe { s.store_to(columns[axis].add(at + line * strip.across), row) };
+                    unsafe { s.store_to(columns[axis].add(at + line * strip.chain_stride), row) };
                 }
             }
             for (component, laid) in largest.into_iter().zip(block) {
@@ -362,8 +366,8 @@ unsafe fn scatter_transposed(
 
 /// Displaces the particles of one line, none farther than its limit.
 fn scatter_line_clamped(
-    strip: Strip,
-    block: &[line_blocks::Step],
+    strip: StridedBlock,
+    block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     columns: &mut [&mut [f32]; 3],
     line: usize,
@@ -384,11 +388,11 @@ fn blocks_of_four(count: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by(FOUR).map(move |start| start.min(count - FOUR))
 }
 
-impl Strip {
+impl StridedBlock {
     /// The index of the particle that a step of a line runs to.
     #[inline(always)]
     fn at(&self, line: usize, step: usize) -> usize {
-        self.first + line * self.across + step * self.along
+        self.first + line * self.chain_stride + step * self.link_stride
     }
 
     /// Checks that eight lines of so many steps lie within columns.

@@ -60,7 +60,7 @@ pub(crate) fn solve<const LAW: u8>(
 ) {
     let InterleavedParticles { points, w, .. } = particles;
     let [wa, wb] = &weights.ends;
-    let most = links.a.most().max(links.b.most());
+    let most = links.a.max_particle().max(links.b.max_particle());
     assert!((most as usize) < points.len(), "every link ends at a particle");
     let (points, w) = (SharedPoints::new(points), &w[..]);
     let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);

@@ -45,22 +45,23 @@ pub(crate) fn compute(world: &mut World) {
             match attachment_frames(world, particles()) {
                 Some([last, next]) => {
                     free.for_each(|i| {
-                        positions.set(i, next.point_to_world(last.point_to_local(p.x_last.at(i))))
+                        positions
+                            .set(i, next.point_to_world(last.point_to_local(p.x_prev_tick.at(i))))
                     });
                 }
-                None => free.for_each(|i| positions.set(i, p.x_last.at(i) + shift)),
+                None => free.for_each(|i| positions.set(i, p.x_prev_tick.at(i) + shift)),
             }
         } else {
-            let displacement = |i: usize| p.x.at(i) - p.x_last.at(i);
-            let anchors = || particles().filter_map(|i| world.anchors.find(i as u32));
+            let displacement = |i: usize| p.x.at(i) - p.x_prev_tick.at(i);
+            let anchors = || particles().filter_map(|i| world.anchors.get(i as u32));
             let motion = if anchors().next().is_some() {
                 let motion_of =
                     |anchor: &AnchorConstraint| (anchor.from, anchor.anchor - anchor.from, 1.0);
                 RigidMotion::of_points(|| anchors().map(motion_of))
             } else {
-                RigidMotion::fit(particles, &p.x_last, displacement, &p.mass)
+                RigidMotion::fit(particles, &p.x_prev_tick, displacement, &p.mass)
             };
-            particles().for_each(|i| positions.set(i, motion.transform(p.x_last.at(i))));
+            particles().for_each(|i| positions.set(i, motion.transform(p.x_prev_tick.at(i))));
         }
     }
     world.scratch.rollback = rollback;
@@ -72,15 +73,15 @@ fn attachment_frames(
     world: &World,
     mut particles: impl Iterator<Item = usize>,
 ) -> Option<[Transform; 2]> {
-    if world.pins.iter().all(|pin| pin.carrier == 0) {
+    if world.pins.iter().all(|pin| pin.attachment == 0) {
         return None;
     }
     let pin = particles.find_map(|i| {
-        let pin = world.pins.find(i as u32)?;
-        (pin.carrier != 0 && !pin.is_soft()).then_some(pin)
+        let pin = world.pins.get(i as u32)?;
+        (pin.attachment != 0 && !pin.is_soft()).then_some(pin)
     })?;
-    let carrier = world.attachments.get(pin.carrier, "attachment").ok()?;
-    Some([carrier.last.frame(), carrier.next.frame()])
+    let carrier = world.attachments.get(pin.attachment, "attachment").ok()?;
+    Some([carrier.last.to_transform(), carrier.next.to_transform()])
 }
 
 /// The mean displacement of pinned and grabbed particles in this tick [m]; zero if there are none.
@@ -88,7 +89,7 @@ fn mean_held_displacement(world: &World) -> Vec3 {
     let p = &world.particles;
     let (mut sum, mut count) = (Vec3::ZERO, 0.0);
     for i in (0..p.len()).filter(|i| p.w[*i] <= 0.0) {
-        sum += p.x.at(i) - p.x_last.at(i);
+        sum += p.x.at(i) - p.x_prev_tick.at(i);
         count += 1.0;
     }
     if count > 0.0 { sum * (1.0 / count) } else { Vec3::ZERO }

@@ -58,7 +58,7 @@ pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
     particles: &mut P,
     scale: f32,
 ) {
-    let (own, is_colored) = sparse.of_batch(batch);
+    let (own, is_colored) = sparse.batch(batch);
     if own.is_empty() {
         return;
     }
@@ -68,7 +68,7 @@ pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
         a: &sparse.a[own.clone()],
         b: &sparse.b[own.clone()],
         rest: &sparse.rest[own.clone()],
-        ends: [&sparse.ends[0][ends.clone()], &sparse.ends[1][ends]],
+        ends: [&sparse.w[0][ends.clone()], &sparse.w[1][ends]],
         link: &sparse.link[own],
         compliance: &links.compliance,
         lambda: &mut links.lambda,

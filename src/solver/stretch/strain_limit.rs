@@ -119,8 +119,8 @@ fn stop(world: &mut World) {
     let (p, before) = (&mut world.particles, &world.scratch.predicted);
     for i in (0..p.len()).filter(|i| p.x.at(*i) != before.at(*i)) {
         p.v.set(i, Vec3::ZERO);
-        p.v_ahead.set(i, Vec3::ZERO);
-        p.moved.set(i, Vec3::ZERO);
+        p.v_extrapolated.set(i, Vec3::ZERO);
+        p.displacement.set(i, Vec3::ZERO);
     }
 }
 
@@ -151,7 +151,7 @@ fn is_held_apart(world: &World, most: f32) -> bool {
     let held = || (0..p.len()).filter(|i| p.w[*i] <= 0.0);
     world.tethers.sets().iter().any(|set| {
         held().any(|i| {
-            let span = p.x.at(i) - p.x.at(set.anchor[i] as usize);
+            let span = p.x.at(i) - p.x.at(set.pin[i] as usize);
             span.length() > set.length[i] * most
         })
     })
@@ -164,11 +164,11 @@ fn go_back(world: &mut World, most: f32) {
     let woven = world.constraints.links.len();
     let mut went = true;
     while core::mem::take(&mut went) {
-        for link in 0..woven + world.constraints.extra.len() {
+        for link in 0..woven + world.constraints.dynamic.len() {
             let (links, at) = if link < woven {
                 (&world.constraints.links, link)
             } else {
-                (&world.constraints.extra, link - woven)
+                (&world.constraints.dynamic, link - woven)
             };
             if !is_over(links, at, &world.particles.x, most) {
                 continue;
@@ -196,7 +196,7 @@ fn follow(world: &mut World) {
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
-        let mean = (p.x.at(i) - p.x_last.at(i)) * inv_tick;
+        let mean = (p.x.at(i) - p.x_prev_tick.at(i)) * inv_tick;
         let own = p.v.at(i) + (p.x.at(i) - scratch.predicted.at(i)) * inv_tick - mean;
         let (own2, mean2) = (own.length_squared(), mean.length_squared());
         // What tore off in this tick has no velocity from before.
@@ -211,8 +211,8 @@ fn follow(world: &mut World) {
         };
         let change = v - p.v.at(i);
         p.v.add(i, change);
-        p.v_ahead.add(i, change);
-        p.moved.add(i, change * h);
+        p.v_extrapolated.add(i, change);
+        p.displacement.add(i, change * h);
     }
 }
 
@@ -227,7 +227,7 @@ fn is_over(links: &Links, link: usize, x: &Columns, most: f32) -> bool {
 
 /// The ends of links that are too long.
 fn over(world: &World, most: f32) -> impl Iterator<Item = (usize, usize)> + '_ {
-    [&world.constraints.links, &world.constraints.extra].into_iter().flat_map(move |links| {
+    [&world.constraints.links, &world.constraints.dynamic].into_iter().flat_map(move |links| {
         let over =
             (0..links.len()).filter(move |link| is_over(links, *link, &world.particles.x, most));
         over.map(|link| (links.a[link] as usize, links.b[link] as usize))

@@ -28,11 +28,11 @@ const SAFETY: f32 = 4.0;
 pub(crate) fn look(world: &mut World) {
     let [x, y, z] = world.particles.x.all();
     let (y, z) = (&y[..x.len()], &z[..x.len()]);
-    for set in world.tethers.sets().iter().filter(|set| set.only.is_none()) {
+    for set in world.tethers.sets().iter().filter(|set| set.single_pin.is_none()) {
         let found = &mut world.scratch.tether_anchor;
-        found.resize(set.anchor.len());
+        found.resize(set.pin.len());
         let [to_x, to_y, to_z] = found.all_mut();
-        for (((anchor, to_x), to_y), to_z) in set.anchor.iter().zip(to_x).zip(to_y).zip(to_z) {
+        for (((anchor, to_x), to_y), to_z) in set.pin.iter().zip(to_x).zip(to_y).zip(to_z) {
             let at = *anchor as usize;
             (*to_x, *to_y, *to_z) = (x[at], y[at], z[at]);
         }
@@ -62,7 +62,7 @@ fn farthest(world: &World) -> f32 {
     let (level, x) = (world.level, world.particles.x.all());
     let mut most = 0.0;
     for set in world.tethers.sets() {
-        match set.only {
+        match set.single_pin {
             Some(pin) => {
                 let pin = world.particles.x.at(pin as usize).to_array();
                 farthest_from_one(level, x, pin, &set.length, &mut most);
@@ -118,7 +118,7 @@ fn held_apart(world: &mut World) -> f32 {
     let mut most = world.pin_stretch;
     for set in world.tethers.sets() {
         for held in world.grabs.iter().map(|held| held.particle as usize) {
-            let (length, anchor) = (set.length[held], set.anchor[held]);
+            let (length, anchor) = (set.length[held], set.pin[held]);
             if length > 0.0 && length.is_finite() {
                 most = max((x.at(held) - x.at(anchor as usize)).length() / length, most);
             }
@@ -136,8 +136,8 @@ fn pins_apart(world: &World) -> f32 {
         most = max(span.length() / way, most);
     };
     for set in world.tethers.sets() {
-        if let Some(pin) = set.only {
-            let others = world.pins.hard().filter(|other| *other != pin);
+        if let Some(pin) = set.single_pin {
+            let others = world.pins.hard_particles().filter(|other| *other != pin);
             let joined = others.filter(|other| set.length[*other as usize].is_finite());
             joined.for_each(|other| compare(pin, other, set.length[other as usize]));
             continue;
@@ -146,7 +146,7 @@ fn pins_apart(world: &World) -> f32 {
         for triangle in &world.mesh.triangles {
             let [a, b, c] = triangle.map(|v| v as usize);
             for (p, q) in [(a, b), (b, c), (c, a)] {
-                let (from, to) = (set.anchor[p], set.anchor[q]);
+                let (from, to) = (set.pin[p], set.pin[q]);
                 if from != to && set.length[p].is_finite() && set.length[q].is_finite() {
                     let rest = |v: usize| world.rest[world.mesh.source[v] as usize];
                     compare(from, to, set.length[p] + (rest(q) - rest(p)).length() + set.length[q]);
@@ -178,7 +178,7 @@ fn pull_packed(
     interleaved: &mut InterleavedParticles,
 ) {
     let InterleavedParticles { points, w, .. } = interleaved;
-    let only = set.only.map(|pin| points[pin as usize]);
+    let only = set.single_pin.map(|pin| points[pin as usize]);
     let particles = (&mut points[..], &w[..], &set.length[..]);
     match only {
         Some(pin) => {
@@ -239,7 +239,7 @@ fn pull_set(
     w: &[f32],
 ) {
     let length = &set.length[..];
-    match set.only {
+    match set.single_pin {
         Some(pin) => {
             let pin = x.at(pin as usize).to_array();
             threads.parallel_for(

@@ -27,7 +27,7 @@
 use crate::math::TINY;
 use crate::math::simd::{Float, LANES, LaneArray, Scalar, Simd, vectored};
 use crate::mesh::NONE;
-use crate::model::line_blocks;
+use crate::model::chain_blocks;
 use crate::model::links::Links;
 use crate::solver::stretch::line_gather::LinePoints;
 use crate::solver::stretch::line_step::{Lanes3, LineStep};
@@ -41,7 +41,7 @@ macro_rules! solving {
     ($name:ident, $soft:literal, $gathers:literal) => {
         vectored! {
             pub(crate) fn $name(
-                block: &[line_blocks::Step],
+                block: &[chain_blocks::ChainStep],
                 points: LinePoints<'_>,
                 steps: &mut [LineStep],
                 links: &mut Links,
@@ -58,7 +58,7 @@ solving!(gather_solve_soft, true, true);
 
 /// Solves one line at a time.
 fn solve_scalar<const SOFT: bool, const GATHERS: bool>(
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
     steps: &mut [LineStep],
     links: &mut Links,
@@ -74,7 +74,7 @@ fn solve_scalar<const SOFT: bool, const GATHERS: bool>(
 #[inline(always)]
 fn solve_lanes<S: Simd, const SOFT: bool, const GATHERS: bool>(
     s: S,
-    block: &[line_blocks::Step],
+    block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
     steps: &mut [LineStep],
     links: &mut Links,
@@ -183,7 +183,7 @@ impl<S: Simd> LaneGroup<S> {
         &self,
         forward: &mut Forward<S::F>,
         last: &LineStep,
-        (laid, step): (&line_blocks::Step, &mut LineStep),
+        (laid, step): (&chain_blocks::ChainStep, &mut LineStep),
         links: &Links,
         scale: f32,
     ) {
@@ -237,7 +237,7 @@ impl<S: Simd> LaneGroup<S> {
     fn substitute<const SOFT: bool>(
         &self,
         backward: &mut Backward<S::F>,
-        (laid, step): (&line_blocks::Step, &mut LineStep),
+        (laid, step): (&chain_blocks::ChainStep, &mut LineStep),
         links: &mut Links,
     ) {
         let s = self.s;

@@ -8,9 +8,9 @@
 use crate::geometry::blade::Blade;
 use crate::geometry::triangle::corner_areas;
 use crate::math::sort::sort_by;
-use crate::mesh::split_edge::Crossing;
-use crate::mesh::{Corner, Fan, Mesh, NONE, after, before};
-use crate::model::cut_links::{Recipe, Touching};
+use crate::mesh::split_edge::CutSite;
+use crate::mesh::{Corner, Fan, Mesh, NONE, next_corner, prev_corner};
+use crate::model::cut_links::{LinksOfTriangle, RestShape};
 use crate::solver::topology::tear::{push_edge_torn_event, push_split_vertex, update_pieces};
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;
@@ -54,7 +54,7 @@ impl Plan {
 pub(crate) fn plan(world: &World, blade: &Blade) -> Plan {
     let mut draft = Draft::new(world, blade);
     draft.divide(blade);
-    draft.mesh.find_corners();
+    draft.mesh.rebuild_vertex_corners();
     let mut plan = Plan { open: draft.along(blade), ..Plan::default() };
     plan.divisions = draft.divisions;
     let (mut opened, mut copies) = (Vec::new(), Vec::new());
@@ -67,13 +67,13 @@ pub(crate) fn plan(world: &World, blade: &Blade) -> Plan {
 
 /// Does what was planned for this world as it is.
 pub(crate) fn cut(world: &mut World, plan: &Plan) {
-    let mut touching = world.constraints.touching(world.mesh.triangles.len());
+    let mut touching = world.constraints.links_of_triangles(world.mesh.triangles.len());
     let links = plan.opened + 12 * plan.divisions.len();
     world.constraints.reserve(links, world.capacity());
     for (edge, share) in &plan.divisions {
         divide(world, *edge, *share, &mut touching);
     }
-    world.mesh.find_corners();
+    world.mesh.rebuild_vertex_corners();
     let (mut opened, mut copies) = (Vec::new(), Vec::new());
     let ends = |world: &World, edge: Corner| world.mesh.ends(edge);
     let edges: Vec<(u32, u32)> = plan.open.iter().map(|edge| ends(world, *edge)).collect();
@@ -88,7 +88,7 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
         push_split_vertex(world, new, old, &mut fan);
     }
     for sides in opened {
-        world.constraints.open(&world.mesh, sides, &world.material);
+        world.constraints.open_edge(&world.mesh, sides, &world.material);
     }
     (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
     world.compute_masses();
@@ -99,16 +99,16 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
 }
 
 /// Divides one edge and all that lies on it.
-fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) {
-    let [a, b] = [world.mesh.vertex(edge), world.mesh.vertex(after(edge))];
+fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut LinksOfTriangle) {
+    let [a, b] = [world.mesh.vertex(edge), world.mesh.vertex(next_corner(edge))];
     let ends = [a, b].map(|end| world.mesh.source[end as usize]);
     let site = world.rest.len() as u32;
-    let crossing = Crossing { ends, share };
-    world.rest.push(crossing.between(|end| world.rest[end as usize]));
+    let crossing = CutSite { ends, fraction: share };
+    world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
     world.crossings.push(crossing);
-    let division = world.mesh.divide(edge, site);
+    let division = world.mesh.split_edge(edge, site);
     let vertex = match &mut world.seams {
-        Some(seams) => seams.divide(&division, [a, b], share),
+        Some(seams) => seams.split_edge(&division, [a, b], share),
         None => division.vertex,
     };
     let (mesh, rest) = (&world.mesh, &world.rest);
@@ -123,14 +123,14 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut Touching) 
     }
     let new = world.particles.push_between(a as usize, b as usize, share);
     world.scratch.push_particle();
-    let scales = [a, b].map(|end| world.mass_scales.of(end as usize));
+    let scales = [a, b].map(|end| world.mass_scales.get(end as usize));
     world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
-    let leashes = [a, b].map(|end| world.anchors.find(end).copied());
+    let leashes = [a, b].map(|end| world.anchors.get(end).copied());
     if let [Some(a), Some(b)] = leashes {
         world.anchors.insert(AnchorConstraint::between(new as u32, &a, &b, share));
     }
-    let recipe = Recipe { mesh: &world.mesh, rest: &world.rest, material: &world.material };
-    world.constraints.divide(recipe, &division, touching);
+    let recipe = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
+    world.constraints.split_edge(recipe, &division, touching);
     let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.at(new));
     (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);
@@ -198,7 +198,7 @@ impl<'a> Draft<'a> {
                 self.is_on[end.unwrap_or(nearer_first[0])] = true;
                 continue;
             }
-            let division = self.mesh.divide(edge, NONE);
+            let division = self.mesh.split_edge(edge, NONE);
             self.divisions.push((edge, share));
             self.rest.push(self.rest[a] + (self.rest[b] - self.rest[a]) * share);
             self.x.push(self.x[a] + (self.x[b] - self.x[a]) * share);
@@ -242,7 +242,7 @@ impl<'a> Draft<'a> {
             .map(|k| 3 * beyond + k)
             .find(|other| self.mesh.ends(*other) == ends);
         [Some(edge), twin].into_iter().flatten().all(|edge| {
-            let opposite = self.rest[self.mesh.vertex(before(edge)) as usize];
+            let opposite = self.rest[self.mesh.vertex(prev_corner(edge)) as usize];
             [a, b].into_iter().all(|end| self.is_no_sliver([self.rest[end], middle, opposite]))
         })
     }
@@ -288,10 +288,10 @@ impl<'a> Draft<'a> {
     }
 
     fn ends(&self, edge: Corner) -> [usize; 2] {
-        [edge, after(edge)].map(|corner| self.mesh.vertex(corner) as usize)
+        [edge, next_corner(edge)].map(|corner| self.mesh.vertex(corner) as usize)
     }
 
     fn is_pinned(&self, vertex: usize) -> bool {
-        self.world.pins.find(vertex as u32).is_some()
+        self.world.pins.get(vertex as u32).is_some()
     }
 }

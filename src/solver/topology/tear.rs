@@ -16,7 +16,7 @@
 
 use crate::math::hasher::unit;
 use crate::math::sort::sort;
-use crate::mesh::split_vertex::{Arc, Opening, best_arc};
+use crate::mesh::split_vertex::{FanArc, OpenedEdge, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::model::crack_tips;
 use crate::model::links::{LinkKind, Links};
@@ -83,7 +83,7 @@ pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
 fn refresh_crack_tips(world: &mut World, scratch: &mut TearScratch) {
     world.crack_tips.resize(world.mesh.vertex_count(), false);
     for vertex in &scratch.touched {
-        let is_tip = crack_tips::is_tip(&world.mesh, &world.rest, *vertex, &mut scratch.part);
+        let is_tip = crack_tips::is_crack_tip(&world.mesh, &world.rest, *vertex, &mut scratch.part);
         world.crack_tips[*vertex as usize] = is_tip;
     }
 }
@@ -109,13 +109,14 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
     let max_count = (world.settings.max_tears_per_tick as usize).min(room);
     let limit = world.material.tear_stretch;
     let variation = world.material.tear_variation;
-    let at_tips = crack_tips::strain(&world.material, world.mean_edge, residual_tip_strain(world));
+    let at_tips =
+        crack_tips::tear_strain(&world.material, world.mean_edge, residual_tip_strain(world));
     let min_strain = at_tips * (1.0 - 0.5 * variation);
     let p = &world.particles;
     let constraints = &world.constraints;
     let batches = constraints.batches.iter().filter(|batch| batch.kind != LinkKind::Bend);
     let batches = batches.map(|batch| (&constraints.links, batch.first..batch.first + batch.count));
-    for (links, range) in batches.chain([(&constraints.extra, 0..constraints.extra.len())]) {
+    for (links, range) in batches.chain([(&constraints.dynamic, 0..constraints.dynamic.len())]) {
         for link in range {
             let (a, b, rest) = (links.a[link], links.b[link], links.rest[link]);
             let span = p.x.at(b as usize) - p.x.at(a as usize);
@@ -157,7 +158,7 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
 fn residual_tip_strain(world: &World) -> f32 {
     let settings = &world.settings;
     let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
-    let load = settings.gravity.length() * world.constraints.lines.longest as f32;
+    let load = settings.gravity.length() * world.constraints.chains.longest as f32;
     TIP_RESIDUAL_RATIO * load * h * h / (2.0 * sweeps * world.mean_edge)
 }
 
@@ -181,11 +182,11 @@ fn open_border_edge(world: &mut World, scratch: &mut TearScratch, a: u32, b: u32
         if world.particles.w[end as usize] <= 0.0 {
             continue;
         }
-        world.mesh.fan(world.mesh.corner_of[end as usize], &mut scratch.fan);
+        world.mesh.gather_fan(world.mesh.corner_of[end as usize], &mut scratch.fan);
         let fan = &scratch.fan;
-        let spoke = fan.spokes.iter().position(|spoke| *spoke == other).unwrap_or(0);
+        let spoke = fan.ring.iter().position(|spoke| *spoke == other).unwrap_or(0);
         if !fan.is_closed && spoke > 0 && spoke < fan.corners.len() {
-            let arc = Arc { first: spoke, count: fan.corners.len() - spoke };
+            let arc = FanArc { first: spoke, count: fan.corners.len() - spoke };
             split_arc(world, scratch, end, arc);
             push_edge_torn_event(world, a, b);
             return true;
@@ -217,8 +218,10 @@ fn load(world: &World, particle: u32) -> f32 {
         if stretch > 0.0 { stretch } else { 0.0 }
     };
     let source = world.mesh.source[particle as usize];
-    let links =
-        world.constraints.of_vertex(source).chain(world.constraints.extra_of_vertex(source));
+    let links = world
+        .constraints
+        .links_of_site(source)
+        .chain(world.constraints.dynamic_links_of_site(source));
     links.map(|(links, link)| pull(links, link)).sum()
 }
 
@@ -231,7 +234,7 @@ fn try_split(world: &mut World, scratch: &mut TearScratch, end: u32, other: u32)
     }
     let x = &world.particles.x;
     let direction = x.at(other as usize) - x.at(at);
-    world.mesh.fan(world.mesh.corner_of[at], &mut scratch.fan);
+    world.mesh.gather_fan(world.mesh.corner_of[at], &mut scratch.fan);
     scratch.goes_to_new.clear();
     for corner in &scratch.fan.corners {
         let [a, b, c] = world.mesh.triangles[triangle_of(*corner)].map(|v| x.at(v as usize));
@@ -246,27 +249,27 @@ fn try_split(world: &mut World, scratch: &mut TearScratch, end: u32, other: u32)
 }
 
 /// Gives the triangles of `arc` of `scratch.fan` a new vertex, and updates links and particles.
-fn split_arc(world: &mut World, scratch: &mut TearScratch, end: u32, arc: Arc) {
+fn split_arc(world: &mut World, scratch: &mut TearScratch, end: u32, arc: FanArc) {
     // The opened edges may leave two fans at their far ends that share only that vertex, so store
     // the fans as they are before the split.
     let far_ends = far_ends(scratch, arc);
     for (vertex, fan) in far_ends.iter().zip(&mut scratch.far_fans) {
         if let Some(vertex) = vertex {
-            world.mesh.fan(world.mesh.corner_of[*vertex as usize], fan);
+            world.mesh.gather_fan(world.mesh.corner_of[*vertex as usize], fan);
         }
     }
     let mut opened = core::mem::take(&mut world.scratch.openings);
     opened.clear();
-    let new = world.mesh.split(&scratch.fan, arc, &mut opened);
+    let new = world.mesh.split_vertex(&scratch.fan, arc, &mut opened);
     push_split_vertex(world, new, end, &mut scratch.mass_fan);
-    world.tethers.admit(end);
+    world.tethers.push_copy_of(end);
     scratch.touched.extend([end, new]);
     for (vertex, fan) in far_ends.into_iter().zip(&scratch.far_fans) {
         let Some(vertex) = vertex else { continue };
         scratch.touched.push(vertex);
-        if let Some(parted) = world.mesh.part_fans(vertex, fan, &mut scratch.part) {
+        if let Some(parted) = world.mesh.split_non_manifold_vertex(vertex, fan, &mut scratch.part) {
             push_split_vertex(world, parted, vertex, &mut scratch.mass_fan);
-            world.tethers.admit(vertex);
+            world.tethers.push_copy_of(vertex);
             scratch.touched.push(parted);
         }
     }
@@ -275,12 +278,12 @@ fn split_arc(world: &mut World, scratch: &mut TearScratch, end: u32, arc: Arc) {
 }
 
 /// Far ends of the edges that a split of `arc` opens: the spokes where the arc starts and ends.
-fn far_ends(scratch: &TearScratch, arc: Arc) -> [Option<u32>; 2] {
+fn far_ends(scratch: &TearScratch, arc: FanArc) -> [Option<u32>; 2] {
     let fan = &scratch.fan;
     let n = fan.corners.len();
     let inner = |spoke: usize| {
         let inside = fan.is_closed || (spoke > 0 && spoke < n);
-        inside.then(|| fan.spokes[spoke % fan.spokes.len()])
+        inside.then(|| fan.ring[spoke % fan.ring.len()])
     };
     let first = inner(arc.first);
     let last = inner(arc.first + arc.count);
@@ -293,18 +296,18 @@ pub(crate) fn push_split_vertex(world: &mut World, new: u32, from: u32, fan: &mu
     let at = world.particles.push_copy_of(from as usize);
     debug_assert_eq!(at, new as usize);
     world.scratch.push_particle();
-    world.mass_scales.push(world.mass_scales.of(from as usize));
+    world.mass_scales.push(world.mass_scales.get(from as usize));
     for vertex in [from, new] {
         compute_mass(world, vertex, fan);
     }
     // A pin still holds both vertices, and a soft one with the same stiffness in total.
-    if let Some(pin) = world.pins.find(from).copied() {
+    if let Some(pin) = world.pins.get(from).copied() {
         world.pins.insert_copy(new, pin);
         if pin.is_soft() {
             share_stiffness(world, [from, new], pin.stiffness);
         }
     }
-    if let Some(anchor) = world.anchors.find(from).copied() {
+    if let Some(anchor) = world.anchors.get(from).copied() {
         world.anchors.insert(AnchorConstraint { particle: new, ..anchor });
     }
     [from, new].into_iter().for_each(|vertex| world.refresh_inverse_mass(vertex));
@@ -316,7 +319,7 @@ pub(crate) fn push_split_vertex(world: &mut World, new: u32, from: u32, fan: &mu
     };
     match &mut world.seams {
         // `fan` now holds the fan of the new vertex.
-        Some(seams) => seams.part(new, &fan.corners, push_event),
+        Some(seams) => seams.split_particle(new, &fan.corners, push_event),
         None => push_event(new, from),
     }
 }
@@ -328,7 +331,7 @@ fn share_stiffness(world: &mut World, vertices: [u32; 2], stiffness: f32) {
         return;
     }
     for (vertex, own) in vertices.into_iter().zip(mass) {
-        if let Some(pin) = world.pins.find_mut(vertex) {
+        if let Some(pin) = world.pins.get_mut(vertex) {
             pin.stiffness = stiffness * (own / (mass[0] + mass[1]));
         }
     }
@@ -336,22 +339,24 @@ fn share_stiffness(world: &mut World, vertices: [u32; 2], stiffness: f32) {
 
 /// Computes the mass of a vertex from its triangles, in triangle order.
 fn compute_mass(world: &mut World, vertex: u32, fan: &mut Fan) {
-    world.mesh.fan(world.mesh.corner_of[vertex as usize], fan);
+    world.mesh.gather_fan(world.mesh.corner_of[vertex as usize], fan);
     sort(&mut fan.corners);
     let density = world.material.density;
     let share =
         |corner: &u32| world.corner_area[triangle_of(*corner)][*corner as usize % 3] * density;
-    let scale = world.mass_scales.of(vertex as usize);
+    let scale = world.mass_scales.get(vertex as usize);
     world.particles.mass[vertex as usize] = fan.corners.iter().map(share).sum::<f32>() * scale;
 }
 
 /// Updates the links at opened edges, which get links on both sides.
-fn update_links(world: &mut World, opened: &[Opening]) {
+fn update_links(world: &mut World, opened: &[OpenedEdge]) {
     for sides in opened {
-        world.constraints.open(&world.mesh, *sides, &world.material);
+        world.constraints.open_edge(&world.mesh, *sides, &world.material);
     }
     for [edge, other] in opened {
-        for corner in [*edge, crate::mesh::after(*edge), *other, crate::mesh::after(*other)] {
+        for corner in
+            [*edge, crate::mesh::next_corner(*edge), *other, crate::mesh::next_corner(*other)]
+        {
             let source = world.mesh.source[world.mesh.vertex(corner) as usize];
             world.refresh_constraints_at(source);
         }
@@ -363,7 +368,7 @@ fn update_links(world: &mut World, opened: &[Opening]) {
 pub(crate) fn update_pieces(world: &mut World) {
     let mut pieces = core::mem::take(&mut world.scratch.pieces);
     core::mem::swap(&mut pieces.label, &mut pieces.old_label);
-    let count = world.mesh.pieces(&mut pieces.label, &mut world.scratch.piece_stack);
+    let count = world.mesh.label_pieces(&mut pieces.label, &mut world.scratch.piece_stack);
     if count > world.pieces {
         push_detached_events(world, &mut pieces, count);
     }

@@ -40,7 +40,7 @@ impl TearScratch {
         // fan costs one allocation, once.
         let fan = || Fan {
             corners: Vec::with_capacity(64),
-            spokes: Vec::with_capacity(65),
+            ring: Vec::with_capacity(65),
             is_closed: false,
         };
         Self {

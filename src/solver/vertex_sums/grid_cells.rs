@@ -12,7 +12,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, LaneArray, Simd};
-use crate::mesh::grid::falls;
+use crate::mesh::grid::has_falling_diagonal;
 use crate::model::grid_cells::GridCells;
 use crate::solver::vertex_sums::triangles::{
     Band, Give, Surface, V, given_by, part, rest_areas_of,
@@ -96,14 +96,14 @@ impl<'a> Given<'a> {
         let own = row.number * row.across()..(row.number + 1) * row.across();
         let (triangles, _) = row.cells.torn_triangles(row.number);
         self.is_torn = !triangles.is_empty();
-        self.is_divided = self.is_torn && row.cells.divided[own.clone()].contains(&true);
-        self.torn[1..=row.across()].copy_from_slice(&row.cells.torn[own]);
+        self.is_divided = self.is_torn && row.cells.is_cut[own.clone()].contains(&true);
+        self.torn[1..=row.across()].copy_from_slice(&row.cells.moved_corners[own]);
         if self.is_torn {
             self.kept.iter_mut().for_each(|column| column.fill(1.0));
         }
         for at in triangles {
             let (cell, half) = row.place(*at as usize);
-            let torn = row.cells.torn_corners(*at as usize);
+            let torn = row.cells.moved_corners_of(*at as usize);
             for corner in 0..3 {
                 self.kept[3 * half + corner][cell + 1] = f32::from(!torn >> corner & 1);
             }
@@ -140,8 +140,8 @@ impl Row<'_> {
     /// What falls to the corners of half a cell that no cut divided, see `grid::corner_areas`.
     #[inline(always)]
     fn corner_areas(&self, cell: usize, half: usize) -> [f32; 3] {
-        let mut areas = [self.cells.quarter; 3];
-        areas[half + usize::from(falls(self.number as u32, cell as u32))] *= 2.0;
+        let mut areas = [self.cells.corner_area; 3];
+        areas[half + usize::from(has_falling_diagonal(self.number as u32, cell as u32))] *= 2.0;
         areas
     }
 
@@ -248,7 +248,8 @@ fn fill_chunk<S: Simd, G: Give>(
 ) {
     let top = row.number * row.cells.columns + first;
     let bottom = top + row.cells.columns;
-    let falling = s.load(&BY_TURNS, usize::from(!falls(row.number as u32, first as u32)));
+    let falling =
+        s.load(&BY_TURNS, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));
     let rest_area = s.splat(row.cells.rest_area());
     let x = corners(s, surface.x, [top, bottom], falling);
     let air = corners(s, surface.air, [top, bottom], falling);
@@ -341,10 +342,11 @@ fn take<S: Simd, G: Give, const TORN: bool>(
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
-    let (area, zero) = (row.cells.quarter, s.splat(0.0));
+    let (area, zero) = (row.cells.corner_area, s.splat(0.0));
     let (quarter, half) = (s.splat(G::part(area)), s.splat(G::part(2.0 * area)));
     // Where the cell below falls, all diagonals around meet here.
-    let meets = s.load(&BY_TURNS, usize::from(!falls(row.number as u32, first as u32)));
+    let meets =
+        s.load(&BY_TURNS, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));
     let (shared, own) = (s.select_or_zero(meets, quarter), s.select(meets, quarter, half));
     let ([above, below], mut sums) = (seen, [zero; 3]);
     add::<S, TORN>(s, above, first, 2, shared, &mut sums);

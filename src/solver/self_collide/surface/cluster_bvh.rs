@@ -7,7 +7,7 @@ use crate::geometry::aabb::Aabb;
 use crate::math::simd::{Baseline, Float, Level, Simd};
 use crate::math::sort::{sort, sort_by};
 use crate::math::wide4::Float4;
-use crate::mesh::{Mesh, NONE, after};
+use crate::mesh::{Mesh, NONE, next_corner};
 use crate::solver::self_collide::surface::normal_cones::Leans;
 use crate::solver::self_collide::surface::pair_cache::Quads;
 use crate::solver::self_collide::surface::swept_aabb::{LANES, Sweep, Sweeps};
@@ -252,7 +252,7 @@ impl Patches {
 
     /// Finds the vertices and the edges of all patches.
     fn find_parts(&mut self, mesh: &Mesh) {
-        mesh.find_frayed(&mut self.frayed);
+        mesh.mark_torn_borders(&mut self.frayed);
         self.vertices.clear();
         self.edges.clear();
         self.seen_in.clear();
@@ -289,7 +289,7 @@ impl Patches {
                         other > at as u32 || (other == at as u32 && across > *triangle)
                     };
                     if is_first {
-                        self.edges.push([mesh.vertex(edge), mesh.vertex(after(edge))]);
+                        self.edges.push([mesh.vertex(edge), mesh.vertex(next_corner(edge))]);
                     }
                 }
             }

@@ -355,7 +355,8 @@ pub(crate) fn solve(world: &mut World) {
     if floor.is_some() {
         ways.clone_from(now);
     }
-    let (loads, force) = (&mut world.warm_start, 1.0 / (scheme.step * scheme.step));
+    let (loads, force) =
+        (&mut world.warm_start, 1.0 / (scheme.velocity_step * scheme.velocity_step));
     contact_solver::solve(
         world.level,
         contacts,
@@ -427,7 +428,7 @@ pub(crate) fn calm(world: &mut World) {
         && !crate::solver::particle_stage::interleaved::is_any_held(&motion.start);
     let p = &mut world.particles;
     contact_solver::find_hits(contacts, active, &p.v, speed, open);
-    for columns in [&mut p.v, &mut p.v_ahead, &mut p.moved] {
+    for columns in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
         contact_solver::calm(contacts, active, open, columns);
         tangles.calm(weights, columns);
         if !active.is_empty() {

@@ -10,7 +10,7 @@
 
 use crate::math::sort::sort_by;
 use crate::math::{TINY, min};
-use crate::mesh::{Fan, after, before};
+use crate::mesh::{Fan, next_corner, prev_corner};
 use crate::solver::world::World;
 use glam::Vec3;
 
@@ -69,12 +69,12 @@ impl Slits {
             ways: Vec::with_capacity(capacity),
             wedges: Vec::with_capacity(64),
             partings: Vec::with_capacity(64),
-            fan: Fan { corners, spokes, is_closed: false },
+            fan: Fan { corners, ring: spokes, is_closed: false },
         }
     }
 
     pub fn bytes(&self) -> usize {
-        let fan = self.fan.corners.capacity() + self.fan.spokes.capacity();
+        let fan = self.fan.corners.capacity() + self.fan.ring.capacity();
         size_of::<Vec3>() * self.ways.capacity()
             + size_of::<Wedge>() * self.wedges.capacity()
             + size_of::<Parting>() * self.partings.capacity()
@@ -121,10 +121,10 @@ impl Slits {
         let mut hair = world.mean_edge * HAIR;
         self.wedges.clear();
         for (copy, vertex) in vertices.iter().enumerate() {
-            mesh.fan(mesh.corner_of[*vertex as usize], &mut self.fan);
+            mesh.gather_fan(mesh.corner_of[*vertex as usize], &mut self.fan);
             let at = x.at(*vertex as usize);
             for corner in &self.fan.corners {
-                let edges = [after(*corner), before(*corner)].map(|end| {
+                let edges = [next_corner(*corner), prev_corner(*corner)].map(|end| {
                     let edge = x.at(mesh.vertex(end) as usize) - at;
                     let length = edge.length();
                     hair = min(hair, length * SHORT);
@@ -239,7 +239,7 @@ pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
         crate::solver::self_collide::surface::begin(world);
         for (vertex, way) in copies.iter().zip(&ways) {
             world.particles.x.add(*vertex as usize, *way);
-            world.particles.x_last.add(*vertex as usize, *way);
+            world.particles.x_prev_tick.add(*vertex as usize, *way);
         }
         crate::solver::self_collide::surface::follow(world);
         crate::solver::self_collide::surface::hold(world);

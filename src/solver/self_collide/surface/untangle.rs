@@ -73,7 +73,7 @@ pub(crate) struct Tangles {
 impl Tangles {
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let fan = self.fan.corners.capacity() + self.fan.spokes.capacity();
+        let fan = self.fan.corners.capacity() + self.fan.ring.capacity();
         let words = self.lots.capacity() + self.counts.capacity() + 2 * self.cut.capacity() + fan;
         size_of::<Crossing>() * self.crossings.capacity() + self.parts.capacity() + 4 * words
     }
@@ -238,8 +238,8 @@ impl Tangles {
         self.parts[inner as usize] |= INNER;
         for corner in corners {
             self.parts[corner as usize] |= PIERCED;
-            mesh.fan(mesh.corner_of[corner as usize], &mut self.fan);
-            for beside in &self.fan.spokes {
+            mesh.gather_fan(mesh.corner_of[corner as usize], &mut self.fan);
+            for beside in &self.fan.ring {
                 self.parts[*beside as usize] |= PIERCED;
             }
         }
@@ -346,7 +346,7 @@ fn beside<'a>(
     mesh: &'a Mesh,
     fan: &'a mut Fan,
 ) -> impl Iterator<Item = u32> + 'a {
-    mesh.fan(mesh.corner_of[p as usize], fan);
+    mesh.gather_fan(mesh.corner_of[p as usize], fan);
     let all = fan.corners.iter().map(|corner| mesh.triangles[triangle_of(*corner)]);
     all.filter(move |corners| corners.contains(&q))
         .flat_map(move |corners| corners.into_iter().filter(move |at| *at != p && *at != q))

@@ -7,12 +7,12 @@
 )]
 
 use crate::math::simd::{Float, MAX_LANES, Simd};
-use crate::model::grid_rows::Pattern;
+use crate::model::grid_rows::RowPattern;
 use crate::solver::stretch::grid_kernel::row_layout::Place;
 use crate::solver::stretch::grid_links::STRAIGHT;
 use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, compute_correction};
 
-const PAIRS: u8 = Pattern::Pairs as u8;
+const PAIRS: u8 = RowPattern::Pairs as u8;
 
 /// What all links of a row have in common.
 #[derive(Clone, Copy)]

@@ -7,7 +7,7 @@
 )]
 
 use crate::math::simd::Simd;
-use crate::model::grid_rows::{Pattern, Row};
+use crate::model::grid_rows::{LinkRow, RowPattern};
 use crate::solver::stretch::grid_links::{STRAIGHT, Sheet};
 
 /// The fewest lanes that there are.
@@ -16,14 +16,14 @@ const FEWEST: usize = 4;
 /// How many links of a row go in chunks: all, but for those of a row shorter than any chunk, and an
 /// odd one where every two links belong together.
 #[inline(always)]
-pub(crate) fn in_chunks(row: &Row) -> usize {
-    chunked(row.count, row.pattern == Pattern::Quads)
+pub(crate) fn in_chunks(row: &LinkRow) -> usize {
+    chunked(row.count, row.pattern == RowPattern::Quads)
 }
 
 /// As `in_chunks`, of a row whose pattern is known.
 #[inline(always)]
-pub(crate) fn in_chunks_of<const PATTERN: u8>(row: &Row) -> usize {
-    chunked(row.count, PATTERN == Pattern::Quads as u8)
+pub(crate) fn in_chunks_of<const PATTERN: u8>(row: &LinkRow) -> usize {
+    chunked(row.count, PATTERN == RowPattern::Quads as u8)
 }
 
 #[inline(always)]
@@ -80,7 +80,7 @@ impl Lists {
     /// # Panics
     /// If its first `count` links do not lie within the sheet.
     #[inline(always)]
-    pub fn spot<const PATTERN: u8>(&self, row: &Row, count: usize) -> Spot {
+    pub fn spot<const PATTERN: u8>(&self, row: &LinkRow, count: usize) -> Spot {
         // What lies before the sheet is far behind it then.
         let particle = |number: u32| number.wrapping_sub(self.first_particle) as usize;
         let b = if PATTERN == STRAIGHT { row.b } else { row.a };

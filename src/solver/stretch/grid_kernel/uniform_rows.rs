@@ -7,7 +7,7 @@
 )]
 
 use crate::math::simd::{MAX_LANES, Simd};
-use crate::model::grid_rows::Row;
+use crate::model::grid_rows::LinkRow;
 use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
 use crate::solver::stretch::grid_kernel::row_layout::{Lists, Spot, in_chunks_of};
 use crate::solver::stretch::grid_links::{STRAIGHT, solve_last};
@@ -36,8 +36,8 @@ impl Alike {
     /// # Panics
     /// If they do not lie within the lists, or are not alike.
     #[inline(always)]
-    pub fn of<const PATTERN: u8>(lists: &Lists, rows: &[Row]) -> Self {
-        let spot = |row: &Row| lists.spot::<PATTERN>(row, in_chunks_of::<PATTERN>(row));
+    pub fn of<const PATTERN: u8>(lists: &Lists, rows: &[LinkRow]) -> Self {
+        let spot = |row: &LinkRow| lists.spot::<PATTERN>(row, in_chunks_of::<PATTERN>(row));
         let (first, last) = (&rows[0], &rows[rows.len() - 1]);
         // There may be no next.
         let step = rows.get(1).map_or(0, |next| next.a - first.a) as usize;
@@ -48,7 +48,7 @@ impl Alike {
             step,
             rows: rows.len(),
             count: in_chunks_of::<PATTERN>(first),
-            even: first.even.map(|link| link.saturating_sub(first.first) as usize),
+            even: first.equal_mass.map(|link| link.saturating_sub(first.first) as usize),
         };
         let are_alike = last.count == first.count && own.row(own.rows - 1) == own.last;
         assert!(are_alike, "rows are alike");

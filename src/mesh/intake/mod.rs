@@ -19,11 +19,11 @@ use glam::Vec3;
 
 /// A mesh that can be cloth.
 #[derive(Clone, Debug)]
-pub(crate) struct Intake {
+pub(crate) struct RepairedMesh {
     /// Triangles over particles.
     pub mesh: Mesh,
     /// The given vertex at which each particle lies.
-    pub places: Vec<u32>,
+    pub source_vertices: Vec<u32>,
     /// The vertices, unless each is the particle of its number.
     pub seams: Option<Seams>,
     pub report: MeshReport,
@@ -42,61 +42,66 @@ pub(crate) fn repair(
     indices: &[u32],
     weld_distance: f32,
     capacity: impl Fn(usize) -> Result<usize>,
-) -> Result<Intake> {
+) -> Result<RepairedMesh> {
     let (given, _) = indices.as_chunks::<3>();
     let count = positions.len() as u32;
     if let Some(index) = indices.iter().find(|index| **index >= count) {
         return Err(Error::BadIndex { field: "indices", index: *index, count });
     }
     let welded = weld::weld(positions, given, weld_distance);
-    let sifted = remove_degenerate::sift(positions, given, &welded)?;
-    let (mut places, particles) = number(&welded);
-    let woven = places.len();
-    let mut vertices: Vec<[u32; 3]> = sifted.kept.iter().map(|at| given[*at as usize]).collect();
+    let kept = remove_degenerate::remove_degenerate(positions, given, &welded)?;
+    let (mut source_vertices, particles) = number_particles(&welded);
+    let welded_count = source_vertices.len();
+    let mut vertices: Vec<[u32; 3]> = kept.triangles.iter().map(|at| given[*at as usize]).collect();
     let mut triangles: Vec<[u32; 3]> =
         vertices.iter().map(|corners| corners.map(|v| particles[v as usize])).collect();
-    let place = |particle: u32| positions[places[particle as usize] as usize];
-    let parted = split_non_manifold::part(&mut triangles, woven, place);
-    let copied: Vec<u32> = parted.copies.iter().map(|(old, _)| places[*old as usize]).collect();
-    places.extend(copied);
-    let mut mesh = Mesh::new(triangles, places.len(), capacity(places.len())?);
-    let facing = orient::orient(&mesh);
-    mesh.turn(&facing.turned);
+    let position = |particle: u32| positions[source_vertices[particle as usize] as usize];
+    let manifold = split_non_manifold::split_non_manifold(&mut triangles, welded_count, position);
+    let copied: Vec<u32> =
+        manifold.copies.iter().map(|(old, _)| source_vertices[*old as usize]).collect();
+    source_vertices.extend(copied);
+    let mut mesh = Mesh::new(triangles, source_vertices.len(), capacity(source_vertices.len())?);
+    let orientation = orient::orient(&mesh);
+    mesh.flip_triangles(&orientation.flipped);
     let report = MeshReport {
         vertices: count,
         triangles: given.len() as u32,
-        particles: places.len() as u32,
-        kept_triangles: sifted.kept.len() as u32,
-        welded_vertices: count - woven as u32,
-        dropped_degenerate: sifted.degenerate,
-        dropped_duplicates: sifted.duplicates,
-        turned_triangles: facing.turned.iter().filter(|turned| **turned).count() as u32,
-        split_edges: parted.split_edges,
-        split_vertices: parted.copies.len() as u32,
-        unused_vertices: unused(&vertices, positions.len()),
-        pieces: facing.pieces,
-        one_sided_pieces: facing.one_sided,
+        particles: source_vertices.len() as u32,
+        kept_triangles: kept.triangles.len() as u32,
+        welded_vertices: count - welded_count as u32,
+        dropped_degenerate: kept.degenerate,
+        dropped_duplicates: kept.duplicates,
+        turned_triangles: orientation.flipped.iter().filter(|flipped| **flipped).count() as u32,
+        split_edges: manifold.split_edges,
+        split_vertices: manifold.copies.len() as u32,
+        unused_vertices: count_unused(&vertices, positions.len()),
+        pieces: orientation.pieces,
+        one_sided_pieces: orientation.non_orientable,
         is_grid: false,
     };
-    let is_plain = places.len() == positions.len() && parted.copies.is_empty();
+    let is_plain = source_vertices.len() == positions.len() && manifold.copies.is_empty();
     let seams = (!is_plain).then(|| {
-        for (corners, _) in vertices.iter_mut().zip(&facing.turned).filter(|(_, turned)| **turned) {
+        for (corners, _) in
+            vertices.iter_mut().zip(&orientation.flipped).filter(|(_, flipped)| **flipped)
+        {
             corners.swap(1, 2);
         }
         let mut seams = Seams::new(vertices, particles);
-        for (at, (_, corners)) in parted.copies.iter().enumerate() {
-            let corners: Vec<Corner> =
-                corners.iter().map(|corner| after_turning(*corner, &facing.turned)).collect();
-            seams.part((woven + at) as u32, &corners, |_, _| {});
+        for (at, (_, corners)) in manifold.copies.iter().enumerate() {
+            let corners: Vec<Corner> = corners
+                .iter()
+                .map(|corner| corner_after_flip(*corner, &orientation.flipped))
+                .collect();
+            seams.split_particle((welded_count + at) as u32, &corners, |_, _| {});
         }
         seams
     });
-    Ok(Intake { mesh, places, seams, report })
+    Ok(RepairedMesh { mesh, source_vertices, seams, report })
 }
 
 /// Where a corner is after its triangle was turned, if it was.
-fn after_turning(corner: Corner, turned: &[bool]) -> Corner {
-    match (turned[corner as usize / 3], corner % 3) {
+fn corner_after_flip(corner: Corner, flipped: &[bool]) -> Corner {
+    match (flipped[corner as usize / 3], corner % 3) {
         (true, 1) => corner + 1,
         (true, 2) => corner - 1,
         _ => corner,
@@ -104,22 +109,22 @@ fn after_turning(corner: Corner, turned: &[bool]) -> Corner {
 }
 
 /// Numbers the vertices that others were welded to: the vertex of each, and the number for each vertex.
-fn number(welded: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let (mut places, mut particles) = (Vec::with_capacity(welded.len()), Vec::new());
+fn number_particles(welded: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let (mut source_vertices, mut particles) = (Vec::with_capacity(welded.len()), Vec::new());
     particles.resize(welded.len(), 0);
     for (vertex, to) in welded.iter().enumerate() {
         // The vertex that stayed is never a later one.
         if *to == vertex as u32 {
-            particles[vertex] = places.len() as u32;
-            places.push(*to);
+            particles[vertex] = source_vertices.len() as u32;
+            source_vertices.push(*to);
         } else {
             particles[vertex] = particles[*to as usize];
         }
     }
-    (places, particles)
+    (source_vertices, particles)
 }
 
-fn unused(triangles: &[[u32; 3]], count: usize) -> u32 {
+fn count_unused(triangles: &[[u32; 3]], count: usize) -> u32 {
     let mut is_used = vec![false; count];
     triangles.iter().flatten().for_each(|v| is_used[*v as usize] = true);
     is_used.iter().filter(|used| !**used).count() as u32

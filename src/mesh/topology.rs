@@ -1,0 +1,309 @@
+//! Indexed triangles that can be split: who lies across each edge, and the fan around each vertex.
+
+use crate::math::sort::sort;
+use serde::{Deserialize, Serialize};
+
+/// No triangle, no corner.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// A corner of a triangle: `3 * triangle + 0, 1 or 2`.
+pub(crate) type Corner = u32;
+
+/// Triangles over vertices. Edge `e` of a triangle runs from its corner `e` to corner `e + 1`.
+///
+/// Invariants: an edge has at most two triangles; the triangles of a vertex form one fan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Mesh {
+    /// Vertex of each corner.
+    pub triangles: Vec<[u32; 3]>,
+    /// Triangle across each edge, or `NONE` at a border.
+    pub across: Vec<[u32; 3]>,
+    /// One corner of each vertex; `NONE` where no triangle uses it.
+    pub corner_of: Vec<Corner>,
+    /// The site of each vertex, see `divide::Crossing`: the original vertex it came from, or where a cut
+    /// made it.
+    pub source: Vec<u32>,
+    /// Which edges of each triangle were borders from the start, or are parts of such: bit `e` for edge `e`.
+    pub rest_borders: Vec<u8>,
+    /// Vertices before anything tore.
+    pub original_count: u32,
+}
+
+/// The triangles around a vertex, in order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Fan {
+    /// The vertex's corner in each triangle.
+    pub corners: Vec<Corner>,
+    /// The other end of the edge between a triangle and the one before it: one more entry than
+    /// `corners` for an open fan, as many for a closed one.
+    pub ring: Vec<u32>,
+    /// Whether the last triangle meets the first again.
+    pub is_closed: bool,
+}
+
+/// The triangle of a corner.
+#[inline(always)]
+pub(crate) fn triangle_of(corner: Corner) -> usize {
+    corner as usize / 3
+}
+
+/// The corner after this one in its triangle.
+#[inline(always)]
+pub(crate) fn next_corner(corner: Corner) -> Corner {
+    if corner % 3 == 2 { corner - 2 } else { corner + 1 }
+}
+
+/// The corner before this one in its triangle.
+#[inline(always)]
+pub(crate) fn prev_corner(corner: Corner) -> Corner {
+    if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 }
+}
+
+impl Mesh {
+    /// Connects triangles that are known to be sound; see `intake` for those that are not, and `sound`.
+    pub fn new(triangles: Vec<[u32; 3]>, vertex_count: usize, capacity: usize) -> Self {
+        let mut corner_of = Vec::with_capacity(capacity);
+        corner_of.resize(vertex_count, NONE);
+        let mut source = Vec::with_capacity(capacity);
+        source.extend(0..vertex_count as u32);
+        let across = vec![[NONE; 3]; triangles.len()];
+        let original_count = vertex_count as u32;
+        let rest_borders = vec![0; triangles.len()];
+        let mut mesh = Self { triangles, across, corner_of, source, rest_borders, original_count };
+        mesh.rebuild_adjacency();
+        for (rest_borders, across) in mesh.rest_borders.iter_mut().zip(&mesh.across) {
+            *rest_borders = (0..3).filter(|edge| across[*edge] == NONE).map(|edge| 1 << edge).sum();
+        }
+        mesh
+    }
+
+    pub fn vertex_count(&self) -> usize {
+        self.source.len()
+    }
+
+    /// The vertex at a corner.
+    #[inline(always)]
+    pub fn vertex(&self, corner: Corner) -> u32 {
+        self.triangles[triangle_of(corner)][corner as usize % 3]
+    }
+
+    /// The triangle across the edge that starts at `corner`.
+    #[inline(always)]
+    pub fn across(&self, corner: Corner) -> u32 {
+        self.across[triangle_of(corner)][corner as usize % 3]
+    }
+
+    /// Whether the edge that starts at `corner` was a border from the start, or is part of one.
+    pub fn is_rest_border(&self, corner: Corner) -> bool {
+        self.rest_borders[triangle_of(corner)] >> (corner % 3) & 1 == 1
+    }
+
+    /// Marks the vertices at borders that tears and cuts made.
+    pub fn mark_torn_borders(&self, marks: &mut Vec<bool>) {
+        marks.clear();
+        marks.resize(self.vertex_count(), false);
+        for edge in 0..3 * self.triangles.len() as u32 {
+            if self.across(edge) == NONE && !self.is_rest_border(edge) {
+                for end in [edge, next_corner(edge)] {
+                    marks[self.vertex(end) as usize] = true;
+                }
+            }
+        }
+    }
+
+    /// The edges, each once: the corner where it starts in its first triangle.
+    pub fn edges(&self) -> impl Iterator<Item = Corner> + '_ {
+        (0..3 * self.triangles.len() as u32)
+            .filter(|corner| self.across(*corner) == NONE || self.across(*corner) > corner / 3)
+    }
+
+    /// The corner of `vertex` in `triangle`.
+    pub fn corner_in(&self, triangle: u32, vertex: u32) -> Option<Corner> {
+        let at = self.triangles[triangle as usize].iter().position(|v| *v == vertex)?;
+        Some(3 * triangle + at as u32)
+    }
+
+    /// Walks the fan around the vertex of `start`, from its border on if it has one.
+    ///
+    /// Works whichever way the triangles wind: it leaves each by the edge it did not enter by.
+    pub fn gather_fan(&self, start: Corner, fan: &mut Fan) {
+        let vertex = self.vertex(start);
+        fan.corners.clear();
+        fan.ring.clear();
+        // Back to the border, or once around.
+        let (mut at, mut entry) = (start, prev_corner(start));
+        loop {
+            match self.cross_edge(vertex, entry) {
+                None => break,
+                Some((next, _)) if next == start => break,
+                Some((next, exit)) => (at, entry) = (next, exit),
+            }
+        }
+        let (first, first_entry) = (at, entry);
+        fan.is_closed = self.cross_edge(vertex, first_entry).is_some();
+        fan.ring.push(self.other_end(vertex, first_entry));
+        // And forward, leaving by the other edge.
+        let mut exit = self.other_edge(vertex, first, first_entry);
+        loop {
+            fan.corners.push(at);
+            match self.cross_edge(vertex, exit) {
+                Some((next, _)) if next == first => break,
+                Some((next, next_exit)) => {
+                    fan.ring.push(self.other_end(vertex, exit));
+                    (at, exit) = (next, next_exit);
+                }
+                None => {
+                    fan.ring.push(self.other_end(vertex, exit));
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Through the edge that starts at corner `edge`: the vertex's corner in the triangle beyond,
+    /// and the other edge at the vertex there.
+    fn cross_edge(&self, vertex: u32, edge: Corner) -> Option<(Corner, Corner)> {
+        let next = self.across(edge);
+        if next == NONE {
+            return None;
+        }
+        let came_from = edge / 3;
+        let corner = self.corner_in(next, vertex)?;
+        let (out, back) = (corner, prev_corner(corner));
+        let entry = if self.across(out) == came_from && self.ends(out) == self.ends(edge) {
+            out
+        } else {
+            back
+        };
+        Some((corner, if entry == out { back } else { out }))
+    }
+
+    /// The edge at `vertex` in the triangle of `corner` that is not `edge`.
+    fn other_edge(&self, vertex: u32, corner: Corner, edge: Corner) -> Corner {
+        debug_assert_eq!(self.vertex(corner), vertex);
+        if edge == corner { prev_corner(corner) } else { corner }
+    }
+
+    fn other_end(&self, vertex: u32, edge: Corner) -> u32 {
+        let (a, b) = (self.vertex(edge), self.vertex(next_corner(edge)));
+        if a == vertex { b } else { a }
+    }
+
+    /// The two vertices of the edge that starts at `edge`, the lower first.
+    pub fn ends(&self, edge: Corner) -> (u32, u32) {
+        let (a, b) = (self.vertex(edge), self.vertex(next_corner(edge)));
+        (a.min(b), a.max(b))
+    }
+
+    /// Finds who lies across each edge, and one corner of each vertex.
+    pub fn rebuild_adjacency(&mut self) {
+        let mut edges: Vec<((u32, u32), Corner)> = (0..3 * self.triangles.len() as u32)
+            .map(|corner| (self.ends(corner), corner))
+            .collect();
+        sort(&mut edges);
+        self.across.fill([NONE; 3]);
+        for pair in edges.windows(2) {
+            if let [(ends, a), (same, b)] = pair
+                && ends == same
+            {
+                self.across[triangle_of(*a)][*a as usize % 3] = b / 3;
+                self.across[triangle_of(*b)][*b as usize % 3] = a / 3;
+            }
+        }
+        self.rebuild_vertex_corners();
+    }
+
+    /// Finds one corner of each vertex, the lowest.
+    pub fn rebuild_vertex_corners(&mut self) {
+        self.corner_of.fill(NONE);
+        for corner in (0..3 * self.triangles.len() as u32).rev() {
+            let vertex = self.vertex(corner) as usize;
+            self.corner_of[vertex] = corner;
+        }
+    }
+
+    /// Turns triangles round that are marked: the second and the third corner change places.
+    pub fn flip_triangles(&mut self, flipped: &[bool]) {
+        for at in (0..self.triangles.len()).filter(|at| flipped[*at]) {
+            self.triangles[at].swap(1, 2);
+            // The edge between them stays, the other two change places with the corners they start at.
+            self.across[at].swap(0, 2);
+            let rest_borders = self.rest_borders[at];
+            self.rest_borders[at] = rest_borders & 2 | rest_borders << 2 & 4 | rest_borders >> 2;
+        }
+        self.rebuild_vertex_corners();
+    }
+
+    /// The number of pieces: sets of triangles joined by edges. `label` gets one entry a triangle.
+    pub fn label_pieces(&self, label: &mut [u32], stack: &mut Vec<u32>) -> u32 {
+        label.fill(NONE);
+        let mut count = 0;
+        for seed in 0..self.triangles.len() {
+            if label[seed] != NONE {
+                continue;
+            }
+            label[seed] = count;
+            stack.clear();
+            stack.push(seed as u32);
+            while let Some(triangle) = stack.pop() {
+                for next in self.across[triangle as usize] {
+                    if next != NONE && label[next as usize] == NONE {
+                        label[next as usize] = count;
+                        stack.push(next);
+                    }
+                }
+            }
+            count += 1;
+        }
+        count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six triangles around vertex 0, every second one wound the other way.
+    fn hexagon() -> Mesh {
+        let ring = |i: u32| i % 6 + 1;
+        let triangles = (0..6).map(|i| {
+            if i % 2 == 0 { [0, ring(i), ring(i + 1)] } else { [ring(i + 1), ring(i), 0] }
+        });
+        Mesh::new(triangles.collect(), 7, 7)
+    }
+
+    #[test]
+    fn the_fan_of_an_inner_vertex_is_closed_whichever_way_triangles_wind() {
+        let (mesh, mut fan) = (hexagon(), Fan::default());
+        mesh.gather_fan(mesh.corner_of[0], &mut fan);
+        assert!(fan.is_closed);
+        assert_eq!(fan.corners.len(), 6);
+        let mut ring = fan.ring.clone();
+        ring.sort_unstable();
+        assert_eq!(ring, [1, 2, 3, 4, 5, 6]);
+        for (i, corner) in fan.corners.iter().enumerate() {
+            let [a, b] = [fan.ring[i], fan.ring[(i + 1) % 6]];
+            let triangle = mesh.triangles[triangle_of(*corner)];
+            assert!(triangle.contains(&a) && triangle.contains(&b), "{triangle:?} {a} {b}");
+        }
+    }
+
+    #[test]
+    fn turning_keeps_up_to_date_what_connecting_finds() {
+        let mut mesh = hexagon();
+        mesh.flip_triangles(&[false, true, true, false, false, true]);
+        let (triangles, turned) = (mesh.triangles.clone(), mesh.clone());
+        assert_eq!(triangles[1], [3, 0, 2], "it was 3, 2, 0");
+        assert_eq!(turned, Mesh::new(triangles, 7, 7));
+    }
+
+    #[test]
+    fn the_fan_of_a_border_vertex_runs_from_border_to_border() {
+        let (mesh, mut fan) = (hexagon(), Fan::default());
+        mesh.gather_fan(mesh.corner_of[1], &mut fan);
+        assert!(!fan.is_closed);
+        assert_eq!(fan.corners.len(), 2);
+        assert_eq!(fan.ring.len(), 3);
+        assert_eq!(fan.ring[1], 0);
+    }
+}
