@@ -4,7 +4,7 @@
 //! colours. A link that tears or gets another particle leaves its row (its mask turns 0); if it still
 //! holds, it goes on as a stray.
 
-use crate::math::simd::MOST_LANES;
+use crate::math::simd::MAX_LANES;
 use crate::model::link_set::LinkSet;
 use crate::model::links::{LinkBatch, Links};
 use crate::model::sparse_links::SparseLinks;
@@ -171,7 +171,7 @@ impl LinkRow {
     /// only bring what is uneven, at borders, between what is even.
     fn is_full(&self, columns: u32) -> bool {
         let is_whole = self.pattern != RowPattern::Straight && 2 * self.count == columns;
-        is_whole && self.count.is_multiple_of(MOST_LANES as u32)
+        is_whole && self.count.is_multiple_of(MAX_LANES as u32)
     }
 
     /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper

@@ -2,7 +2,7 @@
 
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
-use crate::geometry::shape::Form;
+use crate::geometry::shape::CollisionShape;
 use crate::math::max;
 use crate::state::collider_desc::ColliderDesc;
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
@@ -48,15 +48,15 @@ pub(crate) struct ColliderBody {
     pub impulse: Impulse,
     /// Its shape, made from the descriptor.
     #[serde(skip)]
-    form: Option<Arc<Form>>,
+    collision_shape: Option<Arc<CollisionShape>>,
 }
 
 impl ColliderBody {
     pub fn new(desc: ColliderDesc) -> Result<Self> {
         desc.check()?;
         let pose = Pose::new(desc.position, desc.rotation);
-        let form = Some(Arc::new(desc.form()?));
-        Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), form })
+        let collision_shape = Some(Arc::new(desc.collision_shape()?));
+        Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), collision_shape })
     }
 
     /// Refuses a body that cannot be, and sees to its shape; for bytes from outside.
@@ -66,19 +66,19 @@ impl ColliderBody {
         check_finite(self.impulse.angular, "collider.impulse")?;
         check_pose(self.last.position, self.last.rotation, COLLIDER_FIELDS)?;
         check_pose(self.next.position, self.next.rotation, COLLIDER_FIELDS)?;
-        self.form = Some(Arc::new(self.desc.form()?));
+        self.collision_shape = Some(Arc::new(self.desc.collision_shape()?));
         Ok(())
     }
 
     /// Its shape; nothing before it was revived.
-    pub fn form(&self) -> Option<&Form> {
-        self.form.as_deref()
+    pub fn collision_shape(&self) -> Option<&CollisionShape> {
+        self.collision_shape.as_deref()
     }
 
     /// How far a point of it is at most from the straight way between where the tick finds it and where it leaves
     /// it, because it turns [m].
-    pub fn max_arc_deviation(&self, form: &Form) -> f32 {
-        let bounds = form.bounds();
+    pub fn max_arc_deviation(&self, collision_shape: &CollisionShape) -> f32 {
+        let bounds = collision_shape.bounds();
         let farthest = bounds.low.abs().max(bounds.high.abs()).length();
         let dot: f32 = {
             let (from, to) = (self.last.rotation.to_array(), self.next.rotation.to_array());

@@ -1,7 +1,7 @@
 //! What moves: positions, their history, velocities and masses.
 
 use crate::math::columns::Columns;
-use crate::math::{between, finite};
+use crate::math::{lerp, saturate};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +17,7 @@ pub(crate) struct Particles {
     pub v: Columns,
     /// Velocity as its history lets expect it for the next substep, (4 v - v_prev) / 3 [m/s].
     pub v_extrapolated: Columns,
-    /// Where they were one tick ago [m]: to blend between ticks when drawing, and to mend from.
+    /// Where they were one tick ago [m]: to blend lerp ticks when drawing, and to mend from.
     pub x_prev_tick: Columns,
     /// Mass [kg].
     pub mass: Vec<f32>,
@@ -92,12 +92,12 @@ impl Particles {
         self.len() - 1
     }
 
-    /// Adds a particle between two others, at a share of the way from `a` to `b`, and gives its index. It
+    /// Adds a particle lerp two others, at a share of the way from `a` to `b`, and gives its index. It
     /// is free; its mass is still to be found.
     pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
         for columns in self.all_columns() {
             let (from, to) = (columns.at(a), columns.at(b));
-            columns.push(between(from, to, share));
+            columns.push(lerp(from, to, share));
         }
         self.mass.push(0.0);
         self.w.push(0.0);
@@ -108,8 +108,8 @@ impl Particles {
     pub fn set_motion(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);
         self.v.set(i, v);
-        self.displacement.set(i, finite(v * h - gravity * (0.5 * h * h)));
-        self.v_extrapolated.set(i, finite(v + gravity * (h * (1.0 / 3.0))));
+        self.displacement.set(i, saturate(v * h - gravity * (0.5 * h * h)));
+        self.v_extrapolated.set(i, saturate(v + gravity * (h * (1.0 / 3.0))));
     }
 
     /// Begins every history anew, for another kind of substep. Velocities stay.

@@ -65,7 +65,8 @@ impl Pose {
 
     /// Where it gets to with a body that jumps from one pose to another.
     pub fn moved_with(&self, from: &Self, to: &Self) -> Self {
-        let position = to.to_transform().outward(from.to_transform().inward(self.position));
+        let position =
+            to.to_transform().point_to_world(from.to_transform().point_to_local(self.position));
         let [x, y, z, w] = from.rotation.to_array();
         let turn = quat_product(to.rotation, Quat::from_xyzw(-x, -y, -z, w));
         Self::new(position, quat_product(turn, self.rotation))

@@ -1,8 +1,8 @@
 //! The air around a cloth: a steady wind that gusts, wanders and swirls, always the same way.
 
 use crate::error::{Result, check, check_finite};
-use crate::math::mixer::unit;
-use crate::math::trig::{cos, sin, wave};
+use crate::math::hasher::unit;
+use crate::math::trig::{cos, sin, sin_branchless};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -128,9 +128,9 @@ impl WindSample {
     #[inline(always)]
     pub fn turbulence_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
         [
-            wave(y * 3.1 + z * 1.7 + self.phase[0]) * self.turbulence,
-            wave(z * 3.1 + x * 1.7 + self.phase[1]) * self.turbulence,
-            wave(x * 3.1 + y * 1.7 + self.phase[2]) * self.turbulence,
+            sin_branchless(y * 3.1 + z * 1.7 + self.phase[0]) * self.turbulence,
+            sin_branchless(z * 3.1 + x * 1.7 + self.phase[1]) * self.turbulence,
+            sin_branchless(x * 3.1 + y * 1.7 + self.phase[2]) * self.turbulence,
         ]
     }
 }
