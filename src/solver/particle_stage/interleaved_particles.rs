@@ -1,11 +1,12 @@
 //! Interleaved positions for the distance constraints and the implicit bending of meshes.
 //!
 //! The position of a particle is one aligned load of `[x, y, z, 0]`, whatever its index is; columns
-//! would need three loads from three cache lines. Inverse masses stay in a list of their own, because
-//! most links have the weights of their ends beside them (see `stretch::end_weights`).
+//! would need three loads from three cache lines. Inverse masses stay in a list of their own,
+//! because most links have the weights of their ends beside them (see `stretch::end_weights`).
 //!
 //! `gather` reads the columns of `Particles`; `scatter` writes the positions back to them.
-//! Invariant: while `is_current`, these positions are the valid ones and the columns are out of date.
+//! Invariant: while `is_current`, these positions are the valid ones and the columns are out of
+//! date.
 
 use crate::math::columns::Columns;
 use crate::solver::particle_stage::access::ParticleAccess;

@@ -56,7 +56,8 @@ pub(crate) fn remove(world: &mut World) {
     update_copies(&mut world.constraints);
 }
 
-/// Applies the formulas of the module doc, with `ratio` = τ / h, to all active stretch and shear links.
+/// Applies the formulas of the module doc, with `ratio` = τ / h, to all active stretch and shear
+/// links.
 fn damp(links: &mut Links, start: impl Fn(u32) -> Vec3, ratio: f32) {
     let inverse = 1.0 / (1.0 + ratio);
     for link in 0..links.len() {

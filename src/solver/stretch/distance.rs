@@ -13,10 +13,11 @@
 //! ```
 //! Macklin, Müller, Chentanez, "XPBD", MIG 2016, eq. 18.
 //!
-//! Reads `constraints`, `material`, `particles.w`; writes `particles.x` (or the interleaved copy while
-//! that is current) and λ of the links.
-//! Invariant: the links of one colour share no particle, so the order inside a colour does not change
-//! the result; the extra links of torn edges come after all batches (before them in a backward sweep).
+//! Reads `constraints`, `material`, `particles.w`; writes `particles.x` (or the interleaved copy
+//! while that is current) and λ of the links.
+//! Invariant: the links of one colour share no particle, so the order inside a colour does not
+//! change the result; the extra links of torn edges come after all batches (before them in a
+//! backward sweep).
 
 #[cfg(feature = "parallel")]
 use crate::solver::stretch::tiling;

@@ -1,11 +1,13 @@
-//! Weights of the two ends of every link, stored beside the link so that kernels load them in order.
+//! Weights of the two ends of every link, stored beside the link so that kernels load them in
+//! order.
 //!
 //! Under `SOFT` a weight is the inverse mass [1/kg] of the particle. Under `RIGID` only the ratio
-//! matters, so both are divided by their mean (`link_projection::relative_weights`). They are 1 and 1
-//! where both ends have the same inverse mass, which holds almost everywhere; there a kernel neither
-//! loads nor multiplies by a weight.
+//! matters, so both are divided by their mean (`link_projection::relative_weights`). They are 1 and
+//! 1 where both ends have the same inverse mass, which holds almost everywhere; there a kernel
+//! neither loads nor multiplies by a weight.
 //!
-//! Written by `inverse_masses::refresh`; read by the kernels of `grid_links`, `mesh_kernel`, `sparse`.
+//! Written by `inverse_masses::refresh`; read by the kernels of `grid_links`, `mesh_kernel`,
+//! `sparse`.
 //! Invariant: `ends` and `is_even` have one entry per link of `constraints.links`.
 
 use crate::math::column::Column;

@@ -3,9 +3,9 @@
 //! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
 //! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
 //! left of a row after whole chunks is one more chunk that reaches over its end, of which only the
-//! row's links count; at the end of all lists one that reaches back. It writes what is beyond anew as
-//! it was, and what follows would have to wait for that: so ends come after the whole chunks of many
-//! rows. GridRows that are alike, as nearly all are, go together (see `alike`).
+//! row's links count; at the end of all lists one that reaches back. It writes what is beyond anew
+//! as it was, and what follows would have to wait for that: so ends come after the whole chunks of
+//! many rows. GridRows that are alike, as nearly all are, go together (see `alike`).
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -196,7 +196,8 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     for row in rows.iter().filter(|row| row.is_torn) {
         let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
         let (start, mut done) = (lists.spot::<PATTERN>(row, count), 0);
-        // SAFETY: the row was just found to lie within the lists; there is room for whole chunks, or none is made.
+        // SAFETY: the row was just found to lie within the lists; there is room for whole chunks,
+        // or none is made.
         unsafe {
             while S::LANES > Baseline::LANES && done < count {
                 let spot = start.after::<PATTERN>(done);
@@ -272,9 +273,9 @@ impl ParticleAccess for Sheet<'_> {
     }
 }
 
-/// Solves links `done` to `count` of a row, if there are any: by the fewest lanes at a time, the last ones as a
-/// chunk that reaches back over links which are done, as nothing may lie behind. So few rows need it that one way
-/// to go about it serves all machines.
+/// Solves links `done` to `count` of a row, if there are any: by the fewest lanes at a time, the
+/// last ones as a chunk that reaches back over links which are done, as nothing may lie behind. So
+/// few rows need it that one way to go about it serves all machines.
 ///
 /// # Safety
 /// The row lies within the lists, and has links for the fewest lanes if it has any.

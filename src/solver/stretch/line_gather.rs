@@ -4,11 +4,12 @@
 //! columns or interleaved  ──gather──▶  points [x, y, z, w]  ──gather_step──▶  LineStep (8 lanes)
 //!                         ◀─scatter──                       ◀─scatter_block─
 //! ```
-//! A particle is one load of `[x, y, z, w]`, and eight of them are transposed to lanes. Entry 0 of the
-//! points is a sentinel: lanes without a link read and write it, so that no lane needs a branch.
+//! A particle is one load of `[x, y, z, w]`, and eight of them are transposed to lanes. Entry 0 of
+//! the points is a sentinel: lanes without a link read and write it, so that no lane needs a
+//! branch.
 //!
-//! Reads positions, inverse masses and `scratch.predicted − scratch.displacement`, the positions at the
-//! start of the substep; writes `scratch.lines` and at the end the positions.
+//! Reads positions, inverse masses and `scratch.predicted − scratch.displacement`, the positions at
+//! the start of the substep; writes `scratch.lines` and at the end the positions.
 //! Invariant: the particle with index i has the entry i + 1.
 
 // Where there is no SIMD, only the scalar path is used.
@@ -26,8 +27,8 @@ use crate::solver::stretch::line_step::{
 };
 use crate::solver::world::World;
 
-/// Copies the particles to `scratch.lines.points`, and their positions at the start of the substep if
-/// links are rigid.
+/// Copies the particles to `scratch.lines.points`, and their positions at the start of the substep
+/// if links are rigid.
 pub(crate) fn gather(world: &mut World, is_rigid: bool) {
     let (level, p, scratch) = (world.level, &world.particles, &mut world.scratch);
     let s = &mut scratch.lines;
@@ -65,8 +66,8 @@ pub(crate) struct LinePoints<'a> {
 impl LinePoints<'_> {
     /// Gathers the positions, inverse masses and target lengths of `S::LANES` lanes of a step.
     ///
-    /// `start` holds the positions at the start of the substep: of the step before on entry, of this
-    /// step on return.
+    /// `start` holds the positions at the start of the substep: of the step before on entry, of
+    /// this step on return.
     #[inline(always)]
     pub fn gather_step<S: Simd, const SOFT: bool>(
         &self,

@@ -1,8 +1,8 @@
 //! Scratch buffers of the line solver.
 //!
 //! Written and read by `line_solver`, `line_gather` and `line_strided`.
-//! Invariant: entry 0 of every list is a sentinel that belongs to no particle and no link; lanes of a
-//! block without a link use it.
+//! Invariant: entry 0 of every list is a sentinel that belongs to no particle and no link; lanes of
+//! a block without a link use it.
 
 use crate::math::columns::Columns;
 use crate::solver::stretch::line_step::LineStep;
@@ -21,8 +21,8 @@ pub(crate) struct LineScratch {
 }
 
 impl LineScratch {
-    /// Allocates buffers for blocks of at most `steps` steps over `particles` particles, and columns
-    /// if the blocks may be strips.
+    /// Allocates buffers for blocks of at most `steps` steps over `particles` particles, and
+    /// columns if the blocks may be strips.
     pub fn new(steps: usize, particles: usize, has_strips: bool) -> Self {
         Self {
             points: Vec::with_capacity(particles + 1),

@@ -1,4 +1,5 @@
-//! Stage `Stretch`, first sweep of a substep: direct solve of whole lines (chains of stretch links).
+//! Stage `Stretch`, first sweep of a substep: direct solve of whole lines (chains of stretch
+//! links).
 //!
 //! ```text
 //! x₀ ●──── 1 ────● x₁ ──── 2 ────● x₂ ──── 3 ────● x₃        n_i = (x_i − x_{i−1}) / |x_i − x_{i−1}|
@@ -11,14 +12,14 @@
 //! (w₋ + w₊ + α̃) λ − w₋ (n₋·n) λ₋ − w₊ (n·n₊) λ₊ = C        C = |x_i − x_{i−1}| − target
 //! ```
 //! w₋, w₊: inverse masses of the two ends; λ₋, λ₊: multipliers of the links before and after; α̃:
-//! compliance / h², 0 for rigid links. It is solved by elimination forward and substitution backward
-//! (Thomas algorithm). So one solve carries a load from one end of the line to the other, where sweeps
-//! would need as many iterations as the line has links.
+//! compliance / h², 0 for rigid links. It is solved by elimination forward and substitution
+//! backward (Thomas algorithm). So one solve carries a load from one end of the line to the other,
+//! where sweeps would need as many iterations as the line has links.
 //!
 //! **Displacements.** A link under tension (λ > 0) pulls along its direction at the *end* of the
 //! substep, not along its predicted one: its pull is q (span + u − u₋), with q = λ / target. A link
-//! under compression pulls along n. The displacements u then solve a second tridiagonal system with one
-//! row per particle, eliminated backward and substituted forward:
+//! under compression pulls along n. The displacements u then solve a second tridiagonal system with
+//! one row per particle, eliminated backward and substituted forward:
 //!
 //! ```text
 //! (1 + w (q + q₊)) u − w q u₋ − w q₊ u₊ = w p        p = t₊ n₊ − t n
@@ -27,18 +28,19 @@
 //! Without it, a long line whose sideways vibration is faster than a substep would jitter.
 //!
 //! **Targets.** The target of a compliant link is its rest length. That of a rigid link keeps 70 % of
-//! the error which it had at the start of the substep: in a tangle, lines contradict other constraints,
-//! and lines that remove the whole error at once never come to rest.
+//! the error which it had at the start of the substep: in a tangle, lines contradict other
+//! constraints, and lines that remove the whole error at once never come to rest.
 //!
 //! ```text
 //! target = rest + (1 − 0.3) (length at the start of the substep − rest)
 //! ```
 //!
-//! Reads `constraints.lines` (eight lines side by side per block, see `model::line_blocks`), positions,
-//! inverse masses, the positions at the start of the substep; writes positions, and λ of compliant
-//! links.
-//! Invariant: the lines of a block share no particle and each lane is a line of its own, so the number
-//! of lanes does not change the result; no particle moves farther than the rest length of its link.
+//! Reads `constraints.lines` (eight lines side by side per block, see `model::line_blocks`),
+//! positions, inverse masses, the positions at the start of the substep; writes positions, and λ of
+//! compliant links.
+//! Invariant: the lines of a block share no particle and each lane is a line of its own, so the
+//! number of lanes does not change the result; no particle moves farther than the rest length of
+//! its link.
 
 use crate::math::max;
 use crate::math::simd::{LANES, Level, Scalar};
@@ -59,9 +61,9 @@ const MAX_SWEEP_STRAIN: f32 = 1.0e-3;
 
 /// Whether lines are solved directly.
 ///
-/// The plain scheme (no tethers, or one iteration) uses sweeps only. Otherwise the direct solve runs if
-/// sweeps would leave too much strain: n sweeps leave a hanging line of N links with the mean strain
-/// g h² N / (2 n rest).
+/// The plain scheme (no tethers, or one iteration) uses sweeps only. Otherwise the direct solve
+/// runs if sweeps would leave too much strain: n sweeps leave a hanging line of N links with the
+/// mean strain g h² N / (2 n rest).
 pub(crate) fn is_needed(world: &World) -> bool {
     let settings = &world.settings;
     let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
@@ -89,8 +91,8 @@ pub(crate) fn solve(world: &mut World) {
 
 /// Whether a block is gathered as a whole before it is solved.
 ///
-/// WebAssembly engines run out of registers in a loop that also gathers. On other targets the gather of
-/// a step overlaps with the latency of the step before.
+/// WebAssembly engines run out of registers in a loop that also gathers. On other targets the
+/// gather of a step overlaps with the latency of the step before.
 const GATHERS_BLOCK_FIRST: bool = cfg!(target_arch = "wasm32");
 
 /// Solves blocks whose particles are at arbitrary indices.
@@ -148,7 +150,8 @@ fn set_rest_targets(block: &[chain_blocks::ChainStep], steps: &mut [LineStep]) {
     }
 }
 
-/// Solves a block that was gathered; `scale` is 1/h² [1/s²] for compliant links, none for rigid ones.
+/// Solves a block that was gathered; `scale` is 1/h² [1/s²] for compliant links, none for rigid
+/// ones.
 fn solve_gathered(
     level: Level,
     block: &[chain_blocks::ChainStep],

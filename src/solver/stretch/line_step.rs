@@ -1,5 +1,5 @@
-//! One step of a block of lines: eight links side by side (one per lane) and the particles that they
-//! run to.
+//! One step of a block of lines: eight links side by side (one per lane) and the particles that
+//! they run to.
 //!
 //! A step carries a link through the line solver (see `line_solver` for the two systems):
 //!
@@ -9,8 +9,8 @@
 //! substitution  n ← offset, rhs ← share       by tridiagonal, backward over the steps
 //! scatter       u = share u₋ + offset         by line_gather or line_strided, forward
 //! ```
-//! Fields are reused for a second quantity once the first is no longer needed, so that a whole block
-//! fits into the L1 cache.
+//! Fields are reused for a second quantity once the first is no longer needed, so that a whole
+//! block fits into the L1 cache.
 //!
 //! Reads and writes its own fields only.
 //! Invariant: the lanes do not interact, so a lane has the bits of a line that is solved alone.
@@ -48,8 +48,8 @@ impl LineStep {
         s.store(&mut self.inv_target, first, s.splat(1.0) / target);
     }
 
-    /// Sets the target lengths of rigid links: `1 - MAX_ERROR_REDUCTION` of the error at the start of
-    /// the substep, where they had the length `start_length`, remains.
+    /// Sets the target lengths of rigid links: `1 - MAX_ERROR_REDUCTION` of the error at the start
+    /// of the substep, where they had the length `start_length`, remains.
     #[inline(always)]
     pub fn set_relaxed_target<S: Simd>(
         &mut self,
@@ -113,9 +113,9 @@ pub(crate) fn max_component<S: Simd>(s: S, [x, y, z]: [S::F; 3]) -> S::F {
 
 /// Positive if a displacement whose largest component is `component` may be longer than `limit`.
 ///
-/// A vector that is longer than `limit` has a component above limit / √3 = 0.577 limit. Comparing the
-/// squared length would be exact, but the squares of a cloth at rest are denormal numbers, which
-/// processors handle slowly.
+/// A vector that is longer than `limit` has a component above limit / √3 = 0.577 limit. Comparing
+/// the squared length would be exact, but the squares of a cloth at rest are denormal numbers,
+/// which processors handle slowly.
 #[inline(always)]
 pub(crate) fn limit_excess<S: Simd>(
     s: S,

@@ -26,7 +26,8 @@ use crate::solver::stretch::line_step::{
     LineStep, abs, clamp_length, length, limit_excess, max_component,
 };
 
-/// The lanes of the smallest vector (`Baseline`), and the number of steps that are transposed at once.
+/// The lanes of the smallest vector (`Baseline`), and the number of steps that are transposed at
+/// once.
 const FOUR: usize = 4;
 
 type Vector = <Baseline as Simd>::F;
@@ -56,7 +57,8 @@ fn subtract_lanes(a: &[f32], b: &[f32], difference: &mut [f32]) {
     }
 }
 
-// `#[inline(never)]` on the loops below: WebAssembly engines run out of registers in long functions.
+// `#[inline(never)]` on the loops below: WebAssembly engines run out of registers in long
+// functions.
 
 /// Gathers the positions and inverse masses of a strip.
 pub(crate) fn gather(strip: StridedBlock, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
@@ -157,7 +159,8 @@ pub(crate) fn set_relaxed_targets(
     }
     let own = starts.map(|column| &column[1..]);
     strip.assert_within(steps.len(), own);
-    // SAFETY: the strip lies within the columns, as was just checked, and the sentinel is before them.
+    // SAFETY: the strip lies within the columns, as was just checked, and the sentinel is before
+    // them.
     unsafe {
         if strip.chain_stride == 1 {
             set_relaxed_targets_direct(strip, own.map(<[f32]>::as_ptr), block, steps);
@@ -205,8 +208,8 @@ unsafe fn set_relaxed_targets_transposed(
     steps: &mut [LineStep],
 ) {
     let s = Baseline::new();
-    // The length of the link that runs to particle `at`. For the first particle of a line the result
-    // belongs to no link and is not used.
+    // The length of the link that runs to particle `at`. For the first particle of a line the
+    // result belongs to no link and is not used.
     let start_length = |at: usize| {
         // SAFETY: the caller guarantees it.
         unsafe {
@@ -382,8 +385,8 @@ fn scatter_line_clamped(
     }
 }
 
-/// The starts of blocks of four steps that cover `count` steps; the last block may overlap with the one
-/// before.
+/// The starts of blocks of four steps that cover `count` steps; the last block may overlap with the
+/// one before.
 fn blocks_of_four(count: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by(FOUR).map(move |start| start.min(count - FOUR))
 }

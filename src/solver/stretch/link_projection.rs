@@ -11,14 +11,15 @@
 //! | `RIGID` | Halley's step towards the root of l² = rest², w relative to the mean of both | below |
 //! | `BOUND` | as `SOFT` with α̃ = 0 and C = max(l − limit · rest, 0) | Provot 1995 |
 //!
-//! XPBD: Macklin, Müller, Chentanez, "XPBD", MIG 2016. Halley's step needs no square root: a link of
-//! length l gets the length l (l² + 3 rest²) / (3 l² + rest²), which turns an error of 10 % into one
-//! of 0.03 %. Provot: "Deformation constraints in a mass-spring model", Graphics Interface 1995.
+//! XPBD: Macklin, Müller, Chentanez, "XPBD", MIG 2016. Halley's step needs no square root: a link
+//! of length l gets the length l (l² + 3 rest²) / (3 l² + rest²), which turns an error of 10 % into
+//! one of 0.03 %. Provot: "Deformation constraints in a mass-spring model", Graphics Interface
+//! 1995.
 //!
-//! Reads the ends' positions and weights, `rest`, `compliance` and λ; writes the positions and, under
-//! `SOFT`, λ.
-//! Invariant: every SIMD kernel calls [`compute_correction`], so that all kernels give the same bits
-//! as the scalar code.
+//! Reads the ends' positions and weights, `rest`, `compliance` and λ; writes the positions and,
+//! under `SOFT`, λ.
+//! Invariant: every SIMD kernel calls [`compute_correction`], so that all kernels give the same
+//! bits as the scalar code.
 
 use crate::math::simd::{Float, Scalar, Simd};
 use crate::math::{TINY, max};
@@ -33,7 +34,8 @@ pub(crate) const RIGID: u8 = 1;
 /// Law of a link that resists only if it is longer than a limit.
 pub(crate) const BOUND: u8 = 2;
 
-/// Whether the links of a kind have no compliance, so that they need no multiplier from sweep to sweep.
+/// Whether the links of a kind have no compliance, so that they need no multiplier from sweep to
+/// sweep.
 pub(crate) fn is_rigid(material: &Material, kind: LinkKind) -> bool {
     let stretch_is_rigid =
         material.stretch_stiffness_warp == 0.0 && material.stretch_stiffness_weft == 0.0;

@@ -1,9 +1,9 @@
 //! SIMD kernel for the links of meshes that are not grids.
 //!
 //! While links are solved, positions are interleaved (see `interleaved_particles`), so that the
-//! position of a particle is one load whatever its index is, and each link has the weights of its ends
-//! beside it (see `end_weights`). The links of a colour share no particle, so that threads may split
-//! them; each thread then owns the points at the ends of its links.
+//! position of a particle is one load whatever its index is, and each link has the weights of its
+//! ends beside it (see `end_weights`). The links of a colour share no particle, so that threads may
+//! split them; each thread then owns the points at the ends of its links.
 //!
 //! Reads the links of a batch and their weights; writes the interleaved positions and λ.
 //! Invariant: all arithmetic is `link_projection::compute_correction`, so the bits are those of the
@@ -85,8 +85,8 @@ pub(crate) fn solve<const LAW: u8>(
 
 /// The links of one colour that one thread solves, and all particles.
 ///
-/// Only `solve` makes one, after it checked that every end is a particle; no other thread accesses the
-/// particles at these ends at the same time.
+/// Only `solve` makes one, after it checked that every end is a particle; no other thread accesses
+/// the particles at these ends at the same time.
 struct MeshColor<'a> {
     a: &'a [u32],
     b: &'a [u32],
@@ -214,11 +214,12 @@ impl ParticleAccess for MeshColor<'_> {
 /// The `is_even` of eight links whose ends all have equal weights.
 const EVEN: [bool; 8] = [true; 8];
 
-/// Solves `S::LANES` links from `first` on: with `MASKED`, the active ones only; with `IS_EVEN`, the two
-/// ends of each have the same weight.
+/// Solves `S::LANES` links from `first` on: with `MASKED`, the active ones only; with `IS_EVEN`,
+/// the two ends of each have the same weight.
 ///
 /// # Safety
-/// Both ends of each link are below the number of points, and no other thread accesses these points.
+/// Both ends of each link are below the number of points, and no other thread accesses these
+/// points.
 #[inline(always)]
 unsafe fn solve_chunk<S: GatherPairs, const LAW: u8, const MASKED: bool, const IS_EVEN: bool>(
     s: S,

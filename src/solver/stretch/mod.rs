@@ -1,4 +1,5 @@
-//! Stage `Stretch` and its bounds: distance constraints, line solver, tethers, strain limit, damping.
+//! Stage `Stretch` and its bounds: distance constraints, line solver, tethers, strain limit,
+//! damping.
 
 pub(crate) mod damping;
 pub(crate) mod damping_scratch;

@@ -1,5 +1,5 @@
-//! Rollback positions for the strain limit: the positions of the last tick, moved along with the rigid
-//! motion of each piece.
+//! Rollback positions for the strain limit: the positions of the last tick, moved along with the
+//! rigid motion of each piece.
 //!
 //! The lengths of all links were within `max_stretch` at the end of the last tick. A rigid motion
 //! changes no length, so a piece that returns to
@@ -14,7 +14,8 @@
 //!
 //! Reads `particles`, pins, grabs, attachments, anchors, the piece of each triangle; writes
 //! `scratch.rollback`.
-//! Invariant: held particles (w = 0) roll back to where they are now, so that the rollback moves none.
+//! Invariant: held particles (w = 0) roll back to where they are now, so that the rollback moves
+//! none.
 
 use crate::geometry::transform::Transform;
 use crate::mesh::{NONE, triangle_of};
@@ -67,8 +68,8 @@ pub(crate) fn compute(world: &mut World) {
     world.scratch.rollback = rollback;
 }
 
-/// The last and the current frame of the attachment that holds the first attached particle of a piece,
-/// if an attachment holds one.
+/// The last and the current frame of the attachment that holds the first attached particle of a
+/// piece, if an attachment holds one.
 fn attachment_frames(
     world: &World,
     mut particles: impl Iterator<Item = usize>,

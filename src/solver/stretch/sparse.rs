@@ -1,10 +1,11 @@
 //! SIMD kernel for sparse links: links at arbitrary indices, whose ends are gathered and scattered.
 //!
-//! These are the links that left the rows of a grid (strays) and the extra links that tears made. They
-//! have colours of their own. Links of a batch that could not be coloured go one by one, in sweep order.
+//! These are the links that left the rows of a grid (strays) and the extra links that tears made.
+//! They have colours of their own. Links of a batch that could not be coloured go one by one, in
+//! sweep order.
 //!
-//! Reads `SparseLinks` (ends, rest lengths, weights) and the compliances of the list that they index;
-//! writes positions and λ.
+//! Reads `SparseLinks` (ends, rest lengths, weights) and the compliances of the list that they
+//! index; writes positions and λ.
 //! Invariant: all arithmetic is `link_projection::compute_correction`, so the bits are those of the
 //! scalar code; the links of a colour share no particle, so lanes may go in any order.
 

@@ -1,12 +1,12 @@
 //! Stage `Limit`: after a tick no stretch or shear link is longer than `max_stretch` lets it be.
 //!
-//! Sweeps draw in what is too long, in the manner of Provot, "Deformation constraints in a mass-spring
-//! model", Graphics Interface 1995. That converges fast but promises nothing, so the ends of what is
-//! left go back to where they were a tick ago, and with them whatever that stretches: the bound held
-//! there, so this ends. What a particle is moved by, it moved over the whole tick, so its velocity
-//! changes by that, as far as it got anywhere. A cloth that was held apart has nowhere to go back
-//! to: it gets more sweeps, a few ticks of them where it was pulled far out, and no velocity from
-//! them.
+//! Sweeps draw in what is too long, in the manner of Provot, "Deformation constraints in a
+//! mass-spring model", Graphics Interface 1995. That converges fast but promises nothing, so the
+//! ends of what is left go back to where they were a tick ago, and with them whatever that
+//! stretches: the bound held there, so this ends. What a particle is moved by, it moved over the
+//! whole tick, so its velocity changes by that, as far as it got anywhere. A cloth that was held
+//! apart has nowhere to go back to: it gets more sweeps, a few ticks of them where it was pulled
+//! far out, and no velocity from them.
 
 use crate::solver::collide;
 use crate::solver::stretch::distance::project_upper_bound;
@@ -53,8 +53,8 @@ pub(crate) fn draw_in(world: &mut World) {
     KINDS.into_iter().for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, aim));
 }
 
-/// Makes the bound hold. Where pins, grabs or leashes hold a cloth apart it cannot; that is told once, until
-/// it holds again.
+/// Makes the bound hold. Where pins, grabs or leashes hold a cloth apart it cannot; that is told
+/// once, until it holds again.
 pub(crate) fn enforce(world: &mut World) {
     let allowance = world.settings.max_stretch;
     let (most, inner) = (1.0 + allowance, 1.0 + allowance * (1.0 - HAIR));
@@ -105,7 +105,8 @@ fn draw_together(world: &mut World, most: f32) {
         // There is nothing to go back to; and what was held apart comes together, but is not flung.
         stop(world);
     } else {
-        // What leashes hold apart finds its way together as they let it: that it was, is not to go back to.
+        // What leashes hold apart finds its way together as they let it: that it was, is not to go
+        // back to.
         if !(was_over && is_led) {
             go_back(world, most);
         }
@@ -124,8 +125,8 @@ fn stop(world: &mut World) {
     }
 }
 
-/// Draws in what is too long from the pins outward. Of the two ends of a link the one that is farther
-/// from the pins gives way, so that a chain that hangs is right after one sweep.
+/// Draws in what is too long from the pins outward. Of the two ends of a link the one that is
+/// farther from the pins gives way, so that a chain that hangs is right after one sweep.
 fn hang(world: &mut World, aim: f32) {
     let (links, p) = (&world.constraints.links, &mut world.particles);
     for link in world.pin_order.order() {
@@ -157,8 +158,8 @@ fn is_held_apart(world: &World, most: f32) -> bool {
     })
 }
 
-/// Takes the ends of every link that is too long back to where they were, see `home`, and with them what
-/// that stretches, until nothing is too long that was not before.
+/// Takes the ends of every link that is too long back to where they were, see `home`, and with them
+/// what that stretches, until nothing is too long that was not before.
 fn go_back(world: &mut World, most: f32) {
     rollback::compute(world);
     let woven = world.constraints.links.len();

@@ -367,8 +367,8 @@ fn to_many_apart(
     }
 }
 
-/// `x` where it is held or within `reach` of `pin`, else as far towards it as that; nothing if all are where they
-/// may be.
+/// `x` where it is held or within `reach` of `pin`, else as far towards it as that; nothing if all
+/// are where they may be.
 #[inline(always)]
 pub(crate) fn within<S: Simd>(
     s: S,
@@ -457,8 +457,8 @@ fn greatest<S: Simd>(s: S, numbers: S::F) -> f32 {
     lanes.into_iter().fold(0.0, max)
 }
 
-/// The square of how far a particle is from its pin over the way. A pin is no way from itself, which is no
-/// number here, and counts for nothing.
+/// The square of how far a particle is from its pin over the way. A pin is no way from itself,
+/// which is no number here, and counts for nothing.
 #[inline(always)]
 fn ratio2<F: Float>(x: [F; 3], pin: [F; 3], length: F) -> F {
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];

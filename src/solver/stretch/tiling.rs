@@ -1,7 +1,7 @@
 //! The links of a grid on several threads.
 //!
-//! Each thread takes a band of the grid's rows through all colours of a kind. What a colour joins to
-//! other bands it leaves undone, and in the colours after that whatever hangs on it:
+//! Each thread takes a band of the grid's rows through all colours of a kind. What a colour joins
+//! to other bands it leaves undone, and in the colours after that whatever hangs on it:
 //!
 //! ```text
 //! colour 1  ─────────╮╭─────────      each sign is a row of the grid
@@ -31,8 +31,8 @@ const ROWS: usize = 16;
 /// Bands begin at multiples of so many rows, where most first colours join nothing.
 const GRAIN: usize = 4;
 
-/// Solves batches of rows, one colour after the other, if it pays to have several threads at that; else
-/// does nothing and says so. Among the links of more than one batch there must be no strays.
+/// Solves batches of rows, one colour after the other, if it pays to have several threads at that;
+/// else does nothing and says so. Among the links of more than one batch there must be no strays.
 pub(crate) fn solve<const LAW: u8>(
     world: &mut World,
     batches: Range<usize>,
@@ -153,7 +153,8 @@ struct Sweep<'a> {
     ends: [&'a [f32]; 2],
 }
 
-/// What one thread changes: particles from some row on, and the multipliers of links that start there.
+/// What one thread changes: particles from some row on, and the multipliers of links that start
+/// there.
 struct Part<'a> {
     sweep: &'a Sweep<'a>,
     first_particle: u32,

@@ -1,7 +1,7 @@
 //! SIMD kernel of the line solver: the two tridiagonal systems of a block of lines.
 //!
-//! For the equations see `line_solver`. The forward pass eliminates the first system (tensions); the
-//! backward pass substitutes the tensions and, in the same loop, eliminates the second system
+//! For the equations see `line_solver`. The forward pass eliminates the first system (tensions);
+//! the backward pass substitutes the tensions and, in the same loop, eliminates the second system
 //! (displacements). The substitution of the displacements is part of the scatter:
 //!
 //! ```text
@@ -13,10 +13,11 @@
 //! ```
 //! with d = (w₋ + w₊)(1 + REGULARIZATION) + α̃ and c = w₋ (n₋·n).
 //!
-//! Reads gathered positions, weights and targets (`LineStep`); writes the shares and offsets into the
-//! steps, and −λ of compliant links.
-//! Invariant: lanes do not interact. Where a piece of a line begins, and behind its last link, there is
-//! a step without a link (rest ≤ 0): its λ, q and coupling are 0, so it separates the systems.
+//! Reads gathered positions, weights and targets (`LineStep`); writes the shares and offsets into
+//! the steps, and −λ of compliant links.
+//! Invariant: lanes do not interact. Where a piece of a line begins, and behind its last link,
+//! there is a step without a link (rest ≤ 0): its λ, q and coupling are 0, so it separates the
+//! systems.
 
 // Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
@@ -32,11 +33,12 @@ use crate::model::links::Links;
 use crate::solver::stretch::line_gather::LinePoints;
 use crate::solver::stretch::line_step::{Lanes3, LineStep};
 
-/// Added to the diagonal as a share of it, and the least pivot as a share of w₋ + w₊: the system of a
-/// straight line with two held ends is singular.
+/// Added to the diagonal as a share of it, and the least pivot as a share of w₋ + w₊: the system of
+/// a straight line with two held ends is singular.
 const REGULARIZATION: f32 = 1.0e-6;
 
-/// Defines a function that solves a block: with compliance or without, gathering it or gathered before.
+/// Defines a function that solves a block: with compliance or without, gathering it or gathered
+/// before.
 macro_rules! solving {
     ($name:ident, $soft:literal, $gathers:literal) => {
         vectored! {
@@ -231,8 +233,8 @@ impl<S: Simd> LaneGroup<S> {
         self.s.load(&softness, 0)
     }
 
-    /// Substitutes λ of this link, and eliminates the coupling to the particle after from the row of
-    /// this particle in the second system.
+    /// Substitutes λ of this link, and eliminates the coupling to the particle after from the row
+    /// of this particle in the second system.
     #[inline(always)]
     fn substitute<const SOFT: bool>(
         &self,

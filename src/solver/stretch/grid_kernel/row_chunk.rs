@@ -23,11 +23,12 @@ pub(crate) struct Terms {
     pub rest: f32,
 }
 
-/// Links that are about to be solved: where their ends are, what leads from the lower to the upper ones, the shares
-/// of it that these are to move by, and the links' multipliers then; as dealt but for the ends.
+/// Links that are about to be solved: where their ends are, what leads from the lower to the upper
+/// ones, the shares of it that these are to move by, and the links' multipliers then; as dealt but
+/// for the ends.
 ///
-/// Chunks have nothing to do with each other, so processors go on with the next while they wait for a division.
-/// Engines run out of registers if code says so too.
+/// Chunks have nothing to do with each other, so processors go on with the next while they wait for
+/// a division. Engines run out of registers if code says so too.
 #[derive(Clone, Copy)]
 pub(crate) struct Chunk<F> {
     /// The positions of both halves of all ends, as they lie in memory.
@@ -114,7 +115,8 @@ impl<F: Float> Chunk<F> {
         unsafe { self.store::<LAW, PATTERN, false>(s, place, self.lambda) }
     }
 
-    /// The same of those links alone that are to be kept, as they lie in memory; what is beyond is written anew as it was.
+    /// The same of those links alone that are to be kept, as they lie in memory; what is beyond is
+    /// written anew as it was.
     #[inline(always)]
     pub unsafe fn finish_only<const LAW: u8, const PATTERN: u8>(
         self,
@@ -210,7 +212,8 @@ fn pushed<S: Simd, const PATTERN: u8, const MASKED: bool>(
     [to_a, to_b]: [S::F; 2],
     keep: S::F,
 ) -> [S::F; 2] {
-    // What changes no number at all, not even a zero's sign, when it is added, and when it is taken.
+    // What changes no number at all, not even a zero's sign, when it is added, and when it is
+    // taken.
     let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
     let chosen = |v: S::F, nothing: S::F| if MASKED { s.select(keep, v, nothing) } else { v };
     if PATTERN == STRAIGHT {

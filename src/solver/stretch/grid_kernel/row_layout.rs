@@ -166,8 +166,8 @@ impl Spot {
     }
 }
 
-/// Where some links of a row lie, and the particles at their lower and upper ends; the first and the second half
-/// of all where they alternate.
+/// Where some links of a row lie, and the particles at their lower and upper ends; the first and
+/// the second half of all where they alternate.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
     pub x: [*mut f32; 2],

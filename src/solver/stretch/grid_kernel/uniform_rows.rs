@@ -1,4 +1,5 @@
-//! Rows of a grid that are alike, one after the other with nothing to find out for each; or one row.
+//! Rows of a grid that are alike, one after the other with nothing to find out for each; or one
+//! row.
 
 // Where there are no vectors, all goes number by number.
 #![cfg_attr(
@@ -14,7 +15,8 @@ use crate::solver::stretch::grid_links::{STRAIGHT, solve_last};
 use crate::solver::stretch::link_projection::{BOUND, RIGID};
 use core::ops::Range;
 
-/// Links that go together, about: the positions at their ends fit into the nearest memory several times.
+/// Links that go together, about: the positions at their ends fit into the nearest memory several
+/// times.
 const BLOCK: usize = 1024;
 
 /// Rows that differ in nothing but their places, which are as far from each other.
@@ -81,7 +83,8 @@ impl Alike {
         let [from, to] = self.even;
         let from = if LAW == BOUND { chunks } else { from.div_ceil(S::LANES).min(chunks) };
         let to = (to / S::LANES).clamp(from, chunks);
-        // Chunks of a kind go together, in so few rows that these are still near when the others come.
+        // Chunks of a kind go together, in so few rows that these are still near when the others
+        // come.
         let block = (BLOCK / self.count.max(1)).max(1);
         // SAFETY: the first and the last row lie within the lists, and all others between them.
         unsafe {
@@ -99,7 +102,8 @@ impl Alike {
             if left == 0 {
                 return;
             }
-            // Two ends that fill half a chunk each are one, where all that is loaded for them are places.
+            // Two ends that fill half a chunk each are one, where all that is loaded for them are
+            // places.
             let is_even = self.even[0] <= whole && self.even[1] >= self.count;
             let mut rows = 0..self.rows;
             if LAW == RIGID && PATTERN != STRAIGHT && is_even && 2 * left <= S::LANES {
@@ -146,12 +150,12 @@ impl Alike {
         }
     }
 
-    /// Solves the last `left` links of some rows, fewer than a chunk; with `BY_TWOS` set, those of two
-    /// rows at a time, as far as there are two and room. Gives the first row that it left.
+    /// Solves the last `left` links of some rows, fewer than a chunk; with `BY_TWOS` set, those of
+    /// two rows at a time, as far as there are two and room. Gives the first row that it left.
     ///
     /// # Safety
-    /// All rows lie within the lists; two ends of even links fit into a chunk, each in half of it, if they
-    /// are to go by twos.
+    /// All rows lie within the lists; two ends of even links fit into a chunk, each in half of it,
+    /// if they are to go by twos.
     #[inline(always)]
     unsafe fn solve_ends<S: Simd, const LAW: u8, const PATTERN: u8, const BY_TWOS: bool>(
         &self,
