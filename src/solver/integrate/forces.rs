@@ -19,7 +19,10 @@ use crate::solver::vertex_sums::triangles;
 
 use crate::math::simd::{Float, Simd, leveled, vectored};
 use crate::math::{TINY, max};
-use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
+use crate::solver::vertex_sums::contribution::{
+    LaneVector, RowBand, SumInput, TriangleContribution,
+};
+use crate::solver::vertex_sums::triangles::sum_in_bands;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::wind::{WindModel, WindSample};
 use glam::Vec3;
@@ -68,16 +71,16 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
         lift: half_density * world.material.lift,
         max_mass_flux: MAX_DRAG_SHARE * world.material.density / world.settings.tick,
     };
-    let surface = Surface {
+    let surface = SumInput {
         triangles: &world.mesh.triangles,
         areas: &world.corner_area,
         cells: world.grid_cells.as_ref(),
         x: &p.x,
-        air: &world.scratch.relative_wind,
+        attribute: &world.scratch.relative_wind,
     };
     let force = &mut world.scratch.acceleration;
     force.fill(Vec3::ZERO);
-    in_bands(threads, surface, force, |band, force| {
+    sum_in_bands(threads, surface, force, |band, force| {
         if pressure.lift > 0.0 {
             sum_drag_and_lift(level, surface, DragAndLift(pressure), band, force);
         } else {
@@ -128,14 +131,22 @@ fn subtract_velocity_lanes(
 
 vectored! {
     /// Adds the drag of each triangle to its corners.
-    fn sum_drag(surface: Surface<'_>, pressure: Pressure, band: Band, force: [&mut [f32]; 3])
-        = triangles::sum, Avx2, triangles::sum_apart
+    fn sum_drag(
+        surface: SumInput<'_>,
+        pressure: Pressure,
+        band: RowBand,
+        force: [&mut [f32]; 3],
+    ) = triangles::sum, Avx2, triangles::sum_scalar
 }
 
 vectored! {
     /// Adds the drag and the lift of each triangle to its corners.
-    fn sum_drag_and_lift(surface: Surface<'_>, pressure: DragAndLift, band: Band, force: [&mut [f32]; 3])
-        = triangles::sum, Avx2, triangles::sum_apart
+    fn sum_drag_and_lift(
+        surface: SumInput<'_>,
+        pressure: DragAndLift,
+        band: RowBand,
+        force: [&mut [f32]; 3],
+    ) = triangles::sum, Avx2, triangles::sum_scalar
 }
 
 leveled! {
@@ -167,10 +178,10 @@ impl Pressure {
     fn force_on<S: Simd, const LIFT: bool>(
         self,
         s: S,
-        [a, b, c]: [V<S>; 3],
-        air: [V<S>; 3],
+        [a, b, c]: [LaneVector<S>; 3],
+        air: [LaneVector<S>; 3],
         rest_area: S::F,
-    ) -> V<S> {
+    ) -> LaneVector<S> {
         let (zero, tiny) = (s.splat(0.0), s.splat(TINY));
         let [ua, ub, uc] = air;
         let third = s.splat(1.0 / 3.0);
@@ -203,11 +214,17 @@ impl Pressure {
     }
 }
 
-impl Give for Pressure {
-    const BY_AREA: bool = true;
+impl TriangleContribution for Pressure {
+    const WEIGHTED_BY_AREA: bool = true;
 
     #[inline(always)]
-    fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
+    fn evaluate<S: Simd>(
+        self,
+        s: S,
+        x: [LaneVector<S>; 3],
+        air: [LaneVector<S>; 3],
+        rest_area: S::F,
+    ) -> LaneVector<S> {
         self.force_on::<S, false>(s, x, air, rest_area)
     }
 }
@@ -216,11 +233,17 @@ impl Give for Pressure {
 #[derive(Clone, Copy)]
 struct DragAndLift(Pressure);
 
-impl Give for DragAndLift {
-    const BY_AREA: bool = true;
+impl TriangleContribution for DragAndLift {
+    const WEIGHTED_BY_AREA: bool = true;
 
     #[inline(always)]
-    fn give<S: Simd>(self, s: S, x: [V<S>; 3], air: [V<S>; 3], rest_area: S::F) -> V<S> {
+    fn evaluate<S: Simd>(
+        self,
+        s: S,
+        x: [LaneVector<S>; 3],
+        air: [LaneVector<S>; 3],
+        rest_area: S::F,
+    ) -> LaneVector<S> {
         self.0.force_on::<S, true>(s, x, air, rest_area)
     }
 }

@@ -20,7 +20,10 @@ use crate::solver::vertex_sums::triangles;
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Float, Scalar, Simd, leveled, vectored};
-use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
+use crate::solver::vertex_sums::contribution::{
+    LaneVector, RowBand, SumInput, TriangleContribution,
+};
+use crate::solver::vertex_sums::triangles::sum_in_bands;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use glam::Vec3;
 
@@ -45,15 +48,15 @@ pub(crate) fn scatter_to_vertices(world: &World, per_particle: &Columns, out: &m
 pub(crate) fn compute(world: &World, x: &Columns, sums: &mut Columns) {
     sums.resize(x.x.len());
     sums.fill(Vec3::ZERO);
-    let surface = Surface {
+    let surface = SumInput {
         triangles: &world.mesh.triangles,
         areas: &world.corner_area,
         cells: world.grid_cells.as_ref(),
         x,
-        air: x,
+        attribute: x,
     };
     let level = world.level;
-    in_bands(world.threads, surface, sums, |band, sums| {
+    sum_in_bands(world.threads, surface, sums, |band, sums| {
         sum_normals(level, surface, AreaNormal, band, sums);
     });
     world
@@ -82,8 +85,12 @@ fn blend_lanes(x: &mut [f32], last: &[f32], share: f32) {
 }
 
 vectored! {
-    fn sum_normals(surface: Surface<'_>, give: AreaNormal, band: Band, sums: [&mut [f32]; 3])
-        = triangles::sum, Avx2, triangles::sum_apart
+    fn sum_normals(
+        surface: SumInput<'_>,
+        contribution: AreaNormal,
+        band: RowBand,
+        sums: [&mut [f32]; 3],
+    ) = triangles::sum, Avx2, triangles::sum_scalar
 }
 
 vectored! {
@@ -129,12 +136,18 @@ fn normalized_lanes<S: Simd>(s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
 #[derive(Clone, Copy)]
 struct AreaNormal;
 
-impl Give for AreaNormal {
-    const FEELS_AIR: bool = false;
-    const BY_AREA: bool = false;
+impl TriangleContribution for AreaNormal {
+    const USES_ATTRIBUTE: bool = false;
+    const WEIGHTED_BY_AREA: bool = false;
 
     #[inline(always)]
-    fn give<S: Simd>(self, _: S, [a, b, c]: [V<S>; 3], _: [V<S>; 3], _: S::F) -> V<S> {
+    fn evaluate<S: Simd>(
+        self,
+        _: S,
+        [a, b, c]: [LaneVector<S>; 3],
+        _: [LaneVector<S>; 3],
+        _: S::F,
+    ) -> LaneVector<S> {
         let (px, py, pz) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
         let (qx, qy, qz) = (c[0] - a[0], c[1] - a[1], c[2] - a[2]);
         [py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx]

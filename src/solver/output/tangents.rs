@@ -18,7 +18,10 @@ use crate::solver::world::World;
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Simd, vectored};
-use crate::solver::vertex_sums::triangles::{Band, Give, Surface, V, in_bands};
+use crate::solver::vertex_sums::contribution::{
+    LaneVector, RowBand, SumInput, TriangleContribution,
+};
+use crate::solver::vertex_sums::triangles::sum_in_bands;
 use glam::{Vec2, Vec3};
 
 /// Sums of triangle tangents per render vertex, not yet orthogonal to the vertex normals.
@@ -92,15 +95,15 @@ impl Tangents {
         };
         self.sums.copy_from(x);
         self.sums.fill(Vec3::ZERO);
-        let surface = Surface {
+        let surface = SumInput {
             triangles: world.render_triangles(),
             areas: &world.corner_area,
             cells,
             x,
-            air: &self.uvs,
+            attribute: &self.uvs,
         };
         let level = world.level;
-        in_bands(world.threads, surface, &mut self.sums, |band, sums| {
+        sum_in_bands(world.threads, surface, &mut self.sums, |band, sums| {
             sum_tangents(level, surface, TextureTangent, band, sums);
         });
     }
@@ -127,8 +130,12 @@ impl Tangents {
 }
 
 vectored! {
-    fn sum_tangents(surface: Surface<'_>, give: TextureTangent, band: Band, sums: [&mut [f32]; 3])
-        = triangles::sum, Avx2, triangles::sum_apart
+    fn sum_tangents(
+        surface: SumInput<'_>,
+        contribution: TextureTangent,
+        band: RowBand,
+        sums: [&mut [f32]; 3],
+    ) = triangles::sum, Avx2, triangles::sum_scalar
 }
 
 /// Direction in which u grows on a triangle, scaled by its area in the texture. The per-vertex input
@@ -136,11 +143,17 @@ vectored! {
 #[derive(Clone, Copy)]
 struct TextureTangent;
 
-impl Give for TextureTangent {
-    const BY_AREA: bool = false;
+impl TriangleContribution for TextureTangent {
+    const WEIGHTED_BY_AREA: bool = false;
 
     #[inline(always)]
-    fn give<S: Simd>(self, s: S, [a, b, c]: [V<S>; 3], [ua, ub, uc]: [V<S>; 3], _: S::F) -> V<S> {
+    fn evaluate<S: Simd>(
+        self,
+        s: S,
+        [a, b, c]: [LaneVector<S>; 3],
+        [ua, ub, uc]: [LaneVector<S>; 3],
+        _: S::F,
+    ) -> LaneVector<S> {
         let (zero, minus) = (s.splat(0.0), s.splat(-0.0));
         let (du1, dv1) = (ub[0] - ua[0], ub[1] - ua[1]);
         let (du2, dv2) = (uc[0] - ua[0], uc[1] - ua[1]);

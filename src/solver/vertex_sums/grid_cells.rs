@@ -1,116 +1,132 @@
-//! Sums over the cells of a grid: eight cells at a time give, and eight particles at a time take.
+//! Sums over the cells of a grid: eight cells are evaluated, then eight particles gather from them.
 //!
 //! ```text
-//!  ●───────●───────●      Each particle takes from the cells around it in the order of their triangles:
-//!  │ first │ next  │      from the two above, then from the two below. Where the diagonals meet it has
-//!  ●───────◉───────●      a quarter right angle's share of all eight triangles, elsewhere half a cell's
-//!  │ third │ last  │      of the four whose right angle it is.
-//!  ●───────●───────●
+//!  ●───────●───────●   A particle gathers from the four cells around it in the order of their
+//!  │ first │ second│   triangles: the two above, then the two below. Where the diagonals meet
+//!  ●───────◉───────●   it is a corner of eight triangles and gets a quarter of the rest area of
+//!  │ third │ fourth│   each; elsewhere it is the right angle of four triangles and gets half of
+//!  ●───────●───────●   the rest area of each.
 //! ```
-//! What was split off a cell takes for itself. Where a cut divided a cell, particles look for what is
-//! theirs one by one.
+//! Two rows of cells are kept: the row above and the row below the particles that gather. A corner
+//! that was split off belongs to another particle now; the torn triangles scatter to their corners
+//! instead, and the grid's particle leaves that corner out. Where a cut moved the corners of a
+//! cell, the particles around it search the triangles of the cells one by one.
+//!
+//! Reads a `SumInput` and `GridCells`; writes the sums of the grid's particles, and adds to those
+//! of the particles that tears split off.
+//! Invariant: the additions to one particle come in the order of the triangles, as in `triangles`.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{LANES, LaneArray, Simd};
 use crate::mesh::grid::has_falling_diagonal;
 use crate::model::grid_cells::GridCells;
-use crate::solver::vertex_sums::triangles::{
-    Band, Give, Surface, V, given_by, part, rest_areas_of,
+use crate::solver::vertex_sums::contribution::{
+    LaneVector, RowBand, SumInput, TriangleContribution, corner_share, evaluate_gathered,
+    rest_areas_of,
 };
 
-/// Grids with more particles across are summed up triangle by triangle.
-pub(crate) const MOST_ACROSS: usize = 512;
+/// The largest number of particles across; wider grids scatter triangle by triangle.
+pub(crate) const MAX_COLUMNS: usize = 512;
 
-/// Columns of a row: what its first and its second triangles give, and …
-const GIVEN: usize = 6;
-/// … what is left of each of their corners.
+/// Buffer columns of a row for contributions: three components of the first and of the second
+/// triangle.
+const COMPONENTS: usize = 6;
+/// Buffer columns of a row for the masks of the six corners.
 const CORNERS: usize = 6;
 
-/// What chunks read beyond the cells of a row, of which the first is none.
-const BEYOND: usize = 1 + LANES;
+/// Entries of a buffer column besides the cells: one before them, and as many behind as a chunk may
+/// read.
+const PADDING: usize = 1 + LANES;
 
-/// Room for two rows, of the first size that will do: it is cleared each time.
-const SIZES: [usize; 3] = [1024, 4096, 2 * (GIVEN + CORNERS) * (MOST_ACROSS + BEYOND)];
+/// Buffer sizes for two rows. The smallest that suffices is used, because it is cleared each time.
+const BUFFER_SIZES: [usize; 3] = [1024, 4096, 2 * (COMPONENTS + CORNERS) * (MAX_COLUMNS + PADDING)];
 
-/// What the cells of a row give; the first is none.
-struct Given<'a> {
-    /// Three numbers of the first triangles, then three of the second.
-    by: [&'a mut [f32]; GIVEN],
-    /// While anything of the grid is torn, 1 for corners that are as they were made and 0 for others.
-    kept: [&'a mut [f32]; CORNERS],
-    /// See `GridCells`.
-    torn: [u8; MOST_ACROSS + BEYOND],
+/// The contributions of a row of cells; entry 0 of each column is padding.
+struct CellRowBuffer<'a> {
+    /// Three components of the first triangle of each cell, then three of the second.
+    vectors: [&'a mut [f32]; COMPONENTS],
+    /// 1 for a corner that still belongs to the grid's particle, else 0; empty while the grid is
+    /// untorn.
+    intact: [&'a mut [f32]; CORNERS],
+    /// The bits of the torn corners of each cell, see `GridCells::moved_corners`.
+    torn: [u8; MAX_COLUMNS + PADDING],
+    /// Whether a corner of the row was split off.
     is_torn: bool,
+    /// Whether a cut moved a corner of the row.
     is_divided: bool,
 }
 
-/// The same to take from.
+/// A buffer to gather from.
 #[derive(Clone, Copy)]
-struct Seen<'a> {
-    by: [&'a [f32]; GIVEN],
-    kept: [&'a [f32]; CORNERS],
+struct CellRowView<'a> {
+    vectors: [&'a [f32]; COMPONENTS],
+    intact: [&'a [f32]; CORNERS],
     is_torn: bool,
 }
 
-impl<'a> Given<'a> {
-    /// Nothing, in room that is clear: columns of such a length, with those for corners or without.
+impl<'a> CellRowBuffer<'a> {
+    /// Splits a cleared buffer into columns of `length`; without masks if it is too short for them.
     #[inline(never)]
-    fn new(room: &'a mut [f32], length: usize) -> Self {
-        let mut columns = room.chunks_exact_mut(length);
+    fn new(buffer: &'a mut [f32], length: usize) -> Self {
+        let mut columns = buffer.chunks_exact_mut(length);
         let mut next = || columns.next().unwrap_or_default();
         Self {
-            by: core::array::from_fn(|_| next()),
-            kept: core::array::from_fn(|_| next()),
-            torn: [0; MOST_ACROSS + BEYOND],
+            vectors: core::array::from_fn(|_| next()),
+            intact: core::array::from_fn(|_| next()),
+            torn: [0; MAX_COLUMNS + PADDING],
             is_torn: false,
             is_divided: false,
         }
     }
 
-    /// All columns are as long as each other, so that one check does for all.
+    /// The columns, cut to one length so that the compiler drops all bounds checks but one.
     #[inline(always)]
-    fn seen(&self) -> Seen<'_> {
-        let length = self.by[0].len();
-        let mut seen = Seen { by: [&[]; GIVEN], kept: [&[]; CORNERS], is_torn: self.is_torn };
-        for (seen, by) in seen.by.iter_mut().zip(&self.by) {
-            *seen = &by[..length];
+    fn view(&self) -> CellRowView<'_> {
+        let length = self.vectors[0].len();
+        let mut view = CellRowView {
+            vectors: [&[]; COMPONENTS],
+            intact: [&[]; CORNERS],
+            is_torn: self.is_torn,
+        };
+        for (view, column) in view.vectors.iter_mut().zip(&self.vectors) {
+            *view = &column[..length];
         }
         if self.is_torn {
-            for (seen, kept) in seen.kept.iter_mut().zip(&self.kept) {
-                *seen = &kept[..length];
+            for (view, column) in view.intact.iter_mut().zip(&self.intact) {
+                *view = &column[..length];
             }
         }
-        seen
+        view
     }
 
-    /// Leaves nothing in a row.
+    /// Sets all contributions to 0: the row lies beyond the grid.
     fn clear(&mut self) {
-        self.by.iter_mut().for_each(|column| column.fill(0.0));
+        self.vectors.iter_mut().for_each(|column| column.fill(0.0));
         self.torn.fill(0);
         (self.is_torn, self.is_divided) = (false, false);
     }
 
-    /// Takes over what is torn of a row.
+    /// Loads the torn corners of a row.
     #[inline(never)]
-    fn tear(&mut self, row: Row<'_>) {
+    fn load_torn(&mut self, row: CellRow<'_>) {
         let own = row.number * row.across()..(row.number + 1) * row.across();
         let (triangles, _) = row.cells.torn_triangles(row.number);
         self.is_torn = !triangles.is_empty();
         self.is_divided = self.is_torn && row.cells.is_cut[own.clone()].contains(&true);
         self.torn[1..=row.across()].copy_from_slice(&row.cells.moved_corners[own]);
         if self.is_torn {
-            self.kept.iter_mut().for_each(|column| column.fill(1.0));
+            self.intact.iter_mut().for_each(|column| column.fill(1.0));
         }
         for at in triangles {
-            let (cell, half) = row.place(*at as usize);
+            let (cell, half) = row.cell_of(*at as usize);
             let torn = row.cells.moved_corners_of(*at as usize);
             for corner in 0..3 {
-                self.kept[3 * half + corner][cell + 1] = f32::from(!torn >> corner & 1);
+                self.intact[3 * half + corner][cell + 1] = f32::from(!torn >> corner & 1);
             }
         }
     }
 
-    /// Whether anything is torn of the cells that particles from `first` on take from.
+    /// Whether a cell is torn that one of the eight particles from `first` on gathers from.
     #[inline(always)]
     fn is_torn_at(&self, first: usize) -> bool {
         let mut bytes = [0; LANES];
@@ -121,23 +137,25 @@ impl<'a> Given<'a> {
 
 /// A row of cells.
 #[derive(Clone, Copy)]
-struct Row<'a> {
+struct CellRow<'a> {
     cells: &'a GridCells,
     number: usize,
 }
 
-impl Row<'_> {
+impl CellRow<'_> {
+    /// The number of cells.
     fn across(&self) -> usize {
         self.cells.columns - 1
     }
 
-    /// The first of the triangles of a cell.
+    /// The index of the first triangle of a cell.
     #[inline(always)]
     fn triangle(&self, cell: usize) -> usize {
         2 * (self.number * self.across() + cell)
     }
 
-    /// What falls to the corners of half a cell that no cut divided, see `grid::corner_areas`.
+    /// The shares of the corners in the rest area of half an uncut cell [m²], see
+    /// `grid::corner_areas`.
     #[inline(always)]
     fn corner_areas(&self, cell: usize, half: usize) -> [f32; 3] {
         let mut areas = [self.cells.corner_area; 3];
@@ -145,62 +163,74 @@ impl Row<'_> {
         areas
     }
 
-    /// The cell of a triangle, and which half of it that is.
+    /// The cell of a triangle, and which half of the cell it is.
     #[inline(always)]
-    fn place(&self, triangle: usize) -> (usize, usize) {
+    fn cell_of(&self, triangle: usize) -> (usize, usize) {
         (triangle / 2 - self.number * self.across(), triangle % 2)
     }
 }
 
-/// Adds what the triangles of all cells give to particles that have nothing yet.
+/// Sums the contributions of all cells for the particles of a band, whose sums are 0 so far.
 #[inline(always)]
-pub(crate) fn sum<S: Simd, G: Give>(
+pub(crate) fn sum<S: Simd, C: TriangleContribution>(
     s: S,
-    surface: Surface<'_>,
+    input: SumInput<'_>,
     cells: &GridCells,
-    give: G,
-    band: Band,
+    contribution: C,
+    band: RowBand,
     out: &mut [&mut [f32]; 3],
 ) {
     let columns = cells.columns;
-    let length = columns - 1 + BEYOND;
-    let size = (GIVEN + if cells.is_torn() { CORNERS } else { 0 }) * length;
-    let (mut little, mut some, mut much);
-    let room: &mut [f32] = if 2 * size <= SIZES[0] {
-        little = [0.0; SIZES[0]];
-        &mut little
-    } else if 2 * size <= SIZES[1] {
-        some = [0.0; SIZES[1]];
-        &mut some
+    let length = columns - 1 + PADDING;
+    let size = (COMPONENTS + if cells.is_torn() { CORNERS } else { 0 }) * length;
+    let (mut small, mut medium, mut large);
+    let buffer: &mut [f32] = if 2 * size <= BUFFER_SIZES[0] {
+        small = [0.0; BUFFER_SIZES[0]];
+        &mut small
+    } else if 2 * size <= BUFFER_SIZES[1] {
+        medium = [0.0; BUFFER_SIZES[1]];
+        &mut medium
     } else {
-        much = [0.0; SIZES[2]];
-        &mut much
+        large = [0.0; BUFFER_SIZES[2]];
+        &mut large
     };
-    let (upper, lower) = room.split_at_mut(size);
-    let (mut above, mut below) =
-        (&mut Given::new(upper, length), &mut Given::new(&mut lower[..size], length));
-    // Particles take from the row of cells above theirs too, so that one comes first.
+    let (upper, lower) = buffer.split_at_mut(size);
+    let (mut above, mut below) = (
+        &mut CellRowBuffer::new(upper, length),
+        &mut CellRowBuffer::new(&mut lower[..size], length),
+    );
+    // The first particles also gather from the row of cells above them, so that row is evaluated
+    // first.
     for number in band.first.saturating_sub(1)..band.end.min(cells.rows) {
-        let row = Row { cells, number };
+        let row = CellRow { cells, number };
         if number + 1 < cells.rows {
-            fill(s, surface, row, give, below, out);
+            evaluate_row(s, input, row, contribution, below, out);
         } else {
             below.clear();
         }
-        let seen = [above.seen(), below.seen()];
+        let views = [above.view(), below.view()];
         let count = if number < band.first { 0 } else { columns };
         for start in (0..count).step_by(S::LANES) {
-            // The last chunk reaches back over particles that are done, and gives them the same.
+            // The last chunk overlaps with particles that are done, and gives them the same sums.
             let first = start.min(columns - S::LANES);
             let at = (number - band.first) * columns + first;
             if !(above.is_torn_at(first) || below.is_torn_at(first)) {
-                take::<S, G, false>(s, row, first, &seen, at, out);
+                gather_chunk::<S, C, false>(s, row, first, &views, at, out);
             } else if !(above.is_divided || below.is_divided) {
-                take::<S, G, true>(s, row, first, &seen, at, out);
+                gather_chunk::<S, C, true>(s, row, first, &views, at, out);
             } else {
                 (0..S::LANES).for_each(|lane| {
                     let at = at + lane;
-                    take_apart(surface, row, first + lane, G::BY_AREA, [above, below], at, out);
+                    let is_weighted = C::WEIGHTED_BY_AREA;
+                    gather_searching(
+                        input,
+                        row,
+                        first + lane,
+                        is_weighted,
+                        [above, below],
+                        at,
+                        out,
+                    );
                 });
             }
         }
@@ -208,204 +238,214 @@ pub(crate) fn sum<S: Simd, G: Give>(
     }
 }
 
-/// What the cells of a row give; what was split off gets its part at once.
+/// Evaluates a row of cells, and scatters the contributions of its torn triangles.
 #[inline(always)]
-fn fill<S: Simd, G: Give>(
+fn evaluate_row<S: Simd, C: TriangleContribution>(
     s: S,
-    surface: Surface<'_>,
-    row: Row<'_>,
-    give: G,
-    given: &mut Given<'_>,
+    input: SumInput<'_>,
+    row: CellRow<'_>,
+    contribution: C,
+    buffer: &mut CellRowBuffer<'_>,
     out: &mut [&mut [f32]; 3],
 ) {
     let across = row.across();
-    let length = given.by[0].len();
-    let mut by: [&mut [f32]; GIVEN] = Default::default();
-    for (by, column) in by.iter_mut().zip(&mut given.by) {
-        *by = &mut column[..length];
+    let length = buffer.vectors[0].len();
+    let mut vectors: [&mut [f32]; COMPONENTS] = Default::default();
+    for (vector, column) in vectors.iter_mut().zip(&mut buffer.vectors) {
+        *vector = &mut column[..length];
     }
     for start in (0..across).step_by(S::LANES) {
-        fill_chunk(s, surface, row, start.min(across - S::LANES), give, &mut by);
+        evaluate_chunk(s, input, row, start.min(across - S::LANES), contribution, &mut vectors);
     }
-    given.tear(row);
-    if given.is_torn {
-        fill_torn(s, surface, row, give, given, out);
+    buffer.load_torn(row);
+    if buffer.is_torn {
+        evaluate_torn(s, input, row, contribution, buffer, out);
     }
 }
 
-/// 1 and 0 by turns.
-const BY_TURNS: [f32; LANES + 1] = [1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0];
+/// 1 and 0 in alternation.
+const ALTERNATING: [f32; LANES + 1] = [1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0];
 
-/// Some cells, as if none were torn.
+/// Evaluates `S::LANES` cells as if none were torn.
 #[inline(always)]
-fn fill_chunk<S: Simd, G: Give>(
+fn evaluate_chunk<S: Simd, C: TriangleContribution>(
     s: S,
-    surface: Surface<'_>,
-    row: Row<'_>,
+    input: SumInput<'_>,
+    row: CellRow<'_>,
     first: usize,
-    give: G,
-    by: &mut [&mut [f32]; GIVEN],
+    contribution: C,
+    vectors: &mut [&mut [f32]; COMPONENTS],
 ) {
     let top = row.number * row.cells.columns + first;
     let bottom = top + row.cells.columns;
     let falling =
-        s.load(&BY_TURNS, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));
+        s.load(&ALTERNATING, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));
     let rest_area = s.splat(row.cells.rest_area());
-    let x = corners(s, surface.x, [top, bottom], falling);
-    let air = corners(s, surface.air, [top, bottom], falling);
+    let x = load_cells(s, input.x, [top, bottom], falling);
+    let attribute = load_cells(s, input.attribute, [top, bottom], falling);
     for half in 0..2 {
-        let gives = give.give(s, x[half], air[half], rest_area);
+        let vector = contribution.evaluate(s, x[half], attribute[half], rest_area);
         for axis in 0..3 {
-            s.store(by[3 * half + axis], first + 1, gives[axis]);
+            s.store(vectors[3 * half + axis], first + 1, vector[axis]);
         }
     }
 }
 
-/// The corners of the first and of the second triangle of some cells.
+/// Loads the corners of the first and of the second triangle of `S::LANES` cells. `falling` is 1
+/// where the diagonal has_falling_diagonal from left to right, else 0.
 #[inline(always)]
-fn corners<S: Simd>(
+fn load_cells<S: Simd>(
     s: S,
     of: &Columns,
     [top, bottom]: [usize; 2],
     falling: S::F,
-) -> [[V<S>; 3]; 2] {
+) -> [[LaneVector<S>; 3]; 2] {
     let (left, right) = (load(s, of, top), load(s, of, top + 1));
     let (low_left, low_right) = (load(s, of, bottom), load(s, of, bottom + 1));
-    let (end, start) = (pick(s, falling, low_right, right), pick(s, falling, left, low_left));
+    let (end, start) = (select3(s, falling, low_right, right), select3(s, falling, left, low_left));
     [[left, low_left, end], [start, low_right, right]]
 }
 
 #[inline(always)]
-fn pick<S: Simd>(s: S, keep: S::F, a: V<S>, b: V<S>) -> V<S> {
-    [s.select(keep, a[0], b[0]), s.select(keep, a[1], b[1]), s.select(keep, a[2], b[2])]
+fn select3<S: Simd>(s: S, mask: S::F, a: LaneVector<S>, b: LaneVector<S>) -> LaneVector<S> {
+    [s.select(mask, a[0], b[0]), s.select(mask, a[1], b[1]), s.select(mask, a[2], b[2])]
 }
 
 #[inline(always)]
-fn load<S: Simd>(s: S, columns: &Columns, first: usize) -> V<S> {
+fn load<S: Simd>(s: S, columns: &Columns, first: usize) -> LaneVector<S> {
     [s.load(&columns.x, first), s.load(&columns.y, first), s.load(&columns.z, first)]
 }
 
-/// The triangles of a row that are not as they were made, eight at a time. They give to all their corners at
-/// once: what was split off lies beyond the grid's own particles, and these forget it when they take.
+/// Evaluates the torn triangles of a row again, eight at a time, and scatters them to all their
+/// corners.
+///
+/// Particles that tears split off come behind those of the grid and keep these sums. The grid's own
+/// particles overwrite theirs when they gather.
 #[inline(always)]
-fn fill_torn<S: Simd, G: Give>(
+fn evaluate_torn<S: Simd, C: TriangleContribution>(
     s: S,
-    surface: Surface<'_>,
-    row: Row<'_>,
-    give: G,
-    given: &mut Given<'_>,
+    input: SumInput<'_>,
+    row: CellRow<'_>,
+    contribution: C,
+    buffer: &mut CellRowBuffer<'_>,
     out: &mut [&mut [f32]; 3],
 ) {
     let (triangles, corners) = row.cells.torn_triangles(row.number);
-    for (some, corners) in triangles.chunks(LANES).zip(corners.chunks(LANES)) {
+    for (chunk, corners) in triangles.chunks(LANES).zip(corners.chunks(LANES)) {
         let mut rest_areas = [row.cells.rest_area(); LANES];
-        if given.is_divided {
-            rest_areas = rest_areas_of(surface, some);
+        if buffer.is_divided {
+            rest_areas = rest_areas_of(input, chunk);
         }
-        let found = given_by(s, surface, corners, &rest_areas, give);
-        give_torn(surface, row, [some, corners.as_flattened()], &found, G::BY_AREA, given, out);
+        let vectors = evaluate_gathered(s, input, corners, &rest_areas, contribution);
+        let chunk = [chunk, corners.as_flattened()];
+        scatter_torn(input, row, chunk, &vectors, C::WEIGHTED_BY_AREA, buffer, out);
     }
 }
 
-/// Hands out what up to eight torn triangles give.
+/// Stores the contributions of up to eight torn triangles, and adds them to all their corners.
 #[inline(never)]
-fn give_torn(
-    surface: Surface<'_>,
-    row: Row<'_>,
+fn scatter_torn(
+    input: SumInput<'_>,
+    row: CellRow<'_>,
     [triangles, corners]: [&[u32]; 2],
-    found: &[LaneArray; 3],
-    by_area: bool,
-    given: &mut Given<'_>,
+    vectors: &[LaneArray; 3],
+    is_weighted_by_area: bool,
+    buffer: &mut CellRowBuffer<'_>,
     out: &mut [&mut [f32]; 3],
 ) {
     for (lane, (at, corners)) in triangles.iter().zip(corners.chunks_exact(3)).enumerate() {
         let at = *at as usize;
-        let (cell, half) = row.place(at);
-        let areas = if given.is_divided { surface.areas[at] } else { row.corner_areas(cell, half) };
+        let (cell, half) = row.cell_of(at);
+        let areas = if buffer.is_divided { input.areas[at] } else { row.corner_areas(cell, half) };
         for axis in 0..3 {
-            let found = found[axis][lane];
-            given.by[3 * half + axis][cell + 1] = found;
+            let component = vectors[axis][lane];
+            buffer.vectors[3 * half + axis][cell + 1] = component;
             for corner in 0..3 {
-                out[axis][corners[corner] as usize] += found * part(areas[corner], by_area);
+                out[axis][corners[corner] as usize] +=
+                    component * corner_share(areas[corner], is_weighted_by_area);
             }
         }
     }
 }
 
-/// Some particles take what is theirs.
+/// Sums the contributions around `S::LANES` particles from column `first` on, and stores the sums
+/// from `at` on. With `TORN`, corners that were split off are left out.
 #[inline(always)]
-fn take<S: Simd, G: Give, const TORN: bool>(
+fn gather_chunk<S: Simd, C: TriangleContribution, const TORN: bool>(
     s: S,
-    row: Row<'_>,
+    row: CellRow<'_>,
     first: usize,
-    seen: &[Seen<'_>; 2],
+    views: &[CellRowView<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
     let (area, zero) = (row.cells.corner_area, s.splat(0.0));
-    let (quarter, half) = (s.splat(G::part(area)), s.splat(G::part(2.0 * area)));
-    // Where the cell below falls, all diagonals around meet here.
+    let (quarter, half) = (s.splat(C::corner_share(area)), s.splat(C::corner_share(2.0 * area)));
+    // If the diagonal of the fourth cell has_falling_diagonal, the diagonals of all four cells meet at this
+    // particle.
     let meets =
-        s.load(&BY_TURNS, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));
+        s.load(&ALTERNATING, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));
     let (shared, own) = (s.select_or_zero(meets, quarter), s.select(meets, quarter, half));
-    let ([above, below], mut sums) = (seen, [zero; 3]);
-    add::<S, TORN>(s, above, first, 2, shared, &mut sums);
-    add::<S, TORN>(s, above, first, 4, own, &mut sums);
-    add::<S, TORN>(s, above, first + 1, 1, own, &mut sums);
-    add::<S, TORN>(s, above, first + 1, 3, shared, &mut sums);
-    add::<S, TORN>(s, below, first, 2, shared, &mut sums);
-    add::<S, TORN>(s, below, first, 5, own, &mut sums);
-    add::<S, TORN>(s, below, first + 1, 0, own, &mut sums);
-    add::<S, TORN>(s, below, first + 1, 3, shared, &mut sums);
+    let ([above, below], mut sums) = (views, [zero; 3]);
+    add_corner::<S, TORN>(s, above, first, 2, shared, &mut sums);
+    add_corner::<S, TORN>(s, above, first, 4, own, &mut sums);
+    add_corner::<S, TORN>(s, above, first + 1, 1, own, &mut sums);
+    add_corner::<S, TORN>(s, above, first + 1, 3, shared, &mut sums);
+    add_corner::<S, TORN>(s, below, first, 2, shared, &mut sums);
+    add_corner::<S, TORN>(s, below, first, 5, own, &mut sums);
+    add_corner::<S, TORN>(s, below, first + 1, 0, own, &mut sums);
+    add_corner::<S, TORN>(s, below, first + 1, 3, shared, &mut sums);
     for axis in 0..3 {
         s.store(out[axis], at, sums[axis]);
     }
 }
 
-/// Adds what cells from some on give to one of the six corners of their triangles, as far as that is left.
+/// Adds the contributions of `S::LANES` cells from entry `from` on to one of the six corners of
+/// their triangles.
 #[inline(always)]
-fn add<S: Simd, const TORN: bool>(
+fn add_corner<S: Simd, const TORN: bool>(
     s: S,
-    seen: &Seen<'_>,
+    view: &CellRowView<'_>,
     from: usize,
     corner: usize,
-    mut part: S::F,
+    mut share: S::F,
     sums: &mut [S::F; 3],
 ) {
-    if TORN && seen.is_torn {
-        part = s.select_or_zero(s.load(seen.kept[corner], from), part);
+    if TORN && view.is_torn {
+        share = s.select_or_zero(s.load(view.intact[corner], from), share);
     }
     for axis in 0..3 {
-        sums[axis] = sums[axis] + s.load(seen.by[corner / 3 * 3 + axis], from) * part;
+        sums[axis] = sums[axis] + s.load(view.vectors[corner / 3 * 3 + axis], from) * share;
     }
 }
 
-/// One particle takes what is its own of the cells around, wherever in them it is.
+/// Sums the contributions around one particle: searches the triangles of the cells around it for
+/// corners that are this particle.
 #[inline(never)]
-fn take_apart(
-    surface: Surface<'_>,
-    row: Row<'_>,
+fn gather_searching(
+    input: SumInput<'_>,
+    row: CellRow<'_>,
     column: usize,
-    by_area: bool,
-    [above, below]: [&Given<'_>; 2],
+    is_weighted_by_area: bool,
+    [above, below]: [&CellRowBuffer<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
     let particle = (row.number * row.cells.columns + column) as u32;
     let mut sums = [0.0; 3];
-    for (given, number) in [(above, row.number.wrapping_sub(1)), (below, row.number)] {
+    for (buffer, number) in [(above, row.number.wrapping_sub(1)), (below, row.number)] {
         for cell in column.saturating_sub(1)..=column {
             if number >= row.cells.rows - 1 || cell >= row.across() {
                 continue;
             }
-            let first = Row { number, ..row }.triangle(cell);
+            let first = CellRow { number, ..row }.triangle(cell);
             for half in 0..2 {
-                let corners = surface.triangles[first + half].into_iter();
-                for (corner, area) in corners.zip(surface.areas[first + half]) {
-                    let part = part(area, by_area);
+                let corners = input.triangles[first + half].into_iter();
+                for (corner, area) in corners.zip(input.areas[first + half]) {
+                    let share = corner_share(area, is_weighted_by_area);
                     for axis in 0..3 {
-                        let given = given.by[3 * half + axis][cell + 1] * part;
-                        sums[axis] += if corner == particle { given } else { 0.0 };
+                        let component = buffer.vectors[3 * half + axis][cell + 1] * share;
+                        sums[axis] += if corner == particle { component } else { 0.0 };
                     }
                 }
             }
