@@ -1,73 +1,81 @@
-//! What a caller can get wrong, said in words that name the field and the rule.
+//! Errors of the public API.
+//!
+//! Every fallible call checks its arguments before it changes anything, so a call that returns an
+//! error leaves the cloth unchanged. Each message names the field or argument and the rule that it
+//! broke: "`settings.tick` must be above 0 and at most 1".
 
 use core::fmt;
 
-/// The result of every call whose input can be wrong.
+/// The result of every call that can fail.
 pub type Result<T, E = Error> = core::result::Result<T, E>;
 
-/// Why a call was refused. Whatever refused it left the cloth as it was.
+/// Why a call was refused. The refused call changed nothing.
+///
+/// Field and argument names are spelled as in the API. The C library and the JavaScript package
+/// show these messages too; JavaScript converts the names to camelCase.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A value is out of its range, not finite, or does not fit another one.
+    /// A value is out of range, not finite, or inconsistent with another value.
     BadValue {
-        /// The field or argument, as it is spelt in the API.
+        /// Name of the field or argument.
         field: &'static str,
-        /// The rule it broke: "`field` must …".
+        /// The broken rule, which completes the sentence "`field` must …".
         must: &'static str,
     },
-    /// An index points past the last particle or vertex.
+    /// An index is not below the number of particles, vertices or points.
     BadIndex {
-        /// The field or argument, as it is spelt in the API.
+        /// Name of the field or argument.
         field: &'static str,
-        /// What was given.
+        /// The given index.
         index: u32,
-        /// How many there are.
+        /// The number of items; valid indices are below it.
         count: u32,
     },
-    /// A handle of a grab, an attachment or a collider that this cloth does not have (any more).
+    /// A handle of a grab, an attachment or a collider is stale, made up or from another cloth.
     BadHandle {
         /// The kind of handle: "grab", "attachment" or "collider".
         what: &'static str,
     },
-    /// The mesh cannot be cloth.
+    /// The mesh cannot be made into cloth, even after repair.
     BadMesh {
-        /// The first triangle or vertex at fault.
+        /// Index of the first triangle or vertex that breaks the rule.
         at: u32,
-        /// The rule it broke.
+        /// The broken rule, which completes the sentence "`indices` must …".
         must: &'static str,
     },
-    /// A stream of vertices cannot be written.
+    /// A vertex stream has a field that is invalid or does not fit another one.
     BadStream {
-        /// Which of the streams, from 0 on.
+        /// Index of the stream in the list, from 0.
         stream: u32,
-        /// Its field, as it is spelt in the API.
+        /// Name of the field.
         field: &'static str,
-        /// The rule it broke: "`streams[0].field` must …".
+        /// The broken rule, which completes the sentence "`streams[0].field` must …".
         must: &'static str,
     },
-    /// The buffer of a stream of vertices has too little room.
+    /// The buffer of a vertex stream is too small.
     SmallStream {
-        /// Which of the streams, from 0 on.
+        /// Index of the stream in the list, from 0.
         stream: u32,
-        /// The bytes that are to be written, from the first to the last.
+        /// Required size [bytes], from the first written byte to the last.
         needed: u64,
-        /// The bytes that there are.
+        /// Given size [bytes].
         size: u64,
     },
-    /// The room that was reserved when the cloth was made is used up.
+    /// A limit on the number of items is reached, or the reserve for tears and cuts
+    /// (`extra_particles`) is used up.
     Full {
-        /// What there is no room for.
+        /// The item that does not fit, e.g. "another grab".
         what: &'static str,
     },
-    /// The bytes are not a saved cloth of this version, or were damaged.
+    /// The bytes are not a saved cloth, come from another format version, or are damaged.
     BadSave {
-        /// What is wrong with them.
+        /// The reason.
         why: &'static str,
     },
-    /// A known wish that this version does not fulfil yet.
+    /// This version does not support the requested feature.
     Unsupported {
-        /// The wish.
+        /// The feature.
         what: &'static str,
     },
 }
@@ -80,7 +88,9 @@ impl fmt::Display for Error {
                 write!(f, "`{field}` must be below {count}, but is {index}")
             }
             Self::BadHandle { what } => write!(f, "`{what}` must be a live {what} of this cloth"),
-            Self::BadMesh { at, must } => write!(f, "`indices` must {must} (see number {at})"),
+            Self::BadMesh { at, must } => {
+                write!(f, "`indices` must {must} (triangle or vertex {at})")
+            }
             Self::BadStream { stream, field, must } => {
                 write!(f, "`streams[{stream}].{field}` must {must}")
             }
@@ -96,17 +106,17 @@ impl fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// Refuses a number that is not finite or breaks `rule`.
+/// Returns [`Error::BadValue`] with `field` and `must` unless `ok`.
 pub(crate) fn check(ok: bool, field: &'static str, must: &'static str) -> Result<()> {
     if ok { Ok(()) } else { Err(Error::BadValue { field, must }) }
 }
 
-/// Refuses a vector with a component that is not finite.
+/// Returns [`Error::BadValue`] for `field` unless all components of `v` are finite.
 pub(crate) fn check_finite(v: glam::Vec3, field: &'static str) -> Result<()> {
     check(v.is_finite(), field, "be finite")
 }
 
-/// Refuses an index that is not below `count`.
+/// Returns [`Error::BadIndex`] for `field` unless `index` is below `count`.
 pub(crate) fn check_index(index: u32, count: usize, field: &'static str) -> Result<()> {
     if (index as usize) < count {
         Ok(())

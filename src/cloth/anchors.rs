@@ -1,7 +1,11 @@
-//! Particles on a leash: no farther from where animation has them than they may be, and not in their backstop.
+//! Public calls for anchors: per-particle maximum distance and backstop around an animated target.
 //!
-//! What games call max distance and backstop (Unity, Unreal, Jolt), and NvCloth motion and separation
-//! constraints.
+//! Game engines call these max distance and backstop (Unity, Unreal, Jolt); NvCloth calls them
+//! motion and separation constraints. The constraint itself, with a diagram, is in
+//! `state::anchors`.
+//!
+//! Reads the caller's lists; writes `World::anchors`.
+//! Invariant: all lists are checked before the first constraint changes.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
@@ -10,85 +14,107 @@ use crate::state::anchors::{AnchorConstraint, unit_or_zero};
 use glam::Vec3;
 
 impl Cloth {
-    /// Says how far particles may be from their anchors [m]: after every tick none is farther, whatever pulls
-    /// at it. Infinity, as at first, is as far as they like; 0 holds them there. Skirts and sleeves are
-    /// commonly painted from 0 at the seam to 0.2 at the hem.
+    /// Limits how far particles may be from their anchors [m]. The limit holds after every tick,
+    /// whatever pulls at the particle.
     ///
-    /// The anchor of a particle is where [`Cloth::set_anchors`] has it, and until that was called where the
-    /// particle is now. A pinned or grabbed particle goes by that alone. What keeps a cloth apart so may stretch
-    /// it past `max_stretch`, which is told as if pins did.
+    /// Infinity, the initial value, means no limit; 0 fixes the particle to its anchor. Skirts and
+    /// sleeves are commonly painted from 0 at the seam to 0.2 at the hem.
+    ///
+    /// The anchor of a particle is the position of the last [`Cloth::set_anchors`]; before the
+    /// first one, it is the particle's current position. Pins and grabs take precedence over the
+    /// limit. A limit may stretch the cloth past `max_stretch`; this is reported as for pins, in
+    /// [`Stats::over_stretched`](crate::Stats) and by an event. [`Cloth::reset`] removes all
+    /// limits.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless there are as many distances as particles, all at
-    /// least 0; [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
+    /// [`Error::BadValue`](crate::Error::BadValue) unless there is one distance per particle, each
+    /// at least 0; [`Error::BadIndex`](crate::Error::BadIndex) if a particle does not exist. The
+    /// cloth is unchanged.
     pub fn set_max_distances(&mut self, particles: &[u32], distances: &[f32]) -> Result<()> {
-        check(particles.len() == distances.len(), "distances", "be as many as `particles`")?;
+        check(
+            particles.len() == distances.len(),
+            "distances",
+            "have as many entries as `particles`",
+        )?;
         self.check_particles(particles)?;
-        let are_distances = distances.iter().all(|distance| *distance >= 0.0);
-        check(are_distances, "distances", "be at least 0")?;
-        self.leash(particles, |at, leash| leash.max_distance = distances[at]);
+        let are_valid = distances.iter().all(|distance| *distance >= 0.0);
+        check(are_valid, "distances", "be at least 0")?;
+        self.edit_anchors(particles, |at, anchor| anchor.max_distance = distances[at]);
         Ok(())
     }
 
-    /// Gives particles backstops: spheres behind their anchors that they stay out of, so that a garment does
-    /// not sink into the body that wears it. Each has a radius [m], 0 for none, and begins a distance [m]
-    /// behind its anchor, against the normal that [`Cloth::set_anchors`] gave: without one there is no
-    /// backstop. A radius that is large beside that of the body makes it all but a plane.
+    /// Gives particles backstops: spheres behind their anchors that the particles cannot enter, so
+    /// that a garment does not sink into the body that wears it.
+    ///
+    /// Each sphere has a radius [m], 0 for none. Its surface is `distance` [m] behind the anchor,
+    /// opposite to the normal of [`Cloth::set_anchors`]; a particle without a normal has no
+    /// backstop. A radius that is large compared with the body makes the backstop nearly a plane.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless there are as many distances and radii as particles,
-    /// all at least 0 and finite; [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not.
+    /// [`Error::BadValue`](crate::Error::BadValue) unless there is one distance and one radius per
+    /// particle, each at least 0 and finite; [`Error::BadIndex`](crate::Error::BadIndex) if a
+    /// particle does not exist. The cloth is unchanged.
     pub fn set_backstops(
         &mut self,
         particles: &[u32],
         distances: &[f32],
         radii: &[f32],
     ) -> Result<()> {
-        check(particles.len() == distances.len(), "distances", "be as many as `particles`")?;
-        check(particles.len() == radii.len(), "radii", "be as many as `particles`")?;
+        check(
+            particles.len() == distances.len(),
+            "distances",
+            "have as many entries as `particles`",
+        )?;
+        check(particles.len() == radii.len(), "radii", "have as many entries as `particles`")?;
         self.check_particles(particles)?;
-        let are_lengths = |list: &[f32]| list.iter().all(|v| v.is_finite() && *v >= 0.0);
-        check(are_lengths(distances), "distances", "be at least 0 and finite")?;
-        check(are_lengths(radii), "radii", "be at least 0 and finite")?;
-        self.leash(particles, |at, leash| {
-            (leash.backstop_distance, leash.backstop_radius) = (distances[at], radii[at]);
+        let all_lengths = |list: &[f32]| list.iter().all(|v| v.is_finite() && *v >= 0.0);
+        check(all_lengths(distances), "distances", "be at least 0 and finite")?;
+        check(all_lengths(radii), "radii", "be at least 0 and finite")?;
+        self.edit_anchors(particles, |at, anchor| {
+            (anchor.backstop_distance, anchor.backstop_radius) = (distances[at], radii[at]);
         });
         Ok(())
     }
 
-    /// Says where animation has particles [m], and which way is out of the body there, for
-    /// [`Cloth::set_max_distances`] and [`Cloth::set_backstops`]. Call it each frame: anchors get there over the
-    /// next tick, and those of particles that had none are there at once. Normals need not be of length 1;
-    /// with none at all those of before stay.
+    /// Sets the animated positions [m] and outward normals of particles, for
+    /// [`Cloth::set_max_distances`] and [`Cloth::set_backstops`]. Call it once per frame.
+    ///
+    /// Anchors move to the new positions over the next tick; a particle's first anchor is in place
+    /// at once. Normals need not have length 1. An empty `normals` keeps the previous normals.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless there are as many positions as particles, and as
-    /// many normals or none, all finite and no normal zero; [`Error::BadIndex`](crate::Error::BadIndex) for a
-    /// particle that is not.
+    /// [`Error::BadValue`](crate::Error::BadValue) unless there is one position per particle, and
+    /// one normal per particle or none, all finite and no normal of length 0;
+    /// [`Error::BadIndex`](crate::Error::BadIndex) if a particle does not exist. The cloth is
+    /// unchanged.
     pub fn set_anchors(
         &mut self,
         particles: &[u32],
         positions: &[Vec3],
         normals: &[Vec3],
     ) -> Result<()> {
-        check(particles.len() == positions.len(), "positions", "be as many as `particles`")?;
+        check(
+            particles.len() == positions.len(),
+            "positions",
+            "have as many entries as `particles`",
+        )?;
         let fits = normals.is_empty() || particles.len() == normals.len();
-        check(fits, "normals", "be as many as `particles`, or none")?;
+        check(fits, "normals", "have as many entries as `particles`, or none")?;
         self.check_particles(particles)?;
         positions.iter().try_for_each(|position| check_finite(*position, "positions"))?;
         normals.iter().try_for_each(|normal| check_finite(*normal, "normals"))?;
         let normals =
             with_float_env(|| -> Vec<Vec3> { normals.iter().map(|n| unit_or_zero(*n)).collect() });
-        let are_directions = normals.iter().all(|n| n.is_finite() && *n != Vec3::ZERO);
-        check(are_directions, "normals", "have a length that numbers can tell from 0")?;
+        let are_nonzero = normals.iter().all(|n| n.is_finite() && *n != Vec3::ZERO);
+        check(are_nonzero, "normals", "have a length above 0")?;
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
-            let leash = world.anchors.get_or_insert(*particle, positions[at]);
-            leash.anchor = positions[at];
+            let constraint = world.anchors.get_or_insert(*particle, positions[at]);
+            constraint.anchor = positions[at];
             if let Some(normal) = normals.get(at) {
-                leash.normal = *normal;
-                if leash.normal_from == Vec3::ZERO {
-                    leash.normal_from = *normal;
+                constraint.normal = *normal;
+                if constraint.normal_from == Vec3::ZERO {
+                    constraint.normal_from = *normal;
                 }
             }
         }
@@ -96,7 +122,7 @@ impl Cloth {
         Ok(())
     }
 
-    /// Takes away all anchors, maximum distances and backstops.
+    /// Removes all anchors, maximum distances and backstops.
     pub fn clear_leashes(&mut self) {
         self.world.anchors.clear();
         self.world.wake();
@@ -107,7 +133,9 @@ impl Cloth {
         particles.iter().try_for_each(|particle| check_index(*particle, count, "particles"))
     }
 
-    fn leash(&mut self, particles: &[u32], change: impl Fn(usize, &mut AnchorConstraint)) {
+    /// Calls `change` with each list index and the constraint of that particle, which is made if
+    /// missing.
+    fn edit_anchors(&mut self, particles: &[u32], change: impl Fn(usize, &mut AnchorConstraint)) {
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
             let x = world.particles.x.at(*particle as usize);

@@ -1,4 +1,11 @@
-//! Pins that a moving transform carries.
+//! Public calls for attachments: groups of pins that a moving transform carries (bone, pole, car
+//! body).
+//!
+//! Each attached pin stores its position in the frame of the transform; a moved transform gives
+//! `target = pose · local`. The solver interpolates the pose over the tick.
+//!
+//! Reads the caller's poses; writes `World::attachments` and `World::pins`.
+//! Invariant: the target of a carried pin is always `carrier.next` applied to `pin.local`.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check_index};
@@ -9,21 +16,41 @@ use crate::state::attachments::{Attachment, AttachmentPose};
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};
 
-/// What the numbers of an attachment's pose are called.
-const OF_ATTACHMENT: [&str; 2] = ["position", "rotation"];
+/// Names of the pose arguments in error messages.
+const ATTACHMENT_FIELDS: [&str; 2] = ["position", "rotation"];
 
 impl Cloth {
-    /// Attaches particles to a transform at `position` [m], turned by `rotation`: a bone, a pole, the body of a
-    /// car. They are pinned where they are now, and from then on [`Cloth::move_attachment`] carries them.
+    /// Attaches particles to a transform at `position` [m] with `rotation`, e.g. a bone, a pole or
+    /// a car body. The particles are pinned at their current positions; [`Cloth::move_attachment`]
+    /// moves them.
     ///
-    /// Those that are pinned already, or attached to something else, keep their stiffness
-    /// ([`Cloth::set_pin_stiffness`]). One that gets a target of its own later, or is unpinned, leaves the
-    /// attachment. Vertices that a tear or a cut makes of attached ones are attached too.
+    /// - A particle that is already pinned, or attached to another transform, keeps its stiffness
+    ///   ([`Cloth::set_pin_stiffness`]) and moves to this attachment.
+    /// - A particle leaves the attachment when it gets a pin target of its own or is unpinned.
+    /// - A tear or cut through attached particles attaches the new particles too.
+    /// - [`Cloth::reset`] removes all attachments.
+    ///
+    /// ```
+    /// use muslin::glam::{Quat, Vec3};
+    /// use muslin::{Cloth, GridDesc, PinMode};
+    ///
+    /// let mut cloth = Cloth::grid(&GridDesc { pin_mode: PinMode::None, ..GridDesc::default() })?;
+    /// let edge: Vec<u32> = (0..40).collect();
+    /// let pole = cloth.attach(&edge, Vec3::ZERO, Quat::IDENTITY)?;
+    /// for frame in 1..=60 {
+    ///     cloth.move_attachment(pole, Vec3::ZERO, Quat::from_rotation_y(0.02 * frame as f32))?;
+    ///     cloth.advance(1.0 / 60.0)?;
+    /// }
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
-    /// unit quaternion, [`Error::Full`](crate::Error::Full) if there are 64 attachments already.
+    /// - [`Error::BadIndex`](crate::Error::BadIndex) if a particle does not exist.
+    /// - [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite or `rotation` is
+    ///   not a unit quaternion.
+    /// - [`Error::Full`](crate::Error::Full) if there are 64 attachments already.
+    ///
+    /// The cloth is unchanged then.
     pub fn attach(
         &mut self,
         particles: &[u32],
@@ -34,7 +61,7 @@ impl Cloth {
             check_index(*particle, self.world.particles.len(), "particles")?;
         }
         with_float_env(|| {
-            check_pose(position, rotation, OF_ATTACHMENT)?;
+            check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             let pose = Pose::new(position, rotation);
             let carrier = AttachmentPose { last: pose, next: pose };
             let handle = self.world.attachments.insert(carrier, "another attachment")?;
@@ -42,7 +69,7 @@ impl Cloth {
             for particle in particles {
                 let x = self.world.particles.x.at(*particle as usize);
                 let local = saturate(frame.point_to_local(x));
-                self.put_pin(*particle, saturate(frame.point_to_world(local)));
+                self.set_pin(*particle, saturate(frame.point_to_world(local)));
                 if let Some(pin) = self.world.pins.get_mut(*particle) {
                     (pin.from, pin.attachment, pin.local) = (x, handle, local);
                 }
@@ -51,13 +78,13 @@ impl Cloth {
         })
     }
 
-    /// Moves a transform that particles are attached to: they get there over the next tick, turning on the way
-    /// as it turns, and are exactly there when it ends.
+    /// Moves an attachment: its particles reach the new pose over the next tick, rotating with the
+    /// transform, and are exactly there at the end of the tick.
     ///
     /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was detached,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
-    /// unit quaternion.
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was detached;
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite or `rotation` is not
+    /// a unit quaternion. The cloth is unchanged.
     pub fn move_attachment(
         &mut self,
         attachment: Attachment,
@@ -66,7 +93,7 @@ impl Cloth {
     ) -> Result<()> {
         let carrier = self.world.attachments.get_mut(attachment.0, "attachment")?;
         with_float_env(|| {
-            check_pose(position, rotation, OF_ATTACHMENT)?;
+            check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             carrier.next = Pose::new(position, rotation);
             let frame = carrier.next.to_transform();
             for pin in self.world.pins.iter_mut().filter(|pin| pin.attachment == attachment.0) {
@@ -76,7 +103,8 @@ impl Cloth {
         })
     }
 
-    /// Lets all go that an attachment still carries, with the velocity that they have.
+    /// Removes an attachment and unpins the particles that it still carries; they keep their
+    /// velocities.
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was detached before.
@@ -88,12 +116,12 @@ impl Cloth {
                 (0..self.world.particles.len() as u32)
                     .for_each(|i| self.world.refresh_inverse_mass(i));
             });
-            self.changed_pins();
+            self.mark_pins_changed();
         }
         Ok(())
     }
 
-    /// The particles that an attachment carries, lowest first.
+    /// Returns the particles that an attachment carries, in ascending order.
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was detached.
@@ -105,8 +133,9 @@ impl Cloth {
 }
 
 impl World {
-    /// A pin, if there is one, holds a particle where it was put; what carries it goes on to do so.
-    pub(super) fn bring_pin(&mut self, particle: u32, position: Vec3) {
+    /// Moves the pin of `particle`, if it has one, to `position` [m] at once. A carried pin stays
+    /// attached, with a new local position.
+    pub(super) fn move_pin(&mut self, particle: u32, position: Vec3) {
         let Some(pin) = self.pins.get_mut(particle) else { return };
         (pin.from, pin.target) = (position, position);
         if let Ok(carrier) = self.attachments.get(pin.attachment, "attachment") {

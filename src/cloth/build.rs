@@ -1,4 +1,17 @@
-//! From a descriptor to a world at rest.
+//! Builds a `World` at rest from a descriptor.
+//!
+//! ```text
+//! GridDesc ──▶ grid positions, triangles ─┐
+//!                                         ├─▶ RestModel ──▶ World (all buffers at full capacity)
+//! MeshDesc ──▶ intake::repair ────────────┘
+//! ```
+//!
+//! A mesh that turns out to be a regular grid takes the grid path, so that it gets the grid kernels
+//! and the same bits.
+//!
+//! Reads a checked descriptor; writes a new `World`.
+//! Invariant: every buffer that tears and cuts may extend is reserved here, so that no tick
+//! allocates.
 
 use crate::arena::Arena;
 use crate::cloth::desc::{GridDesc, MeshDesc};
@@ -45,23 +58,24 @@ use crate::state::wind::Wind;
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// What a cloth was made from; it can be made anew.
+/// The descriptor that a cloth was made from. `Cloth::reset` and `Cloth::restore` build from it
+/// again.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) enum Origin {
+pub(crate) enum ClothDesc {
     Grid(GridDesc),
     Mesh(MeshDesc),
 }
 
-impl Origin {
-    /// The cloth as it was when it was new, and what had to be repaired. The descriptor has been checked.
-    pub fn world(&self) -> Result<(World, MeshReport)> {
+impl ClothDesc {
+    /// Builds the world at rest, and the report of the mesh repair. The descriptor must be checked.
+    pub fn build_world(&self) -> Result<(World, MeshReport)> {
         match self {
-            Self::Grid(desc) => Ok(grid_world(desc)),
-            Self::Mesh(desc) => mesh_world(desc),
+            Self::Grid(desc) => Ok(world_from_grid(desc)),
+            Self::Mesh(desc) => world_from_mesh(desc),
         }
     }
 
-    /// The descriptor checked again; for bytes from outside.
+    /// Checks the descriptor, e.g. after it was read from saved bytes.
     pub fn check(&self) -> Result<()> {
         match self {
             Self::Grid(desc) => desc.check(),
@@ -69,7 +83,7 @@ impl Origin {
         }
     }
 
-    /// Texture coordinates of the vertices that were given.
+    /// Returns the texture coordinates of the descriptor's vertices; zeros if it has none.
     pub fn uvs(&self) -> Vec<Vec2> {
         match self {
             Self::Grid(desc) => grid::uvs(desc.columns, desc.rows),
@@ -79,7 +93,8 @@ impl Origin {
     }
 }
 
-fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
+/// Builds the world of a grid.
+fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
     let unit = |v: Vec3| v * (1.0 / v.length());
     let frame = GridFrame {
         origin: desc.origin,
@@ -87,7 +102,7 @@ fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
         down: unit(desc.down),
         spacing: desc.spacing,
     };
-    let lattice = DetectedGrid { columns: desc.columns, rows: desc.rows, frame };
+    let grid = DetectedGrid { columns: desc.columns, rows: desc.rows, frame };
     let rest = grid::positions(desc.columns, desc.rows, &frame);
     let capacity = desc.capacity();
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
@@ -101,29 +116,31 @@ fn grid_world(desc: &GridDesc) -> (World, MeshReport) {
         is_grid: true,
         ..MeshReport::default()
     };
-    let fabric = Fabric::sheet(&lattice, mesh, rest, capacity);
-    (build(fabric, desc.pinned(), capacity, &desc.material, &desc.settings), report)
+    let rest_model = RestModel::from_grid(&grid, mesh, rest, capacity);
+    (build_world(rest_model, desc.pinned(), capacity, &desc.material, &desc.settings), report)
 }
 
-fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
+/// Repairs the mesh, detects a regular grid, and builds the world.
+fn world_from_mesh(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     let (positions, indices) = (&desc.positions, &desc.indices);
-    let most = |particles: usize| desc.capacity(particles);
-    let RepairedMesh { mesh, source_vertices: places, seams, mut report } =
-        intake::repair(positions, indices, desc.weld_distance, most)?;
-    let rest: Vec<Vec3> = places.iter().map(|vertex| positions[*vertex as usize]).collect();
+    let capacity_for = |particles: usize| desc.capacity(particles);
+    let RepairedMesh { mesh, source_vertices, seams, mut report } =
+        intake::repair(positions, indices, desc.weld_distance, capacity_for)?;
+    let rest: Vec<Vec3> =
+        source_vertices.iter().map(|vertex| positions[*vertex as usize]).collect();
     let capacity = desc.capacity(rest.len())?;
-    let fabric = match DetectedGrid::detect(&mesh.triangles, &rest) {
-        Some(lattice) => {
+    let rest_model = match DetectedGrid::detect(&mesh.triangles, &rest) {
+        Some(grid) => {
             report.is_grid = true;
-            Fabric::sheet(&lattice, mesh, rest, capacity)
+            RestModel::from_grid(&grid, mesh, rest, capacity)
         }
-        None => Fabric::any(mesh, rest, capacity),
+        None => RestModel::from_mesh(mesh, rest, capacity),
     };
     let pinned = match &seams {
         Some(seams) => seams.particles_of(&desc.pinned),
         None => desc.pinned.clone(),
     };
-    let mut world = build(fabric, pinned, capacity, &desc.material, &desc.settings);
+    let mut world = build_world(rest_model, pinned, capacity, &desc.material, &desc.settings);
     world.seams = seams;
     let extra = capacity - world.particles.len();
     if let Some(seams) = &mut world.seams {
@@ -132,8 +149,8 @@ fn mesh_world(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     Ok((world, report))
 }
 
-/// What a world is made of that does not move.
-struct Fabric {
+/// The parts of a world that describe the rest state.
+struct RestModel {
     mesh: Mesh,
     constraints: Constraints,
     rest: Vec<Vec3>,
@@ -143,12 +160,13 @@ struct Fabric {
     plates: Option<PlateElements>,
 }
 
-impl Fabric {
-    /// A regular grid.
-    fn sheet(lattice: &DetectedGrid, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
-        let DetectedGrid { columns, rows, frame } = *lattice;
-        let openings = opening_capacity(&mesh, capacity);
-        let mut constraints = Constraints::from_grid(columns, rows, frame.spacing, &mesh, openings);
+impl RestModel {
+    /// The rest model of a regular grid: grid links, grid cells and plate elements.
+    fn from_grid(grid: &DetectedGrid, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+        let DetectedGrid { columns, rows, frame } = *grid;
+        let opened_edges = max_opened_edges(&mesh, capacity);
+        let mut constraints =
+            Constraints::from_grid(columns, rows, frame.spacing, &mesh, opened_edges);
         constraints.set_thread_directions([frame.right, frame.down]);
         let areas = grid::corner_areas(columns, rows, frame.spacing);
         let mut cells = GridCells::new(columns, rows, frame.spacing);
@@ -162,10 +180,10 @@ impl Fabric {
         Self { mesh, constraints, rest, frame, areas, cells, plates }
     }
 
-    /// Any sound mesh.
-    fn any(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
+    /// The rest model of any repaired mesh: links along edges, and hinges.
+    fn from_mesh(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
         let mut constraints =
-            Constraints::from_mesh(&mesh, &rest, opening_capacity(&mesh, capacity));
+            Constraints::from_mesh(&mesh, &rest, max_opened_edges(&mesh, capacity));
         constraints.hinges = Hinges::new(&mesh, &constraints.links, &rest);
         let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
         let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
@@ -173,14 +191,15 @@ impl Fabric {
     }
 }
 
-fn build(
-    fabric: Fabric,
+/// Builds the world around a rest model and prepares its first tick.
+fn build_world(
+    rest_model: RestModel,
     pinned: Vec<u32>,
     capacity: usize,
     material: &Material,
     settings: &Settings,
 ) -> World {
-    let Fabric { mesh, mut constraints, rest, frame, areas, cells, plates } = fabric;
+    let RestModel { mesh, mut constraints, rest, frame, areas, cells, plates } = rest_model;
     constraints.chains = Chains::new(&constraints.links, &rest, capacity > rest.len());
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
     let max_tears = settings.max_tears(triangle_capacity);
@@ -238,7 +257,7 @@ fn build(
     };
     world.pins.reserve(capacity);
     world.tethers.reserve(capacity, world.mesh.triangles.len());
-    world.reserve_packed(capacity);
+    world.reserve_scratch(capacity);
     world.pin_order.reserve(capacity, world.constraints.links.len());
     for particle in pinned {
         let x = world.rest[particle as usize];
@@ -254,18 +273,20 @@ fn build(
     world
 }
 
-/// How many edges tears can open: each new vertex opens at most two, and only inner edges can.
-fn opening_capacity(mesh: &Mesh, capacity: usize) -> usize {
-    let inner = mesh.edges().filter(|edge| mesh.across(*edge) != NONE).count();
-    inner.min(2 * (capacity - mesh.vertex_count()))
+/// Returns the number of edges that tears can open at most: each new vertex opens up to two, and
+/// only inner edges can open.
+fn max_opened_edges(mesh: &Mesh, capacity: usize) -> usize {
+    let inner_edges = mesh.edges().filter(|edge| mesh.across(*edge) != NONE).count();
+    inner_edges.min(2 * (capacity - mesh.vertex_count()))
 }
 
+/// Returns the mean of the two shorter edges of all triangles [m]; on a grid, the spacing.
 fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
-    let at = |corner: u32| rest[mesh.vertex(corner) as usize];
+    let position = |corner: u32| rest[mesh.vertex(corner) as usize];
     let (mut sum, mut count) = (0.0, 0.0);
-    // The shorter two edges of each triangle: on a grid that is the spacing, not the diagonal.
+    // The two shorter edges of each triangle: on a grid, those of length `spacing`.
     for triangle in 0..mesh.triangles.len() as u32 {
-        let length = |corner: u32| (at(next_corner(corner)) - at(corner)).length();
+        let length = |corner: u32| (position(next_corner(corner)) - position(corner)).length();
         let [a, b, c] = [0, 1, 2].map(|k| length(3 * triangle + k));
         let longest = if a > b { a } else { b };
         let longest = if longest > c { longest } else { c };
@@ -276,7 +297,7 @@ fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
 }
 
 impl World {
-    /// Sees to room for `capacity` particles in every list that tears make longer.
+    /// Reserves every list that tears may extend for `capacity` particles.
     pub(crate) fn reserve(&mut self, capacity: usize) {
         let reserve = |list: &mut Vec<u32>| list.reserve_exact(capacity.saturating_sub(list.len()));
         reserve(&mut self.mesh.source);
@@ -289,8 +310,8 @@ impl World {
         self.crack_tips.reserve_exact(capacity.saturating_sub(self.crack_tips.len()));
         self.pins.reserve(capacity);
         self.events.reserve();
-        let openings = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.constraints.reserve(openings, capacity);
+        let opened_edges = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
+        self.constraints.reserve(opened_edges, capacity);
         if let Some(cells) = &mut self.grid_cells {
             cells.reserve();
         }
@@ -305,7 +326,7 @@ impl World {
             self.mesh.triangles.len(),
             self.settings.max_tears(self.triangle_capacity),
         );
-        self.reserve_packed(capacity);
+        self.reserve_scratch(capacity);
         self.reserve_effective_mass();
         self.reserve_anchor_scratch();
         self.reserve_contacts();
@@ -314,10 +335,10 @@ impl World {
         self.mesh.label_pieces(&mut self.scratch.pieces.label, &mut self.scratch.piece_stack);
     }
 
-    /// Sees to room for all that tears may still need, after a cut made more triangles.
+    /// Reserves what tears may still need, after a cut added triangles.
     pub(crate) fn reserve_for_tears(&mut self) {
-        let openings = opening_capacity(&self.mesh, self.capacity());
-        self.constraints.reserve(openings, self.capacity());
+        let opened_edges = max_opened_edges(&self.mesh, self.capacity());
+        self.constraints.reserve(opened_edges, self.capacity());
         self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
         scratch.piece_stack.reserve_exact(triangles.saturating_sub(scratch.piece_stack.len()));
@@ -325,21 +346,22 @@ impl World {
         scratch.rollback.reserve(triangles);
     }
 
-    fn reserve_packed(&mut self, capacity: usize) {
+    /// Allocates the scratch buffers of the solver stages for `capacity` particles.
+    fn reserve_scratch(&mut self, capacity: usize) {
         self.scratch.end_weights.reserve(capacity, self.constraints.links.len());
         if self.constraints.rows.is_none() {
             self.scratch.interleaved.reserve(capacity);
         }
-        let has_strips = self.constraints.rows.is_some();
+        let has_grid_rows = self.constraints.rows.is_some();
         let steps = self.constraints.chains.blocks.max_steps();
-        self.scratch.lines = line_scratch::LineScratch::new(steps, capacity, has_strips);
+        self.scratch.lines = line_scratch::LineScratch::new(steps, capacity, has_grid_rows);
         self.scratch.bend = bend::bend_scratch::BendScratch::new(
             self.plate_elements.as_ref(),
             self.mesh.triangles.len(),
             self.constraints.hinges.all.len(),
             capacity,
         );
-        let extra = opening_capacity(&self.mesh, capacity.max(self.mesh.vertex_count()));
+        let extra = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.scratch.damping =
             damping_scratch::DampingScratch::new(self.constraints.links.len(), extra);
     }

@@ -1,4 +1,8 @@
-//! What a cloth may touch: added, moved and removed.
+//! Public calls for colliders: add, move, teleport, remove, and read the impulse.
+//!
+//! Reads [`ColliderDesc`]; writes `World::colliders`.
+//! Invariant: any change invalidates the cached collider contacts or happens through the swept
+//! pose.
 
 use crate::cloth::Cloth;
 use crate::error::Result;
@@ -8,11 +12,12 @@ use crate::state::colliders::{Collider, ColliderBody, Impulse};
 use glam::{Quat, Vec3};
 
 impl Cloth {
-    /// Adds a collider.
+    /// Adds a collider to the cloth and returns its handle. It acts from the next tick on.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule,
-    /// [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
+    /// [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex)
+    /// names the invalid field of `desc` and its rule; [`Error::Full`](crate::Error::Full) if there
+    /// are 1024 colliders already. The cloth is unchanged.
     pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
         let body = with_float_env(|| ColliderBody::new(desc.clone()))?;
         let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
@@ -21,11 +26,13 @@ impl Cloth {
         Ok(Collider(handle))
     }
 
-    /// Moves a collider; it gets there over the next tick.
+    /// Moves a collider to a new pose [m], which it reaches over the next tick. The motion is
+    /// swept, so a fast collider does not jump through the cloth.
     ///
     /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a pose that cannot be.
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed;
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite or `rotation` is not
+    /// a unit quaternion. The cloth is unchanged.
     pub fn move_collider(
         &mut self,
         collider: Collider,
@@ -36,11 +43,13 @@ impl Cloth {
         with_float_env(|| body.move_to(position, rotation))
     }
 
-    /// Puts a collider somewhere at once: it does not sweep, and what lay on it does not feel it go.
+    /// Places a collider at a new pose [m] at once, without a sweep and without dragging the cloth
+    /// along.
     ///
     /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a pose that cannot be.
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed;
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite or `rotation` is not
+    /// a unit quaternion. The cloth is unchanged.
     pub fn teleport_collider(
         &mut self,
         collider: Collider,
@@ -54,7 +63,7 @@ impl Cloth {
         Ok(())
     }
 
-    /// Removes a collider.
+    /// Removes a collider. Its handle becomes stale.
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed before.
@@ -65,7 +74,9 @@ impl Cloth {
         Ok(())
     }
 
-    /// What the cloth did to a collider in the last tick.
+    /// Returns the impulse that the cloth applied to a collider in the last tick. Divided by the
+    /// length of the tick, it is the force and torque for an engine that simulates the collider as
+    /// a rigid body.
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed.

@@ -1,4 +1,7 @@
-//! Folding along a line.
+//! Public call for creases: adds a permanent fold along a line of the rest shape.
+//!
+//! Reads the rest shape; writes the rest angles in `World::folds`.
+//! Invariant: nothing changes unless all arguments are valid.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
@@ -7,21 +10,24 @@ use crate::mesh::grid::GridFrame;
 use glam::Vec3;
 
 impl Cloth {
-    /// Gives the cloth a fold of `angle` [rad] along a line, from `from` to `to` [m], both where they are
-    /// in the cloth as it was made. From then on the cloth rests folded by so much more along it: towards its
-    /// front, where the triangles are counter-clockwise, if `angle` is above 0, and else away from it.
+    /// Adds a fold of `angle` [rad] to the rest shape, along the line from `from` to `to` [m]. Both
+    /// points are given on the cloth as it was made.
     ///
-    /// The line need not follow the mesh: the fold is shared out over the cells beside it. It bends no more
-    /// than `bend_stiffness` can make it, and stays until [`Cloth::reset`]; folding by −`angle` along the
-    /// same line takes it away, but not what `yield_hardening` and `yield_weakening` count. Where the line is not on the cloth nothing is folded.
+    /// A positive angle folds towards the front of the cloth (the side from which triangles are
+    /// counter-clockwise), a negative one away from it. The line need not follow the mesh: the fold
+    /// is distributed over the cells beside it. A line that misses the cloth has no effect.
+    ///
+    /// The cloth bends only as far as `bend_stiffness` can turn it. The fold lasts until
+    /// [`Cloth::reset`]. A second crease of −`angle` along the same line removes it, except for the
+    /// accumulated folding that `yield_hardening` and `yield_weakening` count.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for a number that is not finite, for `to` equal to
-    /// `from`, and unless `angle` is from −3 to 3.
+    /// [`Error::BadValue`](crate::Error::BadValue) if a number is not finite, `to` equals `from`,
+    /// or `angle` is not from −3 to 3. The cloth is unchanged.
     pub fn crease(&mut self, from: Vec3, to: Vec3, angle: f32) -> Result<()> {
         check_finite(from, "from")?;
         check_finite(to, "to")?;
-        check(from != to, "to", "be apart from `from`")?;
+        check(from != to, "to", "differ from `from`")?;
         check((-3.0..=3.0).contains(&angle), "angle", "be from -3 to 3")?;
         self.world.wake();
         with_float_env(|| match self.world.grid_frame {
@@ -31,7 +37,7 @@ impl Cloth {
             }
             None => self.world.crease_mesh([from, to], angle),
         });
-        self.changed_state();
+        self.update_state();
         Ok(())
     }
 }

@@ -1,4 +1,8 @@
-//! Cutting with a blade.
+//! Public call for cuts: divides triangles along a blade and opens the mesh there.
+//!
+//! Reads the blade (a segment swept along a vector); `solver::topology::cut` plans the whole cut
+//! and then applies it.
+//! Invariant: the plan is checked against the reserve before anything changes.
 
 use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_finite};
@@ -9,34 +13,51 @@ use crate::solver::topology::cut;
 use glam::Vec3;
 
 impl Cloth {
-    /// Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. Says
-    /// how many edges opened; 0 leaves the cloth as it was.
+    /// Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m].
+    /// Returns the number of opened edges; 0 means that the blade missed and nothing changed.
     ///
-    /// Triangles that the blade goes through are divided along it: vertices come to be on the edges that
-    /// it crosses, between their ends in all that they have, and the mesh opens along them. Where it
-    /// would come nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5°
-    /// or less area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex
-    /// instead; past a pinned one it goes at an eighth of the edge. Where the blade ends inside a
-    /// triangle, the cut ends at the edge before. Vertices that a cut makes are free; a pinned one that it
-    /// goes through is pinned on both sides. Mass and area at rest stay.
+    /// - Triangles that the blade crosses are divided along it: new vertices lie on the crossed
+    ///   edges, with attributes interpolated between the edge's ends, and the mesh opens along
+    ///   them.
+    /// - The cut goes through an existing vertex instead if it would pass closer than an eighth of
+    ///   an edge, or would leave a triangle with an angle below 5° or with less than 1/200 of the
+    ///   area of a square of the mean edge. It does not snap to a pinned vertex; it passes it at an
+    ///   eighth of the edge.
+    /// - Where the blade ends inside a triangle, the cut ends at the edge before it.
+    /// - New vertices are free; a pinned vertex that the cut goes through is pinned on both sides.
+    /// - Mass and rest area are conserved.
+    /// - Each crossed edge uses one particle of the reserve (`extra_particles`), and one more if it
+    ///   opens.
     ///
-    /// Each edge that is crossed takes one particle of the reserve, and one more where it opens.
+    /// ```
+    /// use muslin::glam::Vec3;
+    /// use muslin::{Cloth, GridDesc};
+    ///
+    /// let mut cloth = Cloth::grid(&GridDesc::default())?; // 1.95 m x 1.95 m, in the plane z = 0
+    /// let opened = cloth.cut(
+    ///     Vec3::new(0.52, -0.5, -1.0),
+    ///     Vec3::new(0.52, -1.5, -1.0),
+    ///     Vec3::new(0.0, 0.0, 2.0),
+    /// )?;
+    /// assert!(opened > 0);
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::BadValue`] for a number that is not finite, or unless `to` is apart from `from` and
-    /// `sweep` leads away from the line through both; [`Error::Full`] if the reserve cannot take the whole
-    /// cut.
+    /// [`Error::BadValue`] if a number is not finite, `to` equals `from`, or `sweep` is zero or
+    /// parallel to the segment; [`Error::Full`] if the reserve cannot hold the whole cut. The cloth
+    /// is unchanged.
     pub fn cut(&mut self, from: Vec3, to: Vec3, sweep: Vec3) -> Result<u32> {
         check_finite(from, "from")?;
         check_finite(to, "to")?;
         check_finite(sweep, "sweep")?;
-        check(from != to, "to", "be apart from `from`")?;
+        check(from != to, "to", "differ from `from`")?;
         check(sweep != Vec3::ZERO, "sweep", "not be zero")?;
         let blade = with_float_env(|| Blade::new(from, to, sweep));
         let Some(blade) = blade else {
             return Err(Error::BadValue {
                 field: "sweep",
-                must: "lead away from the line through `from` and `to`",
+                must: "not be parallel to the line through `from` and `to`",
             });
         };
         let plan = with_float_env(|| cut::plan(&self.world, &blade));
@@ -53,8 +74,8 @@ impl Cloth {
             let count = self.world.particles.len() as u32;
             split_separation::part(&mut self.world, 0..count);
         });
-        self.changed_topology();
-        self.changed_state();
+        self.update_topology();
+        self.update_state();
         Ok(plan.opened())
     }
 }

@@ -1,4 +1,8 @@
-//! What a cloth is made from: a grid, or any triangle mesh.
+//! Descriptors: the grid or the triangle mesh that a cloth is made from.
+//!
+//! Reads nothing; `cloth::build` turns a descriptor into a `World`.
+//! Invariant: a descriptor that passed `check` can be built; only a mesh may still fail, with
+//! [`Error::BadMesh`](crate::Error::BadMesh).
 
 use crate::error::{Result, check, check_finite, check_index};
 use crate::model::material::Material;
@@ -6,22 +10,22 @@ use crate::state::settings::Settings;
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// For `extra_particles`: room for as many particles again as the cloth starts with.
+/// Value of `extra_particles` that reserves as many particles again as the cloth starts with.
 pub const AS_MANY_AGAIN: u32 = u32::MAX;
 
-/// No cloth has more particles than this, tears included.
+/// Largest number of particles at creation; with the reserve, twice as many.
 pub(crate) const MAX_PARTICLES: u64 = 1 << 22;
 
-/// How far a grid may be from zero [spacings].
+/// Largest distance of a grid from zero along an axis [spacings].
 const FARTHEST: f32 = 2097152.0;
 
-/// Which particles of a new grid are pinned where they are.
+/// Which particles of a new grid are pinned at their positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum PinMode {
-    /// None: it falls.
+    /// No particle: the cloth falls.
     None = 0,
-    /// The whole first row.
+    /// All particles of the first row.
     #[default]
     TopEdge = 1,
     /// The two ends of the first row.
@@ -30,30 +34,32 @@ pub enum PinMode {
     Corners = 3,
 }
 
-/// A regular grid of particles; particle = row · columns + column.
+/// A regular grid of particles. The particle at `row` and `column` has the index `row · columns +
+/// column`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GridDesc {
-    /// Particles across; 40. At least 2.
+    /// Particles per row. Default 40; at least 2.
     pub columns: u32,
-    /// Particles down; 40. At least 2.
+    /// Number of rows. Default 40; at least 2. A grid has at most 4194304 particles.
     pub rows: u32,
-    /// Distance between neighbours [m]; 0.05. From 1e-6 to 1e6.
+    /// Distance between neighbours [m]. Default 0.05; from 1e-6 to 1e6.
     pub spacing: f32,
-    /// Where particle (0, 0), the top left, is [m]; the origin. Within 2097152 `spacing` of zero along each
-    /// axis.
+    /// Position of particle (0, 0), the top left corner [m]. Default 0, 0, 0; within 2097152 times
+    /// `spacing` of zero along each axis.
     pub origin: Vec3,
-    /// Unit direction of a row; +x.
+    /// Unit direction along a row. Default +x.
     pub right: Vec3,
-    /// Unit direction of a column, square to `right`; −y.
+    /// Unit direction along a column, perpendicular to `right`. Default −y.
     pub down: Vec3,
-    /// What is pinned from the start; the top edge.
+    /// Particles that are pinned from the start. Default: the top edge.
     pub pin_mode: PinMode,
-    /// Particles that tears may add; [`AS_MANY_AGAIN`].
+    /// Particles to reserve for tears and cuts. Default [`AS_MANY_AGAIN`]; 0 if the cloth never
+    /// tears.
     pub extra_particles: u32,
-    /// What it is made of.
+    /// The material.
     pub material: Material,
-    /// How its time runs.
+    /// The settings.
     pub settings: Settings,
 }
 
@@ -75,30 +81,35 @@ impl Default for GridDesc {
 }
 
 impl GridDesc {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) names the first invalid field and its rule.
     pub(crate) fn check(&self) -> Result<()> {
         check(self.columns >= 2, "columns", "be at least 2")?;
         check(self.rows >= 2, "rows", "be at least 2")?;
         let count = u64::from(self.columns) * u64::from(self.rows);
-        check(count <= MAX_PARTICLES, "columns", "make at most 4194304 particles with `rows`")?;
+        check(count <= MAX_PARTICLES, "columns", "give at most 4194304 particles with `rows`")?;
         check((1.0e-6..=1.0e6).contains(&self.spacing), "spacing", "be from 0.000001 to 1000000")?;
         check_finite(self.origin, "origin")?;
-        // Farther off, numbers are too coarse to tell neighbours apart.
+        // Farther away, f32 cannot resolve the distance between neighbours.
         let near = self.origin.abs().max_element() <= FARTHEST * self.spacing;
-        check(near, "origin", "be within 2097152 `spacing` of zero along each axis")?;
+        check(near, "origin", "be within 2097152 times `spacing` of zero along each axis")?;
         let unit = |v: Vec3| (v.length_squared() - 1.0).abs() < 1.0e-3;
-        check(unit(self.right), "right", "be a unit direction")?;
-        check(unit(self.down), "down", "be a unit direction")?;
-        check(self.right.dot(self.down).abs() < 1.0e-3, "down", "be square to `right`")?;
+        check(unit(self.right), "right", "be a unit vector")?;
+        check(unit(self.down), "down", "be a unit vector")?;
+        check(self.right.dot(self.down).abs() < 1.0e-3, "down", "be perpendicular to `right`")?;
         check_extra(self.extra_particles, count)?;
         self.material.check()?;
         self.settings.check()
     }
 
+    /// Returns the largest number of particles that the cloth may ever have.
     pub(crate) fn capacity(&self) -> usize {
         capacity((self.columns * self.rows) as usize, self.extra_particles)
     }
 
-    /// The particles that `pin_mode` pins, lowest first.
+    /// Returns the particles that `pin_mode` pins, in ascending order.
     pub(crate) fn pinned(&self) -> Vec<u32> {
         let (last, count) = (self.columns - 1, self.columns * self.rows);
         match self.pin_mode {
@@ -110,36 +121,48 @@ impl GridDesc {
     }
 }
 
-/// Any triangle mesh, as artists export them. What cannot be cloth in it is repaired, see
-/// [`MeshReport`](crate::MeshReport): doubled vertices are welded, triangles without an area and repeated
-/// ones dropped; where more than two triangles share an edge the flattest two stay joined and the others get
-/// an edge of their own; sheets that meet at a mere point are parted; the triangles of a piece are turned to
-/// face as most of them do. Vertices that no triangle uses stay where they are.
+/// Any triangle mesh, as modelling tools export them.
 ///
-/// A mesh that is a regular grid, its vertices and triangles in the order that [`GridDesc`] has them, is
-/// woven as that grid is: it moves in the same bits.
+/// Defects are repaired in this order, and [`Cloth::mesh_report`](crate::Cloth::mesh_report) counts
+/// the repairs:
+///
+/// - duplicate vertices are welded (see `weld_distance`);
+/// - triangles without an area and repeated triangles are dropped;
+/// - where more than two triangles share an edge, the flattest pair stays joined and the others get
+///   an edge of their own;
+/// - sheets that touch in a single vertex are separated there;
+/// - within each piece, triangles are turned to face as most of them do.
+///
+/// Vertices that no triangle uses stay where they are.
+///
+/// A mesh that is a regular grid, with vertices and triangles in the order of [`GridDesc`], is
+/// simulated as that grid, with identical bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MeshDesc {
-    /// Where the vertices are at rest [m]. Each is the particle of its number if nothing is welded or split,
-    /// see [`Cloth::vertex_particles`](crate::Cloth::vertex_particles).
+    /// Rest positions of the vertices [m]; from 3 to 4194304. If nothing is welded or split, vertex
+    /// `i` is particle `i`; otherwise see
+    /// [`Cloth::vertex_particles`](crate::Cloth::vertex_particles).
     pub positions: Vec<Vec3>,
-    /// Three vertices a triangle, counter-clockwise seen from its front.
+    /// Three vertices per triangle, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
-    /// Texture coordinates, one a vertex; or none at all.
+    /// Texture coordinates, one entry per vertex, or empty for none.
     pub uvs: Vec<Vec2>,
     /// Vertices whose particles are pinned from the start.
     pub pinned: Vec<u32>,
-    /// Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, −1 (or
-    /// anything below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one
-    /// before it that stayed apart; but the corners of a triangle stay apart, however small it is. Keep it
-    /// well below the shortest edge.
+    /// Vertices at most this far apart share one particle [m]. Default −1.
+    ///
+    /// 0 welds vertices at exactly the same position; a negative value welds nothing. Vertices are
+    /// processed in order: each joins the nearest earlier vertex that was not welded itself.
+    /// Corners of one triangle are never welded together. Choose a value well below the shortest
+    /// edge.
     pub weld_distance: f32,
-    /// Particles that tears may add; [`AS_MANY_AGAIN`].
+    /// Particles to reserve for tears and cuts. Default [`AS_MANY_AGAIN`]; 0 if the cloth never
+    /// tears.
     pub extra_particles: u32,
-    /// What it is made of.
+    /// The material.
     pub material: Material,
-    /// How its time runs.
+    /// The settings.
     pub settings: Settings,
 }
 
@@ -159,17 +182,22 @@ impl Default for MeshDesc {
 }
 
 impl MeshDesc {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex)
+    /// names the first invalid field and its rule.
     pub(crate) fn check(&self) -> Result<()> {
         let count = self.positions.len() as u64;
         check(count >= 3, "positions", "hold at least 3 vertices")?;
         check(count <= MAX_PARTICLES, "positions", "hold at most 4194304 vertices")?;
         self.positions.iter().try_for_each(|position| check_finite(*position, "positions"))?;
         let triples = !self.indices.is_empty() && self.indices.len().is_multiple_of(3);
-        check(triples, "indices", "hold three for each of one or more triangles")?;
+        check(triples, "indices", "hold three entries for each of one or more triangles")?;
         check(
             self.uvs.is_empty() || self.uvs.len() == self.positions.len(),
             "uvs",
-            "be as many as `positions`, or none",
+            "have as many entries as `positions`, or none",
         )?;
         let finite = self.uvs.iter().all(|uv| uv.is_finite());
         check(finite, "uvs", "be finite")?;
@@ -182,17 +210,21 @@ impl MeshDesc {
         self.settings.check()
     }
 
-    /// How many particles there may ever be, if it comes to so many.
+    /// Returns the largest number of particles that a cloth may ever have that starts with
+    /// `particles`.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) if the repaired mesh has too many particles.
     pub(crate) fn capacity(&self, particles: usize) -> Result<usize> {
         let fits = particles as u64 <= MAX_PARTICLES;
-        check(fits, "indices", "make at most 4194304 particles")?;
+        check(fits, "indices", "give at most 4194304 particles")?;
         Ok(capacity(particles, self.extra_particles))
     }
 }
 
 fn check_extra(extra: u32, count: u64) -> Result<()> {
     let fits = extra == AS_MANY_AGAIN || count + u64::from(extra) <= 2 * MAX_PARTICLES;
-    check(fits, "extra_particles", "leave at most 8388608 particles in all")
+    check(fits, "extra_particles", "allow at most 8388608 particles in total")
 }
 
 fn capacity(count: usize, extra: u32) -> usize {

@@ -1,17 +1,30 @@
-//! The public noun: takes edits, runs ticks, hands out what a renderer reads.
+//! The public [`Cloth`]: validates arguments, edits the state, runs the pipeline, owns the output
+//! lists.
+//!
+//! ```text
+//! descriptor ──build──▶ World ──pipeline::tick──▶ World ──outputs──▶ lists that a renderer reads
+//!                         ▲
+//!     pins, grabs, colliders, settings, cuts: one file each in this folder
+//! ```
+//!
+//! Reads the descriptors and the caller's arguments; writes `World` between ticks, and `Outputs`
+//! after every change of positions or triangles.
+//! Invariant: every public call checks all of its arguments before it changes anything, and runs
+//! its floating-point work inside `with_float_env`, so that a host's rounding mode cannot change the
+//! result.
 
 mod anchors;
 mod attachments;
-mod blended_surface;
 mod build;
+mod change_history;
 pub(crate) mod changes;
 mod colliders;
 mod crease;
 mod cut;
 pub(crate) mod desc;
-#[cfg(test)]
-mod equal_bits;
+mod interpolated_surface;
 mod mass_scales;
+mod outputs;
 mod pins;
 mod postcard;
 pub(crate) mod query;
@@ -25,6 +38,13 @@ pub(crate) mod vertex_stream;
 pub(crate) mod view;
 pub(crate) mod write_vertices;
 
+#[cfg(test)]
+mod kernel_equivalence_tests;
+
+use crate::cloth::build::ClothDesc;
+use crate::cloth::change_history::ChangeHistory;
+use crate::cloth::desc::{GridDesc, MeshDesc};
+use crate::cloth::outputs::Outputs;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
@@ -32,11 +52,6 @@ use crate::model::material::Material;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
 use crate::solver::self_collide::surface::split_separation;
-
-use crate::cloth::build::Origin;
-use crate::cloth::changes::History;
-use crate::cloth::desc::{GridDesc, MeshDesc};
-use crate::cloth::view::Outputs;
 use crate::solver::world::World;
 use crate::state::events::Event;
 use crate::state::grabs::{Grab, GrabbedParticle};
@@ -44,102 +59,177 @@ use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 
-/// A piece of cloth.
+/// A simulated piece of cloth: particles joined by constraints, with the triangle mesh that is
+/// drawn.
 ///
-/// It moves in fixed ticks: [`Cloth::advance`] runs those that a frame owes, [`Cloth::step`] a given
-/// number. The same calls give the same bits on every platform. A refused call changes nothing.
+/// A cloth is made from a regular grid ([`Cloth::grid`]) or from any triangle mesh
+/// ([`Cloth::mesh`]). There is no world to set up and there are no callbacks: pins, grabs,
+/// colliders, wind and settings belong to the cloth.
+///
+/// - **Time** moves in fixed ticks of [`Settings::tick`] seconds. [`Cloth::advance`] runs the ticks
+///   that are due for a frame; [`Cloth::step`] runs an exact number.
+/// - **Determinism**: the same sequence of calls gives the same bits on every platform and for any
+///   number of threads. [`Cloth::state_hash`] shows it.
+/// - **Errors**: a call that returns an error changes nothing.
+/// - **Units**: metres, kilograms, seconds, radians; right-handed axes. Gravity is a setting; y is
+///   up by default.
+/// - **Memory** for tears is reserved when the cloth is made (`extra_particles`), so a tick
+///   allocates nothing.
+///
+/// ```
+/// use muslin::glam::Vec3;
+/// use muslin::{Cloth, ColliderDesc, GridDesc, Shape};
+///
+/// // A sheet of 40 x 40 particles, pinned along its top edge, in front of a ball.
+/// let mut cloth = Cloth::grid(&GridDesc::default())?;
+/// let ball = ColliderDesc {
+///     shape: Shape::Sphere,
+///     position: Vec3::new(1.0, -1.2, 0.3),
+///     radius: 0.4,
+///     ..ColliderDesc::default()
+/// };
+/// cloth.add_collider(&ball)?;
+///
+/// for _frame in 0..60 {
+///     cloth.advance(1.0 / 60.0)?;
+///     let view = cloth.view();
+///     // Upload `view.positions` and `view.normals`; upload `view.indices` again only when
+///     // `view.topology_revision` changes.
+///     assert_eq!(view.positions.len(), view.normals.len());
+/// }
+/// # Ok::<(), muslin::Error>(())
+/// ```
+///
+/// [`Settings::tick`]: crate::Settings::tick
 #[derive(Debug)]
 pub struct Cloth {
-    origin: Origin,
+    /// The descriptor that the cloth was made from; [`Cloth::reset`] builds the rest state from it
+    /// again.
+    desc: ClothDesc,
     world: World,
     outputs: Outputs,
     report: MeshReport,
-    /// Time that `advance` was given and has not run yet [s].
-    owed: f64,
-    /// Whether pins changed since the tethers were measured.
+    /// Time that was passed to `advance` and has not been simulated yet [s].
+    backlog: f64,
+    /// Whether pins changed after the tethers were last measured.
     pins_changed: bool,
     topology_revision: u32,
     state_revision: u32,
-    history: History,
+    history: ChangeHistory,
 }
 
 impl Clone for Cloth {
-    /// Another cloth in the same state; handles of grabs, attachments and colliders hold for both.
+    /// Returns an independent cloth in the same state. Handles of grabs, attachments and colliders
+    /// are valid for both.
     fn clone(&self) -> Self {
         let mut copy = Self {
-            origin: self.origin.clone(),
+            desc: self.desc.clone(),
             world: self.world.clone(),
             outputs: Outputs::new(&self.world),
             report: self.report,
-            owed: self.owed,
+            backlog: self.backlog,
             pins_changed: self.pins_changed,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
             history: self.history.clone(),
         };
-        // A cloned list has no spare room; what tears need is reserved anew.
+        // A cloned `Vec` has no spare capacity: reserve again what tears may need.
         copy.world.reserve(self.world.capacity());
         copy.outputs = Outputs::new(&copy.world);
-        copy.outputs.set_uvs(&copy.origin);
-        copy.outputs.follow_topology(&copy.world);
-        copy.outputs.follow(&copy.world);
+        copy.outputs.set_uvs(&copy.desc);
+        copy.outputs.update_topology(&copy.world);
+        copy.outputs.update_positions(&copy.world);
         copy
     }
 }
 
 impl Cloth {
-    /// Makes a cloth from a regular grid.
+    /// Makes a cloth from a regular grid of particles.
+    ///
+    /// ```
+    /// use muslin::{Cloth, GridDesc, Material, PinMode, Preset};
+    ///
+    /// let cloth = Cloth::grid(&GridDesc {
+    ///     columns: 30,
+    ///     rows: 20,
+    ///     spacing: 0.05,
+    ///     pin_mode: PinMode::TopCorners,
+    ///     material: Material::preset(Preset::Denim),
+    ///     ..GridDesc::default()
+    /// })?;
+    /// assert_eq!(cloth.particle_count(), 600);
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field of `desc` that cannot be, and the rule;
-    /// [`Error::Unsupported`](crate::Error::Unsupported) what this version does not do yet.
+    /// [`Error::BadValue`](crate::Error::BadValue) names the invalid field of `desc` and its rule.
     pub fn grid(desc: &GridDesc) -> Result<Self> {
         desc.check()?;
-        Self::from_origin(Origin::Grid(desc.clone()))
+        Self::from_desc(ClothDesc::Grid(desc.clone()))
     }
 
-    /// Makes a cloth from any triangle mesh. What cannot be cloth in it is repaired, and
-    /// [`Cloth::mesh_report`] tells what was.
+    /// Makes a cloth from any triangle mesh.
+    ///
+    /// Defects of the mesh are repaired, see [`MeshDesc`]; [`Cloth::mesh_report`] returns what was
+    /// repaired.
+    ///
+    /// ```
+    /// use muslin::glam::Vec3;
+    /// use muslin::{Cloth, MeshDesc};
+    ///
+    /// let cloth = Cloth::mesh(&MeshDesc {
+    ///     positions: vec![Vec3::ZERO, Vec3::X, Vec3::NEG_Y, Vec3::new(1.0, -1.0, 0.0)],
+    ///     indices: vec![0, 2, 1, 1, 2, 3],
+    ///     pinned: vec![0, 1],
+    ///     ..MeshDesc::default()
+    /// })?;
+    /// assert!(cloth.mesh_report().is_clean());
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex) names
-    /// the field of `desc` that cannot be; [`Error::BadMesh`](crate::Error::BadMesh) what is beyond repair: a
-    /// triangle whose area is not finite, or that none has an area;
-    /// [`Error::Unsupported`](crate::Error::Unsupported) what this version does not do yet.
+    /// - [`Error::BadValue`](crate::Error::BadValue) or [`Error::BadIndex`](crate::Error::BadIndex)
+    ///   names the invalid field of `desc` and its rule.
+    /// - [`Error::BadMesh`](crate::Error::BadMesh) if the mesh cannot be repaired: a triangle has
+    ///   an area that is not finite, or no triangle has an area.
     pub fn mesh(desc: &MeshDesc) -> Result<Self> {
         desc.check()?;
-        Self::from_origin(Origin::Mesh(desc.clone()))
+        Self::from_desc(ClothDesc::Mesh(desc.clone()))
     }
 
-    fn from_origin(origin: Origin) -> Result<Self> {
-        let (mut world, report) = with_float_env(|| origin.world())?;
+    fn from_desc(desc: ClothDesc) -> Result<Self> {
+        let (mut world, report) = with_float_env(|| desc.build_world())?;
         world.check_self_distance(&world.settings)?;
         with_float_env(|| {
             world.see_to_crowd();
             world.see_to_layers();
         });
         let mut outputs = Outputs::new(&world);
-        outputs.set_uvs(&origin);
-        outputs.follow_topology(&world);
-        outputs.follow(&world);
+        outputs.set_uvs(&desc);
+        outputs.update_topology(&world);
+        outputs.update_positions(&world);
         Ok(Self {
-            origin,
+            desc,
             world,
             outputs,
             report,
-            owed: 0.0,
+            backlog: 0.0,
             pins_changed: false,
             topology_revision: 1,
             state_revision: 1,
-            history: History::new(),
+            history: ChangeHistory::new(),
         })
     }
 
-    /// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, as heavy as its
-    /// material says, no grabs, no attachments, no leashes and no events. Settings, material, wind and colliders stay as they are.
+    /// Restores the initial state: rest shape, no tears or cuts, zero velocities, the pins of the
+    /// descriptor, time zero, all mass scales 1. Removes all grabs, attachments, anchors, creases
+    /// and events.
+    ///
+    /// Settings, material, wind and colliders stay as they are now. Handles of grabs and
+    /// attachments become stale; handles of colliders stay valid.
     pub fn reset(&mut self) {
-        // The descriptor was good enough once, so it is again.
-        let Ok((mut fresh, _)) = with_float_env(|| self.origin.world()) else {
+        // Building succeeded for this descriptor before, so it succeeds again.
+        let Ok((mut fresh, _)) = with_float_env(|| self.desc.build_world()) else {
             return;
         };
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
@@ -149,7 +239,7 @@ impl Cloth {
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
         fresh.threads = self.world.threads;
-        // Grabs and attachments are let go, and their handles stay stale.
+        // Keep the arenas and clear them, so that old handles stay stale.
         core::mem::swap(&mut fresh.grabs, &mut self.world.grabs);
         fresh.grabs.clear();
         core::mem::swap(&mut fresh.attachments, &mut self.world.attachments);
@@ -165,99 +255,107 @@ impl Cloth {
             self.world.see_to_crowd();
             self.world.see_to_layers();
         });
-        self.owed = 0.0;
+        self.backlog = 0.0;
         self.pins_changed = false;
-        self.changed_topology();
-        self.changed_state();
+        self.update_topology();
+        self.update_state();
     }
 
-    /// How time runs.
+    /// Returns the current settings.
     pub fn settings(&self) -> &Settings {
         &self.world.settings
     }
 
-    /// Changes how time runs, from the next tick on. Velocities stay as they are.
+    /// Replaces the settings; they take effect with the next tick. Velocities stay as they are.
+    ///
+    /// A change wakes a sleeping cloth.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule;
-    /// [`Error::Unsupported`](crate::Error::Unsupported) what this version does not do yet.
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
+    /// unchanged.
     pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
         settings.check()?;
         let world = &mut self.world;
         world.check_self_distance(&settings)?;
-        let restarts = settings.scheme() != world.settings.scheme();
-        let touches = |settings: &Settings| (settings.self_collision, settings.self_distance);
-        let touches_otherwise = touches(&settings) != touches(&world.settings);
-        let is_new = world.surface_collision.is_none();
+        let changes_scheme = settings.scheme() != world.settings.scheme();
+        let self_collision =
+            |settings: &Settings| (settings.self_collision, settings.self_distance);
+        let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
+        let had_no_surface_collision = world.surface_collision.is_none();
         world.scratch.tear.reserve(settings.max_tears(world.triangle_capacity));
-        let is_unsorted = world.settings.max_stretch == 0.0;
+        let was_unlimited = world.settings.max_stretch == 0.0;
         if settings != world.settings {
             world.wake();
         }
         world.settings = settings;
-        if is_unsorted {
+        if was_unlimited {
             world.rebuild_pin_order();
         }
-        if touches_otherwise {
+        if changes_self_collision {
             with_float_env(|| {
                 world.see_to_crowd();
                 world.see_to_layers();
-                if is_new {
+                if had_no_surface_collision {
                     world.is_tangled = true;
                     let count = world.particles.len() as u32;
                     split_separation::part(world, 0..count);
                 }
             });
         }
-        if restarts {
+        if changes_scheme {
             with_float_env(|| {
                 world.reset_history();
                 world.refresh_soft_pin_masses();
             });
         }
-        if is_new && self.world.surface_collision.is_some() {
-            self.changed_state();
+        if had_no_surface_collision && self.world.surface_collision.is_some() {
+            self.update_state();
         }
         Ok(())
     }
 
-    /// What it is made of.
+    /// Returns the current material.
     pub fn material(&self) -> &Material {
         &self.world.material
     }
 
-    /// Changes what it is made of, from the next tick on. Velocities stay as they are.
+    /// Replaces the material; it takes effect with the next tick. Velocities stay as they are.
+    ///
+    /// A change wakes a sleeping cloth. A new density changes the mass of every particle; mass
+    /// scales ([`Cloth::set_mass_scales`]) still apply.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
+    /// unchanged.
     pub fn set_material(&mut self, material: Material) -> Result<()> {
         material.check()?;
         let world = &mut self.world;
         if material != world.material {
             world.wake();
         }
-        let reweigh = material.density != world.material.density;
+        let changes_density = material.density != world.material.density;
         world.scratch.contacts.nearby.invalidate();
         world.material = material;
         world.folds.reserve_hardening(&world.material);
         with_float_env(|| {
             world.constraints.update_compliances(&world.material);
-            if reweigh {
+            if changes_density {
                 world.compute_masses();
             }
         });
         Ok(())
     }
 
-    /// The air around it.
+    /// Returns the current wind.
     pub fn wind(&self) -> &Wind {
         &self.world.wind
     }
 
-    /// Changes the air around it, from the next tick on.
+    /// Replaces the wind; it takes effect with the next tick. A change wakes a sleeping cloth.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and the rule.
+    /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
+    /// unchanged.
     pub fn set_wind(&mut self, wind: Wind) -> Result<()> {
         wind.check()?;
         if wind != self.world.wind {
@@ -267,29 +365,42 @@ impl Cloth {
         Ok(())
     }
 
-    /// Runs the ticks that a frame of `seconds` [s] owes, and says how many ran.
+    /// Runs the ticks that are due after `seconds` [s] of frame time, and returns how many ran.
     ///
-    /// What is left over waits for the next frame, see [`Cloth::blend`]. A late frame owes at most
-    /// `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
+    /// The remainder, less than one tick, is kept for the next call; [`Cloth::blend`] returns it as
+    /// a share of a tick. At most `max_ticks_per_advance` ticks run; the rest of the backlog is
+    /// dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
+    /// change nothing.
+    ///
+    /// ```
+    /// use muslin::{Cloth, GridDesc};
+    ///
+    /// let mut cloth = Cloth::grid(&GridDesc::default())?; // ticks of 1/60 s
+    /// assert_eq!(cloth.advance(0.04)?, 2);
+    /// assert!(cloth.blend() > 0.39 && cloth.blend() < 0.41);
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) if `seconds` is negative or not finite.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `seconds` is negative or not finite. The
+    /// cloth is unchanged.
     pub fn advance(&mut self, seconds: f32) -> Result<u32> {
         check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")?;
-        let (ticks, owed) = with_float_env(|| {
+        let (ticks, backlog) = with_float_env(|| {
             let tick = f64::from(self.world.settings.tick);
-            let owed = self.owed + f64::from(seconds);
-            let whole = (owed / tick).floor();
-            let most = self.world.settings.max_ticks_per_advance;
-            let ticks = if whole < f64::from(most) { whole as u32 } else { most };
-            (ticks, owed - whole * tick)
+            let backlog = self.backlog + f64::from(seconds);
+            let whole = (backlog / tick).floor();
+            let max_ticks = self.world.settings.max_ticks_per_advance;
+            let ticks = if whole < f64::from(max_ticks) { whole as u32 } else { max_ticks };
+            (ticks, backlog - whole * tick)
         });
-        self.owed = if owed > 0.0 { owed } else { 0.0 };
+        self.backlog = if backlog > 0.0 { backlog } else { 0.0 };
         self.step(ticks);
         Ok(ticks)
     }
 
-    /// Runs exactly `ticks` ticks.
+    /// Runs exactly `ticks` ticks. The time that [`Cloth::advance`] keeps for the next frame does
+    /// not change.
     pub fn step(&mut self, ticks: u32) {
         self.world.profile.reset();
         if ticks == 0 {
@@ -306,29 +417,34 @@ impl Cloth {
             })
         });
         if self.world.mesh.vertex_count() != vertices {
-            self.changed_topology();
+            self.update_topology();
         }
         if has_moved {
-            self.changed_state();
+            self.update_state();
         }
     }
 
-    /// The share of a tick that `advance` still owes, 0 to 1: how far to blend from the last tick's
-    /// positions to this one's when drawing.
+    /// Returns the part of a tick that [`Cloth::advance`] has not simulated yet, from 0 to 1.
+    ///
+    /// Draw positions blended by this factor from the last tick's to the current ones, so that
+    /// motion is smooth at any frame rate; [`Cloth::write_vertices`] does so with
+    /// [`WriteDesc::blend`](crate::WriteDesc).
     pub fn blend(&self) -> f32 {
-        with_float_env(|| (self.owed / f64::from(self.world.settings.tick)) as f32)
+        with_float_env(|| (self.backlog / f64::from(self.world.settings.tick)) as f32)
     }
 
-    /// Time since it was made or reset [s].
+    /// Returns the simulated time since the cloth was made or reset [s].
     pub fn time(&self) -> f64 {
         self.world.time
     }
 
-    /// Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
+    /// Places a particle at `position` [m] at once. Its velocity stays as it is. A pinned particle
+    /// stays pinned, at the new position.
     ///
     /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite.
+    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite. The cloth is
+    /// unchanged.
     pub fn set_position(&mut self, particle: u32, position: Vec3) -> Result<()> {
         check_index(particle, self.world.particles.len(), "particle")?;
         check_finite(position, "position")?;
@@ -337,18 +453,19 @@ impl Cloth {
             let v = world.particles.v.at(at);
             world.set_particle_state(at, position, v);
             world.particles.x_prev_tick.set(at, position);
-            world.bring_pin(particle, position);
+            world.move_pin(particle, position);
             world.is_tangled = true;
         });
-        self.changed_state();
+        self.update_state();
         Ok(())
     }
 
-    /// Gives a particle a velocity [m/s].
+    /// Sets the velocity of a particle [m/s].
     ///
     /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a velocity that is not finite.
+    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
+    /// [`Error::BadValue`](crate::Error::BadValue) if `velocity` is not finite. The cloth is
+    /// unchanged.
     pub fn set_velocity(&mut self, particle: u32, velocity: Vec3) -> Result<()> {
         check_index(particle, self.world.particles.len(), "particle")?;
         check_finite(velocity, "velocity")?;
@@ -357,16 +474,19 @@ impl Cloth {
             let x = world.particles.x.at(at);
             world.set_particle_state(at, x, velocity);
         });
-        self.changed_state();
+        self.update_state();
         Ok(())
     }
 
-    /// Takes hold of a particle where it is. It follows [`Cloth::move_grab`] exactly, but for a limit
-    /// of `max_displacement` a substep, and carries the cloth along.
+    /// Grabs a particle at its current position and returns a handle.
+    ///
+    /// The particle then follows the target of [`Cloth::move_grab`] exactly, at most
+    /// `max_displacement` per substep, and pulls the cloth along. Up to 64 grabs may exist at once,
+    /// e.g. one per pointer.
     ///
     /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) for a particle that is not,
-    /// [`Error::Full`](crate::Error::Full) if 64 grabs are held already.
+    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
+    /// [`Error::Full`](crate::Error::Full) if there are 64 grabs already. The cloth is unchanged.
     pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
         check_index(particle, self.world.particles.len(), "particle")?;
         let target = self.world.particles.x.at(particle as usize);
@@ -376,18 +496,19 @@ impl Cloth {
         Ok(Grab(handle))
     }
 
-    /// Gives a grab a new target [m].
+    /// Sets the target of a grab [m].
     ///
     /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released,
-    /// [`Error::BadValue`](crate::Error::BadValue) for a target that is not finite.
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released;
+    /// [`Error::BadValue`](crate::Error::BadValue) if `target` is not finite. The cloth is
+    /// unchanged.
     pub fn move_grab(&mut self, grab: Grab, target: Vec3) -> Result<()> {
         check_finite(target, "target")?;
         self.world.grabs.get_mut(grab.0, "grab")?.target = target;
         Ok(())
     }
 
-    /// Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and
+    /// Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
     /// returns to its pin over the next tick.
     ///
     /// # Errors
@@ -402,31 +523,53 @@ impl Cloth {
         Ok(())
     }
 
-    /// The oldest event that was not read yet. The 1024 newest are kept.
+    /// Removes and returns the oldest unread event; `None` if there is none. The newest 1024 are
+    /// kept.
     ///
-    /// They come by tick; in a tick recoveries first, then tears, the worst first, and of each the
-    /// vertices that it split before the torn edge; then, if there was no room for another, that; then the
-    /// pieces that came off, in the order of their first triangles; then what is held apart. A cut tells
-    /// the edges that it divided, in its order; those that it opened; the vertices that it split; and the
-    /// pieces.
+    /// Events are ordered by tick, and within a tick:
+    ///
+    /// - recoveries ([`EventKind::Recovered`](crate::EventKind));
+    /// - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
+    /// - the used-up reserve, if there was no room for another tear;
+    /// - detached pieces, ordered by their first triangle;
+    /// - links that pins or grabs hold past `max_stretch`.
+    ///
+    /// A cut adds the edges that it divided, in its order, then the edges that it opened, the
+    /// vertices that it split, and the detached pieces.
+    ///
+    /// ```
+    /// use muslin::{Cloth, EventKind, GridDesc};
+    ///
+    /// let mut cloth = Cloth::grid(&GridDesc::default())?;
+    /// cloth.tear_edge(820, 821)?;
+    /// while let Some(event) = cloth.next_event() {
+    ///     if event.kind == EventKind::EdgeTorn {
+    ///         println!("tick {}: {} - {}", event.tick, event.particle_a, event.particle_b);
+    ///     }
+    /// }
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     pub fn next_event(&mut self) -> Option<Event> {
         self.world.events.pop()
     }
 
-    /// Times the stages of every tick by a clock that counts seconds, or stops timing.
+    /// Measures the time of each stage of every tick with `clock`, a function that returns seconds;
+    /// `None` stops measuring. [`Stats::seconds`](crate::Stats) returns the times.
     pub fn set_clock(&mut self, clock: Option<Clock>) {
         self.world.profile.set_clock(clock);
     }
 
-    fn changed_topology(&mut self) {
+    /// Updates all that depends on the triangles, and records which output ranges changed.
+    fn update_topology(&mut self) {
         self.world.wake();
         self.topology_revision = self.topology_revision.wrapping_add(1);
-        let change = self.outputs.follow_topology(&self.world);
+        let change = self.outputs.update_topology(&self.world);
         self.history.push(change);
     }
 
-    fn changed_state(&mut self) {
+    /// Updates the output positions after a change of positions.
+    fn update_state(&mut self) {
         self.state_revision = self.state_revision.wrapping_add(1);
-        self.outputs.follow(&self.world);
+        self.outputs.update_positions(&self.world);
     }
 }

@@ -1,4 +1,8 @@
-//! Questions to a cloth: what rays hit and take hold of, which links hold.
+//! Queries: ray casts, picking a particle with a ray, and the links of the solver.
+//!
+//! Ray against triangle: Möller and Trumbore 1997, in `geometry::ray`. Reads `World`; only
+//! `grab_ray` writes (a grab).
+//! Invariant: of equally near hits, the one with the lowest index is returned.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite};
@@ -11,54 +15,70 @@ use glam::Vec3;
 /// Where a ray hits a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The triangle that was hit: indices `3 * triangle` and the two after it.
+    /// The triangle that was hit: its corners are the indices `3 * triangle` and the two after it.
     pub triangle: u32,
-    /// Its particle nearest to the hit.
+    /// The corner particle nearest to the hit.
     pub particle: u32,
-    /// Weight of the triangle's second corner.
+    /// Barycentric weight of the triangle's second corner.
     pub u: f32,
-    /// Weight of the triangle's third corner.
+    /// Barycentric weight of the triangle's third corner.
     pub v: f32,
     /// Distance from the ray's origin [m].
     pub distance: f32,
-    /// Where [m].
+    /// Point of the hit [m].
     pub position: Vec3,
     /// Unit normal of the triangle, on the side that was hit.
     pub normal: Vec3,
 }
 
 impl Cloth {
-    /// The links that hold, each once: two particles and what it resists.
+    /// Returns the intact links (distance constraints): the two particles and the kind of each.
     pub fn links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
         self.world.constraints.active_links()
     }
 
-    /// The colours that links are solved in, in order: what they resist, and how many of the links that
-    /// it was woven with they hold. No particle appears twice in a colour.
+    /// Returns the colours of the graph colouring in solving order: the kind of their links, and
+    /// the number of links that each had in the rest state. Within a colour, no particle appears
+    /// twice.
     pub fn colors(&self) -> impl Iterator<Item = (LinkKind, usize)> + '_ {
         self.world.constraints.batches.iter().map(|batch| (batch.kind, batch.count))
     }
 
-    /// The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from
-    /// either side. `direction` need not have length one.
+    /// Returns the first triangle that a ray hits within `max_distance` [m], from either side;
+    /// `None` if it hits nothing.
+    ///
+    /// `direction` need not have length 1; `max_distance` may be infinite. Every triangle is tested
+    /// at its current position.
+    ///
+    /// ```
+    /// use muslin::glam::Vec3;
+    /// use muslin::{Cloth, GridDesc};
+    ///
+    /// let cloth = Cloth::grid(&GridDesc::default())?;
+    /// let hit = cloth.raycast(Vec3::new(1.0, -1.0, 5.0), Vec3::NEG_Z, f32::INFINITY)?;
+    /// assert_eq!(hit.map(|hit| hit.distance), Some(5.0));
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless `origin` and `direction` are finite,
-    /// `direction` is not zero, and `max_distance` is at least 0.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `origin` or `direction` is not finite,
+    /// `direction` is zero, or `max_distance` is negative.
     pub fn raycast(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Result<Option<Hit>> {
         check(max_distance >= 0.0, "max_distance", "be at least 0")?;
         let ray = ray(origin, direction)?;
         Ok(with_float_env(|| self.first_hit(&ray, max_distance)))
     }
 
-    /// Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits,
-    /// or else the nearest one within `radius` [m] of it. Says where that particle is [m]. `None` if
-    /// there is none.
+    /// Grabs the particle that a ray points at, and returns its handle and the particle's position
+    /// [m]; `None` if there is no such particle.
+    ///
+    /// The particle is the nearest corner of the first triangle that the ray hits; if it hits none,
+    /// the particle nearest to the ray within `radius` [m]. See [`Cloth::grab_particle`].
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless `origin` and `direction` are finite,
-    /// `direction` is not zero, and `radius` is at least 0 and finite;
-    /// [`Error::Full`](crate::Error::Full) if 64 grabs are held already.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `origin` or `direction` is not finite,
+    /// `direction` is zero, or `radius` is negative or not finite;
+    /// [`Error::Full`](crate::Error::Full) if there are 64 grabs already. The cloth is unchanged.
     pub fn grab_ray(
         &mut self,
         origin: Vec3,
@@ -67,48 +87,49 @@ impl Cloth {
     ) -> Result<Option<(Grab, Vec3)>> {
         check(radius.is_finite() && radius >= 0.0, "radius", "be at least 0 and finite")?;
         let ray = ray(origin, direction)?;
-        let pointed_at = with_float_env(|| {
+        let picked = with_float_env(|| {
             let hit = self.first_hit(&ray, f32::INFINITY).map(|hit| hit.particle);
             hit.or_else(|| self.nearest_to(&ray, radius))
         });
-        let Some(particle) = pointed_at else {
+        let Some(particle) = picked else {
             return Ok(None);
         };
         let grab = self.grab_particle(particle)?;
         Ok(Some((grab, self.world.particles.x.at(particle as usize))))
     }
 
+    /// Returns the nearest hit within `max_distance`.
     fn first_hit(&self, ray: &Ray, max_distance: f32) -> Option<Hit> {
         let x = &self.world.particles.x;
         let mut first: Option<Hit> = None;
         for (index, vertices) in self.world.mesh.triangles.iter().enumerate() {
             let corners = vertices.map(|v| x.at(v as usize));
-            let Some(meeting) = ray.intersect_triangle(corners) else {
+            let Some(intersection) = ray.intersect_triangle(corners) else {
                 continue;
             };
-            let nearest_yet = first.map_or(max_distance, |hit| hit.distance);
-            let is_nearer = meeting.distance < nearest_yet
-                || (first.is_none() && meeting.distance <= max_distance);
+            let nearest_so_far = first.map_or(max_distance, |hit| hit.distance);
+            let is_nearer = intersection.distance < nearest_so_far
+                || (first.is_none() && intersection.distance <= max_distance);
             if !is_nearer {
                 continue;
             }
             let [a, b, c] = corners;
-            let position = ray.origin + ray.direction * meeting.distance;
+            let position = ray.origin + ray.direction * intersection.distance;
             let normal = (b - a).cross(c - a);
             let facing = if normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
-            let far = |corner: usize| (corners[corner] - position).length_squared();
+            let distance2 = |corner: usize| (corners[corner] - position).length_squared();
             let mut nearest = 0;
             for corner in 1..3 {
-                if far(corner) < far(nearest) {
+                if distance2(corner) < distance2(nearest) {
                     nearest = corner;
                 }
             }
             first = Some(Hit {
                 triangle: index as u32,
                 particle: vertices[nearest],
-                u: meeting.u,
-                v: meeting.v,
-                distance: meeting.distance,
+                u: intersection.u,
+                v: intersection.v,
+                distance: intersection.distance,
                 position,
                 normal: normal * (facing / normal.length()),
             });
@@ -116,6 +137,7 @@ impl Cloth {
         first
     }
 
+    /// Returns the particle nearest to the ray, within `radius`.
     fn nearest_to(&self, ray: &Ray, radius: f32) -> Option<u32> {
         let mut nearest = None;
         let mut least = radius;
@@ -129,16 +151,16 @@ impl Cloth {
     }
 }
 
+/// Checks the arguments and returns a ray with a unit direction.
 fn ray(origin: Vec3, direction: Vec3) -> Result<Ray> {
     check_finite(origin, "origin")?;
     check_finite(direction, "direction")?;
     with_float_env(|| {
-        // Scaled first, so that no length overflows or vanishes.
+        // Scale first, so that the squared length neither overflows nor underflows.
         let largest = direction.x.abs().max(direction.y.abs()).max(direction.z.abs());
         check(largest > 0.0, "direction", "not be zero")?;
         let scaled = direction * (1.0 / largest);
-        let usable = scaled.is_finite();
-        check(usable, "direction", "be longer than the smallest number")?;
+        check(scaled.is_finite(), "direction", "be long enough to be normalized")?;
         Ok(Ray { origin, direction: scaled * (1.0 / scaled.length()) })
     })
 }

@@ -1,13 +1,25 @@
-//! A cloth as bytes, and back: it goes on in the same bits.
+//! Save and restore: a cloth as bytes, from which it continues with the same bits.
 //!
-//! Layout: "MUSLINSV", format version (u32, little-endian), checksum of the rest (u64), then what
-//! `Saved` holds in the postcard format.
+//! ```text
+//! offset  size
+//! 0       8     signature "MUSLINSV"
+//! 8       4     format version, u32 little-endian
+//! 12      8     checksum of the body, u64 little-endian
+//! 20      …     body: `SaveData` in the postcard format
+//! ```
+//!
+//! Only state that cannot be derived is saved. Restoring builds the rest state from the descriptor,
+//! applies tears and cuts, and derives the rest.
+//!
+//! Reads or writes all of `Cloth`.
+//! Invariant: bytes may come from anywhere, so every value is checked before it is used; bytes that
+//! fail a check give [`Error::BadSave`] and never a panic.
 
 use crate::cloth::Cloth;
-use crate::cloth::build::Origin;
-use crate::cloth::changes::History;
+use crate::cloth::build::ClothDesc;
+use crate::cloth::change_history::ChangeHistory;
+use crate::cloth::outputs::Outputs;
 use crate::cloth::postcard;
-use crate::cloth::view::Outputs;
 use crate::error::{Error, Result};
 use crate::math::columns::Columns;
 use crate::math::float_env::with_float_env;
@@ -36,39 +48,42 @@ use crate::state::wind::Wind;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+/// Signature at the start of a save.
 const MAGIC: &[u8; 8] = b"MUSLINSV";
+/// Version of the format; a change of `SaveData` raises it.
 const FORMAT: u32 = 9;
+/// Bytes before the body.
 const HEADER: usize = 20;
 
-/// All that cannot be derived.
+/// All state that cannot be derived from other state.
 #[derive(Serialize, Deserialize)]
-struct Saved<'a> {
-    origin: Owned<'a, Origin>,
-    settings: Owned<'a, Settings>,
-    material: Owned<'a, Material>,
-    wind: Owned<'a, Wind>,
-    triangles: Owned<'a, Vec<[u32; 3]>>,
-    sources: Owned<'a, Vec<u32>>,
-    crossings: Owned<'a, Vec<CutSite>>,
-    hems: Owned<'a, Vec<u8>>,
-    seams: Owned<'a, Option<Seams>>,
+struct SaveData<'a> {
+    desc: CowOf<'a, ClothDesc>,
+    settings: CowOf<'a, Settings>,
+    material: CowOf<'a, Material>,
+    wind: CowOf<'a, Wind>,
+    triangles: CowOf<'a, Vec<[u32; 3]>>,
+    sources: CowOf<'a, Vec<u32>>,
+    crossings: CowOf<'a, Vec<CutSite>>,
+    hems: CowOf<'a, Vec<u8>>,
+    seams: CowOf<'a, Option<Seams>>,
     links: LinkChanges,
-    /// What tears made of tethers; none where measuring gives the same.
+    /// Tethers as tears left them; empty if measuring gives the same.
     tethers: Vec<TetherSet>,
     folds: PerKind<Vec<f32>>,
-    /// What folds gave way by; none if nothing did.
+    /// Accumulated yield of the folds; empty if nothing has yielded.
     wear: Vec<f32>,
-    particles: Owned<'a, Particles>,
-    mass_scales: Owned<'a, MassScales>,
-    pins: Owned<'a, Pins>,
-    attachments: Owned<'a, Attachments>,
-    grabs: Owned<'a, Grabs>,
-    anchors: Owned<'a, AnchorConstraints>,
-    warm_start: Owned<'a, WarmStart>,
+    particles: CowOf<'a, Particles>,
+    mass_scales: CowOf<'a, MassScales>,
+    pins: CowOf<'a, Pins>,
+    attachments: CowOf<'a, Attachments>,
+    grabs: CowOf<'a, Grabs>,
+    anchors: CowOf<'a, AnchorConstraints>,
+    warm_start: CowOf<'a, WarmStart>,
     is_tangled: bool,
     reference_pose: Pose,
-    colliders: Owned<'a, Colliders>,
-    events: Owned<'a, Events>,
+    colliders: CowOf<'a, Colliders>,
+    events: CowOf<'a, Events>,
     time: f64,
     tick: u32,
     reserve_reported: bool,
@@ -76,45 +91,61 @@ struct Saved<'a> {
     over_stretched: u32,
     over_stretch_reported: bool,
     sleep: SleepTimer,
-    owed: f64,
+    backlog: f64,
     topology_revision: u32,
     state_revision: u32,
 }
 
-/// Borrowed to save, owned when restored.
-type Owned<'a, T> = std::borrow::Cow<'a, T>;
+/// Borrowed when saving, owned when restoring.
+type CowOf<'a, T> = std::borrow::Cow<'a, T>;
 
 impl Cloth {
-    /// The cloth as bytes: everything, so that [`Cloth::restore`] gives one that goes on in the same
-    /// bits. Handles of grabs, attachments and colliders hold for it too.
+    /// Returns the complete state of the cloth as bytes, from which [`Cloth::restore`] makes a
+    /// cloth that continues with the same bits.
+    ///
+    /// The bytes are the same on every platform. Handles of grabs, attachments and colliders are
+    /// valid for the restored cloth too. The number of threads, the clock and the topology history
+    /// are not saved.
+    ///
+    /// ```
+    /// use muslin::{Cloth, GridDesc};
+    ///
+    /// let mut cloth = Cloth::grid(&GridDesc::default())?;
+    /// cloth.step(30);
+    /// let mut copy = Cloth::restore(&cloth.save())?;
+    /// cloth.step(30);
+    /// copy.step(30);
+    /// assert_eq!(copy.state_hash(), cloth.state_hash());
+    /// # Ok::<(), muslin::Error>(())
+    /// ```
     pub fn save(&self) -> Vec<u8> {
         let world = &self.world;
         let is_torn = world.mesh.vertex_count() > world.mesh.original_count as usize;
-        let saved = Saved {
-            origin: Owned::Borrowed(&self.origin),
-            settings: Owned::Borrowed(&world.settings),
-            material: Owned::Borrowed(&world.material),
-            wind: Owned::Borrowed(&world.wind),
-            triangles: Owned::Borrowed(&world.mesh.triangles),
-            sources: Owned::Borrowed(&world.mesh.source),
-            crossings: Owned::Borrowed(&world.crossings),
-            hems: Owned::Borrowed(&world.mesh.rest_borders),
-            seams: Owned::Borrowed(&world.seams),
+        let saved = SaveData {
+            desc: CowOf::Borrowed(&self.desc),
+            settings: CowOf::Borrowed(&world.settings),
+            material: CowOf::Borrowed(&world.material),
+            wind: CowOf::Borrowed(&world.wind),
+            triangles: CowOf::Borrowed(&world.mesh.triangles),
+            sources: CowOf::Borrowed(&world.mesh.source),
+            crossings: CowOf::Borrowed(&world.crossings),
+            hems: CowOf::Borrowed(&world.mesh.rest_borders),
+            seams: CowOf::Borrowed(&world.seams),
             links: world.constraints.link_changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.saved_angles(),
             wear: world.folds.hardening.saved().to_vec(),
-            particles: Owned::Borrowed(&world.particles),
-            mass_scales: Owned::Borrowed(&world.mass_scales),
-            pins: Owned::Borrowed(&world.pins),
-            attachments: Owned::Borrowed(&world.attachments),
-            grabs: Owned::Borrowed(&world.grabs),
-            anchors: Owned::Borrowed(&world.anchors),
-            warm_start: Owned::Borrowed(&world.warm_start),
+            particles: CowOf::Borrowed(&world.particles),
+            mass_scales: CowOf::Borrowed(&world.mass_scales),
+            pins: CowOf::Borrowed(&world.pins),
+            attachments: CowOf::Borrowed(&world.attachments),
+            grabs: CowOf::Borrowed(&world.grabs),
+            anchors: CowOf::Borrowed(&world.anchors),
+            warm_start: CowOf::Borrowed(&world.warm_start),
             is_tangled: world.is_tangled,
             reference_pose: world.reference_pose,
-            colliders: Owned::Borrowed(&world.colliders),
-            events: Owned::Borrowed(&world.events),
+            colliders: CowOf::Borrowed(&world.colliders),
+            events: CowOf::Borrowed(&world.events),
             time: world.time,
             tick: world.tick,
             reserve_reported: world.reserve_reported,
@@ -122,7 +153,7 @@ impl Cloth {
             over_stretched: world.over_stretched,
             over_stretch_reported: world.over_stretch_reported,
             sleep: world.sleep,
-            owed: self.owed,
+            backlog: self.backlog,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
         };
@@ -130,35 +161,42 @@ impl Cloth {
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&FORMAT.to_le_bytes());
         bytes.extend_from_slice(&[0; 8]);
-        // Writing to memory fails for no value that a cloth can hold.
+        // Encoding cannot fail for the types in `SaveData`.
         bytes = postcard::write(&saved, bytes).unwrap_or_default();
         let sum = checksum(&bytes[HEADER..]).to_le_bytes();
         bytes[HEADER - 8..HEADER].copy_from_slice(&sum);
         bytes
     }
 
-    /// The cloth that [`Cloth::save`] turned into bytes, on this machine or any other.
+    /// Makes a cloth from bytes of [`Cloth::save`], which may have been written on another
+    /// platform.
+    ///
+    /// Untrusted bytes are safe: they give a valid cloth or an error.
     ///
     /// # Errors
-    /// [`Error::BadSave`] if the bytes are not that, or not whole.
+    /// [`Error::BadSave`] if the bytes are not a save, come from another format version, or are
+    /// damaged; an error of the descriptor, settings, material or wind if a saved value breaks its
+    /// rule.
     pub fn restore(bytes: &[u8]) -> Result<Self> {
         let bad = |why| Error::BadSave { why };
-        let header = bytes.get(..HEADER).ok_or(bad("it is too short"))?;
+        let header = bytes.get(..HEADER).ok_or(bad("the data is too short"))?;
         if header[..8] != MAGIC[..] {
-            return Err(bad("it does not begin with the mark of one"));
+            return Err(bad("the data does not start with the Muslin signature"));
         }
         if header[8..12] != FORMAT.to_le_bytes() {
-            return Err(bad("it was written by another version"));
+            return Err(bad("the data was written in another format version"));
         }
         let body = &bytes[HEADER..];
         if header[12..] != checksum(body).to_le_bytes() {
-            return Err(bad("it was damaged"));
+            return Err(bad("the data is damaged (its checksum does not match)"));
         }
-        let saved: Saved<'_> = postcard::read(body).map_err(|_| bad("it cannot be read"))?;
-        with_float_env(|| rebuild(saved))
+        let saved: SaveData<'_> =
+            postcard::read(body).map_err(|_| bad("the data cannot be decoded"))?;
+        with_float_env(|| restore_from(saved))
     }
 }
 
+/// Returns the checksum of the body.
 fn checksum(bytes: &[u8]) -> u64 {
     let mut hasher = StateHasher::new(bytes.len() as u64);
     for chunk in bytes.chunks(4) {
@@ -169,49 +207,49 @@ fn checksum(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// Makes the cloth anew from its descriptor, then tears it and moves it as it was. The bytes may
-/// come from anywhere, so nothing in them is believed.
-fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
-    let bad = || Error::BadSave { why: "its parts do not fit together" };
-    let must = |fits: bool| if fits { Ok(()) } else { Err(bad()) };
-    saved.origin.check()?;
+/// Builds the rest state from the descriptor, then applies the saved topology and state. The bytes
+/// may come from anywhere, so every value is checked.
+fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
+    let bad = || Error::BadSave { why: "the decoded parts are inconsistent" };
+    let require = |holds: bool| if holds { Ok(()) } else { Err(bad()) };
+    saved.desc.check()?;
     saved.settings.check()?;
     saved.material.check()?;
     saved.wind.check()?;
-    let origin = saved.origin.into_owned();
-    let (mut world, report) = origin.world()?;
+    let desc = saved.desc.into_owned();
+    let (mut world, report) = desc.build_world()?;
     let capacity = world.capacity();
     let sources = saved.sources.into_owned();
     let triangles = saved.triangles.into_owned();
     let count = sources.len();
-    must(count >= world.mesh.vertex_count() && count <= capacity)?;
-    let woven = world.mesh.triangles.len();
-    must(triangles.len() >= woven && triangles.len() <= world.triangle_capacity)?;
+    require(count >= world.mesh.vertex_count() && count <= capacity)?;
+    let rest_triangles = world.mesh.triangles.len();
+    require(triangles.len() >= rest_triangles && triangles.len() <= world.triangle_capacity)?;
     for crossing in saved.crossings.iter() {
-        let is_known = crossing.ends.iter().all(|end| (*end as usize) < world.rest.len());
-        must(is_known && crossing.fraction > 0.0 && crossing.fraction < 1.0)?;
+        let are_known = crossing.ends.iter().all(|end| (*end as usize) < world.rest.len());
+        require(are_known && crossing.fraction > 0.0 && crossing.fraction < 1.0)?;
         world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
     }
     world.crossings = saved.crossings.into_owned();
-    must(sources.iter().all(|site| (*site as usize) < world.rest.len()))?;
-    must(sources[..world.mesh.vertex_count()].iter().copied().eq(0..world.mesh.original_count))?;
+    require(sources.iter().all(|site| (*site as usize) < world.rest.len()))?;
+    require(sources[..world.mesh.vertex_count()].iter().copied().eq(0..world.mesh.original_count))?;
     let particles = saved.particles.into_owned();
-    must(particles.is_consistent(count) && is_finite(&particles))?;
-    must(
+    require(particles.is_consistent(count) && is_finite(&particles))?;
+    require(
         (saved.time.is_finite() && saved.time >= 0.0)
-            && (saved.owed.is_finite() && saved.owed >= 0.0),
+            && (saved.backlog.is_finite() && saved.backlog >= 0.0),
     )?;
 
     let rest: Vec<Vec3> = sources.iter().map(|site| world.rest[*site as usize]).collect();
     let original_count = world.mesh.original_count;
     let mesh = validate::validated_mesh(triangles, &rest, capacity).map_err(|_| bad())?;
-    must(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
+    require(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
     let fresh = core::mem::replace(&mut world.mesh, mesh);
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
-    must(saved.hems.len() == world.mesh.triangles.len())?;
+    require(saved.hems.len() == world.mesh.triangles.len())?;
     world.mesh.rest_borders = saved.hems.into_owned();
-    must(match (saved.seams.into_owned(), &mut world.seams) {
+    require(match (saved.seams.into_owned(), &mut world.seams) {
         (Some(mut seams), Some(fresh)) => {
             let fits = seams.restore_checked(fresh, &world.mesh);
             *fresh = seams;
@@ -222,97 +260,100 @@ fn rebuild(saved: Saved<'_>) -> Result<Cloth> {
     })?;
     world.refresh_corner_areas(&fresh);
     world.particles = particles;
-    must(saved.mass_scales.are_valid(count))?;
+    require(saved.mass_scales.are_valid(count))?;
     world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
     world.check_self_distance(&world.settings)?;
     world.reserve(capacity);
-    must(world.constraints.apply_changes(&world.mesh, &saved.links, &world.material))?;
+    require(world.constraints.apply_changes(&world.mesh, &saved.links, &world.material))?;
     world.constraints.update_compliances(&world.material);
     (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
-    must(world.restore_folds(saved.folds) && world.restore_hardening(saved.wear))?;
+    require(world.restore_folds(saved.folds) && world.restore_hardening(saved.wear))?;
     world.reserve_for_tears();
     world.rebuild_irregular_lists();
-    must(saved.anchors.are_valid(count))?;
+    require(saved.anchors.are_valid(count))?;
     world.anchors = saved.anchors.into_owned();
     world.reserve_anchor_scratch();
-    must(saved.warm_start.are_sound(count))?;
+    require(saved.warm_start.are_sound(count))?;
     world.warm_start = saved.warm_start.into_owned();
     world.warm_start.reserve(count);
     world.is_tangled = saved.is_tangled;
-    must(is_pose(&saved.reference_pose))?;
+    require(is_valid_pose(&saved.reference_pose))?;
     world.reference_pose = saved.reference_pose;
-    must(restore_attachments(&mut world, saved.attachments.into_owned()))?;
-    restore_holds(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
+    require(restore_attachments(&mut world, saved.attachments.into_owned()))?;
+    restore_pins_and_grabs(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
-    must(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
+    require(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
     for body in colliders.iter_mut() {
         body.restore()?;
     }
     world.colliders = colliders;
     world.reserve_contacts();
     let events = saved.events.into_owned();
-    must(events.len() <= MAX_EVENTS)?;
+    require(events.len() <= MAX_EVENTS)?;
     world.events = events;
     world.events.reserve();
     (world.time, world.tick, world.reserve_reported) =
         (saved.time, saved.tick, saved.reserve_reported);
     world.over_stretched = saved.over_stretched;
     world.over_stretch_reported = saved.over_stretch_reported;
-    must(saved.tether_slack >= 0.0)?;
+    require(saved.tether_slack >= 0.0)?;
     world.pieces =
         world.mesh.label_pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
     world.rebuild_crack_tips();
     world.compute_masses();
     world.rebuild_tethers();
     let (particles, triangles) = (world.particles.len(), world.mesh.triangles.len());
-    let is_measured = saved.tethers.is_empty();
-    must(is_measured || world.tethers.restore(&saved.tethers, particles, triangles))?;
+    let are_rebuilt = saved.tethers.is_empty();
+    require(are_rebuilt || world.tethers.restore(&saved.tethers, particles, triangles))?;
     world.rebuild_pin_order();
     world.tether_slack = saved.tether_slack;
     world.sleep = saved.sleep;
     let mut outputs = Outputs::new(&world);
-    outputs.set_uvs(&origin);
-    outputs.follow_topology(&world);
-    outputs.follow(&world);
+    outputs.set_uvs(&desc);
+    outputs.update_topology(&world);
+    outputs.update_positions(&world);
     Ok(Cloth {
-        origin,
+        desc,
         world,
         outputs,
         report,
-        owed: saved.owed,
+        backlog: saved.backlog,
         pins_changed: false,
         topology_revision: saved.topology_revision,
         state_revision: saved.state_revision,
-        history: History::new(),
+        history: ChangeHistory::new(),
     })
 }
 
-fn is_pose(pose: &Pose) -> bool {
+/// Returns whether a pose is finite with a unit quaternion.
+fn is_valid_pose(pose: &Pose) -> bool {
     check_pose(pose.position, pose.rotation, ["position", "rotation"]).is_ok()
 }
 
-/// Whether they are such as a cloth can have.
+/// Sets the attachments, and returns whether they are valid.
 fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
-    let is_sound = |carrier: &AttachmentPose| is_pose(&carrier.last) && is_pose(&carrier.next);
+    let is_sound =
+        |carrier: &AttachmentPose| is_valid_pose(&carrier.last) && is_valid_pose(&carrier.next);
     let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
     world.attachments = attachments;
     fits
 }
 
-fn restore_holds(
+/// Sets pins and grabs if they are valid; calls `bad` for the error otherwise.
+fn restore_pins_and_grabs(
     world: &mut World,
     pins: Pins,
     grabs: Grabs,
     bad: impl Fn() -> Error,
 ) -> Result<()> {
     let count = world.particles.len();
-    let is_carried_well =
+    let has_live_carrier =
         |carrier| carrier == 0 || world.attachments.get(carrier, "attachment").is_ok();
     let pins_fit = pins.iter().all(|pin| {
-        (pin.particle as usize) < count && pin.is_valid() && is_carried_well(pin.attachment)
+        (pin.particle as usize) < count && pin.is_valid() && has_live_carrier(pin.attachment)
     });
     let grabs_fit =
         grabs.iter().all(|held| (held.particle as usize) < count && held.target.is_finite());
@@ -325,6 +366,7 @@ fn restore_holds(
     Ok(())
 }
 
+/// Returns whether all positions and velocities are finite.
 fn is_finite(particles: &Particles) -> bool {
     let finite = |columns: &Columns| columns.iter().all(|v| v.is_finite());
     [

@@ -1,11 +1,19 @@
-//! The state of a cloth as one number: equal on every machine that was told the same.
+//! State hash: one number over everything that the next tick depends on.
+//!
+//! Two machines that received the same calls have the same hash; this is how determinism is tested.
+//! Reads `World`; writes nothing.
+//! Invariant: the order of the hashed fields is fixed, since golden tests compare the values.
 
 use crate::cloth::Cloth;
 use crate::math::hasher::StateHasher;
 
 impl Cloth {
-    /// A hash over all that the next tick depends on: positions, history, velocities, masses,
-    /// triangles, folds and how much they gave way, pins, grabs, colliders, tethers, what layers bear on each other with and whether they cross, and time.
+    /// Returns a hash of all state that the next tick depends on. Equal calls give equal hashes on
+    /// every platform and for any number of threads.
+    ///
+    /// The hash covers positions, history, velocities, masses, triangles, folds with their
+    /// accumulated yield, pins, attachments, anchors, grabs, colliders, tethers, warm-start
+    /// impulses of self-collision, the flag for unresolved intersections, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut hasher) = (&self.world, StateHasher::new(0));
         let p = &world.particles;
@@ -44,15 +52,15 @@ impl Cloth {
                 hasher.write_f32s(&pose.rotation.to_array());
             }
         }
-        for leash in world.anchors.iter() {
-            hasher.write_u32(leash.particle);
-            for v in [leash.from, leash.anchor, leash.normal_from, leash.normal] {
+        for anchor in world.anchors.iter() {
+            hasher.write_u32(anchor.particle);
+            for v in [anchor.from, anchor.anchor, anchor.normal_from, anchor.normal] {
                 hasher.write_f32s(&v.to_array());
             }
             hasher.write_f32s(&[
-                leash.max_distance,
-                leash.backstop_distance,
-                leash.backstop_radius,
+                anchor.max_distance,
+                anchor.backstop_distance,
+                anchor.backstop_radius,
             ]);
         }
         for held in world.grabs.iter() {
@@ -66,11 +74,11 @@ impl Cloth {
                 hasher.write_f32s(&pose.rotation.to_array());
             }
         }
-        for load in world.warm_start.iter() {
-            hasher.write_u32s(&load.ids);
-            hasher.write_u32(load.first);
-            hasher.write_f32s(&[load.push]);
-            hasher.write_f32s(&load.rub.to_array());
+        for contact in world.warm_start.iter() {
+            hasher.write_u32s(&contact.ids);
+            hasher.write_u32(contact.first);
+            hasher.write_f32s(&[contact.push]);
+            hasher.write_f32s(&contact.rub.to_array());
         }
         if world.surface_collision.is_some() && world.is_tangled {
             hasher.write_u32(1);

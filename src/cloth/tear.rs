@@ -1,4 +1,8 @@
-//! Tearing by hand.
+//! Public call for tearing an edge by hand.
+//!
+//! Reads the mesh; `solver::topology::tear` splits the vertex, as it does for an over-stretched
+//! link.
+//! Invariant: an edge that does not give way leaves the cloth unchanged.
 
 use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_index};
@@ -6,14 +10,18 @@ use crate::math::float_env::with_float_env;
 use crate::solver::topology::tear;
 
 impl Cloth {
-    /// Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded
-    /// of the two is split by the plane across the way between them. Where neither has anything on
-    /// its other side, the edge itself opens, if it starts at a border. Says whether it tore: an end
-    /// that is pinned or grabbed does not give way, nor does an edge that is a border already.
+    /// Tears the cloth between two neighbouring particles, as over-stretching does. Returns whether
+    /// it tore.
+    ///
+    /// The particle under the higher load is split by the plane that is perpendicular to the edge.
+    /// If neither particle has triangles on its other side, the edge itself opens, provided that it
+    /// starts at a border. The result is `false` if both ends are pinned or grabbed, or if the edge
+    /// is already a border.
     ///
     /// # Errors
-    /// [`Error::BadIndex`] for a particle that is not; [`Error::BadValue`] unless the two are the ends
-    /// of an edge; [`Error::Full`] if the reserve for tears is used up.
+    /// [`Error::BadIndex`] if a particle does not exist; [`Error::BadValue`] unless the two are the
+    /// ends of an edge; [`Error::Full`] if the reserve for tears is used up. The cloth is
+    /// unchanged.
     pub fn tear_edge(&mut self, particle_a: u32, particle_b: u32) -> Result<bool> {
         let count = self.world.particles.len();
         check_index(particle_a, count, "particle_a")?;
@@ -29,8 +37,8 @@ impl Cloth {
         }
         let torn = with_float_env(|| tear::tear_edge(&mut self.world, particle_a, particle_b));
         if torn {
-            self.changed_topology();
-            self.changed_state();
+            self.update_topology();
+            self.update_state();
         }
         Ok(torn)
     }

@@ -1,4 +1,11 @@
-//! A cloth goes along with a body that jumps, or runs.
+//! Public calls for a moving reference frame: the body that wears the cloth teleports or moves.
+//!
+//! A teleport applies the rigid motion `to · from⁻¹` to all state at once. `move_frame` applies
+//! only the part of the motion that inertia does not cover, and leaves the rest to the tick.
+//!
+//! Reads the caller's poses; writes `World::reference_pose`, particles, pins, attachments, anchors
+//! and grabs.
+//! Invariant: nothing moves if any transformed value would not be finite.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check};
@@ -8,80 +15,90 @@ use crate::solver::world::World;
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};
 
-/// What the numbers of a frame's pose are called.
-const OF_FRAME: [&str; 2] = ["position", "rotation"];
+/// Names of the pose arguments in error messages.
+const FRAME_FIELDS: [&str; 2] = ["position", "rotation"];
 
 impl Cloth {
-    /// Says where the body is that wears the cloth, and how it is turned: [`Cloth::teleport`] and
-    /// [`Cloth::move_frame`] go from there. At first, and after a reset, that is the origin. It moves nothing.
+    /// Sets the pose of the body that wears the cloth, the start for [`Cloth::teleport`] and
+    /// [`Cloth::move_frame`]. Moves nothing.
+    ///
+    /// The initial pose, also after [`Cloth::reset`], is the origin without rotation.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
-    /// unit quaternion.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite or `rotation` is not
+    /// a unit quaternion. The cloth is unchanged.
     pub fn set_frame(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         with_float_env(|| {
-            check_pose(position, rotation, OF_FRAME)?;
+            check_pose(position, rotation, FRAME_FIELDS)?;
             self.world.reference_pose = Pose::new(position, rotation);
             Ok(())
         })
     }
 
-    /// Takes the cloth along as the body that wears it jumps from where [`Cloth::set_frame`], [`Cloth::move_frame`]
-    /// or the last `teleport` had it: at once, as a solid body, and without feeling it. Velocities turn with it.
-    /// Pins, attachments, grabs and anchors go along; colliders do not, see [`Cloth::teleport_collider`].
+    /// Moves the cloth with the body that wears it to a new pose at once, as a rigid body and
+    /// without inertia. Velocities rotate with it.
     ///
-    /// A call in the same frame as `move_attachment` or `set_anchors` comes first: those tell where things go
-    /// from there.
+    /// The motion starts at the pose of the last [`Cloth::set_frame`], [`Cloth::move_frame`] or
+    /// `teleport`. Pins, attachments, grabs and anchors move too; colliders do not, see
+    /// [`Cloth::teleport_collider`].
+    ///
+    /// In a frame, call this before [`Cloth::move_attachment`] and [`Cloth::set_anchors`], which
+    /// set the targets from the new pose on.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite or a rotation that is no
-    /// unit quaternion, or if something would get farther off than a number can say. Then nothing moved.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite, `rotation` is not a
+    /// unit quaternion, or a moved value would not be finite. The cloth is unchanged.
     pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         with_float_env(|| {
-            check_pose(position, rotation, OF_FRAME)?;
-            self.world.jump(Pose::new(position, rotation))
+            check_pose(position, rotation, FRAME_FIELDS)?;
+            self.world.teleport_frame(Pose::new(position, rotation))
         })?;
-        self.changed_state();
+        self.update_state();
         Ok(())
     }
 
-    /// Takes the cloth along as the body that wears it runs and turns on from where [`Cloth::set_frame`],
-    /// [`Cloth::teleport`] or the last `move_frame` had it: over the next tick, and with only a share of its
-    /// `inertia`. At 1 it feels all of the body's motion, as if nothing were said; at 0 none, as if the body
-    /// stood still and the rest of the world moved past; between, so much of it, both of the way and of the turn.
+    /// Moves the cloth with the body that wears it to a new pose over the next tick; the cloth
+    /// feels only the share `inertia` of the motion.
     ///
-    /// What is not felt takes particles along at once, as a solid body; over the tick they, pins, attachments
-    /// and anchors get to where the body has them then. Colliders and grabs stay where they are told to be, on the
-    /// body or off it, and the cloth meets them as one who goes with the body sees them move. Air goes along
-    /// as far as the motion is not felt.
+    /// | `inertia` | effect |
+    /// | --- | --- |
+    /// | 1 | the cloth feels the whole motion, as without this call |
+    /// | 0 | the cloth feels nothing, as if the body stood still and the world moved |
+    /// | between | it feels this share of the translation and of the rotation |
     ///
-    /// A call in the same frame as `move_attachment`, `move_collider` or `set_anchors` comes first: those tell
-    /// where things get to.
+    /// The motion starts at the pose of the last [`Cloth::set_frame`], [`Cloth::teleport`] or
+    /// `move_frame`. The part that is not felt moves particles at once, as a rigid body. Pins,
+    /// attachments and anchors reach the body's new pose over the tick. Colliders and grabs stay at
+    /// the poses that the caller gives; the cloth meets them with the velocity that they have
+    /// relative to the body. The air moves with the body by the share that is not felt.
+    ///
+    /// In a frame, call this before [`Cloth::move_attachment`], [`Cloth::move_collider`] and
+    /// [`Cloth::set_anchors`], which set where things get to.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for a position that is not finite, a rotation that is no
-    /// unit quaternion, an `inertia` that is not from 0 to 1, or if something would get farther off than a number
-    /// can say. Then nothing moved.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite, `rotation` is not a
+    /// unit quaternion, `inertia` is not from 0 to 1, or a moved value would not be finite. The
+    /// cloth is unchanged.
     pub fn move_frame(&mut self, position: Vec3, rotation: Quat, inertia: f32) -> Result<()> {
         with_float_env(|| {
-            check_pose(position, rotation, OF_FRAME)?;
+            check_pose(position, rotation, FRAME_FIELDS)?;
             check((0.0..=1.0).contains(&inertia), "inertia", "be from 0 to 1")?;
-            self.world.go_along(Pose::new(position, rotation), inertia)
+            self.world.advance_frame(Pose::new(position, rotation), inertia)
         })?;
-        self.changed_state();
+        self.update_state();
         Ok(())
     }
 }
 
-/// From where a body was to where it is.
+/// A rigid motion of the reference frame, from one pose to another.
 #[derive(Clone, Copy)]
-struct Move {
+struct FrameMove {
     from: Pose,
     to: Pose,
     frames: [Transform; 2],
 }
 
-impl Move {
+impl FrameMove {
     fn new(from: Pose, to: Pose) -> Self {
         Self { from, to, frames: [from.to_transform(), to.to_transform()] }
     }
@@ -90,7 +107,7 @@ impl Move {
         self.frames[1].point_to_world(self.frames[0].point_to_local(x))
     }
 
-    fn turn(&self, v: Vec3) -> Vec3 {
+    fn direction(&self, v: Vec3) -> Vec3 {
         self.frames[1].vector_to_world(self.frames[0].vector_to_local(v))
     }
 
@@ -100,19 +117,20 @@ impl Move {
 }
 
 impl World {
-    /// Moves all but colliders with the body that it goes along with.
-    fn jump(&mut self, to: Pose) -> Result<()> {
-        let all = Move::new(self.reference_pose, to);
-        self.check_reach(&all, &all)?;
-        self.carry(&all, &all);
+    /// Moves everything but colliders with the reference frame, to the pose `to`.
+    fn teleport_frame(&mut self, to: Pose) -> Result<()> {
+        let all = FrameMove::new(self.reference_pose, to);
+        self.check_stays_finite(&all, &all)?;
+        self.transform_with_frame(&all, &all);
         self.grabs.iter_mut().for_each(|held| held.target = all.point(held.target));
         self.reference_pose = to;
         Ok(())
     }
 
-    /// As a tick is to begin, all goes along but for what is felt of a body's motion, and that is left to the
-    /// tick. Seen from there colliders come from elsewhere.
-    fn go_along(&mut self, to: Pose, inertia: f32) -> Result<()> {
+    /// Moves the reference frame to `to` for the next tick. The share of the motion that is not
+    /// felt is applied at once; the rest is left to the tick. Colliders' last poses are moved too,
+    /// so that their velocities are relative to the frame.
+    fn advance_frame(&mut self, to: Pose, inertia: f32) -> Result<()> {
         let from = self.reference_pose;
         if from == to {
             return Ok(());
@@ -122,29 +140,31 @@ impl World {
             0.0 => to,
             felt => to.interpolate(&from, felt),
         };
-        let (unfelt, all) = (Move::new(from, unfelt), Move::new(from, to));
-        self.check_reach(&unfelt, &all)?;
+        let (unfelt, all) = (FrameMove::new(from, unfelt), FrameMove::new(from, to));
+        self.check_stays_finite(&unfelt, &all)?;
         self.reference_pose = to;
-        self.carry(&unfelt, &all);
+        self.transform_with_frame(&unfelt, &all);
         if unfelt.from != unfelt.to {
             self.colliders.iter_mut().for_each(|body| body.last = unfelt.pose(&body.last));
         }
         Ok(())
     }
 
-    /// Whether all that `carry` moves, and grabs and colliders, get to where numbers can say.
-    fn check_reach(&self, now: &Move, then: &Move) -> Result<()> {
+    /// Checks that everything that `transform_with_frame` moves, and grabs and colliders, stays
+    /// finite.
+    fn check_stays_finite(&self, now: &FrameMove, then: &FrameMove) -> Result<()> {
         let p = &self.particles;
-        let is_near = |i: usize| {
-            let places = [&p.x, &p.x_prev_tick].map(|places| now.point(places.at(i)));
-            let ways = [&p.v, &p.v_extrapolated, &p.displacement].map(|ways| now.turn(ways.at(i)));
-            places.iter().chain(&ways).all(|v| v.is_finite())
+        let is_finite_after = |i: usize| {
+            let points = [&p.x, &p.x_prev_tick].map(|column| now.point(column.at(i)));
+            let vectors = [&p.v, &p.v_extrapolated, &p.displacement]
+                .map(|column| now.direction(column.at(i)));
+            points.iter().chain(&vectors).all(|v| v.is_finite())
         };
         let mut bodies = self.colliders.iter();
         let mut carriers = self.attachments.iter();
         let mut pins = self.pins.iter();
-        let mut leashes = self.anchors.iter();
-        let are_near = (0..p.len()).all(is_near)
+        let mut anchors = self.anchors.iter();
+        let are_finite = (0..p.len()).all(is_finite_after)
             && bodies.all(|body| now.pose(&body.last).position.is_finite())
             && self.grabs.iter().all(|held| now.point(held.target).is_finite())
             && carriers.all(|carrier| {
@@ -160,16 +180,17 @@ impl World {
                 };
                 target.is_finite() && now.point(pin.from).is_finite()
             })
-            && leashes.all(|leash| {
-                then.point(leash.anchor).is_finite() && now.point(leash.from).is_finite()
+            && anchors.all(|anchor| {
+                then.point(anchor.anchor).is_finite() && now.point(anchor.from).is_finite()
             });
-        check(are_near, "position", "keep all of the cloth where numbers can say")
+        check(are_finite, "position", "keep every position and velocity finite")
     }
 
-    /// Moves particles and where things are by `now`, and where they get to over the tick by `then`.
-    fn carry(&mut self, now: &Move, then: &Move) {
+    /// Moves the state at the start of the tick by `now`, and the targets at the end of the tick by
+    /// `then`.
+    fn transform_with_frame(&mut self, now: &FrameMove, then: &FrameMove) {
         if now.from != now.to {
-            self.carry_starts(now);
+            self.transform_tick_start(now);
         }
         self.attachments.iter_mut().for_each(|carrier| carrier.next = then.pose(&carrier.next));
         for pin in self.pins.iter_mut() {
@@ -178,30 +199,33 @@ impl World {
                 Err(_) => then.point(pin.target),
             };
         }
-        for leash in self.anchors.iter_mut() {
-            (leash.anchor, leash.normal) = (then.point(leash.anchor), then.turn(leash.normal));
+        for anchor in self.anchors.iter_mut() {
+            (anchor.anchor, anchor.normal) =
+                (then.point(anchor.anchor), then.direction(anchor.normal));
         }
         self.wake();
     }
 
-    fn carry_starts(&mut self, by: &Move) {
+    /// Moves particles and the start poses of attachments, pins and anchors.
+    fn transform_tick_start(&mut self, by: &FrameMove) {
         let p = &mut self.particles;
         for i in 0..p.len() {
-            for places in [&mut p.x, &mut p.x_prev_tick] {
-                places.set(i, by.point(places.at(i)));
+            for column in [&mut p.x, &mut p.x_prev_tick] {
+                column.set(i, by.point(column.at(i)));
             }
-            for ways in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
-                ways.set(i, by.turn(ways.at(i)));
+            for column in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
+                column.set(i, by.direction(column.at(i)));
             }
         }
         self.attachments.iter_mut().for_each(|carrier| carrier.last = by.pose(&carrier.last));
         self.pins.iter_mut().for_each(|pin| pin.from = by.point(pin.from));
-        for leash in self.anchors.iter_mut() {
-            leash.from = by.point(leash.from);
-            leash.normal_from = by.turn(leash.normal_from);
+        for anchor in self.anchors.iter_mut() {
+            anchor.from = by.point(anchor.from);
+            anchor.normal_from = by.direction(anchor.normal_from);
         }
         self.scratch.contacts.nearby.invalidate();
-        // Turned, pins are as far apart as they were but for rounding, which a restored cloth would measure anew.
+        // Rotation changes the distances between pins by rounding errors. Measure them again, as a
+        // restored cloth does.
         self.is_pin_stretch_current = false;
     }
 }

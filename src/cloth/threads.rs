@@ -1,4 +1,7 @@
-//! How many threads a cloth may use.
+//! Public calls for threads (feature `parallel`).
+//!
+//! Reads and writes `World::threads` only.
+//! Invariant: the number of threads never changes a bit of the result.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check};
@@ -6,31 +9,33 @@ use crate::math::threads::Threads;
 
 /// With the feature `parallel`.
 impl Cloth {
-    /// How many threads its ticks and normals may use; 1 as it is made.
+    /// Returns the largest number of threads that ticks and normals may use. Default 1.
     pub fn threads(&self) -> u32 {
         self.world.threads.most()
     }
 
-    /// Lets ticks and normals use so many threads. The bits are the same for any number, so this is no
-    /// part of the state: it stays at [`Cloth::reset`], goes to a clone, and is not saved.
+    /// Sets the largest number of threads that ticks and normals may use.
     ///
-    /// The threads are those of the [`rayon`] pool that the caller runs in, or else of the global one;
-    /// there are no more of them than that has. A cloth is cut into parts only where that pays: a sheet
-    /// of fewer than some ten thousand particles stays on one thread. A clock that a host has set
-    /// ([`Cloth::set_clock`]) may be asked on any of them.
+    /// The result has the same bits for any number, so this is not part of the state:
+    /// [`Cloth::reset`] keeps it, a clone copies it, and a save does not contain it.
+    ///
+    /// The threads are those of the [`rayon`] pool that the caller runs in, or else of the global
+    /// pool; the cloth never uses more than that pool has. Work is divided only where that pays: a
+    /// sheet of fewer than about ten thousand particles stays on one thread. A clock
+    /// ([`Cloth::set_clock`]) may be called on any of the threads.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for none.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `threads` is 0.
     pub fn set_threads(&mut self, threads: u32) -> Result<()> {
         check(threads >= 1, "threads", "be at least 1")?;
         self.world.threads = Threads::up_to(threads);
         Ok(())
     }
 
-    /// As [`Cloth::set_threads`], but even a small cloth is cut into parts, which does not pay: for tests.
+    /// Like [`Cloth::set_threads`], but divides small cloths too, which does not pay. For tests.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for none.
+    /// [`Error::BadValue`](crate::Error::BadValue) if `threads` is 0.
     #[doc(hidden)]
     pub fn set_threads_eagerly(&mut self, threads: u32) -> Result<()> {
         self.set_threads(threads)?;

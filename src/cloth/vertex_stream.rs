@@ -1,4 +1,9 @@
-//! Streams: places in the caller's buffers that vertices are written to, and what is written there.
+//! Descriptions of vertex streams: which attribute is written where, in which format.
+//!
+//! A stream is what graphics APIs call a vertex attribute binding: base address, stride, format.
+//!
+//! Reads the caller's descriptions; `write_vertices` writes through `Stream::write`.
+//! Invariant: streams that passed `check_all` lie inside their buffers and write no byte twice.
 
 use crate::error::{Error, Result, check};
 use crate::math::pack::BLOCK;
@@ -7,31 +12,33 @@ use core::ops::Range;
 use glam::Affine3;
 use serde::{Deserialize, Serialize};
 
-/// What of a vertex a stream takes.
+/// A vertex attribute that a stream receives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Attribute {
-    /// Where it is [m].
+    /// Position [m].
     #[default]
     Position = 0,
-    /// Its unit normal.
+    /// Unit normal.
     Normal = 1,
-    /// The unit direction square to the normal in which the texture coordinate u grows, and 1 or -1: v
-    /// grows along `cross(normal, tangent)` times that.
+    /// Unit tangent, perpendicular to the normal, in the direction of growing texture coordinate u;
+    /// and the handedness w, 1 or −1: v grows along `cross(normal, tangent)` times w.
     Tangent = 2,
-    /// Its texture coordinates.
+    /// Texture coordinates.
     Uv = 3,
-    /// 1 at a border that a tear or a cut made, which a renderer may fringe; else 0.
+    /// 1 on a border that a tear or cut made, else 0.
     Frayed = 4,
 }
 
 impl Attribute {
-    /// Every attribute, in the order of their numbers.
+    /// All attributes, in numerical order.
     pub const ALL: [Self; 5] =
         [Self::Position, Self::Normal, Self::Tangent, Self::Uv, Self::Frayed];
 }
 
-/// How a stream writes numbers; 16 bits as the machine keeps numbers of that width.
+/// Number format of a stream. 16-bit numbers have the byte order of the machine.
+///
+/// A format writes these components; an empty field means that it cannot write the attribute:
 ///
 /// | | `F32` | `F16` | `Snorm16` | `Octahedral16` |
 /// | --- | --- | --- | --- | --- |
@@ -46,25 +53,29 @@ pub enum VertexFormat {
     /// 32-bit floats.
     #[default]
     F32 = 0,
-    /// 16-bit floats; what is beyond 65504 becomes that.
+    /// 16-bit floats. Values beyond ±65504 are clamped.
     F16 = 1,
-    /// 16-bit whole numbers from -32767 to 32767, which stand for -1 to 1.
+    /// Signed 16-bit integers; −32767 to 32767 stand for −1 to 1.
     Snorm16 = 2,
-    /// A direction as two of those: x and y where it meets the octahedron |x| + |y| + |z| = 1, the lower
-    /// half (z < 0) folded outward: `u = (1 - |y|) · sign x`, `v = (1 - |x|) · sign y`.
+    /// A unit vector in octahedral encoding, as two `Snorm16` numbers.
+    ///
+    /// The vector is projected onto the octahedron |x| + |y| + |z| = 1. The encoding is x and y,
+    /// with the lower half (z < 0) folded outward: `u = (1 − |y|) · sign(x)`, `v = (1 − |x|) ·
+    /// sign(y)`.
     Octahedral16 = 3,
 }
 
 impl VertexFormat {
-    /// Every format, in the order of their numbers.
+    /// All formats, in numerical order.
     pub const ALL: [Self; 4] = [Self::F32, Self::F16, Self::Snorm16, Self::Octahedral16];
 
-    /// Bytes of one number.
+    /// Returns the size of one component [bytes].
     pub fn size(self) -> usize {
         if self == Self::F32 { 4 } else { 2 }
     }
 
-    /// Bytes that an attribute of one vertex takes; `None` if it is not written so.
+    /// Returns the size of an attribute of one vertex [bytes]; `None` if the format cannot write
+    /// it.
     pub fn width(self, attribute: Attribute) -> Option<usize> {
         use Attribute::{Frayed, Normal, Position, Tangent, Uv};
         match (attribute, self) {
@@ -80,17 +91,17 @@ impl VertexFormat {
     }
 }
 
-/// A place that one attribute of vertices is written to: the first vertex at the beginning of `bytes`,
-/// each other one `stride` bytes behind the one before.
+/// A destination for one attribute: the first vertex goes to the start of `bytes`, each further one
+/// `stride` bytes after the one before.
 ///
-/// Streams may share a buffer, interleaved or one behind the other; so bytes are cells.
+/// Streams may share a buffer, interleaved or one after the other; that is why the bytes are cells.
 ///
 /// ```
 /// use core::cell::Cell;
 /// use muslin::{Attribute, Cloth, GridDesc, Stream, VertexFormat, WriteDesc};
 ///
 /// let mut cloth = Cloth::grid(&GridDesc::default())?;
-/// // x y z of the position, then the normal in four bytes.
+/// // Per vertex: x y z of the position, then the normal in four bytes.
 /// let mut buffer = vec![0_u8; 16 * cloth.view().vertex_capacity as usize];
 /// let bytes = Cell::from_mut(&mut buffer[..]).as_slice_of_cells();
 /// let streams = [
@@ -107,39 +118,41 @@ impl VertexFormat {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Stream<'a> {
-    /// What is written.
+    /// The attribute to write.
     pub attribute: Attribute,
-    /// How.
+    /// Its number format.
     pub format: VertexFormat,
-    /// Bytes from one vertex to the next, a multiple of what a number takes; 0 leaves no gaps.
+    /// Distance between the starts of consecutive vertices [bytes], a multiple of the component
+    /// size; 0 means tightly packed.
     pub stride: u32,
-    /// Where, aligned to what a number takes.
+    /// The destination, aligned to the component size.
     pub bytes: &'a [Cell<u8>],
 }
 
-/// How many streams are written at once, at most.
+/// Largest number of streams in one call.
 pub const MAX_STREAMS: usize = 16;
 
-/// For `vertex_count`: all from the first one on.
+/// Value of [`WriteDesc::vertex_count`] that means all vertices from `first_vertex` on.
 pub const ALL_VERTICES: u32 = u32::MAX;
 
-/// Which vertices are written, and how they are placed.
+/// Selects the vertices to write and how they are transformed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WriteDesc {
-    /// The first vertex; 0. It goes to the beginning of each stream.
+    /// First vertex to write; it goes to the start of each stream. Default 0.
     pub first_vertex: u32,
-    /// How many; [`ALL_VERTICES`].
+    /// Number of vertices to write. Default [`ALL_VERTICES`].
     pub vertex_count: u32,
-    /// How far from the last tick to this one, from 0 to 1; 1. [`Cloth::blend`](crate::Cloth::blend) tells
-    /// how far the time is that was asked for. Normals and tangents are those of the surface there.
+    /// Time to draw, from 0 (last tick) to 1 (current tick); default 1. Pass
+    /// [`Cloth::blend`](crate::Cloth::blend) for smooth motion. Normals and tangents belong to the
+    /// interpolated surface.
     pub blend: f32,
-    /// What is done to positions, after the offset; nothing. Normals stay square to the surface and on
-    /// their side of it, tangents along it.
+    /// Transform of the positions, applied after the offset; default: identity. Normals stay
+    /// perpendicular to the surface and on their side of it; tangents stay in the surface.
     pub transform: Affine3,
-    /// Whether normals point to the other side, for the back of a cloth; no.
+    /// Whether normals point to the other side, e.g. for the back of the cloth. Default: no.
     pub flip_normals: bool,
-    /// How far positions are moved along the normals that are written [m]; 0. Half of the thickness on
-    /// either side gives a cloth a body.
+    /// Distance by which positions are moved along the written normals [m]; default 0. Half of the
+    /// thickness on either side gives the cloth a visible thickness.
     pub offset: f32,
 }
 
@@ -157,7 +170,7 @@ impl Default for WriteDesc {
 }
 
 impl WriteDesc {
-    /// The vertices that it asks for, of so many.
+    /// Checks every field, and returns the range of vertices to write out of `vertices`.
     pub(crate) fn check(&self, vertices: usize) -> Result<Range<usize>> {
         let first = self.first_vertex as usize;
         check(first <= vertices, "first_vertex", "be at most the number of vertices")?;
@@ -165,7 +178,7 @@ impl WriteDesc {
             ALL_VERTICES => vertices - first,
             count => count as usize,
         };
-        check(count <= vertices - first, "vertex_count", "end at the last vertex, or before")?;
+        check(count <= vertices - first, "vertex_count", "not reach past the last vertex")?;
         check((0.0..=1.0).contains(&self.blend), "blend", "be from 0 to 1")?;
         check(self.transform.is_finite(), "transform", "be finite")?;
         check(self.offset.is_finite(), "offset", "be finite")?;
@@ -174,37 +187,44 @@ impl WriteDesc {
 }
 
 impl Stream<'_> {
-    /// Bytes that a vertex takes; 0 of what is not written so.
+    /// Returns the size of one vertex [bytes]; 0 if the format cannot write the attribute.
     pub(crate) fn width(&self) -> usize {
         self.format.width(self.attribute).unwrap_or(0)
     }
 
-    fn step(&self) -> usize {
+    /// Returns the distance between the starts of consecutive vertices [bytes].
+    fn effective_stride(&self) -> usize {
         if self.stride == 0 { self.width() } else { self.stride as usize }
     }
 
-    /// Bytes from the beginning of the first of so many vertices to the end of the last.
+    /// Returns the bytes from the start of the first vertex to the end of the last, for `count`
+    /// vertices.
     fn span(&self, count: usize) -> u64 {
         match count as u64 {
             0 => 0,
-            count => (count - 1) * self.step() as u64 + self.width() as u64,
+            count => (count - 1) * self.effective_stride() as u64 + self.width() as u64,
         }
     }
 
+    /// Checks the fields of stream number `at` for `count` vertices.
     fn check(&self, at: usize, count: usize) -> Result<()> {
         let stream = at as u32;
         let check = |ok: bool, field, must| {
             if ok { Ok(()) } else { Err(Error::BadStream { stream, field, must }) }
         };
         let (size, width) = (self.format.size(), self.width());
-        check(width > 0, "format", "be one that its attribute is written in")?;
-        let fits = self.step() >= width && self.step().is_multiple_of(size);
-        check(fits, "stride", "be 0 or a multiple of a number's size that holds the attribute")?;
+        check(width > 0, "format", "be one that the attribute can be written in")?;
+        let fits = self.effective_stride() >= width && self.effective_stride().is_multiple_of(size);
+        check(
+            fits,
+            "stride",
+            "be 0 or a multiple of the component size that holds the whole attribute",
+        )?;
         let is_aligned = self.bytes.as_ptr().addr().is_multiple_of(size);
         check(
             is_aligned,
             "buffer",
-            "be aligned to the size of a number: 4 bytes, or 2 of 16 bits",
+            "be aligned to the component size: 4 bytes for 32-bit formats, 2 for 16-bit formats",
         )?;
         let (needed, size) = (self.span(count), self.bytes.len() as u64);
         if needed > size {
@@ -213,32 +233,33 @@ impl Stream<'_> {
         Ok(())
     }
 
-    /// Whether a byte that this one writes is also written by another.
-    fn meets(&self, other: &Self, count: usize) -> bool {
+    /// Returns whether both streams would write the same byte.
+    fn overlaps(&self, other: &Self, count: usize) -> bool {
         let (a, b) = (self.bytes.as_ptr().addr() as u64, other.bytes.as_ptr().addr() as u64);
-        let apart = a + self.span(count) <= b || b + other.span(count) <= a;
-        let step = self.step() as u64;
-        // How far behind one of its vertices the other's begin: where both take equal steps, they are
-        // always as far.
-        let behind = (b as i64 - a as i64).rem_euclid(step as i64) as u64;
-        let interleaved = other.step() as u64 == step
-            && self.width() as u64 <= behind
-            && behind + other.width() as u64 <= step;
-        !apart && !interleaved
+        let are_disjoint = a + self.span(count) <= b || b + other.span(count) <= a;
+        let stride = self.effective_stride() as u64;
+        // Offset of the other stream's vertices within this stream's stride. It is the same for every
+        // vertex if both strides are equal.
+        let offset = (b as i64 - a as i64).rem_euclid(stride as i64) as u64;
+        let are_interleaved = other.effective_stride() as u64 == stride
+            && self.width() as u64 <= offset
+            && offset + other.width() as u64 <= stride;
+        !are_disjoint && !are_interleaved
     }
 
-    /// Writes numbers of at most a block of vertices, the first of them vertex `first` of the stream.
-    pub(crate) fn put<T: Copy, const SIZE: usize, const COUNT: usize>(
+    /// Writes the components of at most one block of vertices, starting at vertex `first` of the
+    /// stream.
+    pub(crate) fn write<T: Copy, const SIZE: usize, const COUNT: usize>(
         &self,
         first: usize,
         count: usize,
         numbers: [&[T; BLOCK]; COUNT],
         bytes_of: impl Fn(T) -> [u8; SIZE],
     ) {
-        let step = self.step();
-        let places = self.bytes[first * step..].chunks(step);
-        for (k, place) in (0..count.min(BLOCK)).zip(places) {
-            let cells = place.as_chunks::<SIZE>().0;
+        let stride = self.effective_stride();
+        let records = self.bytes[first * stride..].chunks(stride);
+        for (k, record) in (0..count.min(BLOCK)).zip(records) {
+            let cells = record.as_chunks::<SIZE>().0;
             let cells: &[[Cell<u8>; SIZE]] = &cells[..COUNT];
             for (cells, numbers) in cells.iter().zip(numbers) {
                 let bytes = bytes_of(numbers[k]);
@@ -248,16 +269,16 @@ impl Stream<'_> {
     }
 }
 
-/// Refuses streams that cannot all be written.
+/// Checks all streams for `count` vertices, and that no two overlap.
 pub(crate) fn check_all(streams: &[Stream<'_>], count: usize) -> Result<()> {
     check((1..=MAX_STREAMS).contains(&streams.len()), "streams", "be from 1 to 16")?;
     for (at, stream) in streams.iter().enumerate() {
         stream.check(at, count)?;
-        if streams[..at].iter().any(|other| count > 0 && other.meets(stream, count)) {
+        if streams[..at].iter().any(|other| count > 0 && other.overlaps(stream, count)) {
             return Err(Error::BadStream {
                 stream: at as u32,
                 field: "buffer",
-                must: "be apart from those of the streams before, or interleaved at equal strides",
+                must: "be apart from the bytes of earlier streams, or interleaved at an equal stride",
             });
         }
     }

@@ -1,252 +1,92 @@
-//! What a renderer reads: positions, normals, uvs, triangles, numbers about the cloth.
+//! Public calls for reading: output lists, per-particle values and statistics.
+//!
+//! Reads `Outputs` and `World`; writes only cached normals.
+//! Invariant: a returned slice keeps its address while the cloth lives (see `outputs`).
 
 use crate::cloth::Cloth;
-use crate::cloth::blended_surface::BlendedSurface;
-use crate::cloth::build::Origin;
-use crate::cloth::changes::{Change, differing};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
-use crate::mesh::split_edge::CutSite;
 use crate::model::grid_cells::GridCells;
-use crate::solver::output::{normals, stats};
+use crate::solver::output::stats;
 use crate::solver::stage::Stage;
-
-use crate::solver::world::World;
 use core::ops::Range;
 use glam::{Vec2, Vec3};
 
-/// A cloth as its renderer sees it. All lists have one entry a vertex, but for the indices.
+/// All lists that a renderer needs, borrowed from the cloth. Every list but `indices` has one entry
+/// per vertex.
 ///
-/// Vertices are what is drawn, particles what moves. Each vertex is the particle of its number, unless the
-/// cloth was made of a mesh of which vertices were welded or split, see [`Cloth::vertex_particles`]. The
-/// triangles of both are the same, in the same order.
+/// Vertices are drawn; particles are simulated. Vertex `i` is particle `i`, unless the cloth was
+/// made from a mesh whose vertices were welded or split, see [`Cloth::vertex_particles`]. Triangles
+/// are the same, in the same order, for both.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// Positions [m].
     pub positions: &'a [Vec3],
-    /// Unit normals, area-weighted; zero for a vertex that no triangle uses. Vertices that share a particle
-    /// share its normal.
+    /// Unit normals, weighted by triangle area; zero for a vertex that no triangle uses. Vertices
+    /// of the same particle share its normal.
     pub normals: &'a [Vec3],
     /// Texture coordinates.
     pub uvs: &'a [Vec2],
-    /// Three vertices a triangle.
+    /// Three vertices per triangle, counter-clockwise seen from the front.
     pub indices: &'a [u32],
-    /// Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's.
+    /// The vertex of the descriptor that each vertex came from; for a vertex that a cut added on an
+    /// edge, that of the nearer end.
     pub source_vertices: &'a [u32],
-    /// Whether a vertex is at a border that a tear or a cut made; at a hem it is not.
+    /// Whether each vertex is on a border that a tear or cut made. Borders of the original cloth
+    /// (hems) do not count.
     pub frayed: &'a [bool],
-    /// How many vertices there may ever be.
+    /// Largest number of vertices that the cloth may ever have.
     pub vertex_capacity: u32,
-    /// How many indices there may ever be.
+    /// Largest number of indices that the cloth may ever have.
     pub index_capacity: u32,
-    /// Changes when indices do.
+    /// Changes whenever the indices change.
     pub topology_revision: u32,
-    /// Changes when positions do.
+    /// Changes whenever positions change.
     pub state_revision: u32,
     /// The particle of each vertex.
     pub particles: &'a [u32],
 }
 
-/// FloatBlock about a cloth.
+/// Statistics of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stats {
-    /// How many particles there are.
+    /// Number of particles.
     pub particles: u32,
-    /// How many triangles there are.
+    /// Number of triangles.
     pub triangles: u32,
-    /// How many links it was woven with.
+    /// Number of links in the rest state.
     pub constraints: u32,
-    /// How many links hold now.
+    /// Number of links that are intact now.
     pub active_constraints: u32,
-    /// How many pieces hang together by edges.
+    /// Number of pieces: sets of triangles connected by edges.
     pub pieces: u32,
-    /// Ticks since it was made or reset.
+    /// Ticks since the cloth was made or reset.
     pub ticks: u32,
-    /// How far to blend from the last tick to this one, see [`Cloth::blend`].
+    /// Blend factor for drawing, see [`Cloth::blend`].
     pub blend: f32,
-    /// The greatest stretch of a stretch link: 0.01 is 1 % over its rest length.
+    /// Largest strain of a stretch link: 0.01 is 1 % above its rest length.
     pub max_stretch: f32,
-    /// The mean stretch of the stretch links.
+    /// Mean strain of the stretch links.
     pub mean_stretch: f32,
-    /// How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
+    /// Number of links past [`Settings::max_stretch`](crate::Settings), which pins, grabs or
+    /// anchors hold apart; 0 without that limit.
     pub over_stretched: u32,
-    /// Energy of motion [J].
+    /// Kinetic energy [J].
     pub kinetic_energy: f32,
-    /// The speed of its fastest particle [m/s].
+    /// Speed of the fastest particle [m/s].
     pub max_speed: f32,
-    /// Whether it sleeps, see [`Settings::sleep_speed`](crate::Settings).
+    /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,
-    /// Memory that it holds [B], about.
+    /// Approximate memory use [bytes].
     pub bytes: u64,
-    /// Time that each stage took in the last call that ran ticks [s]; zeros without a clock.
+    /// Time of each stage ([`Stage::ALL`](crate::Stage)) in the last call that ran ticks [s]; zeros
+    /// without a clock ([`Cloth::set_clock`]).
     pub seconds: [f32; Stage::COUNT],
 }
 
-/// The lists behind a [`View`]; they never move while the cloth lives.
-#[derive(Debug)]
-pub(crate) struct Outputs {
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    normals_current: bool,
-    pub drawn: BlendedSurface,
-    uvs: Vec<Vec2>,
-    /// Texture coordinates of each site, and the original vertex it came from.
-    site_uvs: Vec<Vec2>,
-    site_sources: Vec<u32>,
-    sources: Vec<u32>,
-    frayed: Vec<bool>,
-    particles: Vec<u32>,
-    /// Room to find the next ones in.
-    next: Next,
-    indices: Vec<u32>,
-}
-
-/// What follows a change of triangles, as it is found.
-#[derive(Debug)]
-struct Next {
-    uvs: Vec<Vec2>,
-    sources: Vec<u32>,
-    frayed: Vec<bool>,
-    particles: Vec<u32>,
-    /// Whether each particle is frayed.
-    frayed_particles: Vec<bool>,
-}
-
-impl Outputs {
-    /// Room for all that the cloth may become.
-    pub fn new(world: &World) -> Self {
-        let (particles, capacity) = (world.capacity(), world.vertex_capacity());
-        Self {
-            positions: Vec::with_capacity(capacity),
-            normals: Vec::with_capacity(capacity),
-            normals_current: false,
-            drawn: BlendedSurface::with_capacity(particles),
-            uvs: Vec::with_capacity(capacity),
-            site_uvs: Vec::new(),
-            site_sources: Vec::new(),
-            sources: Vec::with_capacity(capacity),
-            frayed: Vec::with_capacity(capacity),
-            particles: Vec::with_capacity(capacity),
-            next: Next {
-                uvs: Vec::with_capacity(capacity),
-                sources: Vec::with_capacity(capacity),
-                frayed: Vec::with_capacity(capacity),
-                particles: Vec::with_capacity(capacity),
-                frayed_particles: Vec::with_capacity(particles),
-            },
-            indices: Vec::with_capacity(3 * world.triangle_capacity),
-        }
-    }
-
-    /// Takes on the texture coordinates that the cloth was made with.
-    pub fn set_uvs(&mut self, origin: &Origin) {
-        self.site_uvs = with_float_env(|| origin.uvs());
-        self.site_sources = (0..self.site_uvs.len() as u32).collect();
-    }
-
-    /// Follows a change of positions.
-    pub fn follow(&mut self, world: &World) {
-        normals::positions(world, &mut self.positions);
-        self.normals_current = false;
-        self.drawn.moved();
-    }
-
-    /// Follows a change of triangles, and says which entries are not as they were.
-    pub fn follow_topology(&mut self, world: &World) -> Change {
-        with_float_env(|| self.follow_sites(world));
-        let sites = Sites::of(world);
-        let next = &mut self.next;
-        next.uvs.clear();
-        next.uvs.extend(sites.of_vertices.iter().map(|site| self.site_uvs[*site as usize]));
-        next.sources.clear();
-        next.sources.extend(sites.of_vertices.iter().map(|site| self.site_sources[*site as usize]));
-        next.particles.clear();
-        next.frayed.clear();
-        world.mesh.mark_torn_borders(&mut next.frayed_particles);
-        let frayed = &next.frayed_particles;
-        match &world.seams {
-            Some(seams) => {
-                next.particles.extend_from_slice(&seams.particles);
-                next.frayed.extend(seams.particles.iter().map(|at| frayed[*at as usize]));
-            }
-            None => {
-                next.particles.extend(0..frayed.len() as u32);
-                next.frayed.extend_from_slice(frayed);
-            }
-        }
-        let indices = world.render_triangles().as_flattened();
-        let change = Change { indices: differing(&self.indices, indices), ..Change::default() }
-            .and_vertices(differing(&self.uvs, &next.uvs))
-            .and_vertices(differing(&self.sources, &next.sources))
-            .and_vertices(differing(&self.frayed, &next.frayed))
-            .and_vertices(differing(&self.particles, &next.particles));
-        self.drawn.retied();
-        // Copied, since lists that were handed out stay where they are.
-        self.uvs.clone_from(&next.uvs);
-        self.sources.clone_from(&next.sources);
-        self.frayed.clone_from(&next.frayed);
-        self.particles.clone_from(&next.particles);
-        self.indices.clear();
-        self.indices.extend_from_slice(indices);
-        change
-    }
-
-    /// Finds the surface as it is at a share of the way between two ticks.
-    pub fn follow_drawn(&mut self, world: &World, share: f32, with_tangents: bool) {
-        self.drawn.follow(world, share, with_tangents.then_some(&self.uvs[..]));
-    }
-
-    pub fn vertex_count(&self) -> u32 {
-        self.positions.len() as u32
-    }
-
-    fn follow_sites(&mut self, world: &World) {
-        let Sites { original, crossings, .. } = Sites::of(world);
-        let known = original + crossings.len();
-        self.site_uvs.truncate(known);
-        self.site_sources.truncate(known);
-        for crossing in &crossings[self.site_uvs.len() - original..] {
-            self.site_uvs.push(crossing.interpolate(|end| self.site_uvs[end as usize]));
-            self.site_sources.push(self.site_sources[crossing.nearest_end() as usize]);
-        }
-    }
-
-    fn follow_normals(&mut self, world: &World) {
-        if !self.normals_current {
-            self.drawn.follow(world, 1.0, None);
-            normals::scatter_to_vertices(world, &self.drawn.normals, &mut self.normals);
-            self.normals_current = true;
-        }
-    }
-}
-
-/// Where vertices come from.
-struct Sites<'a> {
-    /// Vertices that were given: the first sites.
-    original: usize,
-    crossings: &'a [CutSite],
-    of_vertices: &'a [u32],
-}
-
-impl<'a> Sites<'a> {
-    fn of(world: &'a World) -> Self {
-        match &world.seams {
-            Some(seams) => Self {
-                original: seams.original_count as usize,
-                crossings: &seams.cut_sites,
-                of_vertices: &seams.sites,
-            },
-            None => Self {
-                original: world.mesh.original_count as usize,
-                crossings: &world.crossings,
-                of_vertices: &world.mesh.source,
-            },
-        }
-    }
-}
-
 impl Cloth {
-    /// All that a renderer reads. Normals are computed when first asked for after a change.
+    /// Returns all lists that a renderer needs, without a copy. Computes the normals if positions
+    /// changed since they were last read.
     pub fn view(&mut self) -> View<'_> {
         self.refresh_normals();
         View {
@@ -264,101 +104,106 @@ impl Cloth {
         }
     }
 
-    /// The particle of each vertex. A mesh that was welded or had sheets to be parted has several vertices to
-    /// a particle; else each vertex is the particle of its number.
+    /// Returns the particle of each vertex.
     ///
-    /// Positions, normals, texture coordinates, source vertices, frayed borders and indices are those of
-    /// vertices. Calls that touch the cloth (pins, grabs, tears by hand, positions and velocities) take
-    /// particles, and what a ray hits tells one. Of an event, `particle_a` and `particle_b` are particles,
-    /// `vertex` and `source` are vertices. Triangles have the same numbers in both.
+    /// A mesh that was welded, or whose sheets were separated, has several vertices per particle;
+    /// otherwise vertex `i` is particle `i`. Positions, normals, uvs, source vertices, frayed
+    /// borders and indices belong to vertices. Calls that act on the cloth (pins, grabs, tears,
+    /// positions and velocities) take particles, and a ray hit returns one. In an event,
+    /// `particle_a` and `particle_b` are particles, `vertex` and `source` are vertices. Triangles
+    /// have the same numbers in both.
     pub fn vertex_particles(&self) -> &[u32] {
         &self.outputs.particles
     }
 
-    /// What had to be repaired of the mesh that it was made of; nothing of a grid.
+    /// Returns what was repaired in the mesh that the cloth was made from. A grid needs no repair.
     pub fn mesh_report(&self) -> &MeshReport {
         &self.report
     }
 
-    /// Positions of the vertices [m].
+    /// Returns the positions of the vertices [m].
     pub fn positions(&self) -> &[Vec3] {
         &self.outputs.positions
     }
 
-    /// Unit normals of the vertices, computed when first asked for after a change.
+    /// Returns the unit normals of the vertices. Computes them if positions changed since they were
+    /// last read.
     pub fn normals(&mut self) -> &[Vec3] {
         self.refresh_normals();
         &self.outputs.normals
     }
 
-    /// Texture coordinates of the vertices.
+    /// Returns the texture coordinates of the vertices; zeros if the mesh had none.
     pub fn uvs(&self) -> &[Vec2] {
         &self.outputs.uvs
     }
 
-    /// Three vertices a triangle.
+    /// Returns three vertices per triangle.
     pub fn indices(&self) -> &[u32] {
         &self.outputs.indices
     }
 
-    /// Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's.
+    /// Returns the vertex of the descriptor that each vertex came from; for a vertex that a cut
+    /// added on an edge, that of the nearer end.
     pub fn source_vertices(&self) -> &[u32] {
         &self.outputs.sources
     }
 
-    /// Whether each vertex is at a border that a tear or a cut made, which a renderer may fringe. The
-    /// borders that the cloth was made with are hems.
+    /// Returns whether each vertex is on a border that a tear or cut made, e.g. to draw fringes
+    /// there. Borders of the original cloth (hems) do not count.
     pub fn frayed(&self) -> &[bool] {
         &self.outputs.frayed
     }
 
-    /// How many particles there are.
+    /// Returns the number of particles.
     pub fn particle_count(&self) -> u32 {
         self.world.particles.len() as u32
     }
 
-    /// Where a particle is [m]; `None` if there is no such particle.
+    /// Returns the position of a particle [m]; `None` if it does not exist.
     pub fn position(&self, particle: u32) -> Option<Vec3> {
         let at = particle as usize;
         (at < self.world.particles.len()).then(|| self.world.particles.x.at(at))
     }
 
-    /// Velocity of a particle [m/s]; `None` if there is no such particle.
+    /// Returns the velocity of a particle [m/s]; `None` if it does not exist.
     pub fn velocity(&self, particle: u32) -> Option<Vec3> {
         let at = particle as usize;
         (at < self.world.particles.len()).then(|| self.world.particles.v.at(at))
     }
 
-    /// Mass of a particle [kg]; `None` if there is no such particle.
+    /// Returns the mass of a particle [kg]; `None` if it does not exist.
     pub fn mass(&self, particle: u32) -> Option<f32> {
         self.world.particles.mass.get(particle as usize).copied()
     }
 
-    /// Whether any of these addresses lies in a list that it lends, now or later: for faces whose callers
-    /// hold plain pointers.
+    /// Returns whether any of these addresses lies in an output list, up to its capacity. For
+    /// bindings whose callers pass plain pointers.
     pub fn lends(&self, addresses: &Range<usize>) -> bool {
         fn meets<T>(list: &Vec<T>, addresses: &Range<usize>) -> bool {
             let start = list.as_ptr().addr();
             start < addresses.end && addresses.start < start + size_of::<T>() * list.capacity()
         }
-        let lent = &self.outputs;
-        [&lent.positions, &lent.normals].into_iter().any(|list| meets(list, addresses))
-            || [&lent.sources, &lent.indices].into_iter().any(|list| meets(list, addresses))
-            || meets(&lent.uvs, addresses)
-            || meets(&lent.frayed, addresses)
+        let outputs = &self.outputs;
+        [&outputs.positions, &outputs.normals].into_iter().any(|list| meets(list, addresses))
+            || [&outputs.sources, &outputs.indices].into_iter().any(|list| meets(list, addresses))
+            || meets(&outputs.uvs, addresses)
+            || meets(&outputs.frayed, addresses)
     }
 
-    /// Changes when the triangles do.
+    /// Returns a number that changes whenever the triangles change. Never 0 in practice; it starts
+    /// at 1.
     pub fn topology_revision(&self) -> u32 {
         self.topology_revision
     }
 
-    /// Changes when positions do.
+    /// Returns a number that changes whenever positions change.
     pub fn state_revision(&self) -> u32 {
         self.state_revision
     }
 
-    /// FloatBlock about the cloth as it is now.
+    /// Returns statistics of the current state. Computed on each call, in time proportional to the
+    /// size of the cloth.
     pub fn stats(&self) -> Stats {
         let world = &self.world;
         let ((max_stretch, mean_stretch), kinetic_energy) =
@@ -382,23 +227,26 @@ impl Cloth {
         }
     }
 
+    /// Computes the normals of the current positions, if they are out of date, and measures the
+    /// time.
     fn refresh_normals(&mut self) {
-        if self.outputs.normals_current {
+        if self.outputs.are_normals_current {
             return;
         }
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
         world.threads.run_in_pool(world.particles.len(), || {
-            with_float_env(|| outputs.follow_normals(world))
+            with_float_env(|| outputs.refresh_normals(world))
         });
         self.world.profile.book(Stage::Outputs, start);
     }
 
+    /// Returns the approximate memory use [bytes].
     fn bytes(&self) -> u64 {
         let world = &self.world;
-        // Texture coordinates, sources, frayed borders and particles are there twice.
-        let told = size_of::<Vec2>() + 2 * size_of::<u32>() + 1;
-        let vertex = size_of::<[Vec3; 2]>() + 2 * told;
+        // `Outputs` holds uvs, sources, frayed flags and particles twice: current and pending.
+        let attributes = size_of::<Vec2>() + 2 * size_of::<u32>() + 1;
+        let vertex = size_of::<[Vec3; 2]>() + 2 * attributes;
         let particle = world.particles.bytes_each();
         let triangle = size_of::<[u32; 3]>() * 3 + size_of::<[f32; 3]>();
         let bytes = world.capacity() * particle
@@ -408,10 +256,10 @@ impl Cloth {
             + world.grid_cells.as_ref().map_or(0, GridCells::bytes)
             + world.plate_elements.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
-            + self.outputs.drawn.bytes()
-            + world.particle_collision.as_ref().map_or(0, |crowd| crowd.bytes())
+            + self.outputs.surface.bytes()
+            + world.particle_collision.as_ref().map_or(0, |pairs| pairs.bytes())
             + world.warm_start.bytes()
-            + world.surface_collision.as_ref().map_or(0, |layers| layers.bytes());
+            + world.surface_collision.as_ref().map_or(0, |surface| surface.bytes());
         bytes as u64
     }
 }

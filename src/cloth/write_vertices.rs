@@ -1,7 +1,15 @@
-//! Writing into the caller's own buffers.
+//! Public calls that write vertices and indices into the caller's own buffers.
+//!
+//! ```text
+//! for each block of vertices:
+//!     for each stream:   gather or load  ▶  blend  ▶  transform  ▶  pack to the format  ▶  write
+//! ```
+//!
+//! Reads `World` and `Outputs`; writes only the caller's bytes.
+//! Invariant: all checks come first, so a refused call leaves the buffers untouched.
 
 use crate::cloth::Cloth;
-use crate::cloth::blended_surface::BlendedSurface;
+use crate::cloth::interpolated_surface::InterpolatedSurface;
 use crate::cloth::vertex_stream::{Attribute, Stream, VertexFormat, WriteDesc, check_all};
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
@@ -17,7 +25,7 @@ use crate::solver::output::vertex_transform::{VertexBlock, VertexTransform};
 use core::ops::Range;
 use glam::Vec2;
 
-/// How wide the indices of a buffer are.
+/// Width of the indices in a buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
 pub enum IndexFormat {
@@ -29,21 +37,23 @@ pub enum IndexFormat {
 }
 
 impl IndexFormat {
-    /// Bytes of one index.
+    /// Returns the size of one index [bytes].
     pub fn size(self) -> usize {
         self as usize / 8
     }
 }
 
 impl Cloth {
-    /// Writes the indices of all triangles to the beginning of `buffer`, as the machine keeps numbers of
-    /// that width: each with `base_vertex` added, and every triangle turned round if `flip` is set. Give
-    /// `buffer` room for the view's `index_capacity` indices, and it fits for ever.
+    /// Writes the indices of all triangles to the start of `buffer`, in the byte order of the
+    /// machine.
+    ///
+    /// `base_vertex` is added to each index; `flip` reverses the winding of every triangle. A
+    /// buffer for the view's `index_capacity` indices is always large enough.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) unless the indices fit `buffer` and the greatest fits
-    /// `format`; of 16 bits the greatest number is left out, since many hosts restart there. `buffer`
-    /// is untouched then.
+    /// [`Error::BadValue`](crate::Error::BadValue) if the indices do not fit `buffer`, or the
+    /// largest index does not fit `format`. Index 65535 is refused in 16 bits, since many graphics
+    /// APIs use it for primitive restart. The buffer is untouched then.
     pub fn write_indices(
         &self,
         buffer: &mut [u8],
@@ -53,61 +63,71 @@ impl Cloth {
     ) -> Result<()> {
         let indices = self.indices();
         let fits = buffer.len() >= indices.len() * format.size();
-        check(fits, "buffer", "have room for all indices")?;
+        check(fits, "buffer", "hold all indices")?;
         let last = u64::from(base_vertex) + self.positions().len() as u64 - 1;
         check(
             format == IndexFormat::U32 || last < u64::from(u16::MAX),
             "index_format",
-            "be 32 where an index is above 65534",
+            "be 32 bits when an index is above 65534",
         )?;
         check(last < u64::from(u32::MAX), "base_vertex", "leave every index below 4294967295")?;
-        let moved = |index: u32| index + base_vertex;
+        let offset = |index: u32| index + base_vertex;
         match format {
-            IndexFormat::U16 => turn(buffer, indices, flip, |i| (moved(i) as u16).to_ne_bytes()),
-            IndexFormat::U32 => turn(buffer, indices, flip, |i| moved(i).to_ne_bytes()),
+            IndexFormat::U16 => {
+                write_triangles(buffer, indices, flip, |i| (offset(i) as u16).to_ne_bytes())
+            }
+            IndexFormat::U32 => write_triangles(buffer, indices, flip, |i| offset(i).to_ne_bytes()),
         }
         Ok(())
     }
 
-    /// Writes vertices into the caller's buffers, each attribute in the format, at the place and at the
-    /// distances that its stream says: separate, interleaved or one behind the other. Nothing else in the
-    /// buffers is touched. With room for the view's `vertex_capacity` vertices they fit for ever.
+    /// Writes vertices into the caller's buffers, each attribute with the format, position and
+    /// stride of its [`Stream`]: separate, interleaved or one after the other. Other bytes are
+    /// untouched.
     ///
-    /// The first call that asks for tangents, or for normals between two ticks, makes room for them;
-    /// otherwise nothing is allocated.
+    /// Buffers for the view's `vertex_capacity` vertices are always large enough. The first call
+    /// that writes tangents, or normals at a blend below 1, allocates memory for them; other calls
+    /// do not allocate.
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) for a field of `desc` that cannot be, unless there are 1
-    /// to 16 streams, or if normals or tangents are asked for with a transform that cannot be inverted;
-    /// [`Error::BadStream`](crate::Error::BadStream) names the stream and its field: a format that its
-    /// attribute is not written in, a stride or place that its numbers do not fit, bytes that another
-    /// stream writes too; [`Error::SmallStream`](crate::Error::SmallStream) if the vertices do not fit.
+    /// - [`Error::BadValue`](crate::Error::BadValue) for an invalid field of `desc`, unless there
+    ///   are 1 to 16 streams, or if normals or tangents are written with a transform that cannot be
+    ///   inverted.
+    /// - [`Error::BadStream`](crate::Error::BadStream) names the stream and its invalid field: the
+    ///   format cannot write the attribute, stride or alignment do not fit the format, or the bytes
+    ///   overlap an earlier stream.
+    /// - [`Error::SmallStream`](crate::Error::SmallStream) if the vertices do not fit a buffer.
+    ///
     /// The buffers are untouched then.
     pub fn write_vertices(&mut self, streams: &[Stream<'_>], desc: &WriteDesc) -> Result<()> {
         let vertices = desc.check(self.positions().len())?;
         check_all(streams, vertices.len())?;
         let has = |attribute| streams.iter().any(|stream| stream.attribute == attribute);
-        let (normals, tangents) = (has(Attribute::Normal), has(Attribute::Tangent));
+        let (needs_normals, needs_tangents) = (has(Attribute::Normal), has(Attribute::Tangent));
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
         let placing = with_float_env(|| {
             VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, desc.transform)
         });
-        let can_turn = placing.can_transform_directions() || !(normals || tangents);
-        check(can_turn, "transform", "be one that can be inverted, for normals or tangents")?;
-        if normals || tangents || placing.is_offset() {
+        let is_usable = placing.can_transform_directions() || !(needs_normals || needs_tangents);
+        check(
+            is_usable,
+            "transform",
+            "be one that can be inverted when normals or tangents are written",
+        )?;
+        if needs_normals || needs_tangents || placing.is_offset() {
             world.threads.run_in_pool(world.particles.len(), || {
-                with_float_env(|| outputs.follow_drawn(world, desc.blend, tangents));
+                with_float_env(|| outputs.update_surface(world, desc.blend, needs_tangents));
             });
         }
         let (uvs, frayed) = (self.uvs(), self.frayed());
         let particles = world.seams.as_ref().map(|_| self.vertex_particles());
-        let writer = Writer {
+        let writer = VertexWriter {
             level: world.level,
             placing,
             x: world.particles.x.all(),
             last: world.particles.x_prev_tick.all(),
-            drawn: &self.outputs.drawn,
+            surface: &self.outputs.surface,
             particles,
             uvs,
             frayed,
@@ -118,8 +138,8 @@ impl Cloth {
     }
 }
 
-/// Writes the corners of triangles, turned round or not.
-fn turn<const SIZE: usize>(
+/// Writes the indices of triangles, with reversed winding if `flip`.
+fn write_triangles<const SIZE: usize>(
     buffer: &mut [u8],
     indices: &[u32],
     flip: bool,
@@ -132,40 +152,40 @@ fn turn<const SIZE: usize>(
     }
 }
 
-/// What vertices are written from.
-struct Writer<'a> {
+/// The data that vertices are written from.
+struct VertexWriter<'a> {
     level: Level,
     placing: VertexTransform,
     x: [&'a [f32]; 3],
     last: [&'a [f32]; 3],
-    drawn: &'a BlendedSurface,
-    /// The particle of each vertex, unless that has its number.
+    surface: &'a InterpolatedSurface,
+    /// The particle of each vertex; `None` if vertex `i` is particle `i`.
     particles: Option<&'a [u32]>,
     uvs: &'a [Vec2],
     frayed: &'a [bool],
 }
 
-impl Writer<'_> {
-    /// All streams block by block, so that what they share stays at hand.
+impl VertexWriter<'_> {
+    /// Writes all streams block by block, so that a block's data stays in cache.
     fn write(&self, streams: &[Stream<'_>], vertices: Range<usize>) {
-        let mut room = Room::default();
+        let mut scratch = BlockScratch::default();
         for first in vertices.clone().step_by(BLOCK) {
             let block = first..vertices.end.min(first + BLOCK);
             for stream in streams {
-                self.find(stream.attribute, block.clone(), &mut room);
-                room.put(self.level, stream, first - vertices.start, block.len());
+                self.compute(stream.attribute, block.clone(), &mut scratch);
+                scratch.write(self.level, stream, first - vertices.start, block.len());
             }
         }
     }
 
-    /// Finds an attribute of a block of vertices.
-    fn find(&self, attribute: Attribute, block: Range<usize>, room: &mut Room) {
-        let Room { vector, fourth: last, normals, from, .. } = room;
+    /// Computes one attribute of a block of vertices into `scratch`.
+    fn compute(&self, attribute: Attribute, block: Range<usize>, scratch: &mut BlockScratch) {
+        let BlockScratch { vector, w, normals, last, .. } = scratch;
         let load = |to: &mut [FloatBlock], columns: &[&[f32]]| {
             vertex_transform::load(to, columns, block.start, block.len());
         };
-        // What particles have.
-        let load_of = |to: &mut [FloatBlock], columns: &[&[f32]]| match self.particles {
+        // Attributes of particles.
+        let load_of_particles = |to: &mut [FloatBlock], columns: &[&[f32]]| match self.particles {
             Some(particles) => vertex_transform::gather(to, columns, &particles[block.clone()]),
             None => load(to, columns),
         };
@@ -174,30 +194,30 @@ impl Writer<'_> {
             attribute => attribute == Attribute::Tangent,
         };
         if needs_normals {
-            load_of(normals, &self.drawn.normals.all());
+            load_of_particles(normals, &self.surface.normals.all());
         }
         match attribute {
             Attribute::Position => {
-                load_of(vector, &self.x);
+                load_of_particles(vector, &self.x);
                 if self.placing.share != 1.0 {
-                    load_of(from, &self.last);
-                    blend(self.level, vector, from, block.len(), self.placing.share);
+                    load_of_particles(last, &self.last);
+                    blend(self.level, vector, last, block.len(), self.placing.share);
                 }
                 self.placing.transform_positions(self.level, vector, normals);
-                last.fill(1.0);
+                w.fill(1.0);
             }
             Attribute::Normal => {
-                load_of(vector, &self.drawn.normals.all());
+                load_of_particles(vector, &self.surface.normals.all());
                 self.placing.transform_normals(self.level, vector);
-                last.fill(0.0);
+                w.fill(0.0);
             }
             Attribute::Tangent => {
-                // Whoever asked for them had them made.
-                let Some(tangents) = &self.drawn.tangents else { return };
-                let (sums, hands) = tangents.columns();
+                // `write_vertices` computed the tangents for this request.
+                let Some(tangents) = &self.surface.tangents else { return };
+                let (sums, handedness) = tangents.columns();
                 load(vector, &sums);
-                load(core::slice::from_mut(last), &[hands]);
-                self.placing.transform_tangents(self.level, vector, normals, last);
+                load(core::slice::from_mut(w), &[handedness]);
+                self.placing.transform_tangents(self.level, vector, normals, w);
             }
             Attribute::Uv => {
                 let [u, v, ..] = vector;
@@ -215,39 +235,41 @@ impl Writer<'_> {
     }
 }
 
-/// Goes back towards the last tick.
+/// Interpolates from the positions of the last tick to those of the current one.
 fn blend(level: Level, x: &mut VertexBlock, last: &VertexBlock, count: usize, share: f32) {
     for (x, last) in x.iter_mut().zip(last) {
         normals::blend(level, &mut x[..count], &last[..count], share);
     }
 }
 
-/// Room for a block of vertices.
-struct Room {
-    /// What is written: up to three numbers, and a fourth.
+/// Scratch buffers for one block of vertices.
+struct BlockScratch {
+    /// The first three components to write.
     vector: VertexBlock,
-    fourth: FloatBlock,
-    /// What they are packed into.
+    /// The fourth component.
+    w: FloatBlock,
+    /// Components packed to 16 bits.
     halves: [HalfBlock; 4],
+    /// Normals of the block.
     normals: VertexBlock,
-    /// Where they were a tick ago.
-    from: VertexBlock,
+    /// Positions of the last tick.
+    last: VertexBlock,
 }
 
-impl Default for Room {
+impl Default for BlockScratch {
     fn default() -> Self {
-        let [vector, normals, from] = [[[0.0; BLOCK]; 3]; 3];
-        Self { vector, fourth: [0.0; BLOCK], halves: [[0; BLOCK]; 4], normals, from }
+        let [vector, normals, last] = [[[0.0; BLOCK]; 3]; 3];
+        Self { vector, w: [0.0; BLOCK], halves: [[0; BLOCK]; 4], normals, last }
     }
 }
 
-impl Room {
-    /// Writes what was found, in the format of the stream.
-    fn put(&mut self, level: Level, stream: &Stream<'_>, first: usize, count: usize) {
-        let ([x, y, z], w) = (&mut self.vector, &mut self.fourth);
-        let to = match stream.format {
+impl BlockScratch {
+    /// Packs the computed attribute into the stream's format and writes it.
+    fn write(&mut self, level: Level, stream: &Stream<'_>, first: usize, count: usize) {
+        let ([x, y, z], w) = (&mut self.vector, &mut self.w);
+        let pack = match stream.format {
             VertexFormat::F32 => {
-                return put(stream, first, count, [x, y, z, w], f32::to_ne_bytes);
+                return write_numbers(stream, first, count, [x, y, z, w], f32::to_ne_bytes);
             }
             VertexFormat::F16 => pack::to_f16,
             VertexFormat::Snorm16 => pack::to_snorm16,
@@ -260,13 +282,14 @@ impl Room {
         };
         let used = stream.width() / stream.format.size();
         for (halves, numbers) in self.halves.iter_mut().zip([&*x, y, z, w]).take(used) {
-            to(level, numbers, halves);
+            pack(level, numbers, halves);
         }
-        put(stream, first, count, self.halves.each_ref(), u16::to_ne_bytes);
+        write_numbers(stream, first, count, self.halves.each_ref(), u16::to_ne_bytes);
     }
 }
 
-fn put<T: Copy, const SIZE: usize>(
+/// Writes as many components as the format has for the attribute.
+fn write_numbers<T: Copy, const SIZE: usize>(
     stream: &Stream<'_>,
     first: usize,
     count: usize,
@@ -274,9 +297,9 @@ fn put<T: Copy, const SIZE: usize>(
     bytes: impl Fn(T) -> [u8; SIZE],
 ) {
     match stream.width() / SIZE {
-        1 => stream.put(first, count, [x], bytes),
-        2 => stream.put(first, count, [x, y], bytes),
-        3 => stream.put(first, count, [x, y, z], bytes),
-        _ => stream.put(first, count, [x, y, z, w], bytes),
+        1 => stream.write(first, count, [x], bytes),
+        2 => stream.write(first, count, [x, y], bytes),
+        3 => stream.write(first, count, [x, y, z], bytes),
+        _ => stream.write(first, count, [x, y, z, w], bytes),
     }
 }

@@ -210,7 +210,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     let mut cloth = worn(|_| ()).cloth;
     let before = cloth.save();
     let bad = |field, must| Err(Error::BadValue { field, must });
-    let as_many = "be as many as `particles`";
+    let as_many = "have as many entries as `particles`";
     assert_eq!(cloth.set_max_distances(&[1, 2], &[0.1]), bad("distances", as_many));
     for distance in [-0.1, f32::NAN] {
         let refused = cloth.set_max_distances(&[1, 2], &[0.1, distance]);
@@ -229,10 +229,10 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     }
     assert_eq!(cloth.set_anchors(&[1], &[], &[]), bad("positions", as_many));
     let normals = cloth.set_anchors(&[1, 2], &[Vec3::ZERO; 2], &[Vec3::Y]);
-    assert_eq!(normals, bad("normals", "be as many as `particles`, or none"));
+    assert_eq!(normals, bad("normals", "have as many entries as `particles`, or none"));
     assert_eq!(cloth.set_anchors(&[1], &[Vec3::NAN], &[]), bad("positions", "be finite"));
     assert_eq!(cloth.set_anchors(&[1], &[Vec3::ONE], &[Vec3::NAN]), bad("normals", "be finite"));
     let zero = cloth.set_anchors(&[1], &[Vec3::ONE], &[Vec3::ZERO]);
-    assert_eq!(zero, bad("normals", "have a length that numbers can tell from 0"));
+    assert_eq!(zero, bad("normals", "have a length above 0"));
     assert_eq!(cloth.save(), before);
 }

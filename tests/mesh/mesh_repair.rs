@@ -189,7 +189,7 @@ fn what_is_beyond_repair_says_why() {
     let said = Cloth::mesh(&flat).unwrap_err();
     assert_eq!(
         said.to_string(),
-        "`indices` must hold at least one triangle with an area (see number 0)"
+        "`indices` must hold at least one triangle with an area (triangle or vertex 0)"
     );
     let mut vast = sheet();
     vast.positions[12] = Vec3::splat(3.0e38);

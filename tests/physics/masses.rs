@@ -128,7 +128,7 @@ fn factors_that_cannot_be_are_refused_and_change_nothing() {
     let refused = cloth.set_mass_scales(&[1, 2], &[2.0]);
     assert_eq!(
         refused,
-        Err(Error::BadValue { field: "scales", must: "be as many as `particles`" })
+        Err(Error::BadValue { field: "scales", must: "have as many entries as `particles`" })
     );
     let refused = cloth.set_mass_scales(&[1, 192], &[2.0; 2]);
     assert_eq!(refused, Err(Error::BadIndex { field: "particles", index: 192, count: 192 }));

@@ -1,55 +1,37 @@
-//! Bytes in the format of postcard, version 1: numbers of more than a byte seven bits at a time, the lowest first;
-//! floats as they are, little-endian; lists behind their length, enums behind their number, all else bare.
+//! Encoder and decoder for the postcard wire format, version 1 (<https://postcard.jamesmunns.com>).
 //!
-//! Written out here since what a value is saved and restored by is woven in for every field: postcard's own code would
-//! be a twentieth of what a page loads. So writing cannot fail, and reading goes on with zeros where it has failed.
+//! Integers of more than one byte are varints (seven bits per byte, lowest first); floats are
+//! little-endian; lists are preceded by their length, enum variants by their index; structs have no
+//! framing.
+//!
+//! This is an own implementation for code size: serde generates code per field, and the postcard
+//! crate would make up a twentieth of what a web page loads. So writing cannot fail for the types
+//! of a save, and reading continues with zeros after the first error, which is reported at the end.
+//!
+//! Reads and writes only its arguments.
+//! Invariant: output and accepted input are the same as those of the postcard crate (tested).
 
+mod error;
 mod read;
 mod write;
 
-use crate::cloth::postcard::read::Reader;
-use crate::cloth::postcard::write::Writer;
-use core::fmt;
-use serde::{Deserialize, Serialize, de, ser};
+use crate::cloth::postcard::error::{PostcardError, PostcardResult};
+use crate::cloth::postcard::read::ByteReader;
+use crate::cloth::postcard::write::ByteWriter;
+use serde::{Deserialize, Serialize};
 
-/// Why a value is not written or not read: it is of a kind that no cloth is made of, or the bytes are not one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Refused;
-
-type Result<T> = core::result::Result<T, Refused>;
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("it is no such value")
-    }
-}
-
-impl std::error::Error for Refused {}
-
-impl ser::Error for Refused {
-    fn custom<T: fmt::Display>(_: T) -> Self {
-        Self
-    }
-}
-
-impl de::Error for Refused {
-    fn custom<T: fmt::Display>(_: T) -> Self {
-        Self
-    }
-}
-
-/// Writes a value behind what there is.
-pub(crate) fn write(value: &impl Serialize, behind: Vec<u8>) -> Result<Vec<u8>> {
-    let mut writer = Writer(behind);
+/// Appends the encoded value to `prefix` and returns all bytes.
+pub(crate) fn write(value: &impl Serialize, prefix: Vec<u8>) -> PostcardResult<Vec<u8>> {
+    let mut writer = ByteWriter(prefix);
     value.serialize(&mut writer)?;
     Ok(writer.0)
 }
 
-/// Reads a value; what follows it is left.
-pub(crate) fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T> {
-    let mut reader = Reader::new(bytes);
+/// Decodes a value from the start of `bytes`; ignores the bytes after it.
+pub(crate) fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> PostcardResult<T> {
+    let mut reader = ByteReader::new(bytes);
     let value = T::deserialize(&mut reader)?;
-    if reader.has_failed { Err(Refused) } else { Ok(value) }
+    if reader.has_failed { Err(PostcardError) } else { Ok(value) }
 }
 
 #[cfg(test)]
@@ -57,7 +39,7 @@ mod tests {
     use super::*;
 
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-    enum Kind {
+    enum Variants {
         Bare,
         One(u32),
         Two(u16, f32),
@@ -81,7 +63,7 @@ mod tests {
         none: Option<u32>,
         pair: (u8, f32),
         place: glam::Vec3,
-        kinds: Vec<Kind>,
+        kinds: Vec<Variants>,
         nothing: (),
     }
 
@@ -100,18 +82,18 @@ mod tests {
             pair: (7, 0.25),
             place: glam::Vec3::new(1.0, 2.0, -3.0),
             kinds: vec![
-                Kind::Bare,
-                Kind::One(500),
-                Kind::Two(9, 0.5),
-                Kind::Named { a: 3, b: Some(false) },
-                Kind::Named { a: 4, b: None },
+                Variants::Bare,
+                Variants::One(500),
+                Variants::Two(9, 0.5),
+                Variants::Named { a: 3, b: Some(false) },
+                Variants::Named { a: 4, b: None },
             ],
             nothing: (),
         }
     }
 
     #[test]
-    fn values_are_written_as_postcard_writes_them_and_read_back() {
+    fn values_are_encoded_as_postcard_does_and_decoded_again() {
         let bytes = write(&all(), vec![1, 2]).unwrap();
         assert_eq!(bytes[..2], [1, 2]);
         assert_eq!(bytes[2..], postcard::to_allocvec(&all()).unwrap());
@@ -121,30 +103,30 @@ mod tests {
     }
 
     #[test]
-    fn whatever_postcard_refuses_is_refused_and_what_it_reads_is_read_alike() {
-        let whole = write(&all(), Vec::new()).unwrap();
-        for end in 0..whole.len() {
-            assert_eq!(read::<All>(&whole[..end]), Err(Refused), "{end} bytes");
+    fn damaged_bytes_give_the_same_value_or_error_as_in_postcard() {
+        let bytes_of_all = write(&all(), Vec::new()).unwrap();
+        for end in 0..bytes_of_all.len() {
+            assert_eq!(read::<All>(&bytes_of_all[..end]), Err(PostcardError), "{end} bytes");
         }
-        let mut read_anyway = 0;
-        for at in 0..whole.len() {
+        let mut still_readable = 0;
+        for at in 0..bytes_of_all.len() {
             for change in [1, 2, 0x7f, 0x80, 0xff] {
-                let mut bytes = whole.clone();
+                let mut bytes = bytes_of_all.clone();
                 bytes[at] ^= change;
                 let (ours, theirs) = (read::<All>(&bytes), postcard::from_bytes::<All>(&bytes));
                 assert_eq!(ours.is_ok(), theirs.is_ok(), "byte {at} by {change}");
                 if let (Ok(ours), Ok(theirs)) = (ours, theirs) {
-                    // Of numbers that are none, no two are equal.
+                    // Compare as text, since NaN is not equal to NaN.
                     assert_eq!(format!("{ours:?}"), format!("{theirs:?}"), "byte {at} by {change}");
-                    read_anyway += 1;
+                    still_readable += 1;
                 }
             }
         }
-        assert!(read_anyway > 100, "only {read_anyway} changes gave another value");
+        assert!(still_readable > 100, "only {still_readable} changes were still readable");
     }
 
     #[test]
-    fn numbers_of_more_bits_than_they_have_are_refused() {
+    fn varints_with_too_many_bits_are_refused() {
         for last in 0..=255 {
             let short = [0xff, 0xff, last];
             assert_eq!(read::<u16>(&short).ok(), postcard::from_bytes(&short).ok(), "{last}");
@@ -157,17 +139,17 @@ mod tests {
     }
 
     #[test]
-    fn a_list_that_claims_to_be_endless_takes_no_memory() {
+    fn a_false_list_length_allocates_no_memory() {
         let claim = [0xff, 0xff, 0xff, 0xff, 0x0f, 1, 2, 3];
-        assert_eq!(read::<Vec<[u64; 4]>>(&claim), Err(Refused));
-        assert_eq!(read::<Vec<Vec<Kind>>>(&claim), Err(Refused));
+        assert_eq!(read::<Vec<[u64; 4]>>(&claim), Err(PostcardError));
+        assert_eq!(read::<Vec<Vec<Variants>>>(&claim), Err(PostcardError));
     }
 
     #[test]
-    fn what_no_cloth_is_made_of_is_refused() {
-        assert_eq!(write(&"text", Vec::new()), Err(Refused));
-        assert_eq!(write(&-1, Vec::new()), Err(Refused));
-        assert_eq!(read::<i32>(&[1]), Err(Refused));
-        assert_eq!(read::<String>(&[1, 65]), Err(Refused));
+    fn types_that_saves_never_contain_are_refused() {
+        assert_eq!(write(&"text", Vec::new()), Err(PostcardError));
+        assert_eq!(write(&-1, Vec::new()), Err(PostcardError));
+        assert_eq!(read::<i32>(&[1]), Err(PostcardError));
+        assert_eq!(read::<String>(&[1, 65]), Err(PostcardError));
     }
 }

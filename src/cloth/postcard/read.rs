@@ -1,19 +1,22 @@
-//! Values from bytes.
+//! Decoder: a serde `Deserializer` over a byte slice.
+//!
+//! Reads the bytes; writes the value.
+//! Invariant: after the first error, `has_failed` is set and every further read returns zeros, so
+//! that the code for each field needs no branch.
 
-use crate::cloth::postcard::{Refused, Result};
+use crate::cloth::postcard::error::{PostcardError, PostcardResult};
 use serde::de::{DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer};
 use serde::de::{SeqAccess, VariantAccess, Visitor};
 use serde::forward_to_deserialize_any;
 
-/// What is left to read. Where the bytes end too early or are no such value, this is noted, and what is read from then
-/// on is zeros: so nothing that reads a field has to look.
-pub(crate) struct Reader<'a> {
+/// The unread bytes, and whether reading has failed.
+pub(crate) struct ByteReader<'a> {
     left: &'a [u8],
     pub has_failed: bool,
 }
 
-// Functions of their own, as they are called for every field.
-impl<'a> Reader<'a> {
+// Not inlined, since the generated code calls them for every field.
+impl<'a> ByteReader<'a> {
     pub fn new(left: &'a [u8]) -> Self {
         Self { left, has_failed: false }
     }
@@ -34,7 +37,7 @@ impl<'a> Reader<'a> {
         0
     }
 
-    /// 0 or 1, as whether there is something.
+    /// Reads a byte that must be 0 or 1.
     #[inline(never)]
     fn flag(&mut self) -> bool {
         let byte = self.byte();
@@ -44,7 +47,7 @@ impl<'a> Reader<'a> {
         byte == 1
     }
 
-    /// A number of so many bits.
+    /// Reads a varint of at most `bits` bits.
     #[inline(never)]
     fn number(&mut self, bits: u32) -> u64 {
         let mut number = 0;
@@ -63,6 +66,7 @@ impl<'a> Reader<'a> {
         0
     }
 
+    /// Reads four little-endian bytes.
     #[inline(never)]
     fn word(&mut self) -> u32 {
         if let Some((first, left)) = self.left.split_first_chunk() {
@@ -73,7 +77,8 @@ impl<'a> Reader<'a> {
         0
     }
 
-    /// How long a list is, whose every entry takes a byte at least: no list is believed to be longer than what is left.
+    /// Reads the length of a list. Every entry takes at least one byte, so a length above the
+    /// number of unread bytes is an error; this bounds the memory that false lengths can allocate.
     #[inline(never)]
     fn count(&mut self) -> usize {
         let count = self.number(usize::BITS) as usize;
@@ -85,21 +90,21 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whole numbers.
+/// Deserialize functions of the integer types.
 macro_rules! numbers {
     ($($name:ident: $type:ty, $visit:ident;)*) => {$(
         #[inline]
-        fn $name<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        fn $name<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
             let number = self.number(<$type>::BITS);
             visitor.$visit(number as $type)
         }
     )*};
 }
 
-impl<'de> Deserializer<'de> for &mut Reader<'de> {
-    type Error = Refused;
+impl<'de> Deserializer<'de> for &mut ByteReader<'de> {
+    type Error = PostcardError;
 
-    // Kinds of which a cloth has nothing, and what says itself what it is.
+    // Types that saves never contain, and self-describing values, which the format does not have.
     forward_to_deserialize_any! {
         i8 i16 i32 i64 i128 u128 char str string bytes byte_buf map identifier ignored_any
     }
@@ -114,38 +119,38 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         false
     }
 
-    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value> {
-        Err(Refused)
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> PostcardResult<V::Value> {
+        Err(PostcardError)
     }
 
     #[inline]
-    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         visitor.visit_bool(self.flag())
     }
 
     #[inline]
-    fn deserialize_u8<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_u8<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         visitor.visit_u8(self.byte())
     }
 
     #[inline]
-    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         visitor.visit_f32(f32::from_bits(self.word()))
     }
 
     #[inline]
-    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         let (low, high) = (self.word(), self.word());
         visitor.visit_f64(f64::from_bits(u64::from(high) << 32 | u64::from(low)))
     }
 
     #[inline]
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         if self.flag() { visitor.visit_some(self) } else { visitor.visit_none() }
     }
 
     #[inline]
-    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         visitor.visit_unit()
     }
 
@@ -154,7 +159,7 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value> {
+    ) -> PostcardResult<V::Value> {
         visitor.visit_unit()
     }
 
@@ -163,19 +168,23 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value> {
+    ) -> PostcardResult<V::Value> {
         visitor.visit_newtype_struct(self)
     }
 
     #[inline]
-    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> PostcardResult<V::Value> {
         let left = self.count();
-        visitor.visit_seq(Parts::<true> { reader: self, left })
+        visitor.visit_seq(Elements::<true> { reader: self, left })
     }
 
     #[inline]
-    fn deserialize_tuple<V: Visitor<'de>>(self, left: usize, visitor: V) -> Result<V::Value> {
-        visitor.visit_seq(Parts::<false> { reader: self, left })
+    fn deserialize_tuple<V: Visitor<'de>>(
+        self,
+        left: usize,
+        visitor: V,
+    ) -> PostcardResult<V::Value> {
+        visitor.visit_seq(Elements::<false> { reader: self, left })
     }
 
     #[inline]
@@ -184,8 +193,8 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         _: &'static str,
         left: usize,
         visitor: V,
-    ) -> Result<V::Value> {
-        visitor.visit_seq(Parts::<false> { reader: self, left })
+    ) -> PostcardResult<V::Value> {
+        visitor.visit_seq(Elements::<false> { reader: self, left })
     }
 
     #[inline]
@@ -194,8 +203,8 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         _: &'static str,
         fields: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value> {
-        visitor.visit_seq(Parts::<false> { reader: self, left: fields.len() })
+    ) -> PostcardResult<V::Value> {
+        visitor.visit_seq(Elements::<false> { reader: self, left: fields.len() })
     }
 
     #[inline]
@@ -204,23 +213,26 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         _: &'static str,
         _: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value> {
+    ) -> PostcardResult<V::Value> {
         visitor.visit_enum(self)
     }
 }
 
-/// What follows each other: in a list, of which nothing more is made where reading has failed, or in what has as many
-/// parts always.
-struct Parts<'a, 'de, const IS_LIST: bool> {
-    reader: &'a mut Reader<'de>,
+/// The entries of a list, whose end is checked after an error, or the fields of a struct or tuple,
+/// whose number is fixed.
+struct Elements<'a, 'de, const IS_LIST: bool> {
+    reader: &'a mut ByteReader<'de>,
     left: usize,
 }
 
-impl<'de, const IS_LIST: bool> SeqAccess<'de> for Parts<'_, 'de, IS_LIST> {
-    type Error = Refused;
+impl<'de, const IS_LIST: bool> SeqAccess<'de> for Elements<'_, 'de, IS_LIST> {
+    type Error = PostcardError;
 
     #[inline]
-    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>> {
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> PostcardResult<Option<T::Value>> {
         if self.left == 0 || IS_LIST && self.reader.has_failed {
             return Ok(None);
         }
@@ -234,33 +246,33 @@ impl<'de, const IS_LIST: bool> SeqAccess<'de> for Parts<'_, 'de, IS_LIST> {
     }
 }
 
-impl<'de> EnumAccess<'de> for &mut Reader<'de> {
-    type Error = Refused;
+impl<'de> EnumAccess<'de> for &mut ByteReader<'de> {
+    type Error = PostcardError;
     type Variant = Self;
 
     #[inline]
-    fn variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<(T::Value, Self)> {
+    fn variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> PostcardResult<(T::Value, Self)> {
         let at = self.number(u32::BITS) as u32;
-        Ok((seed.deserialize(IntoDeserializer::<Refused>::into_deserializer(at))?, self))
+        Ok((seed.deserialize(IntoDeserializer::<PostcardError>::into_deserializer(at))?, self))
     }
 }
 
-impl<'de> VariantAccess<'de> for &mut Reader<'de> {
-    type Error = Refused;
+impl<'de> VariantAccess<'de> for &mut ByteReader<'de> {
+    type Error = PostcardError;
 
     #[inline]
-    fn unit_variant(self) -> Result<()> {
+    fn unit_variant(self) -> PostcardResult<()> {
         Ok(())
     }
 
     #[inline]
-    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value> {
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> PostcardResult<T::Value> {
         seed.deserialize(self)
     }
 
     #[inline]
-    fn tuple_variant<V: Visitor<'de>>(self, left: usize, visitor: V) -> Result<V::Value> {
-        visitor.visit_seq(Parts::<false> { reader: self, left })
+    fn tuple_variant<V: Visitor<'de>>(self, left: usize, visitor: V) -> PostcardResult<V::Value> {
+        visitor.visit_seq(Elements::<false> { reader: self, left })
     }
 
     #[inline]
@@ -268,7 +280,7 @@ impl<'de> VariantAccess<'de> for &mut Reader<'de> {
         self,
         fields: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value> {
-        visitor.visit_seq(Parts::<false> { reader: self, left: fields.len() })
+    ) -> PostcardResult<V::Value> {
+        visitor.visit_seq(Elements::<false> { reader: self, left: fields.len() })
     }
 }

@@ -1,15 +1,18 @@
-//! Values to bytes.
+//! Encoder: a serde `Serializer` that appends to a byte vector.
+//!
+//! Reads the value; writes the bytes.
+//! Invariant: it cannot fail for the types that a save contains.
 
-use crate::cloth::postcard::{Refused, Result};
+use crate::cloth::postcard::error::{PostcardError, PostcardResult};
 use serde::ser::{Impossible, Serialize, Serializer};
 use serde::ser::{SerializeSeq, SerializeStruct, SerializeStructVariant};
 use serde::ser::{SerializeTuple, SerializeTupleStruct, SerializeTupleVariant};
 
-/// What there is so far.
-pub(crate) struct Writer(pub Vec<u8>);
+/// The bytes so far.
+pub(crate) struct ByteWriter(pub Vec<u8>);
 
-// Functions of their own, as they are called for every field.
-impl Writer {
+// Not inlined, since the generated code calls them for every field.
+impl ByteWriter {
     #[inline(never)]
     fn byte(&mut self, byte: u8) {
         self.0.push(byte);
@@ -30,36 +33,36 @@ impl Writer {
     }
 }
 
-/// Kinds of which a cloth has nothing.
+/// Serialize functions of types that saves never contain.
 macro_rules! refuse {
     ($($name:ident: $type:ty,)*) => {$(
-        fn $name(self, _: $type) -> Result<()> {
-            Err(Refused)
+        fn $name(self, _: $type) -> PostcardResult<()> {
+            Err(PostcardError)
         }
     )*};
 }
 
-/// Whole numbers.
+/// Serialize functions of the integer types.
 macro_rules! numbers {
     ($($name:ident: $type:ty,)*) => {$(
         #[inline]
-        fn $name(self, number: $type) -> Result<()> {
+        fn $name(self, number: $type) -> PostcardResult<()> {
             self.number(number.into());
             Ok(())
         }
     )*};
 }
 
-impl<'a> Serializer for &'a mut Writer {
+impl<'a> Serializer for &'a mut ByteWriter {
     type Ok = ();
-    type Error = Refused;
-    type SerializeSeq = &'a mut Writer;
-    type SerializeTuple = &'a mut Writer;
-    type SerializeTupleStruct = &'a mut Writer;
-    type SerializeTupleVariant = &'a mut Writer;
-    type SerializeMap = Impossible<(), Refused>;
-    type SerializeStruct = &'a mut Writer;
-    type SerializeStructVariant = &'a mut Writer;
+    type Error = PostcardError;
+    type SerializeSeq = &'a mut ByteWriter;
+    type SerializeTuple = &'a mut ByteWriter;
+    type SerializeTupleStruct = &'a mut ByteWriter;
+    type SerializeTupleVariant = &'a mut ByteWriter;
+    type SerializeMap = Impossible<(), PostcardError>;
+    type SerializeStruct = &'a mut ByteWriter;
+    type SerializeStructVariant = &'a mut ByteWriter;
 
     refuse! {
         serialize_i8: i8,
@@ -82,52 +85,57 @@ impl<'a> Serializer for &'a mut Writer {
     }
 
     #[inline]
-    fn serialize_bool(self, v: bool) -> Result<()> {
+    fn serialize_bool(self, v: bool) -> PostcardResult<()> {
         self.serialize_u8(v.into())
     }
 
     #[inline]
-    fn serialize_u8(self, v: u8) -> Result<()> {
+    fn serialize_u8(self, v: u8) -> PostcardResult<()> {
         self.byte(v);
         Ok(())
     }
 
     #[inline]
-    fn serialize_f32(self, v: f32) -> Result<()> {
+    fn serialize_f32(self, v: f32) -> PostcardResult<()> {
         self.word(v.to_bits());
         Ok(())
     }
 
     #[inline]
-    fn serialize_f64(self, v: f64) -> Result<()> {
+    fn serialize_f64(self, v: f64) -> PostcardResult<()> {
         self.word(v.to_bits() as u32);
         self.word((v.to_bits() >> 32) as u32);
         Ok(())
     }
 
     #[inline]
-    fn serialize_none(self) -> Result<()> {
+    fn serialize_none(self) -> PostcardResult<()> {
         self.serialize_u8(0)
     }
 
     #[inline]
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<()> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> PostcardResult<()> {
         self.byte(1);
         value.serialize(self)
     }
 
     #[inline]
-    fn serialize_unit(self) -> Result<()> {
+    fn serialize_unit(self) -> PostcardResult<()> {
         Ok(())
     }
 
     #[inline]
-    fn serialize_unit_struct(self, _: &'static str) -> Result<()> {
+    fn serialize_unit_struct(self, _: &'static str) -> PostcardResult<()> {
         Ok(())
     }
 
     #[inline]
-    fn serialize_unit_variant(self, _: &'static str, at: u32, _: &'static str) -> Result<()> {
+    fn serialize_unit_variant(
+        self,
+        _: &'static str,
+        at: u32,
+        _: &'static str,
+    ) -> PostcardResult<()> {
         self.serialize_u32(at)
     }
 
@@ -136,7 +144,7 @@ impl<'a> Serializer for &'a mut Writer {
         self,
         _: &'static str,
         value: &T,
-    ) -> Result<()> {
+    ) -> PostcardResult<()> {
         value.serialize(self)
     }
 
@@ -147,24 +155,24 @@ impl<'a> Serializer for &'a mut Writer {
         at: u32,
         _: &'static str,
         value: &T,
-    ) -> Result<()> {
+    ) -> PostcardResult<()> {
         self.number(at.into());
         value.serialize(self)
     }
 
     #[inline]
-    fn serialize_seq(self, count: Option<usize>) -> Result<Self> {
-        self.number(count.ok_or(Refused)? as u64);
+    fn serialize_seq(self, count: Option<usize>) -> PostcardResult<Self> {
+        self.number(count.ok_or(PostcardError)? as u64);
         Ok(self)
     }
 
     #[inline]
-    fn serialize_tuple(self, _: usize) -> Result<Self> {
+    fn serialize_tuple(self, _: usize) -> PostcardResult<Self> {
         Ok(self)
     }
 
     #[inline]
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Self> {
+    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> PostcardResult<Self> {
         Ok(self)
     }
 
@@ -175,17 +183,17 @@ impl<'a> Serializer for &'a mut Writer {
         at: u32,
         _: &'static str,
         _: usize,
-    ) -> Result<Self> {
+    ) -> PostcardResult<Self> {
         self.number(at.into());
         Ok(self)
     }
 
-    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap> {
-        Err(Refused)
+    fn serialize_map(self, _: Option<usize>) -> PostcardResult<Self::SerializeMap> {
+        Err(PostcardError)
     }
 
     #[inline]
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Self> {
+    fn serialize_struct(self, _: &'static str, _: usize) -> PostcardResult<Self> {
         Ok(self)
     }
 
@@ -196,26 +204,27 @@ impl<'a> Serializer for &'a mut Writer {
         at: u32,
         _: &'static str,
         _: usize,
-    ) -> Result<Self> {
+    ) -> PostcardResult<Self> {
         self.number(at.into());
         Ok(self)
     }
 }
 
-/// What holds others: these follow each other, whatever they are called.
+/// Serialize functions of sequences, tuples and structs: elements follow each other without
+/// framing.
 macro_rules! compounds {
     ($($compound:ident: $part:ident($($name:ty)?);)*) => {$(
-        impl $compound for &mut Writer {
+        impl $compound for &mut ByteWriter {
             type Ok = ();
-            type Error = Refused;
+            type Error = PostcardError;
 
             #[inline]
-            fn $part<T: Serialize + ?Sized>(&mut self, $(_: $name,)? value: &T) -> Result<()> {
+            fn $part<T: Serialize + ?Sized>(&mut self, $(_: $name,)? value: &T) -> PostcardResult<()> {
                 value.serialize(&mut **self)
             }
 
             #[inline]
-            fn end(self) -> Result<()> {
+            fn end(self) -> PostcardResult<()> {
                 Ok(())
             }
         }

@@ -1,4 +1,5 @@
-//! Tests: the kernels of a grid give the bits of the general ones, at every level of instructions.
+//! Tests: grid kernels, mesh kernels, every SIMD level and every number of threads give the same
+//! bits.
 
 use crate::cloth::Cloth;
 use crate::cloth::desc::{GridDesc, PinMode};
@@ -7,8 +8,14 @@ use crate::model::material::{Material, Preset};
 use crate::state::wind::Wind;
 use glam::Vec3;
 
-/// A grid of a size that leaves rests of rows, in the wind, torn by a grab, cut, then falling.
-fn play(material: &Material, columns: u32, rows: u32, prepare: impl Fn(&mut Cloth)) -> Vec<u64> {
+/// Simulates a grid in the wind, with a grab that tears it, a cut and a free fall. Returns the
+/// state hash after every tick, a hash of the normals, and the final state hash.
+fn simulate(
+    material: &Material,
+    columns: u32,
+    rows: u32,
+    prepare: impl Fn(&mut Cloth),
+) -> Vec<u64> {
     let mut desc = GridDesc { columns, rows, pin_mode: PinMode::TopCorners, ..GridDesc::default() };
     desc.material = material.clone();
     desc.material.tear_stretch = 1.15;
@@ -27,7 +34,10 @@ fn play(material: &Material, columns: u32, rows: u32, prepare: impl Fn(&mut Clot
         cloth.step(1);
         if tick == 20 {
             let blade = [Vec3::new(0.21, 0.5, -9.0), Vec3::new(0.26, -9.0, -9.0)];
-            assert!(cloth.cut(blade[0], blade[1], Vec3::Z * 18.0).unwrap() > 0, "nothing was cut");
+            assert!(
+                cloth.cut(blade[0], blade[1], Vec3::Z * 18.0).unwrap() > 0,
+                "the blade opened no edge"
+            );
         }
         hashes.push(cloth.state_hash());
     }
@@ -36,21 +46,23 @@ fn play(material: &Material, columns: u32, rows: u32, prepare: impl Fn(&mut Clot
     cloth.step(20);
     let normals = cloth.normals().iter().flat_map(|n| n.to_array());
     hashes.push(normals.fold(0, |hash: u64, n| hash.rotate_left(7) ^ u64::from(n.to_bits())));
-    assert!(cloth.positions().len() > (columns * rows) as usize, "nothing tore");
+    assert!(cloth.positions().len() > (columns * rows) as usize, "the grab tore no edge");
     hashes.push(cloth.state_hash());
     hashes
 }
 
+/// Compares grid and mesh kernels at every SIMD level with the scalar mesh kernels.
 fn assert_equal_bits(material: &Material) {
-    // Whole chunks, rests of rows, pairs and quads over odd rows, rows too short for a chunk.
+    // Sizes with whole chunks, remainders of rows, pairs and quads over odd rows, and rows that
+    // are too short for a chunk.
     for (columns, rows) in [(16, 9), (23, 18), (11, 20), (7, 12)] {
-        let general = play(material, columns, rows, |cloth| {
+        let general = simulate(material, columns, rows, |cloth| {
             (cloth.world.constraints.rows, cloth.world.grid_cells) = (None, None);
         });
         for level in Level::all() {
-            let grid = play(material, columns, rows, |cloth| cloth.world.level = level);
+            let grid = simulate(material, columns, rows, |cloth| cloth.world.level = level);
             assert_eq!(grid, general, "{columns} x {rows} at {level:?}");
-            let packed = play(material, columns, rows, |cloth| {
+            let packed = simulate(material, columns, rows, |cloth| {
                 (cloth.world.constraints.rows, cloth.world.grid_cells) = (None, None);
                 cloth.world.level = level;
             });
@@ -59,7 +71,8 @@ fn assert_equal_bits(material: &Material) {
     }
 }
 
-/// The same for several threads: bands of several rows, and rows that are too short for chunks.
+/// Compares 2, 3 and 4 threads with one thread, on grids with several bands of rows and with rows
+/// that are too short for chunks.
 #[cfg(feature = "parallel")]
 fn assert_equal_bits_on_threads(material: &Material) {
     for (columns, rows) in [(16, 64), (23, 49), (12, 50), (13, 83), (5, 52)] {
@@ -70,10 +83,13 @@ fn assert_equal_bits_on_threads(material: &Material) {
                 }
                 cloth.set_threads_eagerly(threads).unwrap();
             };
-            let alone = play(material, columns, rows, |cloth| prepare(cloth, 1));
+            let alone = simulate(material, columns, rows, |cloth| prepare(cloth, 1));
             for threads in [2, 3, 4] {
-                let shared = play(material, columns, rows, |cloth| prepare(cloth, threads));
-                assert_eq!(shared, alone, "{columns} x {rows} on {threads}, a grid: {is_grid}");
+                let shared = simulate(material, columns, rows, |cloth| prepare(cloth, threads));
+                assert_eq!(
+                    shared, alone,
+                    "{columns} x {rows}, {threads} threads, grid kernels: {is_grid}"
+                );
             }
         }
     }
@@ -81,38 +97,38 @@ fn assert_equal_bits_on_threads(material: &Material) {
 
 #[cfg(feature = "parallel")]
 #[test]
-fn soft_links_have_equal_bits_on_threads() {
+fn soft_links_give_equal_bits_on_any_number_of_threads() {
     assert_equal_bits_on_threads(&Material::preset(Preset::Cotton));
 }
 
 #[cfg(feature = "parallel")]
 #[test]
-fn rigid_links_have_equal_bits_on_threads() {
+fn rigid_links_give_equal_bits_on_any_number_of_threads() {
     let (lift, bend_stiffness) = (0.5, 1.0);
     assert_equal_bits_on_threads(&Material { bend_stiffness, lift, ..Material::default() });
 }
 
 #[test]
-fn soft_links_have_equal_bits() {
+fn soft_links_give_equal_bits_in_all_kernels() {
     assert_equal_bits(&Material::preset(Preset::Cotton));
 }
 
 #[test]
-fn rigid_links_have_equal_bits() {
+fn rigid_links_give_equal_bits_in_all_kernels() {
     let lift = 0.5;
     assert_equal_bits(&Material { bend_stiffness: 0.0, lift, ..Material::default() });
 }
 
 #[test]
-fn rows_of_all_lengths_have_equal_bits() {
+fn rows_of_every_length_give_equal_bits_in_all_kernels() {
     let wind = Wind { velocity: Vec3::new(0.5, 0.25, 9.0), ..Wind::default() };
     for material in [Material::default(), Material::preset(Preset::Cotton)] {
-        // Links over two cells are rigid then.
+        // A bend stiffness of 1 or more gives rigid links over two cells.
         let material = Material { bend_stiffness: 1.0, ..material };
         for columns in (2..=41).chain([64, 96]) {
             let mut desc = GridDesc { columns, rows: 7, ..GridDesc::default() };
             (desc.material, desc.pin_mode) = (material.clone(), PinMode::TopCorners);
-            let play = |level: Level, is_grid: bool| {
+            let simulate = |level: Level, is_grid: bool| {
                 let mut cloth = Cloth::grid(&desc).unwrap();
                 cloth.world.level = level;
                 if !is_grid {
@@ -122,9 +138,9 @@ fn rows_of_all_lengths_have_equal_bits() {
                 cloth.step(4);
                 cloth.state_hash()
             };
-            let general = play(Level::Scalar, false);
+            let general = simulate(Level::Scalar, false);
             for level in Level::all() {
-                assert_eq!(play(level, true), general, "{columns} columns at {level:?}");
+                assert_eq!(simulate(level, true), general, "{columns} columns at {level:?}");
             }
         }
     }

@@ -1,0 +1,89 @@
+//! Cache of the surface to draw: normals and tangents at an interpolated time between two ticks.
+//!
+//! `x(blend) = blend · x + (1 − blend) · x_last`, then area-weighted normals and tangents of that
+//! surface.
+//!
+//! Reads `World::particles` and the triangles; writes its own columns, which `write_vertices`
+//! packs.
+//! Invariant: `normals` belong to `blend_of_normals` and the current positions, or
+//! `blend_of_normals` is `None`.
+
+use crate::math::columns::Columns;
+use crate::solver::output::normals;
+use crate::solver::output::tangents::Tangents;
+use crate::solver::world::World;
+use glam::Vec2;
+
+/// Normals and tangents of the drawn surface, kept until positions or triangles change.
+#[derive(Debug)]
+pub(crate) struct InterpolatedSurface {
+    /// Number of particles to reserve for.
+    particle_capacity: usize,
+    /// One unit normal per particle.
+    pub normals: Columns,
+    /// The blend factor that `normals` were computed for; `None` if they are out of date.
+    blend_of_normals: Option<f32>,
+    /// Interpolated positions; allocated at the first request with a blend below 1.
+    positions: Columns,
+    /// One tangent per vertex; allocated at the first request.
+    pub tangents: Option<Box<Tangents>>,
+}
+
+impl InterpolatedSurface {
+    /// Reserves the normals of `capacity` particles.
+    pub fn with_capacity(capacity: usize) -> Self {
+        let normals = Columns::with_capacity(capacity);
+        Self {
+            particle_capacity: capacity,
+            normals,
+            blend_of_normals: None,
+            positions: Columns::default(),
+            tangents: None,
+        }
+    }
+
+    /// Returns the memory of the lists that are allocated on request [bytes].
+    pub fn bytes(&self) -> usize {
+        let position = if self.positions.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
+        self.particle_capacity * position
+            + self.tangents.as_ref().map_or(0, |tangents| tangents.bytes())
+    }
+
+    /// Marks normals and tangents as out of date after positions changed.
+    pub fn invalidate_positions(&mut self) {
+        self.blend_of_normals = None;
+        if let Some(tangents) = &mut self.tangents {
+            tangents.invalidate_positions();
+        }
+    }
+
+    /// Marks normals and tangents as out of date after triangles changed.
+    pub fn invalidate_topology(&mut self) {
+        self.blend_of_normals = None;
+        if let Some(tangents) = &mut self.tangents {
+            tangents.invalidate_triangles();
+        }
+    }
+
+    /// Computes the normals at `blend` (0: last tick, 1: current tick), and the tangents if `uvs`
+    /// are given. Does nothing that is already up to date.
+    pub fn update(&mut self, world: &World, blend: f32, uvs: Option<&[Vec2]>) {
+        let needs_normals = self.blend_of_normals != Some(blend);
+        let are_tangents_current =
+            self.tangents.as_ref().is_some_and(|tangents| tangents.is_current(blend));
+        let uvs = uvs.filter(|_| !are_tangents_current);
+        if blend != 1.0 && (needs_normals || uvs.is_some()) {
+            self.positions.reserve(self.particle_capacity);
+            normals::blend_positions(world, blend, &mut self.positions);
+        }
+        let x = if blend == 1.0 { &world.particles.x } else { &self.positions };
+        if needs_normals {
+            normals::compute(world, x, &mut self.normals);
+            self.blend_of_normals = Some(blend);
+        }
+        if let Some(uvs) = uvs {
+            let new_tangents = || Box::new(Tangents::with_capacity(world.vertex_capacity()));
+            self.tangents.get_or_insert_with(new_tangents).update(world, uvs, x, blend);
+        }
+    }
+}

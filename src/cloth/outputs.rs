@@ -1,0 +1,204 @@
+//! Output lists that a renderer reads through [`View`](crate::View): positions, normals, uvs,
+//! indices.
+//!
+//! Solver data is per particle; output lists are per vertex. Seams (welded or split vertices) map
+//! one to the other.
+//!
+//! Reads `World`; writes its own lists.
+//! Invariant: the lists keep their addresses as long as the cloth lives, since hosts hold pointers
+//! to them; so they are reserved to full capacity at creation, and new content is copied into them.
+
+use crate::cloth::build::ClothDesc;
+use crate::cloth::change_history::{ChangedRanges, changed_range};
+use crate::cloth::interpolated_surface::InterpolatedSurface;
+use crate::math::float_env::with_float_env;
+use crate::mesh::split_edge::CutSite;
+use crate::solver::output::normals;
+use crate::solver::world::World;
+use glam::{Vec2, Vec3};
+
+/// The lists behind a [`View`](crate::View).
+#[derive(Debug)]
+pub(crate) struct Outputs {
+    /// One entry per vertex [m].
+    pub positions: Vec<Vec3>,
+    /// One unit normal per vertex; valid if `are_normals_current`.
+    pub normals: Vec<Vec3>,
+    /// Whether `normals` belong to the current positions.
+    pub are_normals_current: bool,
+    /// Normals and tangents per particle, at the blend of the last request.
+    pub surface: InterpolatedSurface,
+    /// Texture coordinates per vertex.
+    pub uvs: Vec<Vec2>,
+    /// Texture coordinates of each rest vertex (vertices before any split; cuts append some).
+    rest_uvs: Vec<Vec2>,
+    /// The vertex of the descriptor that each rest vertex came from.
+    rest_sources: Vec<u32>,
+    /// The vertex of the descriptor that each vertex came from.
+    pub sources: Vec<u32>,
+    /// Whether each vertex is on a border that a tear or cut made.
+    pub frayed: Vec<bool>,
+    /// The particle of each vertex.
+    pub particles: Vec<u32>,
+    /// Scratch lists for the next topology, compared with the current ones to find what changed.
+    pending: PendingAttributes,
+    /// Three vertices per triangle.
+    pub indices: Vec<u32>,
+}
+
+/// Per-vertex attributes of a new topology, before they replace the current ones.
+#[derive(Debug)]
+struct PendingAttributes {
+    uvs: Vec<Vec2>,
+    sources: Vec<u32>,
+    frayed: Vec<bool>,
+    particles: Vec<u32>,
+    /// Whether each particle is on a border that a tear or cut made.
+    frayed_particles: Vec<bool>,
+}
+
+impl Outputs {
+    /// Reserves every list for as many vertices and triangles as the cloth may ever have.
+    pub fn new(world: &World) -> Self {
+        let (particles, capacity) = (world.capacity(), world.vertex_capacity());
+        Self {
+            positions: Vec::with_capacity(capacity),
+            normals: Vec::with_capacity(capacity),
+            are_normals_current: false,
+            surface: InterpolatedSurface::with_capacity(particles),
+            uvs: Vec::with_capacity(capacity),
+            rest_uvs: Vec::new(),
+            rest_sources: Vec::new(),
+            sources: Vec::with_capacity(capacity),
+            frayed: Vec::with_capacity(capacity),
+            particles: Vec::with_capacity(capacity),
+            pending: PendingAttributes {
+                uvs: Vec::with_capacity(capacity),
+                sources: Vec::with_capacity(capacity),
+                frayed: Vec::with_capacity(capacity),
+                particles: Vec::with_capacity(capacity),
+                frayed_particles: Vec::with_capacity(particles),
+            },
+            indices: Vec::with_capacity(3 * world.triangle_capacity),
+        }
+    }
+
+    /// Sets the texture coordinates and sources of the descriptor's vertices.
+    pub fn set_uvs(&mut self, desc: &ClothDesc) {
+        self.rest_uvs = with_float_env(|| desc.uvs());
+        self.rest_sources = (0..self.rest_uvs.len() as u32).collect();
+    }
+
+    /// Copies the current positions and marks the normals as out of date.
+    pub fn update_positions(&mut self, world: &World) {
+        normals::positions(world, &mut self.positions);
+        self.are_normals_current = false;
+        self.surface.invalidate_positions();
+    }
+
+    /// Rebuilds indices and per-vertex attributes, and returns the ranges that changed.
+    pub fn update_topology(&mut self, world: &World) -> ChangedRanges {
+        with_float_env(|| self.update_rest_vertices(world));
+        let rest_vertices = RestVertices::of(world);
+        let pending = &mut self.pending;
+        pending.uvs.clear();
+        pending
+            .uvs
+            .extend(rest_vertices.of_vertices.iter().map(|rest| self.rest_uvs[*rest as usize]));
+        pending.sources.clear();
+        pending
+            .sources
+            .extend(rest_vertices.of_vertices.iter().map(|rest| self.rest_sources[*rest as usize]));
+        pending.particles.clear();
+        pending.frayed.clear();
+        world.mesh.mark_torn_borders(&mut pending.frayed_particles);
+        let frayed = &pending.frayed_particles;
+        match &world.seams {
+            Some(seams) => {
+                pending.particles.extend_from_slice(&seams.particles);
+                pending.frayed.extend(seams.particles.iter().map(|at| frayed[*at as usize]));
+            }
+            None => {
+                pending.particles.extend(0..frayed.len() as u32);
+                pending.frayed.extend_from_slice(frayed);
+            }
+        }
+        let indices = world.render_triangles().as_flattened();
+        let change = ChangedRanges {
+            indices: changed_range(&self.indices, indices),
+            ..ChangedRanges::default()
+        }
+        .include_vertices(changed_range(&self.uvs, &pending.uvs))
+        .include_vertices(changed_range(&self.sources, &pending.sources))
+        .include_vertices(changed_range(&self.frayed, &pending.frayed))
+        .include_vertices(changed_range(&self.particles, &pending.particles));
+        self.surface.invalidate_topology();
+        // Copy instead of swap: hosts hold pointers to these lists.
+        self.uvs.clone_from(&pending.uvs);
+        self.sources.clone_from(&pending.sources);
+        self.frayed.clone_from(&pending.frayed);
+        self.particles.clone_from(&pending.particles);
+        self.indices.clear();
+        self.indices.extend_from_slice(indices);
+        change
+    }
+
+    /// Computes the surface at `blend` (0: last tick, 1: current tick), with tangents on request.
+    pub fn update_surface(&mut self, world: &World, blend: f32, with_tangents: bool) {
+        self.surface.update(world, blend, with_tangents.then_some(&self.uvs[..]));
+    }
+
+    /// Returns the number of vertices.
+    pub fn vertex_count(&self) -> u32 {
+        self.positions.len() as u32
+    }
+
+    /// Appends texture coordinates and sources of the rest vertices that cuts added, by linear
+    /// interpolation along the cut edge.
+    fn update_rest_vertices(&mut self, world: &World) {
+        let RestVertices { original, crossings, .. } = RestVertices::of(world);
+        let known = original + crossings.len();
+        self.rest_uvs.truncate(known);
+        self.rest_sources.truncate(known);
+        for crossing in &crossings[self.rest_uvs.len() - original..] {
+            self.rest_uvs.push(crossing.interpolate(|end| self.rest_uvs[end as usize]));
+            self.rest_sources.push(self.rest_sources[crossing.nearest_end() as usize]);
+        }
+    }
+
+    /// Computes the normals of the current positions, if they are out of date.
+    pub fn refresh_normals(&mut self, world: &World) {
+        if !self.are_normals_current {
+            self.surface.update(world, 1.0, None);
+            normals::scatter_to_vertices(world, &self.surface.normals, &mut self.normals);
+            self.are_normals_current = true;
+        }
+    }
+}
+
+/// Rest vertices, and which of them each vertex came from.
+struct RestVertices<'a> {
+    /// Number of vertices in the descriptor: the first rest vertices.
+    original: usize,
+    /// Rest vertices that cuts added, each on an edge between two earlier ones.
+    crossings: &'a [CutSite],
+    /// The rest vertex of each vertex.
+    of_vertices: &'a [u32],
+}
+
+impl<'a> RestVertices<'a> {
+    fn of(world: &'a World) -> Self {
+        match &world.seams {
+            Some(seams) => Self {
+                original: seams.original_count as usize,
+                crossings: &seams.cut_sites,
+                of_vertices: &seams.sites,
+            },
+            None => Self {
+                original: world.mesh.original_count as usize,
+                crossings: &world.crossings,
+                of_vertices: &world.mesh.source,
+            },
+        }
+    }
+}
