@@ -1,69 +1,71 @@
-//! What a page reads: addresses of lists that it makes views of, and numbers.
+//! Read access: addresses of vertex lists, revisions, events, statistics.
+//!
+//! `package/cloth.js` makes typed-array views at these addresses. An address is valid until the
+//! next call that changes the cloth or grows the module's memory.
 
 use crate::RawCloth;
-use crate::numbers::{Reader, Writer};
-use crate::refusal::{Result, refusal};
-use muslin::{Error, Stage};
+use crate::packing::Writer;
+use muslin::Stage;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 impl RawCloth {
-    /// How many vertices there are.
+    /// Returns the number of vertices.
     pub fn vertex_count(&self) -> u32 {
         self.cloth.positions().len() as u32
     }
 
-    /// How many vertices there may ever be.
+    /// Returns the largest number of vertices that the cloth can ever have.
     pub fn vertex_capacity(&mut self) -> u32 {
         self.cloth.view().vertex_capacity
     }
 
-    /// How many indices there are.
+    /// Returns the number of indices.
     pub fn index_count(&self) -> u32 {
         self.cloth.indices().len() as u32
     }
 
-    /// How many indices there may ever be.
+    /// Returns the largest number of indices that the cloth can ever have.
     pub fn index_capacity(&mut self) -> u32 {
         self.cloth.view().index_capacity
     }
 
-    /// Where the positions are: 3 f32 a vertex.
+    /// Returns the address of the positions: 3 f32 per vertex.
     pub fn positions_ptr(&self) -> *const f32 {
         self.cloth.positions().as_ptr().cast()
     }
 
-    /// Where the normals are: 3 f32 a vertex. Computes them when it must.
+    /// Returns the address of the normals: 3 f32 per vertex. Computes them if positions changed.
     pub fn normals_ptr(&mut self) -> *const f32 {
         self.cloth.normals().as_ptr().cast()
     }
 
-    /// Where the texture coordinates are: 2 f32 a vertex.
+    /// Returns the address of the texture coordinates: 2 f32 per vertex.
     pub fn uvs_ptr(&self) -> *const f32 {
         self.cloth.uvs().as_ptr().cast()
     }
 
-    /// Where the indices are: u32.
+    /// Returns the address of the indices: 3 u32 per triangle.
     pub fn indices_ptr(&self) -> *const u32 {
         self.cloth.indices().as_ptr()
     }
 
-    /// Where the source vertices are: u32.
+    /// Returns the address of the source vertices: 1 u32 per vertex.
     pub fn source_vertices_ptr(&self) -> *const u32 {
         self.cloth.source_vertices().as_ptr()
     }
 
-    /// Where it says whether vertices are frayed: 1 byte a vertex.
+    /// Returns the address of the frayed flags: 1 byte per vertex, 0 or 1.
     pub fn frayed_ptr(&self) -> *const u8 {
         self.cloth.frayed().as_ptr().cast()
     }
 
-    /// Where the particles of the vertices are: u32.
+    /// Returns the address of the particles of the vertices: 1 u32 per vertex.
     pub fn vertex_particles_ptr(&self) -> *const u32 {
         self.cloth.vertex_particles().as_ptr()
     }
 
-    /// What had to be repaired of the mesh, in the order of the package's REPORT.
+    /// Returns the mesh report, in the order of `REPORT` in `package/reports.js`, then `is_grid`.
     pub fn mesh_report(&self) -> Vec<u32> {
         let report = self.cloth.mesh_report();
         vec![
@@ -84,70 +86,25 @@ impl RawCloth {
         ]
     }
 
-    /// What changed with the triangles since a revision: first vertex, how many, first index, how many.
+    /// Returns the ranges that changed since a topology revision: first vertex, vertex count, first
+    /// index, index count.
     pub fn changes(&self, since_topology_revision: u32) -> Vec<u32> {
         let changes = self.cloth.changes(since_topology_revision);
         vec![changes.first_vertex, changes.vertex_count, changes.first_index, changes.index_count]
     }
 
-    /// Changes when the triangles do.
+    /// Returns the topology revision, which changes when the triangles change.
     pub fn topology_revision(&self) -> u32 {
         self.cloth.topology_revision()
     }
 
-    /// Changes when positions do.
+    /// Returns the state revision, which changes when positions change.
     pub fn state_revision(&self) -> u32 {
         self.cloth.state_revision()
     }
 
-    /// The share of a tick that `advance` still owes.
-    pub fn blend(&self) -> f32 {
-        self.cloth.blend()
-    }
-
-    /// Time since it was made or reset [s].
-    pub fn time(&self) -> f64 {
-        self.cloth.time()
-    }
-
-    /// Where a particle is.
-    pub fn position(&self, particle: u32) -> Result<Vec<f64>> {
-        let position = self.cloth.position(particle);
-        let mut list = Writer::default();
-        list.vector(position.ok_or_else(|| refusal(self.no_such(particle)))?);
-        Ok(list.0)
-    }
-
-    /// Velocity of a particle.
-    pub fn velocity(&self, particle: u32) -> Result<Vec<f64>> {
-        let velocity = self.cloth.velocity(particle);
-        let mut list = Writer::default();
-        list.vector(velocity.ok_or_else(|| refusal(self.no_such(particle)))?);
-        Ok(list.0)
-    }
-
-    /// Mass of a particle.
-    pub fn mass(&self, particle: u32) -> Result<f32> {
-        self.cloth.mass(particle).ok_or_else(|| refusal(self.no_such(particle)))
-    }
-
-    /// What a ray hits first, or nothing; `ray` is its origin and direction. Gives triangle, particle,
-    /// u, v, distance, position and normal.
-    pub fn raycast(&self, ray: &[f64], max_distance: f32) -> Result<Vec<f64>> {
-        let mut ray = Reader::new(ray);
-        let hit = self.cloth.raycast(ray.vector(), ray.vector(), max_distance).map_err(refusal)?;
-        let mut list = Writer::default();
-        if let Some(hit) = hit {
-            list.counts(&[hit.triangle, hit.particle]);
-            list.numbers(&[hit.u, hit.v, hit.distance]);
-            list.vector(hit.position);
-            list.vector(hit.normal);
-        }
-        Ok(list.0)
-    }
-
-    /// All events that were not read yet: kind, tick, position, particle a, particle b, vertex, source
-    /// and count of each.
+    /// Removes all pending events and returns them: kind, tick, position, particle a, particle b,
+    /// vertex, source and count of each.
     pub fn events(&mut self) -> Vec<f64> {
         let mut list = Writer::default();
         while let Some(event) = self.cloth.next_event() {
@@ -159,7 +116,8 @@ impl RawCloth {
         list.0
     }
 
-    /// Numbers about the cloth, then the seconds of each stage.
+    /// Returns the statistics in the order of `STATS` in `package/reports.js`, then the seconds of
+    /// each stage.
     pub fn stats(&self) -> Vec<f64> {
         let stats = self.cloth.stats();
         let mut list = Writer::default();
@@ -172,13 +130,9 @@ impl RawCloth {
         list.numbers(&stats.seconds);
         list.0
     }
-
-    fn no_such(&self, particle: u32) -> Error {
-        Error::BadIndex { field: "particle", index: particle, count: self.cloth.particle_count() }
-    }
 }
 
-/// The stages of a tick in order, with spaces between.
+/// Returns the names of the stages of a tick in order, separated by spaces.
 #[wasm_bindgen]
 pub fn stage_names() -> String {
     Stage::ALL.map(Stage::name).join(" ")

@@ -1,34 +1,42 @@
-//! Writing into buffers of the page: into room of our own first, from where `package/write.js` copies.
+//! Writing of vertices and indices for buffers of the page.
+//!
+//! The core writes into staging memory of the module, and `package/write.js` copies from there to
+//! the caller's buffers, which the module cannot reach itself:
+//!
+//! ```text
+//! core ──▶ staging (module memory) ──▶ caller's ArrayBuffer
+//! ```
 
 use crate::RawCloth;
-use crate::numbers::{Reader, Writer};
-use crate::refusal::{Result, refusal};
+use crate::error::{Result, to_js_error};
+use crate::packing::{Reader, Writer};
 use core::cell::Cell;
 use glam::{Affine3, Mat3, Vec3};
 use muslin::{Attribute, IndexFormat, MAX_STREAMS, Stream, VertexFormat, WriteDesc};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The room begins at a multiple of this, so that places in it are aligned as those in the page's buffers.
+/// Alignment of the staging memory [B]. An offset in it is aligned as the same offset in a buffer of
+/// the page.
 const ALIGNMENT: usize = 8;
 
 #[wasm_bindgen]
 impl RawCloth {
-    /// Makes room for so many bytes, and says where it is.
-    pub fn room(&mut self, size: usize) -> *mut u8 {
-        self.room.resize(self.room.len().max(size + ALIGNMENT), 0);
-        let at = self.room_start();
-        self.room[at..].as_mut_ptr()
+    /// Grows the staging memory to at least `size` bytes, and returns its address.
+    pub fn reserve_staging(&mut self, size: usize) -> *mut u8 {
+        self.staging.resize(self.staging.len().max(size + ALIGNMENT), 0);
+        let start = self.staging_start();
+        self.staging[start..].as_mut_ptr()
     }
 
-    fn room_start(&self) -> usize {
-        self.room.as_ptr().align_offset(ALIGNMENT)
+    fn staging_start(&self) -> usize {
+        self.staging.as_ptr().align_offset(ALIGNMENT)
     }
 
-    /// Writes vertices into the room; each stream is attribute, format, stride, where it begins and how long
-    /// it is.
+    /// Writes vertices into the staging memory. Each stream is attribute, format, stride, offset in
+    /// the staging memory and length [B].
     pub fn write_vertices(&mut self, streams: &[f64], desc: &[f64]) -> Result<()> {
-        let (at, mut room) = (self.room_start(), core::mem::take(&mut self.room));
-        let bytes = &Cell::from_mut(&mut room[..]).as_slice_of_cells()[at..];
+        let (start, mut staging) = (self.staging_start(), core::mem::take(&mut self.staging));
+        let bytes = &Cell::from_mut(&mut staging[..]).as_slice_of_cells()[start..];
         let read = |numbers: &[f64; 5]| {
             let mut numbers = Reader::new(numbers);
             let attribute = Attribute::ALL[numbers.count() as usize];
@@ -37,30 +45,30 @@ impl RawCloth {
             let (first, size) = (numbers.count() as usize, numbers.count() as usize);
             Stream { attribute, format, stride, bytes: &bytes[first..first + size] }
         };
-        // One more than there may be is refused.
+        // One stream more than the maximum is enough for the core to refuse.
         let streams = streams.as_chunks::<5>().0.iter().take(MAX_STREAMS + 1);
         let streams: Vec<Stream<'_>> = streams.map(read).collect();
-        let done = self.cloth.write_vertices(&streams, &read_desc(desc));
-        self.room = room;
-        done.map_err(refusal)
+        let result = self.cloth.write_vertices(&streams, &unpack_write(desc));
+        self.staging = staging;
+        result.map_err(to_js_error)
     }
 
-    /// Writes indices of 16 or 32 bits into the room.
+    /// Writes 16-bit or 32-bit indices to the start of the staging memory.
     pub fn write_indices(&mut self, is_wide: bool, flip: bool, base_vertex: u32) -> Result<()> {
         let format = if is_wide { IndexFormat::U32 } else { IndexFormat::U16 };
-        let at = self.room_start();
-        let room = &mut self.room[at..];
-        self.cloth.write_indices(room, format, flip, base_vertex).map_err(refusal)
+        let start = self.staging_start();
+        let bytes = &mut self.staging[start..];
+        self.cloth.write_indices(bytes, format, flip, base_vertex).map_err(to_js_error)
     }
 }
 
-/// Bytes that a vertex takes; 0 if the attribute is not written so.
+/// Returns the bytes that an attribute takes per vertex; 0 if the format does not hold it.
 #[wasm_bindgen]
 pub fn vertex_width(attribute: usize, format: usize) -> usize {
     VertexFormat::ALL[format].width(Attribute::ALL[attribute]).unwrap_or(0)
 }
 
-/// All vertices, as they are.
+/// Returns the default `WriteDesc`: all vertices of the current tick, untransformed.
 #[wasm_bindgen]
 pub fn default_write() -> Vec<f64> {
     let desc = WriteDesc::default();
@@ -75,7 +83,8 @@ pub fn default_write() -> Vec<f64> {
     list.0
 }
 
-fn read_desc(list: &[f64]) -> WriteDesc {
+/// Reads a `WriteDesc` in the order of `default_write`.
+fn unpack_write(list: &[f64]) -> WriteDesc {
     let mut list = Reader::new(list);
     let (first_vertex, vertex_count, blend) = (list.count(), list.count(), list.number());
     let t: [f32; 12] = core::array::from_fn(|_| list.number());

@@ -1,25 +1,28 @@
-//! Making cloths, and the numbers that descriptors start from.
+//! Creation of cloths, save and restore, and the default values of descriptors.
+//!
+//! JavaScript asks for the defaults, writes the fields of the caller over them and passes the lists
+//! back, so the defaults are stated in the core only.
 
 use crate::RawCloth;
-use crate::numbers::{self, Writer};
-use crate::refusal::{Result, refusal};
+use crate::error::{Result, to_js_error};
+use crate::packing::{self, Writer};
 use glam::Vec2;
 use muslin::{Cloth, ColliderDesc, GridDesc, Material, MeshDesc, Preset, Settings};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 impl RawCloth {
-    /// A cloth from a regular grid.
+    /// Creates a cloth from a regular grid.
     pub fn grid(desc: &[f64], material: &[f64], settings: &[f64]) -> Result<RawCloth> {
         let desc = GridDesc {
-            material: numbers::read_material(material),
-            settings: numbers::read_settings(settings),
-            ..numbers::read_grid(desc)
+            material: packing::unpack_material(material),
+            settings: packing::unpack_settings(settings),
+            ..packing::unpack_grid(desc)
         };
-        Cloth::grid(&desc).map(Self::new).map_err(refusal)
+        Cloth::grid(&desc).map(Self::new).map_err(to_js_error)
     }
 
-    /// A cloth from a triangle mesh.
+    /// Creates a cloth from a triangle mesh.
     pub fn mesh(
         positions: &[f32],
         indices: &[u32],
@@ -30,59 +33,59 @@ impl RawCloth {
         settings: &[f64],
     ) -> Result<RawCloth> {
         let desc = MeshDesc {
-            positions: numbers::vectors(positions),
+            positions: packing::to_vectors(positions),
             indices: indices.to_vec(),
             uvs: uvs.as_chunks::<2>().0.iter().copied().map(Vec2::from_array).collect(),
             pinned: pinned.to_vec(),
-            material: numbers::read_material(material),
-            settings: numbers::read_settings(settings),
-            ..numbers::read_mesh(desc)
+            material: packing::unpack_material(material),
+            settings: packing::unpack_settings(settings),
+            ..packing::unpack_mesh(desc)
         };
-        Cloth::mesh(&desc).map(Self::new).map_err(refusal)
+        Cloth::mesh(&desc).map(Self::new).map_err(to_js_error)
     }
 
-    /// A cloth from what `save` gave.
+    /// Creates a cloth from the bytes that `save` returned.
     pub fn restore(buffer: &[u8]) -> Result<RawCloth> {
-        Cloth::restore(buffer).map(Self::new).map_err(refusal)
+        Cloth::restore(buffer).map(Self::new).map_err(to_js_error)
     }
 
-    /// The cloth as bytes.
+    /// Returns the whole state of the cloth as bytes.
     pub fn save(&self) -> Vec<u8> {
         self.cloth.save()
     }
 
-    /// The state as one number of 64 bits: the lower 32, then the upper.
+    /// Returns the 64-bit hash of the state: the lower 32 bits, then the upper 32.
     pub fn state_hash(&self) -> Vec<u32> {
         let hash = self.cloth.state_hash();
         vec![hash as u32, (hash >> 32) as u32]
     }
 }
 
-/// A grid before anything is asked of it.
+/// Returns the default grid descriptor.
 #[wasm_bindgen]
 pub fn default_grid() -> Vec<f64> {
-    numbers::write_grid(&GridDesc::default())
+    packing::pack_grid(&GridDesc::default())
 }
 
-/// A mesh before anything is asked of it.
+/// Returns the default mesh descriptor.
 #[wasm_bindgen]
 pub fn default_mesh() -> Vec<f64> {
-    numbers::write_mesh(&MeshDesc::default())
+    packing::pack_mesh(&MeshDesc::default())
 }
 
-/// Settings before anything is asked of them.
+/// Returns the default settings.
 #[wasm_bindgen]
 pub fn default_settings() -> Vec<f64> {
-    numbers::write_settings(&Settings::default())
+    packing::pack_settings(&Settings::default())
 }
 
-/// The material that a cloth has when nothing is said.
+/// Returns the default material.
 #[wasm_bindgen]
 pub fn default_material() -> Vec<f64> {
-    numbers::write_material(&Material::default())
+    packing::pack_material(&Material::default())
 }
 
-/// The material of the preset with this number.
+/// Returns the material of a preset; `preset` is its index in `PRESETS` of `package/fields.js`.
 #[wasm_bindgen]
 pub fn preset_material(preset: u32) -> Vec<f64> {
     let preset = match preset {
@@ -93,10 +96,10 @@ pub fn preset_material(preset: u32) -> Vec<f64> {
         4 => Preset::Paper,
         _ => Preset::FlagNylon,
     };
-    numbers::write_material(&Material::preset(preset))
+    packing::pack_material(&Material::preset(preset))
 }
 
-/// A collider before anything is asked of it.
+/// Returns the default collider descriptor, in the order that `add_collider` reads.
 #[wasm_bindgen]
 pub fn default_collider() -> Vec<f64> {
     let desc = ColliderDesc::default();

@@ -1,12 +1,17 @@
-//! Descriptors as flat lists of numbers, field by field, in the order of `package/fields.js`.
+//! Packing of descriptors into flat lists of numbers and back.
 //!
-//! An f64 holds every f32 and every u32, so nothing is lost on the way.
+//! A list holds the fields one after the other, in the order of the tables in `package/fields.js`;
+//! vectors take three numbers, rotations four, switches and choices one. An f64 holds every f32
+//! and every u32 exactly, so no value changes on the way.
+//!
+//! Invariant: each `pack_…` writes the order that its `unpack_…` reads.
 
 use core::slice::Iter;
 use glam::{Quat, Vec3};
 use muslin::{GridDesc, Material, MeshDesc, PinMode, SelfCollision, Settings, Wind, WindModel};
 
-/// Reads a list from its start. What is missing reads as NaN or 0, which the core refuses.
+/// Reads a flat list from its start. A missing number reads as NaN, a missing count as 0; the core
+/// refuses both.
 pub(crate) struct Reader<'a>(Iter<'a, f64>);
 
 impl<'a> Reader<'a> {
@@ -39,7 +44,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Writes a list.
+/// Appends values to a flat list.
 #[derive(Default)]
 pub(crate) struct Writer(pub Vec<f64>);
 
@@ -69,7 +74,7 @@ impl Writer {
     }
 }
 
-pub(crate) fn read_settings(list: &[f64]) -> Settings {
+pub(crate) fn unpack_settings(list: &[f64]) -> Settings {
     let mut list = Reader::new(list);
     Settings {
         tick: list.number(),
@@ -93,7 +98,7 @@ pub(crate) fn read_settings(list: &[f64]) -> Settings {
     }
 }
 
-pub(crate) fn write_settings(settings: &Settings) -> Vec<f64> {
+pub(crate) fn pack_settings(settings: &Settings) -> Vec<f64> {
     let mut list = Writer::default();
     list.number(settings.tick);
     list.counts(&[settings.substeps, settings.iterations, settings.max_ticks_per_advance]);
@@ -108,7 +113,7 @@ pub(crate) fn write_settings(settings: &Settings) -> Vec<f64> {
     list.0
 }
 
-pub(crate) fn read_material(list: &[f64]) -> Material {
+pub(crate) fn unpack_material(list: &[f64]) -> Material {
     let mut list = Reader::new(list);
     Material {
         density: list.number(),
@@ -133,7 +138,7 @@ pub(crate) fn read_material(list: &[f64]) -> Material {
     }
 }
 
-pub(crate) fn write_material(material: &Material) -> Vec<f64> {
+pub(crate) fn pack_material(material: &Material) -> Vec<f64> {
     let mut list = Writer::default();
     list.numbers(&[
         material.density,
@@ -159,7 +164,7 @@ pub(crate) fn write_material(material: &Material) -> Vec<f64> {
     list.0
 }
 
-pub(crate) fn read_wind(list: &[f64]) -> Wind {
+pub(crate) fn unpack_wind(list: &[f64]) -> Wind {
     let mut list = Reader::new(list);
     Wind {
         model: if list.count() == 0 { WindModel::Surface } else { WindModel::SineField },
@@ -172,7 +177,7 @@ pub(crate) fn read_wind(list: &[f64]) -> Wind {
     }
 }
 
-pub(crate) fn write_wind(wind: &Wind) -> Vec<f64> {
+pub(crate) fn pack_wind(wind: &Wind) -> Vec<f64> {
     let mut list = Writer::default();
     list.count(wind.model as u32);
     list.vector(wind.velocity);
@@ -181,7 +186,7 @@ pub(crate) fn write_wind(wind: &Wind) -> Vec<f64> {
     list.0
 }
 
-pub(crate) fn read_grid(list: &[f64]) -> GridDesc {
+pub(crate) fn unpack_grid(list: &[f64]) -> GridDesc {
     let mut list = Reader::new(list);
     GridDesc {
         columns: list.count(),
@@ -201,7 +206,7 @@ pub(crate) fn read_grid(list: &[f64]) -> GridDesc {
     }
 }
 
-pub(crate) fn write_grid(desc: &GridDesc) -> Vec<f64> {
+pub(crate) fn pack_grid(desc: &GridDesc) -> Vec<f64> {
     let mut list = Writer::default();
     list.counts(&[desc.columns, desc.rows]);
     list.number(desc.spacing);
@@ -212,19 +217,25 @@ pub(crate) fn write_grid(desc: &GridDesc) -> Vec<f64> {
     list.0
 }
 
-pub(crate) fn read_mesh(list: &[f64]) -> MeshDesc {
+pub(crate) fn unpack_mesh(list: &[f64]) -> MeshDesc {
     let mut list = Reader::new(list);
     MeshDesc { weld_distance: list.number(), extra_particles: list.count(), ..MeshDesc::default() }
 }
 
-pub(crate) fn write_mesh(desc: &MeshDesc) -> Vec<f64> {
+pub(crate) fn pack_mesh(desc: &MeshDesc) -> Vec<f64> {
     let mut list = Writer::default();
     list.number(desc.weld_distance);
     list.count(desc.extra_particles);
     list.0
 }
 
-/// x y z x y z … as vectors; what is left over at the end is dropped.
-pub(crate) fn vectors(list: &[f32]) -> Vec<Vec3> {
+/// Converts x y z x y z … to vectors; drops an incomplete vector at the end.
+pub(crate) fn to_vectors(list: &[f32]) -> Vec<Vec3> {
     list.as_chunks::<3>().0.iter().copied().map(Vec3::from_array).collect()
+}
+
+/// Converts position and rotation, seven numbers, to a pose.
+pub(crate) fn to_pose(list: &[f64]) -> (Vec3, Quat) {
+    let mut list = Reader::new(list);
+    (list.vector(), list.rotation())
 }

@@ -1,0 +1,31 @@
+//! Conversion of [`muslin::Error`] to a JavaScript `Error`.
+//!
+//! Reads the message of the core's error; writes the same sentence with every name between
+//! backticks in camelCase, as JavaScript spells it: `max_stretch` becomes `maxStretch`.
+
+use muslin::Error;
+use wasm_bindgen::JsError;
+
+/// Result of a call that the core may refuse.
+pub(crate) type Result<T, E = JsError> = core::result::Result<T, E>;
+
+/// Converts an error of the core to a JavaScript `Error` with the names in camelCase.
+pub(crate) fn to_js_error(error: Error) -> JsError {
+    JsError::new(&quoted_names_to_camel_case(&error.to_string()))
+}
+
+/// Turns `snake_case` into `snakeCase`, only between backticks.
+fn quoted_names_to_camel_case(message: &str) -> String {
+    let mut converted = String::with_capacity(message.len());
+    let (mut is_quoted, mut starts_word) = (false, false);
+    for letter in message.chars() {
+        is_quoted ^= letter == '`';
+        if is_quoted && letter == '_' {
+            starts_word = true;
+            continue;
+        }
+        converted.push(if starts_word { letter.to_ascii_uppercase() } else { letter });
+        starts_word = false;
+    }
+    converted
+}
