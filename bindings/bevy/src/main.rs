@@ -1,6 +1,11 @@
-//! A tablecloth falls on a ball, in Bevy; the left button pulls at it, until it tears.
+//! Example of Muslin in Bevy: a tablecloth falls onto a ball. Drag it with the left mouse button;
+//! pulled hard, it tears.
 //!
-//! `cargo run --release`; with `--shot FILE.png` a script pulls, and the picture of it is kept.
+//! Run it with `cargo run --release`. With `--shot FILE.png` a script drags the cloth and the
+//! window's picture is saved after 200 frames.
+//!
+//! Each frame `drag_cloth` moves the grab to the mouse ray, and `update_mesh` runs the ticks that
+//! are due and copies the cloth's vertices to the mesh that Bevy draws.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::visibility::NoFrustumCulling;
@@ -11,46 +16,55 @@ use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured, save_to_disk};
 use muslin::{Cloth, ColliderDesc, Grab, GridDesc, PinMode, Preset, SelfCollision, Shape};
 
+/// Centre of the ball [m].
 const BALL: Vec3 = Vec3::new(0.0, 0.62, 0.0);
+/// Radius of the ball [m].
 const RADIUS: f32 = 0.45;
 
-/// A cloth, whose mesh is what its entity draws.
+/// A cloth; the mesh of the same entity draws it.
 #[derive(Component)]
 struct Sheet {
     cloth: Cloth,
-    seen: u32,
+    /// Topology revision of the indices in the mesh.
+    uploaded_revision: u32,
+    /// The grab of the mouse, and its distance from the camera [m].
     held: Option<(Grab, f32)>,
 }
 
-/// Where a script leaves its picture, and how many frames it has drawn.
+/// A scripted run for `--shot`.
 #[derive(Resource)]
-struct Script(String, u32);
+struct Script {
+    file: String,
+    frame: u32,
+}
 
 fn main() -> AppExit {
     let mut app = App::new();
     app.add_plugins(DefaultPlugins).insert_resource(ClearColor(Color::srgb(0.80, 0.83, 0.86)));
     app.insert_resource(GlobalAmbientLight { brightness: 600.0, ..default() });
-    let words: Vec<String> = std::env::args().collect();
-    if let [_, "--shot", file] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        app.insert_resource(Script(file.into(), 0)).add_systems(PostUpdate, take_picture);
+    let arguments: Vec<String> = std::env::args().collect();
+    if let [_, "--shot", file] = arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        let script = Script { file: file.into(), frame: 0 };
+        app.insert_resource(script).add_systems(PostUpdate, save_picture);
     }
-    app.add_systems(Startup, set_up).add_systems(Update, (pull, draw).chain()).run()
+    app.add_systems(Startup, set_up).add_systems(Update, (drag_cloth, update_mesh).chain()).run()
 }
 
-/// A vector as the library has it.
-fn vec(v: Vec3) -> muslin::glam::Vec3 {
+/// Converts a vector to the version of glam that Muslin uses.
+fn to_muslin(v: Vec3) -> muslin::glam::Vec3 {
     v.to_array().into()
 }
 
-fn lay_cloth() -> muslin::Result<Cloth> {
+/// Creates a horizontal sheet above the ball and the ground.
+fn create_cloth() -> muslin::Result<Cloth> {
     let mut desc = GridDesc { columns: 52, rows: 52, spacing: 0.036, ..default() };
-    (desc.origin, desc.down) = (vec(Vec3::new(-0.86, 1.2, -0.98)), vec(Vec3::Z));
+    (desc.origin, desc.down) = (to_muslin(Vec3::new(-0.86, 1.2, -0.98)), to_muslin(Vec3::Z));
     desc.pin_mode = PinMode::None;
     desc.material = muslin::Material::preset(Preset::Cotton);
     (desc.material.tear_stretch, desc.settings.tearing) = (1.5, true);
     desc.settings.self_collision = SelfCollision::Surface;
     let mut cloth = Cloth::grid(&desc)?;
-    let (shape, position) = (Shape::Sphere, vec(BALL));
+    let (shape, position) = (Shape::Sphere, to_muslin(BALL));
     cloth.add_collider(&ColliderDesc { shape, position, radius: RADIUS, ..default() })?;
     cloth.add_collider(&ColliderDesc::default())?;
     Ok(cloth)
@@ -72,23 +86,24 @@ fn set_up(
     let eye = Transform::from_xyz(0.9, 1.3, 2.0).looking_at(Vec3::Y * 0.55, Vec3::Y);
     commands.spawn((Camera3d::default(), Tonemapping::AcesFitted, eye));
 
-    // Gingham: threads of two colours cross.
-    let paint = [[250, 246, 238, 255], [216, 132, 126, 255], [170, 36, 44, 255]];
-    let texel = |at: usize| paint[(at % 256 / 8 + 1) % 2 + (at / 256 / 8 + 1) % 2];
+    // Gingham: stripes of two colours cross.
+    let colors = [[250, 246, 238, 255], [216, 132, 126, 255], [170, 36, 44, 255]];
+    let texel = |i: usize| colors[(i % 256 / 8 + 1) % 2 + (i / 256 / 8 + 1) % 2];
     let texels = (0..256 * 256).flat_map(texel).collect();
     let (size, all) = (Extent3d { width: 256, height: 256, ..default() }, RenderAssetUsages::all());
     let (plane, format) = (TextureDimension::D2, TextureFormat::Rgba8UnormSrgb);
     let gingham = images.add(Image::new(size, plane, texels, format, all));
     let mut material = StandardMaterial { double_sided: true, cull_mode: None, ..default() };
     material.base_color_texture = Some(gingham);
-    let sheet = Sheet { cloth: lay_cloth()?, seen: u32::MAX, held: None };
+    let sheet = Sheet { cloth: create_cloth()?, uploaded_revision: u32::MAX, held: None };
     let mesh = Mesh3d(meshes.add(Mesh::new(PrimitiveTopology::TriangleList, all)));
     commands.spawn((sheet, mesh, MeshMaterial3d(materials.add(material)), NoFrustumCulling));
     Ok(())
 }
 
-/// Takes hold of what the mouse points at, or the script, and pulls it along.
-fn pull(
+/// Grabs the cloth under the mouse (or the scripted pointer) while its button is down, and drags it
+/// at a constant distance from the camera.
+fn drag_cloth(
     mut sheet: Single<&mut Sheet>,
     camera: Single<(&Camera, &GlobalTransform)>,
     window: Single<&Window>,
@@ -96,8 +111,8 @@ fn pull(
 ) -> Result {
     let mouse = (window.cursor_position(), buttons.pressed(MouseButton::Left));
     let (pointer, is_down) = script.map_or(mouse, |script| {
-        let way = script.1.saturating_sub(130) as f32;
-        (Some(Vec2::new(720.0 + 4.0 * way, 480.0 + way)), way > 0.0)
+        let progress = script.frame.saturating_sub(130) as f32;
+        (Some(Vec2::new(720.0 + 4.0 * progress, 480.0 + progress)), progress > 0.0)
     });
     let Some(pointer) = pointer else { return Ok(()) };
     let ray = camera.0.viewport_to_world(camera.1, pointer)?;
@@ -105,41 +120,43 @@ fn pull(
     if !is_down {
         held.take().map_or(Ok(()), |(grab, _)| cloth.release(grab))?;
     } else if let Some((grab, distance)) = *held {
-        cloth.move_grab(grab, vec(ray.get_point(distance)))?;
+        cloth.move_grab(grab, to_muslin(ray.get_point(distance)))?;
     } else {
-        let hit = cloth.grab_ray(vec(ray.origin), vec(*ray.direction), 0.05)?;
-        *held = hit.map(|(grab, at)| (grab, at.distance(vec(ray.origin))));
+        let hit = cloth.grab_ray(to_muslin(ray.origin), to_muslin(*ray.direction), 0.05)?;
+        *held = hit.map(|(grab, position)| (grab, position.distance(to_muslin(ray.origin))));
     }
     Ok(())
 }
 
-/// Brings the cloth to now, and its mesh to what is left of it.
-fn draw(
+/// Advances the cloth by the frame time, and copies it to its mesh.
+fn update_mesh(
     sheet: Single<(&mut Sheet, &Mesh3d)>,
     mut meshes: ResMut<Assets<Mesh>>,
     (time, script): (Res<Time>, Option<Res<Script>>),
 ) -> Result {
     let (mut sheet, mesh) = sheet.into_inner();
-    let Sheet { cloth, seen, .. } = &mut *sheet;
+    let Sheet { cloth, uploaded_revision, .. } = &mut *sheet;
     cloth.advance(if script.is_some() { 1.0 / 60.0 } else { time.delta_secs() })?;
-    let (view, mut mesh) = (cloth.view(), meshes.get_mut(mesh).ok_or("the mesh is gone")?);
-    let list = |of: &[muslin::glam::Vec3]| of.iter().map(|v| v.to_array()).collect::<Vec<_>>();
-    mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, list(view.positions));
-    mesh.insert_attribute(Mesh::ATTRIBUTE_NORMAL, list(view.normals));
-    if *seen != view.topology_revision {
+    let (view, mut mesh) =
+        (cloth.view(), meshes.get_mut(mesh).ok_or("the mesh of the cloth is missing")?);
+    let arrays =
+        |vectors: &[muslin::glam::Vec3]| vectors.iter().map(|v| v.to_array()).collect::<Vec<_>>();
+    mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, arrays(view.positions));
+    mesh.insert_attribute(Mesh::ATTRIBUTE_NORMAL, arrays(view.normals));
+    if *uploaded_revision != view.topology_revision {
         let uvs = view.uvs.iter().map(|uv| uv.to_array()).collect::<Vec<_>>();
         mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, uvs);
-        mesh.insert_indices(Indices::U32(view.indices.to_vec()));
-        *seen = view.topology_revision;
+        mesh.insert_indices(Indices::U32(view.indices.to_to_muslin()));
+        *uploaded_revision = view.topology_revision;
     }
     Ok(())
 }
 
-/// Ends a script with its picture.
-fn take_picture(mut commands: Commands, mut script: ResMut<Script>) {
-    script.1 += 1;
-    if script.1 == 200 {
-        let save = save_to_disk(script.0.clone());
+/// Saves the picture of frame 200 of a scripted run, and ends the program.
+fn save_picture(mut commands: Commands, mut script: ResMut<Script>) {
+    script.frame += 1;
+    if script.frame == 200 {
+        let save = save_to_disk(script.file.clone());
         commands.spawn(Screenshot::primary_window()).observe(save).observe(
             |_: On<ScreenshotCaptured>, mut exit: MessageWriter<AppExit>| {
                 exit.write(AppExit::Success);

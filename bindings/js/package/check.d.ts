@@ -1,13 +1,13 @@
-// Numbers as they are given and taken.
+// Vectors and rotations, as arguments and as results.
 
-/** x, y, z; read from an array or a typed array of three numbers. */
+/** A vector [x, y, z]. */
 export type Vec3 = readonly [number, number, number];
 
-/** x, y, z, w: a unit quaternion. */
+/** A rotation as a unit quaternion [x, y, z, w]. */
 export type Quat = readonly [number, number, number, number];
 
-/** Three numbers as you have them. */
+/** A vector as an argument: an array or a typed array of exactly three numbers. */
 export type Vec3Like = Vec3 | readonly number[] | Float32Array | Float64Array;
 
-/** Four numbers as you have them. */
+/** A unit quaternion [x, y, z, w] as an argument: exactly four numbers, of length 1. */
 export type QuatLike = Quat | readonly number[] | Float32Array | Float64Array;

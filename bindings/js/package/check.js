@@ -1,116 +1,120 @@
-// What a caller can get wrong, said in words that name the argument and the rule.
+// Validation of arguments. A failed check throws an Error that names the argument and the rule.
 
-import { isOurs } from "./memory.js";
+import { isModuleMemory } from "./memory.js";
 
-const MOST = 0xffffffff;
+const MAX_UINT32 = 0xffffffff;
 
-/** Refuses what breaks a rule. */
-export function check(holds, name, must) {
-  if (!holds) throw new Error(`\`${name}\` must ${must}`);
+/** Throws "`name` must …" unless `isValid`. `rule` is the rest of the sentence. */
+export function check(isValid, name, rule) {
+  if (!isValid) throw new Error(`\`${name}\` must ${rule}`);
 }
 
-/** How to show a wrong value. */
-function shown(value) {
+/** Describes a wrong value for an error message. */
+function describe(value) {
   if (typeof value === "string") return JSON.stringify(value);
   if (typeof value === "bigint") return `${value}n`;
   if (value === null || ["number", "boolean", "undefined"].includes(typeof value)) return `${value}`;
   return Array.isArray(value) ? "an array" : `a ${typeof value}`;
 }
 
-/** A number. Whether it may be infinite or negative is the core's to say. */
-export function number(value, name) {
-  const holds = typeof value === "number" && !Number.isNaN(value);
-  if (!holds) check(false, name, `be a number, but is ${shown(value)}`);
+/** Returns a number other than NaN. The core checks whether it may be infinite or negative. */
+export function toNumber(value, name) {
+  const isValid = typeof value === "number" && !Number.isNaN(value);
+  if (!isValid) check(false, name, `be a number, but is ${describe(value)}`);
   return value;
 }
 
-/** A whole number that a particle, a count or a handle can be. */
-export function whole(value, name) {
-  const holds = Number.isInteger(value) && value >= 0 && value <= MOST;
-  if (!holds) check(false, name, `be a whole number from 0 to ${MOST}, but is ${shown(value)}`);
+/** Returns an integer of 32 bits without a sign: a particle, a count or a handle. */
+export function toUint32(value, name) {
+  const isValid = Number.isInteger(value) && value >= 0 && value <= MAX_UINT32;
+  if (!isValid) check(false, name, `be a whole number from 0 to ${MAX_UINT32}, but is ${describe(value)}`);
   return value;
 }
 
-/** A switch. */
-export function flag(value, name) {
-  check(typeof value === "boolean", name, `be true or false, but is ${shown(value)}`);
+/** Returns a boolean. */
+export function toBoolean(value, name) {
+  check(typeof value === "boolean", name, `be true or false, but is ${describe(value)}`);
   return value;
 }
 
-/** One of some names; gives its place among them. */
-export function choice(value, name, names) {
-  const at = names.indexOf(value);
-  const told = names.map((each) => JSON.stringify(each)).join(", ");
-  if (at < 0) check(false, name, `be one of ${told}, but is ${shown(value)}`);
-  return at;
+/** Returns the index of `value` in `choices`. */
+export function toChoiceIndex(value, name, choices) {
+  const index = choices.indexOf(value);
+  const list = choices.map((choice) => JSON.stringify(choice)).join(", ");
+  if (index < 0) check(false, name, `be one of ${list}, but is ${describe(value)}`);
+  return index;
 }
 
-/** Three numbers, or as many as `axes` names: an array or a typed array. */
-export function vector(value, name, axes = "x, y, z") {
+/** Returns an array of as many numbers as `axes` names, from an array or a typed array. */
+export function toVector(value, name, axes = "x, y, z") {
   const size = axes.split(", ").length;
-  const isList = Array.isArray(value) || isNumeric(value);
+  const isList = Array.isArray(value) || isNumericArray(value);
   if (!isList || value.length !== size) {
-    check(false, name, `be ${size} numbers [${axes}], but is ${isList ? value.length : shown(value)}`);
+    check(false, name, `be ${size} numbers [${axes}], but is ${isList ? value.length : describe(value)}`);
   }
-  return Array.from(value, (each) => number(each, name));
+  return Array.from(value, (component) => toNumber(component, name));
 }
 
-/** Numbers as a Float32Array, `each` of them a group. */
-export function floats(value, name, each) {
-  const isList = Array.isArray(value) || isNumeric(value);
-  check(isList, name, `be a Float32Array or numbers, but is ${shown(value)}`);
-  if (Array.isArray(value)) value.forEach((one) => number(one, name));
-  check(value.length % each === 0, name, `hold ${each} numbers for each of its entries`);
-  return own(value, Float32Array);
+/** Returns numbers as a Float32Array whose length is a multiple of `size`. */
+export function toFloat32Array(value, name, size) {
+  const isList = Array.isArray(value) || isNumericArray(value);
+  check(isList, name, `be a Float32Array or numbers, but is ${describe(value)}`);
+  if (Array.isArray(value)) value.forEach((number) => toNumber(number, name));
+  check(value.length % size === 0, name, `hold ${size} numbers for each of its entries`);
+  return toSafeArray(value, Float32Array);
 }
 
-/** Whole numbers as a Uint32Array. */
-export function wholes(value, name) {
-  const isList = Array.isArray(value) || isNumeric(value);
-  check(isList, name, `be a Uint32Array or whole numbers, but is ${shown(value)}`);
-  if (!(value instanceof Uint32Array)) for (const one of value) whole(one, name);
-  return own(value, Uint32Array);
+/** Returns integers of 32 bits without a sign as a Uint32Array. */
+export function toUint32Array(value, name) {
+  const isList = Array.isArray(value) || isNumericArray(value);
+  check(isList, name, `be a Uint32Array or whole numbers, but is ${describe(value)}`);
+  if (!(value instanceof Uint32Array)) for (const number of value) toUint32(number, name);
+  return toSafeArray(value, Uint32Array);
 }
 
-/** Bytes, as a Uint8Array. */
-export function bytes(value, name) {
-  check(isBytes(value), name, `be a Uint8Array or an ArrayBuffer, but is ${shown(value)}`);
+/** Returns bytes as a Uint8Array. */
+export function toUint8Array(value, name) {
+  check(isBytes(value), name, `be a Uint8Array or an ArrayBuffer, but is ${describe(value)}`);
   const { buffer, byteOffset, byteLength } = ArrayBuffer.isView(value) ? value : new Uint8Array(value);
-  return own(new Uint8Array(buffer, byteOffset, byteLength), Uint8Array);
+  return toSafeArray(new Uint8Array(buffer, byteOffset, byteLength), Uint8Array);
 }
 
-/** An object with keys that are known; absent ones may be undefined. */
-export function keys(value, name, known) {
+/** Returns an object of which every key is in `known`. The value of a key may be undefined. */
+export function checkKeys(value, name, known) {
   const isObject = typeof value === "object" && value !== null;
-  const holds = isObject && !Array.isArray(value) && !ArrayBuffer.isView(value);
-  check(holds, name, `be an object, but is ${shown(value)}`);
+  const isValid = isObject && !Array.isArray(value) && !ArrayBuffer.isView(value);
+  check(isValid, name, `be an object, but is ${describe(value)}`);
   for (const key of Object.keys(value)) {
     if (known.includes(key)) continue;
-    const near = known.find((each) => distance(each.toLowerCase(), key.toLowerCase()) <= 2);
-    const hint = near ? `; did you mean \`${near}\`?` : "";
+    const similar = known.find((each) => editDistance(each.toLowerCase(), key.toLowerCase()) <= 2);
+    const hint = similar ? `; did you mean \`${similar}\`?` : "";
     throw new Error(`\`${name}.${key}\` is not known${hint}`);
   }
   return value;
 }
 
-/** Bytes of any kind. */
+/** Returns whether `value` is an ArrayBuffer or a view of one. */
 export function isBytes(value) {
   return value instanceof ArrayBuffer || ArrayBuffer.isView(value);
 }
 
-/** A typed array of numbers. */
-function isNumeric(value) {
+/** Returns whether `value` is a typed array of numbers (not of bigints). */
+function isNumericArray(value) {
   if (!ArrayBuffer.isView(value) || value instanceof DataView) return false;
   return !(value instanceof BigInt64Array || value instanceof BigUint64Array);
 }
 
-/** A list of this kind; a copy where it would move while it is handed over. */
-function own(list, Kind) {
-  return list instanceof Kind && !isOurs(list) ? list : new Kind(list);
+/**
+ * Returns `list` as an array of `Kind` that can be passed to the module: a copy if the type
+ * differs, or if `list` lies in the module's own memory, which may move while arguments are copied
+ * into it.
+ */
+function toSafeArray(list, Kind) {
+  return list instanceof Kind && !isModuleMemory(list) ? list : new Kind(list);
 }
 
-/** How many letters have to be changed, added or dropped to make `b` of `a`. */
-function distance(a, b) {
+/** Returns the Levenshtein distance between two strings. */
+function editDistance(a, b) {
   let row = Array.from({ length: b.length + 1 }, (_, i) => i);
   for (let i = 0; i < a.length; i++) {
     const next = [i + 1];

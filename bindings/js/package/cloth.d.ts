@@ -1,194 +1,321 @@
 /// <reference lib="esnext.disposable" />
 
 import type { QuatLike, Vec3, Vec3Like } from "./check.js";
-import type { ColliderDesc, GridDesc, Material, MaterialLike, MeshDesc, Settings, Wind } from "./fields.js";
+import type {
+  ColliderDesc,
+  GridDesc,
+  Material,
+  MaterialLike,
+  MeshDesc,
+  Settings,
+  Wind,
+} from "./fields.js";
 import type { Attachment, Collider, Grab } from "./handles.js";
 import type { Changes, ClothEvent, Hit, MeshReport, Stats } from "./reports.js";
 import type { Stream, WriteDesc } from "./write.js";
 
-/** A piece of cloth. */
+/**
+ * A cloth: particles joined by links, made from a grid or from any triangle mesh.
+ *
+ * A cloth simulates particles and draws vertices. On grids and on clean meshes both have the same
+ * indices; on a mesh that was welded or split, `vertexParticles` gives the particle of each vertex.
+ * Positions, normals, uvs, indices and other views are per vertex; pins, grabs, tears, and
+ * positions and velocities of single particles are per particle.
+ *
+ * Every method throws an `Error` that names the argument and the rule if an argument is wrong, and
+ * leaves the cloth unchanged. Every member except `free()` and `isFreed` throws after `free()`.
+ */
 export class Cloth {
   private constructor();
 
   /**
-   * Makes a cloth from a regular grid: by default 40 × 40 particles, 5 cm apart, pinned along its top.
+   * Creates a cloth from a regular grid. Without `desc` it has 40 × 40 particles, 5 cm apart,
+   * pinned along the top edge.
    *
-   * @throws if a field cannot be, or `init()` was not awaited
+   * @throws if a field is wrong, if `init()` was not awaited, or if there is not enough memory
+   *
+   * @example
+   * ```js
+   * const flag = Cloth.grid({ columns: 60, rows: 40, spacing: 0.02, material: "flag-nylon" });
+   * ```
    */
   static grid(desc?: GridDesc): Cloth;
 
   /**
-   * Makes a cloth from any triangle mesh. What cannot be cloth in it is repaired, see `meshReport`.
+   * Creates a cloth from a triangle mesh. The mesh is repaired where necessary, see `meshReport`.
    *
-   * @throws if a field cannot be, or the mesh is beyond repair: an area is not finite, or no triangle has any
+   * @throws if a field is wrong, if `init()` was not awaited, if there is not enough memory, or if
+   * the mesh cannot be repaired: an area is not finite, or no triangle has an area
+   *
+   * @example
+   * ```js
+   * const cape = Cloth.mesh({ positions, indices, uvs, pinned: [0, 1, 2], weldDistance: 0 });
+   * ```
    */
   static mesh(desc: MeshDesc): Cloth;
 
   /**
-   * The cloth that `save()` was asked of; it goes on in the same bits.
+   * Creates a cloth from the bytes of `save()`. It continues with the same bits as the saved one.
    *
-   * @throws if the bytes are not a saved cloth of this version, or were damaged
+   * @throws if the bytes are damaged or were saved by another version
    */
   static restore(buffer: Uint8Array | ArrayBuffer): Cloth;
 
-  /** Gives the memory back. Any later use throws, but for another `free()`. */
+  /**
+   * Frees the memory of the cloth at once. Calling it again has no effect. A cloth that you do not
+   * free is freed some time after its last reference is gone.
+   */
   free(): void;
-  /** The same, for `using`. */
+  /** The same as `free()`, for `using cloth = Cloth.grid()`. */
   [Symbol.dispose](): void;
-  /** Whether it was freed. */
+  /** Whether the cloth was freed. */
   readonly isFreed: boolean;
 
+  // Time
+
   /**
-   * Runs the ticks that a frame of `seconds` [s] owes, and says how many ran. What is left over waits
-   * for the next frame, see `blend`; a late frame owes at most `maxTicksPerAdvance`.
+   * Runs the ticks that `seconds` of frame time are due, and returns how many ran. Call it once per
+   * frame. The remainder, less than a tick, is kept for the next call; see `blend`. If more than
+   * `maxTicksPerAdvance` ticks are due, the rest is dropped.
    *
+   * @param seconds time since the last frame [s]
    * @throws if `seconds` is negative or not finite
    */
   advance(seconds: number): number;
-  /** Runs exactly `ticks` ticks; 1. */
+  /** Runs exactly `ticks` ticks; default 1. */
   step(ticks?: number): void;
   /**
-   * Back to the start: rest shape, untorn, at rest, pinned as it was made. No grab, attachment, leash or mass
-   * scale outlives it.
+   * Puts the cloth back into its initial state: rest shape, untorn, at rest, with its initial pins,
+   * at time 0. Grabs, attachments, anchors, mass scales, pending events and added folds are
+   * removed; settings, material, wind and colliders stay.
    */
   reset(): void;
-  /** Time since it was made or reset [s]. */
+  /** Simulated time since creation or reset [s]. */
   readonly time: number;
-  /** The share of a tick that `advance` still owes, 0 to 1. */
+  /**
+   * The share of a tick that `advance` has not run yet, 0 to 1. Use it to interpolate between the
+   * last two ticks when you draw, see `WriteDesc.blend`.
+   */
   readonly blend: number;
-  /** Whether the stages of a tick are timed, for `stats.seconds`; false. Costs a little. */
+  /** Whether the stages of a tick are timed, for `stats.seconds`; costs a little. Default false. */
   timing: boolean;
 
-  /** How time runs. Reading gives all, frozen; what is set is merged, from the next tick on. */
+  // Settings, material, wind
+
+  /**
+   * How the solver runs. Reading returns a frozen copy of all fields; assigning changes the fields
+   * that are given, from the next tick on.
+   *
+   * @throws if a field is wrong or not known; nothing changes then
+   *
+   * @example
+   * ```js
+   * cloth.settings = { iterations: 6, gravity: [0, 0, -9.81] };
+   * ```
+   */
   get settings(): Readonly<Settings>;
   set settings(settings: Partial<Settings>);
-  /** What it is made of. Reading gives all, frozen; what is set is merged, from the next tick on. */
+  /**
+   * What the cloth is made of. Reading returns a frozen copy of all fields; assigning a preset
+   * replaces the material, and assigning an object changes the fields that are given, from the next
+   * tick on.
+   *
+   * @throws if a field is wrong or not known; nothing changes then
+   */
   get material(): Readonly<Material>;
   set material(material: MaterialLike);
-  /** The air around it. Reading gives all, frozen; what is set is merged, from the next tick on. */
+  /**
+   * The air around the cloth. Reading returns a frozen copy of all fields; assigning changes the
+   * fields that are given, from the next tick on.
+   *
+   * @throws if a field is wrong or not known; nothing changes then
+   */
   get wind(): Readonly<Wind>;
   set wind(wind: Partial<Wind>);
+
+  // Views
 
   /**
    * Positions of the vertices, x y z x y z … [m].
    *
-   * This and the other lists are views of the module's own memory: read them, and do not write to them.
-   * Ask anew each frame, which is cheap: what you are given is live. One that you keep follows the cloth
-   * in place until the cloth tears, is cut, reset or freed, or the memory grows because another cloth is
-   * made or saved; then it is of length 0 or out of date.
+   * This and the following lists are views of the module's own memory. Read them, do not write to
+   * them, and get them anew in each frame, which is cheap. A view that you keep follows the cloth
+   * until the cloth tears, is cut, reset or freed, or until the memory grows because another cloth
+   * is created or saved; from then on it is empty or out of date.
    */
   readonly positions: Float32Array;
-  /** Unit normals of the vertices, computed when first asked for after a change. */
+  /** Unit normals of the vertices, x y z x y z …. Computed at the first read after a change. */
   readonly normals: Float32Array;
   /** Texture coordinates of the vertices, u v u v …. */
   readonly uvs: Float32Array;
-  /** Three vertices a triangle, counter-clockwise. */
+  /** Three vertices per triangle, counter-clockwise when seen from the front. */
   readonly indices: Uint32Array;
-  /** Which original vertex each vertex came from; for one that a cut made on an edge, the nearer end's. */
+  /**
+   * The vertex of the initial mesh that each vertex came from. A vertex that a cut made on an edge
+   * has the source of the nearer end of the edge.
+   */
   readonly sourceVertices: Uint32Array;
   /**
-   * 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others, those
-   * at the borders that the cloth was made with among them.
+   * 1 for each vertex on a border that a tear or cut made, otherwise 0 (also on the borders of the
+   * initial mesh). Use it to draw frayed edges.
    */
   readonly frayed: Uint8Array;
   /**
-   * The particle of each vertex. A mesh that was welded or had sheets to be parted has several vertices to a
-   * particle; else each vertex is the particle of its number. Positions, normals, uvs, source vertices, frayed
-   * borders and indices are those of vertices. Calls that touch the cloth (pins, grabs, tears by hand, positions and
-   * velocities) take particles, and what a ray hits tells one. Triangles have the same numbers in both.
+   * The particle of each vertex. A mesh that was welded, or whose sheets were separated, can have
+   * several vertices per particle; otherwise vertex i is particle i. Triangles have the same
+   * indices for vertices and particles.
    */
   readonly vertexParticles: Uint32Array;
-  /** What had to be repaired of the mesh that it was made of; nothing of a grid. */
+  /** How the mesh was repaired at creation. A grid needs no repairs. */
   readonly meshReport: Readonly<MeshReport>;
-  /** How many vertices there may ever be. */
+  /** The largest number of vertices that the cloth can ever have, tears and cuts included. */
   readonly vertexCapacity: number;
-  /** How many indices there may ever be. */
+  /** The largest number of indices that the cloth can ever have. */
   readonly indexCapacity: number;
-  /** Changes when the triangles do. */
+  /** A number that changes whenever the triangles change. */
   readonly topologyRevision: number;
-  /** Changes when positions do. */
+  /** A number that changes whenever positions change. */
   readonly stateRevision: number;
 
   /**
-   * Which vertices and indices are new or not as they were when `topologyRevision` was that: all that a
-   * renderer must upload again of what does not change with every tick. Everything, if that is more
-   * than 64 changes ago, or was never (0 is never).
+   * Returns which vertices and indices changed since `topologyRevision` had the given value: the
+   * parts of index, uv and other static buffers that a renderer uploads again. Returns everything
+   * if that was more than 64 changes ago, or if there was no such revision (0 never is one).
+   *
+   * @example
+   * ```js
+   * if (cloth.topologyRevision !== seen) {
+   *   const { firstIndex, indexCount } = cloth.changes(seen);
+   *   upload(cloth.indices.subarray(firstIndex, firstIndex + indexCount), firstIndex);
+   *   seen = cloth.topologyRevision;
+   * }
+   * ```
    */
   changes(sinceTopologyRevision: number): Changes;
 
+  // Writing to buffers of your own
+
   /**
-   * Writes vertices into buffers of your own, each attribute where and how its stream says: separate,
-   * interleaved or one behind the other, 1 to 16 at once. Nothing else in the buffers changes. Says how many
-   * vertices that were. With room for `vertexCapacity` vertices they fit for ever.
+   * Writes vertices to your own buffers, each attribute in the place and format of its stream:
+   * separate, interleaved, or one block after the other. Bytes between the attributes do not
+   * change. Buffers for `vertexCapacity` vertices are large enough for every tear.
    *
-   * @throws if a field cannot be, the vertices do not fit, two streams write the same bytes, or normals or
-   * tangents are asked for with a transform that cannot be inverted; nothing is written then
+   * @param streams 1 to 16 streams
+   * @returns the number of vertices that were written
+   * @throws if a field is wrong, if the vertices do not fit, if two streams overlap, or if normals
+   * or tangents are written with a transform that is not invertible; nothing is written then
+   *
+   * @example
+   * ```js
+   * const data = new Float32Array(6 * cloth.vertexCapacity);
+   * cloth.writeVertices([
+   *   { attribute: "position", buffer: data, stride: 24 },
+   *   { attribute: "normal", buffer: data, stride: 24, offset: 12 },
+   * ], { blend: cloth.blend });
+   * ```
    */
   writeVertices(streams: readonly Stream[], desc?: WriteDesc): number;
   /**
-   * Writes the indices of all triangles to the beginning of `buffer`, 16 bits wide or 32 as that is; each
-   * with `baseVertex` added, 0, and every triangle turned round if `flip` is set. Says how many. With room
-   * for `indexCapacity` indices they fit for ever.
+   * Writes the indices of all triangles to the start of `buffer`, with 16 or 32 bits as the type of
+   * `buffer` says. A buffer for `indexCapacity` indices is large enough for every tear.
    *
-   * @throws unless the indices fit, and for 16 bits if one is above 65534; nothing is written then
+   * @param options.flip whether the orientation of every triangle is reversed; default false
+   * @param options.baseVertex added to each index; default 0
+   * @returns the number of indices that were written
+   * @throws if the indices do not fit, or if an index is above 65534 with 16 bits; nothing is
+   * written then
    */
   writeIndices(
     buffer: Uint16Array | Uint32Array,
     options?: { flip?: boolean; baseVertex?: number },
   ): number;
 
-  /** Where a particle is [m]. */
+  // Particles
+
+  /** Returns the position of a particle [m]. */
   position(particle: number): Vec3;
-  /** Velocity of a particle [m/s]. */
+  /** Returns the velocity of a particle [m/s]. */
   velocity(particle: number): Vec3;
-  /** Mass of a particle [kg]. */
+  /** Returns the mass of a particle [kg]. */
   mass(particle: number): number;
-  /** Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it. */
+  /** Moves a particle at once [m]. It keeps its velocity, and a pin moves with it. */
   setPosition(particle: number, position: Vec3Like): void;
-  /** Gives a particle a velocity [m/s]. */
+  /** Sets the velocity of a particle [m/s]. */
   setVelocity(particle: number, velocity: Vec3Like): void;
-
-  /** The pinned particles, lowest first. */
-  readonly pinned: Uint32Array;
-  /** Holds a particle at `target` [m], or where it is. The target is reached over the next tick. */
-  pin(particle: number, target?: Vec3Like): void;
-  /** Lets a particle go. One that is not pinned stays as it is. */
-  unpin(particle: number): void;
-  /** Lets every particle go. */
-  unpinAll(): void;
-  /** Gives many pins their targets, x y z x y z … [m]; particles that are not pinned yet become so. */
-  setPinTargets(
-    particles: Uint32Array | Uint16Array | readonly number[],
-    targets: Float32Array | Float64Array | readonly number[],
-  ): void;
-
   /**
-   * Says how hard pins pull towards their targets [N/m]: as springs, or exactly if `stiffness` is 0, as they do
-   * at first. A soft pin holds a load of 1 N 1/`stiffness` from its target; the cloth counts as free there, for
-   * tears and for `maxStretch`, and is not tethered to it. 1e3 feels firm, 10 lets a sheet of cotton sag by a
-   * few centimetres. A tear through a soft pin shares its stiffness out by mass.
+   * Sets factors on the masses of particles, 0.001 to 1000, one for each. 1, the initial value, is
+   * the mass that follows from the density and the area around the particle; factors stay when the
+   * density changes. Use 5 for a hem that hangs straight, 100 for a sewn-in coin.
    *
-   * @throws if one is not pinned, or unless `stiffness` is at least 0 and finite
-   */
-  setPinStiffness(particles: Uint32Array | Uint16Array | readonly number[], stiffness: number): void;
-  /**
-   * Makes particles heavier or lighter than their material, by a factor each, from 0.001 to 1000: 1, as at
-   * first, is what its density and the area about them give. A hem of 5 hangs straight; a coin sewn in may be
-   * 100. Factors stay when the density changes. Neighbours may well be a hundredfold apart; where it is
-   * thousands, what hangs by the light ones stretches them until there are more substeps.
+   * Neighbours may differ by a factor of 100. Where they differ by thousands, links stretch under
+   * the heavy particles unless there are more substeps.
+   *
+   * @throws if there are not as many scales as particles, or if one is out of range
    */
   setMassScales(
     particles: Uint32Array | Uint16Array | readonly number[],
     scales: Float32Array | Float64Array | readonly number[],
   ): void;
 
+  // Pins
+
+  /** The pinned particles, in ascending order. */
+  readonly pinned: Uint32Array;
   /**
-   * Attaches particles to a transform: a bone, a pole, the body of a car. They are pinned where they are now, and
-   * from then on `moveTo` of what this gives carries them. Those that are pinned already, or attached to
-   * something else, keep their stiffness. One that gets a target of its own later, or is unpinned, leaves the
-   * attachment. Vertices that a tear or a cut makes of attached ones are attached too.
+   * Pins a particle: holds it at `target` [m], or at its current position. A new target is reached
+   * at the end of the next tick.
+   */
+  pin(particle: number, target?: Vec3Like): void;
+  /** Removes the pin of a particle. If it is not pinned, nothing changes. */
+  unpin(particle: number): void;
+  /** Removes all pins. */
+  unpinAll(): void;
+  /**
+   * Sets the targets of many pins at once, x y z x y z … [m]. Particles that are not pinned yet
+   * become so. Use it for animated pins.
    *
+   * @throws if there are not three numbers for each particle; nothing changes then
+   */
+  setPinTargets(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    targets: Float32Array | Float64Array | readonly number[],
+  ): void;
+  /**
+   * Makes pins soft: each pulls its particle to the target as a spring of this stiffness [N/m]. 0,
+   * the initial value, holds it exactly.
+   *
+   * Under a load of F [N] a soft pin is F / stiffness [m] away from its target. Tears, `maxStretch`
+   * and tethers treat its particle as free. 1000 feels firm; 10 lets a sheet of cotton sag by a few
+   * centimetres. If a tear splits the particle, the stiffness is divided in proportion to the
+   * masses.
+   *
+   * @throws if a particle is not pinned, or if `stiffness` is negative or not finite
+   */
+  setPinStiffness(
+    particles: Uint32Array | Uint16Array | readonly number[],
+    stiffness: number,
+  ): void;
+
+  // Attachments, anchors, frame
+
+  /**
+   * Attaches particles to a transform, such as a bone, a pole or a vehicle. They are pinned where
+   * they are now, and `moveTo` of the returned attachment carries them from then on.
+   *
+   * Particles that are pinned or attached already keep their pin stiffness. A particle leaves the
+   * attachment when you unpin it or give it a target of its own. Vertices that a tear or cut makes
+   * of attached particles are attached too.
+   *
+   * @param position position of the transform [m]
+   * @param rotation its rotation, a unit quaternion; default: none
    * @throws if there are 64 attachments already
+   *
+   * @example
+   * ```js
+   * const hand = cloth.attach([0, 1, 2], bone.position.toArray(), bone.quaternion.toArray());
+   * // each frame, before cloth.advance():
+   * hand.moveTo(bone.position.toArray(), bone.quaternion.toArray());
+   * ```
    */
   attach(
     particles: Uint32Array | Uint16Array | readonly number[],
@@ -196,19 +323,33 @@ export class Cloth {
     rotation?: QuatLike,
   ): Attachment;
   /**
-   * Says how far particles may be from their anchors [m]: after every tick none is farther, whatever pulls at it.
-   * Infinity, as at first, is as far as they like; 0 holds them there. The anchor of a particle is where
-   * `setAnchors` has it, and until that was called where the particle is now. A pinned or grabbed particle goes by
-   * that alone. What keeps a cloth apart so may stretch it past `maxStretch`, which is told as if pins did.
+   * Limits how far particles may be from their anchors [m]. The limit holds after every tick,
+   * whatever pulls at them. Infinity, the initial value, is no limit; 0 holds a particle at its
+   * anchor. Skirts and sleeves often have 0 at the seam and up to 0.2 at the hem.
+   *
+   * The anchor of a particle is set by `setAnchors`; until then it is its position at the time of
+   * this call. Pinned and grabbed particles have no limit. If the limits hold the cloth apart, it
+   * may stretch beyond `maxStretch`, which is reported as for pins.
+   *
+   * @throws if there are not as many distances as particles, or if one is negative or NaN
    */
   setMaxDistances(
     particles: Uint32Array | Uint16Array | readonly number[],
     distances: Float32Array | Float64Array | readonly number[],
   ): void;
   /**
-   * Gives particles backstops: spheres behind their anchors that they stay out of, so that a garment does not sink
-   * into the body that wears it. Each has a radius [m], 0 for none, and begins a distance [m] behind its anchor,
-   * against the normal that `setAnchors` gave: without one there is no backstop.
+   * Sets backstops: spheres behind the anchors that particles stay out of, so that a garment does
+   * not sink into the body.
+   *
+   * ```text
+   *          ( sphere of radius )◀─ distance ─▶● anchor ──▶ normal
+   * ```
+   *
+   * A backstop needs a normal from `setAnchors`. A radius of 0 removes it.
+   *
+   * @param distances from each anchor back to the surface of its sphere [m], at least 0
+   * @param radii of the spheres [m], at least 0
+   * @throws if the lists differ in length, or if a number is negative or not finite
    */
   setBackstops(
     particles: Uint32Array | Uint16Array | readonly number[],
@@ -216,107 +357,178 @@ export class Cloth {
     radii: Float32Array | Float64Array | readonly number[],
   ): void;
   /**
-   * Says where animation has particles, x y z x y z … [m], and which way is out of the body there, for
-   * `setMaxDistances` and `setBackstops`. Call it each frame: anchors get there over the next tick, and those of
-   * particles that had none are there at once. Normals need not be of length 1; without any those of before stay.
+   * Sets the anchors of particles: the positions x y z x y z … [m] and outward normals that
+   * animation gives them, for `setMaxDistances` and `setBackstops`. Call it each frame.
+   *
+   * Anchors reach the new positions at the end of the next tick; new anchors are there at once.
+   *
+   * @param normals of any length but 0; without this argument the previous normals stay
+   * @throws if the lists differ in length, or if a number is not finite
    */
   setAnchors(
     particles: Uint32Array | Uint16Array | readonly number[],
     positions: Float32Array | Float64Array | readonly number[],
     normals?: Float32Array | Float64Array | readonly number[],
   ): void;
-  /** Takes away all anchors, maximum distances and backstops. */
+  /** Removes all anchors, maximum distances and backstops. */
   clearLeashes(): void;
   /**
-   * Says where the body is that wears the cloth, and how it is turned: `teleport` and `moveFrame` go from there.
-   * At first, and after a reset, that is the origin. It moves nothing.
+   * Sets the frame of the body that wears the cloth, and moves nothing. `teleport` and `moveFrame`
+   * measure the motion of the body from here. At first, and after a reset, the frame is at the
+   * origin.
+   *
+   * @param position of the body [m]
+   * @param rotation unit quaternion; default: none
    */
   setFrame(position: Vec3Like, rotation?: QuatLike): void;
   /**
-   * Takes the cloth along as the body that wears it jumps from where `setFrame`, `moveFrame` or the last
-   * `teleport` had it: at once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs and anchors
-   * go along; colliders do not, see their own `teleport`. In a frame it comes before `moveTo` and `setAnchors`.
+   * Moves the cloth at once along with its body, from the last frame to this one, as a rigid body
+   * and without inertia. Velocities are rotated. Pins, attachments, grabs and anchors move along;
+   * colliders do not, see `Collider.teleport`. Call it before `moveTo` and `setAnchors` of the same
+   * frame.
    */
   teleport(position: Vec3Like, rotation?: QuatLike): void;
   /**
-   * Takes the cloth along as the body that wears it runs and turns on from where `setFrame`, `teleport` or the last
-   * `moveFrame` had it: over the next tick, and with only a share of its `inertia`, 0. At 1 it feels all of the
-   * body's motion, as if nothing were said; at 0 none, as if the body stood still and the rest of the world moved
-   * past; between, so much of it, both of the way and of the turn.
+   * Moves the frame of the body over the next tick, from the last frame to this one, and chooses
+   * how much of that motion the cloth feels. Use it to tame the cloth of a fast character.
    *
-   * What is not felt takes particles along at once, as a solid body; over the tick they, pins, attachments and
-   * anchors get to where the body has them then. Colliders and grabs stay where they are told to be, and the cloth
-   * meets them as one who goes with the body sees them move. Air goes along as far as the motion is not felt. In a
-   * frame it comes before `moveTo` and `setAnchors`.
+   * With an `inertia` of 1 the cloth feels all of the motion, as if you had not called this. With 0
+   * it feels none, as if the body stood still and the world moved past. Numbers between apply that
+   * share of the translation and rotation.
    *
-   * @throws if `inertia` is not from 0 to 1
+   * The share that is not felt moves the particles at once, as a rigid body. Pins, attachments and
+   * anchors reach their places on the body at the end of the tick. Colliders and grabs stay where
+   * you put them, and the cloth meets them with their velocity relative to the body. The air moves
+   * along with the share that is not felt. Call it before `moveTo` and `setAnchors` of the same
+   * frame.
+   *
+   * @param inertia 0 to 1; default 0
+   * @throws if `inertia` is out of range
    */
   moveFrame(position: Vec3Like, rotation?: QuatLike, inertia?: number): void;
 
-  /** The first triangle along a ray, within `maxDistance` [m], Infinity; hit from either side. */
+  // Ray casts and grabs
+
+  /**
+   * Returns the first hit of a ray with the cloth, from either side, or undefined.
+   *
+   * @param direction of any length but 0
+   * @param maxDistance [m]; default Infinity
+   */
   raycast(origin: Vec3Like, direction: Vec3Like, maxDistance?: number): Hit | undefined;
   /**
-   * Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
-   * else the nearest one within `radius` [m], 0, of it.
+   * Grabs the particle that a ray points at: the nearest corner of the triangle that it hits; if it
+   * hits none, the particle nearest to the ray within `radius`. Returns undefined if there is none.
+   *
+   * @param options.radius [m]; default 0
+   * @throws if 64 grabs are held already
+   *
+   * @example
+   * ```js
+   * const grab = cloth.grabRay(origin, direction, { radius: 0.05 });
+   * grab?.moveTo([0, 1, 0.5]);
+   * cloth.advance(1 / 60);
+   * grab?.release();
+   * ```
+   */
+  grabRay(origin: Vec3Like, direction: Vec3Like, options?: { radius?: number }): Grab | undefined;
+  /**
+   * Grabs a particle at its current position.
    *
    * @throws if 64 grabs are held already
    */
-  grabRay(origin: Vec3Like, direction: Vec3Like, options?: { radius?: number }): Grab | undefined;
-  /** Takes hold of a particle where it is. Throws if 64 grabs are held already. */
   grabParticle(particle: number): Grab;
+
+  // Cuts, creases, tears
+
   /**
-   * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. Says how
-   * many edges opened; 0 leaves the cloth as it was.
+   * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m].
+   * Returns how many edges opened; with 0 the cloth is unchanged.
    *
-   * Triangles that the blade goes through are divided along it: vertices come to be on the edges that it
-   * crosses, between their ends in all that they have, and the mesh opens along them. Where it would
-   * come nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5° or less
-   * area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex instead;
-   * past a pinned one it goes at an eighth of the edge. Where the blade ends inside a triangle, the cut
-   * ends at the edge before. Vertices that a cut makes are free; a pinned one that it goes through is
-   * pinned on both sides. Each edge that is crossed takes one particle of the reserve
-   * (`extraParticles`), and one more where it opens.
+   * ```text
+   * from ●────────● to
+   *      │ blade  │  sweep
+   *      ▼        ▼
+   * ```
    *
-   * @throws unless `to` is apart from `from` and `sweep` leads away from the line through both, or if the
-   * reserve cannot take the whole cut
+   * The triangles that the blade crosses are divided along it: each crossed edge gets a new vertex,
+   * whose position and attributes are interpolated, and the mesh opens along the cut. The cut
+   * passes through an existing vertex instead of a new one where a new one would be nearer than an
+   * eighth of the edge to it, or would leave an angle below 5° or a triangle with less than 1/200
+   * of the area of a square over the mean edge. Next to a pinned vertex it passes at an eighth of
+   * the edge. Where the blade ends inside a triangle, the cut ends at the edge before.
+   *
+   * Vertices that a cut makes are free. A pinned vertex that it passes through is pinned on both
+   * sides. Each crossed edge takes one particle of the reserve (`extraParticles`), and one more
+   * where it opens.
+   *
+   * @throws if `from` equals `to`, if `sweep` is parallel to the line through both, or if the
+   * reserve is too small for the whole cut
+   *
+   * @example
+   * ```js
+   * cloth.cut([-1, -0.5, -1], [3, -0.7, -1], [0, 0, 2]); // across a sheet in the xy plane
+   * ```
    */
   cut(from: Vec3Like, to: Vec3Like, sweep: Vec3Like): number;
   /**
-   * Gives the cloth a fold of `angle` [rad] along a line, from `from` to `to` [m], both where they are in the
-   * cloth as it was made. From then on the cloth rests folded by so much more along it: towards its front,
-   * where the triangles are counter-clockwise, if `angle` is above 0, and else away from it.
+   * Adds a permanent fold of `angle` [rad] along a line. `from` and `to` [m] are positions in the
+   * rest shape. The cloth then rests folded by that angle: towards its front (where triangles are
+   * counter-clockwise) if `angle` is positive, otherwise away from it.
    *
-   * The line need not follow the mesh: the fold is shared out over the cells beside it. It bends no more than
-   * `bendStiffness` can make it, and stays until `reset`; folding by −`angle` along the same line takes it
-   * away. Where the line is not on the cloth nothing is folded.
+   * The line need not follow the edges of the mesh: the fold is distributed over the cells next to
+   * it. How strongly the cloth folds depends on `bendStiffness`. The fold stays until `reset`;
+   * folding by −`angle` along the same line removes it, though not the hardening and weakening that
+   * it caused. Parts of the line that are not on the cloth have no effect.
    *
-   * @throws if `to` equals `from`, or unless `angle` is from −3 to 3
+   * @throws if `to` equals `from`, or if `angle` is not from −3 to 3
    */
   crease(from: Vec3Like, to: Vec3Like, angle: number): void;
   /**
-   * Tears between two neighbouring particles, as over-stretching would. Says whether it tore: an end
-   * that is pinned or grabbed does not give way, nor does an edge that is a border already.
+   * Tears the edge between two neighbouring particles, as too much stretch would, and returns
+   * whether it tore. It does not if it is a border already, or if neither end can split: pinned and
+   * grabbed particles do not split.
    *
-   * @throws unless the two are the ends of an edge, or if the room for tears is used up
+   * @throws if the particles are not joined by an edge, or if the reserve (`extraParticles`) is
+   * used up
    */
   tearEdge(particleA: number, particleB: number): boolean;
 
-  /** Adds a collider. Throws if there are 1024 already. */
-  addCollider(collider?: ColliderDesc): Collider;
+  // Colliders
 
   /**
-   * All events since the last call, oldest first; the 1024 newest are kept.
+   * Adds a collider; without `collider` it is the plane y = 0.
    *
-   * They come by tick; in a tick recoveries first, then tears, the worst first, and of each the vertices
-   * that it split before the torn edge; then, if there was no room for another, that; then the pieces that
-   * came off, in the order of their first triangles; then what is held apart. A cut tells the edges that
-   * it divided, in its order; those that it opened; the vertices that it split; and the pieces.
+   * @throws if a field is wrong, or if there are 1024 colliders already
+   *
+   * @example
+   * ```js
+   * const ball = cloth.addCollider({ shape: "sphere", position: [0, 1, 0], radius: 0.3 });
+   * ball.moveTo([0.1, 1, 0]); // sweeps there during the next tick
+   * ```
+   */
+  addCollider(collider?: ColliderDesc): Collider;
+
+  // Events, statistics, saved states
+
+  /**
+   * Returns the events since the last call, oldest first, and removes them. At most 1024 are kept;
+   * the oldest ones are dropped first.
+   *
+   * The order within a tick is: recovered particles; tears, those with the largest stretch first,
+   * each as the vertices that it split and then the edge; a used-up reserve; detached pieces, in
+   * the order of their first triangles; links that are held apart. A cut adds the edges that it
+   * divided, in the order along the cut; the edges that opened; the split vertices; the detached
+   * pieces.
    */
   events(): ClothEvent[];
-  /** Numbers about the cloth as it is now. */
+  /** Statistics of the current state. */
   readonly stats: Stats;
-  /** All that the next tick depends on as one number, equal to the native one. */
+  /**
+   * Returns a hash of everything that the next tick depends on. Equal states have equal hashes on
+   * every platform, also in Rust and C.
+   */
   stateHash(): bigint;
-  /** The cloth as bytes, for `Cloth.restore`. A copy of your own. */
+  /** Returns the whole state as bytes for `Cloth.restore`. The array is a copy of its own. */
   save(): Uint8Array;
 }

@@ -1,10 +1,21 @@
-// A cloth: what it is asked, checked; what it answers, named.
+// The class Cloth: checks arguments, passes flat lists to the module's RawCloth, and converts its
+// answers to objects and views.
 
 import * as raw from "./raw.js";
-import { check, bytes, flag, floats, keys, number, vector, whole, wholes } from "./check.js";
-import { isTrap, ready } from "./memory.js";
+import {
+  check,
+  checkKeys,
+  toBoolean,
+  toFloat32Array,
+  toNumber,
+  toUint32,
+  toUint32Array,
+  toUint8Array,
+  toVector,
+} from "./check.js";
+import { isTrap, requireMemory } from "./memory.js";
 import * as fields from "./fields.js";
-import { Attachment, Collider, Grab, OURS, onlyOurs } from "./handles.js";
+import { Attachment, Collider, CONSTRUCTOR_KEY, Grab, checkConstructorKey, packPose } from "./handles.js";
 import { readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
 import { writeIndices, writeVertices } from "./write.js";
 
@@ -13,18 +24,21 @@ const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
 const COLLIDER_KEYS = [...Object.keys(fields.COLLIDER), "positions", "indices", "heights"];
 const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "settings"];
 
-/** The material and the settings of a descriptor, as lists. */
-function clothing({ material = {}, settings = {} }) {
+/** No rotation. */
+const IDENTITY = [0, 0, 0, 1];
+
+/** Returns the material and the settings of a descriptor as flat lists. */
+function packMaterialAndSettings({ material = {}, settings = {} }) {
   return [
     fields.mergeMaterial(raw.default_material(), material, raw.preset_material),
     fields.merge(fields.SETTINGS, raw.default_settings(), settings, "settings"),
   ];
 }
 
-/** Makes a cloth, or says that there is no room for it. */
-function make(build) {
+/** Makes a cloth; turns a trap of the module into an error about memory. */
+function makeCloth(build) {
   try {
-    return new Cloth(OURS, build());
+    return new Cloth(CONSTRUCTOR_KEY, build());
   } catch (error) {
     if (!isTrap(error)) throw error;
     throw new Error("no memory is left for such a cloth", { cause: error });
@@ -36,36 +50,37 @@ export class Cloth {
   #views = {};
 
   constructor(key, raw) {
-    onlyOurs(key, "a cloth is made by Cloth.grid(), Cloth.mesh() or Cloth.restore()");
+    checkConstructorKey(key, "a cloth is made by Cloth.grid(), Cloth.mesh() or Cloth.restore()");
     this.#raw = raw;
   }
 
   static grid(desc = {}) {
-    ready();
-    keys(desc, "desc", GRID_KEYS);
+    requireMemory();
+    checkKeys(desc, "desc", GRID_KEYS);
     const grid = fields.pack(fields.GRID, raw.default_grid(), desc);
-    const [material, settings] = clothing(desc);
-    return make(() => raw.RawCloth.grid(grid, material, settings));
+    const [material, settings] = packMaterialAndSettings(desc);
+    return makeCloth(() => raw.RawCloth.grid(grid, material, settings));
   }
 
   static mesh(desc) {
-    ready();
-    keys(desc, "desc", MESH_KEYS);
-    const positions = floats(desc.positions, "positions", 3);
-    const indices = wholes(desc.indices, "indices");
-    const uvs = floats(desc.uvs ?? [], "uvs", 2);
-    const pinned = wholes(desc.pinned ?? [], "pinned");
+    requireMemory();
+    checkKeys(desc, "desc", MESH_KEYS);
+    const positions = toFloat32Array(desc.positions, "positions", 3);
+    const indices = toUint32Array(desc.indices, "indices");
+    const uvs = toFloat32Array(desc.uvs ?? [], "uvs", 2);
+    const pinned = toUint32Array(desc.pinned ?? [], "pinned");
     const mesh = fields.pack(fields.MESH, raw.default_mesh(), desc);
-    const [material, settings] = clothing(desc);
-    return make(() => raw.RawCloth.mesh(positions, indices, uvs, pinned, mesh, material, settings));
+    const [material, settings] = packMaterialAndSettings(desc);
+    return makeCloth(() => raw.RawCloth.mesh(positions, indices, uvs, pinned, mesh, material, settings));
   }
 
   static restore(buffer) {
-    ready();
-    const saved = bytes(buffer, "buffer");
-    return make(() => raw.RawCloth.restore(saved));
+    requireMemory();
+    const saved = toUint8Array(buffer, "buffer");
+    return makeCloth(() => raw.RawCloth.restore(saved));
   }
 
+  /** The RawCloth. Throws if the cloth was freed. */
   get #live() {
     check(this.#raw, "cloth", "be live, but was freed");
     return this.#raw;
@@ -84,11 +99,11 @@ export class Cloth {
   // Time
 
   advance(seconds) {
-    return this.#live.advance(number(seconds, "seconds"));
+    return this.#live.advance(toNumber(seconds, "seconds"));
   }
 
   step(ticks = 1) {
-    this.#live.step(whole(ticks, "ticks"));
+    this.#live.step(toUint32(ticks, "ticks"));
   }
 
   reset() {
@@ -108,10 +123,10 @@ export class Cloth {
   }
 
   set timing(timing) {
-    this.#live.set_timed(flag(timing, "timing"));
+    this.#live.set_timed(toBoolean(timing, "timing"));
   }
 
-  // How it behaves
+  // Settings, material, wind
 
   get settings() {
     return fields.unpack(fields.SETTINGS, this.#live.settings());
@@ -182,11 +197,11 @@ export class Cloth {
   }
 
   changes(sinceTopologyRevision) {
-    const since = whole(sinceTopologyRevision, "sinceTopologyRevision");
+    const since = toUint32(sinceTopologyRevision, "sinceTopologyRevision");
     return readChanges(this.#live.changes(since));
   }
 
-  // Buffers of one's own
+  // Writing to buffers of the caller
 
   writeVertices(streams, desc = {}) {
     return writeVertices(this.#live, streams, desc);
@@ -196,12 +211,15 @@ export class Cloth {
     return writeIndices(this.#live, buffer, options);
   }
 
-  /** The view of last time if it still fits: the same memory, place and length. */
-  #view(name, Kind, at, length) {
-    const { buffer } = ready(); // asked last: whoever gave `at` may have made the memory grow
+  /**
+   * Returns a view of the module's memory: the last one if memory, address and length are still the
+   * same.
+   */
+  #view(name, Kind, address, length) {
+    const { buffer } = requireMemory(); // read here: the call that returned `address` may have grown the memory
     const last = this.#views[name];
-    const fits = last?.buffer === buffer && last.byteOffset === at && last.length === length;
-    return fits ? last : (this.#views[name] = new Kind(buffer, at, length));
+    const fits = last?.buffer === buffer && last.byteOffset === address && last.length === length;
+    return fits ? last : (this.#views[name] = new Kind(buffer, address, length));
   }
 
   get vertexCapacity() {
@@ -223,23 +241,23 @@ export class Cloth {
   // Particles
 
   position(particle) {
-    return Array.from(this.#live.position(whole(particle, "particle")));
+    return Array.from(this.#live.position(toUint32(particle, "particle")));
   }
 
   velocity(particle) {
-    return Array.from(this.#live.velocity(whole(particle, "particle")));
+    return Array.from(this.#live.velocity(toUint32(particle, "particle")));
   }
 
   mass(particle) {
-    return this.#live.mass(whole(particle, "particle"));
+    return this.#live.mass(toUint32(particle, "particle"));
   }
 
   setPosition(particle, position) {
-    this.#live.set_position(whole(particle, "particle"), ...vector(position, "position"));
+    this.#live.set_position(toUint32(particle, "particle"), ...vector(position, "position"));
   }
 
   setVelocity(particle, velocity) {
-    this.#live.set_velocity(whole(particle, "particle"), ...vector(velocity, "velocity"));
+    this.#live.set_velocity(toUint32(particle, "particle"), ...vector(velocity, "velocity"));
   }
 
   // Pins
@@ -250,13 +268,13 @@ export class Cloth {
 
   pin(particle, target) {
     const live = this.#live;
-    whole(particle, "particle");
+    toUint32(particle, "particle");
     if (target === undefined) live.pin_here(particle);
     else live.pin_at(particle, ...vector(target, "target"));
   }
 
   unpin(particle) {
-    this.#live.unpin(whole(particle, "particle"));
+    this.#live.unpin(toUint32(particle, "particle"));
   }
 
   unpinAll() {
@@ -265,111 +283,111 @@ export class Cloth {
 
   setPinTargets(particles, targets) {
     const live = this.#live;
-    live.set_pin_targets(wholes(particles, "particles"), floats(targets, "targets", 3));
+    live.set_pin_targets(toUint32Array(particles, "particles"), toFloat32Array(targets, "targets", 3));
   }
 
   setPinStiffness(particles, stiffness) {
     const live = this.#live;
-    live.set_pin_stiffness(wholes(particles, "particles"), number(stiffness, "stiffness"));
+    live.set_pin_stiffness(toUint32Array(particles, "particles"), toNumber(stiffness, "stiffness"));
   }
 
   setMassScales(particles, scales) {
-    this.#live.set_mass_scales(wholes(particles, "particles"), floats(scales, "scales", 1));
+    this.#live.set_mass_scales(toUint32Array(particles, "particles"), toFloat32Array(scales, "scales", 1));
   }
 
-  // On a body
+  // Attachments, anchors, frame
 
-  attach(particles, position, rotation = [0, 0, 0, 1]) {
+  attach(particles, position, rotation = IDENTITY) {
     const live = this.#live;
-    const handle = live.attach(wholes(particles, "particles"), pose(position, rotation));
-    return new Attachment(OURS, () => this.#live, handle, Array.from(rotation));
+    const handle = live.attach(toUint32Array(particles, "particles"), packPose(position, rotation));
+    return new Attachment(CONSTRUCTOR_KEY, () => this.#live, handle, Array.from(rotation));
   }
 
   setMaxDistances(particles, distances) {
     const live = this.#live;
-    live.set_max_distances(wholes(particles, "particles"), floats(distances, "distances", 1));
+    live.set_max_distances(toUint32Array(particles, "particles"), toFloat32Array(distances, "distances", 1));
   }
 
   setBackstops(particles, distances, radii) {
     const live = this.#live;
-    const lengths = [floats(distances, "distances", 1), floats(radii, "radii", 1)];
-    live.set_backstops(wholes(particles, "particles"), ...lengths);
+    const lengths = [toFloat32Array(distances, "distances", 1), toFloat32Array(radii, "radii", 1)];
+    live.set_backstops(toUint32Array(particles, "particles"), ...lengths);
   }
 
   setAnchors(particles, positions, normals = []) {
     const live = this.#live;
-    const vectors = [floats(positions, "positions", 3), floats(normals, "normals", 3)];
-    live.set_anchors(wholes(particles, "particles"), ...vectors);
+    const vectors = [toFloat32Array(positions, "positions", 3), toFloat32Array(normals, "normals", 3)];
+    live.set_anchors(toUint32Array(particles, "particles"), ...vectors);
   }
 
   clearLeashes() {
     this.#live.clear_leashes();
   }
 
-  setFrame(position, rotation = [0, 0, 0, 1]) {
-    this.#live.set_frame(pose(position, rotation));
+  setFrame(position, rotation = IDENTITY) {
+    this.#live.set_frame(packPose(position, rotation));
   }
 
-  teleport(position, rotation = [0, 0, 0, 1]) {
-    this.#live.teleport(pose(position, rotation));
+  teleport(position, rotation = IDENTITY) {
+    this.#live.teleport(packPose(position, rotation));
   }
 
-  moveFrame(position, rotation = [0, 0, 0, 1], inertia = 0) {
-    this.#live.move_frame(pose(position, rotation), number(inertia, "inertia"));
+  moveFrame(position, rotation = IDENTITY, inertia = 0) {
+    this.#live.move_frame(packPose(position, rotation), toNumber(inertia, "inertia"));
   }
 
-  // Pointing, grabbing, cutting and tearing
+  // Ray casts, grabs, cuts, creases and tears
 
   raycast(origin, direction, maxDistance = Infinity) {
     const live = this.#live;
-    return readHit(live.raycast(ray(origin, direction), number(maxDistance, "maxDistance")));
+    return readHit(live.raycast(packRay(origin, direction), toNumber(maxDistance, "maxDistance")));
   }
 
   grabRay(origin, direction, options = {}) {
     const live = this.#live;
-    const { radius = 0 } = keys(options, "options", ["radius"]);
-    const held = live.grab_ray(ray(origin, direction), number(radius, "radius"));
-    return held.length === 0 ? undefined : new Grab(OURS, () => this.#live, held[0], held.subarray(1));
+    const { radius = 0 } = checkKeys(options, "options", ["radius"]);
+    const held = live.grab_ray(packRay(origin, direction), toNumber(radius, "radius"));
+    return held.length === 0 ? undefined : new Grab(CONSTRUCTOR_KEY, () => this.#live, held[0], held.subarray(1));
   }
 
   grabParticle(particle) {
-    const grab = this.#live.grab_particle(whole(particle, "particle"));
+    const grab = this.#live.grab_particle(toUint32(particle, "particle"));
     const at = this.positions.subarray(3 * particle, 3 * particle + 3);
-    return new Grab(OURS, () => this.#live, grab, at);
+    return new Grab(CONSTRUCTOR_KEY, () => this.#live, grab, at);
   }
 
   cut(from, to, sweep) {
     const live = this.#live;
-    const blade = [vector(from, "from"), vector(to, "to"), vector(sweep, "sweep")];
+    const blade = [toVector(from, "from"), toVector(to, "to"), toVector(sweep, "sweep")];
     return live.cut(Float64Array.from(blade.flat()));
   }
 
   crease(from, to, angle) {
     const live = this.#live;
-    const line = [vector(from, "from"), vector(to, "to")];
-    live.crease(Float64Array.from(line.flat()), number(angle, "angle"));
+    const line = [toVector(from, "from"), toVector(to, "to")];
+    live.crease(Float64Array.from(line.flat()), toNumber(angle, "angle"));
   }
 
   tearEdge(particleA, particleB) {
     const live = this.#live;
-    return live.tear_edge(whole(particleA, "particleA"), whole(particleB, "particleB"));
+    return live.tear_edge(toUint32(particleA, "particleA"), toUint32(particleB, "particleB"));
   }
 
   // Colliders
 
   addCollider(collider = {}) {
     const live = this.#live;
-    keys(collider, "collider", COLLIDER_KEYS);
+    checkKeys(collider, "collider", COLLIDER_KEYS);
     const desc = fields.pack(fields.COLLIDER, raw.default_collider(), collider, "collider");
-    const positions = floats(collider.positions ?? [], "collider.positions", 3);
-    const indices = wholes(collider.indices ?? [], "collider.indices");
-    const heights = floats(collider.heights ?? [], "collider.heights", 1);
+    const positions = toFloat32Array(collider.positions ?? [], "collider.positions", 3);
+    const indices = toUint32Array(collider.indices ?? [], "collider.indices");
+    const heights = toFloat32Array(collider.heights ?? [], "collider.heights", 1);
     const { rotation } = fields.unpack(fields.COLLIDER, desc);
     const handle = live.add_collider(desc, positions, indices, heights);
-    return new Collider(OURS, () => this.#live, handle, rotation);
+    return new Collider(CONSTRUCTOR_KEY, () => this.#live, handle, rotation);
   }
 
-  // What happened, and how it stands
+  // Events, statistics, saved states
 
   events() {
     return readEvents(this.#live.events());
@@ -389,17 +407,13 @@ export class Cloth {
   }
 }
 
-function pose(position, rotation) {
-  const turned = vector(rotation, "rotation", "x, y, z, w");
-  return Float64Array.of(...vector(position, "position"), ...turned);
-}
-
-function ray(origin, direction) {
+/** Returns origin and direction as a flat list. */
+function packRay(origin, direction) {
   return Float64Array.of(...vector(origin, "origin"), ...vector(direction, "direction"));
 }
 
-// Where the engine knows `using`.
+// In engines with `using`.
 if (Symbol.dispose) {
-  const hidden = (value) => ({ value, writable: true, configurable: true });
-  Object.defineProperty(Cloth.prototype, Symbol.dispose, hidden(Cloth.prototype.free));
+  const notEnumerable = (value) => ({ value, writable: true, configurable: true });
+  Object.defineProperty(Cloth.prototype, Symbol.dispose, notEnumerable(Cloth.prototype.free));
 }

@@ -1,266 +1,442 @@
-// What is told to a cloth: how it runs, what it is made of, what is around it.
+// Descriptors: settings, material, wind, grids, meshes, colliders.
 
 import type { QuatLike, Vec3Like } from "./check.js";
 
-/** How time runs: ticks, sweeps, gravity, damping and the switches of the solver. */
+/**
+ * How the solver runs: ticks, substeps, gravity, damping, and which features are on.
+ *
+ * One tick is `substeps` times (predict positions, then `iterations` sweeps over all links). More
+ * of either makes the cloth stiffer and costs as much more; substeps stiffen more than iterations
+ * do.
+ */
 export interface Settings {
-  /** Length of a tick [s]; 1/60. Above 0, at most 1. */
+  /** Length of a tick [s]. Above 0, at most 1. @defaultValue 1/60 */
   tick: number;
-  /** Substeps in a tick; 4. From 1 to 1000. At the same cost they stiffen more than iterations do. */
+  /** Substeps per tick, 1 to 1000. @defaultValue 4 */
   substeps: number;
-  /** Sweeps over the links in a substep; 2. From 1 to 1000. With a single one all motion is braked. */
+  /**
+   * Solver sweeps per substep, 1 to 1000. With 1, integration is first order and damps all motion;
+   * from 2 on it is second order, and only `damping` and the air take energy away.
+   *
+   * @defaultValue 2
+   */
   iterations: number;
-  /** Ticks that one `advance` may run; 5. What a late frame owes beyond it is dropped. */
+  /**
+   * The most ticks that one `advance` runs; at least 1. If a frame is late by more, the rest is
+   * dropped and the cloth moves in slow motion.
+   *
+   * @defaultValue 5
+   */
   maxTicksPerAdvance: number;
-  /** Acceleration of everything [m/s²]; [0, -9.81, 0]. */
+  /** Acceleration of all particles [m/s²]. @defaultValue [0, -9.81, 0] */
   gravity: Vec3Like;
-  /** Rate at which velocity decays [1/s]: as exp(−damping · t), whatever the step; 0.5. At least 0. */
+  /**
+   * Decay rate of velocities [1/s]; at least 0. A velocity decays as exp(−damping · t), whatever
+   * the tick and substeps are.
+   *
+   * @defaultValue 0.5
+   */
   damping: number;
-  /** The farthest that a particle moves in a substep, in mean rest lengths; 0.5. Above 0. */
+  /**
+   * The farthest that a particle moves in one substep relative to the rigid motion of the cloth, in
+   * mean rest lengths of the links; above 0. It also limits how fast a grabbed particle follows its
+   * pointer.
+   *
+   * @defaultValue 0.5
+   */
   maxDisplacement: number;
   /**
-   * The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
-   * apart: 0.02 is 2 %; 0 is no bound.
+   * Strain limit: the largest strain of any stretch or shear link after a tick; 0.02 means 2 %. 0
+   * turns the limit off. If pins, grabs or anchors hold particles farther apart than it allows, an
+   * event `"held-apart"` and `stats.overStretched` say so.
+   *
+   * @defaultValue 0
    */
   maxStretch: number;
   /**
-   * Long-range attachments that keep every particle within reach of the pins; true. From two
-   * iterations on, whole lines of links are solved at once as well.
+   * Long-range attachments (tethers): no particle moves farther from a pin than the cloth between
+   * them allows. If `iterations` is 2 or more, whole lines of links are also solved at once, so
+   * that a load reaches the pins within one sweep. If false, sweeps over single links do all the
+   * work.
+   *
+   * @defaultValue true
    */
   tethers: boolean;
   /**
-   * Whether and how parts of the cloth keep apart; false. "particles": particles keep from particles, as if
-   * they were balls: cheap, without friction, and a fold may slip through where particles are farther apart
-   * than `selfDistance`. Those that are woven into one piece nearer than that, or than one and a half mean
-   * rest lengths, do not count; what is held neither. true: surface from surface, a material's thickness apart, so
-   * that nothing crosses, with the material's friction. A thickness counts up to half of the mean rest length.
-   * What is nearer than two thicknesses in the weave keeps half of that distance. The two sides of a slit
-   * part by a thousandth of the mean rest length as it opens, so that they keep from each other too. What pins or
-   * grabs hold takes along what is in its way, and what is caught between two such may be forced through. What
-   * crosses all the same, from the start, as this is switched on or where particles are placed, is drawn out again
-   * unless it is held: the smaller part goes back to the side of the rest, mostly within a second. It costs about as
-   * much as the rest of a tick while little touches, several times that where layers lie on each other, and from
-   * twenty to hundreds of times where sheets of thousands of particles crumple.
+   * Collision of the cloth with itself.
+   *
+   * - `false`: none; layers pass through each other.
+   * - `true`: surface against surface. Layers keep `selfDistance`, do not cross, and rub with the
+   *   friction of the material.
+   * - `"particles"`: particle against particle, as if each were a ball. This is cheap and has no
+   *   friction. A fold can slip through where particles are farther apart than `selfDistance`.
+   *   Pairs that are connected and closer at rest than `selfDistance`, or than 1.5 mean rest
+   *   lengths, do not collide; pinned and grabbed particles do not collide either.
+   *
+   * Details of `true`: parts whose distance at rest is below two thicknesses keep half of that
+   * distance. The two sides of a fresh tear move apart by a thousandth of the mean rest length, so
+   * that they collide from then on. Pinned and grabbed particles push away what is in their path;
+   * cloth that is caught between two of them may be forced through. Where layers intersect already
+   * (in the initial shape, when you turn this on, or after you place particles), they are separated
+   * unless they are held: the smaller part moves back to the side of the rest, usually within a
+   * second.
+   *
+   * Cost of `true`: about as much as the rest of a tick while few parts touch; several times as
+   * much while layers lie on each other; 20 to several hundred times as much while a sheet of
+   * thousands of particles crumples.
+   *
+   * @defaultValue false
    */
   selfCollision: boolean | "particles";
   /**
-   * Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is at
-   * most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it is at most
-   * twice that length.
+   * Distance that self-collision keeps [m]; at least 0. With surfaces, 0 means the thickness of the
+   * material, and the distance is at most half of the mean rest length. With particles, 0 means two
+   * thirds of the mean rest length, and the distance is at most twice that length.
+   *
+   * @defaultValue 0
    */
   selfDistance: number;
-  /** Over-stretched links tear, see `tearStretch` of the material; false. */
+  /** Whether overstretched edges tear, see `tearStretch` of the material. @defaultValue false */
   tearing: boolean;
-  /** Vertices that tearing may split in one tick, the worst first; 8. At least 1. */
+  /**
+   * The most vertices that tearing splits in one tick, those with the largest stretch first; at
+   * least 1.
+   *
+   * @defaultValue 8
+   */
   maxTearsPerTick: number;
   /**
-   * A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at next to no
-   * cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the sine field keep a
-   * cloth awake. See `asleep` of the stats.
+   * Sleep threshold [m/s]: a cloth whose particles were all slower than this for half a second
+   * falls asleep. It then costs almost nothing, and wakes when something changes or touches it. 0
+   * turns sleeping off. Gusts, turbulence and the sine field keep a cloth awake. See `asleep` of
+   * the stats.
+   *
+   * @defaultValue 0
    */
   sleepSpeed: number;
 }
 
-/** What a cloth is made of, in SI units. */
+/**
+ * What the cloth is made of, in SI units. Start from a preset and change what you need.
+ *
+ * @example
+ * ```js
+ * cloth.material = "denim";                                // a preset
+ * cloth.material = { bendStiffness: 1e-4 };                // one field of the current material
+ * cloth.material = { preset: "silk", tearStretch: 1.5 };   // a preset with one change
+ * ```
+ */
 export interface Material {
-  /** Mass per area [kg/m²]; 0.18, a cotton. Above 0. */
+  /** Mass per area [kg/m²]; above 0. @defaultValue 0.18, as cotton */
   density: number;
-  /** Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge. */
+  /**
+   * Gap that the cloth keeps from colliders, and from itself [m]; at least 0. Keep it below half of
+   * the shortest edge.
+   *
+   * @defaultValue 0.00035
+   */
   thickness: number;
-  /** Membrane stiffness down a grid [N/m]; 0 is as stiff as the sweeps allow. */
+  /**
+   * Membrane stiffness along the warp, down the columns of a grid [N/m]; at least 0. 0 means as
+   * stiff as the number of sweeps allows.
+   *
+   * @defaultValue 0
+   */
   stretchStiffnessWarp: number;
-  /** Membrane stiffness across a grid [N/m]; 0 is as stiff as the sweeps allow. */
+  /**
+   * Membrane stiffness along the weft, across a grid [N/m]; otherwise as for the warp.
+   *
+   * @defaultValue 0
+   */
   stretchStiffnessWeft: number;
-  /** Stiffness against shear [N/m]; 0 is as the stretch stiffness. */
+  /**
+   * Shear stiffness [N/m]; at least 0. 0 means the same as the stretch stiffness.
+   *
+   * @defaultValue 0
+   */
   shearStiffness: number;
   /**
-   * Bending rigidity per width [N·m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however fine
-   * the mesh, the tick and the sweeps are, whichever way it is cut: exactly on grids, within a twentieth of its
-   * bending length on other meshes. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+   * Bending rigidity per width [N·m]; at least 0. It is the value that the cantilever test (BS
+   * 3356) measures, and does not depend on the mesh, the tick, the iterations or the direction of
+   * the strip: exact on grids, within 5 % of the bending length on other meshes. 0 means limp. From
+   * 1 on, links over two cells replace the bending model, as rigid as the number of sweeps allows.
+   *
+   * @defaultValue 2.5e-5
    */
   bendStiffness: number;
   /**
-   * Damping of bending [s]; 0. Bending by some angle a second is resisted as that angle times this would be; a few
-   * hundredths calm a flutter. At least 0.
+   * Damping of bending [s]; at least 0. Bending at a rate of ω [rad/s] is resisted as a static bend
+   * by ω · bendDamping is. A few hundredths calm a flutter.
+   *
+   * @defaultValue 0
    */
   bendDamping: number;
-  /** Damping of stretching [s]; 0. In the same way, for links that give way. At least 0. */
+  /**
+   * Damping of stretching [s], in the same sense; at least 0. It acts on links that are not rigid.
+   *
+   * @defaultValue 0
+   */
   stretchDamping: number;
-  /** Coulomb coefficient against colliders; 0.4. At least 0. */
+  /** Coulomb friction coefficient, against colliders and itself; at least 0. @defaultValue 0.4 */
   friction: number;
-  /** Share of the normal speed that a bounce gives back; 0. From 0 to 1. */
+  /** Restitution: share of the normal velocity that a bounce returns, 0 to 1. @defaultValue 0 */
   restitution: number;
-  /** Pressure coefficient of a triangle square to the wind; 1.2. At least 0. */
+  /** Drag coefficient of a triangle that faces the wind; at least 0. @defaultValue 1.2 */
   drag: number;
-  /** Lift coefficient of a triangle aslant to the wind; 0. At least 0. */
+  /** Lift coefficient of a triangle at an angle to the wind; at least 0. @defaultValue 0 */
   lift: number;
   /**
-   * Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
-   * less, as the finer the mesh is the more of the load is there: √(16 · `thickness` / mean edge) of
-   * the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+   * Length over rest length at which an edge tears if `tearing` is on; above 1, or 0 for never.
+   *
+   * At the tip of a tear the limit is lower, because the load concentrates there, the more so the
+   * finer the mesh is: the strain limit is multiplied by √(16 · thickness / mean edge), by a fifth
+   * at least. So a tear grows under the same load on any mesh.
+   *
+   * @defaultValue 4
    */
   tearStretch: number;
-  /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
+  /**
+   * Variation of the tear limit, 0 to 1: with 0 all edges tear at the same stretch, with 1 their
+   * limits vary by half.
+   *
+   * @defaultValue 0.2
+   */
   tearVariation: number;
   /**
-   * Angle up to which a fold opens again [rad]; of one that was folded further, the rest stays. 0: all opens. At
-   * least 0. Paper is near 0.8.
+   * Yield angle of folds [rad]; at least 0. A fold springs back by this angle, and what exceeds it
+   * stays. 0 means that all folds spring back. Paper has about 0.8.
+   *
+   * @defaultValue 0
    */
   yieldAngle: number;
-  /** Share of a fold beyond `yieldAngle` that stays; 1. From 0 to 1. */
+  /** Share of the fold beyond `yieldAngle` that stays, 0 to 1. @defaultValue 1 */
   yieldCreep: number;
   /**
-   * Length of the sheet over which folding counts as one fold [m]; 0.01. The same angle over more than that is only
-   * bent, and stays bent beyond a curvature of `yieldAngle` over this. Three cells count at least. At least 0.
+   * Length of cloth over which bending counts as one fold [m]; at least 0. The same angle over a
+   * greater length is an elastic bend, unless its curvature exceeds yieldAngle / foldLength. A fold
+   * is never counted over less than three cells.
+   *
+   * @defaultValue 0.01
    */
   foldLength: number;
   /**
-   * How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of one that
-   * is folded by φ for the first time (φ − `yieldAngle`) / (1 + this) stays, and to fold it on takes as much more. At
-   * least 0. What gives way or is creased while this and `yieldWeakening` are 0 is not counted.
+   * Hardening of folds by plastic folding; at least 0. A fold springs back by this much more per
+   * angle that has yielded in all, in both directions. A flat sheet that is folded by φ keeps
+   * (φ − yieldAngle) / (1 + yieldHardening), and folding it further needs more by the same factor.
+   *
+   * Folding and creasing are recorded only while this or `yieldWeakening` is above 0.
+   *
+   * @defaultValue 0
    */
   yieldHardening: number;
   /**
-   * How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by A in all, to either side,
-   * `foldLength` of the sheet bends as if `bendStiffness` were divided by 1 + this · A, by at most a thousand; pressed
-   * flat, it stays as weak. It gives way under the same moment as before, so that it opens again by more:
-   * `yieldAngle` · this counts as `yieldHardening` too. At least 0.
+   * Weakening of folds by plastic folding [1/rad]; at least 0. Where an angle of A has yielded in
+   * all, in both directions, a length of `foldLength` bends as if `bendStiffness` were divided by
+   * 1 + yieldWeakening · A, by 1000 at most. Pressing the fold flat does not restore it.
+   *
+   * The yield moment stays the same, so a weak fold springs back more:
+   * yieldAngle · yieldWeakening is added to `yieldHardening`.
+   *
+   * @defaultValue 0
    */
   yieldWeakening: number;
 }
 
-/** The fabrics that come with Muslin. */
+/** The name of a material that comes with Muslin. */
 export type Preset = "silk" | "cotton" | "denim" | "leather" | "paper" | "flag-nylon";
 
-/** A preset's name, or what is to be different: from `preset`, or else from what is there. */
+/**
+ * A material as an argument: the name of a preset, or the fields that change. The other fields come
+ * from `preset` if it is given, otherwise from the current (or default) material.
+ */
 export type MaterialLike = Preset | (Partial<Material> & { preset?: Preset });
 
-/** The air around a cloth. The default is still air. */
+/** The air around the cloth. */
 export interface Wind {
   /**
-   * How the air pushes: "surface", on each triangle by the square of the relative speed; "sine-field",
-   * on each particle as a field of sine waves, with the length of `velocity` as its strength [m/s²].
+   * How the air acts.
+   *
+   * - `"surface"`: on each triangle, with the square of the relative speed; still air brakes.
+   * - `"sine-field"`: on each particle, as a field of sine waves that ignores the orientation of
+   *   the cloth. The length of `velocity` is its strength as an acceleration [m/s²].
+   *
+   * @defaultValue "surface"
    */
   model: "surface" | "sine-field";
-  /** Mean velocity of the air [m/s]; still. */
+  /** Mean velocity of the air [m/s]. @defaultValue [0, 0, 0], still air */
   velocity: Vec3Like;
-  /** How much the speed swells and falls, as a share of it; 0. From 0 to 1. */
+  /** Amplitude of gusts, as a share of the mean speed, 0 to 1. @defaultValue 0 */
   gust: number;
-  /** How far the direction strays [rad]; 0. From 0 to π. */
+  /** Largest deviation of the wind's direction over time [rad], 0 to π. @defaultValue 0 */
   wander: number;
-  /** Swirls in space, as a share of the speed; 0. From 0 to 1. */
+  /** Amplitude of turbulence in space, as a share of the speed, 0 to 1. @defaultValue 0 */
   turbulence: number;
-  /** Density of the air [kg/m³]; 1.2. At least 0; 0 is a vacuum. */
+  /** Density of the air [kg/m³]; at least 0. 0 is a vacuum. @defaultValue 1.2 */
   airDensity: number;
-  /** Which gusts and swirls; 0. A whole number. */
+  /** Seed of the random gusts and turbulence, an integer from 0 to 4294967295. @defaultValue 0 */
   seed: number;
 }
 
-/** What grids and meshes have in common. */
+/** The fields that grids and meshes have in common. */
 export interface ClothDesc {
-  /** Particles that tears may add; as many as the cloth starts with. */
+  /**
+   * Reserve of particles for tears and cuts: how many they may add. Memory for them is allocated at
+   * creation.
+   *
+   * @defaultValue as many as the cloth starts with
+   */
   extraParticles?: number;
-  /** What it is made of. */
+  /** What the cloth is made of. @defaultValue the default of each field */
   material?: MaterialLike;
-  /** How its time runs. */
+  /** How the solver runs. @defaultValue the default of each field */
   settings?: Partial<Settings>;
 }
 
-/** A regular grid of particles; particle = row · columns + column. */
+/**
+ * A regular grid of particles. The particle at `row` and `column` has the index
+ * row · columns + column.
+ *
+ * ```text
+ * origin ●── right ─▶ ●     0 1 2
+ *        │            │     3 4 5
+ *       down          │
+ *        ▼            │
+ *        ●────────────●
+ * ```
+ */
 export interface GridDesc extends ClothDesc {
-  /** Particles across; 40. At least 2. */
+  /** Number of particles across; at least 2. @defaultValue 40 */
   columns?: number;
-  /** Particles down; 40. At least 2. */
+  /** Number of particles down; at least 2. @defaultValue 40 */
   rows?: number;
-  /** Distance between neighbours [m]; 0.05. From 1e-6 to 1e6. */
+  /** Distance between neighbours [m], 1e-6 to 1e6. @defaultValue 0.05 */
   spacing?: number;
-  /** Where particle 0, the top left, is [m]; [0, 0, 0]. Within 2097152 `spacing` of zero along each axis. */
+  /**
+   * Position of particle 0, the top left corner [m]. Each coordinate is within 2097152 spacings of
+   * zero.
+   *
+   * @defaultValue [0, 0, 0]
+   */
   origin?: Vec3Like;
-  /** Unit direction of a row; [1, 0, 0]. */
+  /** Unit direction of the rows. @defaultValue [1, 0, 0] */
   right?: Vec3Like;
-  /** Unit direction of a column, square to `right`; [0, -1, 0]. */
+  /** Unit direction of the columns, at a right angle to `right`. @defaultValue [0, -1, 0] */
   down?: Vec3Like;
-  /** What is pinned from the start; "top-edge". */
+  /** Which particles are pinned at first. @defaultValue "top-edge" */
   pinMode?: "none" | "top-edge" | "top-corners" | "corners";
 }
 
 /**
- * Any triangle mesh, as artists export them. What cannot be cloth in it is repaired, and `meshReport` tells what
- * was: doubled vertices are welded, triangles without an area and repeated ones dropped; where more than two
- * triangles share an edge the flattest two stay joined and the others get an edge of their own; sheets that meet at
- * a mere point are parted; the triangles of a piece are turned to face as most of them do. Vertices that no
- * triangle uses stay where they are.
+ * A triangle mesh, as artists export it.
  *
- * A mesh that is a regular grid, its vertices and triangles in the order that `Cloth.grid` has them, is woven as
- * that grid is: it moves in the same bits.
+ * The mesh is repaired first, and `cloth.meshReport` counts the repairs: vertices are welded;
+ * triangles without an area and duplicates are dropped; where more than two triangles share an
+ * edge, the two that lie flattest stay joined and each other one gets an edge of its own; sheets
+ * that touch only at a point are separated; triangles are turned so that the piece has a consistent
+ * orientation, that of its majority. Vertices that no triangle uses become particles without mass
+ * that do not move.
+ *
+ * A mesh that is a regular grid, with vertices and triangles in the order of `Cloth.grid`, is
+ * recognised and moves with the same bits as that grid.
  */
 export interface MeshDesc extends ClothDesc {
   /**
-   * Where the vertices are at rest, x y z x y z … [m]. Each is the particle of its number if nothing is welded or
-   * split, see `vertexParticles`.
+   * Rest positions of the vertices, x y z x y z … [m]. At least 3 vertices. Vertex i is particle i,
+   * unless vertices are welded or split; `cloth.vertexParticles` maps them then.
    */
   positions: Float32Array | Float64Array | readonly number[];
-  /** Three vertices a triangle, counter-clockwise seen from its front. */
+  /** Three vertices per triangle, counter-clockwise when seen from the front. */
   indices: Uint32Array | Uint16Array | readonly number[];
-  /** Texture coordinates, u v u v …, one pair a vertex; or none at all. */
+  /** Texture coordinates, u v u v …, one pair per vertex. @defaultValue none */
   uvs?: Float32Array | Float64Array | readonly number[];
-  /** Vertices whose particles are pinned from the start; none. */
+  /** Vertices whose particles are pinned at first. @defaultValue none */
   pinned?: Uint32Array | Uint16Array | readonly number[];
   /**
-   * Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, −1 (or anything
-   * below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one before it that stayed
-   * apart; but the corners of a triangle stay apart, however small it is. Keep it well below the shortest edge.
+   * Vertices within this distance share a particle [m]. 0 welds vertices at identical positions; a
+   * negative number welds none.
+   *
+   * Vertices are processed in order: each joins the nearest earlier vertex that did not itself join
+   * another. The corners of one triangle are never welded to each other. Keep the distance well
+   * below the shortest edge.
+   *
+   * @defaultValue -1
    */
   weldDistance?: number;
 }
 
 /**
- * What a collider is: a "plane", all that is below `position` along the turned y axis; a "sphere"; a
- * "capsule", balls at both ends of a stretch of the turned y axis and all between them; a "box"; a "convex"
- * body, the least that holds all of `positions`; a "mesh" of triangles, where cloth stays on the side where
- * it is, so that it need not be closed nor wound one way; a "heightfield", all below a surface over heights
- * along the turned x and z axes from `position` on.
+ * Shape of a collider, in its local frame.
+ *
+ * - `"plane"`: the half-space below y = 0.
+ * - `"sphere"`: a ball of `radius`.
+ * - `"capsule"`: the hull of two balls at y = −`halfHeight` (`radius`) and y = +`halfHeight`
+ *   (`topRadius`).
+ * - `"box"`: extends by `halfExtents` along each axis, in both directions.
+ * - `"convex"`: the convex hull of `positions`.
+ * - `"mesh"`: the triangles of `positions` and `indices`. Each part of the cloth stays on the side
+ *   where it is, so the mesh need not be closed or consistently oriented. Its gap is at least 0.1 mm.
+ * - `"heightfield"`: everything below the surface over `columns` × `rows` heights, `spacing` apart
+ *   along x and z from the local origin on. It is as deep as it is wide and has no sides.
  */
 export type Shape = "plane" | "sphere" | "capsule" | "box" | "convex" | "mesh" | "heightfield";
 
-/** A collider: its shape, where it is and how it feels. Fields that its shape does not use are ignored. */
+/**
+ * A collider: its shape, its pose and its surface. Fields that the shape does not use are ignored.
+ *
+ * @example
+ * ```js
+ * cloth.addCollider({ shape: "sphere", position: [0, 1, 0], radius: 0.4, friction: 0.6 });
+ * ```
+ */
 export interface ColliderDesc {
-  /** What it is; "plane". */
+  /** The shape. @defaultValue "plane" */
   shape?: Shape;
-  /** Where it is [m]; [0, 0, 0]. */
+  /** Position of the local frame [m]. @defaultValue [0, 0, 0] */
   position?: Vec3Like;
-  /** How it is turned, a unit quaternion; [0, 0, 0, 1]. */
+  /** Rotation of the local frame, a unit quaternion. @defaultValue [0, 0, 0, 1] */
   rotation?: QuatLike;
-  /** Coulomb coefficient; −1 takes the material's. */
+  /** Coulomb friction coefficient; −1 means that of the material. @defaultValue -1 */
   friction?: number;
-  /** Share of the normal speed that a bounce gives back, 0 to 1; −1 takes the material's. */
+  /** Restitution, 0 to 1; −1 means that of the material. @defaultValue -1 */
   restitution?: number;
-  /** Share of the sliding speed that every substep of touching leaves, beside friction; 1. */
+  /**
+   * Share of the sliding velocity that remains after each substep of contact, 0 to 1, in addition
+   * to friction. 1 has no effect.
+   *
+   * @defaultValue 1
+   */
   tangentialRestitution?: number;
   /**
-   * Gap kept from its surface [m]; −1 takes the material's thickness. Where a surface is round or bends little,
-   * particles stay farther off by what is between them would sink in: at most a fifth of the mean edge from
-   * balls and capsules, a tenth from others.
+   * Gap that the cloth keeps from the surface [m]; −1 means the thickness of the material. On
+   * curved surfaces particles stay farther away, by as much as the flat triangles between them
+   * would penetrate: a fifth of the mean edge at most on spheres and capsules, a tenth on other
+   * shapes.
+   *
+   * @defaultValue -1
    */
   thickness?: number;
-  /** Of a sphere or capsule [m]; 0.5. */
+  /** Sphere, capsule: radius [m]; above 0. @defaultValue 0.5 */
   radius?: number;
-  /** Of the upper end of a capsule [m]; −1 is as `radius`. */
+  /** Capsule: radius of the upper end [m]; above 0, or −1 for `radius`. @defaultValue -1 */
   topRadius?: number;
-  /** Of a capsule: from its middle to the centres of its ends [m]; 0.5. */
+  /**
+   * Capsule: distance from its centre to the centres of its ends [m]; at least 0.
+   *
+   * @defaultValue 0.5
+   */
   halfHeight?: number;
-  /** Of a box: from its middle to its sides [m]; [0.5, 0.5, 0.5]. */
+  /** Box: distances from its centre to its faces [m]; above 0. @defaultValue [0.5, 0.5, 0.5] */
   halfExtents?: Vec3Like;
-  /** Of a heightfield: from one height to the next [m]; 1. */
+  /** Heightfield: distance between heights [m]; above 0. @defaultValue 1 */
   spacing?: number;
-  /** Of a heightfield: heights along x, 2 to 4096. */
+  /** Heightfield: number of heights along x, 2 to 4096. */
   columns?: number;
-  /** Of a heightfield: heights along z, 2 to 4096. */
+  /** Heightfield: number of heights along z, 2 to 4096. */
   rows?: number;
-  /** Of a convex body, at most 1024, or a mesh: its points [m], x y z x y z …. Copied. */
+  /** Convex hull (at most 1024 points), mesh: points x y z x y z … [m]. They are copied. */
   positions?: Float32Array | Float64Array | readonly number[];
-  /** Of a mesh: points of its triangles, three each. Copied. */
+  /** Mesh: three points per triangle. They are copied. */
   indices?: Uint32Array | Uint16Array | readonly number[];
-  /** Of a heightfield: `columns` × `rows` heights [m], row by row along x. Copied. */
+  /** Heightfield: `columns` × `rows` heights [m], row by row along x. They are copied. */
   heights?: Float32Array | Float64Array | readonly number[];
 }

@@ -1,43 +1,45 @@
-// Descriptors: their fields in the order of src/numbers.rs, and the way between objects and lists.
+// Tables of the descriptors' fields, and conversion between objects and the flat lists that the
+// module takes. The order of the fields is that of src/packing.rs; each has a size in the list, a
+// reader, and a writer that checks its value.
 
-import { choice, flag, keys, number, vector, whole } from "./check.js";
+import { checkKeys, toBoolean, toChoiceIndex, toNumber, toUint32, toVector } from "./check.js";
 
-const NUMBER = { size: 1, read: (list, at) => list[at], write: number };
-const WHOLE = { size: 1, read: (list, at) => list[at], write: whole };
-const FLAG = { size: 1, read: (list, at) => list[at] !== 0, write: flag };
-const VECTOR = { size: 3, read: (list, at) => sliceOf(list, at, 3), write: (v, name) => vector(v, name) };
+const NUMBER = { size: 1, read: (list, start) => list[start], write: toNumber };
+const UINT32 = { size: 1, read: (list, start) => list[start], write: toUint32 };
+const BOOLEAN = { size: 1, read: (list, start) => list[start] !== 0, write: toBoolean };
+const VECTOR = { size: 3, read: (list, start) => frozenSlice(list, start, 3), write: (v, name) => toVector(v, name) };
 const ROTATION = {
   size: 4,
-  read: (list, at) => sliceOf(list, at, 4),
-  write: (value, name) => vector(value, name, "x, y, z, w"),
+  read: (list, start) => frozenSlice(list, start, 4),
+  write: (value, name) => toVector(value, name, "x, y, z, w"),
 };
 const TRANSFORM = {
   size: 12,
-  read: (list, at) => sliceOf(list, at, 12),
-  write: (value, name) => vector(value, name, "xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z"),
+  read: (list, start) => frozenSlice(list, start, 12),
+  write: (value, name) => toVector(value, name, "xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z"),
 };
 const CHOICE = (...names) => ({
   size: 1,
-  read: (list, at) => names[list[at]],
-  write: (value, name) => choice(value, name, names),
+  read: (list, start) => names[list[start]],
+  write: (value, name) => toChoiceIndex(value, name, names),
 });
 
 export const PRESETS = ["silk", "cotton", "denim", "leather", "paper", "flag-nylon"];
 
 export const SETTINGS = {
   tick: NUMBER,
-  substeps: WHOLE,
-  iterations: WHOLE,
-  maxTicksPerAdvance: WHOLE,
+  substeps: UINT32,
+  iterations: UINT32,
+  maxTicksPerAdvance: UINT32,
   gravity: VECTOR,
   damping: NUMBER,
   maxDisplacement: NUMBER,
   maxStretch: NUMBER,
-  tethers: FLAG,
+  tethers: BOOLEAN,
   selfCollision: CHOICE(false, true, "particles"),
   selfDistance: NUMBER,
-  tearing: FLAG,
-  maxTearsPerTick: WHOLE,
+  tearing: BOOLEAN,
+  maxTearsPerTick: UINT32,
   sleepSpeed: NUMBER,
 };
 
@@ -70,21 +72,21 @@ export const WIND = {
   wander: NUMBER,
   turbulence: NUMBER,
   airDensity: NUMBER,
-  seed: WHOLE,
+  seed: UINT32,
 };
 
 export const GRID = {
-  columns: WHOLE,
-  rows: WHOLE,
+  columns: UINT32,
+  rows: UINT32,
   spacing: NUMBER,
   origin: VECTOR,
   right: VECTOR,
   down: VECTOR,
   pinMode: CHOICE("none", "top-edge", "top-corners", "corners"),
-  extraParticles: WHOLE,
+  extraParticles: UINT32,
 };
 
-export const MESH = { weldDistance: NUMBER, extraParticles: WHOLE };
+export const MESH = { weldDistance: NUMBER, extraParticles: UINT32 };
 
 export const COLLIDER = {
   shape: CHOICE("plane", "sphere", "capsule", "box", "convex", "mesh", "heightfield"),
@@ -99,59 +101,65 @@ export const COLLIDER = {
   halfHeight: NUMBER,
   halfExtents: VECTOR,
   spacing: NUMBER,
-  columns: WHOLE,
-  rows: WHOLE,
+  columns: UINT32,
+  rows: UINT32,
 };
 
 export const WRITE = {
-  firstVertex: WHOLE,
-  vertexCount: WHOLE,
+  firstVertex: UINT32,
+  vertexCount: UINT32,
   blend: NUMBER,
   transform: TRANSFORM,
-  flipNormals: FLAG,
+  flipNormals: BOOLEAN,
   offset: NUMBER,
 };
 
-/** A list as an object that cannot be changed by mistake. */
+/** Converts a flat list to a frozen object. */
 export function unpack(fields, list) {
-  let at = 0;
+  let start = 0;
   const entries = Object.entries(fields).map(([key, { size, read }]) => {
-    const value = read(list, at);
-    at += size;
+    const value = read(list, start);
+    start += size;
     return [key, value];
   });
   return Object.freeze(Object.fromEntries(entries));
 }
 
-/** A list with what an object says written over it. Nothing is written unless all of it can be. */
+/**
+ * Returns a copy of a flat list with the fields of an object written over it. Throws if a value is
+ * wrong; `prefix` names the object in the message.
+ */
 export function pack(fields, list, object, prefix) {
-  const written = Float64Array.from(list);
-  let at = 0;
+  const packed = Float64Array.from(list);
+  let start = 0;
   for (const [key, { size, write }] of Object.entries(fields)) {
     const value = object[key];
     if (value !== undefined) {
-      const packed = write(value, prefix ? `${prefix}.${key}` : key);
-      written.set(Array.isArray(packed) ? packed : [packed], at);
+      const packedValue = write(value, prefix ? `${prefix}.${key}` : key);
+      packed.set(Array.isArray(packedValue) ? packedValue : [packedValue], start);
     }
-    at += size;
+    start += size;
   }
-  return written;
+  return packed;
 }
 
-/** The same for an object of which every key must be a field. */
+/** As `pack`, but throws also if the object has a key that is no field. */
 export function merge(fields, list, object, name) {
-  return pack(fields, list, keys(object, name, Object.keys(fields)), name);
+  return pack(fields, list, checkKeys(object, name, Object.keys(fields)), name);
 }
 
-/** A material: the name of a preset, or an object, which may name one to start from. */
+/**
+ * As `merge` for a material, which may be the name of a preset, or an object with the field
+ * `preset` to start from.
+ */
 export function mergeMaterial(list, material, presetList) {
-  const preset = (value, name) => presetList(choice(value, name, PRESETS));
+  const preset = (value, name) => presetList(toChoiceIndex(value, name, PRESETS));
   if (typeof material === "string") return preset(material, "material");
-  keys(material, "material", ["preset", ...Object.keys(MATERIAL)]);
+  checkKeys(material, "material", ["preset", ...Object.keys(MATERIAL)]);
   const start = material.preset === undefined ? list : preset(material.preset, "material.preset");
   return pack(MATERIAL, start, material, "material");
 }
 
-function sliceOf(list, at, size) {
-  return Object.freeze(Array.from(list.subarray(at, at + size)));
+function frozenSlice(list, start, size) {
+  return Object.freeze(Array.from(list.subarray(start, start + size)));
 }

@@ -1,46 +1,92 @@
-// What a cloth has given out.
+// Handles to the grabs, attachments and colliders of a cloth.
 
 import type { QuatLike, Vec3, Vec3Like } from "./check.js";
 
-/** A particle held by a pointer. Stale once released, or once the cloth is reset. */
+/**
+ * A particle that a pointer holds, made by `cloth.grabRay()` or `cloth.grabParticle()`.
+ *
+ * Its methods throw after `release()`, and after the cloth was reset or freed.
+ */
 export interface Grab {
-  /** Where the particle was when it was taken [m]. */
+  /** Position of the particle when it was grabbed [m]. */
   readonly position: Vec3;
-  /** Gives it a new target [m]; the particle follows as fast as `maxDisplacement` allows. */
+  /**
+   * Sets the target [m] that the particle is pulled to. It follows at most as fast as
+   * `maxDisplacement` of the settings allows.
+   *
+   * @throws if the grab has ended, or if `target` is not finite
+   */
   moveTo(target: Vec3Like): void;
-  /** Lets the particle go, with the velocity it has. Throws if it was released before. */
+  /**
+   * Ends the grab. The particle keeps its velocity.
+   *
+   * @throws if the grab has ended already
+   */
   release(): void;
 }
 
-/** A transform that particles of a cloth are attached to. Stale once detached, or once the cloth is reset. */
+/**
+ * A transform that carries particles, made by `cloth.attach()`: a bone, a pole, the body of a car.
+ *
+ * Its members throw after `detach()`, and after the cloth was reset or freed.
+ */
 export interface Attachment {
-  /** The particles that it carries, lowest first. Throws if it was detached. */
+  /** The attached particles, in ascending order. */
   readonly particles: Uint32Array;
   /**
-   * Moves it; what it carries gets there over the next tick, turning on the way as it turns, and is exactly
-   * there when that ends. Without a rotation it keeps the last one.
+   * Moves the transform to a new pose [m]. The particles are there at the end of the next tick, and
+   * follow the rotation on the way.
+   *
+   * @param rotation unit quaternion; default: the last one
+   * @throws if the attachment has ended, or if the pose is wrong
    */
   moveTo(position: Vec3Like, rotation?: QuatLike): void;
-  /** Lets all go that it carries, with the velocity that they have. Throws if it was detached before. */
+  /**
+   * Ends the attachment and unpins its particles, which keep their velocities.
+   *
+   * @throws if the attachment has ended already
+   */
   detach(): void;
 }
 
-/** What a cloth did to a collider in the last tick; over the tick's length, force and torque. */
+/**
+ * The effect of the cloth on a collider in the last tick. Divide it by the length of a tick to get
+ * force [N] and torque [N·m].
+ */
 export interface Impulse {
-  /** Momentum given [kg m/s]. */
+  /** Momentum that the collider received [kg·m/s]. */
   readonly linear: Vec3;
-  /** Angular momentum given, about the collider's position [kg m²/s]. */
+  /** Angular momentum that it received, about its own position [kg·m²/s]. */
   readonly angular: Vec3;
 }
 
-/** A collider of a cloth. Stale once removed. */
+/**
+ * A collider of a cloth, made by `cloth.addCollider()`. It survives `cloth.reset()`.
+ *
+ * Its members throw after `remove()`, and after the cloth was freed.
+ */
 export interface Collider {
-  /** Moves it; it gets there over the next tick. Without a rotation it keeps the last one. */
+  /**
+   * Moves the collider to a new pose [m], which it reaches at the end of the next tick. It sweeps
+   * the cloth along on the way.
+   *
+   * @param rotation unit quaternion; default: the last one
+   * @throws if the collider was removed, or if the pose is wrong
+   */
   moveTo(position: Vec3Like, rotation?: QuatLike): void;
-  /** Puts it somewhere at once: it does not sweep. Without a rotation it keeps the last one. */
+  /**
+   * Moves the collider to a new pose [m] at once, without a sweep.
+   *
+   * @param rotation unit quaternion; default: the last one
+   * @throws if the collider was removed, or if the pose is wrong
+   */
   teleport(position: Vec3Like, rotation?: QuatLike): void;
-  /** What the cloth did to it in the last tick. Throws if it was removed. */
+  /** The effect of the cloth on the collider in the last tick. */
   readonly impulse: Impulse;
-  /** Removes it. Throws if it was removed before. */
+  /**
+   * Removes the collider from the cloth.
+   *
+   * @throws if it was removed already
+   */
   remove(): void;
 }

@@ -1,13 +1,25 @@
-// Grabs, attachments and colliders: handles to what a cloth holds. `live` gives the cloth, or throws if it was freed.
+// Handles to the grabs, attachments and colliders of a cloth. Each holds a function `live` that
+// returns the cloth's RawCloth, or throws if the cloth was freed.
 
-import { vector } from "./check.js";
+import { toVector } from "./check.js";
 
-/** Cloths, grabs, attachments and colliders are made by this package only: from what the core gave. */
-export const OURS = Symbol("made by muslin");
+/** Passed to constructors by this package only, so that nobody else can construct these classes. */
+export const CONSTRUCTOR_KEY = Symbol("made by muslin");
 
-/** Refuses a maker from outside. */
-export function onlyOurs(key, advice) {
-  if (key !== OURS) throw new Error(advice);
+/** Throws `message` unless `key` is the constructor key. */
+export function checkConstructorKey(key, message) {
+  if (key !== CONSTRUCTOR_KEY) throw new Error(message);
+}
+
+/** Returns position and rotation as a flat list of seven numbers. */
+export function packPose(position, rotation) {
+  const quaternion = toVector(rotation, "rotation", "x, y, z, w");
+  return Float64Array.of(...toVector(position, "position"), ...quaternion);
+}
+
+/** Returns the rotation of a pose that `packPose` made. */
+function rotationOf(pose) {
+  return Array.from(pose.subarray(3));
 }
 
 export class Grab {
@@ -15,7 +27,7 @@ export class Grab {
   #handle;
 
   constructor(key, live, handle, position) {
-    onlyOurs(key, "a grab is made by cloth.grabRay() or cloth.grabParticle()");
+    checkConstructorKey(key, "a grab is made by cloth.grabRay() or cloth.grabParticle()");
     this.#live = live;
     this.#handle = handle;
     this.position = Object.freeze(Array.from(position));
@@ -23,7 +35,7 @@ export class Grab {
   }
 
   moveTo(target) {
-    this.#live().move_grab(this.#handle, ...vector(target, "target"));
+    this.#live().move_grab(this.#handle, ...toVector(target, "target"));
   }
 
   release() {
@@ -37,7 +49,7 @@ export class Attachment {
   #rotation;
 
   constructor(key, live, handle, rotation) {
-    onlyOurs(key, "an attachment is made by cloth.attach()");
+    checkConstructorKey(key, "an attachment is made by cloth.attach()");
     this.#live = live;
     this.#handle = handle;
     this.#rotation = rotation;
@@ -49,9 +61,9 @@ export class Attachment {
 
   moveTo(position, rotation = this.#rotation) {
     const live = this.#live();
-    const turned = vector(rotation, "rotation", "x, y, z, w");
-    live.move_attachment(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
-    this.#rotation = turned;
+    const pose = packPose(position, rotation);
+    live.move_attachment(this.#handle, pose);
+    this.#rotation = rotationOf(pose);
   }
 
   detach() {
@@ -65,7 +77,7 @@ export class Collider {
   #rotation;
 
   constructor(key, live, handle, rotation) {
-    onlyOurs(key, "a collider is made by cloth.addCollider()");
+    checkConstructorKey(key, "a collider is made by cloth.addCollider()");
     this.#live = live;
     this.#handle = handle;
     this.#rotation = rotation;
@@ -73,22 +85,22 @@ export class Collider {
 
   moveTo(position, rotation = this.#rotation) {
     const live = this.#live();
-    const turned = vector(rotation, "rotation", "x, y, z, w");
-    live.move_collider(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
-    this.#rotation = turned;
+    const pose = packPose(position, rotation);
+    live.move_collider(this.#handle, pose);
+    this.#rotation = rotationOf(pose);
   }
 
   teleport(position, rotation = this.#rotation) {
     const live = this.#live();
-    const turned = vector(rotation, "rotation", "x, y, z, w");
-    live.teleport_collider(this.#handle, Float64Array.of(...vector(position, "position"), ...turned));
-    this.#rotation = turned;
+    const pose = packPose(position, rotation);
+    live.teleport_collider(this.#handle, pose);
+    this.#rotation = rotationOf(pose);
   }
 
   get impulse() {
-    const all = Array.from(this.#live().collider_impulse(this.#handle));
-    const part = (from) => Object.freeze(all.slice(from, from + 3));
-    return Object.freeze({ linear: part(0), angular: part(3) });
+    const list = Array.from(this.#live().collider_impulse(this.#handle));
+    const vectorAt = (start) => Object.freeze(list.slice(start, start + 3));
+    return Object.freeze({ linear: vectorAt(0), angular: vectorAt(3) });
   }
 
   remove() {

@@ -1,12 +1,12 @@
-// What code.js, the core as JavaScript, has in place of a machine: traps, and memory that grows.
+// Runtime of code.js, the core compiled to JavaScript: traps, and memory that grows.
 
-/** Memory comes in these [B]. */
+/** The unit in which memory grows [B], as in WebAssembly. */
 const PAGE = 2 ** 16;
 
-/** Addresses are signed numbers there: memory ends where they do [B]. */
-const MOST = 2 ** 31 - PAGE;
+/** The most memory there can be [B]: addresses in code.js are signed 32-bit integers. */
+const MAX_SIZE = 2 ** 31 - PAGE;
 
-/** What is thrown where the core cannot go on. */
+/** Thrown where WebAssembly would trap. */
 export class Trap extends Error {
   name = "Trap";
 }
@@ -16,13 +16,14 @@ export function trap() {
 }
 
 /**
- * Memory of `size` bytes or more, with what `old` holds; nothing if there is none. Lists in the old one are of no
- * length from now on, as those of WebAssembly's memory would be.
+ * Returns a buffer of at least `size` bytes that holds the contents of `old`; undefined if there is
+ * no memory for it. Detaches `old` if it returns another buffer: its views become empty, as those
+ * of a WebAssembly memory do.
  */
 export function grow(old, size) {
   if (size <= old.byteLength) return old;
-  // More than asked for, so that many small steps do not copy all of it each.
-  const wanted = Math.min(PAGE * Math.ceil(Math.max(size, 1.5 * old.byteLength) / PAGE), MOST);
+  // Half as much again at least, so that many small steps do not copy everything each time.
+  const wanted = Math.min(PAGE * Math.ceil(Math.max(size, 1.5 * old.byteLength) / PAGE), MAX_SIZE);
   if (size > wanted) return undefined;
   try {
     const grown = new ArrayBuffer(wanted);
@@ -30,6 +31,6 @@ export function grow(old, size) {
     structuredClone(old, { transfer: [old] });
     return grown;
   } catch {
-    return undefined; // the engine has no room
+    return undefined; // the engine has no memory left
   }
 }

@@ -1,9 +1,23 @@
 /**
- * Muslin: cloth that hangs, is grabbed, blows and tears.
+ * Muslin simulates cloth: it hangs, collides, blows in the wind, is pulled, tears and is cut.
  *
- * Metres, kilograms, seconds, radians; right-handed, y up by default (gravity is a setting). The same
- * calls give the same bits on every machine. A refused call throws an `Error` that names the argument
- * and the rule, and changes nothing.
+ * Units are metres, kilograms, seconds and radians. Axes are right-handed; y is up unless you set
+ * another gravity. The same calls give the same bits on every machine.
+ *
+ * A call with a wrong argument throws an `Error` that names the argument and the rule that it
+ * breaks; the cloth is unchanged then.
+ *
+ * @example
+ * ```js
+ * import init, { Cloth } from "muslin";
+ * await init();
+ *
+ * const cloth = Cloth.grid({ columns: 40, rows: 40, spacing: 0.05, material: "cotton" });
+ * function frame(seconds) {
+ *   cloth.advance(seconds);
+ *   draw(cloth.positions, cloth.normals, cloth.indices);
+ * }
+ * ```
  *
  * @module
  */
@@ -15,10 +29,13 @@ export type * from "./handles.js";
 export type * from "./reports.js";
 export type * from "./write.js";
 
-/** A compiled module. TypeScript's own type for it has no members, so that even numbers would pass. */
+/**
+ * A compiled WebAssembly module. (TypeScript's own type for it has no members, so that any value
+ * would be assignable, even a number.)
+ */
 export type CompiledModule = WebAssembly.Module & object;
 
-/** Where the module may come from. */
+/** Where `init` loads the WebAssembly module from. A string is a URL. */
 export type Source =
   | string
   | URL
@@ -29,24 +46,40 @@ export type Source =
   | CompiledModule;
 
 /**
- * Loads the module: `raw_bg.wasm` beside this file, or what you give. In a page under a content
- * security policy this needs `'wasm-unsafe-eval'` in `script-src`, and nothing else;
- * `muslin/no-wasm` does without.
+ * Loads the WebAssembly module. Await it once, before you create a cloth.
  *
- * Loads once: further calls, also at the same time, wait for the same module. One that failed may be
- * tried again.
+ * Without `source` it loads the file beside this script: `raw_bg.wasm`, or `plain_bg.wasm` in
+ * engines without SIMD. Vite and webpack bundle both by themselves; if your bundler does not, pass
+ * the address of the file, or use `muslin/inline`.
  *
+ * Further calls, also concurrent ones, wait for the same module and ignore their `source`. After a
+ * failure you can call it again.
+ *
+ * Under a content security policy the page needs `'wasm-unsafe-eval'` in `script-src` and nothing
+ * else; `muslin/no-wasm` works without.
+ *
+ * @param source the module, or where it is; a promise is awaited
  * @throws if the module cannot be loaded, or is not the one of this package
+ *
+ * @example
+ * ```js
+ * await init();
+ * await init(new URL("/assets/raw_bg.wasm", location.href));
+ * ```
  */
 export default function init(source?: Source | Promise<Source>): Promise<void>;
 
 /**
- * Loads the module from bytes or a compiled module, at once. Browsers allow this on their main thread
- * for small modules only.
+ * Loads the WebAssembly module synchronously, from bytes or a compiled module. Use it in workers
+ * and in Node: browsers compile only small modules synchronously on their main thread.
  *
- * @throws if it is not the module of this package, or `init()` is under way
+ * @throws if it is not the module of this package, or if `init()` has not finished yet
  */
 export function initSync(source: ArrayBuffer | ArrayBufferView | CompiledModule): void;
 
-/** The version of the library, "major.minor.patch". */
+/**
+ * Returns the version of the library, "major.minor.patch".
+ *
+ * @throws if the module is not loaded
+ */
 export function version(): string;

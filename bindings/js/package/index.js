@@ -1,4 +1,4 @@
-// Muslin: cloth for the web. Start with `await init()`, then `Cloth.grid()` or `Cloth.mesh()`.
+// Entry point `muslin`: start with `await init()`, then `Cloth.grid()` or `Cloth.mesh()`.
 
 export { default, initSync } from "./load.js";
 export { Cloth } from "./cloth.js";

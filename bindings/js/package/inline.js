@@ -1,20 +1,20 @@
-// Muslin with its module inside: one import, no second file to be found or fetched.
+// Entry point `muslin/inline`: the package with its WebAssembly module embedded as base64 text.
 
 import load, { initSync as loadSync } from "./load.js";
 import text from "./bytes.js";
 
 export * from "./index.js";
 
-/** Loads the module; see inline.d.ts. */
+/** Loads the embedded module; see inline.d.ts. */
 export default function init(source) {
-  return load(source ?? bytes());
+  return load(source ?? embeddedBytes());
 }
 
-/** Loads the module at once; see inline.d.ts. */
+/** Loads the embedded module synchronously; see inline.d.ts. */
 export function initSync(source) {
-  loadSync(source ?? bytes());
+  loadSync(source ?? embeddedBytes());
 }
 
-function bytes() {
+function embeddedBytes() {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 }

@@ -1,36 +1,44 @@
-// The module, once it is loaded, and its memory.
+// The instance of the WebAssembly module, once it is loaded, and its memory.
 
 import * as raw from "./raw.js";
 
-/** What the module asks for. */
+/** The imports of the module. */
 export const IMPORTS = { "./raw_bg.js": raw };
 
 let memory;
-let Trap;
+let TrapError;
 
-/** From now on the module is loaded: these are its exports, and what it throws when it cannot go on. */
-export function hold(exports, Thrown) {
+/**
+ * Makes an instance of the module the one that all cloths live in.
+ *
+ * @param exports the exports of the instance
+ * @param Trap the class of error that the instance throws when it traps, such as when it runs out
+ * of memory
+ */
+export function setInstance(exports, Trap) {
   raw.__wbg_set_wasm(exports);
-  [memory, Trap] = [exports.memory, Thrown];
+  [memory, TrapError] = [exports.memory, Trap];
 }
 
-/** Whether this is what the module throws when it cannot go on. */
+/** Returns whether an error is a trap of the module. */
 export function isTrap(error) {
-  return error instanceof Trap;
+  return error instanceof TrapError;
 }
 
-/** Whether the module is loaded. */
+/** Returns whether the module is loaded. */
 export function isLoaded() {
   return memory !== undefined;
 }
 
-/** The memory of the module; throws before there is one. */
-export function ready() {
+/** Returns the memory of the module. Throws if the module is not loaded. */
+export function requireMemory() {
   if (!memory) throw new Error("Muslin is not loaded: call await init() first");
   return memory;
 }
 
-/** Whether a list lies in the module's own memory, which may move while the list is handed over. */
-export function isOurs(list) {
+/**
+ * Returns whether a typed array is a view of the module's own memory, which moves when it grows.
+ */
+export function isModuleMemory(list) {
   return list.buffer === memory?.buffer;
 }

@@ -1,17 +1,26 @@
 /**
- * Muslin without WebAssembly, for pages that may not use it: the core as JavaScript, in the same bits, many times
- * slower. It runs under a content security policy of `script-src 'self'` and nothing else.
+ * Muslin without WebAssembly: the core compiled to JavaScript, for pages whose content security
+ * policy is `script-src 'self'` and nothing else. It gives the same bits as `muslin`, and takes
+ * about twenty times as long.
  *
- * The classes are those of `muslin`, and so are `muslin/three` and `muslin/pointers`. Whichever `init()` was first
- * makes the core ready, so a page can try the one and fall back on the other.
+ * The classes are those of `muslin`; `muslin/three` and `muslin/pointers` work with it too. All
+ * entry points share one core: the first `init()` that succeeds decides which. So a page can try
+ * `muslin` and fall back to this.
+ *
+ * @example
+ * ```js
+ * import init, { Cloth } from "muslin";
+ * import initWithoutWasm from "muslin/no-wasm";
+ * await init().catch(initWithoutWasm);
+ * ```
  *
  * @module
  */
 
 export * from "./index.js";
 
-/** Makes the core ready. Nothing is loaded: it is a script that came with the import. */
+/** Makes the core ready. It loads nothing: the core is a script that the import brought along. */
 export default function init(): Promise<void>;
 
-/** As `init()`, at once. */
+/** Makes the core ready, synchronously. */
 export function initSync(): void;

@@ -1,8 +1,9 @@
-// Muslin without WebAssembly, for pages whose policy forbids it: the core as JavaScript, in the same bits.
+// Entry point `muslin/no-wasm`: the core compiled to JavaScript, for pages whose policy forbids
+// WebAssembly.
 
 import { instantiate } from "./code.js";
 import { Trap } from "./heap.js";
-import { IMPORTS, hold, isLoaded } from "./memory.js";
+import { IMPORTS, isLoaded, setInstance } from "./memory.js";
 
 export { Cloth } from "./cloth.js";
 export { version } from "./version.js";
@@ -12,7 +13,7 @@ export default async function init() {
   initSync();
 }
 
-/** Makes the core ready at once; see no-wasm.d.ts. */
+/** Makes the core ready synchronously; see no-wasm.d.ts. */
 export function initSync() {
-  if (!isLoaded()) hold(instantiate(IMPORTS), Trap);
+  if (!isLoaded()) setInstance(instantiate(IMPORTS), Trap);
 }

@@ -2,35 +2,53 @@ import type { Vec3Like } from "./check.js";
 import type { Cloth } from "./index.js";
 
 /**
- * What pointers hold of a cloth: mice, fingers, controllers, each by a name of your choice (such as the
- * `pointerId` of an event) and a ray. A pointer pulls along the plane through what it holds that `facing` is
- * the normal of. For any engine; `muslin/three` has `ClothPointers`, which listens to a canvas by itself.
+ * Lets pointers (mice, fingers, controllers) pull a cloth in any rendering engine: you pass the ray
+ * of each pointer event, and it grabs the cloth and drags what it holds.
  *
- * A pointer whose cloth is reset or freed holds nothing from then on, and is not told so by an error.
+ * A pointer is any value that you use as its key, such as the `pointerId` of an event. While it is
+ * dragged, the grabbed particle moves in a plane through the point where it was grabbed, with the
+ * normal `facing`. If the cloth is reset or freed, all pointers let go without an error.
+ *
+ * `muslin/three` has `ClothPointers`, which listens to the events of a canvas itself.
+ *
+ * @example
+ * ```js
+ * const pointers = new Pointers(cloth, { radius: 0.05 });
+ * canvas.onpointerdown = (e) => pointers.press(e.pointerId, ...rayOf(e), camera.forward);
+ * canvas.onpointermove = (e) => pointers.drag(e.pointerId, ...rayOf(e));
+ * canvas.onpointerup = (e) => pointers.lift(e.pointerId);
+ * ```
  */
 export class Pointers {
-  /** @param options.radius how far beside the cloth a ray may pass and still take hold of it [m], 0 */
+  /**
+   * @param options.radius how far a ray may miss the cloth and still grab it [m]; default 0
+   * @throws if `radius` is not a number
+   */
   constructor(cloth: Cloth, options?: { radius?: number });
 
-  /** The cloth that is pulled. */
+  /** The cloth that the pointers pull. */
   readonly cloth: Cloth;
-  /** How many pointers hold something. */
+  /** Number of pointers that hold the cloth. */
   readonly size: number;
-  /** Whether this pointer holds something. */
+  /** Returns whether `pointer` holds the cloth. */
   holds(pointer: unknown): boolean;
 
   /**
-   * Takes hold of the cloth where the ray meets it, and says whether it does. `facing` is the normal of the plane
-   * that `drag` stays in: give the way that the camera looks; the default is the ray's own direction. What the
-   * pointer held before is let go.
+   * Grabs the cloth where the ray hits it, and returns whether it did. If `pointer` holds
+   * something already, it lets go of that first.
    *
-   * @throws if 64 grabs are held already
+   * @param facing normal of the plane that `drag` moves in; pass the viewing direction of the
+   *   camera. Default: `direction`
+   * @throws if 64 grabs are held already, or if a vector is wrong
    */
   press(pointer: unknown, origin: Vec3Like, direction: Vec3Like, facing?: Vec3Like): boolean;
-  /** Pulls what the pointer holds to where the ray meets the plane. Says whether it does. */
+  /**
+   * Moves the grab of `pointer` to where the ray hits its plane. Returns whether it moved; it does
+   * not if the pointer holds nothing, or if the ray is nearly parallel to the plane or points away.
+   */
   drag(pointer: unknown, origin: Vec3Like, direction: Vec3Like): boolean;
-  /** Lets go, with the speed that it has. Says whether something was held. */
+  /** Lets go of the cloth, which keeps its velocity. Returns whether `pointer` held something. */
   lift(pointer: unknown): boolean;
-  /** Lets go of everything. */
+  /** Lets go with all pointers. */
   liftAll(): void;
 }

@@ -1,12 +1,16 @@
-// What pointers hold of a cloth: mice, fingers and controllers, each with a ray of its own. No engine is needed for it.
+// Entry point `muslin/pointers`: pointers (mice, fingers, controllers) that grab and drag a cloth
+// by rays. It needs no rendering engine.
 
-import { check, keys, number, vector } from "./check.js";
+import { check, checkKeys, toNumber, toVector } from "./check.js";
 
-/** A ray that meets its plane at less than this slope [rad] would throw the cloth to the horizon. */
-const FLAT = 0.02;
+/**
+ * The smallest angle between ray and plane at which a drag moves the grab [rad]. A flatter ray
+ * meets the plane so far away that it would throw the cloth to the horizon.
+ */
+const MIN_ANGLE = 0.02;
 
-const along = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const length = (a) => Math.sqrt(along(a, a));
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const length = (a) => Math.sqrt(dot(a, a));
 
 export class Pointers {
   #cloth;
@@ -15,9 +19,9 @@ export class Pointers {
 
   constructor(cloth, options = {}) {
     check(typeof cloth?.grabRay === "function", "cloth", "be a cloth");
-    const { radius = 0 } = keys(options, "options", ["radius"]);
+    const { radius = 0 } = checkKeys(options, "options", ["radius"]);
     this.#cloth = cloth;
-    this.#radius = number(radius, "radius");
+    this.#radius = toNumber(radius, "radius");
   }
 
   get cloth() {
@@ -33,7 +37,7 @@ export class Pointers {
   }
 
   press(pointer, origin, direction, facing = direction) {
-    const normal = vector(facing, "facing");
+    const normal = toVector(facing, "facing");
     this.lift(pointer);
     const grab = this.#cloth.grabRay(origin, direction, { radius: this.#radius });
     if (grab) this.#held.set(pointer, { grab, normal });
@@ -44,17 +48,17 @@ export class Pointers {
     const held = this.#held.get(pointer);
     if (!held) return false;
     const { grab, normal } = held;
-    const [from, way] = [vector(origin, "origin"), vector(direction, "direction")];
-    const slope = along(way, normal);
-    const distance = along(grab.position, normal) - along(from, normal);
-    const isMet = Math.abs(slope) > FLAT * length(way) * length(normal) && distance * slope > 0;
-    return isMet && this.#use(pointer, () => grab.moveTo(from.map((x, i) => x + (way[i] * distance) / slope)));
+    const [from, along] = [toVector(origin, "origin"), toVector(direction, "direction")];
+    const slope = dot(along, normal);
+    const distance = dot(grab.position, normal) - dot(from, normal);
+    const isHit = Math.abs(slope) > MIN_ANGLE * length(along) * length(normal) && distance * slope > 0;
+    return isHit && this.#tryGrab(pointer, () => grab.moveTo(from.map((x, i) => x + (along[i] * distance) / slope)));
   }
 
   lift(pointer) {
     const held = this.#held.get(pointer);
     if (!held) return false;
-    this.#use(pointer, () => held.grab.release());
+    this.#tryGrab(pointer, () => held.grab.release());
     this.#held.delete(pointer);
     return true;
   }
@@ -63,10 +67,13 @@ export class Pointers {
     for (const pointer of [...this.#held.keys()]) this.lift(pointer);
   }
 
-  /** A grab is over when its cloth was reset or freed meanwhile: then the pointer holds nothing any more. */
-  #use(pointer, work) {
+  /**
+   * Runs an action on a pointer's grab, and returns whether it succeeded. A grab is stale if its
+   * cloth was reset or freed: the pointer then holds nothing any more.
+   */
+  #tryGrab(pointer, action) {
     try {
-      work();
+      action();
       return true;
     } catch {
       this.#held.delete(pointer);

@@ -1,64 +1,75 @@
-// What a cloth tells.
+// Reports of a cloth: ray hits, events, statistics, changed ranges, mesh repairs.
 
 import type { Vec3 } from "./check.js";
 
-/** Where a ray hits a cloth. */
+/** The point where a ray hits the cloth. */
 export interface Hit {
-  /** The triangle: indices `3 * triangle` and the two after it. */
+  /** The triangle; its vertices are `indices[3 * triangle]` and the two that follow. */
   triangle: number;
-  /** Its particle nearest to the hit. */
+  /** The particle of the triangle that is nearest to the hit. */
   particle: number;
-  /** Weight of the triangle's second corner. */
+  /** Barycentric weight of the second corner. */
   u: number;
-  /** Weight of the triangle's third corner. */
+  /** Barycentric weight of the third corner. The first has 1 − u − v. */
   v: number;
-  /** Distance from the ray's origin [m]. */
+  /** Distance from the origin of the ray [m]. */
   distance: number;
-  /** Where [m]. */
+  /** Position of the hit [m]. */
   position: Vec3;
   /** Unit normal of the triangle, on the side that was hit. */
   normal: Vec3;
 }
 
 /**
- * Something that happened in a tick, counted from creation or reset, at a place [m]. `particleA` and `particleB`
- * are particles, `vertex` and `source` are vertices, see `vertexParticles`.
+ * Something that happened to the cloth. `tick` counts from creation or reset; `position` is where
+ * it happened [m]. `particleA` and `particleB` are particles; `vertex` and `source` are vertices,
+ * see `cloth.vertexParticles`.
+ *
+ * @example
+ * ```js
+ * for (const event of cloth.events()) {
+ *   if (event.kind === "edge-torn") playRip(event.position);
+ * }
+ * ```
  */
 export type ClothEvent = { tick: number; position: Vec3 } & (
   | {
-      /** The edge between the two tore. */
+      /** The edge between two particles tore or was cut. */
       kind: "edge-torn";
       particleA: number;
       particleB: number;
     }
   | {
       /**
-       * `vertex` was split off from `source`. Where a particle with several vertices was split between them, so
-       * that none had to be: both are the lowest vertex that went to the new particle.
+       * `vertex` was split off from `source`. If a particle with several vertices was split so that
+       * no vertex had to be, both are the lowest vertex that moved to the new particle.
        */
       kind: "vertex-split";
       vertex: number;
       source: number;
     }
   | {
-      /** A piece of `count` triangles, one of them at `vertex`, came off. */
+      /** A piece of `count` triangles came off; `vertex` belongs to one of them. */
       kind: "piece-detached";
       vertex: number;
       count: number;
     }
   | {
-      /** `count` particles had left the realm of numbers and were put back where they last were. */
+      /**
+       * `count` particles had positions that are not finite, and were put back where they last
+       * were.
+       */
       kind: "recovered";
       count: number;
     }
   | {
-      /** Tearing stopped: the room that was reserved for it is used up. Told once. */
+      /** Tearing stopped because `extraParticles` is used up. Reported once. */
       kind: "reserve-used-up";
     }
   | {
       /**
-       * Pins or grabs hold the cloth apart: `count` links are past `maxStretch`, one of them between
-       * the two. Told once, until the bound holds again.
+       * Pins, grabs or anchors hold the cloth apart: `count` links exceed `maxStretch`, one of them
+       * between these two particles. Reported once, until the limit holds again.
        */
       kind: "held-apart";
       particleA: number;
@@ -67,8 +78,8 @@ export type ClothEvent = { tick: number; position: Vec3 } & (
     }
   | {
       /**
-       * A cut made `vertex` on the edge between the two; and, if they are different vertices on either side of
-       * that edge, the one after it for the other side.
+       * A cut made `vertex` on the edge between two particles. If the vertices on the two sides of
+       * the edge differ (a texture seam), the vertex after it belongs to the other side.
        */
       kind: "edge-divided";
       particleA: number;
@@ -96,87 +107,94 @@ export type Stage =
   | "guard"
   | "outputs";
 
-/** Numbers about a cloth. */
+/** Statistics of a cloth. */
 export interface Stats {
-  /** How many particles there are. */
+  /** Number of particles. */
   particles: number;
-  /** How many triangles there are. */
+  /** Number of triangles. */
   triangles: number;
-  /** How many links it was woven with. */
+  /** Number of links at creation. */
   constraints: number;
-  /** How many links hold now. */
+  /** Number of links that are not torn. */
   activeConstraints: number;
-  /** How many pieces hang together by edges. */
+  /** Number of pieces: sets of triangles connected by edges. */
   pieces: number;
-  /** Ticks since it was made or reset. */
+  /** Ticks since creation or reset. */
   ticks: number;
-  /** How far to blend from the last tick to this one when drawing. */
+  /** Where the time is between the last two ticks, 0 to 1; the same as `cloth.blend`. */
   blend: number;
-  /** The greatest stretch of a stretch link: 0.01 is 1 % over its rest length. */
+  /** Largest strain of a stretch link: 0.01 means 1 % longer than at rest. */
   maxStretch: number;
-  /** The mean stretch of the stretch links. */
+  /** Mean strain of the stretch links. */
   meanStretch: number;
-  /** Energy of motion [J]. */
+  /** Kinetic energy [J]. */
   kineticEnergy: number;
-  /** How many links are past `maxStretch`, if there is such a bound: pins or grabs hold them apart. */
+  /**
+   * Number of links beyond `maxStretch` of the settings because pins, grabs or anchors hold them
+   * apart.
+   */
   overStretched: number;
-  /** The speed of its fastest particle [m/s]. */
+  /** Speed of the fastest particle [m/s]. */
   maxSpeed: number;
-  /** Whether it sleeps, see `sleepSpeed` of the settings. */
+  /** Whether the cloth is asleep, see `sleepSpeed` of the settings. */
   asleep: boolean;
-  /** Memory that it holds [B], about. */
+  /** Memory that the cloth occupies, approximately [bytes]. */
   bytes: number;
-  /** Time that each stage took in the last call that ran ticks [s]; zeros unless `timing` is on. */
+  /** Time of each stage in the last call that ran ticks [s]; all 0 unless `timing` is on. */
   seconds: Record<Stage, number>;
 }
 
 /**
- * The parts of a cloth's lists that changed with its triangles: of what does not change with every tick, as
- * uvs, source vertices and frayed borders.
+ * The ranges of vertices and indices that a change of topology affected. They cover the data that
+ * does not change every tick: indices, uvs, source vertices, frayed borders.
  */
 export interface Changes {
-  /** The first vertex that is new or not as it was. */
+  /** First vertex that is new or changed. */
   firstVertex: number;
-  /** How many vertices from there on. */
+  /** Number of vertices from there on. */
   vertexCount: number;
-  /** The first index that is new or not as it was. */
+  /** First index that is new or changed. */
   firstIndex: number;
-  /** How many indices from there on. */
+  /** Number of indices from there on. */
   indexCount: number;
 }
 
 /**
- * What had to be repaired of a mesh before it could be cloth, and what it is now. Repairs come in this order:
- * vertices are welded, triangles without an area and repeated ones are dropped, edges and vertices where more than
- * one sheet meets are split, triangles that face the other way are turned.
+ * How a mesh was repaired when the cloth was created, and what it is now. The order of the repairs
+ * is: weld vertices; drop degenerate and duplicate triangles; split edges and vertices where more
+ * than one sheet meets; turn triangles that face the other way than their neighbours.
  */
 export interface MeshReport {
-  /** Vertices that were given. */
+  /** Vertices in the descriptor. */
   vertices: number;
-  /** Triangles that were given. */
+  /** Triangles in the descriptor. */
   triangles: number;
-  /** Particles that came of it. */
+  /** Particles of the cloth. */
   particles: number;
-  /** Triangles that were kept. */
+  /** Triangles of the cloth. */
   keptTriangles: number;
-  /** Vertices that joined another one's particle. */
+  /** Vertices that were welded to another one and share its particle. */
   weldedVertices: number;
-  /** Triangles that were dropped: they had no area, or named a vertex twice. */
+  /** Triangles that were dropped because they have no area or use a vertex twice. */
   droppedDegenerate: number;
-  /** Triangles that were dropped: an earlier one has the same corners. */
+  /** Triangles that were dropped because an earlier one has the same corners. */
   droppedDuplicates: number;
-  /** Triangles that were turned round, so that they face as their neighbours do. */
+  /** Triangles that were turned to face as their neighbours do. */
   turnedTriangles: number;
-  /** Edges that had more than two triangles. */
+  /** Edges that had more than two triangles, and were split. */
   splitEdges: number;
-  /** Particles that came to be where sheets were parted that met at such an edge or at a mere point. */
+  /**
+   * Particles that were added to separate sheets at such edges, or where sheets touch at a point.
+   */
   splitVertices: number;
-  /** Vertices that no triangle uses: particles without mass that stay where they are, unless welded. */
+  /**
+   * Vertices that no triangle uses; their particles have no mass and do not move, unless welded.
+   */
   unusedVertices: number;
-  /** Pieces: sets of triangles joined by edges. */
+  /** Number of pieces: sets of triangles connected by edges. */
   pieces: number;
-  /** Pieces that have no two sides; a line is left across them where neighbours face opposite ways. */
+  /** Pieces with one side only (Möbius strips), in which some neighbours face opposite ways. */
   oneSidedPieces: number;
-  /** Whether it is woven as the regular grid that it was found to be. */
+  /** Whether the mesh was recognised as a regular grid, see `MeshDesc`. */
   isGrid: boolean;
 }

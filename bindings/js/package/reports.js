@@ -1,6 +1,7 @@
-// What the core reports as lists of numbers, given names.
+// Conversion of the module's flat lists to reports: events, statistics, hits, mesh reports.
 
-const KINDS = [
+/** Kinds of events, in the order of the core's `EventKind`. */
+const EVENT_KINDS = [
   "edge-torn",
   "vertex-split",
   "piece-detached",
@@ -10,8 +11,8 @@ const KINDS = [
   "edge-divided",
 ];
 
-/** The fields that each kind of event has, besides kind, tick and position. */
-const TOLD = [
+/** The fields of each kind of event besides kind, tick and position. */
+const FIELDS_OF_KIND = [
   ["particleA", "particleB"],
   ["vertex", "source"],
   ["vertex", "count"],
@@ -21,9 +22,11 @@ const TOLD = [
   ["particleA", "particleB", "vertex"],
 ];
 
+/** The fields in the list behind kind, tick and position. */
 const FIELDS = ["particleA", "particleB", "vertex", "source", "count"];
 const EVENT_SIZE = 5 + FIELDS.length;
 
+/** Statistics in the order of `stats` in src/read.rs. */
 const STATS = [
   "particles",
   "triangles",
@@ -43,15 +46,16 @@ const STATS = [
 
 export function readEvents(list) {
   const events = [];
-  for (let at = 0; at < list.length; at += EVENT_SIZE) {
-    const [kind, tick, ...rest] = list.subarray(at, at + EVENT_SIZE);
-    const event = { kind: KINDS[kind], tick, position: rest.slice(0, 3) };
-    for (const field of TOLD[kind]) event[field] = rest[3 + FIELDS.indexOf(field)];
+  for (let start = 0; start < list.length; start += EVENT_SIZE) {
+    const [kind, tick, ...rest] = list.subarray(start, start + EVENT_SIZE);
+    const event = { kind: EVENT_KINDS[kind], tick, position: rest.slice(0, 3) };
+    for (const field of FIELDS_OF_KIND[kind]) event[field] = rest[3 + FIELDS.indexOf(field)];
     events.push(event);
   }
   return events;
 }
 
+/** Fields of the mesh report in the order of `mesh_report` in src/read.rs; `isGrid` comes last. */
 const REPORT = [
   "vertices",
   "triangles",
@@ -69,7 +73,7 @@ const REPORT = [
 ];
 
 export function readMeshReport(list) {
-  const report = Object.fromEntries(REPORT.map((name, at) => [name, list[at]]));
+  const report = Object.fromEntries(REPORT.map((name, index) => [name, list[index]]));
   return Object.freeze({ ...report, isGrid: list[REPORT.length] !== 0 });
 }
 
@@ -84,7 +88,7 @@ export function readHit(list) {
 }
 
 export function readStats(list, stageNames) {
-  const stats = Object.fromEntries(STATS.map((name, at) => [name, list[at]]));
-  const seconds = stageNames.split(" ").map((name, at) => [name, list[STATS.length + at]]);
+  const stats = Object.fromEntries(STATS.map((name, index) => [name, list[index]]));
+  const seconds = stageNames.split(" ").map((name, index) => [name, list[STATS.length + index]]);
   return { ...stats, asleep: stats.asleep === 1, seconds: Object.fromEntries(seconds) };
 }

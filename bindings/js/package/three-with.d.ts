@@ -1,7 +1,7 @@
 import type * as Three from "three";
 import type { ClothGeometry, ClothPointers } from "./three.js";
 
-/** What of three.js is used: the whole module will do. */
+/** The parts of three.js that are used. You can pass the whole module. */
 export type ThreeParts = Pick<
   typeof Three,
   | "Box3"
@@ -16,9 +16,11 @@ export type ThreeParts = Pick<
 >;
 
 /**
- * The classes of `muslin/three`, made with the three.js that you give: one that lies in your own folder, where
- * no bundler or import map says what `"three"` is, or `three/webgpu`. Release 159 or newer. Call it once.
+ * Makes the classes of `muslin/three` for the three.js that you pass. Use it if no bundler or
+ * import map resolves `"three"`, or with `three/webgpu`. It needs release 159 or newer. Call it
+ * once: each call makes new classes.
  *
+ * @example
  * ```js
  * import * as THREE from "./vendor/three.module.js";
  * import { withThree } from "./muslin/three-with.js";

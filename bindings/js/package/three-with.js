@@ -1,15 +1,19 @@
-// What three.js draws of a cloth, made with the three.js that a page has: any release from r159 on, under any address.
+// Entry point `muslin/three-with`: ClothGeometry and ClothPointers for the three.js that the page
+// passes in, release 159 or newer, loaded from any address.
 
 import { Pointers } from "./pointers.js";
 
-/** Puts a part of a view into a buffer; only that is uploaded, with what still waits to be. */
+/**
+ * Copies a part of a view into an attribute and marks it for upload. Grows the pending range to
+ * cover the new part, so that an attribute has one range at most.
+ */
 function upload(attribute, view, first = 0, count = view.length) {
   if (count === 0) return;
   attribute.array.set(view.subarray(first, first + count), first);
   let end = first + count;
-  for (const waiting of attribute.updateRanges) {
-    end = Math.max(end, waiting.start + waiting.count);
-    first = Math.min(first, waiting.start);
+  for (const pending of attribute.updateRanges) {
+    end = Math.max(end, pending.start + pending.count);
+    first = Math.min(first, pending.start);
   }
   attribute.clearUpdateRanges();
   attribute.addUpdateRange(first, end - first);
@@ -17,15 +21,15 @@ function upload(attribute, view, first = 0, count = view.length) {
 }
 
 export function withThree(three) {
-  const ClothGeometry = geometryOf(three);
-  return { ClothGeometry, ClothPointers: pointersOf(three) };
+  const ClothGeometry = makeClothGeometry(three);
+  return { ClothGeometry, ClothPointers: makeClothPointers(three) };
 }
 
-function geometryOf({ Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere }) {
+function makeClothGeometry({ Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere }) {
   const box = new Box3();
 
-  /** Room for the most that a list may become, given to the graphics card in parts. */
-  function roomFor(count, Kind, size) {
+  /** Makes an attribute with the full capacity, of which parts are uploaded. */
+  function makeAttribute(count, Kind, size) {
     const attribute = new BufferAttribute(new Kind(size * count), size);
     attribute.setUsage(DynamicDrawUsage);
     return attribute;
@@ -41,10 +45,10 @@ function geometryOf({ Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, S
       super();
       this.#cloth = cloth;
       const capacity = cloth.vertexCapacity;
-      this.setAttribute("position", roomFor(capacity, Float32Array, 3));
-      this.setAttribute("normal", roomFor(capacity, Float32Array, 3));
-      this.setAttribute("uv", roomFor(capacity, Float32Array, 2));
-      this.setIndex(roomFor(cloth.indexCapacity, Uint32Array, 1));
+      this.setAttribute("position", makeAttribute(capacity, Float32Array, 3));
+      this.setAttribute("normal", makeAttribute(capacity, Float32Array, 3));
+      this.setAttribute("uv", makeAttribute(capacity, Float32Array, 2));
+      this.setIndex(makeAttribute(cloth.indexCapacity, Uint32Array, 1));
       this.update();
     }
 
@@ -55,16 +59,16 @@ function geometryOf({ Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, S
     update() {
       const cloth = this.#cloth;
       const { topologyRevision, stateRevision } = cloth;
-      const isRetied = topologyRevision !== this.#topology;
-      const isMoved = isRetied || stateRevision !== this.#state;
-      if (isRetied) {
+      const hasNewTopology = topologyRevision !== this.#topology;
+      const hasChanged = hasNewTopology || stateRevision !== this.#state;
+      if (hasNewTopology) {
         const { indices } = cloth;
         const changes = cloth.changes(this.#topology);
         upload(this.index, indices, changes.firstIndex, changes.indexCount);
         upload(this.attributes.uv, cloth.uvs, 2 * changes.firstVertex, 2 * changes.vertexCount);
         this.setDrawRange(0, indices.length);
       }
-      if (isMoved) {
+      if (hasChanged) {
         const { positions } = cloth;
         upload(this.attributes.position, positions);
         upload(this.attributes.normal, cloth.normals);
@@ -74,22 +78,22 @@ function geometryOf({ Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, S
       }
       this.#topology = topologyRevision;
       this.#state = stateRevision;
-      return isMoved;
+      return hasChanged;
     }
 
-    /** The positions that are in use: behind them is room, which is nowhere. */
-    #used() {
+    /** Returns the positions that are in use; the rest of the attribute is spare capacity. */
+    #usedPositions() {
       return this.attributes.position.array.subarray(0, 3 * this.#vertexCount);
     }
 
     computeBoundingBox() {
       this.boundingBox ??= new Box3();
-      this.boundingBox.setFromArray(this.#used());
+      this.boundingBox.setFromArray(this.#usedPositions());
     }
 
     computeBoundingSphere() {
       this.boundingSphere ??= new Sphere();
-      const used = this.#used();
+      const used = this.#usedPositions();
       const { center } = this.boundingSphere;
       box.setFromArray(used).getCenter(center);
       let farthest = 0;
@@ -100,15 +104,15 @@ function geometryOf({ Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, S
       this.boundingSphere.radius = Math.sqrt(farthest);
     }
 
-    /** A still copy, which follows nothing. */
+    /** Returns a copy of the current state that follows no cloth. */
     clone() {
       return new BufferGeometry().copy(this);
     }
   };
 }
 
-function pointersOf({ Matrix4, Raycaster, Vector2, Vector3 }) {
-  const [caster, place, facing, toCloth] = [new Raycaster(), new Vector2(), new Vector3(), new Matrix4()];
+function makeClothPointers({ Matrix4, Raycaster, Vector2, Vector3 }) {
+  const [caster, ndc, facing, toCloth] = [new Raycaster(), new Vector2(), new Vector3(), new Matrix4()];
 
   return class ClothPointers {
     #pointers;
@@ -123,7 +127,8 @@ function pointersOf({ Matrix4, Raycaster, Vector2, Vector3 }) {
       [this.#mesh, this.#camera, this.#element] = [mesh, camera, element];
       element.style.touchAction = "none"; // or the browser takes the gesture for its own
       const { signal } = this.#listening;
-      // In the capturing phase: what turns the camera listens later, and learns of no press that is ours.
+      // In the capturing phase: camera controls listen in a later phase, so a press that grabs the
+      // cloth can be kept from them.
       const on = (type, listener) => element.addEventListener(type, listener, { capture: true, signal });
       on("pointerdown", (event) => this.#press(event));
       on("pointermove", (event) => this.#drag(event));
@@ -132,7 +137,7 @@ function pointersOf({ Matrix4, Raycaster, Vector2, Vector3 }) {
       }
     }
 
-    /** How many pointers hold the cloth. */
+    /** Returns the number of pointers that hold the cloth. */
     get size() {
       return this.#pointers.size;
     }
@@ -165,11 +170,14 @@ function pointersOf({ Matrix4, Raycaster, Vector2, Vector3 }) {
       event.stopImmediatePropagation();
     }
 
-    /** The ray under a pointer, as the cloth has it: it knows nothing of where its mesh was put. */
+    /**
+     * Returns the ray under a pointer in the space of the cloth, which is the local space of its
+     * mesh.
+     */
     #ray({ clientX, clientY }) {
       const { left, top, width, height } = this.#element.getBoundingClientRect();
-      place.set((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
-      caster.setFromCamera(place, this.#camera);
+      ndc.set((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
+      caster.setFromCamera(ndc, this.#camera);
       this.#mesh.updateWorldMatrix(true, false);
       toCloth.copy(this.#mesh.matrixWorld).invert();
       const { origin, direction } = caster.ray.applyMatrix4(toCloth);

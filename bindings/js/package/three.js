@@ -1,4 +1,4 @@
-// The classes of three-with.js, made with the package `three`.
+// Entry point `muslin/three`: the classes of three-with.js, made with the package `three`.
 
 import {
   Box3,
@@ -13,7 +13,7 @@ import {
 } from "three";
 import { withThree } from "./three-with.js";
 
-/** What is named here is all that a bundler has to keep of three.js. */
+/** Named one by one, so that a bundler keeps only these parts of three.js. */
 const parts = { Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Matrix4, Raycaster, Sphere, Vector2, Vector3 };
 
 export const { ClothGeometry, ClothPointers } = /* @__PURE__ */ withThree(parts);

@@ -1,10 +1,10 @@
-// Which version this is.
+// The version of the library.
 
 import { version as rawVersion } from "./raw.js";
-import { ready } from "./memory.js";
+import { requireMemory } from "./memory.js";
 
-/** The version of the library, "major.minor.patch". */
+/** Returns the version of the library, "major.minor.patch". */
 export function version() {
-  ready();
+  requireMemory();
   return rawVersion();
 }

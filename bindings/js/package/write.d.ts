@@ -1,67 +1,81 @@
-// Where vertices and indices are written.
+// Writing of vertices into buffers of the caller.
 
-/** What of a vertex a stream takes. */
+/** An attribute of a vertex. */
 export type Attribute =
-  /** Where it is, x y z [m]; in 16 bits x y z 1. */
+  /** Position, x y z [m]; with 16-bit formats x y z 1. */
   | "position"
-  /** Its unit normal, x y z; in 16 bits x y z 0. */
+  /** Unit normal, x y z; with 16-bit formats x y z 0. */
   | "normal"
   /**
-   * x y z w: the unit direction square to the normal in which the texture coordinate u grows, and 1 or −1;
-   * v grows along cross(normal, tangent) · w. It is the sum over the vertex's triangles of
-   * (p · dv₂ − q · dv₁) · sign(du₁ · dv₂ − du₂ · dv₁), p and q being edges and du, dv what they are in the
-   * texture, made square to the normal; where a texture says nothing, any such direction.
+   * Tangent, x y z w: the unit direction at a right angle to the normal in which the texture
+   * coordinate u grows, and a sign w = ±1, so that v grows along cross(normal, tangent) · w.
+   *
+   * It is the sum over the triangles of the vertex of (p · dv₂ − q · dv₁) · sign(du₁ · dv₂ − du₂ ·
+   * dv₁), orthogonalised against the normal; p and q are two edges, and du, dv their differences in
+   * the texture. If the texture coordinates do not define a direction, it is an arbitrary one.
    */
   | "tangent"
-  /** Its texture coordinates, u v. */
+  /** Texture coordinates, u v. */
   | "uv"
-  /** 1 at a border that a tear or a cut made, else 0; in 16 bits followed by 0. */
+  /** 1 at a border that a tear or cut made, otherwise 0; with 16-bit formats followed by 0. */
   | "frayed";
 
-/** How numbers are written. */
+/** The number format of an attribute. */
 export type VertexFormat =
   /** 32-bit floats. */
   | "f32"
-  /** 16-bit floats; what is beyond 65504 becomes that. */
+  /** 16-bit floats. Values beyond ±65504 are clamped. */
   | "f16"
-  /** 16-bit whole numbers from −32767 to 32767, which stand for −1 to 1; no positions, no uvs. */
+  /** 16-bit signed normalised integers, −32767 to 32767 for −1 to 1. Not for positions and uvs. */
   | "snorm16"
   /**
-   * A normal as two of those, x and y where it meets the octahedron |x| + |y| + |z| = 1, its lower half
-   * (z < 0) folded outward, to (1 − |y|) · sign x and (1 − |x|) · sign y; a tangent as those, w and 0.
+   * Octahedral encoding, for normals and tangents: two snorm16 for a normal; for a tangent these
+   * two, then w and 0. The direction is projected to x and y on the octahedron |x| + |y| + |z| = 1;
+   * its lower half (z < 0) is folded outward to ((1 − |y|) · sign x, (1 − |x|) · sign y).
    */
   | "octahedral16";
 
-/** A place that one attribute of vertices is written to; streams may share a buffer. */
+/** Where one attribute of the vertices is written. Several streams may interleave in one buffer. */
 export interface Stream {
-  /** What is written. */
+  /** The attribute. */
   attribute: Attribute;
-  /** How; "f32". */
+  /** The number format. @defaultValue "f32" */
   format?: VertexFormat;
-  /** Where: a buffer of your own, or a view of one. */
+  /** The destination: your own buffer, or a view of a part of one. */
   buffer: ArrayBuffer | ArrayBufferView;
-  /** Bytes from the beginning of `buffer` to the first vertex; 0. */
+  /** Bytes from the start of `buffer` to the first vertex. @defaultValue 0 */
   offset?: number;
-  /** Bytes from one vertex to the next, a multiple of a number's size; 0 leaves no gaps. */
+  /**
+   * Bytes from one vertex to the next; a multiple of the size of a number. 0 means tightly packed.
+   *
+   * @defaultValue 0
+   */
   stride?: number;
 }
 
-/** Which vertices are written, and how they are placed. */
+/** Which vertices are written, and how they are transformed. */
 export interface WriteDesc {
-  /** The first vertex; 0. It goes to the beginning of each stream. */
+  /** The first vertex. It is written to the start of each stream. @defaultValue 0 */
   firstVertex?: number;
-  /** How many; all from the first one on. */
+  /** Number of vertices. @defaultValue all from `firstVertex` on */
   vertexCount?: number;
-  /** How far from the last tick to this one, 0 to 1; 1. `cloth.blend` is where the time is. */
+  /**
+   * Interpolation between the last tick (0) and the current one (1). Pass `cloth.blend` for smooth
+   * motion at any frame rate.
+   *
+   * @defaultValue 1
+   */
   blend?: number;
   /**
-   * What is done to positions, after the offset: three rows of four numbers, so that x becomes
-   * t[0] · x + t[1] · y + t[2] · z + t[3]; nothing. Normals stay square to the surface and on their side
-   * of it, tangents along it.
+   * Affine transform of positions, applied after `offset`: three rows of four numbers, so that x
+   * becomes t[0] · x + t[1] · y + t[2] · z + t[3]. Normals stay perpendicular to the surface and on
+   * their side of it, and tangents stay along it.
+   *
+   * @defaultValue identity
    */
   transform?: readonly number[] | Float32Array | Float64Array;
-  /** Normals point to the other side, for the back of a cloth; false. */
+  /** Whether normals are negated, to draw the back of the cloth. @defaultValue false */
   flipNormals?: boolean;
-  /** How far positions are moved along the normals that are written [m]; 0. */
+  /** Distance by which positions move along the written normals [m]. @defaultValue 0 */
   offset?: number;
 }

@@ -1,17 +1,22 @@
-// The recipe: a mesh of Babylon.js that follows a cloth, and pointers that pull it.
+// A Babylon.js mesh that follows a cloth, and pointers that pull the cloth. Copy this file into
+// your project.
 
 import { Pointers } from "../muslin/pointers.js";
 
-/** Makes a mesh for a cloth; call `update` of what this gives each frame, after `cloth.advance()`. */
+/**
+ * Makes a mesh that draws a cloth. Call the returned `update` each frame, after `cloth.advance()`.
+ */
 export function makeClothMesh(BABYLON, cloth, scene) {
   const { VertexBuffer } = BABYLON;
   const mesh = new BABYLON.Mesh("cloth", scene);
-  // Buffers are made once, with room for all that tears may add; what is behind the cloth is nowhere.
-  const room = (size) => new Float32Array(size * cloth.vertexCapacity);
-  const [positions, normals, uvs] = [room(3), room(3), room(2)];
+  // Buffers are allocated once, with the capacity for everything that tears may add; unused indices
+  // are 0.
+  const allocate = (size) => new Float32Array(size * cloth.vertexCapacity);
+  const [positions, normals, uvs] = [allocate(3), allocate(3), allocate(2)];
   const indices = new Uint32Array(cloth.indexCapacity);
   let [topology, state] = [0, -1];
 
+  /** Copies the cloth into the buffers, and returns whether its topology changed. */
   function copy() {
     positions.set(cloth.positions);
     normals.set(cloth.normals);
@@ -29,8 +34,8 @@ export function makeClothMesh(BABYLON, cloth, scene) {
   mesh.setVerticesData(VertexBuffer.NormalKind, normals, true);
   mesh.setVerticesData(VertexBuffer.UVKind, uvs, true);
   mesh.setIndices(indices, cloth.vertexCapacity, true);
-  mesh.alwaysSelectAsActiveMesh = true; // its bounds move with it
-  mesh.isPickable = false; // Pointers asks the cloth itself, which is faster
+  mesh.alwaysSelectAsActiveMesh = true; // no culling: its bounds change every frame
+  mesh.isPickable = false; // Pointers casts rays at the cloth itself, which is faster
   mesh.subMeshes[0].indexCount = cloth.indices.length;
 
   const update = () => {
@@ -46,12 +51,17 @@ export function makeClothMesh(BABYLON, cloth, scene) {
   return { mesh, update };
 }
 
-/** Lets mice and fingers pull the cloth of a mesh. A press that takes hold turns no camera. */
+/**
+ * Lets mice and fingers pull the cloth of a mesh. While a pointer holds the cloth, the camera does
+ * not turn.
+ */
 export function pullClothMesh(BABYLON, cloth, mesh, scene) {
   const pointers = new Pointers(cloth, { radius: 0.04 });
   const { POINTERDOWN, POINTERMOVE, POINTERUP } = BABYLON.PointerEventTypes;
 
-  /** The ray under a pointer, as the cloth has it. */
+  /**
+   * Returns the ray under the pointer in the local space of the mesh, which is that of the cloth.
+   */
   function ray() {
     const toCloth = mesh.computeWorldMatrix(true);
     const { origin, direction } = scene.createPickingRay(scene.pointerX, scene.pointerY, toCloth, scene.activeCamera);

@@ -25,7 +25,7 @@ setWind(1.5);
 
 const engine = new BABYLON.Engine(canvas, true, { premultipliedAlpha: false });
 const scene = new BABYLON.Scene(engine);
-scene.useRightHandedSystem = true; // as the cloth
+scene.useRightHandedSystem = true; // as the cloth is
 scene.clearColor = new Color4(0, 0, 0, 0);
 scene.ambientColor = new Color3(1, 1, 1);
 
@@ -55,7 +55,7 @@ fabric.specularPower = 24;
 fabric.ambientColor = new Color3(0.03, 0.035, 0.05);
 fabric.backFaceCulling = false;
 fabric.twoSidedLighting = true;
-// Fronts are counter-clockwise, which has to be said of a right-handed scene.
+// Front faces are counter-clockwise; Babylon.js assumes otherwise in a right-handed scene.
 fabric.sideOrientation = BABYLON.Material.CounterClockWiseSideOrientation;
 mesh.material = fabric;
 pullClothMesh(BABYLON, cloth, mesh, scene);
@@ -73,7 +73,7 @@ $("wind").addEventListener("input", ({ target }) => {
 $("reset").addEventListener("click", () => cloth.reset());
 $("cut").addEventListener("click", () => cloth.cut([-0.7, 0.3, -4], [0.5, -0.4, -4], [0, 0, 8]));
 
-/** As far as it takes to see all of the sheet. */
+/** Moves the camera so far away that the whole sheet is in view. */
 function fit() {
   engine.resize();
   const aspect = canvas.clientWidth / canvas.clientHeight;

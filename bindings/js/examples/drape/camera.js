@@ -1,11 +1,15 @@
-// A camera that turns about the sheet: drag to orbit, wheel or pinch to zoom. It comes to rest softly.
+// An orbit camera around the sheet: drag to orbit, wheel or pinch to zoom. It eases towards its
+// target.
 
+/** Range of the polar angle [rad]. */
 const POLAR = [0.35, 1.9];
+/** Range of the zoom factor. */
 const ZOOM = [0.45, 2.2];
-/** How much of the way is left after a second. */
-const LAG = 1e-4;
 
-const clamp = (x, [least, most]) => Math.min(Math.max(x, least), most);
+/** Share of the distance to the target that remains after a second. */
+const REMAINDER = 1e-4;
+
+const clamp = (x, [min, max]) => Math.min(Math.max(x, min), max);
 
 export class Orbit {
   azimuth = 0.3;
@@ -18,7 +22,10 @@ export class Orbit {
     this.camera = camera;
   }
 
-  /** Makes a sheet of 2 m fit a picture, beside and above what covers its left and lower pixels. */
+  /**
+   * Fits a sheet of 2 m into a picture of `width` × `height` pixels, of which the panel covers
+   * `left` pixels on the left and `below` at the bottom.
+   */
   fit(width, height, [left, below] = [0, 0]) {
     const { camera } = this;
     camera.aspect = width / height;
@@ -37,14 +44,14 @@ export class Orbit {
   drag(id, x, y) {
     const last = this.#fingers.get(id);
     if (!last) return;
-    const apart = () => {
+    const distance = () => {
       const [a, b] = [...this.#fingers.values()];
       return Math.hypot(a[0] - b[0], a[1] - b[1]);
     };
     if (this.#fingers.size === 2) {
-      const before = apart();
+      const before = distance();
       this.#fingers.set(id, [x, y]);
-      this.turn(0, 0, before / Math.max(apart(), 1));
+      this.turn(0, 0, before / Math.max(distance(), 1));
       return;
     }
     this.#fingers.set(id, [x, y]);
@@ -62,12 +69,12 @@ export class Orbit {
   }
 
   update(seconds) {
-    const share = 1 - LAG ** seconds;
+    const share = 1 - REMAINDER ** seconds;
     for (const name of ["azimuth", "polar", "zoom"]) this.#now[name] += share * (this[name] - this.#now[name]);
     const { azimuth, polar, zoom } = this.#now;
     const radius = zoom * this.distance;
-    const out = radius * Math.sin(polar);
-    this.camera.position.set(out * Math.sin(azimuth), radius * Math.cos(polar) - 0.1, out * Math.cos(azimuth));
+    const horizontal = radius * Math.sin(polar);
+    this.camera.position.set(horizontal * Math.sin(azimuth), radius * Math.cos(polar) - 0.1, horizontal * Math.cos(azimuth));
     this.camera.lookAt(0, -0.1, 0);
   }
 }

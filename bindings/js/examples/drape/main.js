@@ -1,4 +1,5 @@
-// A hanging sheet with three.js from the page's own folder: no bundler, no import map, under a strict policy.
+// A hanging sheet with three.js from the page's own folder: no bundler, no import map, a strict
+// content security policy.
 
 import * as THREE from "../vendor/three.module.js";
 import init, { Cloth } from "../muslin/index.js";
@@ -20,8 +21,8 @@ const wire = new THREE.MeshBasicMaterial({ color: 0xffe9d0, wireframe: true, tra
 
 let shown;
 
-/** Hangs a new sheet in place of the one before. */
-function hang() {
+/** Replaces the sheet by a new one. */
+function replaceSheet() {
   if (shown) {
     shown.pointers.dispose();
     scene.remove(shown.sheet, shown.wires);
@@ -43,11 +44,11 @@ function hang() {
   scene.add(sheet, wires);
   const pointers = new ClothPointers(front, camera, canvas, { radius: 0.04 });
   shown = { cloth, geometry, sheet, wires, front, pointers };
-  apply();
+  applyPanel();
 }
 
-/** Takes over what the panel says. */
-function apply() {
+/** Applies the values of the panel to the cloth. */
+function applyPanel() {
   const [wind, gravity, iterations] = ["wind", "gravity", "stiffness"].map((id) => $(id).valueAsNumber);
   shown.cloth.wind = { velocity: [0.25 * wind, 0, wind], gust: 0.6, wander: 0.5, turbulence: 0.3 };
   shown.cloth.settings = { gravity: [0, -gravity, 0], iterations, tearing: $("tear").checked };
@@ -55,8 +56,8 @@ function apply() {
   for (const output of document.querySelectorAll("output")) output.value = $(output.htmlFor.value).value;
 }
 
-for (const id of ["wind", "gravity", "stiffness", "tear", "wire"]) $(id).addEventListener("input", apply);
-$("pins").addEventListener("change", hang);
+for (const id of ["wind", "gravity", "stiffness", "tear", "wire"]) $(id).addEventListener("input", applyPanel);
+$("pins").addEventListener("change", replaceSheet);
 $("reset").addEventListener("click", () => {
   shown.pointers.liftAll();
   shown.cloth.reset();
@@ -64,12 +65,12 @@ $("reset").addEventListener("click", () => {
 $("pause").addEventListener("click", ({ currentTarget: button }) => {
   const isPaused = button.getAttribute("aria-pressed") !== "true";
   button.setAttribute("aria-pressed", isPaused);
-  button.textContent = isPaused ? "Go on" : "Pause";
+  button.textContent = isPaused ? "Resume" : "Pause";
 });
 
-hang();
+replaceSheet();
 
-// Presses on the cloth never come here: ClothPointers, which listens first, keeps them.
+// A press that grabs the cloth does not get here: ClothPointers listens first and stops the event.
 canvas.addEventListener("pointerdown", (event) => {
   canvas.setPointerCapture(event.pointerId);
   orbit.press(event.pointerId, event.clientX, event.clientY);
@@ -86,6 +87,7 @@ canvas.addEventListener("wheel", (event) => {
   orbit.turn(0, 0, Math.exp(0.001 * event.deltaY));
 }, { passive: false });
 
+/** Fits the picture to the window, beside or above the panel. */
 function fit() {
   const { clientWidth: width, clientHeight: height } = canvas;
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));

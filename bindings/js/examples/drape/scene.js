@@ -1,7 +1,8 @@
-// What is around the sheet, and how it is lit. Runs in a page and in a worker alike.
+// The scene around the sheet: lights, floor, rod, and the materials of the sheet. Works in pages
+// and in workers.
 
-/** A picture drawn with the 2D canvas. */
-function painted(THREE, size, paint) {
+/** Returns a texture that `paint` draws on a 2D canvas. */
+function canvasTexture(THREE, size, paint) {
   const canvas = new OffscreenCanvas(size, size);
   paint(canvas.getContext("2d"), size);
   const texture = new THREE.CanvasTexture(canvas);
@@ -9,9 +10,9 @@ function painted(THREE, size, paint) {
   return texture;
 }
 
-/** A soft round spot that fades from `inner` to nothing. */
-function spot(THREE, inner, outer) {
-  return painted(THREE, 256, (context, size) => {
+/** Returns a texture of a radial gradient from `inner` to `outer`. */
+function radialGradient(THREE, inner, outer) {
+  return canvasTexture(THREE, 256, (context, size) => {
     const fade = context.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
     fade.addColorStop(0, inner);
     fade.addColorStop(1, outer);
@@ -20,9 +21,9 @@ function spot(THREE, inner, outer) {
   });
 }
 
-/** A plain weave, over and under, seen from near. */
-function weave(THREE) {
-  const texture = painted(THREE, 64, (context, size) => {
+/** Returns a tiled texture of a plain weave. */
+function weaveTexture(THREE) {
+  const texture = canvasTexture(THREE, 64, (context, size) => {
     const half = size / 2;
     for (const [x, y, isWarp] of [[0, 0, true], [half, half, true], [half, 0, false], [0, half, false]]) {
       const ends = isWarp ? [x, y, x + half, y] : [x, y, x, y + half];
@@ -38,9 +39,9 @@ function weave(THREE) {
   return texture;
 }
 
-/** Two sides of one sheet, in two colours. Gives the group and its front. */
+/** Makes two meshes for the two sides of a sheet, in two colours. Returns their group and both. */
 export function makeSheet(THREE, geometry) {
-  const map = weave(THREE);
+  const map = weaveTexture(THREE);
   const side = (which, color) => {
     const material = new THREE.MeshStandardMaterial({ color, map, side: which, roughness: 0.78 });
     const mesh = new THREE.Mesh(geometry, material);
@@ -56,7 +57,10 @@ export function makeSheet(THREE, geometry) {
   return { sheet, front, back };
 }
 
-/** Lights, floor, two glows and the rod: all but the sheet, which hangs from y = 1 to y = -1. */
+/**
+ * Makes the scene without the sheet, which hangs from y = 1 to y = -1: lights, floor, two glows,
+ * the rod.
+ */
 export function makeScene(THREE) {
   const scene = new THREE.Scene();
   scene.add(new THREE.HemisphereLight(0xa8b8e0, 0x5a4638, 1.15));
@@ -79,7 +83,7 @@ export function makeScene(THREE) {
   const floor = new THREE.Mesh(
     new THREE.CircleGeometry(4.5, 64),
     new THREE.MeshStandardMaterial({
-      color: 0x3a3f4d, roughness: 0.95, transparent: true, depthWrite: false, alphaMap: spot(THREE, "#fff", "#000"),
+      color: 0x3a3f4d, roughness: 0.95, transparent: true, depthWrite: false, alphaMap: radialGradient(THREE, "#fff", "#000"),
     }),
   );
   floor.rotation.x = -Math.PI / 2;
@@ -92,7 +96,7 @@ export function makeScene(THREE) {
     ["rgb(110 150 255 / 0.20)", 1.9, 0.1, -2.6, 4.6],
   ]) {
     const glow = new THREE.Sprite(new THREE.SpriteMaterial({
-      map: spot(THREE, tint, "rgb(0 0 0 / 0)"), blending: THREE.AdditiveBlending, depthWrite: false,
+      map: radialGradient(THREE, tint, "rgb(0 0 0 / 0)"), blending: THREE.AdditiveBlending, depthWrite: false,
     }));
     glow.position.set(x, y, z);
     glow.scale.setScalar(size);
@@ -109,14 +113,14 @@ export function makeScene(THREE) {
   return scene;
 }
 
-/** A renderer on a canvas, transparent where nothing is: the page's own background shows. */
+/** Makes a renderer with a transparent background, so that the page's own background shows. */
 export function makeRenderer(THREE, canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
   renderer.toneMappingExposure = 1.05;
   renderer.outputColorSpace = THREE.SRGBColorSpace;
   renderer.shadowMap.enabled = true;
-  // Later releases have one kind of soft shadow, by another name.
+  // From release 182 on, three.js has one kind of soft shadow, under another name.
   renderer.shadowMap.type = Number(THREE.REVISION) < 182 ? THREE.PCFSoftShadowMap : THREE.PCFShadowMap;
   return renderer;
 }

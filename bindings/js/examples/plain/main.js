@@ -1,4 +1,4 @@
-// Cloth in buffers of one's own: one interleaved vertex buffer, one index buffer, two small shaders.
+// Cloth without an engine: one interleaved vertex buffer, one index buffer, two small shaders.
 
 import init, { Cloth } from "../muslin/index.js";
 import { Pointers } from "../muslin/pointers.js";
@@ -24,7 +24,7 @@ cloth.material = { tearStretch: 1.7 };
 cloth.wind = { velocity: [0.3, 0, 1.4], gust: 0.7, wander: 0.5, turbulence: 0.4 };
 
 const STRIDE = 24; // position, normal: three floats each
-const vertices = new Float32Array((STRIDE / 4) * cloth.vertexCapacity); // room for every tear
+const vertices = new Float32Array((STRIDE / 4) * cloth.vertexCapacity); // large enough for every tear
 const indices = new Uint16Array(cloth.indexCapacity);
 const streams = [
   { attribute: "position", buffer: vertices, stride: STRIDE },
@@ -36,7 +36,7 @@ const uniforms = makeProgram(gl, STRIDE);
 gl.bufferData(gl.ARRAY_BUFFER, vertices.byteLength, gl.DYNAMIC_DRAW);
 gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices.byteLength, gl.DYNAMIC_DRAW);
 
-/** Gives the card what changed: all vertices of a frame, and of the indices what a tear touched. */
+/** Uploads what changed: all vertices of a frame, and the indices that a tear changed. */
 function upload() {
   const count = cloth.writeVertices(streams, { blend: cloth.blend });
   gl.bufferSubData(gl.ARRAY_BUFFER, 0, vertices, 0, (STRIDE / 4) * count);
@@ -49,7 +49,7 @@ function upload() {
 
 const pointers = new Pointers(cloth, { radius: 0.04 });
 
-/** The ray under an event. */
+/** Returns the ray under an event. */
 function ray({ clientX, clientY }) {
   const { left, top, width, height } = canvas.getBoundingClientRect();
   return eyeRay((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height, width / height);

@@ -1,4 +1,4 @@
-// The shaders: two sides in two colours, a key light, a rim.
+// The shaders: two colours for the two sides, a key light, a rim light.
 
 const VERTEX = `#version 300 es
 layout(location = 0) in vec3 position;
@@ -30,7 +30,10 @@ void main() {
   color = vec4(pow(shaded, vec3(1.0 / 2.2)), 1.0);
 }`;
 
-/** Makes a program for vertices of `stride` bytes in buffers that stay bound, and gives its uniforms. */
+/**
+ * Makes a program and binds buffers for vertices of `stride` bytes. Returns the locations of its
+ * uniforms.
+ */
 export function makeProgram(gl, stride) {
   const program = gl.createProgram();
   for (const [kind, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
@@ -44,9 +47,9 @@ export function makeProgram(gl, stride) {
   gl.useProgram(program);
   gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-  for (const at of [0, 1]) {
-    gl.enableVertexAttribArray(at);
-    gl.vertexAttribPointer(at, 3, gl.FLOAT, false, stride, 12 * at);
+  for (const attribute of [0, 1]) {
+    gl.enableVertexAttribArray(attribute);
+    gl.vertexAttribPointer(attribute, 3, gl.FLOAT, false, stride, 12 * attribute);
   }
   gl.enable(gl.DEPTH_TEST);
   return { view: gl.getUniformLocation(program, "view") };

@@ -1,9 +1,10 @@
-// The page's part: it hands its canvas to a worker, and tells it of pointers, sizes and switches.
+// The page: transfers its canvas to a worker, and posts pointer events, sizes and control values to
+// it.
 
 const $ = (id) => document.getElementById(id);
 const canvas = $("stage");
 const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
-const tell = (what, ...rest) => worker.postMessage([what, ...rest]);
+const post = (name, ...rest) => worker.postMessage([name, ...rest]);
 
 const offscreen = canvas.transferControlToOffscreen();
 worker.postMessage(["start", offscreen], [offscreen]);
@@ -12,7 +13,7 @@ function fit() {
   const { clientWidth: width, clientHeight: height } = canvas;
   const { top, right } = document.querySelector(".panel").getBoundingClientRect();
   const covered = right > width / 2 ? [0, height - top] : width < 1100 ? [right, 0] : [0, 0];
-  tell("fit", width, height, covered, Math.min(devicePixelRatio, 2));
+  post("fit", width, height, covered, Math.min(devicePixelRatio, 2));
 }
 addEventListener("resize", fit);
 fit();
@@ -23,17 +24,17 @@ for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel"])
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const x = (2 * (event.clientX - left)) / width - 1;
     const y = 1 - (2 * (event.clientY - top)) / height;
-    tell(type, event.pointerId, x, y);
+    post(type, event.pointerId, x, y);
   });
 }
 $("wind").addEventListener("input", ({ target }) => {
   document.querySelector("output").value = target.value;
-  tell("wind", target.valueAsNumber);
+  post("wind", target.valueAsNumber);
 });
-$("reset").addEventListener("click", () => tell("reset"));
+$("reset").addEventListener("click", () => post("reset"));
 $("busy").addEventListener("click", () => {
   const end = performance.now() + 1000;
-  while (performance.now() < end); // and the cloth goes on
+  while (performance.now() < end); // blocks the page for a second; the cloth still moves
 });
 worker.addEventListener("message", ({ data }) => {
   if (data.cursor) canvas.style.cursor = data.cursor;

@@ -1,4 +1,4 @@
-// The worker's part: the cloth, the scene and the drawing.
+// The worker: simulates the cloth and draws it.
 
 import * as THREE from "../vendor/three.module.js";
 import init, { Cloth } from "../muslin/index.js";
@@ -9,8 +9,8 @@ import { makeRenderer, makeScene, makeSheet } from "../drape/scene.js";
 
 const { ClothGeometry } = withThree(THREE);
 const early = [];
-let [heed, size] = [(...message) => early.push(message), [1, 1]];
-addEventListener("message", ({ data }) => heed(...data)); // at once: what comes while the module loads is kept
+let [handle, size] = [(...message) => early.push(message), [1, 1]];
+addEventListener("message", ({ data }) => handle(...data)); // before the module loads: early messages are kept
 
 await init();
 
@@ -42,7 +42,7 @@ function ray(x, y) {
   return [caster.ray.origin.toArray(), caster.ray.direction.toArray()];
 }
 
-const heeded = {
+const handlers = {
   start(canvas) {
     renderer = makeRenderer(THREE, canvas);
     requestAnimationFrame(frame);
@@ -68,12 +68,12 @@ const heeded = {
     pointers.lift(id);
     orbit.lift(id);
   },
-  pointercancel: (id) => heeded.pointerup(id),
+  pointercancel: (id) => handlers.pointerup(id),
   wind: setWind,
   reset: () => cloth.reset(),
 };
-heed = (what, ...rest) => heeded[what](...rest);
-for (const message of early) heed(...message);
+handle = (name, ...rest) => handlers[name](...rest);
+for (const message of early) handle(...message);
 
 let last = performance.now();
 let [frames, since] = [0, last];
