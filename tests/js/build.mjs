@@ -1,13 +1,14 @@
-// One build of the package in an engine: `node build.mjs SPECIFIER [no-vectors|no-wasm]` prints, as JSON, the
-// hashes that the script and a small cloth end in, the sizes of the modules that were compiled, and what became of
-// views.
+// Runs one build of the package: `node build.mjs SPECIFIER [no-simd|no-wasm]` prints, as JSON, the
+// state hashes of the script and of a small cloth, the sizes of the modules that were compiled, and
+// whether views and restore work. The second word makes this engine one without SIMD, or without
+// WebAssembly.
 
 import { hexOf, playScript } from "./script.mjs";
 
-const [specifier, ...lacks] = process.argv.slice(2);
+const [specifier, ...missing] = process.argv.slice(2);
 const compiled = [];
-if (lacks.includes("no-vectors")) WebAssembly.validate = () => false;
-if (lacks.includes("no-wasm")) {
+if (missing.includes("no-simd")) WebAssembly.validate = () => false;
+if (missing.includes("no-wasm")) {
   delete globalThis.WebAssembly;
 } else {
   const { Module } = WebAssembly;
@@ -35,10 +36,10 @@ cloth.step(20);
 const small = hexOf(cloth.stateHash());
 const [x, y, z] = cloth.positions;
 
-// Memory grows and moves; what is read then is as it was.
+// The memory grows and moves; views that are read afterwards have the same contents.
 const others = Array.from({ length: 4 }, () => Cloth.grid({ columns: 64, rows: 64 }));
 const { positions } = cloth;
-const isKept = positions[0] === x && positions[1] === y && positions[2] === z;
+const isUnchanged = positions[0] === x && positions[1] === y && positions[2] === z;
 const back = Cloth.restore(cloth.save());
 const isRestored = back.stateHash() === cloth.stateHash();
 for (const one of [...others, back, cloth]) one.free();
@@ -49,4 +50,4 @@ try {
 } catch (error) {
   refusal = error.message;
 }
-console.log(JSON.stringify({ hash, small, compiled, isKept, isRestored, refusal }));
+console.log(JSON.stringify({ hash, small, compiled, isUnchanged, isRestored, refusal }));

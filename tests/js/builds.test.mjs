@@ -1,5 +1,5 @@
-// Every build of the package ends in the same bits: with vectors, without them, with the module inside, without
-// WebAssembly.
+// Every build of the package gives the same bits: with SIMD, without it, with the module embedded,
+// without WebAssembly.
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -9,12 +9,12 @@ import { promisify } from "node:util";
 
 const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
 
-/** The size of a module of the package [B]. */
+/** Returns the size of a module of the package [B]. */
 async function sizeOf(name) {
   return (await stat(new URL(import.meta.resolve(`muslin/${name}`)))).size;
 }
 
-/** Runs tests/js/build.mjs, and gives what it printed. */
+/** Runs tests/js/build.mjs and returns the object that it prints. */
 async function run(...words) {
   const script = new URL("build.mjs", import.meta.url).pathname;
   const { stdout } = await promisify(execFile)(process.execPath, [script, ...words]);
@@ -22,23 +22,23 @@ async function run(...words) {
 }
 
 const BUILDS = [
-  ["with vectors", ["muslin"], "raw_bg.wasm"],
-  ["in an engine without vectors", ["muslin", "no-vectors"], "plain_bg.wasm"],
-  ["with its module inside", ["muslin/inline"], undefined],
+  ["with SIMD", ["muslin"], "raw_bg.wasm"],
+  ["in an engine without SIMD", ["muslin", "no-simd"], "plain_bg.wasm"],
+  ["with its module embedded", ["muslin/inline"], undefined],
   ["in an engine without WebAssembly", ["muslin/no-wasm", "no-wasm"], undefined],
 ];
 
-/** What a small cloth ends in, as the first build says. */
+/** State hash of the small cloth in the first build. */
 let small;
 
 for (const [name, words, module] of BUILDS) {
-  test(`the package ${name}`, async () => {
+  test(`the package ${name} gives the same bits`, async () => {
     const found = await run(...words);
     assert.equal(found.hash, golden);
     small ??= found.small;
     assert.match(small, /^0x[0-9a-f]{16}$/);
     assert.equal(found.small, small);
-    assert.ok(found.isKept && found.isRestored);
+    assert.ok(found.isUnchanged && found.isRestored);
     assert.match(found.refusal, /columns/);
     if (words.includes("no-wasm")) assert.deepEqual(found.compiled, []);
     if (module) assert.deepEqual(found.compiled, [await sizeOf(module)]);

@@ -1,4 +1,4 @@
-// Loading once, freeing once, and the errors around both.
+// Loading and freeing, and the errors around both.
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -16,7 +16,7 @@ const { resolve } = createRequire(import.meta.url);
 const shipped = (file) => pathToFileURL(resolve(`muslin/${file}`));
 const [wasm, manifest] = [shipped("raw_bg.wasm"), shipped("package.json")];
 
-/** Runs `body` in a node of its own, where nothing is loaded yet. */
+/** Runs `body` in a new Node process, in which nothing is loaded yet. */
 async function inFreshNode(body) {
   await inNode(`
     import assert from "node:assert/strict";
@@ -27,7 +27,7 @@ async function inFreshNode(body) {
     ${body}`);
 }
 
-/** Runs a module that may import what is installed here, and says nothing. */
+/** Runs a module that may import the installed packages, and fails if it prints anything. */
 async function inNode(module) {
   const args = ["--input-type=module", "--eval", module];
   const { stdout, stderr } = await promisify(execFile)(process.execPath, args, {
@@ -36,7 +36,7 @@ async function inNode(module) {
   assert.equal(stdout + stderr, "");
 }
 
-test("before init every way to a cloth says what to call", () =>
+test("before init() every constructor throws and says to call init()", () =>
   inFreshNode(`
     for (const use of [() => Cloth.grid(), () => Cloth.mesh({}), () => Cloth.restore(bytes), version]) {
       assert.throws(use, /call await init\\(\\) first/);
@@ -63,7 +63,7 @@ test("initSync takes bytes and modules", async () => {
   await inFreshNode("initSync(new WebAssembly.Module(bytes)); works();");
 });
 
-test("init called twice, one after the other or at once, loads once", () =>
+test("init() called twice, in sequence or concurrently, loads once", () =>
   inFreshNode(`
     await Promise.all([init(), init(bytes), init()]);
     const cloth = Cloth.grid();
@@ -74,7 +74,7 @@ test("init called twice, one after the other or at once, loads once", () =>
     works();
   `));
 
-test("initSync refuses to overtake init", () =>
+test("initSync() throws while init() is running", () =>
   inFreshNode(`
     const loading = init();
     assert.throws(() => initSync(bytes), /init\\(\\) is under way/);
@@ -82,7 +82,7 @@ test("initSync refuses to overtake init", () =>
     works();
   `));
 
-test("a load that failed says why and may be tried again", () =>
+test("a failed init() says why and can be called again", () =>
   inFreshNode(`
     const empty = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0);
     await assert.rejects(init(empty), /\`source\` must be the raw_bg.wasm of this package/);
@@ -98,8 +98,8 @@ test("a load that failed says why and may be tried again", () =>
     works();
   `));
 
-// The README's page is opened by tests/web/clients.test.mjs.
-test("what the package's README shows runs", async () => {
+// The HTML page of the README is tested by tests/web/clients.test.mjs.
+test("the JavaScript in the package's README runs", async () => {
   const readme = await readFile(new URL("README.md", manifest), "utf8");
   const blocks = [...readme.matchAll(/```js\n(.*?)```/gs)].map(([, code]) => code);
   assert.equal(blocks.length, 3);
@@ -109,15 +109,15 @@ test("what the package's README shows runs", async () => {
     ${blocks.join("")}
     cloth.cut([-1, -1, -1], [3, -1.1, -1], [0, 0, 2]);
     frame(1 / 60);
-    if (uploads.length !== 2 || !uploads[1].every(Number.isFinite)) throw new Error("nothing was written");`);
+    if (uploads.length !== 2 || !uploads[1].every(Number.isFinite)) throw new Error("no vertices were written");`);
 });
 
-test("the version is the package's", async () => {
+test("version() returns the version of the package", async () => {
   await init();
   assert.equal(version(), JSON.parse(await readFile(manifest, "utf8")).version);
 });
 
-test("free may be called twice, and any use after it says so", async () => {
+test("free() can be called twice, and every use after it throws", async () => {
   await init();
   const cloth = Cloth.grid();
   const [grab, collider] = [cloth.grabParticle(800), cloth.addCollider()];
@@ -154,16 +154,16 @@ test("free may be called twice, and any use after it says so", async () => {
   for (const use of [() => collider.moveTo([0, 0, 0]), () => collider.remove()]) assert.throws(use, freed);
 });
 
-test("a cloth is disposed of as `using` does it", async () => {
+test("Symbol.dispose frees the cloth, as `using` does", async () => {
   await init();
   const cloth = Cloth.grid();
   const symbols = Object.getOwnPropertySymbols(Cloth.prototype);
-  assert.deepEqual(symbols, Symbol.dispose ? [Symbol.dispose] : [], "as far as this node knows it");
+  assert.deepEqual(symbols, Symbol.dispose ? [Symbol.dispose] : [], "if this Node has Symbol.dispose");
   for (const dispose of symbols) cloth[dispose]();
   assert.equal(cloth.isFreed, symbols.length > 0);
 });
 
-test("a released grab is stale, and so is one whose cloth was reset", async () => {
+test("a grab is stale after its release and after a reset", async () => {
   await init();
   const cloth = Cloth.grid();
   const stale = /`grab` must be a live grab of this cloth/;
@@ -177,7 +177,7 @@ test("a released grab is stale, and so is one whose cloth was reset", async () =
   }
 });
 
-test("cloths, grabs and colliders are made by their makers only", async () => {
+test("constructors of cloths, grabs and colliders throw when called directly", async () => {
   await init();
   const cloth = Cloth.grid();
   assert.throws(() => new Cloth(), /Cloth.grid\(\)/);
@@ -185,7 +185,7 @@ test("cloths, grabs and colliders are made by their makers only", async () => {
   assert.throws(() => new (cloth.addCollider().constructor)(), /cloth.addCollider\(\)/);
 });
 
-test("cloths that nobody freed are collected", async () => {
+test("cloths that are not freed are garbage-collected", async () => {
   await init();
   setFlagsFromString("--expose-gc");
   const collect = runInNewContext("gc");
@@ -199,7 +199,7 @@ test("cloths that nobody freed are collected", async () => {
   assert.ok(bytes() < 20 * each, `60 cloths of ${each} bytes take ${bytes()} bytes`);
 });
 
-test("a thousand cloths that were torn and freed leave the memory as it was", async () => {
+test("creating, tearing and freeing a thousand cloths does not grow the memory", async () => {
   await init();
   const memory = () => {
     const cloth = Cloth.grid({ columns: 2, rows: 2 });

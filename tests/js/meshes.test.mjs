@@ -1,4 +1,5 @@
-// Meshes as artists export them: what is repaired is told, and each vertex has a particle.
+// Meshes as artists export them: meshReport counts the repairs, and vertexParticles maps vertices
+// to particles.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -7,7 +8,10 @@ import init, { Cloth } from "muslin";
 
 await init();
 
-/** Two sheets of 5 × 6 vertices side by side; the last column of one lies on the first of the other. */
+/**
+ * Returns two sheets of 5 × 6 vertices side by side; the last column of one coincides with the
+ * first of the other.
+ */
 function seamedSheet() {
   const desc = { positions: [], uvs: [], indices: [], weldDistance: 0 };
   for (const half of [0, 1]) {
@@ -23,7 +27,7 @@ function seamedSheet() {
   return desc;
 }
 
-test("a clean mesh is its own particles", () => {
+test("without repairs vertex i is particle i", () => {
   const cloth = Cloth.mesh({ ...seamedSheet(), weldDistance: -1 });
   assert.deepEqual([...cloth.vertexParticles], [...Array(60).keys()]);
   const { vertices, particles, pieces, weldedVertices, isGrid } = cloth.meshReport;
@@ -37,7 +41,7 @@ test("a clean mesh is its own particles", () => {
   assert.equal(Cloth.grid().meshReport.isGrid, true);
 });
 
-test("what is repaired is told", () => {
+test("meshReport counts every repair", () => {
   const desc = seamedSheet();
   desc.indices.push(1, 0, 5, 7, 7, 8, 0, 1, 2);
   [desc.indices[6], desc.indices[7]] = [desc.indices[7], desc.indices[6]];
@@ -61,7 +65,7 @@ test("what is repaired is told", () => {
   assert.throws(() => (cloth.meshReport.pieces = 7), TypeError);
 });
 
-test("vertices of a seam share their particle and keep their texture, until it is cut", () => {
+test("vertices of a welded seam share particles and keep their uvs, until a cut splits them", () => {
   const desc = seamedSheet();
   const cloth = Cloth.mesh({ ...desc, pinned: [4, 30] });
   assert.deepEqual([...cloth.pinned], [4]);
@@ -70,14 +74,14 @@ test("vertices of a seam share their particle and keep their texture, until it i
   assert.ok(pairs.every(isShared));
   cloth.step(10);
   for (const [a, b] of pairs) {
-    const at = cloth.position(cloth.vertexParticles[a]);
-    assert.deepEqual(at, [...cloth.positions.subarray(3 * a, 3 * a + 3)]);
-    assert.deepEqual(at, [...cloth.positions.subarray(3 * b, 3 * b + 3)]);
+    const position = cloth.position(cloth.vertexParticles[a]);
+    assert.deepEqual(position, [...cloth.positions.subarray(3 * a, 3 * a + 3)]);
+    assert.deepEqual(position, [...cloth.positions.subarray(3 * b, 3 * b + 3)]);
   }
   cloth.reset();
   const since = cloth.topologyRevision;
   assert.equal(cloth.cut([0.5, -0.3, -1], [0.5, -9, -1], [0, 0, 2]), 2);
-  // Row 3 is where the slit ends.
+  // The cut ends at row 3.
   assert.deepEqual(pairs.map(isShared), [true, true, true, true, false, false]);
   assert.deepEqual([...cloth.uvs], desc.uvs);
   assert.deepEqual([...cloth.indices], desc.indices);
@@ -87,7 +91,7 @@ test("vertices of a seam share their particle and keep their texture, until it i
   assert.throws(() => cloth.position(56), /`particle` must be below 56/);
 });
 
-test("a grid as a mesh goes in the bits of the grid", () => {
+test("a grid that is passed as a mesh moves with the bits of the grid", () => {
   const grid = Cloth.grid();
   const { positions, indices, uvs, pinned } = grid;
   const mesh = Cloth.mesh({ positions, indices, uvs, pinned });

@@ -1,4 +1,4 @@
-// `node --import ./no-wasm.mjs …`: what imports "muslin" gets the build without WebAssembly, which is gone.
+// `node --import ./no-wasm.mjs …` removes WebAssembly and resolves "muslin" to "muslin/no-wasm".
 
 import { register } from "node:module";
 

@@ -1,4 +1,4 @@
-// What pointers hold of a cloth, told by rays.
+// Pointers: grabbing and dragging a cloth by rays.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -10,46 +10,46 @@ await init();
 
 const AHEAD = [0, 0, -1];
 
-/** A sheet of 2 m about the origin; it and its pointers. */
+/** Returns a sheet of 2 m around the origin, and pointers for it. */
 function sheet(options) {
   const cloth = Cloth.grid({ columns: 41, rows: 41, spacing: 0.05, origin: [-1, 1, 0] });
   return { cloth, pointers: new Pointers(cloth, options) };
 }
 
-test("a press takes the particle under the ray, and a drag has it where the ray meets its plane", () => {
+test("a press grabs the particle under the ray, and a drag moves it to where the ray hits the plane", () => {
   const { cloth, pointers } = sheet();
   assert.equal(pointers.cloth, cloth);
   assert.equal(pointers.press("mouse", [0, 0, 5], AHEAD), true);
   assert.ok(pointers.holds("mouse") && pointers.size === 1);
-  // From the side: the plane is the one that the first ray faced.
+  // From the side: the plane still faces the ray of the press.
   const [x, z] = [0.3, 0];
   assert.equal(pointers.drag("mouse", [x + 5, 0.2, z + 5], [-1, 0, -1]), true);
-  cloth.step(10); // no particle moves faster than `maxDisplacement` lets it
+  cloth.step(10); // `maxDisplacement` limits how fast it follows
   const held = cloth.position(20 * 41 + 20);
-  for (const [at, wanted] of [0.3, 0.2, 0].entries()) assert.ok(Math.abs(held[at] - wanted) < 1e-5, `${held}`);
+  for (const [axis, wanted] of [0.3, 0.2, 0].entries()) assert.ok(Math.abs(held[axis] - wanted) < 1e-5, `${held}`);
   assert.equal(pointers.lift("mouse"), true);
   assert.equal(pointers.lift("mouse"), false);
   assert.equal(pointers.drag("mouse", [0, 0, 5], AHEAD), false);
 });
 
-test("the plane faces the way that is given", () => {
+test("`facing` is the normal of the plane", () => {
   const { cloth, pointers } = sheet();
   pointers.press(1, [0, 0, 5], AHEAD, [0, 1, -1]);
   pointers.drag(1, [0, 0.25, 5], AHEAD);
-  cloth.step(10); // no particle moves faster than `maxDisplacement` lets it
+  cloth.step(10); // `maxDisplacement` limits how fast it follows
   const held = cloth.position(20 * 41 + 20);
-  for (const [at, wanted] of [0, 0.25, 0.25].entries()) assert.ok(Math.abs(held[at] - wanted) < 1e-5, `${held}`);
+  for (const [axis, wanted] of [0, 0.25, 0.25].entries()) assert.ok(Math.abs(held[axis] - wanted) < 1e-5, `${held}`);
 });
 
-test("a ray that misses takes nothing, unless it passes within the radius", () => {
-  for (const [radius, takes] of [[0, false], [0.2, true]]) {
+test("a ray that misses grabs nothing, unless it passes within the radius", () => {
+  for (const [radius, isGrabbed] of [[0, false], [0.2, true]]) {
     const { pointers } = sheet({ radius });
-    assert.equal(pointers.press(1, [1.1, 0, 5], AHEAD), takes);
-    assert.equal(pointers.size, takes ? 1 : 0);
+    assert.equal(pointers.press(1, [1.1, 0, 5], AHEAD), isGrabbed);
+    assert.equal(pointers.size, isGrabbed ? 1 : 0);
   }
 });
 
-test("a ray along the plane, or away from it, pulls nowhere", () => {
+test("a ray parallel to the plane, or away from it, moves nothing", () => {
   const { cloth, pointers } = sheet();
   pointers.press(1, [0, 0, 5], AHEAD);
   for (const [origin, direction] of [[[0, 0, 5], [1, 0, -0.001]], [[0, 0, 5], [0, 0, 1]]]) {
@@ -60,7 +60,7 @@ test("a ray along the plane, or away from it, pulls nowhere", () => {
   assert.ok(pointers.holds(1));
 });
 
-test("many pointers hold at once, and a second press of one lets go of its first", () => {
+test("several pointers hold at once, and a second press of one releases its first grab", () => {
   const { cloth, pointers } = sheet();
   for (const finger of [0, 1, 2]) pointers.press(finger, [0.3 * finger - 0.3, 0, 5], AHEAD);
   assert.equal(pointers.size, 3);
@@ -71,7 +71,7 @@ test("many pointers hold at once, and a second press of one lets go of its first
   cloth.step(1);
 });
 
-test("a cloth that was reset or freed is held no more, and nobody is thrown at", () => {
+test("after a reset or free all pointers let go without an error", () => {
   for (const end of [(cloth) => cloth.reset(), (cloth) => cloth.free()]) {
     const { cloth, pointers } = sheet();
     for (const finger of [1, 2]) pointers.press(finger, [0.1 * finger, 0, 5], AHEAD);
@@ -82,7 +82,7 @@ test("a cloth that was reset or freed is held no more, and nobody is thrown at",
   }
 });
 
-test("what is wrong is named", () => {
+test("an error names the wrong argument", () => {
   const { cloth, pointers } = sheet();
   assert.throws(() => new Pointers({}), /`cloth` must be a cloth/);
   assert.throws(() => new Pointers(cloth, { radios: 1 }), /`options.radios` is not known; did you mean `radius`/);

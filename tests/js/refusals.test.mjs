@@ -1,4 +1,4 @@
-// What a caller can get wrong: each refusal names the argument, and changes nothing.
+// Wrong arguments: every error names the argument, and the cloth does not change.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -14,8 +14,8 @@ const NOT_FINITE = [...NOT_VECTORS, [0, Infinity, 0], [0, 1e300, 0], new Float32
 const NOT_OBJECTS = [null, 1, true, [], new Float32Array(3)];
 const NOT_LISTS = [null, 1, "0, 1, 2", {}, new BigInt64Array(3), new DataView(new ArrayBuffer(12))];
 
-/** A cloth in the middle of things: torn, with a grab, a pin and a collider. */
-function livelyCloth() {
+/** Returns a cloth in motion: torn, with a grab, pins and a collider. */
+function movingCloth() {
   const cloth = Cloth.grid({ columns: 8, rows: 8, settings: { tearing: true }, extraParticles: 32 });
   const [grab, collider] = [cloth.grabParticle(60), cloth.addCollider({ position: [0, -2, 0] })];
   cloth.wind = { velocity: [0, 0, 1] };
@@ -24,25 +24,28 @@ function livelyCloth() {
   return { cloth, grab, collider };
 }
 
-/** All that a refused call could have changed. */
+/** Returns everything that a refused call could have changed, as text. */
 function stateOf(cloth) {
   const { settings, material, wind, topologyRevision, stateRevision, timing } = cloth;
-  const told = [settings, material, wind, topologyRevision, stateRevision, timing];
-  return JSON.stringify([told, `${cloth.stateHash()}`, Array.from(cloth.save())]);
+  const values = [settings, material, wind, topologyRevision, stateRevision, timing];
+  return JSON.stringify([values, `${cloth.stateHash()}`, Array.from(cloth.save())]);
 }
 
-/** Every value is refused with an Error that names the argument, and leaves the cloth as it was. */
+/**
+ * Tests that `call` throws an Error that names the argument for each value, and does not change the
+ * cloth.
+ */
 function refuses(name, values, call) {
-  test(`${name} is refused when it cannot be`, () => {
-    const lively = livelyCloth();
-    const before = stateOf(lively.cloth);
+  test(`wrong values of ${name} throw and change nothing`, () => {
+    const moving = movingCloth();
+    const before = stateOf(moving.cloth);
     for (const value of values) {
-      const told = (error) => error.constructor === Error && error.message.includes(`\`${name}\``);
-      assert.throws(() => call(value, lively), told, `${name}: ${String(value)}`);
-      assert.equal(stateOf(lively.cloth), before, `${name}: ${String(value)} left its mark`);
+      const namesArgument = (error) => error.constructor === Error && error.message.includes(`\`${name}\``);
+      assert.throws(() => call(value, moving), namesArgument, `${name}: ${String(value)}`);
+      assert.equal(stateOf(moving.cloth), before, `${name}: ${String(value)} changed the cloth`);
     }
-    lively.cloth.step(1);
-    lively.cloth.free();
+    moving.cloth.step(1);
+    moving.cloth.free();
   });
 }
 
@@ -74,7 +77,7 @@ refuses("pinned", [...NOT_LISTS.slice(1), [4], [-1], [0.5]], mesh("pinned"));
 refuses("weldDistance", [...NOT_NUMBERS, Infinity], mesh("weldDistance"));
 refuses("desc.uv", [[0, 0]], mesh("uv"));
 
-// Settings, material, wind: all keys, live and in a descriptor
+// Settings, material, wind: every key, in a setter and in a descriptor
 const NUMBERS = { tick: [0, -1, 2], damping: [-1, Infinity], maxDisplacement: [0, -1, Infinity] };
 const counts = { substeps: [0, 1001], iterations: [0, 1001], maxTicksPerAdvance: [0], maxTearsPerTick: [0] };
 const settings = {
@@ -210,7 +213,7 @@ refuses("targets", [...NOT_LISTS, undefined, [0], [0, 0, 0], targets.map(() => N
   cloth.setPinTargets([60, 61], value),
 );
 
-// Pointing, grabbing, tearing
+// Ray casts, grabs, tears
 const ahead = [0, 0, -1];
 for (const name of ["raycast", "grabRay"]) {
   refuses("origin", [...NOT_FINITE, undefined], (value, { cloth }) => cloth[name](value, ahead));
@@ -279,8 +282,8 @@ refuses("buffer", [new Uint8Array(0), new Uint8Array(64), new ArrayBuffer(64)], 
   Cloth.restore(value),
 );
 
-test("saved bytes that were cut short or changed are refused", () => {
-  const { cloth } = livelyCloth();
+test("damaged and truncated saves throw", () => {
+  const { cloth } = movingCloth();
   const saved = cloth.save();
   assert.equal(Cloth.restore(saved.buffer).stateHash(), cloth.stateHash());
   for (let at = 0; at < saved.length; at += 101) {
@@ -291,8 +294,8 @@ test("saved bytes that were cut short or changed are refused", () => {
   }
 });
 
-test("a refusal says the rule, what was given and what may have been meant", () => {
-  const { cloth } = livelyCloth();
+test("an error states the rule, the value and a similar name", () => {
+  const { cloth } = movingCloth();
   const says = (call, message) => assert.throws(call, { name: "Error", message });
   const hint = "`settings.iteration` is not known; did you mean `iterations`?";
   says(() => (cloth.settings = { iteration: 3 }), hint);
@@ -303,7 +306,7 @@ test("a refusal says the rule, what was given and what may have been meant", () 
   says(() => cloth.tearEdge(0, 5), "`particleB` must be joined to `particleA` by an edge");
 });
 
-test("grabs and rooms that are used up are refused by name", () => {
+test("a full list of grabs and a used-up reserve throw by name", () => {
   const cloth = Cloth.grid({ columns: 9, rows: 9, extraParticles: 0 });
   for (let i = 0; i < 64; i++) cloth.grabParticle(i);
   const before = cloth.stateHash();

@@ -1,8 +1,8 @@
-// The script of tests/golden/tests/golden/script.rs, told in JavaScript, for node and for a page.
+// The script of tests/golden/tests/golden/script.rs in JavaScript, for Node and for a page.
 
 /**
- * Six hundred and thirty ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, be cut,
- * fall on the floor, be picked up by a corner.
+ * Runs 630 ticks and returns the cloth: it hangs in the wind, is dragged until it rips, is torn by
+ * a call, released and cut, falls to the floor, and is picked up by a corner.
  */
 export function playScript(Cloth) {
   const cloth = Cloth.grid({ settings: { tearing: true }, material: { tearStretch: 1.5 } });
@@ -20,7 +20,7 @@ export function playScript(Cloth) {
   grab.release();
   cloth.step(180);
   const opened = cloth.cut([-1, -0.59375, -9], [3, -0.78125, -9], [0, 0, 18]);
-  if (opened <= 40) throw new Error(`the blade is to cut all through, but opened ${opened} edges`);
+  if (opened <= 40) throw new Error(`the cut must go all the way through, but opened ${opened} edges`);
   cloth.step(30);
 
   cloth.unpinAll();
@@ -28,11 +28,11 @@ export function playScript(Cloth) {
   cloth.pin(0, [0, 0, 0.5]);
   cloth.step(59);
   const ticks = cloth.advance(1 / 60);
-  if (ticks !== 1) throw new Error(`the last frame is to owe 1 tick, but owed ${ticks}`);
+  if (ticks !== 1) throw new Error(`the last frame must run 1 tick, but ran ${ticks}`);
   return cloth;
 }
 
-/** A hash as tests/script.hash writes it. */
+/** Formats a hash as in tests/script.hash. */
 export function hexOf(hash) {
   return `0x${hash.toString(16).padStart(16, "0")}`;
 }

@@ -1,4 +1,4 @@
-// The same script ends in the same bits here as in Rust and C.
+// The script gives the same bits in JavaScript as in Rust and C.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -9,17 +9,17 @@ import { hexOf, playScript } from "./script.mjs";
 
 await init();
 
-test("the script ends in the golden bits", async () => {
+test("the script ends with the golden hash", async () => {
   const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
   const cloth = playScript(Cloth);
   assert.equal(hexOf(cloth.stateHash()), golden);
   const torn = cloth.events().filter(({ kind }) => kind === "edge-torn");
-  assert.ok(torn.length >= 10, `the script is to tear the cloth, but tore ${torn.length} edges`);
-  assert.deepEqual(cloth.events(), [], "events are drained");
+  assert.ok(torn.length >= 10, `the script must tear the cloth, but tore ${torn.length} edges`);
+  assert.deepEqual(cloth.events(), [], "events() removes the events");
   cloth.free();
 });
 
-test("a restored cloth goes on in the same bits", () => {
+test("a restored cloth continues with the same bits", () => {
   const straight = playScript(Cloth);
   const saved = straight.save();
   const restored = Cloth.restore(saved);
@@ -34,7 +34,7 @@ test("a restored cloth goes on in the same bits", () => {
   assert.notDeepEqual(straight.save(), saved);
 });
 
-test("a reset cloth plays as a new one", () => {
+test("a reset cloth moves as a new one", () => {
   const old = playScript(Cloth);
   old.reset();
   const { settings, material, wind } = old;
@@ -45,7 +45,7 @@ test("a reset cloth plays as a new one", () => {
   assert.equal(old.stateHash(), fresh.stateHash());
 });
 
-test("a mesh told as plain arrays or as typed arrays is the same cloth", () => {
+test("plain arrays and typed arrays make the same cloth", () => {
   const positions = [0, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1, 0];
   const [indices, uvs, pinned] = [[0, 2, 1, 1, 2, 3], [0, 1, 1, 1, 0, 0, 1, 0], [0, 1]];
   const plain = Cloth.mesh({ positions, indices, uvs, pinned, material: "paper" });
@@ -73,8 +73,8 @@ test("free fall drops half g t squared", () => {
     material: { drag: 0 },
   });
   cloth.step(60);
-  const fallen = -cloth.positions[1];
-  assert.ok(Math.abs(fallen - 0.5 * 9.81) < 0.03, `fell ${fallen} m in a second`);
+  const drop = -cloth.positions[1];
+  assert.ok(Math.abs(drop - 0.5 * 9.81) < 0.03, `fell ${drop} m in a second`);
   const speed = -cloth.velocity(0)[1];
   assert.ok(Math.abs(speed - 9.81) < 0.03, `falls at ${speed} m/s after a second`);
   assert.ok(Math.abs(cloth.time - 1) < 1e-5, `its time is ${cloth.time} s`);

@@ -1,4 +1,4 @@
-// Vertices and indices written into buffers of the page.
+// writeVertices and writeIndices into buffers of the caller.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -7,8 +7,8 @@ import init, { Cloth } from "muslin";
 
 await init();
 
-/** A torn cloth in motion. */
-function livelyCloth() {
+/** Returns a torn cloth in motion. */
+function movingCloth() {
   const cloth = Cloth.grid({ columns: 12, rows: 9, pinMode: "top-corners" });
   cloth.step(20);
   assert.equal(cloth.tearEdge(50, 62), true);
@@ -16,19 +16,20 @@ function livelyCloth() {
   return cloth;
 }
 
-test("floats are those of the views, wherever they are written", () => {
-  const cloth = livelyCloth();
+test("f32 streams hold the numbers of the views, in separate and interleaved buffers", () => {
+  const cloth = movingCloth();
   const count = cloth.positions.length / 3;
   const [positions, normals] = [new Float32Array(3 * count), new ArrayBuffer(12 * count + 8)];
-  const told = cloth.writeVertices([
+  const written = cloth.writeVertices([
     { attribute: "position", buffer: positions },
     { attribute: "normal", buffer: normals, offset: 8 },
   ]);
-  assert.equal(told, count);
+  assert.equal(written, count);
   assert.deepEqual(positions, cloth.positions);
   assert.deepEqual(new Float32Array(normals, 8), cloth.normals);
 
-  // One buffer, position, uv and something of the page's, behind eight bytes that nobody means.
+  // One buffer: 8 bytes before the view, then position, uv and 4 bytes of the page per vertex. The
+  // rest must not change.
   const whole = new ArrayBuffer(8 + 24 * count);
   const bytes = new Uint8Array(whole).fill(0xee);
   const view = new Float32Array(whole, 8);
@@ -44,8 +45,8 @@ test("floats are those of the views, wherever they are written", () => {
   assert.ok(bytes.subarray(0, 8).every((byte) => byte === 0xee));
 });
 
-test("16 bits say the same in short", () => {
-  const cloth = livelyCloth();
+test("16-bit formats hold the same values in lower precision", () => {
+  const cloth = movingCloth();
   const count = cloth.positions.length / 3;
   const [buffer, frayed] = [new Int16Array(8 * count), new Float32Array(count)];
   cloth.writeVertices([
@@ -63,8 +64,8 @@ test("16 bits say the same in short", () => {
   assert.ok(frayed.includes(1) && frayed.includes(0));
 });
 
-test("vertices are placed between ticks, moved, turned and offset", () => {
-  const cloth = livelyCloth();
+test("vertices are blended, transformed, flipped and offset", () => {
+  const cloth = movingCloth();
   const before = cloth.positions.slice();
   cloth.step(1);
   const now = cloth.positions.slice();
@@ -72,23 +73,23 @@ test("vertices are placed between ticks, moved, turned and offset", () => {
   cloth.writeVertices([{ attribute: "position", buffer }], { blend: 0 });
   assert.deepEqual(buffer, before);
   cloth.writeVertices([{ attribute: "position", buffer }], { blend: 0.5 });
-  assert.ok(buffer.every((x, at) => Math.abs(x - (before[at] + now[at]) / 2) < 1e-6));
+  assert.ok(buffer.every((x, i) => Math.abs(x - (before[i] + now[i]) / 2) < 1e-6));
   const transform = [0, 0, 1, 5, 0, 1, 0, 0, -1, 0, 0, 0];
   cloth.writeVertices([{ attribute: "position", buffer }], { transform });
   assert.deepEqual([...buffer.subarray(0, 3)], [now[2] + 5, now[1], 0 - now[0]].map(Math.fround));
   const normals = new Float32Array(now.length);
   cloth.writeVertices([{ attribute: "normal", buffer: normals }], { flipNormals: true });
-  assert.ok(normals.every((x, at) => x === -cloth.normals[at]));
+  assert.ok(normals.every((x, i) => x === -cloth.normals[i]));
   cloth.writeVertices([{ attribute: "position", buffer }], { offset: 0.25, flipNormals: true });
-  assert.ok(buffer.every((x, at) => Math.abs(x - now[at] - 0.25 * normals[at]) < 1e-6));
+  assert.ok(buffer.every((x, i) => Math.abs(x - now[i] - 0.25 * normals[i]) < 1e-6));
   const some = new Float32Array(6).fill(9);
   const range = { firstVertex: 40, vertexCount: 1 };
   assert.equal(cloth.writeVertices([{ attribute: "position", buffer: some }], range), 1);
   assert.deepEqual([...some], [...now.subarray(120, 123), 9, 9, 9]);
 });
 
-test("indices are as wide as their array", () => {
-  const cloth = livelyCloth();
+test("indices have the width of their array", () => {
+  const cloth = movingCloth();
   const { indices } = cloth;
   const [narrow, wide] = [new Uint16Array(indices.length + 1).fill(7), new Uint32Array(indices.length)];
   assert.equal(cloth.writeIndices(narrow), indices.length);
@@ -100,7 +101,7 @@ test("indices are as wide as their array", () => {
   }
 });
 
-test("what is held of the module stays whole while buffers grow and memory moves", () => {
+test("writing works while the memory of the module grows and moves", () => {
   const cloth = Cloth.grid({ columns: 200, rows: 200 });
   const others = [];
   const buffer = new Float32Array(3 * 40000);
@@ -113,10 +114,10 @@ test("what is held of the module stays whole while buffers grow and memory moves
   others.forEach((other) => other.free());
 });
 
-/** Refused in words, with every byte as it was. */
-function refuses(what, words, call) {
-  test(`${what} is refused and nothing is written`, () => {
-    const cloth = livelyCloth();
+/** Tests that `call` throws an Error with `text`, and changes no byte of the buffer. */
+function refuses(name, text, call) {
+  test(`${name} throws and writes nothing`, () => {
+    const cloth = movingCloth();
     const count = cloth.positions.length / 3;
     const buffer = new ArrayBuffer(32 * count);
     new Uint8Array(buffer).fill(0xee);
@@ -125,8 +126,8 @@ function refuses(what, words, call) {
       { attribute: "normal", format: "snorm16", buffer, stride: 32, offset: 16 },
     ];
     const hash = cloth.stateHash();
-    const told = (error) => error.constructor === Error && error.message.includes(words);
-    assert.throws(() => call(cloth, good, buffer, count), told);
+    const hasText = (error) => error.constructor === Error && error.message.includes(text);
+    assert.throws(() => call(cloth, good, buffer, count), hasText);
     assert.ok(new Uint8Array(buffer).every((byte) => byte === 0xee));
     assert.equal(cloth.stateHash(), hash);
     cloth.writeVertices(good);
@@ -135,15 +136,15 @@ function refuses(what, words, call) {
 
 const stream = (change) => (cloth, [first, second]) => cloth.writeVertices([first, { ...second, ...change }]);
 const desc = (change) => (cloth, good) => cloth.writeVertices(good, change);
-refuses("no array", "`streams` must be an array", (cloth) => cloth.writeVertices({}));
-refuses("no stream", "`streams` must be from 1 to 16", (cloth) => cloth.writeVertices([]));
-refuses("a crowd", "`streams` must be from 1 to 16", (cloth, [one]) => cloth.writeVertices(Array(40).fill(one)));
+refuses("an object instead of an array", "`streams` must be an array", (cloth) => cloth.writeVertices({}));
+refuses("an empty list", "`streams` must be from 1 to 16", (cloth) => cloth.writeVertices([]));
+refuses("a list of 40 streams", "`streams` must be from 1 to 16", (cloth, [one]) => cloth.writeVertices(Array(40).fill(one)));
 refuses("null for a stream", "`streams[0]` must be an object", (cloth) => cloth.writeVertices([null]));
 refuses("a misspelt field", "`streams[1].strid` is not known", stream({ strid: 4 }));
 refuses("an unknown attribute", "`streams[1].attribute` must be one of", stream({ attribute: "colour" }));
 refuses("an unknown format", "`streams[1].format` must be one of", stream({ format: "f64" }));
-refuses("a format for others", "`streams[1].format`", stream({ attribute: "uv" }));
-refuses("a list for a buffer", "`streams[1].buffer` must be an ArrayBuffer", stream({ buffer: [0, 0] }));
+refuses("a format that the attribute lacks", "`streams[1].format`", stream({ attribute: "uv" }));
+refuses("an array instead of a buffer", "`streams[1].buffer` must be an ArrayBuffer", stream({ buffer: [0, 0] }));
 refuses("a short buffer", "`streams[1].buffer` must hold", stream({ buffer: new ArrayBuffer(99) }));
 refuses("an offset past the end", "bytes from its offset on, but has 0", stream({ offset: 1e6 }));
 refuses("an odd offset", "`streams[1].buffer` must be aligned", stream({ offset: 17 }));
@@ -159,16 +160,16 @@ refuses("a first vertex past the end", "`firstVertex`", desc({ firstVertex: 9999
 refuses("too many vertices", "`vertexCount`", desc({ firstVertex: 1, vertexCount: 109 }));
 refuses("a blend beyond 1", "`blend`", desc({ blend: 1.5 }));
 refuses("a short transform", "`desc.transform` must be 12 numbers", desc({ transform: [1, 0, 0] }));
-refuses("a flat transform", "`transform` must be one that can be inverted", desc({ transform: Array(12).fill(1) }));
-refuses("an endless transform", "`transform` must be finite", desc({ transform: Array(12).fill(Infinity) }));
-refuses("a number for a switch", "`desc.flipNormals` must be true or false", desc({ flipNormals: 1 }));
-refuses("an endless offset", "`offset` must be finite", desc({ offset: Infinity }));
+refuses("a singular transform", "`transform` must be one that can be inverted", desc({ transform: Array(12).fill(1) }));
+refuses("an infinite transform", "`transform` must be finite", desc({ transform: Array(12).fill(Infinity) }));
+refuses("a number instead of a boolean", "`desc.flipNormals` must be true or false", desc({ flipNormals: 1 }));
+refuses("an infinite offset", "`offset` must be finite", desc({ offset: Infinity }));
 refuses("floats for indices", "`buffer` must be a Uint16Array", (cloth) => cloth.writeIndices(new Float32Array(999)));
-refuses("little room for indices", "`buffer` must have room for", (cloth) => cloth.writeIndices(new Uint16Array(9)));
+refuses("a short buffer for indices", "`buffer` must have room for", (cloth) => cloth.writeIndices(new Uint16Array(9)));
 refuses("wide indices in 16 bits", "`buffer` must be a Uint32Array", (cloth) => {
   cloth.writeIndices(new Uint16Array(9999), { baseVertex: 65500 });
 });
-refuses("indices past all numbers", "`options.baseVertex` must leave", (cloth) => {
+refuses("an index beyond 32 bits", "`options.baseVertex` must leave", (cloth) => {
   cloth.writeIndices(new Uint32Array(9999), { baseVertex: 4294967295 });
 });
 refuses("the module's own indices", "must be your own", (cloth) => cloth.writeIndices(cloth.indices));

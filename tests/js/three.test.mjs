@@ -1,4 +1,5 @@
-// ClothGeometry with the real three.js, without a screen: the newest, and the one that example pages name.
+// ClothGeometry with the real three.js, without a screen: the newest release, and the one that the
+// example pages use.
 
 import assert from "node:assert/strict";
 import { suite, test } from "node:test";
@@ -11,7 +12,7 @@ import * as r160 from "three-160";
 
 await init();
 
-test("both ways to the classes give the same", () => {
+test("muslin/three and withThree() give the same classes", () => {
   assert.deepEqual(Object.keys(withThree(newest)), Object.keys(bare));
   assert.ok(bare.ClothGeometry.prototype instanceof newest.BufferGeometry);
 });
@@ -20,19 +21,19 @@ for (const [release, three, { ClothGeometry }] of [
   [newest.REVISION, newest, bare],
   [r160.REVISION, r160, withThree(r160)],
 ]) {
-  suite(`three.js r${release}`, () => follow(three, ClothGeometry));
+  suite(`three.js r${release}`, () => testGeometry(three, ClothGeometry));
 }
 
-/** What would be uploaded at the next draw, by attribute; and as if it were drawn. */
-function draw(geometry, versions) {
+/** Returns the attributes that the next draw would upload, and marks them as uploaded. */
+function takeUploads(geometry, versions) {
   const lists = { ...geometry.attributes, index: geometry.index };
   const uploaded = Object.keys(lists).filter((name) => lists[name].version !== versions[name]);
   for (const name of Object.keys(lists)) versions[name] = lists[name].version;
   return uploaded.sort();
 }
 
-function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 }, ClothGeometry) {
-  test("it has room for every tear and draws what is in use", () => {
+function testGeometry({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 }, ClothGeometry) {
+  test("it has capacity for every tear and draws the part in use", () => {
     const cloth = Cloth.grid({ columns: 10, rows: 5, extraParticles: 7 });
     const geometry = new ClothGeometry(cloth);
     assert.ok(geometry.isBufferGeometry);
@@ -47,20 +48,20 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     assert.deepEqual([...uv.array.subarray(0, 100)], [...cloth.uvs]);
   });
 
-  test("an update uploads what changed and nothing else", () => {
+  test("update() uploads only what changed", () => {
     const cloth = Cloth.grid();
     const [geometry, versions] = [new ClothGeometry(cloth), {}];
-    assert.deepEqual(draw(geometry, versions), ["index", "normal", "position", "uv"]);
+    assert.deepEqual(takeUploads(geometry, versions), ["index", "normal", "position", "uv"]);
     assert.equal(geometry.update(), false);
-    assert.deepEqual(draw(geometry, versions), []);
+    assert.deepEqual(takeUploads(geometry, versions), []);
     cloth.step(1);
     assert.equal(geometry.update(), true);
-    assert.deepEqual(draw(geometry, versions), ["normal", "position"]);
+    assert.deepEqual(takeUploads(geometry, versions), ["normal", "position"]);
     assert.deepEqual(geometry.attributes.position.updateRanges, [{ start: 0, count: 4800 }]);
     cloth.tearEdge(820, 860);
     const arrays = Object.values(geometry.attributes).map(({ array }) => array);
     assert.equal(geometry.update(), true);
-    assert.deepEqual(draw(geometry, versions), ["index", "normal", "position", "uv"]);
+    assert.deepEqual(takeUploads(geometry, versions), ["index", "normal", "position", "uv"]);
     assert.deepEqual(Object.values(geometry.attributes).map(({ array }) => array), arrays);
     assert.deepEqual([...geometry.attributes.position.array.subarray(0, 4803)], [...cloth.positions]);
     const drawn = () => [...geometry.index.array.subarray(0, cloth.indices.length)];
@@ -72,7 +73,7 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     assert.deepEqual(Object.values(geometry.attributes).map(({ array }) => array), arrays, "in place");
   });
 
-  test("a tear uploads its part of the indices, and what was not drawn yet", () => {
+  test("a tear uploads its range of indices, merged with ranges that are still pending", () => {
     const cloth = Cloth.grid();
     const geometry = new ClothGeometry(cloth);
     const { index } = geometry;
@@ -90,7 +91,7 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     assert.deepEqual([...index.array.subarray(0, cloth.indices.length)], [...cloth.indices]);
   });
 
-  test("it goes on when the memory has grown", () => {
+  test("it still works after the memory has grown", () => {
     const cloth = Cloth.grid();
     const geometry = new ClothGeometry(cloth);
     const held = cloth.positions;
@@ -100,7 +101,7 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     assert.deepEqual([...geometry.attributes.position.array.subarray(0, 4800)], [...cloth.positions]);
   });
 
-  test("the bounds hold every vertex in use and not the room behind them", () => {
+  test("the bounds cover every vertex in use and no spare capacity", () => {
     const cloth = Cloth.grid({ origin: [100, 100, 100], pinMode: "none" });
     const geometry = new ClothGeometry(cloth);
     geometry.computeBoundingBox();
@@ -118,7 +119,7 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     }
   });
 
-  test("three's own raycast agrees with the cloth's", () => {
+  test("three.js's raycaster agrees with cloth.raycast()", () => {
     const cloth = Cloth.grid({ pinMode: "top-corners" });
     cloth.wind = { velocity: [0, 0, 3] };
     cloth.step(60);
@@ -130,7 +131,7 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     assert.ok(Math.abs(theirs.distance - ours.distance) < 1e-5);
   });
 
-  test("dispose leaves the cloth alone, and a freed cloth is told of", () => {
+  test("dispose() does not free the cloth, and update() throws after free()", () => {
     const cloth = Cloth.grid();
     const geometry = new ClothGeometry(cloth);
     let disposed = 0;
@@ -143,7 +144,7 @@ function follow({ BufferGeometry, Mesh, MeshBasicMaterial, Raycaster, Vector3 },
     assert.throws(() => geometry.update(), /`cloth` must be live, but was freed/);
   });
 
-  test("a clone is a still copy", () => {
+  test("a clone is a copy that does not follow the cloth", () => {
     const cloth = Cloth.grid();
     const geometry = new ClothGeometry(cloth);
     const copy = geometry.clone();

@@ -1,4 +1,4 @@
-// A strict program that uses the whole interface; it is compiled, and never run.
+// Uses the whole interface; it is type-checked in strict mode and never run.
 
 import init, {
   Cloth,
@@ -36,16 +36,16 @@ await init(new URL("raw_bg.wasm", "https://example.org"));
 await init(fetch("raw_bg.wasm"));
 await init(new Uint8Array(8));
 initSync(new WebAssembly.Module(new Uint8Array(8)));
-// @ts-expect-error: a number is nowhere to load from
+// @ts-expect-error: a number is no source
 await init(7);
-// @ts-expect-error: nothing can be fetched at once
+// @ts-expect-error: a URL cannot be loaded synchronously
 initSync("raw_bg.wasm");
-const told: string = version();
+const versionText: string = version();
 
-// Without WebAssembly there is nothing to load, and the cloth is the same.
+// muslin/no-wasm loads nothing, and has the same classes.
 const ready: Promise<void> = initWithout();
 initWithoutSync();
-// @ts-expect-error: nothing is loaded
+// @ts-expect-error: there is no source to pass
 await initWithout("raw_bg.wasm");
 const without: Cloth = ClothWithout.grid({ columns: 8, rows: 8 });
 const pulls: boolean = new Pointers(without, { radius: 0.1 }).press(1, [0, 0, 1], [0, 0, -1]);
@@ -67,11 +67,11 @@ const cloth: Cloth = Cloth.grid(desc);
 Cloth.grid();
 // @ts-expect-error: no such field
 Cloth.grid({ colums: 4 });
-// @ts-expect-error: no such way to pin
+// @ts-expect-error: no such pin mode
 Cloth.grid({ pinMode: "left-edge" });
-// @ts-expect-error: no such fabric
+// @ts-expect-error: no such preset
 Cloth.grid({ material: "wool" });
-// @ts-expect-error: cloths are made by their makers
+// @ts-expect-error: the constructor is private
 new Cloth();
 
 const sheet: MeshDesc = {
@@ -83,17 +83,17 @@ const sheet: MeshDesc = {
   material: "flag-nylon",
 };
 using other = Cloth.mesh(sheet);
-// @ts-expect-error: a mesh has triangles
+// @ts-expect-error: indices are required
 Cloth.mesh({ positions: [0, 0, 0] });
 
 cloth.settings = { iterations: 6 };
 cloth.settings = cloth.settings;
 const settings: Readonly<Settings> = cloth.settings;
-// @ts-expect-error: what was read does not change the cloth
+// @ts-expect-error: the copy that was read is read-only
 cloth.settings.iterations = 6;
 // @ts-expect-error: no such setting
 cloth.settings = { iteration: 6 };
-// @ts-expect-error: a switch, not a number
+// @ts-expect-error: a boolean, not a number
 cloth.settings = { tearing: 1 };
 const preset: Preset = "silk";
 cloth.material = preset;
@@ -114,12 +114,12 @@ cloth.advance("1");
 const clocks: number = cloth.time + cloth.blend + ticks;
 
 const floats: Float32Array[] = [cloth.positions, cloth.normals, cloth.uvs];
-const wholes: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.vertexParticles, cloth.pinned];
+const integers: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.vertexParticles, cloth.pinned];
 const report: Readonly<MeshReport> = other.meshReport;
 const repaired: number = report.weldedVertices + report.turnedTriangles + Number(report.isGrid);
-// @ts-expect-error: what was read does not change the mesh
+// @ts-expect-error: the report is read-only
 report.pieces = 2;
-// @ts-expect-error: a view is asked for, not given
+// @ts-expect-error: views cannot be assigned
 cloth.positions = new Float32Array(3);
 const sizes: number = cloth.vertexCapacity + cloth.indexCapacity;
 const revisions: number = cloth.topologyRevision + cloth.stateRevision;
@@ -144,9 +144,9 @@ cloth.moveFrame([1, 0, 0], [0, 0, 0, 1], 0.25);
 cloth.setPosition(5, [0, 0, 0]);
 cloth.setVelocity(5, new Float64Array(3));
 const velocity: Vec3 = cloth.velocity(5);
-const place: Vec3 = cloth.position(5);
+const position: Vec3 = cloth.position(5);
 const mass: number = cloth.mass(5);
-// @ts-expect-error: a place has three numbers
+// @ts-expect-error: a position has three numbers
 cloth.pin(0, "here");
 
 const hit: Hit | undefined = cloth.raycast([1, -1, 5], [0, 0, -1], 10);
@@ -169,10 +169,10 @@ cloth.addCollider({ shape: "mesh", positions: new Float32Array(9), indices: [0, 
 collider.moveTo([0, -1, 0]);
 collider.moveTo([0, -1, 0], [0, 0, 0, 1]);
 collider.remove();
-// @ts-expect-error: no such shape yet
+// @ts-expect-error: no such shape
 cloth.addCollider({ shape: "torus" });
 
-function tell(event: ClothEvent): number {
+function numberOf(event: ClothEvent): number {
   switch (event.kind) {
     case "edge-torn":
       return event.particleA + event.particleB;
@@ -181,7 +181,7 @@ function tell(event: ClothEvent): number {
     case "piece-detached":
       return event.vertex + event.count;
     case "recovered":
-      // @ts-expect-error: no vertex is told
+      // @ts-expect-error: this kind has no vertex
       return event.vertex;
     case "reserve-used-up":
       return event.tick + event.position[0];
@@ -191,7 +191,7 @@ function tell(event: ClothEvent): number {
       return event.particleA + event.particleB + event.vertex;
   }
 }
-const sum: number = cloth.events().reduce((total, event) => total + tell(event), 0);
+const sum: number = cloth.events().reduce((total, event) => total + numberOf(event), 0);
 const stats: Stats = cloth.stats;
 const stages: Stage[] = ["stretch", "outputs"];
 const seconds: number[] = stages.map((stage) => stats.seconds[stage]);
@@ -211,16 +211,16 @@ const streams: Stream[] = [
   { attribute: "position", buffer: new Float32Array(9), stride: 12 },
   { attribute: "normal", format: "octahedral16", buffer: new ArrayBuffer(12), offset: 0 },
 ];
-const placing: WriteDesc = { blend: cloth.blend, transform: new Float32Array(12), flipNormals: true };
-const writtenVertices: number = cloth.writeVertices(streams, placing);
+const writeDesc: WriteDesc = { blend: cloth.blend, transform: new Float32Array(12), flipNormals: true };
+const writtenVertices: number = cloth.writeVertices(streams, writeDesc);
 const writtenIndices: number = cloth.writeIndices(new Uint16Array(3), { flip: true, baseVertex: 4 });
 // @ts-expect-error: no such attribute
 cloth.writeVertices([{ attribute: "colour", buffer: new Float32Array(9) }]);
-// @ts-expect-error: a list is not written to
+// @ts-expect-error: an array is no buffer
 cloth.writeVertices([{ attribute: "uv", buffer: [0, 0] }]);
-// @ts-expect-error: indices are whole numbers
+// @ts-expect-error: indices are integers
 cloth.writeIndices(new Float32Array(3));
 
 export { clocks, floats, geometry, hash, held, isFreed, kept, loaded, mass, material, moved, other };
-export { place, pulls, ready, repaired, revisions, seconds, settings, sizes, sum, told, tore, velocity, where, wholes, wind };
+export { position, pulls, ready, repaired, revisions, seconds, settings, sizes, sum, versionText, tore, velocity, where, integers, wind };
 export { writtenIndices, writtenVertices };

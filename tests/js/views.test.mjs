@@ -1,4 +1,4 @@
-// Views of the module's memory: live, cheap, never detached when they are given.
+// Views of the module's memory, and the other getters and methods of Cloth.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -9,7 +9,7 @@ await init();
 
 const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices", "vertexParticles", "frayed"];
 
-/** Makes cloths until the memory has grown under a view that is held. */
+/** Creates cloths until the memory grows, which detaches `view`. */
 function growMemory(view) {
   const cloths = [];
   while (view.length > 0) {
@@ -19,7 +19,7 @@ function growMemory(view) {
   cloths.forEach((cloth) => cloth.free());
 }
 
-test("lists have the sizes and the values of a fresh grid", () => {
+test("a new grid has views of the right sizes and values", () => {
   const cloth = Cloth.grid({ columns: 3, rows: 2, spacing: 0.5, origin: [1, 2, 3] });
   assert.deepEqual([...cloth.positions], [1, 2, 3, 1.5, 2, 3, 2, 2, 3, 1, 1.5, 3, 1.5, 1.5, 3, 2, 1.5, 3]);
   const [x, y, z] = cloth.normals;
@@ -30,22 +30,22 @@ test("lists have the sizes and the values of a fresh grid", () => {
   assert.ok(cloth.indices.every((vertex) => vertex < 6));
   assert.deepEqual([...cloth.sourceVertices], [0, 1, 2, 3, 4, 5]);
   assert.equal(cloth.vertexCapacity, 12);
-  assert.equal(cloth.indexCapacity, 30, "room for cuts too");
+  assert.equal(cloth.indexCapacity, 30, "with capacity for cuts");
   assert.deepEqual([...cloth.pinned], [0, 1, 2]);
 });
 
-test("a getter gives a working view again after the memory grew", () => {
+test("a getter returns a valid view after the memory has grown", () => {
   const cloth = Cloth.grid();
   cloth.step(10);
   const copies = Object.fromEntries(LISTS.map((name) => [name, Array.from(cloth[name])]));
   const held = cloth.positions;
   growMemory(held);
-  assert.equal(held.length, 0, "the old view is gone");
+  assert.equal(held.length, 0, "the old view is detached");
   for (const name of LISTS) assert.deepEqual(Array.from(cloth[name]), copies[name], name);
   assert.notEqual(cloth.positions.buffer, held.buffer);
 });
 
-test("a view is never detached when it is given, whatever was called before", () => {
+test("a getter never returns a detached view, whatever was called before", () => {
   const cloth = Cloth.grid();
   const calls = {
     step: () => cloth.step(1),
@@ -65,7 +65,7 @@ test("a view is never detached when it is given, whatever was called before", ()
   }
 });
 
-test("the same view is given while nothing moves it", () => {
+test("a getter returns the same view while memory and length stay the same", () => {
   const cloth = Cloth.grid();
   for (const name of LISTS) {
     const view = cloth[name];
@@ -74,15 +74,15 @@ test("the same view is given while nothing moves it", () => {
   }
 });
 
-test("a view follows the cloth in place", () => {
+test("a view that is kept shows the current positions", () => {
   const cloth = Cloth.grid({ pinMode: "none" });
   const { positions } = cloth;
   const before = positions[1];
   cloth.step(10);
-  assert.ok(positions[1] < before, "it falls in the view that was given before");
+  assert.ok(positions[1] < before, "the kept view shows the fall");
 });
 
-test("revisions change when what they stand for does", () => {
+test("topologyRevision and stateRevision change with triangles and positions", () => {
   const cloth = Cloth.grid();
   const revisions = () => [cloth.topologyRevision, cloth.stateRevision];
   const [topology, state] = revisions();
@@ -96,7 +96,7 @@ test("revisions change when what they stand for does", () => {
   assert.notEqual(cloth.topologyRevision, topology);
 });
 
-test("a tear lengthens the lists and turns triangles to the new vertex", () => {
+test("a tear adds a vertex and moves triangles to it", () => {
   const cloth = Cloth.grid();
   const before = Array.from(cloth.indices);
   assert.equal(cloth.tearEdge(820, 860), true);
@@ -105,10 +105,10 @@ test("a tear lengthens the lists and turns triangles to the new vertex", () => {
   assert.equal(cloth.uvs.length, 2 * 1601);
   const { indices, sourceVertices } = cloth;
   assert.equal(indices.length, before.length);
-  const turned = before.filter((vertex, at) => indices[at] !== vertex);
-  assert.ok(turned.length > 0);
+  const changed = before.filter((vertex, at) => indices[at] !== vertex);
+  assert.ok(changed.length > 0);
   const source = sourceVertices[1600];
-  assert.ok(turned.every((vertex) => vertex === source), "only triangles of the split vertex turn");
+  assert.ok(changed.every((vertex) => vertex === source), "only triangles of the split vertex change");
   assert.deepEqual([...cloth.uvs.subarray(3200)], [...cloth.uvs.subarray(2 * source, 2 * source + 2)]);
   const events = cloth.events();
   const [torn, split] = ["edge-torn", "vertex-split"].map((kind) => events.find((e) => e.kind === kind));
@@ -118,7 +118,7 @@ test("a tear lengthens the lists and turns triangles to the new vertex", () => {
   assert.deepEqual(Object.keys(split), ["kind", "tick", "position", "vertex", "source"]);
 });
 
-test("changes name what a tear changed, and frayed its borders", () => {
+test("changes() returns the ranges of a tear, and frayed marks its border", () => {
   const cloth = Cloth.grid();
   const since = cloth.topologyRevision;
   const nothing = { firstVertex: 0, vertexCount: 0, firstIndex: 0, indexCount: 0 };
@@ -128,15 +128,15 @@ test("changes name what a tear changed, and frayed its borders", () => {
   assert.ok(cloth.frayed.every((frayed) => frayed === 0));
   assert.equal(cloth.tearEdge(820, 860), true);
   const { firstVertex, vertexCount, firstIndex, indexCount } = cloth.changes(since);
-  const turned = before.flatMap((vertex, at) => (cloth.indices[at] === vertex ? [] : [at]));
-  assert.deepEqual([turned[0], turned.at(-1)], [firstIndex, firstIndex + indexCount - 1]);
+  const changed = before.flatMap((vertex, at) => (cloth.indices[at] === vertex ? [] : [at]));
+  assert.deepEqual([changed[0], changed.at(-1)], [firstIndex, firstIndex + indexCount - 1]);
   assert.equal(firstVertex, cloth.frayed.indexOf(1));
   assert.equal(firstVertex + vertexCount, 1601);
   assert.deepEqual([cloth.frayed[1600], cloth.frayed[cloth.sourceVertices[1600]]], [1, 1]);
   assert.deepEqual(cloth.changes(cloth.topologyRevision), nothing);
 });
 
-test("a cut divides triangles and tells where its vertices are from", () => {
+test("a cut divides triangles and sets the sources of its vertices", () => {
   const cloth = Cloth.grid();
   const [triangles, vertices] = [cloth.indices.length / 3, cloth.positions.length / 3];
   const opened = cloth.cut([-1, -0.51, -1], [3, -0.83, -1], [0, 0, 2]);
@@ -150,10 +150,10 @@ test("a cut divides triangles and tells where its vertices are from", () => {
   assert.equal(count("edge-divided") + count("vertex-split"), cloth.positions.length / 3 - vertices);
   const divided = events.find(({ kind }) => kind === "edge-divided");
   assert.deepEqual(Object.keys(divided), ["kind", "tick", "position", "particleA", "particleB", "vertex"]);
-  assert.equal(cloth.cut([-1, -0.51, -1], [3, -0.83, -1], [0, 0, 2]), 0, "cut already");
+  assert.equal(cloth.cut([-1, -0.51, -1], [3, -0.83, -1], [0, 0, 2]), 0, "a second cut in the same place opens nothing");
 });
 
-test("a crease lifts what is beside it", () => {
+test("a crease folds the sheet", () => {
   const cloth = Cloth.grid({
     columns: 12,
     rows: 12,
@@ -174,7 +174,7 @@ test("a crease lifts what is beside it", () => {
   cloth.free();
 });
 
-test("a mesh may be made from another cloth's views, though they move meanwhile", () => {
+test("a mesh can be made from the views of another cloth, although memory moves meanwhile", () => {
   const grid = Cloth.grid({ columns: 150, rows: 150 });
   for (let i = 0; i < 20; i++) {
     const { positions, indices, uvs, pinned } = grid;
@@ -184,20 +184,20 @@ test("a mesh may be made from another cloth's views, though they move meanwhile"
   }
 });
 
-test("what keeps parts apart reads as it was told", () => {
+test("selfCollision and selfDistance read back as they were set", () => {
   const cloth = Cloth.grid({ settings: { selfCollision: "particles", selfDistance: 0.03125 } });
-  const told = ({ settings }) => [settings.selfCollision, settings.selfDistance];
-  assert.deepEqual(told(cloth), ["particles", 0.03125]);
-  assert.deepEqual(told(Cloth.restore(cloth.save())), ["particles", 0.03125]);
+  const read = ({ settings }) => [settings.selfCollision, settings.selfDistance];
+  assert.deepEqual(read(cloth), ["particles", 0.03125]);
+  assert.deepEqual(read(Cloth.restore(cloth.save())), ["particles", 0.03125]);
   cloth.settings = { selfCollision: true, selfDistance: 0.0078125 };
-  assert.deepEqual(told(cloth), [true, 0.0078125]);
+  assert.deepEqual(read(cloth), [true, 0.0078125]);
   cloth.step(1);
-  assert.deepEqual(told(Cloth.restore(cloth.save())), [true, 0.0078125]);
+  assert.deepEqual(read(Cloth.restore(cloth.save())), [true, 0.0078125]);
   cloth.settings = { selfCollision: false };
-  assert.deepEqual(told(cloth), [false, 0.0078125]);
+  assert.deepEqual(read(cloth), [false, 0.0078125]);
 });
 
-test("what is read is a copy of its own and cannot be changed by mistake", () => {
+test("settings, material and wind read as frozen copies", () => {
   const cloth = Cloth.grid({ material: "denim" });
   const { settings, material, wind, stats } = cloth;
   for (const read of [settings, settings.gravity, material, wind, wind.velocity]) {
@@ -223,7 +223,7 @@ test("what is read is a copy of its own and cannot be changed by mistake", () =>
   assert.ok(stats.bytes > 100_000);
 });
 
-test("a partial is merged, and a preset is where a material starts from", () => {
+test("assigning an object changes only its fields, and a preset replaces the material first", () => {
   const cloth = Cloth.grid();
   cloth.settings = { iterations: 6, gravity: new Float32Array([0, 0, -1]) };
   cloth.settings = { tearing: true, iterations: undefined };
@@ -238,7 +238,7 @@ test("a partial is merged, and a preset is where a material starts from", () => 
   assert.deepEqual([cloth.wind.model, cloth.wind.seed, cloth.wind.gust], ["sine-field", 4294967295, 0.25]);
 });
 
-test("stages are timed when asked for", () => {
+test("stages are timed only while `timing` is on", () => {
   const cloth = Cloth.grid();
   const total = () => Object.values(cloth.stats.seconds).reduce((sum, each) => sum + each, 0);
   cloth.step(20);
@@ -252,7 +252,7 @@ test("stages are timed when asked for", () => {
   assert.ok(cloth.stats.seconds.stretch > 0);
 });
 
-test("a cloth at rest sleeps, and wakes by a touch", () => {
+test("a cloth at rest falls asleep, and wakes when a velocity is set", () => {
   const cloth = Cloth.grid({ columns: 10, rows: 10, settings: { sleepSpeed: 0.01 } });
   cloth.step(600);
   assert.equal(cloth.stats.asleep, true);
@@ -264,7 +264,7 @@ test("a cloth at rest sleeps, and wakes by a touch", () => {
   assert.equal(cloth.stats.asleep, false);
 });
 
-test("rays hit what they point at and grabs hold it", () => {
+test("raycast() returns the first hit, and a grab moves its particle to the target", () => {
   const cloth = Cloth.grid({ pinMode: "corners", settings: { gravity: [0, 0, 0] } });
   const hit = cloth.raycast([1.01, -0.99, 5], [0, 0, -2]);
   assert.deepEqual([hit.distance, hit.position[2], hit.normal[2]], [5, 0, 1]);
@@ -281,21 +281,21 @@ test("rays hit what they point at and grabs hold it", () => {
   grab.release();
 });
 
-test("what is attached is carried, and what is led stays near its anchor", () => {
+test("attachments carry particles, and maximum distances keep them near their anchors", () => {
   const cloth = Cloth.grid({ columns: 4, rows: 4, spacing: 0.1, pinMode: "none" });
   const body = cloth.attach([0, 1, 2, 3], [0, 0, 0]);
   assert.deepEqual([...body.particles], [0, 1, 2, 3]);
   cloth.setPinStiffness([1, 2], 20);
-  const led = [12, 13, 14, 15];
-  cloth.setMaxDistances(led, [0.05, 0.05, 0.05, Infinity]);
-  cloth.setBackstops(led, [0, 0, 0, 0], [1, 1, 1, 1]);
+  const anchored = [12, 13, 14, 15];
+  cloth.setMaxDistances(anchored, [0.05, 0.05, 0.05, Infinity]);
+  cloth.setBackstops(anchored, [0, 0, 0, 0], [1, 1, 1, 1]);
   const mass = cloth.mass(15);
   cloth.setMassScales([15], [4]);
   assert.ok(Math.abs(cloth.mass(15) / mass - 4) < 1e-6);
-  const anchors = led.flatMap((i) => cloth.position(i));
+  const anchors = anchored.flatMap((i) => cloth.position(i));
   for (let tick = 1; tick <= 60; tick++) {
     body.moveTo([0.002 * tick, 0, 0]);
-    cloth.setAnchors(led, anchors.map((x, at) => x + (at % 3 === 0 ? 0.002 * tick : 0)), led.flatMap(() => [0, 0, 1]));
+    cloth.setAnchors(anchored, anchors.map((x, at) => x + (at % 3 === 0 ? 0.002 * tick : 0)), anchored.flatMap(() => [0, 0, 1]));
     cloth.step();
   }
   assert.ok(Math.abs(cloth.position(0)[0] - 0.12) < 1e-6);
@@ -315,7 +315,7 @@ test("what is attached is carried, and what is led stays near its anchor", () =>
   assert.throws(() => body.moveTo([0, 0, 0]), /`attachment`/);
 });
 
-test("pins, places and velocities are what was asked for", () => {
+test("pins, positions and velocities are set as passed", () => {
   const cloth = Cloth.grid({ columns: 4, rows: 4, pinMode: "none" });
   cloth.setPinTargets([0, 3], [0, 1, 0, 0.5, 1, 0]);
   cloth.pin(5);
@@ -337,7 +337,7 @@ test("pins, places and velocities are what was asked for", () => {
   assert.ok(cloth.mass(7) > 0);
 });
 
-test("a frame owes whole ticks and the rest is the blend", () => {
+test("advance() runs whole ticks and keeps the remainder as the blend", () => {
   const cloth = Cloth.grid({ settings: { tick: 0.0625 } });
   assert.equal(cloth.advance(0.15625), 2);
   assert.equal(cloth.blend, 0.5);
@@ -346,20 +346,20 @@ test("a frame owes whole ticks and the rest is the blend", () => {
   assert.equal(cloth.stats.ticks, 7);
 });
 
-test("a collider catches the cloth, carries it when it moves, and lets it fall when removed", () => {
+test("a plane stops the cloth, lifts it when it moves, and lets it fall when removed", () => {
   const cloth = Cloth.grid({ columns: 6, rows: 6, right: [1, 0, 0], down: [0, 0, 1], pinMode: "none" });
   const lowest = () => Math.min(...cloth.positions.filter((_, at) => at % 3 === 1));
   const floor = cloth.addCollider({ shape: "plane", position: [0, -0.5, 0], friction: 0.5 });
   cloth.step(120);
-  assert.ok(Math.abs(lowest() + 0.5) < 0.01, `it lies at ${lowest()} m`);
+  assert.ok(Math.abs(lowest() + 0.5) < 0.01, `the cloth lies at ${lowest()} m`);
   for (let i = 1; i <= 60; i++) {
     floor.moveTo([0, -0.5 + i / 120, 0]);
     cloth.step(1);
   }
-  assert.ok(lowest() > -0.02, `it was carried to ${lowest()} m`);
+  assert.ok(lowest() > -0.02, `the cloth was lifted to ${lowest()} m`);
   floor.remove();
   cloth.step(60);
-  assert.ok(lowest() < -1, `it fell to ${lowest()} m`);
+  assert.ok(lowest() < -1, `the cloth fell to ${lowest()} m`);
   assert.throws(() => floor.remove(), /`collider` must be a live collider of this cloth/);
   assert.throws(() => floor.moveTo([0, 0, 0]), /`collider` must be a live collider of this cloth/);
 });

@@ -146,7 +146,7 @@ fn update_mesh(
     if *uploaded_revision != view.topology_revision {
         let uvs = view.uvs.iter().map(|uv| uv.to_array()).collect::<Vec<_>>();
         mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, uvs);
-        mesh.insert_indices(Indices::U32(view.indices.to_to_muslin()));
+        mesh.insert_indices(Indices::U32(view.indices.to_vec()));
         *uploaded_revision = view.topology_revision;
     }
     Ok(())

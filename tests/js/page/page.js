@@ -1,16 +1,16 @@
-// Plays the script in a page and leaves what came out in `window.result`.
+// Runs the script of tests/js/script.mjs in a page and stores the result in `window.result`.
 
 import init, { Cloth } from "/js/index.js";
 import { hexOf, playScript } from "/tests/js/script.mjs";
 
-async function play() {
+async function run() {
   await init();
   const golden = (await (await fetch("/tests/script.hash")).text()).trim();
   const cloth = playScript(Cloth);
   const hash = hexOf(cloth.stateHash());
-  const drawable = cloth.positions.every(Number.isFinite) && cloth.normals.every(Number.isFinite);
+  const isFinite = cloth.positions.every(Number.isFinite) && cloth.normals.every(Number.isFinite);
   cloth.free();
-  return { hash, ok: drawable && hash === golden, errors: [] };
+  return { hash, ok: isFinite && hash === golden, errors: [] };
 }
 
-window.result = await play().catch((error) => ({ ok: false, errors: [`${error.stack ?? error}`] }));
+window.result = await run().catch((error) => ({ ok: false, errors: [`${error.stack ?? error}`] }));
