@@ -1,10 +1,11 @@
-// Chromium without a screen, and a page whose every complaint is kept.
+// Headless Chromium, and pages that record every problem.
 
 import { chromium } from "playwright-core";
 
-/** Where the page is that is to be tested. */
+/** Address of the page under test. */
 export const url = variable("MUSLIN_URL");
 
+/** Returns an environment variable. Throws if it is not set. */
 export function variable(name) {
   const value = process.env[name];
   if (!value) throw new Error(`${name} is not set: run this through cargo xtask test`);
@@ -27,12 +28,13 @@ export function launch() {
   });
 }
 
-// Chromium says this of any page that reads pixels back; it is about speed on one driver.
+// Chromium logs this for any page that reads pixels; it is a remark about the speed of one driver.
 const HARMLESS = /GPU stall due to ReadPixels/;
 
 /**
- * A page in a context of its own. `complaints` fills with all that goes wrong: errors and warnings
- * of the console, exceptions, requests that fail or leave `home`, reports of the policy.
+ * Opens a page in a browser context of its own. `complaints` collects every problem: errors and
+ * warnings of the console, exceptions, requests that fail or go elsewhere than `home`, violations
+ * of the content security policy.
  */
 export async function open(browser, options = {}, home = url) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
@@ -52,7 +54,7 @@ export async function open(browser, options = {}, home = url) {
   });
   page.on("request", (request) => {
     if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(home)) {
-      complaints.push(`leaves this machine: ${request.url()}`);
+      complaints.push(`request to another host: ${request.url()}`);
     }
   });
   await page.addInitScript(() => {
@@ -63,11 +65,14 @@ export async function open(browser, options = {}, home = url) {
   return { context, page, complaints };
 }
 
-/** Touches a page with as many fingers as there are places; real events, from outside the page. */
+/**
+ * Returns a function that dispatches a touch event with one finger per position. The events come
+ * from outside the page, as real ones do.
+ */
 export async function fingers(page) {
   const session = await page.context().newCDPSession(page);
-  return (type, ...places) => {
-    const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
+  return (type, ...positions) => {
+    const touchPoints = positions.map(([x, y], id) => ({ x, y, id }));
     return session.send("Input.dispatchTouchEvent", { type, touchPoints });
   };
 }

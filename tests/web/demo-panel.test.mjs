@@ -1,15 +1,15 @@
-// The panel: every control does what it says, by hand and by key, and says so to everybody.
+// The panel of the demo: controls, keyboard shortcuts, stored settings, accessibility.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { frames, running, settings, stats, visit, visitRunning } from "./demo-visit.mjs";
+import { settings, stats, visit, visitRunning, waitFrames, waitUntilRunning } from "./demo-visit.mjs";
 
-/** Puts a value under the settings' key before the page loads. */
-const keeping = (kept) => (page) =>
+/** Stores a value under the key of the settings before the page loads. */
+const storing = (kept) => (page) =>
   page.addInitScript((kept) => localStorage.setItem("cloth3d.settings.v1", kept), kept);
 
-test("every control changes its own setting and no other, by hand and by key", async () => {
+test("every control changes its own setting and no other, by mouse and by key", async () => {
   const { context, page, complaints } = await visitRunning();
   const usual = await settings(page);
   const names = await page.locator("#controls input, #controls fieldset").evaluateAll((found) => [
@@ -30,7 +30,7 @@ test("every control changes its own setting and no other, by hand and by key", a
     }
     const after = await settings(page);
     const changed = Object.keys(usual).filter((key) => after[key] !== before[key]);
-    // Another scene brings its own fabric.
+    // Another scene also sets its own fabric.
     const wanted = name === "scene" ? ["scene", "fabric"] : [name];
     assert.deepEqual(changed.toSorted(), wanted.toSorted(), `${id} changed ${changed}`);
     if (keys[name]) {
@@ -38,16 +38,16 @@ test("every control changes its own setting and no other, by hand and by key", a
       await page.keyboard.press(keys[name]);
       assert.notEqual((await settings(page))[name], after[name], `${keys[name]} does nothing`);
     }
-    // Other scenes leave some of the controls without a use.
+    // Back to the first scene: others disable some of the controls.
     if (name === "scene") await control.locator("input").first().check();
   }
   await page.locator("#control-drop").click();
-  await frames(page, 4);
+  await waitFrames(page, 4);
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test("what changes nothing in a scene is switched off there", async () => {
+test("controls without an effect in a scene are disabled there", async () => {
   const { context, page, complaints } = await visitRunning();
   const off = () => page.locator("#controls fieldset, #controls button").evaluateAll((found) =>
     found.filter((one) => one.disabled).map((one) => one.id.replace("control-", "")),
@@ -56,20 +56,20 @@ test("what changes nothing in a scene is switched off there", async () => {
   for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [0, []]]) {
     await scenes.nth(scene).check();
     assert.deepEqual(await off(), wanted);
-    await frames(page, 2);
+    await waitFrames(page, 2);
   }
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test("resolution, pieces and the times of stages are told", async () => {
+test("the resolution changes the particles, and the panel shows the times of all stages", async () => {
   const { context, page, complaints } = await visitRunning();
   await page.locator("#control-resolution input").last().check();
   assert.equal((await stats(page)).particles, 128 * 128);
   await page.locator("#control-resolution input").first().check();
   assert.equal((await stats(page)).particles, 24 * 24);
   await page.locator("#stages summary").click();
-  await frames(page, 6);
+  await waitFrames(page, 6);
   const stages = await page.evaluate(() => window.muslinDemo.stages());
   const named = (name) => stages.find((stage) => stage.name === name)?.milliseconds;
   for (const name of ["forces", "stretch", "normals", "upload", "draw calls"]) {
@@ -81,16 +81,16 @@ test("resolution, pieces and the times of stages are told", async () => {
   await context.close();
 });
 
-test("corrupt and wild settings are put right, and what is kept is what shows", async () => {
+test("corrupt and out-of-range settings are corrected, and the stored settings are those in use", async () => {
   for (const kept of ["{ wind:", "null", '{"pinning": "glue"}']) {
-    const { context, page, complaints } = await visitRunning({}, keeping(kept));
+    const { context, page, complaints } = await visitRunning({}, storing(kept));
     const { wind, gravity, resolution, pinning } = await settings(page);
     assert.deepEqual({ wind, gravity, resolution, pinning }, { wind: 0.8, gravity: 9.8, resolution: 40, pinning: "top-edge" });
     assert.deepEqual(complaints, []);
     await context.close();
   }
   const wild = '{"wind": 1e9, "gravity": -3, "stiffness": 4000, "damping": 7, "resolution": 100000}';
-  const { context, page, complaints } = await visitRunning({}, keeping(wild));
+  const { context, page, complaints } = await visitRunning({}, storing(wild));
   const { wind, gravity, stiffness, damping, resolution } = await settings(page);
   assert.deepEqual([wind, gravity, stiffness, resolution], [3, 0, 12, 40]);
   assert.ok(Math.abs(damping - 0.06) < 1e-6, `damping is ${damping}`);
@@ -99,7 +99,7 @@ test("corrupt and wild settings are put right, and what is kept is what shows", 
   await context.close();
 });
 
-test("a browser without storage runs the demo all the same", async () => {
+test("the demo runs without localStorage", async () => {
   const { context, page, complaints } = await visitRunning({}, (page) =>
     page.addInitScript(() => {
       const refuse = () => {
@@ -115,7 +115,7 @@ test("a browser without storage runs the demo all the same", async () => {
   await context.close();
 });
 
-test("controls have labels, rings of focus, contrast, and the footer its link", async () => {
+test("controls have labels, focus rings and contrast, and the footer has its link", async () => {
   const { context, page, complaints } = await visitRunning();
   const nameless = await page.locator("#controls input").evaluateAll((inputs) =>
     inputs.filter((input) => !input.labels?.[0]?.textContent.trim()).map((input) => input.id),
@@ -123,7 +123,7 @@ test("controls have labels, rings of focus, contrast, and the footer its link", 
   assert.deepEqual(nameless, []);
   assert.ok((await page.locator("#stage").getAttribute("aria-label")).length > 40);
   await page.locator("#collapse").focus();
-  // From control to control by the keyboard alone, each with a ring.
+  // Tab reaches every control, and each shows a focus ring.
   const reached = new Set();
   for (let i = 0; i < 24; i++) {
     await page.keyboard.press("Tab");
@@ -133,14 +133,14 @@ test("controls have labels, rings of focus, contrast, and the footer its link", 
       return [focused.id, getComputedStyle(shown).outlineStyle];
     });
     reached.add(id.replace(/-\d$/, ""));
-    if (id) assert.notEqual(ring, "none", `${id} has no ring`);
+    if (id) assert.notEqual(ring, "none", `${id} has no focus ring`);
   }
   for (const name of ["wind", "gravity", "stiffness", "damping", "wireframe", "tearing", "blade", "paused", "reset", "drop"]) {
     assert.ok(reached.has(`control-${name}`), `Tab does not reach ${name}: ${[...reached]}`);
   }
-  // On the panel's surface over the brightest part of the backdrop.
+  // Contrast on the panel's surface over the brightest part of the background.
   const contrasts = await page.evaluate(() => {
-    const light = ([r, g, b]) => {
+    const luminance = ([r, g, b]) => {
       const linear = (c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
       return 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
     };
@@ -148,7 +148,7 @@ test("controls have labels, rings of focus, contrast, and the footer its link", 
     const [r, g, b, a = 1] = numbers(getComputedStyle(document.getElementById("panel")).backgroundColor);
     const surface = [r, g, b].map((c, i) => a * c + (1 - a) * [30, 34, 48][i]);
     return ["h1", ".name", ".chip", "#stats dt", "#stats dd", "#stages summary", "#controls button"].map((where) => {
-      const [high, low] = [light(numbers(getComputedStyle(document.querySelector(where)).color)), light(surface)];
+      const [high, low] = [luminance(numbers(getComputedStyle(document.querySelector(where)).color)), luminance(surface)];
       return [where, (high + 0.05) / (low + 0.05)];
     });
   });
@@ -163,12 +163,12 @@ test("controls have labels, rings of focus, contrast, and the footer its link", 
   await context.close();
 });
 
-test("panel and instructions open and close, and a narrow screen starts with the panel shut", async () => {
+test("panel and instructions open and close, and on a narrow screen the panel starts closed", async () => {
   const visited = await visit({ viewport: { width: 390, height: 700 }, reducedMotion: "reduce" });
   const { context, page, complaints } = visited;
   const help = page.locator("#help");
   await help.waitFor({ state: "visible" });
-  await running(visited);
+  await waitUntilRunning(visited);
   await help.waitFor({ state: "hidden" });
   const rows = page.locator("#rows");
   assert.equal(await rows.isVisible(), false);
@@ -187,7 +187,7 @@ test("panel and instructions open and close, and a narrow screen starts with the
   await page.mouse.click(200, 300);
   await help.waitFor({ state: "hidden" });
   const transition = await help.evaluate((it) => getComputedStyle(it).transitionDuration);
-  assert.ok(parseFloat(transition) <= 0.0011, `with reduced motion things still glide: ${transition}`);
+  assert.ok(parseFloat(transition) <= 0.0011, `with reduced motion there is still a transition: ${transition}`);
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -1,4 +1,4 @@
-// Every example page of the npm package, used by a visitor: the cloth is where the pointer drags it, nothing complains.
+// The example pages of the npm package: the cloth follows the pointer, and there are no errors.
 
 import assert from "node:assert/strict";
 import { readdir } from "node:fs/promises";
@@ -8,7 +8,7 @@ import { after, before, test } from "node:test";
 import { fingers, launch, open, url, variable } from "./browser.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
-/** The same pages with the newest three.js. */
+/** Address of the same pages with the newest three.js. */
 const newest = variable("MUSLIN_NEWEST");
 
 let browser;
@@ -17,21 +17,27 @@ before(async () => {
 });
 after(() => browser?.close());
 
-/** Small, since a busy machine without a graphics card draws slowly; all of a sheet is above the panel. */
+/**
+ * Small, because a busy machine without a graphics card draws slowly; the whole sheet is above the
+ * panel.
+ */
 const SIZE = { width: 300, height: 620 };
 /**
- * On the cloth, low and to the right, and beside it, higher; from where the sheet hangs [pixels]. As far
- * from its other corner, so that it can get there: cloth that cannot is torn, and a scrap is all that follows.
+ * A point on the cloth, at its lower right, and a point beside it, higher up; relative to the top
+ * of the sheet [pixels]. Both are equally far from the opposite corner, so that the cloth reaches
+ * the second point without tearing.
  */
 const [ON, BESIDE] = [[228, 182], [272, 50]];
 
-/** A patch of a picture that is compared, and how many of its pixels it takes to make it another [pixels]. */
-const [WIDTH, HEIGHT, MANY] = [24, 32, 40];
+/**
+ * Size of the part of a picture that is compared, and how many different pixels count as a change.
+ */
+const [WIDTH, HEIGHT, MIN_CHANGED] = [24, 32, 40];
 
-/** In how many steps the cloth is dragged. */
+/** Number of steps in which the cloth is dragged. */
 const STEPS = 8;
 
-/** A page that draws: its readout tells of particles. */
+/** Opens an example and waits until it draws: its status line shows a number of particles. */
 async function visit(name, { home = url, ...options } = {}) {
   const visited = await open(browser, { viewport: SIZE, ...options }, home);
   visited.page.setDefaultTimeout(120_000);
@@ -40,8 +46,11 @@ async function visit(name, { home = url, ...options } = {}) {
   return visited;
 }
 
-/** The pixels about a place, more of them below it, where cloth hangs that is held there. */
-async function patch(page, [x, y]) {
+/**
+ * Returns the pixels around a position, more of them below it, where the cloth hangs from the
+ * pointer.
+ */
+async function readPixels(page, [x, y]) {
   const clip = { x: x - WIDTH / 2, y: y - HEIGHT / 4, width: WIDTH, height: HEIGHT };
   const picture = (await page.screenshot({ clip })).toString("base64");
   return page.evaluate(async ([picture, width, height]) => {
@@ -54,29 +63,29 @@ async function patch(page, [x, y]) {
   }, [picture, WIDTH, HEIGHT]);
 }
 
-/** How many pixels of two patches are of different colours. */
-function differing(a, b) {
+/** Returns how many pixels differ in colour. */
+function countDifferent(a, b) {
   let count = 0;
-  for (let at = 0; at < a.length; at += 4) {
-    const apart = Math.hypot(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]);
-    if (apart > 30) count++;
+  for (let i = 0; i < a.length; i += 4) {
+    const difference = Math.hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]);
+    if (difference > 30) count++;
   }
   return count;
 }
 
-/** Waits until what is drawn at a place is other than it was, or as it was. */
-async function becomes(page, place, before, isOther) {
+/** Waits until the pixels at a position differ from `before`, or equal it again. */
+async function waitForPixels(page, place, before, isDifferent) {
   let last;
   for (let i = 0; i < 60; i++) {
-    last = differing(await patch(page, place), before);
-    if (last > MANY === isOther) return;
+    last = countDifferent(await readPixels(page, place), before);
+    if (last > MIN_CHANGED === isDifferent) return;
     await page.waitForTimeout(100);
   }
-  assert.fail(`at ${place} ${last} pixels differ, where ${isOther ? "many" : "few"} should`);
+  assert.fail(`at ${place} ${last} pixels differ, where ${isDifferent ? "many" : "few"} should`);
 }
 
-/** Waits until the page drew so many pictures more, however long it takes for each. */
-const pictures = (page, count) =>
+/** Waits for a number of frames, however long each takes. */
+const waitFrames = (page, count) =>
   page.evaluate(
     (count) => new Promise((done) => {
       const next = () => (count-- > 0 ? requestAnimationFrame(next) : done());
@@ -85,22 +94,26 @@ const pictures = (page, count) =>
     count,
   );
 
-/** Drags a sheet that hangs at `top` to where there is none, and gives that place and the colours that it had. */
+/**
+ * Drags a sheet that hangs at `top` over the background. Returns the position and the pixels it had
+ * before.
+ */
 async function drag(page, top, pace) {
   const [on, beside] = [ON, BESIDE].map(([x, y]) => [x, top + y]);
-  const background = await patch(page, beside);
+  const background = await readPixels(page, beside);
   await page.mouse.move(...on);
   await page.mouse.down();
   for (let step = 1; step <= STEPS; step++) {
     await page.mouse.move(...on.map((from, i) => from + (step / STEPS) * (beside[i] - from)));
-    // Or it is torn out of the cloth rather than pulled: a page that draws slowly is slow to follow, too.
-    await Promise.all([page.waitForTimeout(pace), pictures(page, 8)]);
+    // Slowly: a page with few frames per second follows slowly, and a fast drag would tear a scrap
+    // out of the cloth.
+    await Promise.all([page.waitForTimeout(pace), waitFrames(page, 8)]);
   }
-  await becomes(page, beside, background, true);
+  await waitForPixels(page, beside, background, true);
   return [beside, background];
 }
 
-test("the list names every folder of examples, and each is looked at here", async () => {
+test("the index page links every example folder", async () => {
   const { context, page, complaints } = await open(browser);
   await page.goto(url);
   const links = await page.locator("a").evaluateAll((links) => links.map((link) => link.getAttribute("href").replace("/", "")));
@@ -113,7 +126,8 @@ test("the list names every folder of examples, and each is looked at here", asyn
   assert.deepEqual(names, ["babylon", "drape", "plain", "worker"]);
 });
 
-// Each with where its sheet hangs, and how long a step takes [ms]: a worker's pictures are not counted by the page.
+// The top of each sheet [pixels], and the time of a step [ms]: the page cannot count the frames of
+// a worker.
 for (const [name, version, home, top, pace] of [
   ["drape", "r160", url, 73, 100],
   ["drape", "newest", newest, 73, 100],
@@ -121,7 +135,7 @@ for (const [name, version, home, top, pace] of [
   ["plain", "", url, 191, 100],
   ["babylon", "", url, 191, 100],
 ]) {
-  test(`${name} ${version}: a drag brings the cloth along, and lets it go`, async () => {
+  test(`${name} ${version}: the cloth follows a drag, and a reset brings it back`, async () => {
     const { context, page, complaints } = await visit(name, { home });
     await page.screenshot({ path: join(shots, `${name}${version}.png`) });
     const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -130,39 +144,39 @@ for (const [name, version, home, top, pace] of [
     await page.screenshot({ path: join(shots, `${name}${version}-dragged.png`) });
     await page.mouse.up();
     await page.locator("#reset").click();
-    await becomes(page, beside, background, false);
+    await waitForPixels(page, beside, background, false);
     assert.deepEqual(complaints, []);
     await context.close();
   });
 }
 
-// The sheet hangs at 73. The second finger takes its right border and brings it along below the first.
+// The top of the sheet is at 73. The second finger drags the right border, below the first finger.
 for (const count of [1, 2]) {
-  test(`drape, ${count === 1 ? "a finger" : "two fingers"}: each brings the cloth along, and lets it go`, async () => {
+  test(`drape, ${count === 1 ? "a finger" : "two fingers"}: the cloth follows each of them, and a reset brings it back`, async () => {
     const { context, page, complaints } = await visit("drape", { hasTouch: true });
     const touch = await fingers(page);
     const places = (...each) => each.map(([x, y]) => [x, 73 + y]).slice(0, count);
     const [from, to] = [places(ON, [218, 110]), places(BESIDE, [276, 100])];
     const backgrounds = [];
-    for (const place of to) backgrounds.push(await patch(page, place));
-    // One comes down after the other, as fingers do.
+    for (const place of to) backgrounds.push(await readPixels(page, place));
+    // One touch comes after the other, as with real fingers.
     for (let down = 1; down <= count; down++) await touch("touchStart", ...from.slice(0, down));
     for (let step = 1; step <= STEPS; step++) {
       const share = step / STEPS;
       await touch("touchMove", ...from.map((at, i) => at.map((x, axis) => x + share * (to[i][axis] - x))));
-      await Promise.all([page.waitForTimeout(100), pictures(page, 4)]);
+      await Promise.all([page.waitForTimeout(100), waitFrames(page, 4)]);
     }
-    for (const [i, place] of to.entries()) await becomes(page, place, backgrounds[i], true);
+    for (const [i, place] of to.entries()) await waitForPixels(page, place, backgrounds[i], true);
     await page.screenshot({ path: join(shots, `drape-${count}-touched.png`) });
     await touch("touchEnd");
     await page.locator("#reset").click();
-    for (const [i, place] of to.entries()) await becomes(page, place, backgrounds[i], false);
+    for (const [i, place] of to.entries()) await waitForPixels(page, place, backgrounds[i], false);
     assert.deepEqual(complaints, []);
     await context.close();
   });
 }
 
-test("drape, torn: with its switch on a hard pull makes pieces of it, and a reset makes it whole", async () => {
+test("drape: with tearing on a hard pull tears the sheet, and a reset restores it", async () => {
   const { context, page, complaints } = await visit("drape");
   const particles = async () => parseInt(await page.locator("#stats").textContent());
   await page.locator("#tear").check();
@@ -172,11 +186,11 @@ test("drape, torn: with its switch on a hard pull makes pieces of it, and a rese
   await page.waitForFunction(() => parseInt(document.getElementById("stats").textContent) > 1600);
   assert.ok((await particles()) > 1600);
   await page.screenshot({ path: join(shots, "drape-torn.png") });
-  await page.mouse.up(); // until then every pointer event is the canvas's
+  await page.mouse.up(); // before this the canvas captures all pointer events
   await page.locator("#wire").check();
   await page.locator("#reset").click();
   await page.waitForFunction(() => /^1600 particles ·/.test(document.getElementById("stats").textContent));
-  // Hung anew, in the other ways: nothing of the sheet before is left to complain.
+  // New sheets with other pins: nothing of the old sheet causes an error.
   for (const pins of ["corners", "top-edge"]) await page.locator("#pins").selectOption(pins);
   await page.locator("#pause").click();
   assert.equal(await page.locator("#pause").getAttribute("aria-pressed"), "true");
@@ -184,12 +198,12 @@ test("drape, torn: with its switch on a hard pull makes pieces of it, and a rese
   await context.close();
 });
 
-test("a worker goes on while its page is busy", async () => {
+test("a worker keeps simulating while its page is blocked", async () => {
   const { context, page, complaints } = await visit("worker");
   await page.locator("#busy").click();
-  // It tells of itself twice a second at most: what the page hears at once when it is free again was told meanwhile,
-  // where a worker that stood still tells it once.
-  const heard = await page.evaluate(async () => {
+  // The worker posts a message twice a second at most. Several messages that arrive together after
+  // the block were posted during it; a worker that stood still would have posted one.
+  const messages = await page.evaluate(async () => {
     let count = 0;
     const changes = new MutationObserver(() => count++);
     changes.observe(document.getElementById("stats"), { childList: true });
@@ -198,7 +212,7 @@ test("a worker goes on while its page is busy", async () => {
     await new Promise((done) => setTimeout(done, 100));
     return count;
   });
-  assert.ok(heard >= 2, `the page heard of the worker ${heard} times`);
+  assert.ok(messages >= 2, `the worker posted ${messages} messages`);
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -1,4 +1,5 @@
-// The npm package in a browser: tests/js/page runs the script and leaves what it found.
+// The npm package in a browser: tests/js/page runs the script and stores the result in
+// `window.result`.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -6,7 +7,7 @@ import { test } from "node:test";
 
 import { launch, open, url } from "./browser.mjs";
 
-test("the package loads under a strict policy and ends the script in the golden bits", async () => {
+test("the package loads under a strict content security policy and the script ends with the golden hash", async () => {
   const browser = await launch();
   try {
     const { page, complaints } = await open(browser);
@@ -14,7 +15,7 @@ test("the package loads under a strict policy and ends the script in the golden 
     assert.equal(response.status(), 200);
     assert.match(response.headers()["content-security-policy"], /script-src 'self' 'wasm-unsafe-eval'/);
     const loaded = page.waitForFunction(() => window.result, null, { timeout: 60_000 });
-    await loaded.catch(() => assert.fail(`window.result never came: ${complaints.join("; ")}`));
+    await loaded.catch(() => assert.fail(`window.result was not set: ${complaints.join("; ")}`));
     const result = await page.evaluate(() => window.result);
     assert.deepEqual(result.errors ?? [], []);
     assert.equal(result.ok, true);
@@ -27,7 +28,7 @@ test("the package loads under a strict policy and ends the script in the golden 
   }
 });
 
-test("the receipt of the brief keeps up with real time while its particles push each other apart", async () => {
+test("the receipt scenes run in real time with particle collision", async () => {
   const browser = await launch();
   try {
     const { page, complaints } = await open(browser);
@@ -36,9 +37,9 @@ test("the receipt of the brief keeps up with real time while its particles push 
     const { error, receipts } = await page.evaluate(() => window.result);
     assert.equal(error, undefined);
     assert.equal(receipts.length, 5);
-    // The machine may be busy with much else, so the least of some rounds.
+    // The machine may be busy, so the shortest of several rounds counts.
     for (const { name, least } of receipts) {
-      assert.ok(least > 0.05 && least < 1000 / 120, `${name} a tick of 8.33 ms takes ${least} ms`);
+      assert.ok(least > 0.05 && least < 1000 / 120, `${name} takes ${least} ms per tick of 8.33 ms`);
     }
     assert.deepEqual(complaints, []);
   } finally {

@@ -1,31 +1,31 @@
-// The receipt's page, used as a visitor uses it.
+// The page of the receipt scene, used by pointer, touch and keys.
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
 
 import { variable } from "./browser.mjs";
-import { apart, becomes, eye, fingers, frames, hash, looksShared, particle, started, stats, visit } from "./demo-visit.mjs";
+import { distance, waitUntil, cameraPosition, fingers, waitFrames, hash, checkShareMetadata, particle, waitForStart, stats, visit } from "./demo-visit.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
-/** A particle in the middle of the last row, of the larger sheet and of the smaller one. */
-const LOW = { 2400: 59 * 40 + 20, 864: 35 * 24 + 12 };
+/** A particle in the middle of the last row, by the number of particles of the sheet. */
+const BOTTOM_PARTICLES = { 2400: 59 * 40 + 20, 864: 35 * 24 + 12 };
 
 async function visitReceipt(options, prepare) {
   const visited = await visit({ path: "tender.html", ...options }, prepare);
-  await started(visited);
+  await waitForStart(visited);
   return visited;
 }
 
-const low = async (page) => LOW[(await stats(page)).particles];
+const bottomParticle = async (page) => BOTTOM_PARTICLES[(await stats(page)).particles];
 const isOn = (page, name) => page.evaluate((name) => window.muslinDemo.isOn(name), name);
 
-test("the receipt has its own page, and its picture fits a wide and a tall screen", async () => {
+test("the receipt has a page of its own, which fits a wide and a tall screen", async () => {
   for (const [width, height, hasTouch] of [[1280, 720, false], [390, 844, true]]) {
     const { context, page, complaints } = await visitReceipt({ viewport: { width, height }, hasTouch });
     assert.equal(await page.title(), "Tender — Receipt Paper Physics");
     assert.equal((await stats(page)).particles, hasTouch ? 24 * 36 : 40 * 60);
-    await looksShared(page);
+    await checkShareMetadata(page);
     const instructions = page.locator("#instructions");
     assert.match(await instructions.textContent(), /Click and drag to grab the paper/);
     await page.waitForFunction(() => getComputedStyle(document.getElementById("instructions")).opacity === "0");
@@ -43,41 +43,41 @@ test("the receipt has its own page, and its picture fits a wide and a tall scree
   }
 });
 
-test("a drag moves the receipt, R resets it, and the right button turns the camera", async () => {
+test("a drag moves the receipt, R resets it, and a drag with the right button turns the camera", async () => {
   const { context, page, complaints } = await visitReceipt();
-  const at = await low(page);
-  const from = await particle(page, at);
-  const before = await eye(page);
+  const grabbed = await bottomParticle(page);
+  const from = await particle(page, grabbed);
+  const before = await cameraPosition(page);
   await page.mouse.move(...from);
   await page.mouse.down();
   const to = [from[0] + 70, from[1] - 60];
   await page.mouse.move(...to, { steps: 6 });
-  await becomes(page, () => particle(page, at), (now) => apart(now, to) < 25, `it did not come to ${to}`);
-  assert.ok(apart(await eye(page), before) < 0.02, "the camera turned with the drag");
+  await waitUntil(page, () => particle(page, grabbed), (now) => distance(now, to) < 25, `it did not come to ${to}`);
+  assert.ok(distance(await cameraPosition(page), before) < 0.02, "the camera turned with the drag");
   await page.mouse.up();
   await page.keyboard.press("r");
-  const home = (now) => apart(now, from) < 8;
-  await becomes(page, () => particle(page, at), home, "it did not come back");
+  const isBack = (now) => distance(now, from) < 8;
+  await waitUntil(page, () => particle(page, grabbed), isBack, "it did not come back");
   await page.mouse.move(350, 200);
   await page.mouse.down({ button: "right" });
   await page.mouse.move(430, 200, { steps: 4 });
   await page.mouse.up({ button: "right" });
-  await becomes(page, () => eye(page), (now) => apart(now, before) > 1, "the camera did not turn");
+  await waitUntil(page, () => cameraPosition(page), (now) => distance(now, before) > 1, "the camera did not turn");
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test("space pauses with its overlay, I shows the counter, W and the pills do what they say", async () => {
+test("space pauses and shows its overlay, I shows the counter, and W and the buttons switch their settings", async () => {
   const { context, page, complaints } = await visitReceipt();
   const paused = page.locator("#paused");
   assert.equal(await paused.isVisible(), false);
   await page.keyboard.press(" ");
   await paused.waitFor({ state: "visible" });
   assert.equal(await paused.textContent(), "PAUSED — press Space");
-  await frames(page, 2);
+  await waitFrames(page, 2);
   const still = await hash(page);
-  await frames(page, 4);
-  assert.equal(await hash(page), still, "time goes on");
+  await waitFrames(page, 4);
+  assert.equal(await hash(page), still, "the sheet moved while paused");
   await page.keyboard.press(" ");
   await paused.waitFor({ state: "hidden" });
   const counter = page.locator("#counter");
@@ -89,7 +89,7 @@ test("space pauses with its overlay, I shows the counter, W and the pills do wha
   assert.equal(await isOn(page, "wind"), true);
   const wind = page.locator("#control-wind");
   assert.equal(await wind.getAttribute("aria-pressed"), "true");
-  // By the keyboard alone: Tab goes from pill to pill, each with a ring, and Enter presses it.
+  // Tab goes from button to button, each with a focus ring, and Enter presses it.
   await wind.focus();
   await page.keyboard.press("Enter");
   assert.equal(await isOn(page, "wind"), false);
@@ -102,14 +102,14 @@ test("space pauses with its overlay, I shows the counter, W and the pills do wha
     }));
   }
   assert.deepEqual(reached.map(([id]) => id), ["drop", "crumple", "fold", "sheet", "reset"].map((name) => `control-${name}`));
-  for (const [id, ring] of reached) assert.notEqual(ring, "none", `${id} has no ring`);
+  for (const [id, ring] of reached) assert.notEqual(ring, "none", `${id} has no focus ring`);
   await page.locator("#control-sheet").click();
   assert.equal(await isOn(page, "sheet"), false);
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test("two fingers are two hands, and with reduced motion nothing blows", async () => {
+test("two fingers hold two corners, and reduced motion starts the small sheet", async () => {
   const { context, page, complaints } = await visitReceipt({ hasTouch: true, reducedMotion: "reduce" });
   assert.equal((await stats(page)).particles, 24 * 36);
   await page.locator("#control-wind").click();
@@ -121,8 +121,8 @@ test("two fingers are two hands, and with reduced motion nothing blows", async (
   const to = from.map(([x, y], i) => [x + (i ? 12 : -4), y - 50]);
   await touch("touchMove", ...to);
   for (const i of [0, 1]) {
-    const near = (now) => apart(now, to[i]) < 25;
-    await becomes(page, () => particle(page, corners[i]), near, `finger ${i} holds nothing`);
+    const near = (now) => distance(now, to[i]) < 25;
+    await waitUntil(page, () => particle(page, corners[i]), near, `finger ${i} does not hold its corner`);
   }
   await touch("touchEnd");
   assert.deepEqual(complaints, []);

@@ -1,4 +1,5 @@
-// A page whose policy lets it run its own scripts and nothing else. A pointer may pull the cloth that it draws.
+// A page under the content security policy `script-src 'self'`: it draws a cloth that a pointer can
+// drag.
 
 import init, { Cloth, version } from "./node_modules/muslin/no-wasm.js";
 import { withThree } from "./node_modules/muslin/three-with.js";
@@ -29,7 +30,7 @@ renderer.setAnimationLoop(() => {
   sheet.geometry.update();
   renderer.render(scene, camera);
   const { size: held } = pointers;
-  const right = cloth.positions.reduce((most, x, at) => (at % 3 === 0 ? Math.max(most, x) : most), -Infinity);
+  const right = cloth.positions.reduce((max, x, i) => (i % 3 === 0 ? Math.max(max, x) : max), -Infinity);
   window.pulled = { held, right };
 });
 

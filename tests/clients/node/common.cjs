@@ -1,4 +1,4 @@
-// From CommonJS, by `import()`.
+// Uses the package from CommonJS, through `import()`.
 
 import("muslin").then(async ({ default: init, Cloth }) => {
   await init();

@@ -1,4 +1,4 @@
-// The script, in a worker of node's; the package is loaded on both sides.
+// Runs the script in the main thread and in a worker of Node; each loads the package.
 
 import { Worker, isMainThread, parentPort } from "node:worker_threads";
 import init, { Cloth } from "muslin";
@@ -8,7 +8,8 @@ await init();
 const hash = hexOf(playScript(Cloth).stateHash());
 if (isMainThread) {
   const worker = new Worker(new URL(import.meta.url));
-  worker.once("message", (theirs) => console.log(theirs === hash ? hash : `${theirs} in a worker, ${hash} outside`));
+  worker.once("message", (workerHash) =>
+    console.log(workerHash === hash ? hash : `${workerHash} in the worker, ${hash} in the main thread`));
 } else {
   parentPort.postMessage(hash);
 }

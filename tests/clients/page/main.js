@@ -1,4 +1,4 @@
-// As app/main.js, with every address written out.
+// As app/main.js, without a bundler: every import is a full path.
 
 import init, { Cloth, version } from "./node_modules/muslin/index.js";
 import { Pointers } from "./node_modules/muslin/pointers.js";
