@@ -77,8 +77,8 @@ test("the package contains every file that it names, and no other", async () => 
 
   const targets = Object.values(manifest.exports).flatMap((to) => (typeof to === "string" ? [to] : Object.values(to)));
   for (const target of targets) assert.ok(files.includes(target.replace("./", "")), target);
-  // Every file that a script or declaration imports exists; every other file is imported by none
-  // only if it is a document.
+  // Every imported file exists, and every file is imported or exported, except the licences and
+  // the README.
   const named = new Set(targets.map((target) => target.replace("./", "")));
   for (const file of files.filter((name) => /\.(js|d\.ts)$/.test(name))) {
     const text = await readFile(join(dir, file), "utf8");

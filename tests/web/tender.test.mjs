@@ -5,7 +5,19 @@ import { join } from "node:path";
 import { test } from "node:test";
 
 import { variable } from "./browser.mjs";
-import { distance, waitUntil, cameraPosition, fingers, waitFrames, hash, checkShareMetadata, particle, waitForStart, stats, visit } from "./demo-visit.mjs";
+import {
+  cameraPosition,
+  checkShareMetadata,
+  distance,
+  fingers,
+  hash,
+  particle,
+  stats,
+  visit,
+  waitForStart,
+  waitFrames,
+  waitUntil,
+} from "./demo-visit.mjs";
 
 const shots = variable("MUSLIN_SHOTS");
 /** A particle in the middle of the last row, by the number of particles of the sheet. */
