@@ -1,23 +1,32 @@
-//! Systems of five diagonals along the rows or the columns of a grid, factored once and solved often.
+//! Pentadiagonal systems along the rows or the columns of a grid, factored once and solved often.
 //!
-//! Along rows x, y and z go together; along columns, all columns. What is held is out of its system.
+//! ```text
+//! (µ M + h² K) y = f      K: matrix of the second differences a − 2 m + b along a line, 5 diagonals
+//! L D Lᵀ                  L has two subdiagonals `near` and `far`
+//! ```
+//! Method: L D Lᵀ factorisation without pivoting, in f64; forward and backward substitution in f32. Rows
+//! solve x, y and z together; columns solve all columns of a grid together, so the loops vectorise.
+//!
+//! Reads element weights, masses and inverse masses; `factor` writes the factors and the solvers
+//! replace a right side by the solution.
+//! Invariant: a held particle (w = 0) is not part of its system; its solution is 0.
 
 use crate::math::simd::{Level, leveled};
 
-/// VectorColumns columns of numbers.
+/// Columns x, y, z of a vector per particle.
 pub(crate) type VectorColumns = [Vec<f32>; 3];
 
-/// L D Lᵀ of five diagonals.
+/// L D Lᵀ factors of a pentadiagonal matrix per line.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PentadiagonalFactor {
-    /// One over D; 0 for what is held.
+    /// Inverse of D; 0 for a held particle.
     inverse: Vec<f32>,
-    /// L beside the diagonal, and beside that.
+    /// First and second subdiagonal of L.
     near: Vec<f32>,
     far: Vec<f32>,
 }
 
-/// Particles along a line of a grid.
+/// Particles of a row or a column: `count` of them from `first` on, `step` apart.
 #[derive(Clone, Copy)]
 pub(crate) struct GridLine {
     pub first: usize,
@@ -26,13 +35,16 @@ pub(crate) struct GridLine {
 }
 
 impl PentadiagonalFactor {
-    /// Room for so many particles.
+    /// Allocates factors for `count` particles.
     pub fn new(count: usize) -> Self {
         let list = || vec![0.0; count];
         Self { inverse: list(), near: list(), far: list() }
     }
 
-    /// Factors µM + h² K along a line, with elements so stiff over one inside.
+    /// Factors µ M + h² K along a line.
+    ///
+    /// `weight` is the stiffness of each element relative to an interior one, `stiffness` that of an
+    /// interior element times h² [kg], `shift` is µ.
     pub fn factor(
         &mut self,
         line: GridLine,
@@ -45,8 +57,8 @@ impl PentadiagonalFactor {
         let at = |k: usize| line.first + k * line.step;
         let weight = |k: usize| if k < line.count { f64::from(weight[at(k)]) } else { 0.0 };
         let is_held = |k: usize| w[at(k)] == 0.0;
-        let k_all = f64::from(stiffness);
-        // D, and L beside it, of the two particles before.
+        let k_interior = f64::from(stiffness);
+        // D of the two previous particles, and `near` of the last one.
         let (mut last, mut last_but_one, mut last_near) = (1.0, 1.0, 0.0);
         for k in 0..line.count {
             let i = at(k);
@@ -57,10 +69,10 @@ impl PentadiagonalFactor {
             }
             let before = if k > 0 { weight(k - 1) } else { 0.0 };
             let diagonal = f64::from(mass[i]) * f64::from(shift)
-                + k_all * (4.0 * weight(k) + before + weight(k + 1));
-            let has = |reach: usize| k >= reach && !is_held(k - reach);
-            let near = if has(1) { -2.0 * k_all * (weight(k) + before) } else { 0.0 };
-            let far = if has(2) { k_all * before } else { 0.0 };
+                + k_interior * (4.0 * weight(k) + before + weight(k + 1));
+            let has = |distance: usize| k >= distance && !is_held(k - distance);
+            let near = if has(1) { -2.0 * k_interior * (weight(k) + before) } else { 0.0 };
+            let far = if has(2) { k_interior * before } else { 0.0 };
             let l_far = far / last_but_one;
             let l_near = (near - far * last_near) / last;
             let d = diagonal - l_near * l_near * last - l_far * l_far * last_but_one;
@@ -71,7 +83,7 @@ impl PentadiagonalFactor {
         }
     }
 
-    /// Along each row, from end to end and back.
+    /// Solves all rows in place.
     pub fn solve_rows(&self, columns: usize, v: &mut VectorColumns) {
         let [x, y, z] = v;
         let factors = self.inverse.chunks_exact(columns).zip(self.near.chunks_exact(columns));
@@ -105,18 +117,19 @@ impl PentadiagonalFactor {
         }
     }
 
-    /// Along all columns at once.
+    /// Solves all columns in place.
     pub fn solve_columns(&self, level: Level, columns: usize, v: &mut VectorColumns) {
-        v.iter_mut().for_each(|v| down_and_up(level, v, self, columns));
+        v.iter_mut().for_each(|v| substitute_columns(level, v, self, columns));
     }
 }
 
 leveled! {
-    fn down_and_up(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) = down_and_up_lanes
+    /// Forward and backward substitution along all columns.
+    fn substitute_columns(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) = substitute_columns_lanes
 }
 
 #[inline(always)]
-fn down_and_up_lanes(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) {
+fn substitute_columns_lanes(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) {
     let count = v.len();
     for first in (columns..count).step_by(columns) {
         let (above, row) = v.split_at_mut(first);

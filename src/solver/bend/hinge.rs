@@ -1,36 +1,44 @@
-//! Hinges one by one: those where anything was cut.
+//! Bending of a single hinge: two triangles that share an edge. Used for the hinges that cuts add.
 //!
 //! ```text
-//! C = Σ cᵢ xᵢ − rest n,   λ = −C / (Σ cᵢ² wᵢ + α̃),   Δxᵢ = wᵢ cᵢ λ
+//!       a          C = Σ cᵢ xᵢ − rest n         x: p, q, a, b     n: unit normal of the hinge
+//!      ╱ ╲         λ = −C / (Σ cᵢ² wᵢ + α̃)      α̃ = 1 / (shape · stiffness)
+//!     p───q        Δxᵢ = wᵢ cᵢ λ
+//!      ╲ ╱
+//!       b
 //! ```
-//! A vector with a vector for its multiplier: its gradient is always the same, so there is no root to
-//! take. Each gives way by its compliance as in Macklin, Müller, Chentanez, "XPBD", MIG 2016.
+//! Method: XPBD with a vector constraint and a vector multiplier (Macklin, Müller, Chentanez, "XPBD",
+//! MIG 2016). C is linear in the positions, so its gradient is constant and needs no square root.
+//!
+//! Reads the hinge and the start positions of the substep; writes four positions.
+//! Invariant: Σ cᵢ = 0, so a hinge conserves linear momentum.
 
 use crate::model::hinge::{Hinge, hinge_normal};
 use crate::solver::particle_stage::access::ParticleAccess;
 use glam::Vec3;
 
-/// What a substep of bending works with.
+/// Parameters of bending in one substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HingeStep {
     /// Bending rigidity times the square of the substep, damping included [kg m²].
     pub stiffness: f32,
-    /// The share of where particles were that is taken off where they are, for damping.
+    /// Share of the start positions to subtract from the positions; above 0 with damping. With
+    /// lag = damping / h it is lag / (1 + lag).
     pub start_share: f32,
 }
 
-/// Bends one hinge.
+/// Projects one hinge. `start` gives the position of a particle at the start of the substep [m].
 #[inline(always)]
 pub(crate) fn project<S: ParticleAccess>(
     hinge: &Hinge,
     step: HingeStep,
     start: impl Fn(usize) -> Vec3,
-    spots: &mut S,
+    particles: &mut S,
 ) {
     let at = hinge.particles.map(|vertex| vertex as usize);
-    let seats = at.map(|i| spots.particle(i));
+    let corners = at.map(|i| particles.particle(i));
     let (mut curve, mut weight) = (Vec3::ZERO, 0.0);
-    for ((x, w), c) in seats.iter().zip(hinge.weight) {
+    for ((x, w), c) in corners.iter().zip(hinge.weight) {
         curve += *x * c;
         weight += c * c * w;
     }
@@ -40,14 +48,14 @@ pub(crate) fn project<S: ParticleAccess>(
         }
     }
     if hinge.rest != 0.0 {
-        let n = hinge_normal(seats.map(|(x, _)| x));
+        let n = hinge_normal(corners.map(|(x, _)| x));
         curve -= n * (hinge.rest * (1.0 - step.start_share));
     }
     let compliance = 1.0 / (hinge.shape * step.stiffness);
     let change = curve * (-1.0 / (weight + compliance));
-    for ((i, (_, w)), c) in at.iter().zip(seats).zip(hinge.weight) {
-        // Again, for a hinge may name a particle twice.
-        let (x, _) = spots.particle(*i);
-        spots.set_position(*i, x + change * (c * w));
+    for ((i, (_, w)), c) in at.iter().zip(corners).zip(hinge.weight) {
+        // Read the position again, because a hinge may contain a particle twice.
+        let (x, _) = particles.particle(*i);
+        particles.set_position(*i, x + change * (c * w));
     }
 }

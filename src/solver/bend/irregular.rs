@@ -1,9 +1,13 @@
-//! IrregularBends, as many at a time as there are lanes: each resists that its two threads bend where they meet.
+//! Bending of grid elements that left the regular layout after a tear, in SIMD lanes.
 //!
 //! ```text
 //! a ── m ── b     C = a − 2 m + b − rest n,   λ = −C / (w_a + 4 w_m + w_b + α̃),   Δx = w c λ
 //! ```
-//! These are hinges, see `hinges`, that all have the same weights.
+//! Method: XPBD per element, as in `hinge`, with the fixed weights (1, −2, 1). Elements of one colour
+//! share no particle and run in lanes; the rest runs one after the other.
+//!
+//! Reads the elements, folds and start positions; writes positions.
+//! Invariant: the order of the elements of a colour does not change the result.
 
 use crate::math::TINY;
 use crate::math::columns::Columns;
@@ -16,89 +20,96 @@ use crate::solver::particle_stage::access::{
 use crate::state::particles::Particles;
 use core::ops::Range;
 
-/// What a substep of bending works with.
+/// Elements and parameters of one substep.
 #[derive(Clone, Copy)]
 pub(crate) struct IrregularStep<'a> {
     pub elements: &'a IrregularBends,
-    /// Stiffness of an element times the square of the substep [kg].
+    /// Stiffness of an element times the squared substep [kg].
     pub stiffness: f32,
-    /// The share of where particles were that is taken off where they are, for damping.
+    /// Share of the start positions to subtract, for damping; see `HingeStep`.
     pub start_share: f32,
-    /// Where the substep began: where particles were led to, and by which way.
+    /// Predicted positions and displacements; their difference is the start position.
     pub predicted: &'a Columns,
     pub displacement: &'a Columns,
-    /// What elements are bent by at rest along the weft and along the warp [m]; none if none is.
+    /// Rest curvature of the elements along weft and warp [m]; `None` without folds.
     pub rest: Option<[&'a [f32]; 2]>,
-    /// How much softer elements are by what gave way, if they are.
+    /// Loss of stiffness by plastic bending, if any.
     pub softening: Option<Softening<'a>>,
 }
 
-/// Bends all of them once.
+/// Projects all irregular elements once.
 pub(crate) fn solve(level: Level, step: IrregularStep<'_>, p: &mut Particles) {
     for group in &step.elements.groups {
         let (own, rest) = (group.range(), step.rest.map(|rest| rest[group.kind]));
         if group.is_colored {
-            abreast(level, step, own, rest, p);
+            solve_color(level, step, own, rest, p);
         } else {
-            one_by_one(step, own, rest, p);
+            solve_scalar(step, own, rest, p);
         }
     }
 }
 
 vectored! {
-    fn abreast(step: IrregularStep<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles)
-        = bend_color, Avx2, one_by_one
+    /// Projects elements of which no two share a particle.
+    fn solve_color(step: IrregularStep<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles)
+        = solve_color_lanes, Avx2, solve_scalar
 }
 
-fn one_by_one(step: IrregularStep<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles) {
-    bend_color(Scalar, step, own, rest, p);
+/// Projects elements one after the other.
+fn solve_scalar(
+    step: IrregularStep<'_>,
+    own: Range<usize>,
+    rest: Option<&[f32]>,
+    p: &mut Particles,
+) {
+    solve_color_lanes(Scalar, step, own, rest, p);
 }
 
-/// IrregularBends no two of which share a particle, or one after the other.
 #[inline(always)]
-fn bend_color<S: Simd>(
+fn solve_color_lanes<S: Simd>(
     s: S,
     step: IrregularStep<'_>,
     own: Range<usize>,
     rest: Option<&[f32]>,
     p: &mut Particles,
 ) {
-    let sheet = &mut ParticleSlices::new(p);
+    let slices = &mut ParticleSlices::new(p);
     let whole = own.start + own.len() / S::LANES * S::LANES;
     for at in (own.start..whole).step_by(S::LANES) {
-        bend_some(s, step, at, rest, sheet);
+        project_lanes(s, step, at, rest, slices);
     }
     for at in whole..own.end {
-        bend_some(Scalar, step, at, rest, sheet);
+        project_lanes(Scalar, step, at, rest, slices);
     }
 }
 
-/// As many elbows as there are lanes.
+/// Projects one element per lane, from `first` on.
 #[inline(always)]
-fn bend_some<S: Simd, P: ParticleAccess>(
+fn project_lanes<S: Simd, P: ParticleAccess>(
     s: S,
     step: IrregularStep<'_>,
     first: usize,
     rest: Option<&[f32]>,
-    spots: &mut P,
+    particles: &mut P,
 ) {
-    let (elbows, own) = (step.elements, first..first + S::LANES);
-    let (a, middle) = (&elbows.a[own.clone()], &elbows.middle[own.clone()]);
-    let (b, woven) = (&elbows.b[own.clone()], &elbows.element[own]);
-    let ((xa, wa), (xm, wm)) = (gather_particles(s, spots, a), gather_particles(s, spots, middle));
-    let (xb, wb) = gather_particles(s, spots, b);
-    let mut bow = bow(s, xa, xm, xb);
+    let (elements, own) = (step.elements, first..first + S::LANES);
+    let (a, middle) = (&elements.a[own.clone()], &elements.middle[own.clone()]);
+    let (b, woven) = (&elements.b[own.clone()], &elements.element[own]);
+    let ((xa, wa), (xm, wm)) =
+        (gather_particles(s, particles, a), gather_particles(s, particles, middle));
+    let (xb, wb) = gather_particles(s, particles, b);
+    let mut c = second_difference(s, xa, xm, xb);
     if step.start_share > 0.0 {
-        take_before(s, step, [a, middle, b], &mut bow);
+        subtract_start(s, step, [a, middle, b], &mut c);
     }
     if let Some(rest) = rest {
-        take_rest(s, rest, woven, 1.0 - step.start_share, &mut bow);
+        subtract_rest(s, rest, woven, 1.0 - step.start_share, &mut c);
     }
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
-    // A middle that is held is stiffer between one end that is held and one that is not, see `plates`.
-    let lean = s.select(wa, zero, one) - s.select(wb, zero, one);
-    let clamped = s.select(wm, one, one + lean * lean);
-    let mut stiffness = s.load(&elbows.area_fraction, first) * clamped * s.splat(step.stiffness);
+    // A held middle between one held and one free end doubles the stiffness, as in `plate::clamped`.
+    let clamped_ends = s.select(wa, zero, one) - s.select(wb, zero, one);
+    let clamped = s.select(wm, one, one + clamped_ends * clamped_ends);
+    let mut stiffness = s.load(&elements.area_fraction, first) * clamped * s.splat(step.stiffness);
     if let Some(softening) = step.softening {
         let mut left = [0.0; LANES];
         for (left, at) in left.iter_mut().zip(woven) {
@@ -111,28 +122,33 @@ fn bend_some<S: Simd, P: ParticleAccess>(
     let (to_a, to_middle, to_b) = (wa * pull, s.splat(2.0) * wm * pull, wb * pull);
     let (mut ya, mut ym, mut yb) = (xa, xm, xb);
     for axis in 0..3 {
-        ya[axis] = xa[axis] - bow[axis] * to_a;
-        ym[axis] = xm[axis] + bow[axis] * to_middle;
-        yb[axis] = xb[axis] - bow[axis] * to_b;
+        ya[axis] = xa[axis] - c[axis] * to_a;
+        ym[axis] = xm[axis] + c[axis] * to_middle;
+        yb[axis] = xb[axis] - c[axis] * to_b;
     }
-    scatter_positions(s, spots, a, ya);
-    scatter_positions(s, spots, middle, ym);
-    scatter_positions(s, spots, b, yb);
+    scatter_positions(s, particles, a, ya);
+    scatter_positions(s, particles, middle, ym);
+    scatter_positions(s, particles, b, yb);
 }
 
-/// How far from straight three points are, twice the way from their middle to the line between the others.
+/// Second difference a − 2 m + b of three points [m]; zero if m is the midpoint of a and b.
 #[inline(always)]
-fn bow<S: Simd>(s: S, a: [S::F; 3], middle: [S::F; 3], b: [S::F; 3]) -> [S::F; 3] {
-    let (two, mut bow) = (s.splat(2.0), a);
+fn second_difference<S: Simd>(s: S, a: [S::F; 3], middle: [S::F; 3], b: [S::F; 3]) -> [S::F; 3] {
+    let (two, mut c) = (s.splat(2.0), a);
     for axis in 0..3 {
-        bow[axis] = (a[axis] + b[axis]) - two * middle[axis];
+        c[axis] = (a[axis] + b[axis]) - two * middle[axis];
     }
-    bow
+    c
 }
 
-/// Takes off a share of how bent they were when the substep began.
+/// Subtracts `start_share` of the second difference at the start of the substep.
 #[inline(always)]
-fn take_before<S: Simd>(s: S, step: IrregularStep<'_>, at: [&[u32]; 3], bow_now: &mut [S::F; 3]) {
+fn subtract_start<S: Simd>(
+    s: S,
+    step: IrregularStep<'_>,
+    at: [&[u32]; 3],
+    current: &mut [S::F; 3],
+) {
     let mut starts = [[s.splat(0.0); 3]; 3];
     for (start, at) in starts.iter_mut().zip(at) {
         for (axis, start) in start.iter_mut().enumerate() {
@@ -146,23 +162,23 @@ fn take_before<S: Simd>(s: S, step: IrregularStep<'_>, at: [&[u32]; 3], bow_now:
         }
     }
     let [a, middle, b] = starts;
-    let was = bow(s, a, middle, b);
+    let at_start = second_difference(s, a, middle, b);
     for axis in 0..3 {
-        bow_now[axis] = bow_now[axis] - was[axis] * s.splat(step.start_share);
+        current[axis] = current[axis] - at_start[axis] * s.splat(step.start_share);
     }
 }
 
-/// Takes off a share of what they are bent by at rest. There is no edge to be square to: so much is taken
-/// off to whichever side they are bent.
+/// Subtracts a share of the rest curvature. These elements have no normal, so the rest curvature
+/// takes the direction in which the element is bent now.
 #[inline(always)]
-fn take_rest<S: Simd>(s: S, rest: &[f32], woven: &[u32], share: f32, bow: &mut [S::F; 3]) {
+fn subtract_rest<S: Simd>(s: S, rest: &[f32], woven: &[u32], share: f32, c: &mut [S::F; 3]) {
     let mut lanes = [0.0; LANES];
     for lane in 0..S::LANES {
         lanes[lane] = rest[woven[lane] as usize].abs();
     }
-    let length = (bow[0] * bow[0] + bow[1] * bow[1] + bow[2] * bow[2]).sqrt();
+    let length = (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]).sqrt();
     let part = s.load(&lanes, 0) * s.splat(share) / length.max(s.splat(TINY));
     for axis in 0..3 {
-        bow[axis] = bow[axis] - bow[axis] * part;
+        c[axis] = c[axis] - c[axis] * part;
     }
 }

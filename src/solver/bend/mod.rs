@@ -7,8 +7,8 @@
 //! any other mesh        hinges, `mesh_implicit`
 //!   parts that cuts made  `hinge`, hinge by hinge
 //! ```
-//! Method: quadratic bending energy (Bergou et al., SGP 2006; Garg et al., SCA 2007), one implicit
-//! step per substep for the whole sheet. `bend_stiffness` is the bending rigidity [N m].
+//! Method: quadratic bending energy (Bergou et al., "A quadratic bending model for inextensible
+//! surfaces", SGP 2006), one implicit step per substep for the whole sheet. `bend_stiffness` is the bending rigidity [N m].
 //!
 //! The first solve of a substep comes before the links, so that the links carry the forces of
 //! bending like the weight; the second comes in the first backward sweep.

@@ -1,16 +1,28 @@
-//! Which way the elements of a grid are bent where they are bent at rest.
+//! Directions of the rest curvature of folded grid elements.
+//!
+//! ```text
+//! flat      direction = normal of the grid at the particle
+//! folded    direction = direction of the element's own curvature, which may have rotated
+//! between   linear blend of both, normalised
+//! ```
+//! Method: a fold acts along the curvature that the element shows, so it exerts no torque on itself or
+//! on the sheet. While the element is nearly flat that direction is undefined and the normal replaces it.
+//!
+//! Reads positions and fold offsets; writes unit normals and unit directions.
+//! Invariant: the direction of an element without a fold is zero.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::math::{TINY, max, min};
 use crate::model::plate_elements::{PerKind, PlateElements};
 
-/// From this share of its curvature at rest on an element is bent the way that it is, …
-const IS_BENT: f32 = 0.25;
-/// … wholly so from so much more on.
-const BENDS_OVER: f32 = 0.5;
+/// Ratio of curvature to rest curvature at which the blend towards the own direction starts, …
+const BLEND_START: f32 = 0.25;
+/// … and width of the blend; beyond it the own direction counts alone.
+const BLEND_WIDTH: f32 = 0.5;
 
-/// The unit normals of a grid: square to the ways from neighbour to neighbour, along and across.
+/// Computes the unit normal at each particle of a grid: the cross product of the differences of its
+/// neighbours down and across.
 pub(crate) fn compute_normals(
     level: Level,
     plates: &PlateElements,
@@ -22,17 +34,17 @@ pub(crate) fn compute_normals(
         let (above, below) = (row.saturating_sub(1), (row + 1).min(rows - 1));
         let of = |row: usize| x.all().map(|x| &x[row * columns..(row + 1) * columns]);
         let out = normal.all_mut().map(|n| &mut n[row * columns..(row + 1) * columns]);
-        find_row(level, out, [of(above), of(row), of(below)]);
+        compute_row_normals(level, out, [of(above), of(row), of(below)]);
     }
 }
 
 leveled! {
-    /// The normals of a row, from it, the one above and the one below.
-    fn find_row(normal: [&mut [f32]; 3], rows: [[&[f32]; 3]; 3]) = find_row_lanes
+    /// Computes the normals of a row from this row, the one above and the one below.
+    fn compute_row_normals(normal: [&mut [f32]; 3], rows: [[&[f32]; 3]; 3]) = compute_row_normals_lanes
 }
 
 #[inline(always)]
-fn find_row_lanes(normal: [&mut [f32]; 3], [above, row, below]: [[&[f32]; 3]; 3]) {
+fn compute_row_normals_lanes(normal: [&mut [f32]; 3], [above, row, below]: [[&[f32]; 3]; 3]) {
     let ([nx, ny, nz], [x, y, z]) = (normal, row);
     let ([ax, ay, az], [bx, by, bz]) = (above, below);
     let count = x.len();
@@ -44,27 +56,25 @@ fn find_row_lanes(normal: [&mut [f32]; 3], [above, row, below]: [[&[f32]; 3]; 3]
     for i in 1..last {
         let down = [bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]];
         let across = [x[i + 1] - x[i - 1], y[i + 1] - y[i - 1], z[i + 1] - z[i - 1]];
-        [nx[i], ny[i], nz[i]] = square(down, across);
+        [nx[i], ny[i], nz[i]] = unit_normal(down, across);
     }
     for (i, left, right) in [(0, 0, last.min(1)), (last, last.max(1) - 1, last)] {
         let down = [bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]];
         let across = [x[right] - x[left], y[right] - y[left], z[right] - z[left]];
-        [nx[i], ny[i], nz[i]] = square(down, across);
+        [nx[i], ny[i], nz[i]] = unit_normal(down, across);
     }
 }
 
-/// What is square to both, of length 1; naught if nothing is.
+/// Unit vector normal to both; zero if they are parallel.
 #[inline(always)]
-fn square([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> [f32; 3] {
+fn unit_normal([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> [f32; 3] {
     let (x, y, z) = (ay * bz - by * az, az * bx - bz * ax, ax * by - bx * ay);
     let length = (x * x + y * y + z * z).sqrt();
     let share = if length > TINY { 1.0 / length } else { 0.0 };
     [x * share, y * share, z * share]
 }
 
-/// The way that each element of a grid is bent if it is bent at rest: along the normal while it is about flat, along
-/// its own curvature when it is folded, whichever way that has turned. So a fold pushes along what it shows, and turns
-/// neither itself nor the sheet.
+/// Computes the direction of the rest curvature of each grid element: weft, warp and twist.
 pub(crate) fn compute(
     level: Level,
     plates: &PlateElements,
@@ -76,22 +86,22 @@ pub(crate) fn compute(
     let (columns, count) = (plates.columns, plates.count());
     for axis in 0..3 {
         let x = &x.all()[axis][..count];
-        curve(level, &mut weft.all_mut()[axis][1..count - 1], x, 1);
-        curve(level, &mut warp.all_mut()[axis][columns..count - columns], x, columns);
+        second_differences(level, &mut weft.all_mut()[axis][1..count - 1], x, 1);
+        second_differences(level, &mut warp.all_mut()[axis][columns..count - columns], x, columns);
         twist(level, &mut cell.all_mut()[axis][..count - columns - 1], x, columns);
     }
-    for (way, offset) in [weft, warp, cell].into_iter().zip(offset) {
-        turn(level, way.all_mut(), offset, normal.all());
+    for (direction, offset) in [weft, warp, cell].into_iter().zip(offset) {
+        select_directions(level, direction.all_mut(), offset, normal.all());
     }
 }
 
 leveled! {
-    /// What elements are curved by, along ways of so many particles.
-    fn curve(out: &mut [f32], x: &[f32], step: usize) = curve_lanes
+    /// Second differences a − 2 m + b of particles `step` apart [m].
+    fn second_differences(out: &mut [f32], x: &[f32], step: usize) = second_differences_lanes
 }
 
 #[inline(always)]
-fn curve_lanes(out: &mut [f32], x: &[f32], step: usize) {
+fn second_differences_lanes(out: &mut [f32], x: &[f32], step: usize) {
     for ((out, middle), (a, b)) in out.iter_mut().zip(&x[step..]).zip(x.iter().zip(&x[2 * step..]))
     {
         *out = (a + b) - middle * 2.0;
@@ -99,7 +109,7 @@ fn curve_lanes(out: &mut [f32], x: &[f32], step: usize) {
 }
 
 leveled! {
-    /// What cells are twisted by.
+    /// Twist a − b − c + d of each cell [m].
     fn twist(out: &mut [f32], x: &[f32], columns: usize) = twist_lanes
 }
 
@@ -112,29 +122,30 @@ fn twist_lanes(out: &mut [f32], x: &[f32], columns: usize) {
 }
 
 leveled! {
-    /// Makes ways of what elements are curved by; naught where they are flat at rest.
-    fn turn(way: [&mut [f32]; 3], rest: &[f32], normal: [&[f32]; 3]) = turn_lanes
+    /// Replaces curvatures by their directions; zero for elements that are flat at rest.
+    fn select_directions(direction: [&mut [f32]; 3], rest: &[f32], normal: [&[f32]; 3]) = select_directions_lanes
 }
 
 #[inline(always)]
-fn turn_lanes([x, y, z]: [&mut [f32]; 3], rest: &[f32], [nx, ny, nz]: [&[f32]; 3]) {
+fn select_directions_lanes([x, y, z]: [&mut [f32]; 3], rest: &[f32], [nx, ny, nz]: [&[f32]; 3]) {
     let count = rest.len();
     let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
     let (nx, ny, nz) = (&nx[..count], &ny[..count], &nz[..count]);
     for i in 0..count {
         let ([cx, cy, cz], [nx, ny, nz]) = ([x[i], y[i], z[i]], [nx[i], ny[i], nz[i]]);
-        let over = 1.0 / rest[i];
-        let folded = ((cx * nx + cy * ny + cz * nz) * over - IS_BENT) / BENDS_OVER;
-        let share = max(min(folded, 1.0), 0.0);
-        let own = if over > 0.0 { 1.0 } else { -1.0 } / (cx * cx + cy * cy + cz * cz).sqrt();
+        let inverse_rest = 1.0 / rest[i];
+        let ratio = ((cx * nx + cy * ny + cz * nz) * inverse_rest - BLEND_START) / BLEND_WIDTH;
+        let share = max(min(ratio, 1.0), 0.0);
+        let own =
+            if inverse_rest > 0.0 { 1.0 } else { -1.0 } / (cx * cx + cy * cy + cz * cz).sqrt();
         let wx = nx + (cx * own - nx) * share;
         let wy = ny + (cy * own - ny) * share;
         let wz = nz + (cz * own - nz) * share;
         let unit = 1.0 / max((wx * wx + wy * wy + wz * wz).sqrt(), TINY);
-        let (is_flat, is_turned) = (rest[i] == 0.0, share > 0.0);
-        let turned = [wx * unit, wy * unit, wz * unit];
-        let way = if is_turned { turned } else { [nx, ny, nz] };
-        [x[i], y[i], z[i]] = if is_flat { [0.0; 3] } else { way };
+        let (is_flat, is_blended) = (rest[i] == 0.0, share > 0.0);
+        let blended = [wx * unit, wy * unit, wz * unit];
+        let direction = if is_blended { blended } else { [nx, ny, nz] };
+        [x[i], y[i], z[i]] = if is_flat { [0.0; 3] } else { direction };
     }
 }
 
@@ -144,7 +155,7 @@ mod tests {
     use glam::Vec3;
 
     #[test]
-    fn rows_have_the_normals_of_their_surroundings() {
+    fn normals_are_orthogonal_to_the_differences_of_neighbours() {
         let (columns, rows) = (7, 5);
         let place = |i: usize| {
             let (column, row) = ((i % columns) as f32, (i / columns) as f32);
@@ -156,7 +167,11 @@ mod tests {
         for row in 0..rows {
             let of = |row: usize| x.all().map(|x| &x[row * columns..(row + 1) * columns]);
             let out = normal.all_mut().map(|n| &mut n[row * columns..(row + 1) * columns]);
-            find_row(level, out, [of(row.max(1) - 1), of(row), of((row + 1).min(rows - 1))]);
+            compute_row_normals(
+                level,
+                out,
+                [of(row.max(1) - 1), of(row), of((row + 1).min(rows - 1))],
+            );
             for column in 0..columns {
                 let (left, right) = (column.max(1) - 1, (column + 1).min(columns - 1));
                 let across = x.at(row * columns + right) - x.at(row * columns + left);
@@ -169,24 +184,24 @@ mod tests {
     }
 
     #[test]
-    fn a_way_leads_from_the_normal_to_what_an_element_shows() {
-        // Flat at rest; curved much less than at rest; as much as that, each way; not at all.
+    fn the_direction_blends_from_the_normal_to_the_own_curvature() {
+        // Flat at rest; curved less than at rest; as much, to each side; not curved.
         let rest = [0.0, 0.1, 0.1, -0.1, 0.1];
-        let curve = [
+        let second_differences = [
             Vec3::X,
             Vec3::Z * 0.01,
             Vec3::new(0.03, 0.0, 0.1),
             Vec3::new(0.03, 0.0, -0.1),
             Vec3::ZERO,
         ];
-        let (mut way, mut normal) = (Columns::default(), Columns::default());
-        way.set_all(curve.into_iter());
+        let (mut direction, mut normal) = (Columns::default(), Columns::default());
+        direction.set_all(second_differences.into_iter());
         normal.set_all([Vec3::Z; 5].into_iter());
-        turn(Level::best(), way.all_mut(), &rest, normal.all());
-        assert_eq!(way.at(0), Vec3::ZERO);
-        assert_eq!(way.at(1), Vec3::Z);
-        assert!(way.at(2).distance(curve[2].normalize()) < 1.0e-6);
-        assert!(way.at(3).distance(-curve[3].normalize()) < 1.0e-6);
-        assert_eq!(way.at(4), Vec3::Z);
+        select_directions(Level::best(), direction.all_mut(), &rest, normal.all());
+        assert_eq!(direction.at(0), Vec3::ZERO);
+        assert_eq!(direction.at(1), Vec3::Z);
+        assert!(direction.at(2).distance(second_differences[2].normalize()) < 1.0e-6);
+        assert!(direction.at(3).distance(-second_differences[3].normalize()) < 1.0e-6);
+        assert_eq!(direction.at(4), Vec3::Z);
     }
 }

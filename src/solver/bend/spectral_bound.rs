@@ -1,62 +1,69 @@
-//! The stiffest shape of a sheet: a bound for stiffness over mass in whatever shape, as descents want it.
+//! Upper bound for the stiffness over mass of any bending shape of a grid, as `chebyshev` needs it.
 //!
-//! With K the matrix of the bending energy and M the masses, it is what no eigenvalue of M⁻¹ K is beyond.
+//! With K the matrix of the bending energy and M the mass matrix, this is a bound for the largest
+//! eigenvalue of M⁻¹ K, relative to the stiffness of an interior element.
+//!
+//! Method: bound by the diagonal for a whole sheet; Gershgorin's circle theorem (1931) for a torn one.
+//! Reads element weights and inverse masses; `of_torn` also overwrites two buffers.
+//! Invariant: no eigenvalue exceeds the bound.
 
 use crate::model::plate_elements::PerKind;
 
-/// Of a whole sheet, where a particle's own stiffness over its mass tells: that of an element is at most four
-/// times what the element adds to its particles' own.
+/// Bound for a sheet without tears [1/kg]: four times the largest ratio of a particle's diagonal
+/// stiffness to its mass, because the stiffness of an element is at most four times its share of the
+/// diagonal.
 pub(crate) fn of_whole(columns: usize, [weft, warp, twist]: &PerKind<Vec<f32>>, w: &[f32]) -> f32 {
     let before = |list: &[f32], at: usize, steps: usize| {
         if at >= steps { list[at - steps] } else { 0.0 }
     };
     let after =
         |list: &[f32], at: usize, steps: usize| list.get(at + steps).copied().unwrap_or(0.0);
-    let mut most = 0.0_f32;
+    let mut largest = 0.0_f32;
     for at in 0..w.len() {
-        let along = 4.0 * weft[at] + (before(weft, at, 1) + after(weft, at, 1));
-        let down = 4.0 * warp[at] + (before(warp, at, columns) + after(warp, at, columns));
-        let turn = (twist[at] + before(twist, at, 1))
+        let weft_sum = 4.0 * weft[at] + (before(weft, at, 1) + after(weft, at, 1));
+        let warp_sum = 4.0 * warp[at] + (before(warp, at, columns) + after(warp, at, columns));
+        let twist_sum = (twist[at] + before(twist, at, 1))
             + (before(twist, at, columns) + before(twist, at, columns + 1));
-        let own = ((along + down) + turn) * w[at];
-        most = if own > most { own } else { most };
+        let diagonal = ((weft_sum + warp_sum) + twist_sum) * w[at];
+        largest = if diagonal > largest { diagonal } else { largest };
     }
-    4.0 * most
+    4.0 * largest
 }
 
-/// Of a torn sheet, where single particles have little mass left but heavy ones to lean on: the largest sum
-/// over a row of M⁻½ K M⁻½, without signs (Gershgorin 1931). `room` is for the roots of `w` and for what
-/// elements have, with room around as plates have it.
+/// Bound for a torn sheet [1/kg]: the largest absolute row sum of M⁻½ K M⁻½ (Gershgorin 1931).
+///
+/// It is tighter where single particles with little mass are joined to heavy ones. The buffers receive
+/// the square roots of `w`, and padded values per element.
 pub(crate) fn of_torn(
     columns: usize,
     weight: &PerKind<Vec<f32>>,
     w: &[f32],
-    (z, pull): (&mut [f32], &mut PerKind<Vec<f32>>),
+    (z, padded): (&mut [f32], &mut PerKind<Vec<f32>>),
 ) -> f32 {
     let (count, edge) = (w.len(), columns + 1);
     for (z, w) in z.iter_mut().zip(w) {
         *z = w.sqrt();
     }
     for at in 1..count - 1 {
-        pull[0][edge + at] = weight[0][at] * (2.0 * z[at] + (z[at - 1] + z[at + 1]));
+        padded[0][edge + at] = weight[0][at] * (2.0 * z[at] + (z[at - 1] + z[at + 1]));
     }
     for at in columns..count - columns {
-        pull[1][edge + at] = weight[1][at] * (2.0 * z[at] + (z[at - columns] + z[at + columns]));
+        padded[1][edge + at] = weight[1][at] * (2.0 * z[at] + (z[at - columns] + z[at + columns]));
     }
     for at in 0..count - edge {
-        pull[2][edge + at] =
+        padded[2][edge + at] =
             weight[2][at] * ((z[at] + z[at + 1]) + (z[at + columns] + z[at + edge]));
     }
-    let [weft, warp, twist] = pull;
-    let mut most = 0.0_f32;
+    let [weft, warp, twist] = padded;
+    let mut largest = 0.0_f32;
     for (at, z) in z.iter().enumerate() {
-        let along = 2.0 * weft[edge + at] + (weft[columns + at] + weft[edge + at + 1]);
-        let down = 2.0 * warp[edge + at] + (warp[at + 1] + warp[edge + at + columns]);
-        let turn = (twist[edge + at] + twist[columns + at]) + (twist[at + 1] + twist[at]);
-        let row = ((along + down) + turn) * z;
-        most = if row > most { row } else { most };
+        let weft_sum = 2.0 * weft[edge + at] + (weft[columns + at] + weft[edge + at + 1]);
+        let warp_sum = 2.0 * warp[edge + at] + (warp[at + 1] + warp[edge + at + columns]);
+        let twist_sum = (twist[edge + at] + twist[columns + at]) + (twist[at + 1] + twist[at]);
+        let row = ((weft_sum + warp_sum) + twist_sum) * z;
+        largest = if row > largest { row } else { largest };
     }
-    most
+    largest
 }
 
 #[cfg(test)]
@@ -66,11 +73,11 @@ mod tests {
     const COLUMNS: usize = 9;
     const ROWS: usize = 7;
 
-    /// Where it is torn.
+    /// Particles at a tear.
     const LIGHT: [usize; 2] = [3 * COLUMNS + 2, 3 * COLUMNS + 6];
 
-    /// A sheet with one particle that is held, and two that hang from the cells above them with a fourth of
-    /// their mass.
+    /// A sheet with one held particle, and two at a tear that hang from the cells above them with a
+    /// quarter of the mass.
     fn torn() -> (PerKind<Vec<f32>>, Vec<f32>) {
         let mut weight = [const { Vec::new() }; 3];
         for at in 0..COLUMNS * ROWS {
@@ -92,11 +99,11 @@ mod tests {
         (weight, w)
     }
 
-    /// The most stiffness over mass that there is, by power iteration.
+    /// Largest eigenvalue by power iteration.
     fn exact([weft, warp, twist]: &PerKind<Vec<f32>>, w: &[f32]) -> f64 {
         let count = w.len();
         let mut x: Vec<f64> = (0..count).map(|at| (at as f64 * 2.3).sin()).collect();
-        let mut most = 0.0;
+        let mut largest = 0.0;
         for _ in 0..2000 {
             let mut force = vec![0.0; count];
             let mut add = |at: &[(usize, f64)], weight: f32| {
@@ -114,20 +121,20 @@ mod tests {
                 add(&[(at, 1.0), (right, -1.0), (below, -1.0), (below + 1, 1.0)], twist[at]);
             }
             force.iter_mut().zip(w).for_each(|(force, w)| *force *= f64::from(*w));
-            most = force.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
-            x = force.iter().map(|force| force / most).collect();
+            largest = force.iter().fold(0.0_f64, |largest, force| largest.max(force.abs()));
+            x = force.iter().map(|force| force / largest).collect();
         }
-        most
+        largest
     }
 
     fn bound_of_torn(weight: &PerKind<Vec<f32>>, w: &[f32]) -> f32 {
         let around = || vec![0.0; w.len() + 2 * (COLUMNS + 1)];
-        let (mut z, mut pull) = (vec![0.0; w.len()], [around(), around(), around()]);
-        of_torn(COLUMNS, weight, w, (&mut z, &mut pull))
+        let (mut z, mut padded) = (vec![0.0; w.len()], [around(), around(), around()]);
+        of_torn(COLUMNS, weight, w, (&mut z, &mut padded))
     }
 
     #[test]
-    fn no_shape_is_beyond_either_bound() {
+    fn no_eigenvalue_exceeds_either_bound() {
         let (weight, w) = torn();
         let exact = exact(&weight, &w);
         let bounds = [of_whole(COLUMNS, &weight, &w), bound_of_torn(&weight, &w)].map(f64::from);
@@ -135,10 +142,10 @@ mod tests {
     }
 
     #[test]
-    fn light_particles_make_no_torn_sheet_stiffer_than_a_whole_one() {
+    fn light_particles_do_not_raise_the_bound_of_a_torn_sheet_above_a_whole_one() {
         let (weight, w) = torn();
-        let [by_own, by_rows] = [of_whole(COLUMNS, &weight, &w), bound_of_torn(&weight, &w)];
+        let [by_diagonal, by_rows] = [of_whole(COLUMNS, &weight, &w), bound_of_torn(&weight, &w)];
         let whole = 4.0 * 20.0;
-        assert!(by_rows < whole && by_own > 1.1 * whole, "{by_own} {by_rows}");
+        assert!(by_rows < whole && by_diagonal > 1.1 * whole, "{by_diagonal} {by_rows}");
     }
 }
