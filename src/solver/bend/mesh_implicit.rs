@@ -1,11 +1,17 @@
-//! The hinges of any mesh: one implicit step of bending for all at once.
+//! Bending of any mesh by its hinges: one implicit step for all hinges at once.
 //!
-//! With K the matrix of the bending energy, a substep of length h is to end at M d = −h² K (x + d), where d
-//! is what bending moves the particles by. K is symmetric and, as the hinges are quadratic, the same wherever
-//! the mesh is. So d comes of a few explicit steps where the mesh is soft, see `descent`, and else by
-//! conjugate gradients (Hestenes and Stiefel 1952), with the diagonal as their preconditioner. Each step is
-//! one pass over K (see `stiffness`), and as many of them as the root of the stiffness over mass are enough,
-//! where sweeps over hinges would take as many as itself.
+//! ```text
+//! M d = −h² K (x + d)        d: displacement by bending, K: stiffness matrix (`stiffness_matrix`)
+//! ```
+//! Method: K is symmetric and, since hinges are quadratic, independent of the positions. A soft mesh
+//! takes a few explicit Chebyshev steps (`chebyshev`), a stiff one conjugate gradients with Jacobi
+//! preconditioner (Hestenes and Stiefel 1952). Each step is one product with K. The number of steps
+//! grows with the square root of the stiffness over mass, where Gauss–Seidel sweeps over hinges would
+//! grow linearly.
+//!
+//! Reads hinges, elements, folds and positions; writes positions and `MeshBendScratch`.
+//! Invariant: matrix and coefficients are recomputed exactly when links, stiffness, masses or held
+//! particles change. Dot products sum in a fixed order, so the bits are the same on every platform.
 
 use crate::math::TINY;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
@@ -18,49 +24,53 @@ use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
 use crate::solver::particle_stage::access::ParticleAccess;
 use glam::{Vec3, Vec4};
 
-/// The most steps of conjugate gradients that a round makes.
-const MOST_STEPS: f32 = 48.0;
+/// Largest number of conjugate gradient steps per solve.
+const MAX_STEPS: f32 = 48.0;
 
-/// From this stiffness over mass on a second round pays.
-const TWICE: f32 = 0.25;
+/// Stiffness over mass from which the second solve of a substep pays.
+const MIN_SECOND_SOLVE: f32 = 0.25;
 
-/// A descent is made for so many times the most stiffness over mass that there is: what it leaves of the stiffest
-/// shapes, it leaves in each substep, and at the very end of what it is made for discs of cotton did not rest.
-const ROOM: f32 = 2.0;
+/// Safety factor on the bound of the Chebyshev steps: they leave a residual of the stiffest shapes in
+/// each substep, and with factor 1 discs of cotton did not come to rest.
+const BOUND_FACTOR: f32 = 2.0;
 
-/// Steps end when what is left has so much of the square of what there was.
-const LEFT: f32 = 1.0e-8;
+/// Conjugate gradients end at this ratio of the squared residual to the initial one.
+const RESIDUAL_RATIO: f32 = 1.0e-8;
 
-/// Room to work in: a number or a vector for each particle.
+/// Buffers with an entry per particle, and the cached matrix.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MeshBendScratch {
-    /// As long as links and what is held stay: what triangles resist, and that as a matrix.
+    /// Element energies and stiffness matrix; valid while links and held particles stay.
     elements: Vec<TriangleStiffness>,
     stiffness: StiffnessMatrix,
     revision: u32,
-    /// Of what made triangles softer.
-    softer: Option<(u32, f32)>,
-    /// The steps that are enough as long as masses and `of_stiffness` stay too; none if there are too many.
-    descent: Option<ChebyshevSteps>,
-    of_stiffness: f32,
-    /// What each hinge is bent by at rest, where some are [m].
-    bow: Vec<Vec4>,
+    /// Key of the plastic softening for which the matrix was assembled.
+    softening_key: Option<(u32, f32)>,
+    /// Chebyshev steps, valid while masses and `assembled_stiffness` stay too; `None` if too stiff.
+    chebyshev: Option<ChebyshevSteps>,
+    assembled_stiffness: f32,
+    /// Force of the rest curvature of each hinge, times h² [kg m³]; used if some hinges are bent.
+    rest_force: Vec<Vec4>,
     w: Vec<f32>,
-    /// Mass and one over the diagonal; 0 for what is held.
+    /// Mass, and inverse of the diagonal of M + h² K; 0 for held particles.
     mass: Vec<f32>,
-    over: Vec<f32>,
-    /// Where particles are seen; as all that follow x, y, z and 0, which fit a vector register.
+    inverse_diagonal: Vec<f32>,
+    /// Positions less the damping share of the start positions. This and all below hold x, y, z, 0,
+    /// which fit a SIMD register.
     x: Vec<Vec4>,
-    /// What bending has moved each particle by in this substep [m].
-    given: Vec<Vec4>,
+    /// Displacement by bending in this substep [m].
+    total: Vec<Vec4>,
+    /// Displacement by the current solve [m].
     change: Vec<Vec4>,
-    force: Vec<Vec4>,
-    way: Vec<Vec4>,
-    pull: Vec<Vec4>,
+    /// Residual of the system [kg m].
+    residual: Vec<Vec4>,
+    /// Search direction, and its product with −(M + h² K).
+    direction: Vec<Vec4>,
+    product: Vec<Vec4>,
 }
 
 impl MeshBendScratch {
-    /// Room for so many triangles, hinges and particles.
+    /// Allocates buffers for so many triangles and hinges and at most `capacity` particles.
     pub fn new(triangles: usize, hinges: usize, capacity: usize) -> Self {
         let numbers = || Vec::with_capacity(capacity);
         let vectors = || Vec::with_capacity(capacity);
@@ -68,243 +78,271 @@ impl MeshBendScratch {
             elements: Vec::with_capacity(triangles),
             stiffness: StiffnessMatrix::with_capacity(capacity),
             revision: 0,
-            softer: None,
-            descent: None,
-            of_stiffness: 0.0,
-            bow: Vec::with_capacity(hinges),
+            softening_key: None,
+            chebyshev: None,
+            assembled_stiffness: 0.0,
+            rest_force: Vec::with_capacity(hinges),
             w: numbers(),
             mass: numbers(),
-            over: numbers(),
+            inverse_diagonal: numbers(),
             x: vectors(),
-            given: vectors(),
+            total: vectors(),
             change: vectors(),
-            force: vectors(),
-            way: vectors(),
-            pull: vectors(),
+            residual: vectors(),
+            direction: vectors(),
+            product: vectors(),
         }
     }
 }
 
-/// The hinges as they are now.
+/// Hinges and parameters of one solve.
 #[derive(Clone, Copy)]
 pub(crate) struct MeshBend<'a> {
     pub hinges: &'a Hinges,
-    /// Which links hold.
+    /// Whether each link is active.
     pub active: &'a [bool],
-    /// What folds add to how each is bent at rest [m]; none if there are none.
+    /// Rest curvature that folds add to each hinge [m]; `None` without folds.
     pub folds: Option<&'a [f32]>,
-    /// How much softer triangles are by what gave way, if they are.
+    /// Loss of stiffness by plastic bending, if any.
     pub softening: Option<Softening<'a>>,
     pub step: HingeStep,
-    /// StiffnessMatrix over mass of hinges as far apart as edges are long.
+    /// Stiffness over mass of hinges that are one mean edge apart.
     pub stiffness_over_mass: f32,
-    /// Whether it is the first round of the substep.
+    /// Whether this is the first solve of the substep.
     pub is_first: bool,
 }
 
 impl MeshBend<'_> {
-    /// Bends `count` particles for one round; the second one only where it pays. `start` is where the
-    /// substep began.
+    /// Runs one solve for `count` particles; skips the second one of a substep if it does not pay.
+    ///
+    /// `start` gives the position of a particle at the start of the substep [m].
     pub fn solve<S: ParticleAccess>(
         &self,
-        room: &mut MeshBendScratch,
+        scratch: &mut MeshBendScratch,
         count: usize,
         start: impl Fn(usize) -> Vec3,
-        spots: &mut S,
+        particles: &mut S,
     ) {
-        if !self.is_first && (self.stiffness_over_mass < TWICE || room.descent.is_some()) {
+        if !self.is_first
+            && (self.stiffness_over_mass < MIN_SECOND_SOLVE || scratch.chebyshev.is_some())
+        {
             return;
         }
-        let is_new = self.make_room(room, count);
-        if self.seat(room, start, spots) || is_new {
-            self.take_up(room, count);
+        let is_resized = self.resize(scratch, count);
+        if self.load(scratch, start, particles) || is_resized {
+            self.assemble(scratch, count);
         }
-        room.stiffness.add_pulls(&room.x, &mut room.force);
-        self.add_rest(room, spots);
-        match room.descent {
-            Some(descent) => descend(room, &descent),
-            None => self.solve_conjugate_gradients(room),
+        scratch.stiffness.add_forces(&scratch.x, &mut scratch.residual);
+        self.add_rest_forces(scratch, particles);
+        match scratch.chebyshev {
+            Some(chebyshev) => solve_chebyshev(scratch, &chebyshev),
+            None => self.solve_conjugate_gradients(scratch),
         }
-        for (i, (given, change)) in room.given.iter_mut().zip(&room.change).enumerate() {
-            let (x, w) = spots.particle(i);
+        for (i, (total, change)) in scratch.total.iter_mut().zip(&scratch.change).enumerate() {
+            let (x, w) = particles.particle(i);
             if w > 0.0 {
-                spots.set_position(i, x + change.truncate());
-                *given += *change;
+                particles.set_position(i, x + change.truncate());
+                *total += *change;
             }
         }
     }
 
-    /// Room for so many particles; whether they, links or stiffness have changed.
-    fn make_room(&self, room: &mut MeshBendScratch, count: usize) -> bool {
+    /// Resizes the buffers for `count` particles, and returns whether count, links or stiffness changed.
+    fn resize(&self, scratch: &mut MeshBendScratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
-        let softer = self.softening.map(|softening| softening.key());
-        let known = (room.revision, room.of_stiffness, room.softer);
-        if known == (revision, stiffness, softer) && room.w.len() == count {
+        let softening_key = self.softening.map(|softening| softening.key());
+        let known = (scratch.revision, scratch.assembled_stiffness, scratch.softening_key);
+        if known == (revision, stiffness, softening_key) && scratch.w.len() == count {
             return false;
         }
-        for numbers in [&mut room.w, &mut room.mass, &mut room.over] {
+        for numbers in [&mut scratch.w, &mut scratch.mass, &mut scratch.inverse_diagonal] {
             numbers.resize(count, 0.0);
         }
-        let vectors = [&mut room.x, &mut room.given, &mut room.force];
-        let more = [&mut room.change, &mut room.way, &mut room.pull];
+        let vectors = [&mut scratch.x, &mut scratch.total, &mut scratch.residual];
+        let more = [&mut scratch.change, &mut scratch.direction, &mut scratch.product];
         vectors.into_iter().chain(more).for_each(|vectors| vectors.resize(count, Vec4::ZERO));
-        room.bow.resize(self.hinges.all.len(), Vec4::ZERO);
-        (room.revision, room.of_stiffness, room.softer) = (revision, stiffness, softer);
+        scratch.rest_force.resize(self.hinges.all.len(), Vec4::ZERO);
+        (scratch.revision, scratch.assembled_stiffness, scratch.softening_key) =
+            (revision, stiffness, softening_key);
         true
     }
 
-    /// Takes up links, stiffness and what is held.
-    fn take_up(&self, room: &mut MeshBendScratch, count: usize) {
-        let MeshBendScratch { elements, stiffness, w, mass, over, .. } = room;
+    /// Assembles the matrix for the current links, stiffness and held particles.
+    fn assemble(&self, scratch: &mut MeshBendScratch, count: usize) {
+        let MeshBendScratch { elements, stiffness, w, mass, inverse_diagonal, .. } = scratch;
         let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
-        let left = |triangle: usize| match &self.softening {
+        let remaining = |triangle: usize| match &self.softening {
             Some(softening) => softening.stiffness_scale(softening.curvature[triangle]),
             None => 1.0,
         };
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
-        self.hinges.elements.compute_stiffness(all, holds, is_held, left, elements);
+        self.hinges.elements.compute_stiffness(all, holds, is_held, remaining, elements);
         stiffness.assemble(all, elements, self.step.stiffness, count);
-        let each = over.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.own());
-        for (((over, w), mass), own) in each {
-            *over = if *w > 0.0 { 1.0 / (mass + own) } else { 0.0 };
+        let each = inverse_diagonal.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.diagonal());
+        for (((inverse_diagonal, w), mass), diagonal) in each {
+            *inverse_diagonal = if *w > 0.0 { 1.0 / (mass + diagonal) } else { 0.0 };
         }
-        room.descent = ChebyshevSteps::new(ROOM * stiffness.bound(w));
+        scratch.chebyshev = ChebyshevSteps::new(BOUND_FACTOR * stiffness.bound(w));
     }
 
-    /// Sees where particles are; whether they weigh something else than they did.
-    fn seat<S: ParticleAccess>(
+    /// Loads positions and masses, initialises the residual, and returns whether a mass changed.
+    fn load<S: ParticleAccess>(
         &self,
-        room: &mut MeshBendScratch,
+        scratch: &mut MeshBendScratch,
         start: impl Fn(usize) -> Vec3,
-        spots: &S,
+        particles: &S,
     ) -> bool {
-        let before = self.step.start_share;
+        let start_share = self.step.start_share;
         let mut has_changed = false;
-        let known = room.w.iter_mut().zip(&mut room.mass);
-        for (i, (seat, (known, mass))) in room.x.iter_mut().zip(known).enumerate() {
-            let (x, w) = spots.particle(i);
-            let seen = if before > 0.0 { x - start(i) * before } else { x };
-            *seat = seen.extend(0.0);
+        let known = scratch.w.iter_mut().zip(&mut scratch.mass);
+        for (i, (slot, (known, mass))) in scratch.x.iter_mut().zip(known).enumerate() {
+            let (x, w) = particles.particle(i);
+            let shifted = if start_share > 0.0 { x - start(i) * start_share } else { x };
+            *slot = shifted.extend(0.0);
             if *known != w {
                 (*known, *mass) = (w, if w > 0.0 { 1.0 / w } else { 0.0 });
                 has_changed = true;
             }
         }
         if self.is_first {
-            room.given.fill(Vec4::ZERO);
+            scratch.total.fill(Vec4::ZERO);
         }
-        for ((force, given), mass) in room.force.iter_mut().zip(&room.given).zip(&room.mass) {
-            *force = -*given * *mass;
+        for ((residual, total), mass) in
+            scratch.residual.iter_mut().zip(&scratch.total).zip(&scratch.mass)
+        {
+            *residual = -*total * *mass;
         }
         has_changed
     }
 
-    /// What pushes particles where hinges are bent at rest.
-    fn add_rest<S: ParticleAccess>(&self, room: &mut MeshBendScratch, spots: &S) {
+    /// Adds the forces of the rest curvature to the residual.
+    fn add_rest_forces<S: ParticleAccess>(&self, scratch: &mut MeshBendScratch, particles: &S) {
         if !self.hinges.are_bent && self.folds.is_none() {
             return;
         }
         let hinges = &self.hinges.all;
-        for (at, (hinge, bow)) in hinges.iter().zip(&mut room.bow).enumerate() {
+        for (at, (hinge, rest_force)) in hinges.iter().zip(&mut scratch.rest_force).enumerate() {
             let rest = hinge.rest + self.folds.map_or(0.0, |folds| folds[at]);
-            *bow = if rest == 0.0 {
+            *rest_force = if rest == 0.0 {
                 Vec4::ZERO
             } else {
-                let corners = hinge.particles.map(|vertex| spots.particle(vertex as usize).0);
+                let corners = hinge.particles.map(|vertex| particles.particle(vertex as usize).0);
                 let rest = rest * (1.0 - self.step.start_share) * self.step.stiffness;
                 (hinge_normal(corners) * rest).extend(0.0)
             };
         }
-        for element in &room.elements {
-            push(hinges, element, &room.bow, &mut room.force);
+        for element in &scratch.elements {
+            add_element_forces(hinges, element, &scratch.rest_force, &mut scratch.residual);
         }
     }
 
-    /// Conjugate gradients for what the force changes.
-    fn solve_conjugate_gradients(&self, room: &mut MeshBendScratch) {
-        let MeshBendScratch { stiffness, mass, over, change, force, way, pull, .. } = room;
-        let steps = (2.0 * (1.0 + 64.0 * self.stiffness_over_mass).sqrt()).min(MOST_STEPS) as u32;
+    /// Solves (M + h² K) change = residual by preconditioned conjugate gradients.
+    fn solve_conjugate_gradients(&self, scratch: &mut MeshBendScratch) {
+        let MeshBendScratch {
+            stiffness,
+            mass,
+            inverse_diagonal,
+            change,
+            residual,
+            direction,
+            product,
+            ..
+        } = scratch;
+        let steps = (2.0 * (1.0 + 64.0 * self.stiffness_over_mass).sqrt()).min(MAX_STEPS) as u32;
         change.fill(Vec4::ZERO);
-        way.fill(Vec4::ZERO);
-        lead(way, force, over, 0.0);
-        let mut left = dot(way, force);
-        let enough = left * LEFT;
+        direction.fill(Vec4::ZERO);
+        update_direction(direction, residual, inverse_diagonal, 0.0);
+        let mut residual2 = dot(direction, residual);
+        let tolerance = residual2 * RESIDUAL_RATIO;
         for _ in 0..steps {
-            if left <= enough || left <= TINY * TINY {
+            if residual2 <= tolerance || residual2 <= TINY * TINY {
                 return;
             }
-            for ((pull, way), mass) in pull.iter_mut().zip(&*way).zip(&*mass) {
-                *pull = -*way * *mass;
+            for ((product, direction), mass) in product.iter_mut().zip(&*direction).zip(&*mass) {
+                *product = -*direction * *mass;
             }
-            stiffness.add_pulls(way, pull);
-            let far = left / -dot(way, pull);
-            let next = go_on(far, [change, force], [way, pull], over);
-            lead(way, force, over, next / left);
-            left = next;
+            stiffness.add_forces(direction, product);
+            let step_length = residual2 / -dot(direction, product);
+            let next_residual2 =
+                advance(step_length, [change, residual], [direction, product], inverse_diagonal);
+            update_direction(direction, residual, inverse_diagonal, next_residual2 / residual2);
+            residual2 = next_residual2;
         }
     }
 }
 
-/// A few explicit steps for what the force changes.
-fn descend(room: &mut MeshBendScratch, descent: &ChebyshevSteps) {
-    let MeshBendScratch { stiffness, w, mass, change, force, way, .. } = room;
+/// Approximates the solution by Chebyshev steps.
+fn solve_chebyshev(scratch: &mut MeshBendScratch, chebyshev: &ChebyshevSteps) {
+    let MeshBendScratch { stiffness, w, mass, change, residual, direction, .. } = scratch;
     change.fill(Vec4::ZERO);
-    for (at, [keep, take]) in descent.steps().iter().enumerate() {
+    for (at, [keep, gain]) in chebyshev.steps().iter().enumerate() {
         if at > 0 {
-            stiffness.add_pulls(way, force);
+            stiffness.add_forces(direction, residual);
         }
-        let of_particles = force.iter_mut().zip(&*w).zip(&*mass);
-        for ((change, way), ((force, w), mass)) in
-            change.iter_mut().zip(&mut *way).zip(of_particles)
+        let of_particles = residual.iter_mut().zip(&*w).zip(&*mass);
+        for ((change, direction), ((residual, w), mass)) in
+            change.iter_mut().zip(&mut *direction).zip(of_particles)
         {
-            let last = if at == 0 { Vec4::ZERO } else { *way * *keep };
-            *way = last + *force * (w * take);
-            *change += *way;
-            *force -= *way * *mass;
+            let last = if at == 0 { Vec4::ZERO } else { *direction * *keep };
+            *direction = last + *residual * (w * gain);
+            *change += *direction;
+            *residual -= *direction * *mass;
         }
     }
 }
 
-/// Pushes the particles of a triangle's hinges that are bent so much at rest: all together by naught.
-fn push(hinges: &[Hinge], element: &TriangleStiffness, bow: &[Vec4], force: &mut [Vec4]) {
+/// Adds the rest forces of the three hinges of an element to the residual; they sum to zero.
+fn add_element_forces(
+    hinges: &[Hinge],
+    element: &TriangleStiffness,
+    rest_force: &[Vec4],
+    residual: &mut [Vec4],
+) {
     let own = [0, 1, 2].map(|slot| {
-        if element.own[slot] > 0.0 { bow[element.hinges[slot] as usize] } else { Vec4::ZERO }
+        if element.own[slot] > 0.0 { rest_force[element.hinges[slot] as usize] } else { Vec4::ZERO }
     });
     if own == [Vec4::ZERO; 3] {
         return;
     }
-    let mut push = own;
-    for (push, by) in push.iter_mut().zip(element.own) {
-        *push *= by;
+    let mut force = own;
+    for (force, by) in force.iter_mut().zip(element.own) {
+        *force *= by;
     }
     for ([p, q], by) in PAIRS.into_iter().zip(element.between) {
-        push[p] += own[q] * by;
-        push[q] += own[p] * by;
+        force[p] += own[q] * by;
+        force[q] += own[p] * by;
     }
-    for (slot, push) in push.into_iter().enumerate() {
+    for (slot, force) in force.into_iter().enumerate() {
         if element.own[slot] > 0.0 {
             let Hinge { particles: at, weight: [_, q, a, b], .. } =
                 hinges[element.hinges[slot] as usize];
             let mut sum = Vec4::ZERO;
             for (vertex, weight) in at[1..].iter().zip([q, a, b]) {
-                let push = push * weight;
-                force[*vertex as usize] += push;
-                sum += push;
+                let force = force * weight;
+                residual[*vertex as usize] += force;
+                sum += force;
             }
-            force[at[0] as usize] -= sum;
+            residual[at[0] as usize] -= sum;
         }
     }
 }
 
-/// The next way: where the force leads, and on by so much of the last way.
-fn lead(way: &mut [Vec4], force: &[Vec4], over: &[f32], keep: f32) {
-    for ((way, force), over) in way.iter_mut().zip(force).zip(over) {
-        *way = *force * *over + *way * keep;
+/// Updates the search direction: preconditioned residual plus `keep` times the last direction.
+fn update_direction(
+    direction: &mut [Vec4],
+    residual: &[Vec4],
+    inverse_diagonal: &[f32],
+    keep: f32,
+) {
+    for ((direction, residual), inverse_diagonal) in
+        direction.iter_mut().zip(residual).zip(inverse_diagonal)
+    {
+        *direction = *residual * *inverse_diagonal + *direction * keep;
     }
 }
 
-/// The product of vectors: eight sums side by side, which are the same on every machine.
+/// Dot product with eight partial sums, which give the same bits on every platform.
 fn dot(a: &[Vec4], b: &[Vec4]) -> f32 {
     let mut sums = [Vec4::ZERO; 2];
     for (a, b) in a.chunks(2).zip(b.chunks(2)) {
@@ -315,19 +353,19 @@ fn dot(a: &[Vec4], b: &[Vec4]) -> f32 {
     sum(sums)
 }
 
-/// Goes on by so much of the way, which takes so much of the force; the product of what is left of it with
-/// itself, weighed.
-fn go_on(
-    far: f32,
-    [change, force]: [&mut [Vec4]; 2],
-    [way, pull]: [&[Vec4]; 2],
-    over: &[f32],
+/// Moves `step_length` along the search direction, updates the residual, and returns its squared
+/// norm under the preconditioner.
+fn advance(
+    step_length: f32,
+    [change, residual]: [&mut [Vec4]; 2],
+    [direction, product]: [&[Vec4]; 2],
+    inverse_diagonal: &[f32],
 ) -> f32 {
     let mut sums = [Vec4::ZERO; 2];
-    for (at, (change, force)) in change.iter_mut().zip(force).enumerate() {
-        *change += way[at] * far;
-        *force += pull[at] * far;
-        sums[at % 2] += *force * *force * over[at];
+    for (at, (change, residual)) in change.iter_mut().zip(residual).enumerate() {
+        *change += direction[at] * step_length;
+        *residual += product[at] * step_length;
+        sums[at % 2] += *residual * *residual * inverse_diagonal[at];
     }
     sum(sums)
 }

@@ -1,17 +1,19 @@
-//! The plates of a grid: one implicit step of bending for all at once.
-//!
-//! With K the matrix of the bending energy, a substep of length h is to end at M d = −h² K x, where d is
-//! what bending moves the particles by and x is where they are then. K couples so widely that sweeps
-//! element by element would take thousands of rounds on paper. But its parts along the rows and along the
-//! columns are five diagonals each, which are factored once and then solved from end to end, so that
+//! Bending of a grid by plate elements: one implicit step for the whole sheet.
 //!
 //! ```text
+//! M d = −h² K (x + d)         K = K_weft + K_warp + K_twist,  d: displacement by bending
 //! (µM + h² K_weft) (µM)⁻¹ (µM + h² K_warp) Δ = −h² K x − M d
 //! ```
-//! takes most of what is left, in all directions and whatever the stiffness: this is the alternating
-//! direction method (Peaceman and Rachford 1955; Wachspress on the shifts µ). Where particles come to
-//! rest the right side is naught, so that they rest where the elements say, however few the rounds. The
-//! twist goes by itself, see `twist`. For a soft sheet a few explicit steps do for all, see `descent`.
+//! Method: K couples so widely that Gauss–Seidel sweeps over elements would take thousands of iterations
+//! on paper. K_weft and K_warp are pentadiagonal along rows and columns, so their factors are cheap
+//! (`banded`), and the product above removes most of the error in all directions at any stiffness: this
+//! is the alternating direction implicit method (ADI; Peaceman and Rachford 1955; Wachspress on the
+//! shifts µ). At equilibrium the right side is zero, so the rest shape does not depend on the number of
+//! solves. The twist has a solver of its own (`twist`). A soft sheet takes a few explicit Chebyshev
+//! steps instead (`chebyshev`).
+//!
+//! Reads plate elements, folds, masses and positions; writes positions and `PlateScratch`.
+//! Invariant: factors and bound are recomputed exactly when pins, masses, elements or stiffness change.
 
 use crate::math::columns::Columns;
 use crate::math::same_bits;
@@ -23,63 +25,64 @@ use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::spectral_bound;
 use crate::solver::bend::twist::{Twist, TwistOffset};
 
-/// From this one on the second round has a shift of its own, which is this many times its root.
-const SHIFTED: f32 = 0.25;
-const SHIFT: f32 = 4.0;
+/// Stiffness over mass from which the second solve runs, …
+const MIN_SECOND_SOLVE: f32 = 0.25;
+/// … and factor of its shift: µ = `SHIFT_FACTOR` · √(stiffness over mass).
+const SHIFT_FACTOR: f32 = 4.0;
 
-/// The most stiffness over mass that numbers of 24 bits can tell from a rigid sheet.
-const MOST: f32 = 3.0e4;
+/// Largest stiffness over mass; beyond it f32 cannot distinguish the sheet from a rigid one.
+const MAX_STIFFNESS_OVER_MASS: f32 = 3.0e4;
 
-/// Room to work in, and what is known as long as pins, masses and stiffness stay.
+/// Buffers, and factors that stay while pins, masses and stiffness do.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlateScratch {
-    /// How stiff each element is, over one inside.
+    /// Stiffness of each element relative to an interior one.
     weight: PerKind<Vec<f32>>,
-    /// The curvature of each element in one direction, with room around it.
+    /// Weighted curvature of each element for one axis, with a margin on both sides.
     curve: PerKind<Vec<f32>>,
-    /// Where particles are taken to be, if that is not where they are; then what pulls them back.
-    seen: Vec<f32>,
+    /// Positions less the damping share of the start positions; later a force buffer.
+    shifted: Vec<f32>,
     force: VectorColumns,
-    /// The most stiffness over mass that any shape has, over that of one element inside [1/kg].
-    most: f32,
-    /// What bending has moved each particle by in this substep [m].
-    given: VectorColumns,
-    rounds: [Round; 2],
+    /// Upper bound of the stiffness over mass of any shape, relative to an interior element [1/kg].
+    bound: f32,
+    /// Displacement by bending in this substep [m].
+    total: VectorColumns,
+    solves: [AdiFactors; 2],
     twist: Twist,
     w: Vec<f32>,
     mass: Vec<f32>,
     revision: u32,
-    /// Of what made elements softer.
-    softer: Option<(u32, f32)>,
+    /// Key of the plastic softening for which the weights were computed.
+    softening_key: Option<(u32, f32)>,
 }
 
-/// Factors for one shift.
+/// Factors of both directions for one shift µ.
 #[derive(Clone, Debug, Default)]
-struct Round {
+struct AdiFactors {
     stiffness: f32,
     shift: f32,
     weft: PentadiagonalFactor,
     warp: PentadiagonalFactor,
 }
 
-/// What a substep of bending works with.
+/// Parameters of one solve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlateStep<'a> {
     pub level: Level,
-    /// Stiffness of an element times the square of the substep [kg].
+    /// Stiffness of an element times the squared substep [kg].
     pub stiffness: f32,
-    /// The mass that an element's particles have at least, but at borders [kg].
+    /// Smallest mass of a particle that is not on a border [kg].
     pub mass: f32,
-    /// The share of where particles were that is taken off where they are, for damping.
+    /// Share of the start positions to subtract, for damping; see `HingeStep`.
     pub start_share: f32,
-    /// Whether it is the first round of the substep.
+    /// Whether this is the first solve of the substep.
     pub is_first: bool,
-    /// Where the substep began: where particles were led to, and by which way.
+    /// Predicted positions and displacements; their difference is the start position.
     pub predicted: &'a Columns,
     pub displacement: &'a Columns,
-    /// What each element is curved by at rest [m], and which way.
+    /// Rest curvature of each element [m] and its direction; `None` without folds.
     pub rest: Option<(&'a PerKind<Vec<f32>>, &'a PerKind<Columns>)>,
-    /// How much softer elements are by what gave way, if they are.
+    /// Loss of stiffness by plastic bending, if any.
     pub softening: Option<Softening<'a>>,
 }
 
@@ -91,21 +94,21 @@ impl PlateScratch {
         Self {
             weight: [list(), list(), list()],
             curve: [around(), around(), around()],
-            seen: list(),
+            shifted: list(),
             force: [list(), list(), list()],
-            most: 0.0,
-            given: [list(), list(), list()],
-            rounds: [Round::new(count), Round::new(count)],
+            bound: 0.0,
+            total: [list(), list(), list()],
+            solves: [AdiFactors::new(count), AdiFactors::new(count)],
             twist: Twist::new(plates),
             w: vec![-1.0; count],
             mass: list(),
             revision: plates.revision,
-            softer: None,
+            softening_key: None,
         }
     }
 
-    /// Whether pins, masses or elements have changed; then takes them up.
-    fn take_up(
+    /// Updates weights and bound if pins, masses or elements changed, and returns whether they did.
+    fn refresh(
         &mut self,
         plates: &PlateElements,
         softening: Option<Softening<'_>>,
@@ -115,12 +118,12 @@ impl PlateScratch {
         let count = plates.count();
         let is_torn = w.len() > count;
         let (w, mass) = (&w[..count], &mass[..count]);
-        let softer = softening.map(|softening| softening.key());
-        let is_same = (self.revision, self.softer) == (plates.revision, softer);
-        if is_same && same_bits(&self.w, w) && same_bits(&self.mass, mass) {
+        let softening_key = softening.map(|softening| softening.key());
+        let is_unchanged = (self.revision, self.softening_key) == (plates.revision, softening_key);
+        if is_unchanged && same_bits(&self.w, w) && same_bits(&self.mass, mass) {
             return false;
         }
-        (self.revision, self.softer) = (plates.revision, softer);
+        (self.revision, self.softening_key) = (plates.revision, softening_key);
         self.w.copy_from_slice(w);
         self.mass.copy_from_slice(mass);
         for (weight, share) in self.weight.iter_mut().zip(&plates.area_fraction) {
@@ -137,17 +140,17 @@ impl PlateScratch {
         if let Some(softening) = softening {
             softening.apply(plates.columns, &mut self.weight);
         }
-        self.most = if is_torn {
-            let room = (&mut self.seen[..], &mut self.curve);
-            spectral_bound::of_torn(plates.columns, &self.weight, &self.w, room)
+        self.bound = if is_torn {
+            let buffers = (&mut self.shifted[..], &mut self.curve);
+            spectral_bound::of_torn(plates.columns, &self.weight, &self.w, buffers)
         } else {
             spectral_bound::of_whole(plates.columns, &self.weight, &self.w)
         };
         true
     }
 
-    /// Finds what pushes particles along an axis, times the square of the substep.
-    fn look(
+    /// Computes the bending force along one axis, times h² [kg m].
+    fn compute_force(
         &mut self,
         step: PlateStep<'_>,
         stiffness: f32,
@@ -156,102 +159,120 @@ impl PlateScratch {
         x: &[f32],
         has_twist: bool,
     ) {
-        let Self { weight, curve, seen, force, .. } = self;
-        let count = seen.len();
+        let Self { weight, curve, shifted, force, .. } = self;
+        let count = shifted.len();
         let x = &x[..count];
-        let seen = if step.start_share == 0.0 {
+        let shifted = if step.start_share == 0.0 {
             x
         } else {
             let start =
                 [&step.predicted.all()[axis][..count], &step.displacement.all()[axis][..count]];
-            look_back(step.level, seen, x, start, step.start_share);
-            &seen[..]
+            subtract_start(step.level, shifted, x, start, step.start_share);
+            &shifted[..]
         };
-        find_curves(step.level, seen, weight, curve, columns);
+        compute_curvature(step.level, shifted, weight, curve, columns);
         if has_twist {
-            find_twists(step.level, seen, &weight[2], &mut curve[2], columns);
+            compute_twist(step.level, shifted, &weight[2], &mut curve[2], columns);
         }
-        if let Some((rest, ways)) = step.rest {
+        if let Some((rest, directions)) = step.rest {
             let share = 1.0 - step.start_share;
             for kind in 0..if has_twist { 3 } else { 2 } {
                 let (weight, rest) = (&weight[kind], &rest[kind]);
-                let way = &ways[kind].all()[axis][..count];
-                take_rest(step.level, weight, rest, way, share, &mut curve[kind][columns + 1..]);
+                let direction = &directions[kind].all()[axis][..count];
+                subtract_rest(
+                    step.level,
+                    weight,
+                    rest,
+                    direction,
+                    share,
+                    &mut curve[kind][columns + 1..],
+                );
             }
         }
-        gather(step.level, curve, stiffness, &mut force[axis], columns);
+        gather_forces(step.level, curve, stiffness, &mut force[axis], columns);
     }
 }
 
-/// Bends a soft sheet: all the steps of a descent.
-fn descend(
-    room: &mut PlateScratch,
+/// Bends a soft sheet by explicit Chebyshev steps, axis by axis.
+fn solve_chebyshev(
+    scratch: &mut PlateScratch,
     step: PlateStep<'_>,
     stiffness: f32,
     columns: usize,
-    descent: &ChebyshevSteps,
+    chebyshev: &ChebyshevSteps,
     x: &mut Columns,
 ) {
     for (axis, x) in x.all_mut().into_iter().enumerate() {
-        room.look(step, stiffness, columns, axis, x, true);
-        let PlateScratch { weight, curve, seen: pull, force, given, w, mass, .. } = &mut *room;
-        let (force, way) = (&mut force[axis][..], &mut given[axis][..]);
-        let x = &mut x[..way.len()];
-        let [[_, take], rest @ ..] = descent.steps() else {
-            way.fill(0.0);
+        scratch.compute_force(step, stiffness, columns, axis, x, true);
+        let PlateScratch { weight, curve, shifted: force_change, force, total, w, mass, .. } =
+            &mut *scratch;
+        let (force, displacement) = (&mut force[axis][..], &mut total[axis][..]);
+        let x = &mut x[..displacement.len()];
+        let [[_, gain], rest @ ..] = chebyshev.steps() else {
+            displacement.fill(0.0);
             continue;
         };
-        set_out(step.level, *take, w, force, way, x);
+        first_step(step.level, *gain, w, force, displacement, x);
         for share in rest {
-            find_curves(step.level, way, weight, curve, columns);
-            find_twists(step.level, way, &weight[2], &mut curve[2], columns);
-            gather(step.level, curve, stiffness, pull, columns);
-            step_down(step.level, *share, [&pull[..], &w[..], &mass[..]], force, way, x);
+            compute_curvature(step.level, displacement, weight, curve, columns);
+            compute_twist(step.level, displacement, &weight[2], &mut curve[2], columns);
+            gather_forces(step.level, curve, stiffness, force_change, columns);
+            next_step(
+                step.level,
+                *share,
+                [&force_change[..], &w[..], &mass[..]],
+                force,
+                displacement,
+                x,
+            );
         }
     }
 }
 
-/// How many times as stiff an element is whose middle is held: where the cloth goes on into a clamp, only
-/// the half of it that is outside bends.
+/// Stiffness factor of an element with a held middle particle: 2 where the cloth enters a clamp,
+/// because only the half outside the clamp bends.
 pub(crate) fn clamped(wa: f32, wb: f32) -> f32 {
     if (wa == 0.0) == (wb == 0.0) { 1.0 } else { 2.0 }
 }
 
-/// Bends the sheet for one round; the second one only where it pays.
+/// Runs one solve of the sheet; skips the second one of a substep if it does not pay.
 pub(crate) fn solve(
     plates: &PlateElements,
-    room: &mut PlateScratch,
+    scratch: &mut PlateScratch,
     step: PlateStep<'_>,
     x: &mut Columns,
     w: &[f32],
     mass: &[f32],
 ) {
     let (count, columns) = (plates.count(), plates.columns);
-    let stiffness =
-        if step.stiffness < MOST * step.mass { step.stiffness } else { MOST * step.mass };
-    let has_changed = step.is_first && room.take_up(plates, step.softening, w, mass);
-    if let Some(descent) = ChebyshevSteps::new(room.most * stiffness) {
+    let stiffness = if step.stiffness < MAX_STIFFNESS_OVER_MASS * step.mass {
+        step.stiffness
+    } else {
+        MAX_STIFFNESS_OVER_MASS * step.mass
+    };
+    let has_changed = step.is_first && scratch.refresh(plates, step.softening, w, mass);
+    if let Some(chebyshev) = ChebyshevSteps::new(scratch.bound * stiffness) {
         if step.is_first {
-            // What was factored may be of other pins and masses.
-            room.rounds.iter_mut().for_each(|round| round.stiffness = -1.0);
-            descend(room, step, stiffness, columns, &descent, x);
+            // Invalidate the factors, because `refresh` may have changed pins and masses.
+            scratch.solves.iter_mut().for_each(|factors| factors.stiffness = -1.0);
+            solve_chebyshev(scratch, step, stiffness, columns, &chebyshev, x);
         }
         return;
     }
-    let over_mass = stiffness / step.mass;
-    if !step.is_first && over_mass < SHIFTED {
+    let stiffness_over_mass = stiffness / step.mass;
+    if !step.is_first && stiffness_over_mass < MIN_SECOND_SOLVE {
         return;
     }
     if step.is_first {
-        room.curve[2].fill(0.0);
-        if has_changed || room.rounds[0].stiffness != stiffness {
-            room.twist.factor(plates, &room.weight[2], w, stiffness);
+        scratch.curve[2].fill(0.0);
+        if has_changed || scratch.solves[0].stiffness != stiffness {
+            scratch.twist.factor(plates, &scratch.weight[2], w, stiffness);
         }
-        let own = SHIFT * over_mass.sqrt();
-        for (round, shift) in room.rounds.iter_mut().zip([1.0, own]) {
-            if has_changed || round.stiffness != stiffness || round.shift != shift {
-                (round.stiffness, round.shift) = (stiffness, shift);
-                round.factor(plates, &room.weight, &room.w, &room.mass);
+        let second_shift = SHIFT_FACTOR * stiffness_over_mass.sqrt();
+        for (factors, shift) in scratch.solves.iter_mut().zip([1.0, second_shift]) {
+            if has_changed || factors.stiffness != stiffness || factors.shift != shift {
+                (factors.stiffness, factors.shift) = (stiffness, shift);
+                factors.factor(plates, &scratch.weight, &scratch.w, &scratch.mass);
             }
         }
     }
@@ -259,46 +280,47 @@ pub(crate) fn solve(
         start_share: step.start_share,
         predicted: step.predicted,
         displacement: step.displacement,
-        rest: step.rest.map(|(rest, ways)| (&rest[2][..], &ways[2])),
+        rest: step.rest.map(|(rest, directions)| (&rest[2][..], &directions[2])),
     };
     if !step.is_first {
-        room.twist.solve(step.level, columns, x, w, from, false);
+        scratch.twist.solve(step.level, columns, x, w, from, false);
     }
     for axis in 0..3 {
-        room.look(step, stiffness, columns, axis, x.all()[axis], false);
+        scratch.compute_force(step, stiffness, columns, axis, x.all()[axis], false);
         if !step.is_first {
-            for ((force, given), mass) in
-                room.force[axis].iter_mut().zip(&room.given[axis]).zip(mass)
+            for ((force, total), mass) in
+                scratch.force[axis].iter_mut().zip(&scratch.total[axis]).zip(mass)
             {
-                *force -= given * mass;
+                *force -= total * mass;
             }
         }
     }
-    let PlateScratch { force, given, rounds, twist, .. } = room;
-    let round = &rounds[if step.is_first { 0 } else { 1 }];
+    let PlateScratch { force, total, solves, twist, .. } = scratch;
+    let factors = &solves[if step.is_first { 0 } else { 1 }];
     if step.is_first {
-        round.weft.solve_rows(columns, force);
-        round.lift(step.level, &mass[..count], force);
-        round.warp.solve_columns(step.level, columns, force);
+        factors.weft.solve_rows(columns, force);
+        factors.scale_by_shifted_mass(step.level, &mass[..count], force);
+        factors.warp.solve_columns(step.level, columns, force);
     } else {
-        round.warp.solve_columns(step.level, columns, force);
-        round.lift(step.level, &mass[..count], force);
-        round.weft.solve_rows(columns, force);
+        factors.warp.solve_columns(step.level, columns, force);
+        factors.scale_by_shifted_mass(step.level, &mass[..count], force);
+        factors.weft.solve_rows(columns, force);
     }
-    for ((x, way), given) in x.all_mut().into_iter().zip(&*force).zip(given) {
-        move_on(step.level, &mut x[..count], way, given, step.is_first);
+    for ((x, displacement), total) in x.all_mut().into_iter().zip(&*force).zip(total) {
+        apply_displacement(step.level, &mut x[..count], displacement, total, step.is_first);
     }
     if step.is_first {
         twist.solve(step.level, columns, x, w, from, true);
     }
 }
 
-impl Round {
+impl AdiFactors {
     fn new(count: usize) -> Self {
         let (weft, warp) = (PentadiagonalFactor::new(count), PentadiagonalFactor::new(count));
         Self { stiffness: -1.0, shift: 0.0, weft, warp }
     }
 
+    /// Factors all rows and columns for the current stiffness and shift.
     fn factor(
         &mut self,
         plates: &PlateElements,
@@ -318,36 +340,43 @@ impl Round {
         }
     }
 
-    /// Between the two halves: times µM.
-    fn lift(&self, level: Level, mass: &[f32], force: &mut VectorColumns) {
-        force.iter_mut().for_each(|force| weigh(level, force, mass, self.shift));
+    /// Multiplies by µ M, between the two directions.
+    fn scale_by_shifted_mass(&self, level: Level, mass: &[f32], force: &mut VectorColumns) {
+        force.iter_mut().for_each(|force| scale_by_mass(level, force, mass, self.shift));
     }
 }
 
 leveled! {
-    /// Where particles are, less a share of where they were.
-    fn look_back(seen: &mut [f32], x: &[f32], start: [&[f32]; 2], before: f32) = look_back_lanes
+    /// Computes positions less a share of the start positions.
+    fn subtract_start(shifted: &mut [f32], x: &[f32], start: [&[f32]; 2], share: f32) = subtract_start_lanes
 }
 
 #[inline(always)]
-fn look_back_lanes(seen: &mut [f32], x: &[f32], [predicted, way]: [&[f32]; 2], before: f32) {
-    for (((seen, x), predicted), way) in seen.iter_mut().zip(x).zip(predicted).zip(way) {
-        *seen = x - (predicted - way) * before;
+fn subtract_start_lanes(
+    shifted: &mut [f32],
+    x: &[f32],
+    [predicted, displacement]: [&[f32]; 2],
+    share: f32,
+) {
+    for (((shifted, x), predicted), displacement) in
+        shifted.iter_mut().zip(x).zip(predicted).zip(displacement)
+    {
+        *shifted = x - (predicted - displacement) * share;
     }
 }
 
 leveled! {
-    /// The curvature of each element, times how stiff it is.
-    fn find_curves(
+    /// Computes the curvature of each weft and warp element, times its weight.
+    fn compute_curvature(
         x: &[f32],
         weight: &PerKind<Vec<f32>>,
         curve: &mut PerKind<Vec<f32>>,
         columns: usize,
-    ) = find_curves_lanes
+    ) = compute_curvature_lanes
 }
 
 #[inline(always)]
-fn find_curves_lanes(
+fn compute_curvature_lanes(
     x: &[f32],
     [weft, warp, _]: &PerKind<Vec<f32>>,
     [to_weft, to_warp, _]: &mut PerKind<Vec<f32>>,
@@ -355,7 +384,7 @@ fn find_curves_lanes(
 ) {
     let (count, edge) = (x.len(), columns + 1);
     let out = to_weft[edge + 1..edge + count - 1].iter_mut().zip(&weft[1..count - 1]);
-    // Windows: what lies side by side is found by one address.
+    // `windows` needs one base address for three neighbours.
     for ((out, weight), x) in out.zip(x.windows(3)) {
         *out = ((x[0] + x[2]) - 2.0 * x[1]) * weight;
     }
@@ -368,12 +397,12 @@ fn find_curves_lanes(
 }
 
 leveled! {
-    /// The twist of each cell, times how stiff it is.
-    fn find_twists(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize) = find_twists_lanes
+    /// Computes the twist of each cell, times its weight.
+    fn compute_twist(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize) = compute_twist_lanes
 }
 
 #[inline(always)]
-fn find_twists_lanes(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize) {
+fn compute_twist_lanes(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize) {
     let cells = x.len() - columns - 1;
     let edge = columns + 1;
     let out = twist[edge..edge + cells].iter_mut().zip(&weight[..cells]);
@@ -383,35 +412,43 @@ fn find_twists_lanes(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usiz
 }
 
 leveled! {
-    /// Takes off the curvature that elements have at rest.
-    fn take_rest(
+    /// Subtracts the weighted rest curvature of each element.
+    fn subtract_rest(
         weight: &[f32],
         rest: &[f32],
-        way: &[f32],
+        direction: &[f32],
         share: f32,
         curve: &mut [f32],
-    ) = take_rest_lanes
+    ) = subtract_rest_lanes
 }
 
 #[inline(always)]
-fn take_rest_lanes(weight: &[f32], rest: &[f32], way: &[f32], share: f32, curve: &mut [f32]) {
-    for (((curve, weight), rest), way) in curve.iter_mut().zip(weight).zip(rest).zip(way) {
-        *curve -= rest * share * way * weight;
+fn subtract_rest_lanes(
+    weight: &[f32],
+    rest: &[f32],
+    direction: &[f32],
+    share: f32,
+    curve: &mut [f32],
+) {
+    for (((curve, weight), rest), direction) in
+        curve.iter_mut().zip(weight).zip(rest).zip(direction)
+    {
+        *curve -= rest * share * direction * weight;
     }
 }
 
 leveled! {
-    /// What pushes each particle, times the square of the substep.
-    fn gather(
+    /// Gathers the force on each particle from its elements, times h².
+    fn gather_forces(
         curve: &PerKind<Vec<f32>>,
         stiffness: f32,
         force: &mut [f32],
         columns: usize,
-    ) = gather_lanes
+    ) = gather_forces_lanes
 }
 
 #[inline(always)]
-fn gather_lanes(
+fn gather_forces_lanes(
     [weft, warp, twist]: &PerKind<Vec<f32>>,
     stiffness: f32,
     force: &mut [f32],
@@ -424,75 +461,90 @@ fn gather_lanes(
     for (((force, weft), ((above, warp), below)), (upper, lower)) in
         force.iter_mut().zip(weft).zip(warp).zip(twist)
     {
-        let along = (2.0 * weft[1] - weft[0]) - weft[2];
-        let down = (2.0 * warp - above) - below;
-        let turn = (lower[1] - lower[0]) - (upper[1] - upper[0]);
-        *force = ((along + down) - turn) * stiffness;
+        let weft_force = (2.0 * weft[1] - weft[0]) - weft[2];
+        let warp_force = (2.0 * warp - above) - below;
+        let twist_force = (lower[1] - lower[0]) - (upper[1] - upper[0]);
+        *force = ((weft_force + warp_force) - twist_force) * stiffness;
     }
 }
 
 leveled! {
-    /// The first step of a descent, which has no way behind it.
-    fn set_out(take: f32, w: &[f32], force: &mut [f32], way: &mut [f32], x: &mut [f32])
-        = set_out_lanes
+    /// First Chebyshev step, without a previous displacement.
+    fn first_step(gain: f32, w: &[f32], force: &mut [f32], displacement: &mut [f32], x: &mut [f32])
+        = first_step_lanes
 }
 
 #[inline(always)]
-fn set_out_lanes(take: f32, w: &[f32], force: &mut [f32], way: &mut [f32], x: &mut [f32]) {
-    for (((x, way), force), w) in x.iter_mut().zip(way).zip(force).zip(w) {
-        // As `step_down` would with no way: naught and less than naught are told apart.
-        *force += 0.0;
-        *way = 0.0 + *force * w * take;
-        *x += *way;
-    }
-}
-
-leveled! {
-    /// One step of a descent: the force that is left, the way, and where that leads.
-    fn step_down(
-        share: [f32; 2],
-        given: [&[f32]; 3],
-        force: &mut [f32],
-        way: &mut [f32],
-        x: &mut [f32],
-    ) = step_down_lanes
-}
-
-#[inline(always)]
-fn step_down_lanes(
-    [keep, take]: [f32; 2],
-    [pull, w, mass]: [&[f32]; 3],
+fn first_step_lanes(
+    gain: f32,
+    w: &[f32],
     force: &mut [f32],
-    way: &mut [f32],
+    displacement: &mut [f32],
     x: &mut [f32],
 ) {
-    let given = pull.iter().zip(w).zip(mass);
-    for (((x, way), force), ((pull, w), mass)) in x.iter_mut().zip(way).zip(force).zip(given) {
-        *force += pull - mass * *way;
-        *way = *way * keep + *force * w * take;
-        *x += *way;
+    for (((x, displacement), force), w) in x.iter_mut().zip(displacement).zip(force).zip(w) {
+        // Adds zeros as `next_step` would, so that −0 becomes +0 in both.
+        *force += 0.0;
+        *displacement = 0.0 + *force * w * gain;
+        *x += *displacement;
     }
 }
 
 leveled! {
-    fn weigh(force: &mut [f32], mass: &[f32], shift: f32) = weigh_lanes
+    /// Chebyshev step: updates residual force, displacement and position.
+    fn next_step(
+        coefficients: [f32; 2],
+        per_particle: [&[f32]; 3],
+        force: &mut [f32],
+        displacement: &mut [f32],
+        x: &mut [f32],
+    ) = next_step_lanes
 }
 
 #[inline(always)]
-fn weigh_lanes(force: &mut [f32], mass: &[f32], shift: f32) {
+fn next_step_lanes(
+    [keep, gain]: [f32; 2],
+    [force_change, w, mass]: [&[f32]; 3],
+    force: &mut [f32],
+    displacement: &mut [f32],
+    x: &mut [f32],
+) {
+    let per_particle = force_change.iter().zip(w).zip(mass);
+    for (((x, displacement), force), ((force_change, w), mass)) in
+        x.iter_mut().zip(displacement).zip(force).zip(per_particle)
+    {
+        *force += force_change - mass * *displacement;
+        *displacement = *displacement * keep + *force * w * gain;
+        *x += *displacement;
+    }
+}
+
+leveled! {
+    /// Multiplies forces by mass and shift.
+    fn scale_by_mass(force: &mut [f32], mass: &[f32], shift: f32) = scale_by_mass_lanes
+}
+
+#[inline(always)]
+fn scale_by_mass_lanes(force: &mut [f32], mass: &[f32], shift: f32) {
     for (force, mass) in force.iter_mut().zip(mass) {
         *force *= mass * shift;
     }
 }
 
 leveled! {
-    fn move_on(x: &mut [f32], way: &[f32], given: &mut [f32], is_first: bool) = move_on_lanes
+    /// Adds displacements to positions and to the total of the substep.
+    fn apply_displacement(x: &mut [f32], displacement: &[f32], total: &mut [f32], is_first: bool) = apply_displacement_lanes
 }
 
 #[inline(always)]
-fn move_on_lanes(x: &mut [f32], way: &[f32], given: &mut [f32], is_first: bool) {
-    for ((x, way), given) in x.iter_mut().zip(way).zip(given) {
-        *x += way;
-        *given = if is_first { *way } else { *given + way };
+fn apply_displacement_lanes(
+    x: &mut [f32],
+    displacement: &[f32],
+    total: &mut [f32],
+    is_first: bool,
+) {
+    for ((x, displacement), total) in x.iter_mut().zip(displacement).zip(total) {
+        *x += displacement;
+        *total = if is_first { *displacement } else { *total + displacement };
     }
 }

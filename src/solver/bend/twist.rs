@@ -1,49 +1,54 @@
-//! The twist of a grid's cells, band by band: one implicit step of it.
+//! Twist of grid cells: one implicit step along strips of cells.
 //!
 //! ```text
-//! a ─── b ─── ·     T = a − b − c + d for each cell. In a band, a cell is coupled to the next one only, so
-//! │  ╲  │     │     that the multipliers of a band are those of a tridiagonal system with always the same
-//! c ─── d ─── ·     factors: (Σ w + α̃) λ − (w_b + w_d) λ₊ − … = −(T + α̃ λ₀)
+//! a ─── b ─── ·     T = a − b − c + d per cell. In a strip a cell shares particles with the previous
+//! │  ╲  │     │     and the next cell only, so the multipliers solve a tridiagonal system
+//! c ─── d ─── ·     (Σ w + α̃) λ − (w_b + w_d) λ₊ − … = −(T + α̃ λ₀)
 //! ```
-//! The bands along all rows take what is long along them, those along the columns the rest. Saddles, which
-//! neither rows nor columns resist, so stay implicit as well.
+//! Method: XPBD solved exactly per strip by L D Lᵀ factors. The strips along all rows remove what is
+//! long along rows, those along the columns the rest; so saddle shapes, which neither rows nor columns of
+//! `plate` resist, are implicit too. Every other strip is solved at once, since these share no particle.
+//! Steps that are the same for all cells run over all cells, with zeros in the other strips, so the
+//! compiler vectorises them.
 //!
-//! Every other band goes at once, since they share no particle. What is the same for all cells is done for the
-//! cells of all bands, and comes to naught where a band is not of them: so compilers make vectors of it.
+//! Reads element weights, inverse masses, folds and start positions; writes positions and `lambda`.
+//! Invariant: multipliers start at zero in the first solve of a substep, and the second solve continues
+//! with them.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::model::plate_elements::PlateElements;
 use crate::solver::bend::banded::VectorColumns;
 
-/// Room to work in, and factors that stay as long as pins, masses and stiffness do.
+/// Multipliers and buffers of the twist, and factors that stay while pins, masses and stiffness do.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Twist {
-    /// Multipliers of this substep [kg m].
+    /// Multipliers of this substep, one vector per cell [kg m].
     lambda: VectorColumns,
-    /// Compliances [1/kg]; 0 where there is no cell.
+    /// Compliance of each cell [1/kg]; 0 where there is no cell.
     compliance: Vec<f32>,
-    /// Of the bands along rows; of the even and of the odd ones along columns, naught for the others.
+    /// Factors of the strips along rows, and of the even and the odd strips along columns; the entries of
+    /// other strips are 0.
     rows: TridiagonalFactor,
     columns: [TridiagonalFactor; 2],
-    /// Where the substep began, and the share that is taken off of what cells were twisted by then, as rows and as
-    /// columns add it up.
+    /// Start positions of one axis, and the damping share of the twist at the start, in the order of
+    /// additions of rows and of columns.
     start: Vec<f32>,
-    before: [VectorColumns; 2],
-    /// What is taken off of them for what they are twisted by at rest.
+    start_twist: [VectorColumns; 2],
+    /// Rest twist of each cell [m].
     rest: VectorColumns,
-    /// What is not yet resisted, then what is added to the multipliers, behind a margin of naught.
-    own: VectorColumns,
+    /// Right sides, then changes of the multipliers, after a margin of zeros.
+    change: VectorColumns,
 }
 
-/// L D Lᵀ of three diagonals.
+/// L D Lᵀ factors of tridiagonal systems.
 #[derive(Clone, Debug, Default)]
 struct TridiagonalFactor {
     inverse: Vec<f32>,
     near: Vec<f32>,
 }
 
-/// Cells next to each other: the first one's first corner, what leads along and across, and how many.
+/// A strip of `count` cells: first corner of the first cell, and index offsets along and across.
 #[derive(Clone, Copy)]
 struct CellStrip {
     first: usize,
@@ -52,14 +57,14 @@ struct CellStrip {
     count: usize,
 }
 
-/// What a cell's curvature is measured from.
+/// Data for the offset that is subtracted from the twist of each cell.
 #[derive(Clone, Copy)]
 pub(crate) struct TwistOffset<'a> {
-    /// The share of where particles were that is taken off where they are, for damping.
+    /// Share of the start positions to subtract, for damping; see `HingeStep`.
     pub start_share: f32,
     pub predicted: &'a Columns,
     pub displacement: &'a Columns,
-    /// What each cell is twisted by at rest, and which way.
+    /// Rest twist of each cell [m] and its direction; `None` without folds.
     pub rest: Option<(&'a [f32], &'a Columns)>,
 }
 
@@ -68,47 +73,49 @@ impl Twist {
         let count = plates.count();
         let factor = || TridiagonalFactor { inverse: vec![0.0; count], near: vec![0.0; count] };
         let list = || vec![0.0; count];
-        let own = || vec![0.0; margin(plates.columns) + count];
+        let change = || vec![0.0; margin(plates.columns) + count];
         Self {
             lambda: [list(), list(), list()],
             compliance: list(),
             rows: factor(),
             columns: [factor(), factor()],
             start: list(),
-            before: [[list(), list(), list()], [list(), list(), list()]],
+            start_twist: [[list(), list(), list()], [list(), list(), list()]],
             rest: [list(), list(), list()],
-            own: [own(), own(), own()],
+            change: [change(), change(), change()],
         }
     }
 
-    /// For cells so stiff, over one inside, times `stiffness` [kg].
+    /// Factors all strips. `weight` is the stiffness of each cell relative to an interior one,
+    /// `stiffness` that of an interior cell times h² [kg].
     pub fn factor(&mut self, plates: &PlateElements, weight: &[f32], w: &[f32], stiffness: f32) {
         for (compliance, weight) in self.compliance.iter_mut().zip(weight) {
             *compliance = if *weight > 0.0 { 1.0 / (weight * stiffness) } else { 0.0 };
         }
         let (columns, rows) = (plates.columns, plates.rows);
         for first in (0..rows - 1).map(|row| row * columns) {
-            let band = CellStrip { first, along: 1, across: columns, count: columns - 1 };
-            self.rows.factor(band, &self.compliance, w);
+            let strip = CellStrip { first, along: 1, across: columns, count: columns - 1 };
+            self.rows.factor(strip, &self.compliance, w);
         }
         for first in 0..columns - 1 {
-            let band = CellStrip { first, along: columns, across: 1, count: rows - 1 };
-            self.columns[first % 2].factor(band, &self.compliance, w);
+            let strip = CellStrip { first, along: columns, across: 1, count: rows - 1 };
+            self.columns[first % 2].factor(strip, &self.compliance, w);
         }
     }
 
-    /// Along the rows and then the columns, beginning anew; or back. Of each the even ones first, then the odd ones,
-    /// so that neither side of the sheet comes first.
+    /// Solves rows and then columns in the first solve of a substep, or the same in reverse order.
+    ///
+    /// Even strips run before odd ones, so no side of the sheet is favoured.
     pub fn solve(
         &mut self,
         level: Level,
         columns: usize,
         x: &mut Columns,
         w: &[f32],
-        seen: TwistOffset<'_>,
+        offset: TwistOffset<'_>,
         is_first: bool,
     ) {
-        self.begin(level, columns, seen);
+        self.compute_offsets(level, columns, offset);
         if is_first {
             self.lambda.iter_mut().for_each(|lambda| lambda.fill(0.0));
             for odd in 0..2 {
@@ -127,42 +134,42 @@ impl Twist {
         }
     }
 
-    /// Finds what is taken off of what cells are twisted by.
-    fn begin(&mut self, level: Level, columns: usize, seen: TwistOffset<'_>) {
-        let Self { start, before: [rows, across], rest, .. } = self;
+    /// Computes the offsets by damping and by folds.
+    fn compute_offsets(&mut self, level: Level, columns: usize, offset: TwistOffset<'_>) {
+        let Self { start, start_twist: [rows, across], rest, .. } = self;
         let count = start.len();
         let cells = count - columns - 1;
         for axis in 0..3 {
-            if seen.start_share > 0.0 {
-                let [to, way] =
-                    [seen.predicted, seen.displacement].map(|list| &list.all()[axis][..count]);
-                begin(level, start, to, way);
-                share_of_twist(
+            if offset.start_share > 0.0 {
+                let [to, displacement] =
+                    [offset.predicted, offset.displacement].map(|list| &list.all()[axis][..count]);
+                compute_start(level, start, to, displacement);
+                scaled_twist(
                     level,
                     &mut rows[axis][..cells],
                     start,
                     [1, columns],
-                    seen.start_share,
+                    offset.start_share,
                 );
-                share_of_twist(
+                scaled_twist(
                     level,
                     &mut across[axis][..cells],
                     start,
                     [columns, 1],
-                    seen.start_share,
+                    offset.start_share,
                 );
             } else {
                 rows[axis].fill(0.0);
                 across[axis].fill(0.0);
             }
-            if let Some((by, ways)) = seen.rest {
-                let way = &ways.all()[axis][..cells];
-                share_of_rest(
+            if let Some((rest_twist, directions)) = offset.rest {
+                let direction = &directions.all()[axis][..cells];
+                scaled_rest(
                     level,
                     &mut rest[axis][..cells],
-                    &by[..cells],
-                    way,
-                    1.0 - seen.start_share,
+                    &rest_twist[..cells],
+                    direction,
+                    1.0 - offset.start_share,
                 );
             } else {
                 rest[axis].fill(0.0);
@@ -171,15 +178,15 @@ impl Twist {
     }
 
     fn solve_rows(&mut self, level: Level, columns: usize, x: &mut Columns, w: &[f32], odd: usize) {
-        let ways = [1, columns];
+        let strides = [1, columns];
         let last = self.start.len() / columns - 1;
         for row in (odd..last).step_by(2) {
-            // The last cell of a row is none, and without factors.
+            // The last index of a row has no cell and no factors.
             let first = row * columns;
-            self.look(level, ways, x, [first, first + columns - 1], 0);
+            self.compute_residual(level, strides, x, [first, first + columns - 1], 0);
         }
-        self.rows.solve_rows(columns, odd, &mut self.own);
-        self.go_on(level, ways, x, w);
+        self.rows.solve_rows(columns, odd, &mut self.change);
+        self.apply_change(level, strides, x, w);
     }
 
     fn solve_columns(
@@ -190,76 +197,83 @@ impl Twist {
         w: &[f32],
         odd: usize,
     ) {
-        let ways = [columns, 1];
+        let strides = [columns, 1];
         let cells = self.start.len() - columns - 1;
-        self.look(level, ways, x, [0, cells], 1);
+        self.compute_residual(level, strides, x, [0, cells], 1);
         let factor = &self.columns[odd];
-        for own in &mut self.own {
-            down_and_up(level, &mut own[margin(columns)..], factor, columns);
+        for change in &mut self.change {
+            substitute_columns(level, &mut change[margin(columns)..], factor, columns);
         }
-        self.go_on(level, ways, x, w);
+        self.apply_change(level, strides, x, w);
     }
 
-    /// Finds what some cells do not resist yet.
-    fn look(
+    /// Computes the right sides −(T + α̃ λ) of the cells `from..to`.
+    fn compute_residual(
         &mut self,
         level: Level,
-        ways: [usize; 2],
+        strides: [usize; 2],
         x: &Columns,
         [from, to]: [usize; 2],
         kind: usize,
     ) {
-        let Self { lambda, compliance, before, rest, own, .. } = self;
-        let edge = ways[0] + ways[1];
-        for (axis, (own, lambda)) in own.iter_mut().zip(lambda).enumerate() {
-            let off = [&before[kind][axis][from..to], &rest[axis][from..to]];
-            let against = [&compliance[from..to], &lambda[from..to]];
-            let x = &x.all()[axis][from..to + edge];
-            look(level, &mut own[edge + from..edge + to], x, ways, off, against);
+        let Self { lambda, compliance, start_twist, rest, change, .. } = self;
+        let margin_length = strides[0] + strides[1];
+        for (axis, (change, lambda)) in change.iter_mut().zip(lambda).enumerate() {
+            let offsets = [&start_twist[kind][axis][from..to], &rest[axis][from..to]];
+            let compliance_term = [&compliance[from..to], &lambda[from..to]];
+            let x = &x.all()[axis][from..to + margin_length];
+            compute_residual(
+                level,
+                &mut change[margin_length + from..margin_length + to],
+                x,
+                strides,
+                offsets,
+                compliance_term,
+            );
         }
     }
 
-    /// Moves particles, and keeps what that took.
-    fn go_on(&mut self, level: Level, ways: [usize; 2], x: &mut Columns, w: &[f32]) {
-        let Self { lambda, own, .. } = self;
-        for ((lambda, own), x) in lambda.iter_mut().zip(own).zip(x.all_mut()) {
+    /// Adds the changes to the multipliers and moves the particles.
+    fn apply_change(&mut self, level: Level, strides: [usize; 2], x: &mut Columns, w: &[f32]) {
+        let Self { lambda, change, .. } = self;
+        for ((lambda, change), x) in lambda.iter_mut().zip(change).zip(x.all_mut()) {
             let count = lambda.len();
-            move_on(level, lambda, own, &mut x[..count], &w[..count], ways);
+            apply_lambda(level, lambda, change, &mut x[..count], &w[..count], strides);
         }
     }
 }
 
-/// What cells have before them, so that each has a cell before it, above it, and before that one.
+/// Number of zeros before the first cell, so that each cell has a neighbour before, above and diagonally.
 fn margin(columns: usize) -> usize {
     columns + 1
 }
 
 impl TridiagonalFactor {
-    fn factor(&mut self, band: CellStrip, compliance: &[f32], w: &[f32]) {
-        let CellStrip { first, along, across, count } = band;
+    fn factor(&mut self, strip: CellStrip, compliance: &[f32], w: &[f32]) {
+        let CellStrip { first, along, across, count } = strip;
         let both = |i: usize| f64::from(w[i]) + f64::from(w[i + across]);
-        let (mut last, mut had_one) = (1.0, false);
+        let (mut last, mut has_previous) = (1.0, false);
         for i in (0..count).map(|k| first + k * along) {
             if compliance[i] == 0.0 {
-                (self.inverse[i], self.near[i], had_one) = (0.0, 0.0, false);
+                (self.inverse[i], self.near[i], has_previous) = (0.0, 0.0, false);
                 continue;
             }
-            let beside = if had_one { -both(i) } else { 0.0 };
+            let beside = if has_previous { -both(i) } else { 0.0 };
             let near = beside / last;
             let d = both(i) + both(i + along) + f64::from(compliance[i]) - near * beside;
             (self.inverse[i], self.near[i]) = ((1.0 / d) as f32, near as f32);
-            (last, had_one) = (d, true);
+            (last, has_previous) = (d, true);
         }
     }
 
-    /// Along every other row, from end to end and back; the others, and what is beyond the cells of a row, come to
-    /// naught.
-    fn solve_rows(&self, columns: usize, odd: usize, own: &mut VectorColumns) {
-        let [x, y, z] = own.each_mut().map(|own| own[margin(columns)..].chunks_exact_mut(columns));
+    /// Solves every other row of cells; the other rows and the entries without a cell become 0.
+    fn solve_rows(&self, columns: usize, odd: usize, change: &mut VectorColumns) {
+        let [x, y, z] =
+            change.each_mut().map(|change| change[margin(columns)..].chunks_exact_mut(columns));
         let factors = self.inverse.chunks_exact(columns).zip(self.near.chunks_exact(columns));
         for (row, (((x, y), z), (inverse, near))) in x.zip(y).zip(z).zip(factors).enumerate() {
             if row % 2 != odd {
-                [x, y, z].into_iter().for_each(|own| own.fill(0.0));
+                [x, y, z].into_iter().for_each(|change| change.fill(0.0));
                 continue;
             }
             let mut last = [0.0; 3];
@@ -285,24 +299,24 @@ impl TridiagonalFactor {
 }
 
 leveled! {
-    /// Where the substep began.
-    fn begin(start: &mut [f32], to: &[f32], way: &[f32]) = begin_lanes
+    /// Computes start positions: predicted position less displacement.
+    fn compute_start(start: &mut [f32], to: &[f32], displacement: &[f32]) = compute_start_lanes
 }
 
 #[inline(always)]
-fn begin_lanes(start: &mut [f32], to: &[f32], way: &[f32]) {
-    for ((start, to), way) in start.iter_mut().zip(to).zip(way) {
-        *start = to - way;
+fn compute_start_lanes(start: &mut [f32], to: &[f32], displacement: &[f32]) {
+    for ((start, to), displacement) in start.iter_mut().zip(to).zip(displacement) {
+        *start = to - displacement;
     }
 }
 
 leveled! {
-    /// A share of what cells are twisted by.
-    fn share_of_twist(out: &mut [f32], x: &[f32], ways: [usize; 2], share: f32) = share_of_twist_lanes
+    /// Computes a share of the twist of each cell.
+    fn scaled_twist(out: &mut [f32], x: &[f32], strides: [usize; 2], share: f32) = scaled_twist_lanes
 }
 
 #[inline(always)]
-fn share_of_twist_lanes(out: &mut [f32], x: &[f32], [along, across]: [usize; 2], share: f32) {
+fn scaled_twist_lanes(out: &mut [f32], x: &[f32], [along, across]: [usize; 2], share: f32) {
     let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
     for (out, ((a, b), (c, d))) in out.iter_mut().zip(corners) {
         *out = ((a - b) - (c - d)) * share;
@@ -310,93 +324,93 @@ fn share_of_twist_lanes(out: &mut [f32], x: &[f32], [along, across]: [usize; 2],
 }
 
 leveled! {
-    /// A share of what cells are twisted by at rest.
-    fn share_of_rest(out: &mut [f32], rest: &[f32], way: &[f32], share: f32) = share_of_rest_lanes
+    /// Computes a share of the rest twist of each cell.
+    fn scaled_rest(out: &mut [f32], rest: &[f32], direction: &[f32], share: f32) = scaled_rest_lanes
 }
 
 #[inline(always)]
-fn share_of_rest_lanes(out: &mut [f32], rest: &[f32], way: &[f32], share: f32) {
-    for ((out, rest), way) in out.iter_mut().zip(rest).zip(way) {
-        *out = way * (rest * share);
+fn scaled_rest_lanes(out: &mut [f32], rest: &[f32], direction: &[f32], share: f32) {
+    for ((out, rest), direction) in out.iter_mut().zip(rest).zip(direction) {
+        *out = direction * (rest * share);
     }
 }
 
 leveled! {
-    /// What is to be added for what cells are twisted by and do not resist yet.
-    fn look(
-        own: &mut [f32],
+    /// Computes −(T + α̃ λ) per cell, with T less its offsets.
+    fn compute_residual(
+        change: &mut [f32],
         x: &[f32],
-        ways: [usize; 2],
-        off: [&[f32]; 2],
-        against: [&[f32]; 2],
-    ) = look_lanes
+        strides: [usize; 2],
+        offsets: [&[f32]; 2],
+        compliance_term: [&[f32]; 2],
+    ) = compute_residual_lanes
 }
 
 #[inline(always)]
-fn look_lanes(
-    own: &mut [f32],
+fn compute_residual_lanes(
+    change: &mut [f32],
     x: &[f32],
     [along, across]: [usize; 2],
-    [before, rest]: [&[f32]; 2],
+    [start_twist, rest]: [&[f32]; 2],
     [compliance, lambda]: [&[f32]; 2],
 ) {
     let corners = x.iter().zip(&x[across..]).zip(x[along..].iter().zip(&x[along + across..]));
-    let off = before.iter().zip(rest);
-    let against = compliance.iter().zip(lambda);
-    for (((own, ((a, b), (c, d))), (before, rest)), (compliance, lambda)) in
-        own.iter_mut().zip(corners).zip(off).zip(against)
+    let offsets = start_twist.iter().zip(rest);
+    let compliance_term = compliance.iter().zip(lambda);
+    for (((change, ((a, b), (c, d))), (start_twist, rest)), (compliance, lambda)) in
+        change.iter_mut().zip(corners).zip(offsets).zip(compliance_term)
     {
-        let twist = ((a - b) - (c - d)) - before - rest;
-        *own = -(twist + compliance * lambda);
+        let twist = ((a - b) - (c - d)) - start_twist - rest;
+        *change = -(twist + compliance * lambda);
     }
 }
 
 leveled! {
-    /// Along all columns that a factor is of, down and up again; the others come to naught.
-    fn down_and_up(own: &mut [f32], factor: &TridiagonalFactor, columns: usize) = down_and_up_lanes
+    /// Forward and backward substitution along the columns of a factor; other columns become 0.
+    fn substitute_columns(change: &mut [f32], factor: &TridiagonalFactor, columns: usize) = substitute_columns_lanes
 }
 
 #[inline(always)]
-fn down_and_up_lanes(own: &mut [f32], factor: &TridiagonalFactor, columns: usize) {
-    let cells = own.len() - columns;
+fn substitute_columns_lanes(change: &mut [f32], factor: &TridiagonalFactor, columns: usize) {
+    let cells = change.len() - columns;
     for first in (columns..cells).step_by(columns) {
-        let (above, row) = own.split_at_mut(first);
+        let (above, row) = change.split_at_mut(first);
         let near = &factor.near[first..first + columns];
-        for ((own, near), last) in row.iter_mut().zip(near).zip(&above[first - columns..]) {
-            *own -= near * last;
+        for ((change, near), last) in row.iter_mut().zip(near).zip(&above[first - columns..]) {
+            *change -= near * last;
         }
     }
-    for (own, inverse) in own[..cells].iter_mut().zip(&factor.inverse) {
-        *own *= inverse;
+    for (change, inverse) in change[..cells].iter_mut().zip(&factor.inverse) {
+        *change *= inverse;
     }
     for first in (0..cells - columns).step_by(columns).rev() {
-        let (row, below) = own[first..].split_at_mut(columns);
+        let (row, below) = change[first..].split_at_mut(columns);
         let near = &factor.near[first + columns..first + 2 * columns];
-        for ((own, near), last) in row.iter_mut().zip(near).zip(&*below) {
-            *own -= near * last;
+        for ((change, near), last) in row.iter_mut().zip(near).zip(&*below) {
+            *change -= near * last;
         }
     }
 }
 
 leveled! {
-    /// Moves particles by what is added to the multipliers of the cells around them.
-    fn move_on(lambda: &mut [f32], own: &[f32], x: &mut [f32], w: &[f32], ways: [usize; 2]) = move_on_lanes
+    /// Adds changes to multipliers, and moves particles by the changes of the four cells around.
+    fn apply_lambda(lambda: &mut [f32], change: &[f32], x: &mut [f32], w: &[f32], strides: [usize; 2]) = apply_lambda_lanes
 }
 
 #[inline(always)]
-fn move_on_lanes(
+fn apply_lambda_lanes(
     lambda: &mut [f32],
-    own: &[f32],
+    change: &[f32],
     x: &mut [f32],
     w: &[f32],
     [along, across]: [usize; 2],
 ) {
-    let near = own[across..].iter().zip(&own[along..]).zip(own);
-    let own = &own[along + across..];
-    for (((lambda, own), (x, w)), ((before, beside), beyond)) in
-        lambda.iter_mut().zip(own).zip(x.iter_mut().zip(w)).zip(near)
+    let near = change[across..].iter().zip(&change[along..]).zip(change);
+    let change = &change[along + across..];
+    for (((lambda, change), (x, w)), ((before, beside), beyond)) in
+        lambda.iter_mut().zip(change).zip(x.iter_mut().zip(w)).zip(near)
     {
-        *lambda += own;
-        *x += w * ((own - before) - (beside - beyond));
+        *lambda += change;
+        *x += w * ((change - before) - (beside - beyond));
     }
 }
