@@ -61,7 +61,7 @@ impl Cloth {
             });
         };
         let plan = with_float_env(|| cut::plan(&self.world, &blade));
-        if plan.opened() == 0 {
+        if plan.opened_count() == 0 {
             return Ok(0);
         }
         if !plan.fits(self.world.capacity(), self.world.triangle_capacity) {
@@ -76,6 +76,6 @@ impl Cloth {
         });
         self.update_topology();
         self.update_state();
-        Ok(plan.opened())
+        Ok(plan.opened_count())
     }
 }

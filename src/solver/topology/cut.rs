@@ -1,9 +1,20 @@
-//! Cuts by a blade: the edges that it crosses are divided, and what then lies along it opens.
+//! Cuts by a blade: split the edges that the blade crosses, then open the edges along it.
 //!
-//! The cut is made on a copy of the mesh first, so that it is known to fit before anything changes. A
-//! crossing near a vertex goes through that vertex instead, so that no sliver is left: the cut bends
-//! aside by at most `NEAR` of an edge there. A vertex that is pinned is passed by at that distance,
-//! so that a cut beside pins does not end at them.
+//! ```text
+//!      ╱╲                    ╱╲                    ╱╲
+//!   ━━╱━━╲━━ blade          ●──●                  ●──●
+//!    ╱    ╲                ╱ ╲  ╲                 ●──●       ●: new vertices
+//!   ╱──────╲              ╱───╲──╲               ╱─╲──╲
+//!   crossed edges      1. split edges        2. open edges
+//! ```
+//! Method: `plan` makes the cut on a copy of the mesh, so it is known to fit before anything changes. A
+//! crossing near a vertex moves to that vertex, so that no sliver triangle appears; the cut deviates
+//! from the blade by at most `NEAR_VERTEX` of an edge there. At a pinned vertex the crossing moves to
+//! that distance from it instead, so that a cut beside pins does not end at them.
+//!
+//! Reads mesh, positions, rest positions and pins; `cut` writes everything that follows from the mesh.
+//! Invariant: a triangle that a cut makes has angles of at least 5°. A plan is valid only for the world
+//! that it was made for.
 
 use crate::geometry::blade::Blade;
 use crate::geometry::triangle::corner_areas;
@@ -17,46 +28,46 @@ use crate::state::anchors::AnchorConstraint;
 use crate::state::events::{Event, EventKind};
 use glam::Vec3;
 
-/// A crossing nearer to an end of its edge than this share of it goes through the end.
-const NEAR: f32 = 0.125;
+/// A crossing nearer to an end of its edge than this share of the edge moves to the end.
+const NEAR_VERTEX: f32 = 0.125;
 
-/// The sine of the sharpest angle of a triangle that a division may leave: of 5°.
-const LEAST_SINE: f32 = 0.087_155_74;
+/// Smallest sine of an angle of a triangle that a split may leave: 5°.
+const MIN_SINE: f32 = 0.087_155_74;
 
-/// Its least area, over that of a square as wide as the mean edge.
-const LEAST_AREA: f32 = 0.005;
+/// Smallest area of such a triangle, relative to the square of the mean edge.
+const MIN_AREA: f32 = 0.005;
 
-/// A cut that is known to fit.
+/// A planned cut.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Plan {
-    /// Which edges to divide, one after the other, and at which share of them.
-    divisions: Vec<(Corner, f32)>,
-    /// Which edges to open then.
+pub(crate) struct CutPlan {
+    /// Edges to split, one after the other, and the share of the edge at which to split.
+    splits: Vec<(Corner, f32)>,
+    /// Edges to open afterwards.
     open: Vec<Corner>,
     vertices: usize,
     triangles: usize,
     opened: usize,
 }
 
-impl Plan {
-    /// How many edges open.
-    pub fn opened(&self) -> u32 {
+impl CutPlan {
+    /// Number of edges that open.
+    pub fn opened_count(&self) -> u32 {
         self.opened as u32
     }
 
-    /// Whether a cloth with room for so many vertices and triangles can take it.
+    /// Whether the cut fits in a cloth with capacity for so many vertices and triangles.
     pub fn fits(&self, vertices: usize, triangles: usize) -> bool {
         self.vertices <= vertices && self.triangles <= triangles
     }
 }
 
-/// Plans a cut by `blade`.
-pub(crate) fn plan(world: &World, blade: &Blade) -> Plan {
-    let mut draft = Draft::new(world, blade);
-    draft.divide(blade);
+/// Plans a cut by `blade` without changing the world.
+pub(crate) fn plan(world: &World, blade: &Blade) -> CutPlan {
+    let mut draft = CutDraft::new(world, blade);
+    draft.split_crossed_edges(blade);
     draft.mesh.rebuild_vertex_corners();
-    let mut plan = Plan { open: draft.along(blade), ..Plan::default() };
-    plan.divisions = draft.divisions;
+    let mut plan = CutPlan { open: draft.edges_along(blade), ..CutPlan::default() };
+    plan.splits = draft.splits;
     let (mut opened, mut copies) = (Vec::new(), Vec::new());
     draft.mesh.open_edges(&plan.open, &mut opened, &mut copies);
     plan.vertices = draft.mesh.vertex_count();
@@ -65,13 +76,13 @@ pub(crate) fn plan(world: &World, blade: &Blade) -> Plan {
     plan
 }
 
-/// Does what was planned for this world as it is.
-pub(crate) fn cut(world: &mut World, plan: &Plan) {
+/// Executes a plan that was made for this world in its current state.
+pub(crate) fn cut(world: &mut World, plan: &CutPlan) {
     let mut touching = world.constraints.links_of_triangles(world.mesh.triangles.len());
-    let links = plan.opened + 12 * plan.divisions.len();
+    let links = plan.opened + 12 * plan.splits.len();
     world.constraints.reserve(links, world.capacity());
-    for (edge, share) in &plan.divisions {
-        divide(world, *edge, *share, &mut touching);
+    for (edge, share) in &plan.splits {
+        split_edge(world, *edge, *share, &mut touching);
     }
     world.mesh.rebuild_vertex_corners();
     let (mut opened, mut copies) = (Vec::new(), Vec::new());
@@ -98,8 +109,8 @@ pub(crate) fn cut(world: &mut World, plan: &Plan) {
     world.rebuild_tethers();
 }
 
-/// Divides one edge and all that lies on it.
-fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut LinksOfTriangle) {
+/// Splits one edge of the world at `share`, with its particle, links, seams, areas and anchors.
+fn split_edge(world: &mut World, edge: Corner, share: f32, touching: &mut LinksOfTriangle) {
     let [a, b] = [world.mesh.vertex(edge), world.mesh.vertex(next_corner(edge))];
     let ends = [a, b].map(|end| world.mesh.source[end as usize]);
     let site = world.rest.len() as u32;
@@ -125,8 +136,8 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut LinksOfTri
     world.scratch.push_particle();
     let scales = [a, b].map(|end| world.mass_scales.get(end as usize));
     world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
-    let leashes = [a, b].map(|end| world.anchors.get(end).copied());
-    if let [Some(a), Some(b)] = leashes {
+    let anchors = [a, b].map(|end| world.anchors.get(end).copied());
+    if let [Some(a), Some(b)] = anchors {
         world.anchors.insert(AnchorConstraint::between(new as u32, &a, &b, share));
     }
     let recipe = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
@@ -136,19 +147,19 @@ fn divide(world: &mut World, edge: Corner, share: f32, touching: &mut LinksOfTri
     world.events.push(event);
 }
 
-/// A cut in the making.
-struct Draft<'a> {
+/// Copy of the mesh on which a cut is planned.
+struct CutDraft<'a> {
     world: &'a World,
     mesh: Mesh,
     /// Rest position of each vertex [m].
     rest: Vec<Vec3>,
     x: Vec<Vec3>,
-    /// Whether the cut goes through a vertex.
+    /// Whether the cut passes through each vertex.
     is_on: Vec<bool>,
-    divisions: Vec<(Corner, f32)>,
+    splits: Vec<(Corner, f32)>,
 }
 
-impl<'a> Draft<'a> {
+impl<'a> CutDraft<'a> {
     fn new(world: &'a World, blade: &Blade) -> Self {
         let x: Vec<Vec3> = world.particles.x.iter().collect();
         let is_on = x
@@ -156,11 +167,11 @@ impl<'a> Draft<'a> {
             .map(|x| blade.signed_side(*x) == 0.0 && blade.contains(x.as_dvec3()))
             .collect();
         let rest = world.mesh.source.iter().map(|site| world.rest[*site as usize]).collect();
-        Self { world, mesh: world.mesh.clone(), rest, x, is_on, divisions: Vec::new() }
+        Self { world, mesh: world.mesh.clone(), rest, x, is_on, splits: Vec::new() }
     }
 
-    /// Divides the edges that the blade crosses.
-    fn divide(&mut self, blade: &Blade) {
+    /// Splits the edges that the blade crosses.
+    fn split_crossed_edges(&mut self, blade: &Blade) {
         let mut crossed: Vec<(Corner, f32)> = Vec::new();
         for edge in self.mesh.edges() {
             let [a, b] = self.ends(edge).map(|end| self.x[end]);
@@ -171,20 +182,20 @@ impl<'a> Draft<'a> {
         for (edge, share) in &mut crossed {
             let [a, b] = self.ends(*edge);
             let (near, end) = if *share > 0.5 { (1.0 - *share, b) } else { (*share, a) };
-            if near >= NEAR {
+            if near >= NEAR_VERTEX {
                 continue;
             }
             if self.is_pinned(end) {
-                *share = if end == a { NEAR } else { 1.0 - NEAR };
+                *share = if end == a { NEAR_VERTEX } else { 1.0 - NEAR_VERTEX };
             } else {
                 self.is_on[end] = true;
             }
         }
-        let leads_on = self.leads_on(&crossed);
+        let continues = self.continues(&crossed);
         let mut pending: Vec<(Corner, f32)> = crossed
             .into_iter()
-            .zip(leads_on)
-            .filter_map(|(crossed, leads_on)| leads_on.then_some(crossed))
+            .zip(continues)
+            .filter_map(|(crossed, continues)| continues.then_some(crossed))
             .collect();
         for at in 0..pending.len() {
             let (edge, share) = pending[at];
@@ -192,14 +203,14 @@ impl<'a> Draft<'a> {
             if self.is_on[a] || self.is_on[b] {
                 continue;
             }
-            if !self.may_divide(edge, share) {
+            if !self.can_split(edge, share) {
                 let nearer_first = if share > 0.5 { [b, a] } else { [a, b] };
                 let end = nearer_first.into_iter().find(|end| !self.is_pinned(*end));
                 self.is_on[end.unwrap_or(nearer_first[0])] = true;
                 continue;
             }
             let division = self.mesh.split_edge(edge, NONE);
-            self.divisions.push((edge, share));
+            self.splits.push((edge, share));
             self.rest.push(self.rest[a] + (self.rest[b] - self.rest[a]) * share);
             self.x.push(self.x[a] + (self.x[b] - self.x[a]) * share);
             self.is_on.push(true);
@@ -211,28 +222,28 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// For each crossed edge, whether the cut goes on from it into a triangle: to another crossed edge, or
-    /// to a vertex. Where the blade ends inside a triangle, the cut ends at the last edge before.
-    fn leads_on(&self, crossed: &[(Corner, f32)]) -> Vec<bool> {
-        let is_passed = |edge: Corner| !self.ends(edge).iter().any(|end| self.is_on[*end]);
-        let mut met = vec![0_u8; self.mesh.triangles.len()];
+    /// Whether the cut continues from each crossed edge into a triangle: to another crossed edge or to a
+    /// vertex. If the blade ends inside a triangle, the cut ends at the last edge before.
+    fn continues(&self, crossed: &[(Corner, f32)]) -> Vec<bool> {
+        let is_between_ends = |edge: Corner| !self.ends(edge).iter().any(|end| self.is_on[*end]);
+        let mut hits = vec![0_u8; self.mesh.triangles.len()];
         let sides = |edge: Corner| [edge / 3, self.mesh.across(edge)];
-        for (edge, _) in crossed.iter().filter(|(edge, _)| is_passed(*edge)) {
+        for (edge, _) in crossed.iter().filter(|(edge, _)| is_between_ends(*edge)) {
             for triangle in sides(*edge).into_iter().filter(|triangle| *triangle != NONE) {
-                met[triangle as usize] += 1;
+                hits[triangle as usize] += 1;
             }
         }
-        for (met, triangle) in met.iter_mut().zip(&self.mesh.triangles) {
-            *met += triangle.iter().filter(|v| self.is_on[**v as usize]).count() as u8;
+        for (hits, triangle) in hits.iter_mut().zip(&self.mesh.triangles) {
+            *hits += triangle.iter().filter(|v| self.is_on[**v as usize]).count() as u8;
         }
-        let leads_on = |edge: Corner| {
-            sides(edge).iter().any(|triangle| *triangle != NONE && met[*triangle as usize] > 1)
+        let continues = |edge: Corner| {
+            sides(edge).iter().any(|triangle| *triangle != NONE && hits[*triangle as usize] > 1)
         };
-        crossed.iter().map(|(edge, _)| leads_on(*edge)).collect()
+        crossed.iter().map(|(edge, _)| continues(*edge)).collect()
     }
 
-    /// Whether dividing an edge there leaves no sliver.
-    fn may_divide(&self, edge: Corner, share: f32) -> bool {
+    /// Whether splitting an edge at `share` leaves no sliver triangle.
+    fn can_split(&self, edge: Corner, share: f32) -> bool {
         let [a, b] = self.ends(edge);
         let middle = self.rest[a] + (self.rest[b] - self.rest[a]) * share;
         let beyond = self.mesh.across(edge);
@@ -243,23 +254,21 @@ impl<'a> Draft<'a> {
             .find(|other| self.mesh.ends(*other) == ends);
         [Some(edge), twin].into_iter().flatten().all(|edge| {
             let opposite = self.rest[self.mesh.vertex(prev_corner(edge)) as usize];
-            [a, b].into_iter().all(|end| self.is_no_sliver([self.rest[end], middle, opposite]))
+            [a, b].into_iter().all(|end| self.is_well_shaped([self.rest[end], middle, opposite]))
         })
     }
 
-    fn is_no_sliver(&self, [a, b, c]: [Vec3; 3]) -> bool {
+    fn is_well_shaped(&self, [a, b, c]: [Vec3; 3]) -> bool {
         let doubled = (b - a).cross(c - a).length();
         let mut sides = [(b - a).length(), (c - b).length(), (a - c).length()];
         sort_by(&mut sides, f32::total_cmp);
-        // The sharpest angle is between the two longer sides.
+        // The smallest angle lies between the two longer sides.
         let spacing = self.world.mean_edge;
-        doubled >= LEAST_SINE * sides[1] * sides[2]
-            && doubled >= 2.0 * LEAST_AREA * spacing * spacing
+        doubled >= MIN_SINE * sides[1] * sides[2] && doubled >= 2.0 * MIN_AREA * spacing * spacing
     }
 
-    /// The edges along the blade: between vertices that the cut goes through, with a triangle on either
-    /// side of it.
-    fn along(&self, blade: &Blade) -> Vec<Corner> {
+    /// Edges along the blade: both ends lie on the cut, and the two triangles lie on different sides.
+    fn edges_along(&self, blade: &Blade) -> Vec<Corner> {
         let side = |triangle: u32| self.side(blade, triangle);
         let is_along = |edge: &Corner| {
             let beyond = self.mesh.across(*edge);
@@ -270,14 +279,14 @@ impl<'a> Draft<'a> {
         self.mesh.edges().filter(is_along).collect()
     }
 
-    /// On which side of the blade a triangle is, by the corners that the cut does not go through if they
-    /// agree, or else by its middle.
+    /// Whether a triangle lies on the positive side of the blade: by its corners off the cut if they
+    /// agree, else by its centroid.
     fn side(&self, blade: &Blade, triangle: u32) -> bool {
         let corners = self.mesh.triangles[triangle as usize].map(|v| v as usize);
-        let off = || corners.into_iter().filter(|v| !self.is_on[*v]);
+        let off_cut = || corners.into_iter().filter(|v| !self.is_on[*v]);
         let on_positive = |v: usize| blade.signed_side(self.x[v]) > 0.0;
-        let positive = off().filter(|v| on_positive(*v)).count();
-        match (positive, off().count()) {
+        let positive = off_cut().filter(|v| on_positive(*v)).count();
+        match (positive, off_cut().count()) {
             (0, all) if all > 0 => false,
             (some, all) if some == all && all > 0 => true,
             _ => {
