@@ -25,9 +25,10 @@
 //! ├─ last pass    Limit ▶ Hold ▶ SelfContacts ▶ Guard     (with a strain limit or anchors)
 //! └─ finish       targets reach the end of the tick, sleep timer
 //! ```
-//! Method: extended position-based dynamics with small substeps (Macklin, Müller, Chentanez, "XPBD",
-//! MIG 2016; Macklin et al., "Small Steps in Physics Simulation", SCA 2019). Sweeps alternate in
-//! direction, because the BDF2 scheme (`state::settings::Scheme`) needs a symmetric solver.
+//! Method: extended position-based dynamics with small substeps (Macklin, Müller, Chentanez,
+//! "XPBD", MIG 2016; Macklin et al., "Small Steps in Physics Simulation", SCA 2019). Sweeps
+//! alternate in direction, because the BDF2 scheme (`state::settings::Scheme`) needs a symmetric
+//! solver.
 //!
 //! Reads and writes `World`. Each line of the code below is one stage, timed under its `Stage`.
 //! Invariant: the order of the stages is part of the result; the same input gives the same bits.

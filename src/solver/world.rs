@@ -63,7 +63,8 @@ pub(crate) struct World {
     pub tethers: Tethers,
     /// Links sorted by distance from the pins; valid only while `max_stretch > 0`.
     pub pin_order: PinOrder,
-    /// See `tethers::measure_slack`; infinite before the first tick and after pins or places changed.
+    /// See `tethers::measure_slack`; infinite before the first tick and after pins or places
+    /// changed.
     pub tether_slack: f32,
     /// Largest ratio of the distance between two pins to their distance along the rest cloth; at
     /// least 1. Above 1 the pins stretch the cloth by themselves.

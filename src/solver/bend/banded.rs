@@ -1,11 +1,12 @@
 //! Pentadiagonal systems along the rows or the columns of a grid, factored once and solved often.
 //!
 //! ```text
-//! (µ M + h² K) y = f      K: matrix of the second differences a − 2 m + b along a line, 5 diagonals
+//! (µ M + h² K) y = f      K: squared second differences a − 2 m + b along a line, 5 diagonals
 //! L D Lᵀ                  L has two subdiagonals `near` and `far`
 //! ```
-//! Method: L D Lᵀ factorisation without pivoting, in f64; forward and backward substitution in f32. Rows
-//! solve x, y and z together; columns solve all columns of a grid together, so the loops vectorise.
+//! Method: L D Lᵀ factorisation without pivoting, in f64; forward and backward substitution in f32.
+//! Rows solve x, y and z together; columns solve all columns of a grid together, so the loops
+//! vectorise.
 //!
 //! Reads element weights, masses and inverse masses; `factor` writes the factors and the solvers
 //! replace a right side by the solution.
@@ -43,8 +44,8 @@ impl PentadiagonalFactor {
 
     /// Factors µ M + h² K along a line.
     ///
-    /// `weight` is the stiffness of each element relative to an interior one, `stiffness` that of an
-    /// interior element times h² [kg], `shift` is µ.
+    /// `weight` is the stiffness of each element relative to an interior one, `stiffness` that of
+    /// an interior element times h² [kg], `shift` is µ.
     pub fn factor(
         &mut self,
         line: GridLine,
@@ -125,7 +126,8 @@ impl PentadiagonalFactor {
 
 leveled! {
     /// Forward and backward substitution along all columns.
-    fn substitute_columns(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize) = substitute_columns_lanes
+    fn substitute_columns(v: &mut [f32], factor: &PentadiagonalFactor, columns: usize)
+        = substitute_columns_lanes
 }
 
 #[inline(always)]

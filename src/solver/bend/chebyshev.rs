@@ -1,14 +1,15 @@
 //! Chebyshev iteration: approximates an implicit bending step by a few explicit ones.
 //!
 //! An implicit step removes the share λ / (1 + λ) of a shape whose stiffness over mass is λ. The
-//! Chebyshev iteration (Golub and Varga 1961) approximates 1 / (1 + λ) by a polynomial q for all λ up to
-//! a bound; each step only evaluates forces. The interval is chosen so that λ = 0 is a root of the error:
+//! Chebyshev iteration (Golub and Varga 1961) approximates 1 / (1 + λ) by a polynomial q for all λ
+//! up to a bound; each step only evaluates forces. The interval is chosen so that λ = 0 is a root
+//! of the error:
 //!
 //! ```text
 //! 1 − (1 + λ) q(λ) = T(y(λ)) / T(y(−1)),    y maps λ = 0 to the first root of T and the bound to 1
 //! ```
-//! Wide folds have a small λ, so they bend exactly as the material says, however few the steps. With
-//! one step this is explicit Euler. The number of steps is about the square root of the bound.
+//! Wide folds have a small λ, so they bend exactly as the material says, however few the steps.
+//! With one step this is explicit Euler. The number of steps is about the square root of the bound.
 //!
 //! Reads a bound for the stiffness over mass; gives coefficients for `plate` and `mesh_implicit`.
 //! Invariant: for every λ from 0 to the bound the relative error is at most `MAX_ERROR`.
@@ -43,8 +44,8 @@ pub(crate) struct ChebyshevSteps {
 }
 
 impl ChebyshevSteps {
-    /// Chooses the fewest steps for a stiffness over mass of at most `bound` in every shape; `None` if
-    /// that takes more than `MAX_STEPS`.
+    /// Chooses the fewest steps for a stiffness over mass of at most `bound` in every shape; `None`
+    /// if that takes more than `MAX_STEPS`.
     pub fn new(bound: f32) -> Option<Self> {
         for (at, ratio) in FIRST_ROOT_RATIO.into_iter().enumerate() {
             let count = at + 1;

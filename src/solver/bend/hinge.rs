@@ -7,8 +7,9 @@
 //!      ╲ ╱
 //!       b
 //! ```
-//! Method: XPBD with a vector constraint and a vector multiplier (Macklin, Müller, Chentanez, "XPBD",
-//! MIG 2016). C is linear in the positions, so its gradient is constant and needs no square root.
+//! Method: XPBD with a vector constraint and a vector multiplier (Macklin, Müller, Chentanez,
+//! "XPBD", MIG 2016). C is linear in the positions, so its gradient is constant and needs no square
+//! root.
 //!
 //! Reads the hinge and the start positions of the substep; writes four positions.
 //! Invariant: Σ cᵢ = 0, so a hinge conserves linear momentum.

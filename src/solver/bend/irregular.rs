@@ -3,8 +3,8 @@
 //! ```text
 //! a ── m ── b     C = a − 2 m + b − rest n,   λ = −C / (w_a + 4 w_m + w_b + α̃),   Δx = w c λ
 //! ```
-//! Method: XPBD per element, as in `hinge`, with the fixed weights (1, −2, 1). Elements of one colour
-//! share no particle and run in lanes; the rest runs one after the other.
+//! Method: XPBD per element, as in `hinge`, with the fixed weights (1, −2, 1). Elements of one
+//! colour share no particle and run in lanes; the rest runs one after the other.
 //!
 //! Reads the elements, folds and start positions; writes positions.
 //! Invariant: the order of the elements of a colour does not change the result.
@@ -51,8 +51,12 @@ pub(crate) fn solve(level: Level, step: IrregularStep<'_>, p: &mut Particles) {
 
 vectored! {
     /// Projects elements of which no two share a particle.
-    fn solve_color(step: IrregularStep<'_>, own: Range<usize>, rest: Option<&[f32]>, p: &mut Particles)
-        = solve_color_lanes, Avx2, solve_scalar
+    fn solve_color(
+        step: IrregularStep<'_>,
+        own: Range<usize>,
+        rest: Option<&[f32]>,
+        p: &mut Particles,
+    ) = solve_color_lanes, Avx2, solve_scalar
 }
 
 /// Projects elements one after the other.
@@ -94,7 +98,7 @@ fn project_lanes<S: Simd, P: ParticleAccess>(
 ) {
     let (elements, own) = (step.elements, first..first + S::LANES);
     let (a, middle) = (&elements.a[own.clone()], &elements.middle[own.clone()]);
-    let (b, woven) = (&elements.b[own.clone()], &elements.element[own]);
+    let (b, element) = (&elements.b[own.clone()], &elements.element[own]);
     let ((xa, wa), (xm, wm)) =
         (gather_particles(s, particles, a), gather_particles(s, particles, middle));
     let (xb, wb) = gather_particles(s, particles, b);
@@ -103,16 +107,17 @@ fn project_lanes<S: Simd, P: ParticleAccess>(
         subtract_start(s, step, [a, middle, b], &mut c);
     }
     if let Some(rest) = rest {
-        subtract_rest(s, rest, woven, 1.0 - step.start_share, &mut c);
+        subtract_rest(s, rest, element, 1.0 - step.start_share, &mut c);
     }
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
-    // A held middle between one held and one free end doubles the stiffness, as in `plate::clamped`.
+    // A held middle between one held and one free end doubles the stiffness, as in
+    // `plate::clamped`.
     let clamped_ends = s.select(wa, zero, one) - s.select(wb, zero, one);
     let clamped = s.select(wm, one, one + clamped_ends * clamped_ends);
     let mut stiffness = s.load(&elements.area_fraction, first) * clamped * s.splat(step.stiffness);
     if let Some(softening) = step.softening {
         let mut left = [0.0; LANES];
-        for (left, at) in left.iter_mut().zip(woven) {
+        for (left, at) in left.iter_mut().zip(element) {
             *left = softening.stiffness_scale(softening.curvature[*at as usize]);
         }
         stiffness = stiffness * s.load(&left, 0);
@@ -152,11 +157,12 @@ fn subtract_start<S: Simd>(
     let mut starts = [[s.splat(0.0); 3]; 3];
     for (start, at) in starts.iter_mut().zip(at) {
         for (axis, start) in start.iter_mut().enumerate() {
-            let (predicted, way) = (step.predicted.all()[axis], step.displacement.all()[axis]);
+            let (predicted, displacement) =
+                (step.predicted.all()[axis], step.displacement.all()[axis]);
             let mut lanes = [0.0; LANES];
             for lane in 0..S::LANES {
                 let particle = at[lane] as usize;
-                lanes[lane] = predicted[particle] - way[particle];
+                lanes[lane] = predicted[particle] - displacement[particle];
             }
             *start = s.load(&lanes, 0);
         }
@@ -171,10 +177,10 @@ fn subtract_start<S: Simd>(
 /// Subtracts a share of the rest curvature. These elements have no normal, so the rest curvature
 /// takes the direction in which the element is bent now.
 #[inline(always)]
-fn subtract_rest<S: Simd>(s: S, rest: &[f32], woven: &[u32], share: f32, c: &mut [S::F; 3]) {
+fn subtract_rest<S: Simd>(s: S, rest: &[f32], element: &[u32], share: f32, c: &mut [S::F; 3]) {
     let mut lanes = [0.0; LANES];
     for lane in 0..S::LANES {
-        lanes[lane] = rest[woven[lane] as usize].abs();
+        lanes[lane] = rest[element[lane] as usize].abs();
     }
     let length = (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]).sqrt();
     let part = s.load(&lanes, 0) * s.splat(share) / length.max(s.splat(TINY));

@@ -3,11 +3,11 @@
 //! ```text
 //! M d = −h² K (x + d)        d: displacement by bending, K: stiffness matrix (`stiffness_matrix`)
 //! ```
-//! Method: K is symmetric and, since hinges are quadratic, independent of the positions. A soft mesh
-//! takes a few explicit Chebyshev steps (`chebyshev`), a stiff one conjugate gradients with Jacobi
-//! preconditioner (Hestenes and Stiefel 1952). Each step is one product with K. The number of steps
-//! grows with the square root of the stiffness over mass, where Gauss–Seidel sweeps over hinges would
-//! grow linearly.
+//! Method: K is symmetric and, since hinges are quadratic, independent of the positions. A soft
+//! mesh takes a few explicit Chebyshev steps (`chebyshev`), a stiff one conjugate gradients with
+//! Jacobi preconditioner (Hestenes and Stiefel 1952). Each step is one product with K. The number
+//! of steps grows with the square root of the stiffness over mass, where Gauss–Seidel sweeps over
+//! hinges would grow linearly.
 //!
 //! Reads hinges, elements, folds and positions; writes positions and `MeshBendScratch`.
 //! Invariant: matrix and coefficients are recomputed exactly when links, stiffness, masses or held
@@ -30,8 +30,8 @@ const MAX_STEPS: f32 = 48.0;
 /// Stiffness over mass from which the second solve of a substep pays.
 const MIN_SECOND_SOLVE: f32 = 0.25;
 
-/// Safety factor on the bound of the Chebyshev steps: they leave a residual of the stiffest shapes in
-/// each substep, and with factor 1 discs of cotton did not come to rest.
+/// Safety factor on the bound of the Chebyshev steps: they leave a residual of the stiffest shapes
+/// in each substep, and with factor 1 discs of cotton did not come to rest.
 const BOUND_FACTOR: f32 = 2.0;
 
 /// Conjugate gradients end at this ratio of the squared residual to the initial one.
@@ -147,7 +147,8 @@ impl MeshBend<'_> {
         }
     }
 
-    /// Resizes the buffers for `count` particles, and returns whether count, links or stiffness changed.
+    /// Resizes the buffers for `count` particles, and returns whether count, links or stiffness
+    /// changed.
     fn resize(&self, scratch: &mut MeshBendScratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
         let softening_key = self.softening.map(|softening| softening.key());

@@ -8,14 +8,15 @@
 //!   parts that cuts made  `hinge`, hinge by hinge
 //! ```
 //! Method: quadratic bending energy (Bergou et al., "A quadratic bending model for inextensible
-//! surfaces", SGP 2006), one implicit step per substep for the whole sheet. `bend_stiffness` is the bending rigidity [N m].
+//! surfaces", SGP 2006), one implicit step per substep for the whole sheet. `bend_stiffness` is the
+//! bending rigidity [N m].
 //!
 //! The first solve of a substep comes before the links, so that the links carry the forces of
 //! bending like the weight; the second comes in the first backward sweep.
 //!
-//! Reads elements, folds, masses and the predicted positions; writes particle positions.
-//! Invariant: bending conserves linear momentum, and `bend` runs with the particles in columns or in
-//! `Packed`, whichever is current.
+//! Reads elements, folds, masses and the predicted positions; writes particle positions. Invariant:
+//! bending conserves linear momentum, and `bend` runs with the particles in columns or in `Packed`,
+//! whichever is current.
 
 pub(crate) mod banded;
 pub(crate) mod bend_scratch;
@@ -57,8 +58,8 @@ pub(crate) fn solve_first(world: &mut World) {
     }
 }
 
-/// Runs the part of bending that belongs to sweep `iteration`: the bend links in every sweep, or the
-/// second solve of the elements in the first backward sweep.
+/// Runs the part of bending that belongs to sweep `iteration`: the bend links in every sweep, or
+/// the second solve of the elements in the first backward sweep.
 pub(crate) fn solve_in_sweep(world: &mut World, order: SweepOrder, iteration: u32) {
     if !is_elastic(world) {
         distance::solve(world, LinkKind::Bend, order);
@@ -75,8 +76,8 @@ pub(crate) fn solve_in_sweep(world: &mut World, order: SweepOrder, iteration: u3
     }
 }
 
-/// Solves all bending elements once. Each solver is a function of its own that is never inlined, for
-/// the reason given in `pipeline`.
+/// Solves all bending elements once. Each solver is a function of its own that is never inlined,
+/// for the reason given in `pipeline`.
 fn solve_elements(world: &mut World, order: SweepOrder) {
     let scheme = world.settings.scheme();
     // Damping acts on the change of curvature since the start of the substep.

@@ -4,16 +4,17 @@
 //! M d = −h² K (x + d)         K = K_weft + K_warp + K_twist,  d: displacement by bending
 //! (µM + h² K_weft) (µM)⁻¹ (µM + h² K_warp) Δ = −h² K x − M d
 //! ```
-//! Method: K couples so widely that Gauss–Seidel sweeps over elements would take thousands of iterations
-//! on paper. K_weft and K_warp are pentadiagonal along rows and columns, so their factors are cheap
-//! (`banded`), and the product above removes most of the error in all directions at any stiffness: this
-//! is the alternating direction implicit method (ADI; Peaceman and Rachford 1955; Wachspress on the
-//! shifts µ). At equilibrium the right side is zero, so the rest shape does not depend on the number of
-//! solves. The twist has a solver of its own (`twist`). A soft sheet takes a few explicit Chebyshev
-//! steps instead (`chebyshev`).
+//! Method: K couples so widely that Gauss–Seidel sweeps over elements would take thousands of
+//! iterations on paper. K_weft and K_warp are pentadiagonal along rows and columns, so their
+//! factors are cheap (`banded`), and the product above removes most of the error in all directions
+//! at any stiffness: this is the alternating direction implicit method (ADI; Peaceman and Rachford
+//! 1955; Wachspress on the shifts µ). At equilibrium the right side is zero, so the rest shape does
+//! not depend on the number of solves. The twist has a solver of its own (`twist`). A soft sheet
+//! takes a few explicit Chebyshev steps instead (`chebyshev`).
 //!
 //! Reads plate elements, folds, masses and positions; writes positions and `PlateScratch`.
-//! Invariant: factors and bound are recomputed exactly when pins, masses, elements or stiffness change.
+//! Invariant: factors and bound are recomputed exactly when pins, masses, elements or stiffness
+//! change.
 
 use crate::math::columns::Columns;
 use crate::math::same_bits;
@@ -348,7 +349,8 @@ impl AdiFactors {
 
 leveled! {
     /// Computes positions less a share of the start positions.
-    fn subtract_start(shifted: &mut [f32], x: &[f32], start: [&[f32]; 2], share: f32) = subtract_start_lanes
+    fn subtract_start(shifted: &mut [f32], x: &[f32], start: [&[f32]; 2], share: f32)
+        = subtract_start_lanes
 }
 
 #[inline(always)]
@@ -398,7 +400,8 @@ fn compute_curvature_lanes(
 
 leveled! {
     /// Computes the twist of each cell, times its weight.
-    fn compute_twist(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize) = compute_twist_lanes
+    fn compute_twist(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize)
+        = compute_twist_lanes
 }
 
 #[inline(always)]
@@ -533,7 +536,8 @@ fn scale_by_mass_lanes(force: &mut [f32], mass: &[f32], shift: f32) {
 
 leveled! {
     /// Adds displacements to positions and to the total of the substep.
-    fn apply_displacement(x: &mut [f32], displacement: &[f32], total: &mut [f32], is_first: bool) = apply_displacement_lanes
+    fn apply_displacement(x: &mut [f32], displacement: &[f32], total: &mut [f32], is_first: bool)
+        = apply_displacement_lanes
 }
 
 #[inline(always)]

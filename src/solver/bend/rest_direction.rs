@@ -5,8 +5,9 @@
 //! folded    direction = direction of the element's own curvature, which may have rotated
 //! between   linear blend of both, normalised
 //! ```
-//! Method: a fold acts along the curvature that the element shows, so it exerts no torque on itself or
-//! on the sheet. While the element is nearly flat that direction is undefined and the normal replaces it.
+//! Method: a fold acts along the curvature that the element shows, so it exerts no torque on itself
+//! or on the sheet. While the element is nearly flat that direction is undefined and the normal
+//! replaces it.
 //!
 //! Reads positions and fold offsets; writes unit normals and unit directions.
 //! Invariant: the direction of an element without a fold is zero.
@@ -40,7 +41,8 @@ pub(crate) fn compute_normals(
 
 leveled! {
     /// Computes the normals of a row from this row, the one above and the one below.
-    fn compute_row_normals(normal: [&mut [f32]; 3], rows: [[&[f32]; 3]; 3]) = compute_row_normals_lanes
+    fn compute_row_normals(normal: [&mut [f32]; 3], rows: [[&[f32]; 3]; 3])
+        = compute_row_normals_lanes
 }
 
 #[inline(always)]
@@ -123,7 +125,8 @@ fn twist_lanes(out: &mut [f32], x: &[f32], columns: usize) {
 
 leveled! {
     /// Replaces curvatures by their directions; zero for elements that are flat at rest.
-    fn select_directions(direction: [&mut [f32]; 3], rest: &[f32], normal: [&[f32]; 3]) = select_directions_lanes
+    fn select_directions(direction: [&mut [f32]; 3], rest: &[f32], normal: [&[f32]; 3])
+        = select_directions_lanes
 }
 
 #[inline(always)]

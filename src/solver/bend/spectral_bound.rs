@@ -3,15 +3,15 @@
 //! With K the matrix of the bending energy and M the mass matrix, this is a bound for the largest
 //! eigenvalue of M⁻¹ K, relative to the stiffness of an interior element.
 //!
-//! Method: bound by the diagonal for a whole sheet; Gershgorin's circle theorem (1931) for a torn one.
-//! Reads element weights and inverse masses; `of_torn` also overwrites two buffers.
-//! Invariant: no eigenvalue exceeds the bound.
+//! Method: bound by the diagonal for a whole sheet; Gershgorin's circle theorem (1931) for a torn
+//! one. Reads element weights and inverse masses; `of_torn` also overwrites two buffers. Invariant:
+//! no eigenvalue exceeds the bound.
 
 use crate::model::plate_elements::PerKind;
 
 /// Bound for a sheet without tears [1/kg]: four times the largest ratio of a particle's diagonal
-/// stiffness to its mass, because the stiffness of an element is at most four times its share of the
-/// diagonal.
+/// stiffness to its mass, because the stiffness of an element is at most four times its share of
+/// the diagonal.
 pub(crate) fn of_whole(columns: usize, [weft, warp, twist]: &PerKind<Vec<f32>>, w: &[f32]) -> f32 {
     let before = |list: &[f32], at: usize, steps: usize| {
         if at >= steps { list[at - steps] } else { 0.0 }
@@ -32,8 +32,8 @@ pub(crate) fn of_whole(columns: usize, [weft, warp, twist]: &PerKind<Vec<f32>>, 
 
 /// Bound for a torn sheet [1/kg]: the largest absolute row sum of M⁻½ K M⁻½ (Gershgorin 1931).
 ///
-/// It is tighter where single particles with little mass are joined to heavy ones. The buffers receive
-/// the square roots of `w`, and padded values per element.
+/// It is tighter where single particles with little mass are joined to heavy ones. The buffers
+/// receive the square roots of `w`, and padded values per element.
 pub(crate) fn of_torn(
     columns: usize,
     weight: &PerKind<Vec<f32>>,

@@ -3,8 +3,9 @@
 //! ```text
 //! force on i = Σⱼ kᵢⱼ (xⱼ − xᵢ)         kᵢⱼ = kⱼᵢ [kg], the stiffness times h²
 //! ```
-//! Method: the energy is quadratic, so the matrix is constant while links, stiffness and held particles
-//! stay. Only the upper half is stored, in rows of fixed width with a list for the overflow.
+//! Method: the energy is quadratic, so the matrix is constant while links, stiffness and held
+//! particles stay. Only the upper half is stored, in rows of fixed width with a list for the
+//! overflow.
 //!
 //! Reads hinges and elements in `assemble`; `add_forces` reads positions and adds to forces.
 //! Invariant: forces depend on differences of positions and come in opposite pairs, so they do not

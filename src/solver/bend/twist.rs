@@ -1,19 +1,19 @@
 //! Twist of grid cells: one implicit step along strips of cells.
 //!
 //! ```text
-//! a ─── b ─── ·     T = a − b − c + d per cell. In a strip a cell shares particles with the previous
-//! │  ╲  │     │     and the next cell only, so the multipliers solve a tridiagonal system
+//! a ─── b ─── ·     T = a − b − c + d per cell. In a strip a cell shares particles with the
+//! │  ╲  │     │     two neighbouring cells only, so the multipliers solve a tridiagonal system
 //! c ─── d ─── ·     (Σ w + α̃) λ − (w_b + w_d) λ₊ − … = −(T + α̃ λ₀)
 //! ```
-//! Method: XPBD solved exactly per strip by L D Lᵀ factors. The strips along all rows remove what is
-//! long along rows, those along the columns the rest; so saddle shapes, which neither rows nor columns of
-//! `plate` resist, are implicit too. Every other strip is solved at once, since these share no particle.
-//! Steps that are the same for all cells run over all cells, with zeros in the other strips, so the
-//! compiler vectorises them.
+//! Method: XPBD solved exactly per strip by L D Lᵀ factors. The strips along all rows remove what
+//! is long along rows, those along the columns the rest; so saddle shapes, which neither rows nor
+//! columns of `plate` resist, are implicit too. Every other strip is solved at once, since these
+//! share no particle. Steps that are the same for all cells run over all cells, with zeros in the
+//! other strips, so the compiler vectorises them.
 //!
 //! Reads element weights, inverse masses, folds and start positions; writes positions and `lambda`.
-//! Invariant: multipliers start at zero in the first solve of a substep, and the second solve continues
-//! with them.
+//! Invariant: multipliers start at zero in the first solve of a substep, and the second solve
+//! continues with them.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
@@ -27,12 +27,12 @@ pub(crate) struct Twist {
     lambda: VectorColumns,
     /// Compliance of each cell [1/kg]; 0 where there is no cell.
     compliance: Vec<f32>,
-    /// Factors of the strips along rows, and of the even and the odd strips along columns; the entries of
-    /// other strips are 0.
+    /// Factors of the strips along rows, and of the even and the odd strips along columns; the
+    /// entries of other strips are 0.
     rows: TridiagonalFactor,
     columns: [TridiagonalFactor; 2],
-    /// Start positions of one axis, and the damping share of the twist at the start, in the order of
-    /// additions of rows and of columns.
+    /// Start positions of one axis, and the damping share of the twist at the start, in the order
+    /// of additions of rows and of columns.
     start: Vec<f32>,
     start_twist: [VectorColumns; 2],
     /// Rest twist of each cell [m].
@@ -243,7 +243,8 @@ impl Twist {
     }
 }
 
-/// Number of zeros before the first cell, so that each cell has a neighbour before, above and diagonally.
+/// Number of zeros before the first cell, so that each cell has a neighbour before, above and
+/// diagonally.
 fn margin(columns: usize) -> usize {
     columns + 1
 }
@@ -312,7 +313,8 @@ fn compute_start_lanes(start: &mut [f32], to: &[f32], displacement: &[f32]) {
 
 leveled! {
     /// Computes a share of the twist of each cell.
-    fn scaled_twist(out: &mut [f32], x: &[f32], strides: [usize; 2], share: f32) = scaled_twist_lanes
+    fn scaled_twist(out: &mut [f32], x: &[f32], strides: [usize; 2], share: f32)
+        = scaled_twist_lanes
 }
 
 #[inline(always)]
@@ -367,7 +369,8 @@ fn compute_residual_lanes(
 
 leveled! {
     /// Forward and backward substitution along the columns of a factor; other columns become 0.
-    fn substitute_columns(change: &mut [f32], factor: &TridiagonalFactor, columns: usize) = substitute_columns_lanes
+    fn substitute_columns(change: &mut [f32], factor: &TridiagonalFactor, columns: usize)
+        = substitute_columns_lanes
 }
 
 #[inline(always)]
@@ -394,7 +397,13 @@ fn substitute_columns_lanes(change: &mut [f32], factor: &TridiagonalFactor, colu
 
 leveled! {
     /// Adds changes to multipliers, and moves particles by the changes of the four cells around.
-    fn apply_lambda(lambda: &mut [f32], change: &[f32], x: &mut [f32], w: &[f32], strides: [usize; 2]) = apply_lambda_lanes
+    fn apply_lambda(
+        lambda: &mut [f32],
+        change: &[f32],
+        x: &mut [f32],
+        w: &[f32],
+        strides: [usize; 2],
+    ) = apply_lambda_lanes
 }
 
 #[inline(always)]

@@ -7,9 +7,9 @@
 //!        ╱                     α: angle between u and the triangle
 //!      u
 //! ```
-//! Method: a quadratic pressure per triangle as in flat-plate aerodynamics, shared among its corners
-//! by their rest areas. It runs once per tick and is explicit in time, so the pressure is clamped to
-//! the range where explicit drag is stable.
+//! Method: a quadratic pressure per triangle as in flat-plate aerodynamics, shared among its
+//! corners by their rest areas. It runs once per tick and is explicit in time, so the pressure is
+//! clamped to the range where explicit drag is stable.
 //!
 //! Reads positions, velocities, masses, wind and material; writes `scratch.acceleration` and
 //! `scratch.relative_wind`.
@@ -151,7 +151,8 @@ vectored! {
 
 leveled! {
     /// Divides force by mass and adds gravity.
-    fn apply_mass_and_gravity(force: &mut [f32], mass: &[f32], gravity: f32) = apply_mass_and_gravity_column
+    fn apply_mass_and_gravity(force: &mut [f32], mass: &[f32], gravity: f32)
+        = apply_mass_and_gravity_column
 }
 
 #[inline(always)]

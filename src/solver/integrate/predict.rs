@@ -104,7 +104,8 @@ fn compute_displacement_column(
 
 leveled! {
     /// Adds one component of each displacement, and stores the predicted positions.
-    fn apply_displacement(x: &mut [f32], displacement: &[f32], predicted: &mut [f32]) = apply_displacement_column
+    fn apply_displacement(x: &mut [f32], displacement: &[f32], predicted: &mut [f32])
+        = apply_displacement_column
 }
 
 #[inline(always)]

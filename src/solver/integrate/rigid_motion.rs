@@ -1,14 +1,15 @@
-//! Rigid motion: the translation and rotation about the centre of mass that fits given displacements.
+//! Rigid motion: the translation and rotation about the centre of mass that fits given
+//! displacements.
 //!
 //! ```text
 //! c = Σ m x / Σ m      t = Σ m d / Σ m      ω = I⁻¹ Σ m (x − c) × (d − t)
 //! displacement of a rigid body at x:   t + ω × (x − c)
 //! ```
-//! Method: the rigid displacement with the same linear and angular momentum, as in the global damping
-//! of Müller et al., "Position based dynamics", 2007, sec. 3.5.
+//! Method: the rigid displacement with the same linear and angular momentum, as in the global
+//! damping of Müller et al., "Position based dynamics", 2007, sec. 3.5.
 //!
-//! Reads positions, displacements and masses; writes nothing.
-//! Invariant: the sums use eight lanes in a fixed order, so the bits do not depend on the SIMD level.
+//! Reads positions, displacements and masses; writes nothing. Invariant: the sums use eight lanes
+//! in a fixed order, so the bits do not depend on the SIMD level.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
@@ -159,7 +160,8 @@ impl<'a> FreeParticles<'a> {
 
 vectored! {
     /// Sums m, m x and m d. Particle i goes to lane i mod 8.
-    fn sum_momentum(free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) = sum_momentum_lanes, Avx2, sum_momentum_scalar
+    fn sum_momentum(free: FreeParticles<'_>, sums: &mut [LaneArray; 7])
+        = sum_momentum_lanes, Avx2, sum_momentum_scalar
 }
 
 vectored! {

@@ -5,10 +5,9 @@
 //! zero and later ticks only advance the clock. A moving pin, anchor, grab or collider, uneven
 //! wind, or any call that changes the cloth wakes it.
 //!
-//! Reads velocities, wind and kinematic targets; writes `world.sleep`, and velocities and history as
-//! the cloth falls asleep.
-//! Invariant: with `sleep_speed = 0` the cloth never sleeps. A sleeping cloth keeps its positions
-//! bit for bit.
+//! Reads velocities, wind and kinematic targets; writes `world.sleep`, and velocities and history
+//! as the cloth falls asleep. Invariant: with `sleep_speed = 0` the cloth never sleeps. A sleeping
+//! cloth keeps its positions bit for bit.
 
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;

@@ -51,7 +51,8 @@ pub(crate) fn update(world: &mut World) {
 
 leveled! {
     /// Updates one component of velocity and history.
-    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: BdfScheme, decay: f32) = update_column_lanes
+    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: BdfScheme, decay: f32)
+        = update_column_lanes
 }
 
 #[inline(always)]

@@ -2,13 +2,13 @@
 //!
 //! ```text
 //! hard pin   x ← target, w = 0
-//! soft pin   spring of stiffness k:   x ← x + k s² w' (target − x),   w' = 1 / (m + k s²),   s = step
+//! soft pin   spring of stiffness k:   x ← x + k s² w (target − x),   w = 1 / (m + k s²),   s = step
 //! grab       x ← towards the pointer, at most max_displacement per substep, w = 0
 //! ```
 //! Method: a soft pin is solved implicitly together with the inertia of its particle, m / s². Both
 //! are springs, so their sum is one spring of stiffness (m + k s²) / s² about their common minimum.
-//! Later stages see this spring as a larger effective mass, m + k s², and leave it in balance, so no
-//! sweep has to solve the pin again, however stiff it is.
+//! Later stages see this spring as a larger effective mass, m + k s², and leave it in balance, so
+//! no sweep has to solve the pin again, however stiff it is.
 //!
 //! Reads pins, grabs, attachments and the predicted positions; writes positions.
 //! Invariant: targets move evenly over the substeps and are reached exactly in the last one. A grab
@@ -86,8 +86,8 @@ impl CarrierFrames {
         });
     }
 
-    /// Target of a pin after a `share` of the tick [m]. The initial offset of a pin from its place on the
-    /// attachment decreases to zero over the tick.
+    /// Target of a pin after a `share` of the tick [m]. The initial offset of a pin from its place
+    /// on the attachment decreases to zero over the tick.
     fn target(&self, pin: &Pin, share: f32) -> Vec3 {
         let Some([last, now]) = &self.frames else { return pin.target };
         let offset = pin.from - last.point_to_world(pin.local);
@@ -122,7 +122,8 @@ impl World {
         }
     }
 
-    /// Updates the inverse masses of particles with soft pins, after the length of a substep changed.
+    /// Updates the inverse masses of particles with soft pins, after the length of a substep
+    /// changed.
     pub fn refresh_soft_pin_masses(&mut self) {
         let step = self.settings.scheme().velocity_step;
         let (pins, grabs, p) = (&self.pins, &self.grabs, &mut self.particles);

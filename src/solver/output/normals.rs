@@ -64,7 +64,8 @@ pub(crate) fn compute(world: &World, x: &Columns, sums: &mut Columns) {
         .parallel_for(sums.all_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
 }
 
-/// Computes the positions of all particles at `share` between the previous tick (0) and the last (1).
+/// Computes the positions of all particles at `share` between the previous tick (0) and the last
+/// (1).
 pub(crate) fn blend_positions(world: &World, share: f32, out: &mut Columns) {
     out.copy_from(&world.particles.x);
     let lists = out.all_mut().into_iter().zip(world.particles.x_prev_tick.all());
@@ -72,7 +73,8 @@ pub(crate) fn blend_positions(world: &World, share: f32, out: &mut Columns) {
 }
 
 leveled! {
-    /// Blends `x` towards `last`: x · share + last · (1 − share). A share of 1 keeps the bits of `x`.
+    /// Blends `x` towards `last`: x · share + last · (1 − share). A share of 1 keeps the bits of
+    /// `x`.
     pub(crate) fn blend(x: &mut [f32], last: &[f32], share: f32) = blend_lanes
 }
 

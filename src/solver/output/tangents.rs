@@ -9,9 +9,9 @@
 //! grows: along w (n × t). If the texture defines no direction, t is a unit vector normal to n and
 //! w is 1.
 //!
-//! Reads triangles, texture coordinates and positions; writes `Tangents`.
-//! Invariant: the sums are cached until positions or triangles change. `vertex_transform` makes them
-//! orthogonal to the normals.
+//! Reads triangles, texture coordinates and positions; writes `Tangents`. Invariant: the sums are
+//! cached until positions or triangles change. `vertex_transform` makes them orthogonal to the
+//! normals.
 
 use crate::solver::vertex_sums::triangles;
 use crate::solver::world::World;
@@ -138,8 +138,8 @@ vectored! {
     ) = triangles::sum, Avx2, triangles::sum_scalar
 }
 
-/// Direction in which u grows on a triangle, scaled by its area in the texture. The per-vertex input
-/// that other sums use for the wind holds the texture coordinates here.
+/// Direction in which u grows on a triangle, scaled by its area in the texture. The per-vertex
+/// input that other sums use for the wind holds the texture coordinates here.
 #[derive(Clone, Copy)]
 struct TextureTangent;
 

@@ -7,14 +7,14 @@
 //!   ╱──────╲              ╱───╲──╲               ╱─╲──╲
 //!   crossed edges      1. split edges        2. open edges
 //! ```
-//! Method: `plan` makes the cut on a copy of the mesh, so it is known to fit before anything changes. A
-//! crossing near a vertex moves to that vertex, so that no sliver triangle appears; the cut deviates
-//! from the blade by at most `NEAR_VERTEX` of an edge there. At a pinned vertex the crossing moves to
-//! that distance from it instead, so that a cut beside pins does not end at them.
+//! Method: `plan` makes the cut on a copy of the mesh, so it is known to fit before anything
+//! changes. A crossing near a vertex moves to that vertex, so that no sliver triangle appears; the
+//! cut deviates from the blade by at most `NEAR_VERTEX` of an edge there. At a pinned vertex the
+//! crossing moves to that distance from it instead, so that a cut beside pins does not end at them.
 //!
-//! Reads mesh, positions, rest positions and pins; `cut` writes everything that follows from the mesh.
-//! Invariant: a triangle that a cut makes has angles of at least 5°. A plan is valid only for the world
-//! that it was made for.
+//! Reads mesh, positions, rest positions and pins; `cut` writes everything that follows from the
+//! mesh. Invariant: a triangle that a cut makes has angles of at least 5°. A plan is valid only for
+//! the world that it was made for.
 
 use crate::geometry::blade::Blade;
 use crate::geometry::triangle::corner_areas;
@@ -222,8 +222,8 @@ impl<'a> CutDraft<'a> {
         }
     }
 
-    /// Whether the cut continues from each crossed edge into a triangle: to another crossed edge or to a
-    /// vertex. If the blade ends inside a triangle, the cut ends at the last edge before.
+    /// Whether the cut continues from each crossed edge into a triangle: to another crossed edge or
+    /// to a vertex. If the blade ends inside a triangle, the cut ends at the last edge before.
     fn continues(&self, crossed: &[(Corner, f32)]) -> Vec<bool> {
         let is_between_ends = |edge: Corner| !self.ends(edge).iter().any(|end| self.is_on[*end]);
         let mut hits = vec![0_u8; self.mesh.triangles.len()];
@@ -267,7 +267,8 @@ impl<'a> CutDraft<'a> {
         doubled >= MIN_SINE * sides[1] * sides[2] && doubled >= 2.0 * MIN_AREA * spacing * spacing
     }
 
-    /// Edges along the blade: both ends lie on the cut, and the two triangles lie on different sides.
+    /// Edges along the blade: both ends lie on the cut, and the two triangles lie on different
+    /// sides.
     fn edges_along(&self, blade: &Blade) -> Vec<Corner> {
         let side = |triangle: u32| self.side(blade, triangle);
         let is_along = |edge: &Corner| {
@@ -279,8 +280,8 @@ impl<'a> CutDraft<'a> {
         self.mesh.edges().filter(is_along).collect()
     }
 
-    /// Whether a triangle lies on the positive side of the blade: by its corners off the cut if they
-    /// agree, else by its centroid.
+    /// Whether a triangle lies on the positive side of the blade: by its corners off the cut if
+    /// they agree, else by its centroid.
     fn side(&self, blade: &Blade, triangle: u32) -> bool {
         let corners = self.mesh.triangles[triangle as usize].map(|v| v as usize);
         let off_cut = || corners.into_iter().filter(|v| !self.is_on[*v]);

@@ -1,13 +1,14 @@
 //! Stage `Tear`: overstretched links tear, the most overstretched first, by splitting a vertex.
 //!
 //! ```text
-//!        ╲ │ ╱                    ╲ │ ╱
-//!    ─────● end ─ ─ ▶ other   ─────●   ●─────     The triangles at `end` fall into two fans, one on
-//!        ╱ │ ╲                    ╱     ╲         each side of the plane across the link.
+//!        ╲ │ ╱                    ╲   ╱
+//!    ─────● end ─ ─ ▶ other   ─────● ●─────     The triangles at `end` fall into two fans, one on
+//!        ╱ │ ╲                    ╱   ╲         each side of the plane across the link.
 //! ```
 //! Method: of the two ends of the link, the one whose other links pull harder splits first. The fan
-//! on the side of the link gets a new vertex, so no triangle is lost. A link at a crack tip tears at
-//! a lower strain, which makes crack growth independent of the mesh size (see `model::crack_tips`).
+//! on the side of the link gets a new vertex, so no triangle is lost. A link at a crack tip tears
+//! at a lower strain, which makes crack growth independent of the mesh size (see
+//! `model::crack_tips`).
 //!
 //! Reads positions, links, crack tips, settings and material; writes the mesh, particles, pins,
 //! anchors, links, tethers, piece labels, crack tips and events.
@@ -105,8 +106,8 @@ fn can_tear(world: &mut World, particle: u32) -> bool {
 /// link order.
 fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
     candidates.clear();
-    let room = candidates.capacity().saturating_sub(1);
-    let max_count = (world.settings.max_tears_per_tick as usize).min(room);
+    let free_slots = candidates.capacity().saturating_sub(1);
+    let max_count = (world.settings.max_tears_per_tick as usize).min(free_slots);
     let limit = world.material.tear_stretch;
     let variation = world.material.tear_variation;
     let at_tips =
@@ -225,8 +226,8 @@ fn load(world: &World, particle: u32) -> f32 {
     links.map(|(links, link)| pull(links, link)).sum()
 }
 
-/// Splits `end` by the plane through it that is normal to the direction to `other`. Returns false if
-/// all triangles lie on one side.
+/// Splits `end` by the plane through it that is normal to the direction to `other`. Returns false
+/// if all triangles lie on one side.
 fn try_split(world: &mut World, scratch: &mut TearScratch, end: u32, other: u32) -> bool {
     let at = end as usize;
     if world.particles.w[at] <= 0.0 || scratch.touched.contains(&end) {
@@ -377,8 +378,8 @@ pub(crate) fn update_pieces(world: &mut World) {
     world.rebuild_irregular_lists();
 }
 
-/// Pushes one event for each detached piece: all parts of an old piece but the largest, in the order
-/// of their first triangles.
+/// Pushes one event for each detached piece: all parts of an old piece but the largest, in the
+/// order of their first triangles.
 fn push_detached_events(world: &mut World, pieces: &mut PieceLabels, count: u32) {
     pieces.size.clear();
     pieces.size.resize(count as usize, 0);
