@@ -1,9 +1,17 @@
-//! Generational slots: a handle outlives what it named without ever naming something else.
+//! Generational arena: a fixed number of slots addressed by handles that detect stale use.
+//!
+//! ```text
+//! handle = generation (16 bits) | slot + 1 (16 bits)        0 = no handle
+//! ```
+//! A slot gets a new generation when its value is removed, so a handle to the removed value no
+//! longer matches. A generation repeats after 65,535 removals from one slot.
+//!
+//! Invariant: `insert` never allocates, because all slots exist from the start.
 
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 
-/// Values behind handles. A handle is `generation << 16 | slot + 1`, so zero is none.
+/// Values addressed by handles: `generation << 16 | slot + 1`. The handle 0 names nothing.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Arena<T> {
     slots: Vec<Slot<T>>,
@@ -16,13 +24,16 @@ struct Slot<T> {
 }
 
 impl<T> Arena<T> {
-    /// Room for `capacity` values at once; more are refused, so that nothing allocates later.
+    /// Allocates `capacity` empty slots. The arena never grows.
     pub fn with_capacity(capacity: u16) -> Self {
         let empty = || Slot { generation: 1, value: None };
         Self { slots: (0..capacity).map(|_| empty()).collect() }
     }
 
-    /// Keeps `value` and names it.
+    /// Stores `value` in the lowest free slot and returns its handle.
+    ///
+    /// # Errors
+    /// [`Error::Full`] with `what` if no slot is free.
     pub fn insert(&mut self, value: T, what: &'static str) -> Result<u32> {
         let free = self.slots.iter().position(|slot| slot.value.is_none());
         let at = free.ok_or(Error::Full { what })?;
@@ -30,7 +41,10 @@ impl<T> Arena<T> {
         Ok(u32::from(self.slots[at].generation) << 16 | (at as u32 + 1))
     }
 
-    /// Takes out what `handle` names; the handle is stale from then on.
+    /// Removes and returns the value of `handle`, which becomes stale.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`] with `what` if `handle` is stale or was never given out.
     pub fn remove(&mut self, handle: u32, what: &'static str) -> Result<T> {
         let slot = self.slot_mut(handle).ok_or(Error::BadHandle { what })?;
         let value = slot.value.take().ok_or(Error::BadHandle { what })?;
@@ -38,13 +52,13 @@ impl<T> Arena<T> {
         Ok(value)
     }
 
-    /// What `handle` names.
+    /// Returns the value of `handle`, or [`Error::BadHandle`] with `what`.
     pub fn get_mut(&mut self, handle: u32, what: &'static str) -> Result<&mut T> {
         let slot = self.slot_mut(handle).ok_or(Error::BadHandle { what })?;
         slot.value.as_mut().ok_or(Error::BadHandle { what })
     }
 
-    /// What `handle` names.
+    /// Returns the value of `handle`, or [`Error::BadHandle`] with `what`.
     pub fn get(&self, handle: u32, what: &'static str) -> Result<&T> {
         let at = (handle & 0xffff).checked_sub(1).map(|at| at as usize);
         let slot = at.and_then(|at| self.slots.get(at));
@@ -52,7 +66,7 @@ impl<T> Arena<T> {
         slot.and_then(|slot| slot.value.as_ref()).ok_or(Error::BadHandle { what })
     }
 
-    /// Forgets every value; all handles are stale from then on.
+    /// Removes all values. All handles become stale.
     pub fn clear(&mut self) {
         for slot in &mut self.slots {
             if slot.value.take().is_some() {
@@ -61,17 +75,17 @@ impl<T> Arena<T> {
         }
     }
 
-    /// The live values in slot order.
+    /// Iterates over the values in slot order.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
         self.slots.iter().filter_map(|slot| slot.value.as_ref())
     }
 
-    /// The live values in slot order.
+    /// Iterates over the values in slot order.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.slots.iter_mut().filter_map(|slot| slot.value.as_mut())
     }
 
-    /// The number of slots, live or not.
+    /// Returns the number of slots, occupied or free.
     pub fn capacity(&self) -> usize {
         self.slots.len()
     }
@@ -88,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_removed_value_leaves_a_stale_handle_behind() {
+    fn the_handle_of_a_removed_value_is_refused() {
         let mut arena = Arena::with_capacity(2);
         let old = arena.insert('a', "grab").unwrap();
         assert_eq!(arena.remove(old, "grab"), Ok('a'));
@@ -99,12 +113,12 @@ mod tests {
     }
 
     #[test]
-    fn a_full_arena_refuses_and_made_up_handles_are_refused() {
+    fn a_full_arena_and_unknown_handles_give_errors() {
         let mut arena = Arena::with_capacity(1);
         arena.insert('a', "grab").unwrap();
         assert_eq!(arena.insert('b', "a grab"), Err(Error::Full { what: "a grab" }));
-        for made_up in [0, 1, 7, u32::MAX, 1 << 16] {
-            assert!(arena.get_mut(made_up, "grab").is_err(), "{made_up:#x}");
+        for unknown in [0, 1, 7, u32::MAX, 1 << 16] {
+            assert!(arena.get_mut(unknown, "grab").is_err(), "{unknown:#x}");
         }
     }
 }

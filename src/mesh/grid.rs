@@ -1,17 +1,29 @@
-//! The regular grid: its vertices, triangles and uvs. Vertex = row · columns + column.
+//! The regular grid: positions, texture coordinates and triangles. Vertex = row · columns + column.
+//!
+//! ```text
+//! (0,0) ──▶ right
+//!   ●───●───●
+//!   │ ╲ │ ╱ │     diagonals alternate like a chessboard
+//!   ●───●───●
+//!   ▼ down
+//! ```
 
 use glam::{Vec2, Vec3};
 
-/// Where a grid lies in space: vertex (0, 0) is its top left.
+/// Placement of a grid in space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GridFrame {
+    /// Position of vertex (0, 0), the top left [m].
     pub origin: Vec3,
+    /// Unit direction along a row.
     pub right: Vec3,
+    /// Unit direction along a column.
     pub down: Vec3,
+    /// Distance between neighbours [m].
     pub spacing: f32,
 }
 
-/// Positions, row by row.
+/// Vertex positions, row by row [m].
 pub(crate) fn positions(columns: u32, rows: u32, frame: &GridFrame) -> Vec<Vec3> {
     let at = |row: u32, column: u32| {
         let (across, along) = (column as f32 * frame.spacing, row as f32 * frame.spacing);
@@ -20,7 +32,7 @@ pub(crate) fn positions(columns: u32, rows: u32, frame: &GridFrame) -> Vec<Vec3>
     (0..rows).flat_map(|row| (0..columns).map(move |column| at(row, column))).collect()
 }
 
-/// Texture coordinates: (0, 1) at the top left, (1, 0) at the bottom right.
+/// Texture coordinates, row by row: (0, 1) at the top left, (1, 0) at the bottom right.
 pub(crate) fn uvs(columns: u32, rows: u32) -> Vec<Vec2> {
     let at = |row: u32, column: u32| {
         let (u, v) = (column as f32 / (columns - 1) as f32, row as f32 / (rows - 1) as f32);
@@ -29,15 +41,16 @@ pub(crate) fn uvs(columns: u32, rows: u32) -> Vec<Vec2> {
     (0..rows).flat_map(|row| (0..columns).map(move |column| at(row, column))).collect()
 }
 
-/// Two triangles a cell, row by row; their normals point along `down` × `right`.
+/// Two triangles per cell, row by row. Their normals point along `down` × `right`.
 ///
-/// Diagonals alternate like the fields of a chessboard, so that no direction is favoured.
+/// Diagonals alternate from cell to cell, so that no direction is preferred.
 pub(crate) fn triangles(columns: u32, rows: u32) -> Vec<[u32; 3]> {
     let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (row, column)));
     cells.flat_map(|(row, column)| cell_triangles(columns, row, column)).collect()
 }
 
-/// The triangles of one cell. The first begins top left, bottom left; the second ends top right.
+/// The two triangles of one cell. The first starts with top left, bottom left; the second ends with
+/// top right.
 pub(crate) fn cell_triangles(columns: u32, row: u32, column: u32) -> [[u32; 3]; 2] {
     let top_left = row * columns + column;
     let (top_right, bottom_left) = (top_left + 1, top_left + columns);
@@ -49,13 +62,13 @@ pub(crate) fn cell_triangles(columns: u32, row: u32, column: u32) -> [[u32; 3]; 
     }
 }
 
-/// Whether the diagonal of a cell falls from top left to bottom right.
+/// Whether the diagonal of a cell runs from top left to bottom right.
 pub(crate) fn has_falling_diagonal(row: u32, column: u32) -> bool {
     (row + column).is_multiple_of(2)
 }
 
-/// What of a triangle's area falls to its corners, as `geom::triangle::corner_areas` has it but for
-/// rounding: half to the right angle, which is at the edge that its cell's diagonal does not touch.
+/// Rest area per corner of each triangle [m²]: half of the triangle's area at the right angle, a
+/// quarter at each of the others. Equals `geometry::triangle::corner_areas` up to rounding.
 pub(crate) fn corner_areas(columns: u32, rows: u32, spacing: f32) -> Vec<[f32; 3]> {
     let (half, quarter) = (0.25 * spacing * spacing, 0.125 * spacing * spacing);
     let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (row, column)));

@@ -1,18 +1,21 @@
-//! Finding the regular grid in a mesh that is one.
+//! Detection of a regular grid in a given mesh, so that it can use the grid solver.
+//!
+//! Compares the triangles with those of `grid` (same order), then fits the spacing and checks each
+//! position against rounding error.
+//!
+//! Reads triangles and positions; returns a `DetectedGrid`.
 
 use crate::mesh::grid;
-
 use crate::mesh::grid::GridFrame;
 use glam::Vec3;
 
-/// How far a vertex may be off its place in the grid, over the largest number in a position: what
-/// rounding does.
+/// Tolerated deviation of a position, relative to the largest coordinate: a few units of rounding.
 const ROUNDING: f32 = 4.0 * f32::EPSILON;
 
-/// So many numbers on either side of a first guess may be the spacing.
+/// Number of neighbouring floats tried as spacing, on either side of the first estimate.
 const SPACING_GUESSES: i32 = 16;
 
-/// A regular grid: its vertices and triangles are in the order of `grid`.
+/// A regular grid whose vertices and triangles have the order of `grid`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DetectedGrid {
     pub columns: u32,
@@ -21,9 +24,11 @@ pub(crate) struct DetectedGrid {
 }
 
 impl DetectedGrid {
-    /// The grid that a mesh is, if it is one: in its order, square, and but for rounding evenly spaced.
+    /// Returns the grid that a mesh is, or `None`: same order of vertices and triangles as `grid`,
+    /// square cells, evenly spaced up to rounding.
     ///
-    /// Its frame gives the very positions if one does whose directions are those of axes.
+    /// If some frame along the coordinate axes reproduces the positions exactly, the result has
+    /// that frame.
     pub fn detect(triangles: &[[u32; 3]], positions: &[Vec3]) -> Option<Self> {
         let columns = triangles.first()?[1];
         if columns < 2 || !positions.len().is_multiple_of(columns as usize) {
@@ -73,7 +78,7 @@ impl DetectedGrid {
     }
 
     fn is_exact(&self, positions: &[Vec3]) -> bool {
-        // Most guesses are wrong at the end of the first row already.
+        // Most guesses fail within the first row already.
         let ends = Self { rows: 1, ..*self };
         let row = grid::positions(ends.columns, ends.rows, &ends.frame);
         positions[..self.columns as usize] == row
@@ -97,7 +102,7 @@ mod tests {
     };
 
     #[test]
-    fn a_grid_is_found_with_its_very_positions() {
+    fn a_grid_is_detected_with_its_exact_positions() {
         for (columns, rows) in [(2, 2), (40, 40), (7, 31)] {
             let (triangles, positions) = sheet(columns, rows, FRAME);
             let found = DetectedGrid::detect(&triangles, &positions).unwrap();
@@ -110,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_that_is_turned_is_found_within_rounding() {
+    fn a_rotated_grid_is_detected_within_rounding() {
         let (right, down) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.8, 0.0, -0.6));
         let (triangles, positions) = sheet(20, 10, GridFrame { right, down, ..FRAME });
         let found = DetectedGrid::detect(&triangles, &positions).unwrap();
@@ -118,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_quite_a_grid_is_none() {
+    fn an_irregular_grid_is_not_detected() {
         let (triangles, positions) = sheet(6, 5, FRAME);
         let mut moved = positions.clone();
         moved[8].z += 1.0e-4;

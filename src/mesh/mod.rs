@@ -1,4 +1,14 @@
-//! The triangle mesh of a cloth: its topology, its repair at creation, and the surgery of tears and cuts.
+//! Triangle meshes: topology, repair of given meshes, and the surgery of tears and cuts.
+//!
+//! | file | content |
+//! | --- | --- |
+//! | `topology` | corner table: adjacency and vertex fans |
+//! | `intake` | repair of a given mesh: weld, remove degenerate triangles, split non-manifold parts, orient |
+//! | `validate` | check of a mesh that must already be sound (saved cloths) |
+//! | `grid`, `grid_detection` | the regular grid, and detection of one in a given mesh |
+//! | `split_vertex`, `split_edge` | surgery for tears and cuts |
+//! | `seams` | render vertices that share a particle |
+//! | `report` | what the repair did |
 
 pub(crate) mod grid;
 pub(crate) mod grid_detection;

@@ -1,48 +1,47 @@
-//! What became of a mesh when a cloth was made of it.
+//! Report of the mesh repair at creation.
 
 use serde::{Deserialize, Serialize};
 
-/// What had to be repaired of a mesh before it could be cloth, and what it is now.
+/// What the repair changed when a cloth was made from a mesh.
 ///
-/// Repairs come in this order: vertices are welded, triangles without an area and repeated ones are
-/// dropped, edges and vertices where more than one sheet meets are split, triangles that face the other
-/// way are turned.
+/// The repairs run in this order: weld vertices, remove degenerate and duplicate triangles, split
+/// non-manifold edges and vertices, orient triangles consistently.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MeshReport {
-    /// Vertices that were given.
+    /// Number of given vertices.
     pub vertices: u32,
-    /// Triangles that were given.
+    /// Number of given triangles.
     pub triangles: u32,
-    /// Particles that came of it.
+    /// Number of particles after the repair.
     pub particles: u32,
-    /// Triangles that were kept.
+    /// Number of triangles after the repair.
     pub kept_triangles: u32,
-    /// Vertices that joined another one's particle.
+    /// Vertices that were welded to another vertex and share its particle.
     pub welded_vertices: u32,
-    /// Triangles that were dropped: they had no area, or named a vertex twice.
+    /// Removed triangles that have no area or name a vertex twice.
     pub dropped_degenerate: u32,
-    /// Triangles that were dropped: an earlier one has the same corners.
+    /// Removed triangles that have the same three corners as an earlier one.
     pub dropped_duplicates: u32,
-    /// Triangles that were turned round, so that they face as their neighbours do.
+    /// Triangles whose winding was reversed to match their neighbours.
     pub turned_triangles: u32,
-    /// Edges that had more than two triangles.
+    /// Non-manifold edges (more than two triangles) that were split.
     pub split_edges: u32,
-    /// Particles that came to be where sheets were parted that met at such an edge or at a mere point.
+    /// Particles added by splitting non-manifold edges and vertices.
     pub split_vertices: u32,
-    /// Vertices that no triangle uses. They are particles without mass that stay where they are, unless
-    /// they were welded.
+    /// Vertices that no kept triangle uses. Each is a particle without mass that does not move,
+    /// unless it was welded.
     pub unused_vertices: u32,
-    /// Pieces: sets of triangles joined by edges.
+    /// Number of pieces: sets of triangles connected through edges.
     pub pieces: u32,
-    /// Pieces that have no two sides, such as a Möbius strip: a line across them is left where neighbours
-    /// face opposite ways.
+    /// Number of non-orientable pieces, such as a Möbius strip. Each keeps a line of edges across
+    /// which the windings differ.
     pub one_sided_pieces: u32,
-    /// Whether it is woven as the regular grid that it was found to be.
+    /// Whether the mesh is a regular grid, so that the cloth uses the faster grid solver.
     pub is_grid: bool,
 }
 
 impl MeshReport {
-    /// Whether nothing had to be repaired.
+    /// Returns whether the mesh needed no repair.
     pub fn is_clean(&self) -> bool {
         let repairs = [
             self.welded_vertices,

@@ -1,40 +1,49 @@
-//! Seams: where vertices share a particle, each with texture coordinates of its own.
+//! UV seams: render vertices that share one particle and have different texture coordinates.
 //!
-//! A mesh of particles moves, tears and is cut; a renderer draws vertices. Where nothing was welded each
-//! particle is a vertex and there are no seams. Else both have the same triangles, and this is the other
-//! list of their corners. When a particle is split, a vertex with triangles on both sides is split too;
-//! one with all of them on one side goes there.
+//! Particles are simulated, torn and cut; a renderer draws vertices. Without welding or
+//! non-manifold splits each vertex is the particle of the same number, and there are no `Seams`.
+//! Otherwise both index lists describe the same triangles, and `Seams` holds the list over
+//! vertices.
+//!
+//! ```text
+//! particle p ●  has vertices a, b:   triangles left of the seam use a, right of it b
+//! ```
+//! When a particle is split, a vertex with triangles on both sides is split too; a vertex with
+//! triangles on one side only goes to that side.
+//!
+//! Reads `EdgeSplit` and the corners of split particles; writes its own lists.
+//!
+//! Invariant: `particles[triangles[t][k]]` is the particle at corner k of triangle t.
 
 use crate::math::sort::sort;
 use crate::mesh::split_edge::{CutSite, EdgeSplit};
 use crate::mesh::{Corner, Mesh, next_corner, prev_corner, triangle_of};
 use serde::{Deserialize, Serialize};
 
-/// The vertices of a mesh whose particles are shared.
-///
-/// Invariant: `particles[triangles[t][k]]` is the particle at that corner.
+/// The render vertices of a mesh. Field order is part of the save format.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Seams {
     /// Vertex of each corner.
     pub triangles: Vec<[u32; 3]>,
-    /// The particle of each vertex.
+    /// Particle of each vertex.
     pub particles: Vec<u32>,
-    /// The site of each vertex: the given vertex that it came from, or a crossing, which follow those.
+    /// Site of each vertex: the given vertex that it came from, or a site created by a cut. The
+    /// latter have the numbers from `original_count` on.
     pub sites: Vec<u32>,
-    /// Where cuts made vertices, between two sites.
+    /// Sites created by cuts, each between two older sites.
     pub cut_sites: Vec<CutSite>,
-    /// Vertices that were given.
+    /// Number of given vertices.
     pub original_count: u32,
-    /// How many corners each vertex has.
+    /// Number of corners that use each vertex.
     #[serde(skip)]
     corner_counts: Vec<u32>,
-    /// How many vertices there may be in all.
+    /// Maximum number of vertices.
     #[serde(skip)]
     capacity: usize,
 }
 
 impl Seams {
-    /// `triangles` are of vertices, `particles` has the particle of each.
+    /// Creates seams from triangles over vertices and the particle of each vertex.
     pub fn new(triangles: Vec<[u32; 3]>, particles: Vec<u32>) -> Self {
         let original_count = particles.len() as u32;
         let mut seams = Self {
@@ -58,15 +67,16 @@ impl Seams {
         }
     }
 
-    /// How many vertices there may be in all.
+    /// Maximum number of vertices.
     pub fn capacity(&self) -> usize {
         self.capacity
     }
 
-    /// Makes room for `extra` more particles, in a mesh that has at most `triangles`.
+    /// Reserves for `extra` more particles, in a mesh of at most `triangles` triangles.
     ///
-    /// A particle that is split gives at most all of its vertices to the new one as copies, so the most
-    /// vertices that any has is enough for each; and no corner needs more than a vertex of its own.
+    /// A split gives the new particle a copy of each vertex of the old one at most, so the largest
+    /// number of vertices per particle bounds the growth. No corner needs more than one vertex of
+    /// its own.
     pub fn set_capacity(&mut self, extra: usize, triangles: usize) {
         let mut used: Vec<u32> = (0..self.particles.len())
             .filter(|vertex| self.corner_counts[*vertex] > 0)
@@ -80,15 +90,18 @@ impl Seams {
         self.reserve();
     }
 
-    /// Makes the room that there was in the list that this is a clone of.
+    /// Allocates up to the capacity. A clone needs this, since cloning drops spare capacity.
     pub fn reserve(&mut self) {
         for list in [&mut self.particles, &mut self.sites, &mut self.corner_counts] {
             list.reserve_exact(self.capacity.saturating_sub(list.len()));
         }
     }
 
-    /// Follows a split: `corners` are those of the new particle. Tells each new vertex and the one that it
-    /// was; or, if there is none, the lowest vertex that went to the new particle, twice.
+    /// Applies the split of a particle: the vertices at `corners` move to, or are copied for, the
+    /// new `particle`.
+    ///
+    /// Calls `on_new_vertex(new, old)` for each copied vertex. If none was copied, calls it once
+    /// with the lowest vertex that moved, twice.
     pub fn split_particle(
         &mut self,
         particle: u32,
@@ -126,8 +139,9 @@ impl Seams {
         }
     }
 
-    /// Follows the division of the edge between two particles, `share` of it from the first. Gives the
-    /// vertex that came to be on the first side; where the edge is a seam, there is another one beyond.
+    /// Applies the split of the edge between the particles `ends` at `share` from the first.
+    /// Returns the new vertex on the first side; where the edge is a seam, the next vertex is the
+    /// one on the other side.
     pub fn split_edge(&mut self, split: &EdgeSplit, ends: [u32; 2], share: f32) -> u32 {
         let first = self.particles.len() as u32;
         for side in split.sides() {
@@ -138,7 +152,7 @@ impl Seams {
             let is_turned = self.particles[near as usize] != ends[0];
             let ends = if is_turned { [far_site, near_site] } else { [near_site, far_site] };
             let cut_site = CutSite { ends, fraction: share };
-            // The other side has the same vertices, unless the edge is a seam.
+            // The other side shares the vertex unless the edge is a seam.
             let is_met =
                 self.particles.len() as u32 > first && self.cut_sites.last() == Some(&cut_site);
             let new = self.particles.len() as u32 - u32::from(is_met);
@@ -156,7 +170,7 @@ impl Seams {
         first
     }
 
-    /// The particles of given vertices, all that they have become.
+    /// All particles that now belong to the given original vertices.
     pub fn particles_of(&self, vertices: &[u32]) -> Vec<u32> {
         let mut is_meant = vec![false; self.original_count as usize];
         vertices.iter().for_each(|vertex| is_meant[*vertex as usize] = true);
@@ -168,8 +182,8 @@ impl Seams {
         self.triangles[triangle_of(corner)][corner as usize % 3]
     }
 
-    /// Takes on what bytes from outside say of the seams of a mesh that was made with `fresh` ones; false
-    /// if that does not fit.
+    /// Completes seams that were read from a save. Returns false if they do not fit the mesh, where
+    /// `fresh` are the seams of the same mesh before any tear or cut.
     pub fn restore_checked(&mut self, fresh: &Self, mesh: &Mesh) -> bool {
         let count = self.particles.len();
         let original = fresh.original_count as usize;

@@ -1,4 +1,4 @@
-//! Dividing an edge: a new vertex on it parts the triangle on either side in two.
+//! Edge splits: insert a vertex on an edge and divide the triangle on either side.
 //!
 //! ```text
 //!        opposite                     opposite
@@ -7,8 +7,15 @@
 //!      ╱          ╲                 ╱kept | added╲
 //!   near ───────── far           near ── new ──── far
 //! ```
-//! Cuts divide every edge that the blade crosses, one after the other; where it crosses two edges of a
-//! triangle, the second division leaves an edge along the blade. Then those edges open.
+//! A cut splits every edge that the blade crosses, one after the other. Where the blade crosses two
+//! edges of a triangle, the second split creates an edge along the blade. `open_edges` then opens
+//! the edges along the blade.
+//!
+//! Reads and writes the `Mesh` only; `seams` and `model::cut_links` apply the returned `EdgeSplit`
+//! to render vertices and links.
+//!
+//! Invariant: adjacency stays valid after each split; `corner_of` is valid again after
+//! `rebuild_vertex_corners`.
 
 use crate::math::sort::sort;
 use crate::mesh::split_vertex::OpenedEdge;
@@ -16,23 +23,26 @@ use crate::mesh::{Corner, Fan, Mesh, NONE, next_corner, prev_corner, triangle_of
 use core::ops::{Add, Mul, Sub};
 use serde::{Deserialize, Serialize};
 
-/// Where a cut made a vertex: on the way between two sites, at this share of it from the first.
+/// A site that a cut created, between two older sites.
 ///
-/// A site is a place in the rest shape: the original vertices are the first of them, the crossings of
-/// all cuts follow in their order. Every vertex has one, and vertices that were split share theirs.
+/// A site is a point of the rest shape. The original vertices are the first sites, the sites
+/// created by cuts follow in order. Every vertex belongs to one site; vertices that were split from
+/// each other share it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CutSite {
+    /// The two sites.
     pub ends: [u32; 2],
+    /// Position between them: 0 is the first, 1 the second; 0 < `fraction` < 1.
     pub fraction: f32,
 }
 
 impl CutSite {
-    /// The end that is nearer; of equals the first.
+    /// The nearer of the two ends; the first if both are equally near.
     pub fn nearest_end(&self) -> u32 {
         self.ends[usize::from(self.fraction > 0.5)]
     }
 
-    /// What the ends have, at that share between them.
+    /// Interpolates linearly between the values of the two ends.
     pub fn interpolate<V>(&self, of: impl Fn(u32) -> V) -> V
     where
         V: Copy + Sub<Output = V> + Add<Output = V> + Mul<f32, Output = V>,
@@ -42,52 +52,55 @@ impl CutSite {
     }
 }
 
-/// A triangle that was divided.
+/// A triangle that an edge split divided.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SplitTriangle {
-    /// Where the edge starts in the triangle that stays: corners near end, new vertex, opposite.
+    /// The corner where the edge starts in the kept triangle, whose corners are now: near end, new
+    /// vertex, opposite vertex.
     pub edge: Corner,
-    /// The triangle that came to be: corners new vertex, far end, opposite.
+    /// The added triangle, with corners: new vertex, far end, opposite vertex.
     pub added: u32,
 }
 
 impl SplitTriangle {
-    /// The triangle that stays.
+    /// The triangle that keeps its number.
     pub fn kept(&self) -> u32 {
         self.edge / 3
     }
 
-    /// Where the edge from the far end to the opposite vertex started, which is the added triangle's now.
+    /// Former place of the edge from the far end to the opposite vertex, which now belongs to the
+    /// added triangle.
     pub fn moved_edge(&self) -> Corner {
         next_corner(self.edge)
     }
 
-    /// The same edge where it is now.
+    /// Present place of the edge that [`Self::moved_edge`] names.
     pub fn new_edge(&self) -> Corner {
         3 * self.added + 1
     }
 }
 
-/// What dividing an edge did.
+/// Result of an edge split.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeSplit {
-    /// The vertex that came to be.
+    /// The new vertex.
     pub vertex: u32,
-    /// The triangle that was asked for, then the one beyond, if there is one.
+    /// The triangle of the given edge, then its neighbour if there is one.
     pub sides: [Option<SplitTriangle>; 2],
 }
 
 impl EdgeSplit {
-    /// The triangles that were divided.
+    /// The divided triangles.
     pub fn sides(&self) -> impl Iterator<Item = SplitTriangle> {
         self.sides.into_iter().flatten()
     }
 }
 
 impl Mesh {
-    /// Puts a new vertex on the edge that starts at `edge`. The caller has seen to room for it.
+    /// Inserts a new vertex of `site` on the edge that starts at `edge`. The caller has reserved
+    /// capacity.
     ///
-    /// `corner_of` is out of date then, until `find_corners`.
+    /// `corner_of` is out of date until `rebuild_vertex_corners` runs.
     pub fn split_edge(&mut self, edge: Corner, site: u32) -> EdgeSplit {
         let beyond = self.across(edge);
         let ends = self.ends(edge);
@@ -112,6 +125,7 @@ impl Mesh {
         EdgeSplit { vertex, sides: [Some(first), second.map(|(_, side)| side)] }
     }
 
+    /// Divides the triangle of `edge` at the new `vertex` and connects the added triangle.
     fn split_triangle(&mut self, edge: Corner, vertex: u32) -> SplitTriangle {
         let (far, opposite) = (self.vertex(next_corner(edge)), self.vertex(prev_corner(edge)));
         let added = self.triangles.len() as u32;
@@ -119,7 +133,8 @@ impl Mesh {
         let moved = self.ends(next_corner(edge));
         self.triangles.push([vertex, far, opposite]);
         self.across.push([NONE; 3]);
-        // Both halves of a hem are hems, the moved edge stays what it was, and the new one is inside.
+        // Both halves of a rest border are rest borders, the moved edge keeps its mark, the new
+        // edge has none.
         let is_hem = |edge: Corner| u8::from(self.is_rest_border(edge));
         let (divided, kept) = (is_hem(edge), is_hem(prev_corner(edge)));
         self.rest_borders.push(divided | is_hem(next_corner(edge)) << 1);
@@ -136,17 +151,17 @@ impl Mesh {
         SplitTriangle { edge, added }
     }
 
-    /// Joins two triangles at an edge of each.
+    /// Makes two triangles neighbours across an edge of each.
     fn join_edges(&mut self, a: Corner, b: Corner) {
         self.across[triangle_of(a)][a as usize % 3] = b / 3;
         self.across[triangle_of(b)][b as usize % 3] = a / 3;
     }
 
-    /// Opens inner edges, and gives every fan that falls off a vertex a new one.
+    /// Opens inner edges, and gives every fan that is disconnected from a vertex a new vertex.
     ///
-    /// An edge of which neither end comes apart cannot open and stays as it was. `opened` gets the
-    /// others in the order they were named, `copies` each new vertex and the one that it was. The
-    /// fan with the lowest corner keeps its vertex.
+    /// An edge stays closed if neither of its ends is split. `opened` receives the opened edges in
+    /// the given order, `copies` each new vertex and the one that it was copied from. The fan with
+    /// the lowest corner keeps its vertex.
     pub fn open_edges(
         &mut self,
         edges: &[Corner],
@@ -200,11 +215,11 @@ impl Mesh {
         }
     }
 
-    /// The same edge in the triangle across. There is one.
+    /// The same edge in the neighbouring triangle, which must exist.
     fn twin(&self, edge: Corner) -> Corner {
         let beyond = self.across(edge);
         let found = (3 * beyond..3 * beyond + 3).find(|other| self.ends(*other) == self.ends(edge));
-        debug_assert!(found.is_some(), "edge {edge} is an inner one");
+        debug_assert!(found.is_some(), "edge {edge} is an inner edge");
         found.unwrap_or(edge)
     }
 }
@@ -215,8 +230,8 @@ mod tests {
     use crate::mesh::grid;
 
     #[test]
-    fn dividing_keeps_up_to_date_what_connecting_finds() {
-        // Some triangles wound the other way.
+    fn edge_splits_update_the_adjacency_as_a_rebuild_does() {
+        // Some triangles have the opposite winding.
         let mut triangles = grid::triangles(4, 4);
         triangles.iter_mut().step_by(3).for_each(|triangle| triangle.swap(0, 1));
         let mut mesh = Mesh::new(triangles, 16, 200);

@@ -1,11 +1,24 @@
-//! Splitting a vertex: some of its triangles get a new vertex of their own, and edges open.
+//! Vertex splits (tearing): give an arc of triangles around a vertex a new vertex, which opens two
+//! edges.
+//!
+//! ```text
+//!    1 ╲  │  ╱ 2            1 ╲  │  ╱ 2
+//!       ╲ │ ╱                  ╲ │ ╱
+//!   ────  v  ────    ─▶    ────  v  ────     two edges open: each side has
+//!       ╱ │ ╲              ────  v′ ────     its own vertex and border
+//!    4 ╱  │  ╲ 3                ╱ │ ╲
+//! ```
+//! Reads and writes the `Mesh` only.
+//!
+//! Invariant: no triangle is lost, `across` and `corner_of` stay valid, and after
+//! `split_non_manifold_vertex` on the far ends of the opened edges every vertex has one fan again.
 
 use crate::mesh::{Corner, Fan, Mesh, NONE, triangle_of};
 
-/// An edge that opened: where it starts in the triangle on either side. Both are borders now.
+/// An edge that was opened: its corner in the triangle on either side. Both are borders now.
 pub(crate) type OpenedEdge = [Corner; 2];
 
-/// Part of a fan: `count` triangles from `first` on, around the end of a closed fan if need be.
+/// `count` consecutive triangles of a fan from `first` on; wraps around in a closed fan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FanArc {
     pub first: usize,
@@ -18,8 +31,9 @@ impl FanArc {
     }
 }
 
-/// The arc that best holds the triangles marked `moves` and no others, leaving at least one behind
-/// and taking at least one; of equals the first. `None` if the fan has but one triangle.
+/// The arc that matches `moves` best: it contains the most marked triangles and the fewest others,
+/// at least one triangle and not all; the first of equals. An arc of an open fan starts or ends at
+/// a border. `None` if the fan has only one triangle.
 pub(crate) fn best_arc(fan: &Fan, moves: &[bool]) -> Option<FanArc> {
     let n = fan.corners.len();
     let mut best: Option<(usize, FanArc)> = None;
@@ -40,9 +54,10 @@ pub(crate) fn best_arc(fan: &Fan, moves: &[bool]) -> Option<FanArc> {
 }
 
 impl Mesh {
-    /// Gives the triangles of `arc` a new vertex, and tells which edges opened.
+    /// Gives the triangles of `arc` a new vertex, appends the opened edges to `opened`, and returns
+    /// the vertex.
     ///
-    /// `fan` is the fan of the old vertex. The caller has seen to room for one more vertex.
+    /// `fan` is the fan of the old vertex. The caller has reserved capacity for one more vertex.
     pub fn split_vertex(&mut self, fan: &Fan, arc: FanArc, opened: &mut Vec<OpenedEdge>) -> u32 {
         let n = fan.corners.len();
         let old = self.vertex(fan.corners[0]);
@@ -60,7 +75,8 @@ impl Mesh {
             self.triangles[triangle_of(corner)][corner as usize % 3] = new;
         }
         self.source.push(self.source[old as usize]);
-        // The lowest corner stands for a vertex, so that a restored mesh walks its fans alike.
+        // `corner_of` is the lowest corner, so that a restored mesh walks its fans in the same
+        // order.
         let lowest = |of_moved: bool| {
             let corners = (0..n).filter(|at| moved(at) == of_moved).map(|at| fan.corners[at]);
             corners.min().unwrap_or(NONE)
@@ -70,7 +86,7 @@ impl Mesh {
         new
     }
 
-    /// Parts two triangles that share the edge from `vertex` to `far_end`.
+    /// Removes the adjacency of two triangles at their shared edge from `vertex` to `far_end`.
     fn open_edge(&mut self, vertex: u32, far_end: u32, left: Corner, right: Corner) -> OpenedEdge {
         let ends = (vertex.min(far_end), vertex.max(far_end));
         [left, right].map(|corner| {
@@ -82,9 +98,11 @@ impl Mesh {
         })
     }
 
-    /// If opening an edge left `vertex` as a mere point between two fans, parts them.
+    /// If opening an edge left `vertex` shared by two separate fans, gives one of them a new
+    /// vertex.
     ///
-    /// `before` is its fan from before the edge opened, `scratch` gets the fan that keeps the vertex.
+    /// `before` is the fan from before the edge was opened; `scratch` receives the fan that keeps
+    /// the vertex. Returns the new vertex, if any.
     pub fn split_non_manifold_vertex(
         &mut self,
         vertex: u32,
@@ -112,7 +130,7 @@ mod tests {
     use super::*;
     use crate::mesh::{grid, next_corner};
 
-    /// 3 × 3 vertices; the middle one, 4, has eight triangles around it or four.
+    /// A grid of 3 × 3 vertices; the middle one, 4, has eight triangles.
     fn three_by_three() -> Mesh {
         Mesh::new(grid::triangles(3, 3), 9, 32)
     }
@@ -146,11 +164,11 @@ mod tests {
         assert_eq!((fan_of(&mesh, 4).corners.len(), fan_of(&mesh, 9).corners.len()), (4, 4));
         let whole = mesh.clone();
         mesh.rebuild_adjacency();
-        assert_eq!(mesh, whole, "what splitting keeps up to date is what connecting finds");
+        assert_eq!(mesh, whole, "the adjacency equals that of a rebuild");
     }
 
     #[test]
-    fn a_border_vertex_left_between_two_fans_is_parted() {
+    fn a_border_vertex_shared_by_two_fans_is_split() {
         let mut mesh = three_by_three();
         let before = [3u32, 5].map(|v| fan_of(&mesh, v));
         let fan = fan_of(&mesh, 4);

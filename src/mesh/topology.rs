@@ -1,43 +1,64 @@
-//! Indexed triangles that can be split: who lies across each edge, and the fan around each vertex.
+//! Corner table: an indexed triangle mesh with adjacency.
+//!
+//! ```text
+//!           v2                     corner c = 3 · triangle + k, k = 0, 1, 2, at vertex k
+//!          ╱  ╲                    next_corner(c), prev_corner(c): the others of the triangle
+//!   edge 2╱    ╲edge 1             edge c: from corner c to next_corner(c)
+//!        ╱      ╲                  across(c): triangle on the other side of edge c
+//!      v0 ────── v1                fan(v): triangles around v, in order
+//!          edge 0
+//! ```
+//! Rossignac, Safonova and Szymczak, "3D compression made simple: Edgebreaker on a corner table",
+//! SMI 2001. That table stores the opposite corner; this one stores the neighbouring triangle of
+//! each edge, because neighbours may have opposite windings (a Möbius strip cannot be oriented),
+//! and finds the shared edge by its two vertices.
+//!
+//! Reads and writes: only itself. `intake` and `validate` create sound meshes; `split_vertex` and
+//! `split_edge` change them.
+//!
+//! Invariant: an edge has at most two triangles, and the triangles of a vertex form one fan
+//! (2-manifold with borders).
 
 use crate::math::sort::sort;
 use serde::{Deserialize, Serialize};
 
-/// No triangle, no corner.
+/// No triangle, corner, vertex or link.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// A corner of a triangle: `3 * triangle + 0, 1 or 2`.
+/// A corner of a triangle: `3 * triangle + k` with k = 0, 1 or 2. Also names the edge that starts
+/// there.
 pub(crate) type Corner = u32;
 
-/// Triangles over vertices. Edge `e` of a triangle runs from its corner `e` to corner `e + 1`.
+/// An indexed triangle mesh with adjacency. See the module documentation for its conventions.
 ///
-/// Invariants: an edge has at most two triangles; the triangles of a vertex form one fan.
+/// Field order is part of the save format.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Mesh {
     /// Vertex of each corner.
     pub triangles: Vec<[u32; 3]>,
-    /// Triangle across each edge, or `NONE` at a border.
+    /// Neighbouring triangle across each edge; `NONE` at a border.
     pub across: Vec<[u32; 3]>,
-    /// One corner of each vertex; `NONE` where no triangle uses it.
+    /// The lowest corner of each vertex; `NONE` if no triangle uses the vertex.
     pub corner_of: Vec<Corner>,
-    /// The site of each vertex, see `divide::Crossing`: the original vertex it came from, or where a cut
-    /// made it.
+    /// Site (rest vertex) of each vertex: the original vertex that it was split from, or a site
+    /// that a cut created, see `split_edge::CutSite`.
     pub source: Vec<u32>,
-    /// Which edges of each triangle were borders from the start, or are parts of such: bit `e` for edge `e`.
+    /// Edges that were borders of the rest mesh, or are parts of such: bit `e` for edge `e` of each
+    /// triangle.
     pub rest_borders: Vec<u8>,
-    /// Vertices before anything tore.
+    /// Number of vertices before any tear or cut.
     pub original_count: u32,
 }
 
-/// The triangles around a vertex, in order.
+/// The triangles around one vertex, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fan {
-    /// The vertex's corner in each triangle.
+    /// The corner of the vertex in each triangle.
     pub corners: Vec<Corner>,
-    /// The other end of the edge between a triangle and the one before it: one more entry than
-    /// `corners` for an open fan, as many for a closed one.
+    /// One-ring: `ring[i]` is the far end of the edge shared by triangles `i - 1` and `i`. It has
+    /// one entry more than `corners` if the fan is open, and as many if it is closed.
     pub ring: Vec<u32>,
-    /// Whether the last triangle meets the first again.
+    /// Whether the last triangle is a neighbour of the first (an inner vertex).
     pub is_closed: bool,
 }
 
@@ -47,20 +68,23 @@ pub(crate) fn triangle_of(corner: Corner) -> usize {
     corner as usize / 3
 }
 
-/// The corner after this one in its triangle.
+/// The next corner of the same triangle.
 #[inline(always)]
 pub(crate) fn next_corner(corner: Corner) -> Corner {
     if corner % 3 == 2 { corner - 2 } else { corner + 1 }
 }
 
-/// The corner before this one in its triangle.
+/// The previous corner of the same triangle.
 #[inline(always)]
 pub(crate) fn prev_corner(corner: Corner) -> Corner {
     if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 }
 }
 
 impl Mesh {
-    /// Connects triangles that are known to be sound; see `intake` for those that are not, and `sound`.
+    /// Builds the adjacency of triangles that are known to be sound, and allocates for `capacity`
+    /// vertices. Marks all borders as rest borders.
+    ///
+    /// `intake` repairs other triangles; `validate` refuses them.
     pub fn new(triangles: Vec<[u32; 3]>, vertex_count: usize, capacity: usize) -> Self {
         let mut corner_of = Vec::with_capacity(capacity);
         corner_of.resize(vertex_count, NONE);
@@ -77,6 +101,7 @@ impl Mesh {
         mesh
     }
 
+    /// Number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.source.len()
     }
@@ -87,18 +112,19 @@ impl Mesh {
         self.triangles[triangle_of(corner)][corner as usize % 3]
     }
 
-    /// The triangle across the edge that starts at `corner`.
+    /// The neighbouring triangle across the edge that starts at `corner`; `NONE` at a border.
     #[inline(always)]
     pub fn across(&self, corner: Corner) -> u32 {
         self.across[triangle_of(corner)][corner as usize % 3]
     }
 
-    /// Whether the edge that starts at `corner` was a border from the start, or is part of one.
+    /// Whether the edge that starts at `corner` was a border of the rest mesh, or is part of one.
     pub fn is_rest_border(&self, corner: Corner) -> bool {
         self.rest_borders[triangle_of(corner)] >> (corner % 3) & 1 == 1
     }
 
-    /// Marks the vertices at borders that tears and cuts made.
+    /// Resizes `marks` to the vertex count and sets it for each vertex on a border that a tear or
+    /// cut made.
     pub fn mark_torn_borders(&self, marks: &mut Vec<bool>) {
         marks.clear();
         marks.resize(self.vertex_count(), false);
@@ -111,26 +137,28 @@ impl Mesh {
         }
     }
 
-    /// The edges, each once: the corner where it starts in its first triangle.
+    /// Iterates over all edges once, each by its corner in the triangle with the lower number.
     pub fn edges(&self) -> impl Iterator<Item = Corner> + '_ {
         (0..3 * self.triangles.len() as u32)
             .filter(|corner| self.across(*corner) == NONE || self.across(*corner) > corner / 3)
     }
 
-    /// The corner of `vertex` in `triangle`.
+    /// The corner of `vertex` in `triangle`, or `None` if it has none there.
     pub fn corner_in(&self, triangle: u32, vertex: u32) -> Option<Corner> {
         let at = self.triangles[triangle as usize].iter().position(|v| *v == vertex)?;
         Some(3 * triangle + at as u32)
     }
 
-    /// Walks the fan around the vertex of `start`, from its border on if it has one.
+    /// Writes the fan around the vertex of `start` into `fan`, from its border onwards if it has
+    /// one.
     ///
-    /// Works whichever way the triangles wind: it leaves each by the edge it did not enter by.
+    /// Works for any winding: the walk leaves each triangle by the edge at the vertex that it did
+    /// not enter by.
     pub fn gather_fan(&self, start: Corner, fan: &mut Fan) {
         let vertex = self.vertex(start);
         fan.corners.clear();
         fan.ring.clear();
-        // Back to the border, or once around.
+        // Walk backwards to the border, or once around.
         let (mut at, mut entry) = (start, prev_corner(start));
         loop {
             match self.cross_edge(vertex, entry) {
@@ -142,7 +170,7 @@ impl Mesh {
         let (first, first_entry) = (at, entry);
         fan.is_closed = self.cross_edge(vertex, first_entry).is_some();
         fan.ring.push(self.other_end(vertex, first_entry));
-        // And forward, leaving by the other edge.
+        // Walk forwards, leaving by the other edge.
         let mut exit = self.other_edge(vertex, first, first_entry);
         loop {
             fan.corners.push(at);
@@ -160,8 +188,8 @@ impl Mesh {
         }
     }
 
-    /// Through the edge that starts at corner `edge`: the vertex's corner in the triangle beyond,
-    /// and the other edge at the vertex there.
+    /// Crosses the edge that starts at corner `edge`. Returns the corner of `vertex` in the next
+    /// triangle and the other edge at `vertex` there; `None` at a border.
     fn cross_edge(&self, vertex: u32, edge: Corner) -> Option<(Corner, Corner)> {
         let next = self.across(edge);
         if next == NONE {
@@ -195,7 +223,7 @@ impl Mesh {
         (a.min(b), a.max(b))
     }
 
-    /// Finds who lies across each edge, and one corner of each vertex.
+    /// Recomputes `across` and `corner_of` from `triangles`.
     pub fn rebuild_adjacency(&mut self) {
         let mut edges: Vec<((u32, u32), Corner)> = (0..3 * self.triangles.len() as u32)
             .map(|corner| (self.ends(corner), corner))
@@ -213,7 +241,7 @@ impl Mesh {
         self.rebuild_vertex_corners();
     }
 
-    /// Finds one corner of each vertex, the lowest.
+    /// Recomputes `corner_of` from `triangles`.
     pub fn rebuild_vertex_corners(&mut self) {
         self.corner_of.fill(NONE);
         for corner in (0..3 * self.triangles.len() as u32).rev() {
@@ -222,11 +250,12 @@ impl Mesh {
         }
     }
 
-    /// Turns triangles round that are marked: the second and the third corner change places.
+    /// Reverses the winding of the triangles marked in `flipped`: their second and third corners
+    /// swap.
     pub fn flip_triangles(&mut self, flipped: &[bool]) {
         for at in (0..self.triangles.len()).filter(|at| flipped[*at]) {
             self.triangles[at].swap(1, 2);
-            // The edge between them stays, the other two change places with the corners they start at.
+            // Edge 1 keeps its ends; edges 0 and 2 swap with the corners that they start at.
             self.across[at].swap(0, 2);
             let rest_borders = self.rest_borders[at];
             self.rest_borders[at] = rest_borders & 2 | rest_borders << 2 & 4 | rest_borders >> 2;
@@ -234,7 +263,9 @@ impl Mesh {
         self.rebuild_vertex_corners();
     }
 
-    /// The number of pieces: sets of triangles joined by edges. `label` gets one entry a triangle.
+    /// Writes the number of its connected component into `label` for each triangle (`label` has one
+    /// entry per triangle), and returns the number of components. Triangles are connected through
+    /// edges.
     pub fn label_pieces(&self, label: &mut [u32], stack: &mut Vec<u32>) -> u32 {
         label.fill(NONE);
         let mut count = 0;
@@ -263,7 +294,7 @@ impl Mesh {
 mod tests {
     use super::*;
 
-    /// Six triangles around vertex 0, every second one wound the other way.
+    /// Six triangles around vertex 0; every second one has the opposite winding.
     fn hexagon() -> Mesh {
         let ring = |i: u32| i % 6 + 1;
         let triangles = (0..6).map(|i| {
@@ -273,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn the_fan_of_an_inner_vertex_is_closed_whichever_way_triangles_wind() {
+    fn the_fan_of_an_inner_vertex_is_closed_for_any_winding() {
         let (mesh, mut fan) = (hexagon(), Fan::default());
         mesh.gather_fan(mesh.corner_of[0], &mut fan);
         assert!(fan.is_closed);
@@ -289,16 +320,16 @@ mod tests {
     }
 
     #[test]
-    fn turning_keeps_up_to_date_what_connecting_finds() {
+    fn flipping_triangles_updates_the_adjacency_as_a_rebuild_does() {
         let mut mesh = hexagon();
         mesh.flip_triangles(&[false, true, true, false, false, true]);
-        let (triangles, turned) = (mesh.triangles.clone(), mesh.clone());
-        assert_eq!(triangles[1], [3, 0, 2], "it was 3, 2, 0");
-        assert_eq!(turned, Mesh::new(triangles, 7, 7));
+        let (triangles, flipped) = (mesh.triangles.clone(), mesh.clone());
+        assert_eq!(triangles[1], [3, 0, 2], "it was 3, 2, 0 before");
+        assert_eq!(flipped, Mesh::new(triangles, 7, 7));
     }
 
     #[test]
-    fn the_fan_of_a_border_vertex_runs_from_border_to_border() {
+    fn the_fan_of_a_border_vertex_is_open() {
         let (mesh, mut fan) = (hexagon(), Fan::default());
         mesh.gather_fan(mesh.corner_of[1], &mut fan);
         assert!(!fan.is_closed);

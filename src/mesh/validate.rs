@@ -1,14 +1,17 @@
-//! A mesh from triangles that say of themselves that they are sound: those of a saved cloth.
+//! Validation of a mesh that must be sound already: the triangles of a saved cloth.
 //!
-//! Triangles that need not be are repaired, see `intake`.
+//! Meshes given by a host are repaired instead, see `intake`.
 
 use crate::error::{Error, Result};
 use crate::math::sort::sort;
 use crate::mesh::{Fan, Mesh, NONE};
 use glam::Vec3;
 
-/// Refuses triangles that cannot be cloth: indices out of range, no area, a third triangle at an
-/// edge, fans that meet at a point only.
+/// Builds a mesh, or refuses triangles that a cloth cannot have.
+///
+/// # Errors
+/// `BadIndex` for an index out of range. `BadMesh` for a triangle without area, an edge with more
+/// than two triangles, or a vertex whose triangles form more than one fan.
 pub(crate) fn validated_mesh(
     triangles: Vec<[u32; 3]>,
     positions: &[Vec3],

@@ -202,10 +202,9 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
     use crate::mesh::grid;
+    use crate::mesh::grid::GridFrame;
     use crate::model::chain_blocks::{NO_PARTICLE, StridedBlock};
     use crate::model::constraints::Constraints;
-
-    use crate::mesh::grid::GridFrame;
 
     fn sheet(columns: u32, rows: u32) -> (Mesh, Vec<Vec3>) {
         let frame =

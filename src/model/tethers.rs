@@ -315,7 +315,6 @@ fn unfold(a: Vec3, b: Vec3, c: Vec3, la: f32, lb: f32) -> Option<f32> {
 mod tests {
     use super::*;
     use crate::mesh::grid;
-
     use crate::mesh::grid::GridFrame;
 
     #[test]

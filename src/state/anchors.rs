@@ -1,40 +1,45 @@
-//! AnchorConstraints: how far particles may get from where animation has them.
+//! Anchors: bounds on the distance between a particle and its animated position.
 //!
 //! ```text
 //!        normal
-//!          ▲   max_distance: the particle stays in the sphere about its anchor
+//!          ▲   max_distance: the particle stays inside the sphere about its anchor
 //!          ● anchor
 //!          ┊   backstop_distance
 //!       ╭──┴──╮
-//!       │     │  backstop: the particle stays out of the sphere behind its anchor
+//!       │     │  backstop: the particle stays outside the sphere behind its anchor
 //!       ╰─────╯  backstop_radius
 //! ```
+//! Projection onto both sets. If they conflict, `max_distance` wins: the particle goes to the
+//! circle where both spheres meet, on its own side.
+//!
+//! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// One particle that is kept near its anchor.
+/// The anchor of one particle. Field order is part of the save format.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AnchorConstraint {
     pub particle: u32,
-    /// Where its anchor was at the end of the last tick [m], …
+    /// Anchor at the end of the last tick [m].
     pub from: Vec3,
-    /// … and where it is at the end of the next [m].
+    /// Anchor at the end of the next tick [m].
     pub anchor: Vec3,
-    /// Out of the body, at the end of the last tick; zero if nobody said, and then there is no backstop.
+    /// Outward normal of the animated body at the end of the last tick; zero = not set, which
+    /// disables the backstop.
     pub normal_from: Vec3,
-    /// The same at the end of the next.
+    /// Outward normal at the end of the next tick.
     pub normal: Vec3,
-    /// How far from its anchor the particle may be [m]; infinity if as far as it likes.
+    /// Maximum distance from the anchor [m]; infinity = unbounded.
     pub max_distance: f32,
-    /// How far behind the anchor the backstop begins [m].
+    /// Distance from the anchor back to the surface of the backstop sphere [m].
     pub backstop_distance: f32,
-    /// The radius of the backstop [m]; 0 if there is none.
+    /// Radius of the backstop sphere [m]; 0 = none.
     pub backstop_radius: f32,
 }
 
 impl AnchorConstraint {
-    /// A particle with an anchor, which may do as it likes.
+    /// An anchor without bounds.
     pub fn new(particle: u32, anchor: Vec3) -> Self {
         Self {
             particle,
@@ -48,10 +53,11 @@ impl AnchorConstraint {
         }
     }
 
-    /// The leash of a particle between two others, at a share of the way from one to the other.
+    /// Interpolates two anchors at `share` of the way from `a` to `b`, for a particle that a cut
+    /// inserted.
     pub fn between(particle: u32, a: &Self, b: &Self, share: f32) -> Self {
         let point = |a: Vec3, b: Vec3| a + (b - a) * share;
-        // One that has no end makes no end: infinity takes part in no subtraction.
+        // Equal values stay exact, and infinity is never subtracted from infinity.
         let number = |a: f32, b: f32| if a == b { a } else { a * (1.0 - share) + b * share };
         Self {
             particle,
@@ -65,12 +71,12 @@ impl AnchorConstraint {
         }
     }
 
-    /// Whether its anchor is on its way.
+    /// Returns whether the anchor or its normal moves during the next tick.
     pub fn is_moving(&self) -> bool {
         self.from != self.anchor || self.normal_from != self.normal
     }
 
-    /// Whether its numbers are such as a leash can have; for bytes from outside.
+    /// Returns whether all numbers are in their ranges; for saved data.
     pub fn is_valid(&self) -> bool {
         let vectors = [self.from, self.anchor, self.normal_from, self.normal];
         let is_length = |v: f32| v.is_finite() && v >= 0.0;
@@ -80,7 +86,8 @@ impl AnchorConstraint {
             && is_length(self.backstop_radius)
     }
 
-    /// Where a particle at `x` may be at a `share` of the tick: there, or the nearest place that it may.
+    /// Returns the nearest permitted position to `x` at `share` (0 to 1) of the tick; `x` itself if
+    /// it is permitted.
     pub fn project(&self, x: Vec3, share: f32) -> Vec3 {
         let anchor =
             if share < 1.0 { self.from + (self.anchor - self.from) * share } else { self.anchor };
@@ -104,7 +111,8 @@ impl AnchorConstraint {
         self.project_out_of_backstop(x, center, normal, anchor)
     }
 
-    /// Out of the backstop, and no farther from the anchor than may be: where both spheres meet if it must be.
+    /// Moves `x` out of the backstop without exceeding `max_distance`: onto the circle where both
+    /// spheres meet if necessary.
     fn project_out_of_backstop(&self, x: Vec3, center: Vec3, normal: Vec3, anchor: Vec3) -> Vec3 {
         let (radius, max_distance) = (self.backstop_radius, self.max_distance);
         let r = x - center;
@@ -113,9 +121,12 @@ impl AnchorConstraint {
         if (center + out - anchor).length_squared() <= max_distance * max_distance {
             return center + out;
         }
-        let apart = self.backstop_distance + radius;
-        // How far along the normal from the backstop's centre the spheres meet, and how far off it.
-        let along = (apart * apart + radius * radius - max_distance * max_distance) / (2.0 * apart);
+        let center_distance = self.backstop_distance + radius;
+        // The circle: its offset along the normal from the backstop's centre, and its radius
+        // squared.
+        let along = (center_distance * center_distance + radius * radius
+            - max_distance * max_distance)
+            / (2.0 * center_distance);
         let off = radius * radius - along * along;
         let side = r - normal * r.dot(normal);
         let side = if side.length_squared() > 0.0 {
@@ -127,7 +138,7 @@ impl AnchorConstraint {
     }
 }
 
-/// `x`, or if that is farther than `max_distance` from a point, the nearest place that is not.
+/// `x`, or the nearest point that is at most `max_distance` from `point`.
 fn clamp_to_sphere(x: Vec3, point: Vec3, max_distance: f32) -> Vec3 {
     let r = x - point;
     let length2 = r.length_squared();
@@ -138,26 +149,26 @@ fn clamp_to_sphere(x: Vec3, point: Vec3, max_distance: f32) -> Vec3 {
     }
 }
 
-/// The direction of a vector; nothing for nothing.
+/// Normalises a vector; zero stays zero.
 pub(crate) fn unit_or_zero(v: Vec3) -> Vec3 {
     let length2 = v.length_squared();
     if length2 > 0.0 { v * (1.0 / length2.sqrt()) } else { Vec3::ZERO }
 }
 
-/// Some direction across another one.
+/// Some unit vector perpendicular to `normal`.
 fn any_perpendicular(normal: Vec3) -> Vec3 {
     let axis = if normal.x * normal.x < 0.5 { Vec3::X } else { Vec3::Y };
     unit_or_zero(normal.cross(axis))
 }
 
-/// All leashes, sorted by particle, so that order comes from the mesh.
+/// All anchors, sorted by particle.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AnchorConstraints {
     list: Vec<AnchorConstraint>,
 }
 
 impl AnchorConstraints {
-    /// Makes room for `capacity` leashes in all, if there are any.
+    /// Allocates for `capacity` anchors in all, if there are any.
     pub fn reserve(&mut self, capacity: usize) {
         if !self.list.is_empty() {
             self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
@@ -184,7 +195,7 @@ impl AnchorConstraints {
         Some(&self.list[self.search(particle).ok()?])
     }
 
-    /// The leash of a particle, which it gets now if it has none: with an anchor at `x`, and no end.
+    /// Returns the anchor of a particle, and creates one at `x` without bounds if there is none.
     pub fn get_or_insert(&mut self, particle: u32, x: Vec3) -> &mut AnchorConstraint {
         let at = match self.search(particle) {
             Ok(at) => at,
@@ -196,7 +207,7 @@ impl AnchorConstraints {
         &mut self.list[at]
     }
 
-    /// Adds the leash of a particle that has none.
+    /// Adds an anchor, unless its particle has one.
     pub fn insert(&mut self, constraint: AnchorConstraint) {
         if let Err(at) = self.search(constraint.particle) {
             self.list.insert(at, constraint);
@@ -207,7 +218,7 @@ impl AnchorConstraints {
         self.list.clear();
     }
 
-    /// Whether they are such as a cloth of `count` particles can have; for bytes from outside.
+    /// Returns whether the anchors fit a cloth of `count` particles; for saved data.
     pub fn are_valid(&self, count: usize) -> bool {
         let is_valid = |constraint: &AnchorConstraint| {
             (constraint.particle as usize) < count && constraint.is_valid()
@@ -215,7 +226,7 @@ impl AnchorConstraints {
         self.list.iter().all(is_valid) && self.list.is_sorted_by(|a, b| a.particle < b.particle)
     }
 
-    /// The tick is over: every anchor is where it was to be.
+    /// Completes the motion of a tick: every anchor has arrived.
     pub fn finish_tick(&mut self) {
         for constraint in &mut self.list {
             (constraint.from, constraint.normal_from) = (constraint.anchor, constraint.normal);
@@ -245,35 +256,36 @@ mod tests {
     }
 
     #[test]
-    fn wherever_a_particle_is_it_is_kept_where_it_may_be() {
+    fn projected_particles_satisfy_both_bounds_and_permitted_ones_do_not_move() {
         for max_distance in [0.0, 0.02, 0.3, 1.1, 2.5, f32::INFINITY] {
-            for (behind, radius) in [(0.0, 0.0), (0.0, 0.1), (0.0, 1.0), (0.05, 0.5), (0.3, 2.0)] {
-                let constraint = constraint(max_distance, behind, radius);
-                let center = constraint.anchor - Vec3::Y * (behind + radius);
+            for (distance, radius) in [(0.0, 0.0), (0.0, 0.1), (0.0, 1.0), (0.05, 0.5), (0.3, 2.0)]
+            {
+                let constraint = constraint(max_distance, distance, radius);
+                let center = constraint.anchor - Vec3::Y * (distance + radius);
                 for i in 0..1000 {
                     let number = |k: i32| ((i * k % 101) - 50) as f32 / 25.0;
                     let x = constraint.anchor + Vec3::new(number(7), number(13), number(29));
                     let projected = constraint.project(x, 1.0);
-                    let [far, near] =
+                    let [to_anchor, to_center] =
                         [projected.distance(constraint.anchor), projected.distance(center)];
                     assert!(
-                        far <= max_distance + 1e-5,
-                        "{far} from the anchor, not {max_distance}"
+                        to_anchor <= max_distance + 1e-5,
+                        "{to_anchor} from the anchor, at most {max_distance} allowed"
                     );
                     assert!(
-                        near >= radius - 1e-5,
-                        "{near} from the backstop's centre, not {radius}"
+                        to_center >= radius - 1e-5,
+                        "{to_center} from the backstop's centre, at least {radius} required"
                     );
-                    let may = x.distance(constraint.anchor) <= max_distance
+                    let is_permitted = x.distance(constraint.anchor) <= max_distance
                         && x.distance(center) >= radius;
-                    assert!(!may || projected == x, "{x} is moved to {projected}");
+                    assert!(!is_permitted || projected == x, "{x} is moved to {projected}");
                 }
             }
         }
     }
 
     #[test]
-    fn the_middle_of_a_backstop_and_the_line_through_it_lead_out_too() {
+    fn particles_on_the_axis_of_the_backstop_leave_it_too() {
         let constraint = constraint(0.2, 0.0, 0.5);
         let center = constraint.anchor - Vec3::Y * 0.5;
         for x in [center, center - Vec3::Y * 0.1, center - Vec3::Y * 3.0, center + Vec3::Y * 0.1] {

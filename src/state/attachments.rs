@@ -1,35 +1,36 @@
-//! Attachments: moving transforms that carry pins, as a bone or a pole carries the cloth that is sewn to it.
+//! Attachments: moving poses that carry pins, such as a bone or a flagpole.
 
 use crate::arena::Arena;
 use crate::state::pose::Pose;
 use serde::{Deserialize, Serialize};
 
-/// A handle to one attachment of one cloth; stale once detached.
+/// A handle to an attachment of one cloth. It becomes stale when the attachment is removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Attachment(pub(crate) u32);
 
 impl Attachment {
-    /// The handle as a number, for a face that speaks in numbers. Never 0.
+    /// Converts the handle to a number, for language bindings. Never 0.
     pub fn to_bits(self) -> u32 {
         self.0
     }
 
-    /// The handle that [`Attachment::to_bits`] gave. A made-up number is refused where it is used.
+    /// Converts a number from [`Attachment::to_bits`] back. Functions that use an unknown handle
+    /// return an error.
     pub fn from_bits(bits: u32) -> Self {
         Self(bits)
     }
 }
 
-/// A transform on its way.
+/// The motion of an attachment over one tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AttachmentPose {
-    /// Where it was at the end of the last tick.
+    /// Pose at the end of the last tick.
     pub last: Pose,
-    /// Where it is at the end of the next tick.
+    /// Pose at the end of the next tick.
     pub next: Pose,
 }
 
-/// How many attachments a cloth may have.
+/// Maximum number of attachments of a cloth.
 pub(crate) const MAX_ATTACHMENTS: u16 = 64;
 
 /// All attachments of a cloth.

@@ -1,50 +1,49 @@
-//! What a host says of a collider.
+//! Collider descriptors: shape, pose and surface properties as a host gives them.
 
 use crate::error::{Error, Result, check, check_index};
 use crate::geometry::convex_hull;
 use crate::geometry::features::ShapeFeatures;
+use crate::geometry::heightfield::Heightfield;
 use crate::geometry::shape::{Capsule, CollisionShape, Cuboid, HalfSpace, Sphere};
 use crate::geometry::triangle_surface;
-use crate::state::pose::{COLLIDER_FIELDS, check_pose};
-
-use crate::geometry::heightfield::Heightfield;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::hasher::StateHasher;
+use crate::state::pose::{COLLIDER_FIELDS, check_pose};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// The shapes of colliders, each in a frame of its own that `position` and `rotation` put into the world.
+/// Shape of a collider, in a local frame that `position` and `rotation` place in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
 #[non_exhaustive]
 pub enum Shape {
-    /// All that is below `position` along the turned y axis.
+    /// Half-space below `position`, bounded by the local xz plane. The normal is the local y axis.
     #[default]
     Plane = 0,
-    /// A ball of `radius` around `position`.
+    /// Sphere of `radius` about `position`.
     Sphere = 1,
-    /// Balls of `radius` and `top_radius` at -`half_height` and +`half_height` along the turned y axis, and
-    /// all between them.
+    /// Convex hull of two spheres: of `radius` at −`half_height` and of `top_radius` at
+    /// +`half_height` on the local y axis.
     Capsule = 2,
-    /// A box that reaches `half_extents` to either side of `position` along each turned axis.
+    /// Box that extends `half_extents` from `position` along each local axis, in both directions.
     Box = 3,
-    /// The least convex body that holds all of `positions`. A soft sheet that hangs over its tips is not
-    /// quite calm: it moves at some mm/s.
+    /// Convex hull of `positions`. A soft sheet that hangs over its corners does not come fully to
+    /// rest; it keeps moving by some mm/s.
     Convex = 4,
-    /// The triangles that `indices` join of `positions`. Cloth stays on the side where it is: both are
-    /// outside, and nothing is inside, so that it need not be closed nor wound one way. It keeps a gap of
-    /// 0.1 mm at least.
+    /// Triangles `indices` over `positions`. Both sides of a triangle are outside and cloth stays
+    /// on the side where it is, so the mesh need be neither closed nor consistently wound. Its
+    /// minimum gap is 0.1 mm.
     Mesh = 5,
-    /// Ground: all below a surface over `columns` × `rows` heights, `spacing` apart along the turned x and
-    /// z axes from `position` on, as deep as it is wide. It has no sides.
+    /// Terrain: `columns` × `rows` heights at `spacing` along the local x and z axes, starting at
+    /// `position`. It is solid below the surface, as deep as it is wide, and has no side walls.
     Heightfield = 6,
 }
 
 impl Shape {
-    /// The shape that a face calls `number`.
+    /// Returns the shape with this number in the C API.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a number that names no shape of this version.
+    /// [`Error::Unsupported`] for an unknown number.
     pub fn from_number(number: u32) -> Result<Self> {
         match number {
             0 => Ok(Self::Plane),
@@ -59,46 +58,54 @@ impl Shape {
     }
 }
 
-/// A collider: its shape, where it is and how it feels. Fields that its shape does not use are ignored.
+/// Descriptor of a collider. Fields that its shape does not use are ignored.
+///
+/// Sizes and points are in the local frame and below 1e6 m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ColliderDesc {
-    /// What it is; a plane.
+    /// Kind of shape. Default: plane.
     pub shape: Shape,
-    /// Where it is [m]; the origin. A point of the surface of a plane.
+    /// Position in the world [m]; for a plane, a point of its surface. Default: the origin.
     pub position: Vec3,
-    /// How it is turned; not at all. A plane's normal is the turned y axis.
+    /// Rotation from the local frame to the world, a unit quaternion. Default: identity.
     pub rotation: Quat,
-    /// Of a sphere or capsule [m]; 0.5. Above 0.
+    /// Sphere, capsule: radius [m], above 0. Default: 0.5.
     pub radius: f32,
-    /// Of the upper end of a capsule [m]; −1 is as `radius`. Above 0.
+    /// Capsule: radius of the upper end [m], above 0; −1 = same as `radius`. Default: −1.
     pub top_radius: f32,
-    /// Of a capsule: from its middle to the centres of its ends [m]; 0.5. At least 0.
+    /// Capsule: distance from its centre to the centre of each end [m], at least 0. Default: 0.5.
     pub half_height: f32,
-    /// Of a box: from its middle to its sides [m]; 0.5 each. Above 0.
+    /// Box: half of its size along each axis [m], above 0. Default: 0.5 each.
     pub half_extents: Vec3,
-    /// Of a convex body, at most 1024, or a mesh: its points [m]; none.
+    /// Convex, mesh: points [m]; 4 to 1024 for a convex hull. Default: none.
     pub positions: Vec<Vec3>,
-    /// Of a mesh: points of its triangles, three each; none. Triangles without an area do not count.
+    /// Mesh: three indices into `positions` per triangle. Triangles without area are ignored.
+    /// Default: none.
     pub indices: Vec<u32>,
-    /// Of a heightfield: heights along x; 0. From 2 to 4096.
+    /// Heightfield: number of heights along x, 2 to 4096. Default: 0.
     pub columns: u32,
-    /// Of a heightfield: heights along z; 0. From 2 to 4096.
+    /// Heightfield: number of heights along z, 2 to 4096. Default: 0.
     pub rows: u32,
-    /// Of a heightfield: from one height to the next [m]; 1. Above 0.
+    /// Heightfield: distance between neighbouring heights [m], above 0. Default: 1.
     pub spacing: f32,
-    /// Of a heightfield: `columns` × `rows` heights [m], row by row along x; none.
+    /// Heightfield: `columns` × `rows` heights [m], row by row along x. Default: none.
     pub heights: Vec<f32>,
-    /// Gap kept from its surface [m]; −1 takes the material's thickness. At least 0. Where a surface is round or
-    /// bends little, particles stay farther off by what is between them would sink in: at most a fifth of the mean
-    /// edge from balls and capsules, a tenth from others.
+    /// Gap between surface and particles [m], at least 0; −1 = thickness of the material. Default:
+    /// −1.
+    ///
+    /// On curved surfaces particles keep a larger gap, so that the triangles between them do not
+    /// penetrate: at most a fifth of the mean edge length more on spheres and capsules, a tenth on
+    /// other shapes.
     pub thickness: f32,
-    /// Coulomb coefficient; −1 takes the material's.
+    /// Coefficient of Coulomb friction, at least 0; −1 = that of the material. Default: −1.
     pub friction: f32,
-    /// Share of the normal speed that a bounce gives back, 0 to 1; −1 takes the material's.
+    /// Share of the normal speed that remains after a bounce, 0 to 1; −1 = that of the material.
+    /// Default: −1.
     pub restitution: f32,
-    /// Share of the sliding speed that every substep of touching leaves, beside Coulomb friction;
-    /// 1 (all of it). The receipt's floor is 0.8, with `friction` 0 and `restitution` 0.2.
+    /// Share of the sliding speed that remains after each substep in contact, in addition to
+    /// Coulomb friction, 0 to 1. Default: 1, no loss. The receipt demo's floor uses 0.8 with
+    /// `friction` 0 and `restitution` 0.2.
     pub tangential_restitution: f32,
 }
 
@@ -126,13 +133,14 @@ impl Default for ColliderDesc {
     }
 }
 
-/// Points of a convex body at most.
+/// Maximum number of points of a convex hull.
 const MAX_HULL_POINTS: usize = 1024;
 
-/// Heights of a heightfield in one direction at most.
+/// Maximum number of heights in one direction.
 const MAX_HEIGHTS: u32 = 4096;
 
-/// No size or place within a shape is as much [m], so that f32 can still square it.
+/// Bound of all sizes and coordinates within a shape [m], so that their squares are exact enough in
+/// f32.
 const MAX_COORDINATE: f32 = 1.0e6;
 
 fn is_size(v: f32) -> bool {
@@ -140,7 +148,7 @@ fn is_size(v: f32) -> bool {
 }
 
 impl ColliderDesc {
-    /// Refuses a collider that cannot be.
+    /// Validates the descriptor, except for what only building the shape reveals.
     pub(crate) fn check(&self) -> Result<()> {
         check_pose(self.position, self.rotation, COLLIDER_FIELDS)?;
         self.check_shape()?;
@@ -217,7 +225,11 @@ impl ColliderDesc {
         check(all_near, "collider.positions", "be between -1e6 and 1e6")
     }
 
-    /// The shape, ready to be touched. The descriptor has been checked but for what only making it shows.
+    /// Builds the collision shape of a checked descriptor.
+    ///
+    /// # Errors
+    /// `BadValue` if the points of a convex hull lie in one plane, or no triangle of a mesh has an
+    /// area.
     pub(crate) fn collision_shape(&self) -> Result<CollisionShape> {
         let bad = |field, must| Error::BadValue { field, must };
         Ok(match self.shape {
@@ -261,7 +273,7 @@ impl ColliderDesc {
         })
     }
 
-    /// Adds all that touching depends on to a hash.
+    /// Adds every field that affects contacts to a hash, except for the pose.
     pub(crate) fn hash(&self, hasher: &mut StateHasher) {
         hasher.write_u32s(&[self.shape as u32, self.columns, self.rows]);
         hasher.write_f32s(&[self.radius, self.top_radius, self.half_height, self.spacing]);

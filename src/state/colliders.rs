@@ -1,4 +1,7 @@
-//! Colliders: what a cloth falls on.
+//! Colliders: kinematic bodies that a cloth collides with.
+//!
+//! A collider moves from its pose at the end of the last tick to the pose that the host has set,
+//! evenly over the substeps, so that contacts are swept.
 
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
@@ -10,43 +13,44 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A handle to one collider of one cloth; stale once removed.
+/// A handle to a collider of one cloth. It becomes stale when the collider is removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Collider(pub(crate) u32);
 
 impl Collider {
-    /// The handle as a number, for a face that speaks in numbers. Never 0.
+    /// Converts the handle to a number, for language bindings. Never 0.
     pub fn to_bits(self) -> u32 {
         self.0
     }
 
-    /// The handle that [`Collider::to_bits`] gave. A made-up number is refused where it is used.
+    /// Converts a number from [`Collider::to_bits`] back. Functions that use an unknown handle
+    /// return an error.
     pub fn from_bits(bits: u32) -> Self {
         Self(bits)
     }
 }
 
-/// What a cloth did to a collider in the last tick: divided by the tick's length, the force and the torque
-/// for an engine that moves what the cloth lies on.
+/// Impulse of the cloth on a collider during the last tick. Divide by the tick length to get the
+/// mean force and torque, for coupling with a rigid body engine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Impulse {
-    /// Momentum given [kg m/s].
+    /// Linear impulse [kg m/s].
     pub linear: Vec3,
-    /// Angular momentum given, about the collider's position [kg m²/s].
+    /// Angular impulse about the position of the collider [kg m²/s].
     pub angular: Vec3,
 }
 
-/// One collider of a cloth.
+/// One collider of a cloth. Field order is part of the save format.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct ColliderBody {
     pub desc: ColliderDesc,
-    /// Where it was at the end of the last tick.
+    /// Pose at the end of the last tick.
     pub last: Pose,
-    /// Where it is at the end of the next tick.
+    /// Pose at the end of the next tick.
     pub next: Pose,
-    /// What the last tick did to it.
+    /// Impulse received during the last tick.
     pub impulse: Impulse,
-    /// Its shape, made from the descriptor.
+    /// Shape built from the descriptor; `None` between reading a save and `restore`.
     #[serde(skip)]
     collision_shape: Option<Arc<CollisionShape>>,
 }
@@ -59,7 +63,7 @@ impl ColliderBody {
         Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), collision_shape })
     }
 
-    /// Refuses a body that cannot be, and sees to its shape; for bytes from outside.
+    /// Validates a collider from a save and builds its shape.
     pub fn restore(&mut self) -> Result<()> {
         self.desc.check()?;
         check_finite(self.impulse.linear, "collider.impulse")?;
@@ -70,13 +74,13 @@ impl ColliderBody {
         Ok(())
     }
 
-    /// Its shape; nothing before it was revived.
+    /// The shape; `None` before `restore`.
     pub fn collision_shape(&self) -> Option<&CollisionShape> {
         self.collision_shape.as_deref()
     }
 
-    /// How far a point of it is at most from the straight way between where the tick finds it and where it leaves
-    /// it, because it turns [m].
+    /// Upper bound of how far the rotation of a tick takes any point of the collider from the
+    /// straight line between its start and its end [m].
     pub fn max_arc_deviation(&self, collision_shape: &CollisionShape) -> f32 {
         let bounds = collision_shape.bounds();
         let farthest = bounds.low.abs().max(bounds.high.abs()).length();
@@ -84,25 +88,25 @@ impl ColliderBody {
             let (from, to) = (self.last.rotation.to_array(), self.next.rotation.to_array());
             (0..4).map(|i| from[i] * to[i]).sum()
         };
-        // 1 - cos of half the angle is no more than the square of its sine.
+        // 1 − cos(θ/2) ≤ sin²(θ/2), where θ is the rotation and `dot` = cos(θ/2).
         farthest * max(1.0 - dot * dot, 0.0)
     }
 
-    /// Sends the collider on its way; it arrives at the end of the next tick.
+    /// Sets the pose that the collider reaches at the end of the next tick.
     pub fn move_to(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         check_pose(position, rotation, COLLIDER_FIELDS)?;
         self.next = Pose::new(position, rotation);
         Ok(())
     }
 
-    /// Puts the collider somewhere at once.
+    /// Sets the pose immediately, without motion in between.
     pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
         self.move_to(position, rotation)?;
         self.finish_tick();
         Ok(())
     }
 
-    /// The tick is over: it is where it was to be.
+    /// Completes the motion of a tick: the collider has arrived at its next pose.
     pub fn finish_tick(&mut self) {
         self.last = self.next;
         self.desc.position = self.next.position;
@@ -110,7 +114,7 @@ impl ColliderBody {
     }
 }
 
-/// How many colliders a cloth may have.
+/// Maximum number of colliders of a cloth.
 pub(crate) const MAX_COLLIDERS: u16 = 1024;
 
 /// All colliders of a cloth.

@@ -1,51 +1,54 @@
-//! What happened, for the host to read: a queue that never grows.
+//! Events: what happened, in a bounded queue that the host reads.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// What an [`Event`] tells of.
+/// The kind of an [`Event`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum EventKind {
     /// The edge between `particle_a` and `particle_b` tore.
     EdgeTorn = 0,
-    /// `vertex` was split off from `source`. Where a particle with several vertices was split between them,
-    /// so that none had to be: both are the lowest vertex that went to the new particle.
+    /// `vertex` was split off from `source`. If a particle with several vertices (a UV seam) was
+    /// split and each vertex went to one side whole, then no vertex is new, and both fields name
+    /// the lowest vertex that went to the new particle.
     VertexSplit = 1,
-    /// A piece of `count` triangles, one of them at `vertex`, came off.
+    /// A piece of `count` triangles came off; `vertex` belongs to one of them.
     PieceDetached = 2,
-    /// `count` particles had left the realm of numbers and were put back where they last were.
+    /// `count` particles had positions or velocities that are not finite. They were reset to their
+    /// last valid position.
     Recovered = 3,
-    /// Tearing stopped here: the room that was reserved for it is used up. Told once.
+    /// Tearing stopped, because all `extra_particles` are used. Reported once.
     ReserveUsedUp = 4,
-    /// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
-    /// `particle_a` and `particle_b`. Told once, until the bound holds again.
+    /// Pins or grabs hold the cloth beyond `max_stretch`: `count` links exceed it, one of them
+    /// between `particle_a` and `particle_b`. Reported once until the limit holds again.
     HeldApart = 5,
-    /// A cut made `vertex` on the edge between `particle_a` and `particle_b`; and, if they are different
-    /// vertices on either side of that edge, the one after it for the other side.
+    /// A cut inserted `vertex` into the edge between `particle_a` and `particle_b`. If that edge is
+    /// a UV seam, `vertex + 1` is the new vertex on its other side.
     EdgeDivided = 6,
 }
 
-/// Something that happened in a tick. Fields that its kind does not mention are 0. `particle_a` and
-/// `particle_b` are particles, `vertex` and `source` are vertices.
+/// Something that happened in a tick. Fields that the kind does not mention are 0.
+///
+/// `particle_a` and `particle_b` are particle indices; `vertex` and `source` are vertex indices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
     /// What happened.
     pub kind: EventKind,
-    /// In which tick, counted from creation or reset.
+    /// Tick in which it happened, counted from creation or reset.
     pub tick: u32,
-    /// Where [m].
+    /// Position [m].
     pub position: Vec3,
-    /// An end of the edge.
+    /// One end of the edge.
     pub particle_a: u32,
-    /// The other end.
+    /// The other end of the edge.
     pub particle_b: u32,
-    /// The vertex that came to be.
+    /// The new vertex.
     pub vertex: u32,
-    /// The vertex that it was split off from.
+    /// The vertex that `vertex` was split off from.
     pub source: u32,
-    /// How many.
+    /// Number of triangles, particles or links.
     pub count: u32,
 }
 
@@ -55,15 +58,15 @@ impl Event {
     }
 }
 
-/// How many events wait to be read; when more come, the oldest go.
+/// Capacity of the queue. A new event replaces the oldest one when it is full.
 pub(crate) const MAX_EVENTS: usize = 1024;
 
-/// Events in the order they happened.
+/// Queue of events in the order in which they happened.
 ///
-/// By tick; in a tick recoveries first, then tears, the worst first, and of each the vertices that it
-/// split before the torn edge; then, if there was no room for another, that; then the pieces that came
-/// off, in the order of their first triangles; then what is held apart. A cut tells the edges that it
-/// divided, in its order; those that it opened; the vertices that it split; and the pieces.
+/// Order by tick. Within a tick: recoveries; tears, the most overstretched edge first, each
+/// preceded by the vertices that it split; `ReserveUsedUp`; detached pieces in the order of their
+/// first triangles; `HeldApart`. A cut reports the divided edges in its order, the opened edges,
+/// the split vertices, the pieces.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Events {
     queue: VecDeque<Event>,
@@ -74,11 +77,12 @@ impl Events {
         Self { queue: VecDeque::with_capacity(MAX_EVENTS) }
     }
 
-    /// Makes room for all that may wait.
+    /// Allocates the full capacity.
     pub fn reserve(&mut self) {
         self.queue.reserve_exact(MAX_EVENTS.saturating_sub(self.queue.len()));
     }
 
+    /// Appends an event, and drops the oldest one if the queue is full.
     pub fn push(&mut self, event: Event) {
         if self.queue.len() >= MAX_EVENTS {
             self.queue.pop_front();
@@ -90,6 +94,7 @@ impl Events {
         self.queue.len()
     }
 
+    /// Removes and returns the oldest event.
     pub fn pop(&mut self) -> Option<Event> {
         self.queue.pop_front()
     }

@@ -1,34 +1,35 @@
-//! Grabs: particles that pointers hold, each following its own target.
+//! Grabs: particles held by pointers, each with a target of its own.
 
 use crate::arena::Arena;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// A handle to one grab of one cloth; stale once released.
+/// A handle to a grab of one cloth. It becomes stale when the grab is released.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Grab(pub(crate) u32);
 
 impl Grab {
-    /// The handle as a number, for a face that speaks in numbers. Never 0.
+    /// Converts the handle to a number, for language bindings. Never 0.
     pub fn to_bits(self) -> u32 {
         self.0
     }
 
-    /// The handle that [`Grab::to_bits`] gave. A made-up number is refused where it is used.
+    /// Converts a number from [`Grab::to_bits`] back. Functions that use an unknown handle return
+    /// an error.
     pub fn from_bits(bits: u32) -> Self {
         Self(bits)
     }
 }
 
-/// One held particle.
+/// One grabbed particle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct GrabbedParticle {
     pub particle: u32,
-    /// Where the pointer is [m]; the particle follows as fast as it may.
+    /// Position of the pointer [m]; the particle moves towards it with limited speed.
     pub target: Vec3,
 }
 
-/// How many pointers may hold a cloth at once.
+/// Maximum number of grabs of a cloth.
 pub(crate) const MAX_GRABS: u16 = 64;
 
 /// All grabs of a cloth.

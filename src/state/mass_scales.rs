@@ -1,44 +1,47 @@
-//! Mass scales: how much heavier or lighter than its material each particle is.
+//! Mass scales: a factor per particle on the mass that its material and area give.
+//!
+//! Invariant: the list is empty (all factors are 1) or has one entry per particle.
 
 use serde::{Deserialize, Serialize};
 
-/// A factor for each particle, or none where all are as heavy as the material says.
+/// A factor per particle; empty if all are 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MassScales {
     list: Vec<f32>,
 }
 
 impl MassScales {
-    /// Makes room for `capacity` particles in all, if any has a factor.
+    /// Allocates for `capacity` particles in all, if there are factors.
     pub fn reserve(&mut self, capacity: usize) {
         if !self.list.is_empty() {
             self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
         }
     }
 
-    /// Gives one of `count` particles a factor.
+    /// Sets the factor of one of `count` particles.
     pub fn set(&mut self, particle: u32, scale: f32, count: usize) {
         self.list.resize(count, 1.0);
         self.list[particle as usize] = scale;
     }
 
+    /// The factor of a particle.
     pub fn get(&self, particle: usize) -> f32 {
         self.list.get(particle).copied().unwrap_or(1.0)
     }
 
-    /// Multiplies masses; changes nothing where there are no factors.
+    /// Multiplies `mass` by the factors.
     pub fn apply(&self, mass: &mut [f32]) {
         mass.iter_mut().zip(&self.list).for_each(|(mass, scale)| *mass *= scale);
     }
 
-    /// A particle more, as heavy as `scale` says.
+    /// Appends the factor of a new particle, if there are factors.
     pub fn push(&mut self, scale: f32) {
         if !self.list.is_empty() {
             self.list.push(scale);
         }
     }
 
-    /// The least and the greatest factor; 1 where there are none.
+    /// The smallest and the largest factor.
     pub fn range(&self) -> [f32; 2] {
         let first = self.get(0);
         self.list.iter().fold([first; 2], |[least, most], scale| {
@@ -46,14 +49,14 @@ impl MassScales {
         })
     }
 
-    /// Whether they are such as a cloth of `count` particles can have; for bytes from outside.
+    /// Returns whether the factors fit a cloth of `count` particles; for saved data.
     pub fn are_valid(&self, count: usize) -> bool {
         (self.list.is_empty() || self.list.len() == count)
             && self.list.iter().all(|scale| is_valid_scale(*scale))
     }
 }
 
-/// Whether masses may be multiplied by it.
+/// Returns whether a factor is in the valid range, 0.001 to 1000.
 pub(crate) fn is_valid_scale(scale: f32) -> bool {
     (1.0e-3..=1.0e3).contains(&scale)
 }

@@ -1,4 +1,4 @@
-//! What changes with time, one noun a file.
+//! State of a cloth: all that a save, a restore and the state hash cover, one noun per file.
 
 pub(crate) mod anchors;
 pub(crate) mod attachments;

@@ -1,32 +1,42 @@
-//! What moves: positions, their history, velocities and masses.
+//! Particles: positions, history, velocities and masses, as columns (SoA).
+//!
+//! ```text
+//! x_prev_tick … x − displacement ──▶ x ──▶ x + next displacement
+//!                                    v, v_extrapolated (BDF2 history, see `settings::BdfScheme`)
+//! ```
+//! Integration stages write all columns; constraint stages write `x` only.
+//!
+//! Invariant: every list has one entry per particle. Field order is part of the save format.
 
 use crate::math::columns::Columns;
 use crate::math::{lerp, saturate};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// The particles of a cloth. Every list has one entry a particle.
+/// The particles of a cloth. Every list has one entry per particle.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Particles {
-    /// Where they are [m].
+    /// Position [m].
     pub x: Columns,
-    /// How far they moved in the last substep [m], kept apart because a difference of positions
+    /// Displacement during the last substep [m]. Stored, because the difference of two positions
     /// would lose most of its digits.
     pub displacement: Columns,
     /// Velocity [m/s].
     pub v: Columns,
-    /// Velocity as its history lets expect it for the next substep, (4 v - v_prev) / 3 [m/s].
+    /// Velocity extrapolated to the next substep, (4 v − v_prev) / 3 [m/s].
     pub v_extrapolated: Columns,
-    /// Where they were one tick ago [m]: to blend lerp ticks when drawing, and to mend from.
+    /// Position at the end of the previous tick [m], for blending between ticks and for recovery
+    /// from NaN.
     pub x_prev_tick: Columns,
     /// Mass [kg].
     pub mass: Vec<f32>,
-    /// Inverse mass that the solver sees [1/kg]: 0 while pinned or grabbed.
+    /// Inverse mass that the solver uses [1/kg]: 0 while pinned or grabbed.
     pub w: Vec<f32>,
 }
 
 impl Particles {
-    /// Particles at rest, with room for `capacity`.
+    /// Creates particles at rest, allocated for `capacity` particles. Masses are 0 until they are
+    /// computed.
     pub fn at_rest(positions: &[Vec3], capacity: usize) -> Self {
         let mut x = Columns::with_capacity(capacity);
         positions.iter().for_each(|p| x.push(*p));
@@ -55,7 +65,7 @@ impl Particles {
         ]
     }
 
-    /// Makes room for `capacity` particles in all.
+    /// Allocates for `capacity` particles in all.
     pub fn reserve(&mut self, capacity: usize) {
         for columns in self.all_columns() {
             columns.reserve(capacity);
@@ -65,7 +75,7 @@ impl Particles {
         }
     }
 
-    /// Bytes that one particle takes.
+    /// Bytes per particle.
     pub fn bytes_each(&self) -> usize {
         size_of::<f32>() * (5 * 3 + 2)
     }
@@ -74,7 +84,7 @@ impl Particles {
         self.mass.len()
     }
 
-    /// Whether every list has `count` entries.
+    /// Returns whether every list has `count` entries.
     pub fn is_consistent(&self, count: usize) -> bool {
         let columns =
             [&self.x, &self.displacement, &self.v, &self.v_extrapolated, &self.x_prev_tick];
@@ -82,7 +92,7 @@ impl Particles {
         columns.into_iter().all(three) && self.mass.len() == count && self.w.len() == count
     }
 
-    /// Adds a particle in the state of `source`, and gives its index.
+    /// Appends a copy of particle `source` and returns its index.
     pub fn push_copy_of(&mut self, source: usize) -> usize {
         for columns in self.all_columns() {
             columns.push(columns.at(source));
@@ -92,8 +102,8 @@ impl Particles {
         self.len() - 1
     }
 
-    /// Adds a particle lerp two others, at a share of the way from `a` to `b`, and gives its index. It
-    /// is free; its mass is still to be found.
+    /// Appends a particle interpolated at `share` of the way from `a` to `b`, and returns its
+    /// index. It has no mass yet and is not held.
     pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
         for columns in self.all_columns() {
             let (from, to) = (columns.at(a), columns.at(b));
@@ -104,7 +114,8 @@ impl Particles {
         self.len() - 1
     }
 
-    /// Puts a particle somewhere with a velocity, as if it had been falling freely for ever.
+    /// Sets position and velocity of a particle. Its history becomes that of a free fall under
+    /// `gravity` [m/s²] with substeps of `h` [s].
     pub fn set_motion(&mut self, i: usize, x: Vec3, v: Vec3, gravity: Vec3, h: f32) {
         self.x.set(i, x);
         self.v.set(i, v);
@@ -112,7 +123,8 @@ impl Particles {
         self.v_extrapolated.set(i, saturate(v + gravity * (h * (1.0 / 3.0))));
     }
 
-    /// Begins every history anew, for another kind of substep. Velocities stay.
+    /// Resets the history of all particles, for a new substep length or scheme. Positions and
+    /// velocities stay.
     pub fn reset_history(&mut self, gravity: Vec3, h: f32) {
         for i in 0..self.len() {
             self.set_motion(i, self.x.at(i), self.v.at(i), gravity, h);

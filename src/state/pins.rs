@@ -1,55 +1,61 @@
 //! Pins: particles held at a target that may move.
+//!
+//! A hard pin sets the inverse mass of its particle to 0. A soft pin pulls with a stiffness k; an
+//! implicit step of length s gives its particle the effective inverse mass 1 / (m + k s²).
+//!
+//! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// One held particle.
+/// One pinned particle. Field order is part of the save format.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Pin {
     pub particle: u32,
-    /// Where it was held at the end of the last tick [m].
+    /// Target at the end of the last tick [m].
     pub from: Vec3,
-    /// Where it is held at the end of the next tick [m].
+    /// Target at the end of the next tick [m].
     pub target: Vec3,
-    /// How hard it pulls towards its target [N/m]; 0 if it holds the particle exactly there.
+    /// Stiffness towards the target [N/m]; 0 holds the particle exactly there.
     pub stiffness: f32,
-    /// The attachment that carries it, 0 if none does, …
+    /// Handle of the attachment that moves this pin; 0 if none does.
     pub attachment: u32,
-    /// … and where its target is as that sees it [m].
+    /// Target in the frame of that attachment [m].
     pub local: Vec3,
 }
 
 impl Pin {
-    /// A pin that holds a particle exactly, on its way between two places.
+    /// A hard pin that moves between two positions.
     fn new(particle: u32, from: Vec3, target: Vec3) -> Self {
         Self { particle, from, target, stiffness: 0.0, attachment: 0, local: Vec3::ZERO }
     }
 
-    /// Whether it gives way to the cloth.
+    /// Returns whether the pin has a finite stiffness.
     pub fn is_soft(&self) -> bool {
         self.stiffness > 0.0
     }
 
-    /// The inverse of a mass and of what a soft pin adds to it over a step [1/kg], see `solver::hold`.
+    /// Inverse mass with the inertia of a soft pin over a step of `step` seconds [1/kg], see
+    /// `solver::kinematic`.
     pub fn effective_inverse_mass(&self, mass: f32, step: f32) -> f32 {
         1.0 / (mass + self.stiffness * step * step)
     }
 
-    /// Whether its numbers are such as a pin can have; for bytes from outside.
+    /// Returns whether all numbers are finite and the stiffness is not negative; for saved data.
     pub fn is_valid(&self) -> bool {
         let places = [self.from, self.target, self.local];
         places.iter().all(|v| v.is_finite()) && self.stiffness.is_finite() && self.stiffness >= 0.0
     }
 }
 
-/// All pins, sorted by particle, so that order comes from the mesh.
+/// All pins, sorted by particle.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Pins {
     list: Vec<Pin>,
 }
 
 impl Pins {
-    /// Makes room for `capacity` pins in all.
+    /// Allocates for `capacity` pins in all.
     pub fn reserve(&mut self, capacity: usize) {
         self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
     }
@@ -62,12 +68,12 @@ impl Pins {
         self.list.iter_mut()
     }
 
-    /// The particles that are held exactly.
+    /// The particles with a hard pin.
     pub fn hard_particles(&self) -> impl Iterator<Item = u32> + Clone {
         self.list.iter().filter(|pin| !pin.is_soft()).map(|pin| pin.particle)
     }
 
-    /// Whether any gives way to the cloth.
+    /// Returns whether any pin is soft.
     pub fn has_soft(&self) -> bool {
         self.list.iter().any(Pin::is_soft)
     }
@@ -85,8 +91,8 @@ impl Pins {
         Some(&mut self.list[at])
     }
 
-    /// Pins a particle that is at `x`, or gives an old pin a new target, which nothing carries. True if it is
-    /// a new pin.
+    /// Pins a particle at position `x` to `target`, or retargets its pin and detaches it. Returns
+    /// true if the pin is new.
     pub fn insert(&mut self, particle: u32, x: Vec3, target: Vec3) -> bool {
         match self.search(particle) {
             Ok(at) => {
@@ -100,19 +106,19 @@ impl Pins {
         }
     }
 
-    /// Pins a particle that was not pinned just as another one.
+    /// Pins a particle like `pin`, unless it is pinned already.
     pub fn insert_copy(&mut self, particle: u32, pin: Pin) {
         if let Err(at) = self.search(particle) {
             self.list.insert(at, Pin { particle, ..pin });
         }
     }
 
-    /// True if there was such a pin.
+    /// Removes the pin of a particle. Returns whether there was one.
     pub fn remove(&mut self, particle: u32) -> bool {
         self.search(particle).map(|at| self.list.remove(at)).is_ok()
     }
 
-    /// Removes all that an attachment carries. True if there were any.
+    /// Removes all pins that an attachment moves. Returns whether there were any.
     pub fn remove_attached(&mut self, attachment: u32) -> bool {
         let before = self.list.len();
         self.list.retain(|pin| pin.attachment != attachment);
@@ -123,12 +129,12 @@ impl Pins {
         self.list.clear();
     }
 
-    /// Whether particles rise strictly, as they always do; for bytes from outside.
+    /// Returns whether particles strictly ascend; for saved data.
     pub fn is_sorted(&self) -> bool {
         self.list.is_sorted_by(|a, b| a.particle < b.particle)
     }
 
-    /// The tick is over: every pin is where it was to be.
+    /// Completes the motion of a tick: every pin has arrived at its target.
     pub fn finish_tick(&mut self) {
         self.list.iter_mut().for_each(|pin| pin.from = pin.target);
     }

@@ -1,21 +1,25 @@
-//! Where something rigid is, and how it is turned.
+//! Rigid pose: position and rotation of a collider, an attachment or a reference body.
+//!
+//! Quaternion products are written out in scalar operations, so that every platform computes the
+//! same bits.
 
 use crate::error::{Result, check, check_finite};
 use crate::geometry::transform::Transform;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a collider or an attachment is.
+/// Position [m] and unit rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Pose {
     pub position: Vec3,
     pub rotation: Quat,
 }
 
-/// What the numbers of a collider's pose are called.
+/// Field names of a collider's pose for error messages.
 pub(crate) const COLLIDER_FIELDS: [&str; 2] = ["collider.position", "collider.rotation"];
 
-/// Refuses a pose that cannot be; `names` is what its position and its rotation are called.
+/// Refuses a pose that is not finite or whose rotation is not a unit quaternion (to 1 %). `names`
+/// are the field names of position and rotation.
 pub(crate) fn check_pose(position: Vec3, rotation: Quat, names: [&'static str; 2]) -> Result<()> {
     check_finite(position, names[0])?;
     let length = rotation.length_squared();
@@ -24,17 +28,17 @@ pub(crate) fn check_pose(position: Vec3, rotation: Quat, names: [&'static str; 2
 }
 
 impl Pose {
-    /// At the origin, turned by nothing.
+    /// The identity: at the origin, not rotated.
     pub const ORIGIN: Self = Self { position: Vec3::ZERO, rotation: Quat::IDENTITY };
 
-    /// With the rotation made a unit quaternion, which it is but for a hundredth.
+    /// Creates a pose and normalises the rotation, which must be near unit length.
     pub fn new(position: Vec3, rotation: Quat) -> Self {
         let [x, y, z, w] = rotation.to_array();
         let scale = 1.0 / (x * x + y * y + z * z + w * w).sqrt();
         Self { position, rotation: Quat::from_xyzw(x * scale, y * scale, z * scale, w * scale) }
     }
 
-    /// `v` turned as it is. Written out, so that every target computes the same.
+    /// Rotates `v`, with the formula v + 2 w (a × v) + 2 a × (a × v) for a quaternion (a, w).
     fn rotate(&self, v: Vec3) -> Vec3 {
         let [x, y, z, w] = self.rotation.to_array();
         let axis = Vec3::new(x, y, z);
@@ -42,7 +46,8 @@ impl Pose {
         v + twice * w + axis.cross(twice)
     }
 
-    /// The pose a `t` of the way to `next`.
+    /// Interpolates towards `next`: the position linearly, the rotation by normalised linear
+    /// interpolation (nlerp). `t` is 0 to 1.
     pub fn interpolate(&self, next: &Self, t: f32) -> Self {
         let (from, to) = (self.rotation.to_array(), next.rotation.to_array());
         let dot: f32 = (0..4).map(|i| from[i] * to[i]).sum();
@@ -54,7 +59,8 @@ impl Pose {
         )
     }
 
-    /// The pose after some of `count` even moments on the way to `next`: itself at first, that at last.
+    /// The pose after `substep` of `count` equal steps towards `next`: exactly `self` at 0, exactly
+    /// `next` at `count`.
     pub fn at_substep(&self, next: &Self, substep: u32, count: u32) -> Self {
         match substep {
             0 => *self,
@@ -63,7 +69,7 @@ impl Pose {
         }
     }
 
-    /// Where it gets to with a body that jumps from one pose to another.
+    /// The pose after moving rigidly with a body that goes from pose `from` to pose `to`.
     pub fn moved_with(&self, from: &Self, to: &Self) -> Self {
         let position =
             to.to_transform().point_to_world(from.to_transform().point_to_local(self.position));
@@ -72,7 +78,7 @@ impl Pose {
         Self::new(position, quat_product(turn, self.rotation))
     }
 
-    /// Ready to be used on many points.
+    /// Converts to a transform with axes, for use on many points.
     pub fn to_transform(&self) -> Transform {
         Transform {
             origin: self.position,
@@ -81,7 +87,7 @@ impl Pose {
     }
 }
 
-/// First turned by `b`, then by `a`. Written out, so that every target computes the same.
+/// Quaternion product: rotates by `b`, then by `a`.
 fn quat_product(a: Quat, b: Quat) -> Quat {
     let ([ax, ay, az, aw], [bx, by, bz, bw]) = (a.to_array(), b.to_array());
     Quat::from_xyzw(

@@ -1,77 +1,100 @@
-//! How time runs for one cloth. Every field may change between ticks.
+//! Solver settings, and the time integration scheme that follows from them. Settings may change
+//! between ticks.
 
 use crate::error::{Result, check, check_finite};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// How time runs: ticks, sweeps, gravity, damping and the switches of the solver.
+/// Solver settings: tick length, substeps and iterations, gravity, damping, limits, and optional
+/// features. All may change between ticks.
 ///
-/// One tick is `substeps` times (predict, then `iterations` sweeps over all links). More of either
-/// makes the cloth stiffer; at the same cost substeps stiffen more than iterations do.
+/// A tick runs `substeps` substeps; each predicts the particles and then sweeps `iterations` times
+/// over all links. More of either makes the cloth stiffer. At equal cost, substeps stiffen more
+/// than iterations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// Length of a tick [s]; 1/60. Above 0, at most 1.
+    /// Length of a tick [s], above 0, at most 1. Default: 1/60.
     pub tick: f32,
-    /// Substeps in a tick; 4. From 1 to 1000.
+    /// Substeps per tick, 1 to 1000. Default: 4.
     pub substeps: u32,
-    /// Sweeps over the links in a substep, to and fro in turn; 2. From 1 to 1000. With a single sweep
-    /// velocities are of first order, which brakes all motion; from two on they are of second order,
-    /// and nothing brakes but `damping` and the air.
+    /// Sweeps over the links per substep, alternating in direction, 1 to 1000. Default: 2.
+    ///
+    /// With one sweep, integration is of first order, which damps all motion. From two sweeps on it
+    /// is of second order (BDF2), and only `damping`, the air and the material damp.
     pub iterations: u32,
-    /// Ticks that one `advance` may run; 5. What a late frame owes beyond it is dropped. At least 1.
+    /// Maximum number of ticks that one `advance` runs, at least 1; further backlog is dropped.
+    /// Default: 5.
     pub max_ticks_per_advance: u32,
-    /// Acceleration of everything [m/s²]; (0, −9.81, 0).
+    /// Acceleration of gravity [m/s²]. Default: (0, −9.81, 0).
     pub gravity: Vec3,
-    /// Rate at which velocity decays [1/s]: as exp(−damping · t), whatever the step; 0.5. At least 0.
+    /// Decay rate of velocity [1/s], at least 0: velocity decays as exp(−damping · t), independent
+    /// of the step. Default: 0.5.
     pub damping: f32,
-    /// The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
-    /// rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
+    /// Maximum displacement of a particle per substep, relative to the rigid motion of the whole
+    /// cloth, in mean rest lengths, above 0. It also limits the speed of a grabbed particle.
+    /// Default: 0.5.
     pub max_displacement: f32,
-    /// The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
-    /// apart: 0.02 is 2 %; 0 is no bound. Then [`Stats::over_stretched`](crate::Stats) and an event say so.
+    /// Strain limit: maximum relative elongation of any stretch or shear link after a tick; 0.02 =
+    /// 2 %, 0 = no limit. Default: 0.
+    ///
+    /// Where pins or grabs hold the cloth further apart, it cannot hold;
+    /// [`Stats::over_stretched`](crate::Stats) and an event report this.
     pub max_stretch: f32,
-    /// Long-range attachments that keep every particle within reach of the pins; on. They bear what the
-    /// sweeps do not get to, and nothing of what a load stretches soft links by. From two iterations on,
-    /// whole lines of links are solved at once as well, so that a load reaches the pins in one go. Off,
-    /// sweeps are all there is.
+    /// Enables long-range attachments, which limit the distance of each particle to the pins.
+    /// Default: on.
+    ///
+    /// They carry what the sweeps have not converged to, but not the stretch of soft links under
+    /// load. From two iterations on, each straight chain of links is also solved as a whole
+    /// (tridiagonal), so that a load reaches the pins in one step. Off, only the sweeps act.
     pub tethers: bool,
-    /// Whether and how parts of the cloth keep apart; not at all.
+    /// How the cloth collides with itself. Default: not at all.
     pub self_collision: SelfCollision,
-    /// Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is
-    /// at most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it
-    /// is at most twice that length.
+    /// Gap of self-collision [m], at least 0; 0 = automatic. Default: 0.
+    ///
+    /// `Surface`: automatic is the material's thickness; at most half of the mean rest length is
+    /// used. `Particles`: automatic is two thirds of the mean rest length; at most twice that
+    /// length is used.
     pub self_distance: f32,
-    /// Over-stretched links tear, see `Material::tear_stretch`; off.
+    /// Enables tearing of overstretched edges, see [`Material::tear_stretch`](crate::Material).
+    /// Default: off.
     pub tearing: bool,
-    /// Vertices that tearing may split in one tick, the worst first; 8. At least 1.
+    /// Maximum number of vertices that tearing splits in one tick, the most overstretched first, at
+    /// least 1. Default: 8.
     pub max_tears_per_tick: u32,
-    /// A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at
-    /// next to no cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the
-    /// sine field keep a cloth awake. See [`Stats::asleep`](crate::Stats).
+    /// Speed below which a cloth may sleep [m/s], at least 0; 0 = never. Default: 0.
+    ///
+    /// A cloth falls asleep after half a second without a faster particle. It then does not move,
+    /// at nearly no cost, until something changes or touches it. Gusts, turbulence and the sine
+    /// field keep it awake. See [`Stats::asleep`](crate::Stats).
     pub sleep_speed: f32,
 }
 
-/// How parts of a cloth keep apart.
+/// How a cloth collides with itself. Several pieces of one mesh collide with each other in the same
+/// way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum SelfCollision {
-    /// Not at all: they go through each other.
+    /// No self-collision: layers pass through each other.
     #[default]
     None = 0,
-    /// Surface from surface, a material's thickness apart, so that nothing crosses, with the material's
-    /// friction. A thickness counts up to half of the mean rest length. What is nearer than two thicknesses in
-    /// the weave keeps half of that distance. The two sides of a slit part by a thousandth of the mean rest
-    /// length as it opens, so that they keep from each other too. What pins or grabs hold takes along what is in
-    /// its way, and what is caught between two such may be forced through. What crosses all the same, from the
-    /// start, as this is switched on or where particles are placed, is drawn out again unless it is held: the smaller
-    /// part goes back to the side of the rest, mostly within a second. It costs about as much as the rest of a tick
-    /// while little touches, several times that where layers lie on each other, and from twenty to hundreds of
-    /// times where sheets of thousands of particles crumple.
+    /// Between surfaces: triangles keep a gap and never cross, with the material's friction.
+    ///
+    /// - Gap: `self_distance`. Parts whose distance at rest is below two gaps keep half of that
+    ///   distance. When a tear or cut opens, its two sides separate by 1/1000 of the mean rest
+    ///   length, so that they collide from then on.
+    /// - Pinned and grabbed parts push others out of their way. Cloth caught between two of them
+    ///   may be forced through.
+    /// - Existing intersections (at the start, when this is switched on, or after particles were
+    ///   placed) are resolved unless they are held: the smaller part moves back to the side of the
+    ///   rest, mostly within a second.
+    /// - Cost: about as much as the rest of a tick while few layers touch, several times that for
+    ///   stacked layers, 20 to some hundred times that for crumpling sheets of thousands of
+    ///   particles.
     Surface = 1,
-    /// Particles from particles, as if they were balls: cheap, without friction, and a fold may slip through
-    /// where particles are farther apart than `self_distance`. Those that are woven into one piece nearer
-    /// than that, or than one and a half mean rest lengths, do not count; what is held neither.
+    /// Between particles, as spheres: cheap, no friction. A fold may slip through where particles
+    /// are further apart than `self_distance`. Pairs of one piece that are closer at rest than
+    /// `self_distance` or one and a half mean rest lengths are ignored, and so are held particles.
     Particles = 2,
 }
 
@@ -97,7 +120,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Refuses settings that cannot run.
+    /// Refuses settings that are out of range.
     pub(crate) fn check(&self) -> Result<()> {
         check(self.tick > 0.0 && self.tick <= 1.0, "settings.tick", "be above 0 and at most 1")?;
         let few = |n: u32| (1..=1000).contains(&n);
@@ -124,38 +147,44 @@ impl Settings {
         Ok(())
     }
 
-    /// How many links of so many triangles may tear in one tick: no more than there can ever be.
+    /// Maximum number of links that may tear in one tick of a mesh with `triangles` triangles.
     pub(crate) fn max_tears(&self, triangles: usize) -> usize {
         (self.max_tears_per_tick as usize).min(4 * triangles)
     }
 
-    /// How positions follow from velocities in these settings.
+    /// The time integration scheme of these settings: BDF2, or BDF1 with a single iteration.
     pub(crate) fn scheme(&self) -> BdfScheme {
         let h = self.tick / self.substeps as f32;
         if self.iterations >= 2 { BdfScheme::second_order(h) } else { BdfScheme::first_order(h) }
     }
 }
 
-/// A backward difference formula: how a substep carries motion on.
+/// Backward difference formula (BDF) of first or second order: coefficients of prediction and
+/// velocity update.
 ///
 /// ```text
-/// way = carry moved + step (v_ahead + step a),   moved: the way of the substep before
-/// v   = (lead way - trail moved) / h,            way: as the solver corrected it
-/// v_ahead = v + carry (v - v_prev)
+/// prediction  d   = extrapolation · d₋ + velocity_step · (v_extrapolated + velocity_step · a)
+/// velocity    v   = (new_weight · d − old_weight · d₋) / h
+///             v_extrapolated = v + extrapolation · (v − v₋)
 /// ```
-/// Second order (BDF2) loses next to no energy where first order, the plain formula of position-based
-/// dynamics, loses most of it (English and Bridson, "Animating developable surfaces using
-/// nonconforming elements", 2008, sec. 3). It needs links that are solved symmetrically, to and fro:
-/// the phase error of a one-way sweep would feed it.
+/// d is the displacement of this substep (the velocity uses it after the constraints were solved),
+/// d₋ that of the last one.
+///
+/// BDF2 loses nearly no energy, whereas BDF1, the usual scheme of position-based dynamics, loses
+/// most of it (English and Bridson, "Animating developable surfaces using nonconforming elements",
+/// 2008, sec. 3). BDF2 needs links that are swept symmetrically, in alternating directions: the
+/// phase error of sweeps in one direction would add energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BdfScheme {
     /// Length of a substep [s].
     pub h: f32,
-    /// The part of it that a new velocity acts for [s].
+    /// Effective step of a velocity or acceleration [s]: h, or 2/3 h for BDF2.
     pub velocity_step: f32,
-    /// Share of the last change that goes on.
+    /// Weight of the last change: 0, or 1/3 for BDF2.
     pub extrapolation: f32,
+    /// Weight of the displacement of this substep in the velocity: 1, or 3/2 for BDF2.
     pub new_weight: f32,
+    /// Weight of the displacement of the last substep in the velocity: 0, or 1/2 for BDF2.
     pub old_weight: f32,
 }
 

@@ -1,4 +1,8 @@
-//! The air around a cloth: a steady wind that gusts, wanders and swirls, always the same way.
+//! Wind: a mean velocity with gusts, changes of direction and turbulence, all functions of time and
+//! seed.
+//!
+//! Gusts and direction are sums of sines in time; turbulence is a sum of sines in space and time.
+//! No random state: equal time and seed give equal wind on every platform.
 
 use crate::error::{Result, check, check_finite};
 use crate::math::hasher::unit;
@@ -6,35 +10,37 @@ use crate::math::trig::{cos, sin, sin_branchless};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// How the air pushes.
+/// How the wind acts on the cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum WindModel {
-    /// On each triangle along its normal, by the square of the relative speed; still air brakes.
+    /// Aerodynamic pressure on each triangle: drag along its normal and lift, quadratic in the
+    /// relative speed. Still air slows the cloth.
     #[default]
     Surface = 0,
-    /// On each particle as a field of sine waves, whichever way the cloth faces: the receipt's wind.
-    /// The length of `velocity` is its strength as an acceleration [m/s²].
+    /// An acceleration of each particle from a field of sine waves, independent of the orientation
+    /// of the cloth (the wind of the receipt demo). The length of `velocity` is its strength
+    /// [m/s²].
     SineField = 1,
 }
 
-/// The air around a cloth. The default is still air.
+/// The wind. The default is still air.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Wind {
-    /// How the air pushes; on surfaces.
+    /// How the wind acts. Default: on surfaces.
     pub model: WindModel,
-    /// Mean velocity of the air [m/s]; still.
+    /// Mean velocity of the air [m/s]. Default: zero.
     pub velocity: Vec3,
-    /// How much the speed swells and falls, as a share of it; 0. From 0 to 1.
+    /// Amplitude of gusts, as a share of the speed, 0 to 1. Default: 0.
     pub gust: f32,
-    /// How far the direction strays [rad]; 0. From 0 to π.
+    /// Amplitude of changes of direction [rad], 0 to π. Default: 0.
     pub wander: f32,
-    /// Swirls in space, as a share of the speed; 0. From 0 to 1.
+    /// Amplitude of turbulence in space, as a share of the speed, 0 to 1. Default: 0.
     pub turbulence: f32,
-    /// Density of the air [kg/m³]; 1.2. At least 0; 0 is a vacuum.
+    /// Density of the air [kg/m³], at least 0; 0 = vacuum. Default: 1.2.
     pub air_density: f32,
-    /// Which gusts and swirls; 0.
+    /// Seed that selects the sequence of gusts and turbulence. Default: 0.
     pub seed: u32,
 }
 
@@ -53,7 +59,7 @@ impl Default for Wind {
 }
 
 impl Wind {
-    /// Refuses air that cannot be.
+    /// Refuses values that are out of range.
     pub(crate) fn check(&self) -> Result<()> {
         check_finite(self.velocity, "wind.velocity")?;
         let share = |v: f32| (0.0..=1.0).contains(&v);
@@ -71,7 +77,7 @@ impl Wind {
         )
     }
 
-    /// The wind at `time` [s]: gusts and wandering done, swirls yet to come.
+    /// Evaluates the wind at `time` [s]: gusts and direction; turbulence is added per particle.
     pub(crate) fn sample(&self, time: f64) -> WindSample {
         let speed = self.velocity.length();
         if speed == 0.0 {
@@ -79,11 +85,11 @@ impl Wind {
         }
         let phase = f64::from(unit(self.seed, &[0])) * 100.0;
         let t = time + phase;
-        // Periods of 6, 2.6 and 1.1 s: slow swells, faster gusts, a flutter.
+        // Gusts with periods of 6, 2.6 and 1.1 s.
         let swell = 0.55 * sin(1.05 * t) + 0.3 * sin(2.4 * t + 1.3) + 0.15 * sin(5.7 * t + 0.4);
         let wander_angle = 0.6 * sin(0.41 * t + 2.0) + 0.4 * sin(1.13 * t);
         let along = self.velocity * (1.0 / speed);
-        // Two directions across the wind, whichever way is up.
+        // Two directions perpendicular to the wind, for any orientation.
         let helper = if along.y * along.y < 0.5 { Vec3::Y } else { Vec3::X };
         let across = along.cross(helper);
         let across = across * (1.0 / across.length());
@@ -93,12 +99,12 @@ impl Wind {
         let heading = along * cos(angle) + side;
         let mean = heading * (speed * (1.0 + self.gust * swell));
         let turn = core::f64::consts::TAU;
-        // Reduced while it is exact, for the lanes have f32 only.
+        // Reduced modulo 2π in f64, because the SIMD kernels compute in f32.
         let phase = [2.9, 3.7, 4.3].map(|rate| ((t * rate + phase * 4.8) % turn) as f32);
         WindSample { mean, turbulence: self.turbulence * speed, phase }
     }
 
-    /// The receipt's field at `time` [s], for a particle at `x` [m]: an acceleration [m/s²].
+    /// Acceleration of the sine field at `time` [s] for a particle at `x` [m], in m/s².
     pub(crate) fn sine_field(&self, time: f64, x: Vec3) -> Vec3 {
         let (px, py, pz) = (f64::from(x.x), f64::from(x.y), f64::from(x.z));
         let strength = self.velocity.length();
@@ -113,18 +119,19 @@ impl Wind {
 /// The wind at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WindSample {
-    /// The velocity that it has everywhere [m/s].
+    /// Velocity without turbulence [m/s].
     pub mean: Vec3,
     turbulence: f32,
     phase: [f32; 3],
 }
 
 impl WindSample {
+    /// Returns whether there is turbulence.
     pub fn is_turbulent(&self) -> bool {
         self.turbulence > 0.0
     }
 
-    /// What swirls add to the velocity at a place [m/s].
+    /// Velocity that turbulence adds at a position [m/s].
     #[inline(always)]
     pub fn turbulence_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
         [
@@ -149,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn gusts_keep_within_their_share_and_return() {
+    fn gusts_stay_within_their_amplitude() {
         let velocity = Vec3::new(3.0, 0.0, 0.0);
         let wind = Wind { velocity, gust: 0.5, ..Wind::default() };
         let speeds: Vec<f32> =
@@ -162,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sine_field_is_the_receipts_formula() {
+    fn the_sine_field_matches_its_formula_in_f64() {
         let wind = Wind { model: WindModel::SineField, velocity: Vec3::X * 3.0, ..Wind::default() };
         let (t, x) = (1.25_f64, Vec3::new(0.4, -0.8, 1.1));
         let [px, py, pz] = [0.4_f64, -0.8, 1.1];
@@ -171,9 +178,9 @@ mod tests {
             (t * 0.7 + py * 0.4).sin() * 0.1 * 3.0,
             ((t * 1.1 + px * 0.4).cos() * 0.4 + (t * 3.1 + py * 0.2).cos() * 0.2) * 3.0,
         ];
-        let ours = wind.sine_field(t, x).to_array();
-        for (ours, exact) in ours.iter().zip(exact) {
-            assert!((f64::from(*ours) - exact).abs() < 1.0e-6, "{ours} {exact}");
+        let computed = wind.sine_field(t, x).to_array();
+        for (computed, exact) in computed.iter().zip(exact) {
+            assert!((f64::from(*computed) - exact).abs() < 1.0e-6, "{computed} {exact}");
         }
     }
 }

@@ -1,10 +1,13 @@
-//! From the triangles that artists export to a mesh that can be cloth: one repair after the other.
+//! Mesh repair: from any triangle soup to a mesh that can be simulated as cloth.
 //!
 //! ```text
-//! weld ─▶ sift ─▶ part ─▶ turn
+//! weld ─▶ remove degenerate ─▶ split non-manifold ─▶ orient
 //! ```
-//! Each is told in `MeshReport`. What is left is sound: an edge has at most two triangles, the triangles
-//! of a particle form one fan, every triangle has an area.
+//! Reads positions and indices of a host; writes a `RepairedMesh` and a `MeshReport` that counts
+//! each repair.
+//!
+//! Invariant of the result: an edge has at most two triangles, the triangles of a particle form one
+//! fan, and every triangle has an area.
 
 mod orient;
 mod remove_degenerate;
@@ -17,26 +20,26 @@ use crate::mesh::seams::Seams;
 use crate::mesh::{Corner, Mesh};
 use glam::Vec3;
 
-/// A mesh that can be cloth.
+/// Result of a repair.
 #[derive(Clone, Debug)]
 pub(crate) struct RepairedMesh {
     /// Triangles over particles.
     pub mesh: Mesh,
-    /// The given vertex at which each particle lies.
+    /// The given vertex at the position of each particle.
     pub source_vertices: Vec<u32>,
-    /// The vertices, unless each is the particle of its number.
+    /// The render vertices; `None` if each vertex is the particle of the same number.
     pub seams: Option<Seams>,
     pub report: MeshReport,
 }
 
-/// Repairs a mesh. `positions` are finite, `indices` are of whole triangles; `capacity` says how many
-/// particles there may ever be, if there are so many.
+/// Repairs a mesh. `positions` [m] are finite, `indices` are whole triangles; `capacity(n)` returns
+/// the maximum number of particles for a cloth that starts with n, or an error.
 ///
-/// Particles are numbered as the lowest of their vertices; those that splits made follow.
+/// Particles are numbered in the order of the lowest vertex of each; those added by splits follow.
 ///
 /// # Errors
-/// `BadIndex` for an index out of range, `BadMesh` for a triangle without bounds or if none is left,
-/// `BadValue` if more particles than there may be came of it.
+/// `BadIndex` for an index out of range. `BadMesh` for a triangle whose area is not finite, or if
+/// no triangle remains. The errors of `capacity`.
 pub(crate) fn repair(
     positions: &[Vec3],
     indices: &[u32],
@@ -99,7 +102,7 @@ pub(crate) fn repair(
     Ok(RepairedMesh { mesh, source_vertices, seams, report })
 }
 
-/// Where a corner is after its triangle was turned, if it was.
+/// Where a corner is after its triangle was flipped, if it was.
 fn corner_after_flip(corner: Corner, flipped: &[bool]) -> Corner {
     match (flipped[corner as usize / 3], corner % 3) {
         (true, 1) => corner + 1,
@@ -108,12 +111,13 @@ fn corner_after_flip(corner: Corner, flipped: &[bool]) -> Corner {
     }
 }
 
-/// Numbers the vertices that others were welded to: the vertex of each, and the number for each vertex.
+/// Numbers the vertices that others were welded to. Returns the vertex of each particle and the
+/// particle of each vertex.
 fn number_particles(welded: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let (mut source_vertices, mut particles) = (Vec::with_capacity(welded.len()), Vec::new());
     particles.resize(welded.len(), 0);
     for (vertex, to) in welded.iter().enumerate() {
-        // The vertex that stayed is never a later one.
+        // A vertex is welded to an earlier one or to itself.
         if *to == vertex as u32 {
             particles[vertex] = source_vertices.len() as u32;
             source_vertices.push(*to);
@@ -124,6 +128,7 @@ fn number_particles(welded: &[u32]) -> (Vec<u32>, Vec<u32>) {
     (source_vertices, particles)
 }
 
+/// Number of vertices that no triangle uses.
 fn count_unused(triangles: &[[u32; 3]], count: usize) -> u32 {
     let mut is_used = vec![false; count];
     triangles.iter().flatten().for_each(|v| is_used[*v as usize] = true);

@@ -1,22 +1,24 @@
-//! Turning: the triangles of a piece come to face one way, that of most of them.
+//! Orientation: gives all triangles of a piece the same winding, that of the majority.
 //!
-//! A piece that has no two sides, such as a Möbius strip, stays as it is unless turning some triangles
-//! leaves fewer edges where neighbours face opposite ways.
+//! Breadth-first search over neighbours. A piece that is not orientable, such as a Möbius strip,
+//! keeps its windings unless flipping leaves fewer edges with inconsistent windings.
+//!
+//! Reads a sound `Mesh`; returns which triangles to flip.
 
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 
-/// How pieces face.
+/// Result of the orientation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Orientation {
-    /// Whether each triangle is to be turned.
+    /// Whether to flip each triangle.
     pub flipped: Vec<bool>,
-    /// How many pieces there are.
+    /// Number of pieces (connected components).
     pub pieces: u32,
-    /// How many of them have no two sides.
+    /// Number of pieces that are not orientable.
     pub non_orientable: u32,
 }
 
-/// Finds the triangles of a sound mesh that have to be turned.
+/// Computes which triangles of a sound mesh must be flipped.
 pub(super) fn orient(mesh: &Mesh) -> Orientation {
     let count = mesh.triangles.len();
     let mut orientation = Orientation { flipped: vec![false; count], ..Orientation::default() };
@@ -29,7 +31,7 @@ pub(super) fn orient(mesh: &Mesh) -> Orientation {
         is_visited[seed as usize] = true;
         piece.clear();
         piece.push(seed);
-        // Edges where neighbours face opposite ways: as they are, and as they are turned.
+        // Edges with inconsistent windings: as given, and after flipping.
         let (mut conflicts, mut remaining_conflicts) = (0, 0);
         let mut at = 0;
         while let Some(triangle) = piece.get(at).copied() {
@@ -66,14 +68,14 @@ pub(super) fn orient(mesh: &Mesh) -> Orientation {
     orientation
 }
 
-/// The triangle across an edge, and whether both face the same way.
+/// The triangle across an edge, and whether both have consistent windings.
 fn neighbor(mesh: &Mesh, edge: Corner) -> Option<(u32, bool)> {
     let next = mesh.across(edge);
     if next == NONE {
         return None;
     }
     let (from, to) = (mesh.vertex(edge), mesh.vertex(next_corner(edge)));
-    // Alike they run along their edge in opposite directions.
+    // With consistent windings the neighbour runs along the edge in the opposite direction.
     let runs_back =
         |other: Corner| mesh.vertex(other) == to && mesh.vertex(next_corner(other)) == from;
     Some((next, (3 * next..3 * next + 3).any(runs_back)))
@@ -89,15 +91,16 @@ mod tests {
     }
 
     #[test]
-    fn the_few_turn_to_the_many_in_every_piece() {
+    fn the_minority_of_every_piece_is_flipped() {
         let strip = [[0, 1, 2], [1, 3, 2], [2, 4, 3], [3, 5, 4], [6, 7, 8], [7, 8, 9], [8, 10, 9]];
         let orientation = orientation(&strip);
-        // Of two against two the first triangle decides.
+        // With two against two the first triangle decides.
         assert_eq!(orientation.flipped, [false, false, true, false, true, false, false]);
         assert_eq!((orientation.pieces, orientation.non_orientable), (2, 0));
     }
 
-    /// A strip of `count` quads whose ends meet with a half twist; every triangle as its neighbour before.
+    /// A strip of `count` quads whose ends are joined with a half twist; neighbours have consistent
+    /// windings except at the joint.
     fn moebius(count: u32) -> Vec<[u32; 3]> {
         let vertex = |at: u32, side: u32| {
             if at == count { 1 - side } else { 2 * at + side }
@@ -110,24 +113,24 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_without_two_sides_keeps_one_line_of_odds() {
-        let whole = orientation(&moebius(8));
-        assert_eq!((whole.pieces, whole.non_orientable), (1, 1));
+    fn a_moebius_strip_keeps_one_inconsistent_edge() {
+        let strip = orientation(&moebius(8));
+        assert_eq!((strip.pieces, strip.non_orientable), (1, 1));
         assert!(
-            whole.flipped.iter().all(|flipped| !flipped),
-            "one edge at odds is as good as it gets"
+            strip.flipped.iter().all(|flipped| !flipped),
+            "one inconsistent edge is the minimum"
         );
-        let mut spoilt = moebius(8);
-        spoilt[5].swap(1, 2);
-        spoilt[9].swap(1, 2);
-        let orientation = orientation(&spoilt);
+        let mut mixed = moebius(8);
+        mixed[5].swap(1, 2);
+        mixed[9].swap(1, 2);
+        let orientation = orientation(&mixed);
         let flipped: Vec<usize> = (0..16).filter(|at| orientation.flipped[*at]).collect();
-        spoilt.iter_mut().enumerate().for_each(|(at, triangle)| {
+        mixed.iter_mut().enumerate().for_each(|(at, triangle)| {
             if flipped.contains(&at) {
                 triangle.swap(1, 2);
             }
         });
-        let mesh = Mesh::new(spoilt, 16, 16);
+        let mesh = Mesh::new(mixed, 16, 16);
         let conflicting = mesh
             .edges()
             .filter(|e| neighbor(&mesh, *e).is_some_and(|(_, is_consistent)| !is_consistent));

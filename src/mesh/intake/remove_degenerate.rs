@@ -1,24 +1,31 @@
-//! Sifting: triangles without an area and repeated ones are left out.
+//! Removal of degenerate triangles (no area) and duplicates.
+//!
+//! A triangle is degenerate if its height is at most 10⁻⁶ of its longest edge, before or after
+//! welding.
 
 use crate::error::{Error, Result};
 use crate::math::sort::sort;
 use glam::Vec3;
 
-/// A triangle whose height is at most this share of its longest edge has no area but by rounding.
+/// A triangle with a height of at most this share of its longest edge is degenerate.
 const MIN_RELATIVE_HEIGHT: f64 = 1.0e-6;
 
-/// What is left of some triangles.
+/// The triangles that remain.
 #[derive(Clone, Debug)]
 pub(super) struct KeptTriangles {
-    /// Their numbers, lowest first.
+    /// Their numbers in the given list, ascending.
     pub triangles: Vec<u32>,
-    /// How many had no area.
+    /// Number of removed triangles without area.
     pub degenerate: u32,
-    /// How many had the corners of an earlier one.
+    /// Number of removed triangles with the corners of an earlier one.
     pub duplicates: u32,
 }
 
-/// Sifts triangles, as they are and as welding leaves them.
+/// Returns the triangles that are not degenerate, as given and after welding, without duplicates.
+/// `welded[v]` is the vertex that vertex v was welded to.
+///
+/// # Errors
+/// `BadMesh` if an area is not finite or no triangle remains.
 pub(super) fn remove_degenerate(
     positions: &[Vec3],
     given: &[[u32; 3]],
@@ -73,7 +80,7 @@ pub(super) fn is_degenerate(positions: &[Vec3], corners: &[u32; 3]) -> bool {
         let squared = edge.length_squared();
         if squared > longest { squared } else { longest }
     });
-    // What rounds to nothing in the numbers of the solver is nothing too.
+    // An area that rounds to zero in f32 counts as none, because the solver computes in f32.
     (b - a).cross(c - a).length() <= MIN_RELATIVE_HEIGHT * longest || area(corner_positions) == 0.0
 }
 
@@ -87,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slivers_by_rounding_are_degenerate_and_thin_triangles_are_not() {
+    fn triangles_flat_up_to_rounding_are_degenerate_and_thin_ones_are_not() {
         let thin = |height: f32| [Vec3::ZERO, Vec3::X, Vec3::new(0.5, height, 0.0)];
         assert!(is_degenerate(&thin(0.0), &[0, 1, 2]));
         assert!(is_degenerate(&thin(5.0e-7), &[0, 1, 2]));
@@ -96,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_of_equal_triangles_stays_whichever_way_it_winds() {
+    fn the_first_of_duplicate_triangles_is_kept_for_any_winding() {
         let corner_positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE];
         let triangles = [[1, 2, 3], [0, 1, 2], [2, 1, 0], [1, 1, 2], [1, 2, 0]];
         let kept_triangles =
@@ -108,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn welding_may_leave_a_triangle_without_an_area() {
+    fn a_triangle_that_welding_makes_degenerate_is_removed() {
         let corner_positions =
             [Vec3::ZERO, Vec3::X, Vec3::new(0.5, 1.0e-3, 0.0), Vec3::X * 0.5, Vec3::Y];
         let kept_triangles =

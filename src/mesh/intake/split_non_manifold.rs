@@ -1,31 +1,37 @@
-//! Parting: where more than two triangles share an edge, or sheets meet at a mere point, each sheet gets
-//! particles of its own.
+//! Splitting of non-manifold edges and vertices: each sheet gets particles of its own.
 //!
 //! ```text
 //!   \ │ /          \   │   /
-//!    \│/     ─▶     \ ┌┘  /        an edge seen from its end
+//!    \│/     ─▶     \ ┌┘  /        a non-manifold edge, seen along the edge
 //! ────●────      ────● ● ●────
 //! ```
-//! Of the triangles at such an edge the two that lie flattest stay joined, then the flattest two of the
-//! others, and so on; of equally flat ones the first. The sheet with the first triangle keeps the particle.
+//! Of the triangles at such an edge, the two that are most nearly in one plane stay joined, then
+//! the flattest two of the rest, and so on; of equally flat pairs the first. Corners joined through
+//! edges form fans (union-find); every fan but the first of a particle gets a copy of the particle.
+//!
+//! Reads triangles without degenerates and duplicates; rewrites their particle indices.
+//!
+//! Invariant of the result: at most two triangles per edge, one fan per particle.
 
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::{Corner, next_corner, prev_corner, triangle_of};
 use glam::{DVec3, Vec3};
 
-/// So many triangles at an edge are looked at for such that lie flat; others stand alone.
+/// At an edge with more triangles than this, only the first ones are paired; the others stay
+/// separate.
 const MAX_PAIRED_SIDES: usize = 32;
 
-/// What parting did.
+/// Result of the split.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ManifoldSplit {
-    /// The particles that came to be: the one that each is a copy of, and its corners, lowest first.
+    /// The added particles, in order.
     pub copies: Vec<SplitParticle>,
-    /// How many edges had more than two triangles.
+    /// Number of edges that had more than two triangles.
     pub split_edges: u32,
 }
 
-/// Parts triangles that have an area and are there once, over `count` particles. `position` is where each is.
+/// Splits non-manifold edges and vertices of `triangles`, which have an area and no duplicates,
+/// over `count` particles. `position` returns the position of a particle [m].
 pub(super) fn split_non_manifold(
     triangles: &mut Vec<[u32; 3]>,
     count: usize,
@@ -43,12 +49,14 @@ pub(super) fn split_non_manifold(
             *triangles = corners;
             return ManifoldSplit { copies, split_edges };
         }
-        // A sheet that folds back onto one of its own edges: what is too much there stands alone.
+        // A sheet may fold back onto one of its own edges: the excess triangles there become
+        // isolated.
         excess_triangles.into_iter().for_each(|triangle| is_isolated[triangle] = true);
     }
 }
 
-/// Edges by their ends, lower first, each with where it starts in a triangle.
+/// All sides of triangles, sorted by the ends of their edge (lower first), each with the corner
+/// where it starts.
 struct EdgeSides {
     sorted: Vec<([u32; 2], Corner)>,
 }
@@ -66,7 +74,7 @@ impl EdgeSides {
         Self { sorted }
     }
 
-    /// The triangles' sides of each edge.
+    /// The sides of each edge.
     fn runs(&self) -> impl Iterator<Item = &[([u32; 2], Corner)]> {
         self.sorted.chunk_by(|one, other| one.0 == other.0)
     }
@@ -95,7 +103,7 @@ impl EdgeSides {
     }
 }
 
-/// Pairs the sides of an edge, the flattest first.
+/// Pairs the sides of one edge, the flattest pair first.
 fn pair_flattest(
     triangles: &[[u32; 3]],
     sides: Vec<Corner>,
@@ -104,7 +112,7 @@ fn pair_flattest(
 ) {
     let at =
         |corner: Corner| position(triangles[triangle_of(corner)][corner as usize % 3]).as_dvec3();
-    // The way from the edge into each triangle, square to the edge.
+    // Unit vector from the edge into each triangle, perpendicular to the edge.
     let inward_direction = |edge: &Corner| -> DVec3 {
         let (from, to) = (at(*edge), at(next_corner(*edge)));
         let along = (to - from).normalize_or_zero();
@@ -131,10 +139,10 @@ fn pair_flattest(
     }
 }
 
-/// A particle whose fan got one of its own, and the corners of that fan.
+/// A particle that was copied for one of its fans, and the corners of that fan, ascending.
 type SplitParticle = (u32, Vec<Corner>);
 
-/// Gives every fan but the first of a particle one of its own, from number `count` on.
+/// Gives every fan but the first of each particle a copy of the particle, numbered from `count` on.
 fn split_fans(
     triangles: &[[u32; 3]],
     pairs: &[[Corner; 2]],
@@ -151,7 +159,8 @@ fn split_fans(
     }
     let mut out = triangles.to_vec();
     let mut copies: Vec<SplitParticle> = Vec::new();
-    // The first fan of each particle, and the copy that each later one got, by its lowest corner.
+    // The first fan of each particle, and the copy of each later one, by the lowest corner of the
+    // fan.
     let mut first_fan = vec![u32::MAX; count];
     let mut copy_of_fan = vec![u32::MAX; fan.len()];
     for corner in 0..fan.len() as u32 {
@@ -174,7 +183,7 @@ fn split_fans(
     (out, copies)
 }
 
-/// The lowest corner of a fan; on the way there every second step is halved.
+/// Root of the fan of a corner (union-find with path halving): its lowest corner.
 fn find_root(fan: &mut [Corner], mut corner: Corner) -> Corner {
     while fan[corner as usize] != corner {
         fan[corner as usize] = fan[fan[corner as usize] as usize];
@@ -188,7 +197,7 @@ fn union(fan: &mut [Corner], one: Corner, other: Corner) {
     fan[one.max(other) as usize] = one.min(other);
 }
 
-/// The triangles that are too much at an edge even now: all there but the first pair that is joined.
+/// Triangles in excess at edges that still have more than two: all but the first joined pair.
 fn excess_triangles(triangles: &[[u32; 3]], pairs: &[[Corner; 2]]) -> Vec<usize> {
     let edges = EdgeSides::new(triangles);
     let mut excess_triangles = Vec::new();
@@ -208,7 +217,7 @@ mod tests {
     use super::*;
     use crate::mesh::{Fan, Mesh};
 
-    /// Parts what lies at these places, and checks that what is left is sound.
+    /// Splits triangles at these positions, and checks that the result is manifold.
     fn split_and_check(
         positions: &[Vec3],
         triangles: &[[u32; 3]],
@@ -232,7 +241,7 @@ mod tests {
 
     const HINGE: [Vec3; 2] = [Vec3::ZERO, Vec3::Y];
 
-    /// A place off the spine at so many sixteenths of a turn.
+    /// A point beside the hinge, at the given angle in sixteenths of a turn.
     fn ring_point(sixteenths: f32) -> Vec3 {
         let (sine, cosine) = (sixteenths * core::f32::consts::TAU / 16.0).sin_cos();
         Vec3::new(cosine, 0.5, sine)
@@ -248,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn sheets_that_cross_stay_whole() {
+    fn two_sheets_that_cross_at_an_edge_stay_whole() {
         let positions = [
             HINGE[0],
             HINGE[1],
@@ -262,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mere_point_between_two_fans_is_parted() {
+    fn a_vertex_shared_by_two_fans_is_split() {
         let positions = [0.0, 1.0, 2.0, 3.0, 4.0].map(|x: f32| Vec3::new(x, x * x, 0.0));
         let (out, split_result) = split_and_check(&positions, &[[0, 1, 2], [2, 3, 4]]);
         assert_eq!(out, [[0, 1, 2], [5, 3, 4]]);
@@ -270,8 +279,9 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_that_meets_its_own_edge_again_is_parted_there() {
-        // Around the spine and back to it: the last page lies on the first edge, joined to it all around.
+    fn a_sheet_that_returns_to_its_own_edge_is_split_there() {
+        // Around the hinge and back to it: the last point lies on the first edge and is joined to
+        // it all around.
         let mut positions = HINGE.to_vec();
         positions.extend((0..5).map(|at| ring_point(3.0 * at as f32)));
         let mut triangles = vec![[0, 1, 2], [0, 1, 4], [0, 1, 6]];
@@ -282,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn every_triangle_between_seven_points_is_parted_soundly() {
+    fn all_triangles_between_seven_points_become_manifold() {
         let positions: Vec<Vec3> =
             (0..7).map(|at| ring_point(2.3 * at as f32) * (1.0 + at as f32)).collect();
         let mut triangles = Vec::new();

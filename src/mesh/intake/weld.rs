@@ -1,16 +1,22 @@
 //! Welding: vertices that lie together become one.
 //!
-//! Vertices are taken in order. Each joins the nearest of those before it that stayed apart and are at
-//! most the distance away, of equally near ones the lowest; or else it stays apart. So all that join
-//! a vertex are near it: a chain of small steps does not run away. A vertex does not join one with which
-//! it shares a triangle that has an area, or with which a vertex that joined it before does.
+//! Vertices are processed in order. Each one is welded to the nearest kept vertex within the
+//! distance (of equally near ones the lowest), otherwise it is kept. So every welded vertex is near
+//! the vertex it is welded to: chains of small steps do not accumulate. A vertex is not welded to
+//! one with which it, or a vertex welded to that one, shares a triangle that has an area.
+//!
+//! Candidates come from a hash grid of cells twice as wide as the distance: eight cells cover the
+//! ball.
+//!
+//! Reads positions and triangles; returns the target of each vertex.
 
 use crate::mesh::NONE;
 use crate::mesh::intake::remove_degenerate::is_degenerate;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// For each vertex the one that it joins, which may be itself. Below a distance of 0 that is all.
+/// For each vertex the vertex it is welded to, which may be itself. A `distance` [m] of 0 welds
+/// equal positions; a negative one welds nothing.
 pub(super) fn weld(positions: &[Vec3], triangles: &[[u32; 3]], distance: f32) -> Vec<u32> {
     let mut welded_to: Vec<u32> = (0..positions.len() as u32).collect();
     if distance < 0.0 {
@@ -41,7 +47,8 @@ pub(super) fn weld(positions: &[Vec3], triangles: &[[u32; 3]], distance: f32) ->
     welded_to
 }
 
-/// The triangles with an area around each vertex: `corners[first[v]..first[v + 1]]`, two others each.
+/// Neighbours of each vertex in triangles with an area, in CSR layout: `others[first[v]..first[v +
+/// 1]]` holds the two other corners of each triangle of v.
 struct VertexNeighbors {
     first: Vec<u32>,
     others: Vec<[u32; 2]>,
@@ -69,14 +76,16 @@ impl VertexNeighbors {
         Self { first, others }
     }
 
-    /// Whether a vertex has a triangle with `other`, or with one before it that joined `other`.
+    /// Whether `vertex` shares a triangle with `other`, or with an earlier vertex that was welded
+    /// to `other`.
     fn share_a_triangle(&self, vertex: u32, other: u32, welded_to: &[u32]) -> bool {
         let range = self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize;
         self.others[range].as_flattened().iter().any(|v| welded_to[*v as usize] == other)
     }
 }
 
-/// The vertices that stayed apart, by cells twice as wide as the distance, as chains.
+/// The kept vertices in a hash grid with cells of twice the distance; the vertices of a cell form a
+/// linked list.
 struct KeptVertices {
     distance: f64,
     head: HashMap<[i64; 3], u32>,
@@ -88,7 +97,7 @@ impl KeptVertices {
         Self { distance, head: HashMap::with_capacity(count), next: vec![NONE; count] }
     }
 
-    /// In cells; without a distance every place is a cell.
+    /// Position in units of a cell. With distance 0 every position is its own cell.
     fn scaled(&self, at: DVec3) -> [f64; 3] {
         at.to_array().map(|x| if self.distance > 0.0 { x / (2.0 * self.distance) } else { x })
     }
@@ -97,7 +106,7 @@ impl KeptVertices {
         if self.distance > 0.0 {
             self.scaled(at).map(|x| x.floor() as i64)
         } else {
-            // Zero has two signs.
+            // Adding +0 maps −0 to +0.
             at.to_array().map(|x| (x + 0.0).to_bits() as i64)
         }
     }
@@ -108,7 +117,8 @@ impl KeptVertices {
         *head = vertex;
     }
 
-    /// All that may be near a place: those of its cell, and of the neighbours on the sides it is nearer to.
+    /// All kept vertices that may be within the distance: those of its cell and of the neighbouring
+    /// cells on the nearer side of each axis.
     fn candidates(&self, at: DVec3) -> impl Iterator<Item = u32> {
         let cell = self.cell(at);
         let nearer_side = self.scaled(at).map(|x| if x - x.floor() < 0.5 { -1 } else { 1 });
@@ -136,33 +146,33 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_joins_the_nearest_that_stayed_apart() {
+    fn a_vertex_is_welded_to_the_nearest_kept_vertex() {
         assert_eq!(weld(&along(&[0.0, 1.0, 0.45, 0.55, 0.5]), &[], 0.5), [0, 1, 0, 1, 0]);
     }
 
     #[test]
-    fn a_chain_does_not_run_away() {
+    fn chains_of_small_steps_do_not_accumulate() {
         assert_eq!(weld(&along(&[0.0, 0.4, 0.8, 1.2]), &[], 0.5), [0, 0, 2, 2]);
     }
 
     #[test]
-    fn distance_zero_joins_equal_places_and_less_joins_nothing() {
+    fn distance_zero_welds_equal_positions_and_a_negative_distance_nothing() {
         let points = along(&[0.0, -0.0, 1.0, 1.0, 1.0 + f32::EPSILON]);
         assert_eq!(weld(&points, &[], 0.0), [0, 0, 2, 2, 4]);
         assert_eq!(weld(&points, &[], -1.0), [0, 1, 2, 3, 4]);
     }
 
     #[test]
-    fn a_triangle_keeps_its_corners_apart() {
+    fn corners_of_a_triangle_are_not_welded_together() {
         let points = [Vec3::ZERO, Vec3::X * 0.1, Vec3::Y, Vec3::X * 0.12, Vec3::X * 0.04];
-        // 1 may not join 0; 3 joins 1, and 4 the nearer of both.
+        // 1 shares a triangle with 0; 3 is welded to 1, and 4 to the nearer of both.
         assert_eq!(weld(&points, &[[0, 1, 2]], 0.2), [0, 1, 2, 1, 0]);
-        // 3 may not join 1, to which it is nearest.
+        // 3 shares a triangle with 1, which is nearest.
         assert_eq!(weld(&points, &[[0, 1, 2], [1, 3, 2]], 0.2), [0, 1, 2, 0, 0]);
     }
 
     #[test]
-    fn places_across_the_borders_of_cells_are_found() {
+    fn candidates_in_neighbouring_cells_are_found() {
         let mut points = Vec::new();
         for at in 0..64 {
             points.push(Vec3::new((at % 4) as f32, (at / 4 % 4) as f32, (at / 16) as f32) * 0.25);
