@@ -80,7 +80,7 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: SweepOrder, sc
 fn solve_batches<const LAW: u8>(world: &mut World, kind: LinkKind, order: SweepOrder, scale: f32) {
     let batches = world.constraints.batches_of(kind);
     #[cfg(feature = "parallel")]
-    if world.constraints.strays_of(kind).is_empty()
+    if world.constraints.irregular_links_of(kind).is_empty()
         && tiling::solve::<LAW>(world, batches.clone(), order, scale)
     {
         return;

@@ -1,13 +1,18 @@
-//! The links of a grid, as many at a time as there are lanes.
+//! Distance constraints of a grid: chooses the SIMD kernel for each run of rows of a batch.
 //!
-//! A row's particles lie next to each other, so that its links are straight loads. The arithmetic
-//! is `links::correct`, the very one that goes link by link, so the bits are the same too. What is
-//! left of a row after whole chunks is one more chunk that reaches over its end, of which only the
-//! row's links count; at the end of all lists one that reaches back. It writes what is beyond anew
-//! as it was, and what follows would have to wait for that: so ends come after the whole chunks of
-//! many rows. GridRows that are alike, as nearly all are, go together (see `alike`).
+//! The particles of a row are contiguous, so that its links are plain loads (see `grid_kernel`). A
+//! batch is solved in up to three passes over each run of rows of one pattern:
+//!
+//! ```text
+//! intact rows   uniform ones together, widest vectors      uniform_rows
+//! torn rows     masked chunks                              row_chunk
+//! scalar links  rows shorter than a vector, odd last links project_pair
+//! ```
+//! Reads `GridRows`, rest lengths, compliances, weights of the ends; writes positions and λ.
+//! Invariant: all arithmetic is `link_projection::compute_correction`, so the bits are those of the
+//! scalar code. Links that left their row are masked; `sparse` solves them.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code, unused_imports)
@@ -18,21 +23,18 @@ use crate::math::columns::Columns;
 use crate::math::simd::{Baseline, Level, Simd, vectored};
 use crate::model::grid_rows::{GridRows, LinkRow, RowPattern};
 use crate::model::links::Links;
-use crate::solver::particle_stage::access::ParticleAccess;
-use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
-use crate::solver::stretch::grid_kernel::row_layout::{Lists, Spot, in_chunks, in_chunks_of};
-use crate::solver::stretch::grid_kernel::uniform_rows::Alike;
+use crate::solver::stretch::grid_kernel::grid_slices::{GridSlices, PAIRS, QUADS, STRAIGHT};
+use crate::solver::stretch::grid_kernel::row_chunk::{LinkChunk, RowParameters, solve_row_tail};
+use crate::solver::stretch::grid_kernel::row_layout::{
+    GridPointers, simd_link_count, simd_link_count_of,
+};
+use crate::solver::stretch::grid_kernel::uniform_rows::UniformRows;
 use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, project_pair};
 use crate::state::particles::Particles;
 use core::ops::Range;
-use glam::Vec3;
 
-/// The patterns as numbers that a kernel can be compiled for.
-pub(crate) const STRAIGHT: u8 = RowPattern::Straight as u8;
-const PAIRS: u8 = RowPattern::Pairs as u8;
-const QUADS: u8 = RowPattern::Quads as u8;
-
-/// Solves the links `range`, which are a batch, but for those that left their rows.
+/// Solves the links `range`, which are one batch, except those that left their rows. For `scale`
+/// see `link_projection::compute_correction`.
 pub(crate) fn solve<const LAW: u8>(
     level: Level,
     grid: &GridRows,
@@ -44,7 +46,7 @@ pub(crate) fn solve<const LAW: u8>(
 ) {
     let Links { rest, compliance, lambda, .. } = links;
     let Columns { x, y, z } = &mut p.x;
-    let mut sheet = Sheet {
+    let mut slices = GridSlices {
         first_particle: 0,
         first_link: 0,
         x,
@@ -57,22 +59,22 @@ pub(crate) fn solve<const LAW: u8>(
         ends: ends.each_ref().map(|list| &list[..]),
         lambda,
     };
-    solve_rows::<LAW>(level, &grid.rows[grid.rows_of_batch(range)], &mut sheet, scale);
+    solve_rows::<LAW>(level, &grid.rows[grid.rows_of_batch(range)], &mut slices, scale);
 }
 
-/// Solves rows, all within the sheet.
+/// Solves rows of one colour, all within the slices.
 pub(crate) fn solve_rows<const LAW: u8>(
     level: Level,
     rows: &[LinkRow],
-    sheet: &mut Sheet<'_>,
+    slices: &mut GridSlices<'_>,
     scale: f32,
 ) {
     if Level::HAS_SCALAR && level == Level::Scalar {
-        return rows.iter().for_each(|row| solve_apart::<LAW>(row, 0, sheet, scale));
+        return rows.iter().for_each(|row| solve_scalar::<LAW>(row, 0, slices, scale));
     }
     let mut left = rows;
     while let Some(first) = left.first() {
-        let [solve_whole, solve_torn] = match (LAW, first.pattern) {
+        let [solve_intact, solve_torn] = match (LAW, first.pattern) {
             (SOFT, RowPattern::Straight) => [soft_straight, torn_soft_straight],
             (SOFT, RowPattern::Pairs) => [soft_pairs, torn_soft_pairs],
             (SOFT, RowPattern::Quads) => [soft_quads, torn_soft_quads],
@@ -83,45 +85,45 @@ pub(crate) fn solve_rows<const LAW: u8>(
             (_, RowPattern::Pairs) => [bound_pairs, torn_bound_pairs],
             (_, RowPattern::Quads) => [bound_quads, torn_bound_quads],
         };
-        let mut pass = Pass { rows: left.len(), ..Pass::default() };
-        solve_whole(level, left, sheet, scale, &mut pass);
+        let mut pass = RowPass { rows: left.len(), ..RowPass::default() };
+        solve_intact(level, left, slices, scale, &mut pass);
         let rows;
         (rows, left) = left.split_at(pass.rows);
         if pass.has_torn {
-            solve_torn(level, rows, sheet, scale, &mut pass);
+            solve_torn(level, rows, slices, scale, &mut pass);
         }
-        if pass.has_apart {
-            for row in rows.iter().filter(|row| in_chunks(row) < row.count as usize) {
-                solve_apart::<LAW>(row, in_chunks(row), sheet, scale);
+        if pass.has_scalar {
+            for row in rows.iter().filter(|row| simd_link_count(row) < row.count as usize) {
+                solve_scalar::<LAW>(row, simd_link_count(row), slices, scale);
             }
         }
     }
 }
 
-/// What a kernel went through, and what it left to others.
+/// The rows that a kernel went through, and which of them need another pass.
 #[derive(Default)]
-struct Pass {
-    /// How many rows, all of its pattern.
+struct RowPass {
+    /// The number of rows; all have the pattern of the kernel.
     rows: usize,
-    /// Whether some of them are torn.
+    /// Whether one of them is torn.
     has_torn: bool,
-    /// Whether some have links that go one by one.
-    has_apart: bool,
+    /// Whether one of them has links that go through the scalar code.
+    has_scalar: bool,
 }
 
-/// Functions for each law and pattern: together they would be too long for engines to compile well.
+/// Defines one function per law and pattern: WebAssembly engines compile one long function badly.
 macro_rules! kernels {
     ($solve:ident, $widest:ident; $($name:ident: $law:ident $pattern:ident;)*) => {$(
         vectored! {
-            #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // there `vectored` says so
-            fn $name(rows: &[LinkRow], sheet: &mut Sheet<'_>, scale: f32, pass: &mut Pass)
-                = $solve::<_, $law, $pattern>, $widest, none
+            #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // `vectored` adds it on wasm32
+            fn $name(rows: &[LinkRow], slices: &mut GridSlices<'_>, scale: f32, pass: &mut RowPass)
+                = $solve::<_, $law, $pattern>, $widest, no_simd
         }
     )*};
 }
 
 kernels! {
-    solve_whole, Avx512;
+    solve_intact, Avx512;
     soft_straight: SOFT STRAIGHT;
     soft_pairs: SOFT PAIRS;
     soft_quads: SOFT QUADS;
@@ -133,7 +135,7 @@ kernels! {
     bound_quads: BOUND QUADS;
 }
 
-// Few rows are torn: what the widest vectors would save is not worth another copy.
+// Few rows are torn, so that AVX-512 versions would save less time than their code size is worth.
 kernels! {
     solve_torn, Avx2;
     torn_soft_straight: SOFT STRAIGHT;
@@ -147,156 +149,95 @@ kernels! {
     torn_bound_quads: BOUND QUADS;
 }
 
-/// Without vectors there are no chunks.
-fn none(_: &[LinkRow], _: &mut Sheet<'_>, _: f32, _: &mut Pass) {}
+/// Without SIMD there are no chunks; `solve_rows` uses the scalar code.
+fn no_simd(_: &[LinkRow], _: &mut GridSlices<'_>, _: f32, _: &mut RowPass) {}
 
-/// The rows that no link has left, as far as all are of the pattern.
+/// Solves intact rows, up to the first one of another pattern.
 #[inline(always)]
-fn solve_whole<S: Simd, const LAW: u8, const PATTERN: u8>(
+fn solve_intact<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     rows: &[LinkRow],
-    sheet: &mut Sheet<'_>,
+    slices: &mut GridSlices<'_>,
     scale: f32,
-    pass: &mut Pass,
+    pass: &mut RowPass,
 ) {
-    let lists = Lists::of(sheet);
+    let pointers = GridPointers::new(slices);
     let mut number = 0;
     while let Some(row) = rows.get(number) {
         if row.pattern as u8 != PATTERN {
             pass.rows = number;
             break;
         }
-        pass.has_apart |= in_chunks_of::<PATTERN>(row) < row.count as usize;
+        pass.has_scalar |= simd_link_count_of::<PATTERN>(row) < row.count as usize;
         if row.is_torn {
             pass.has_torn = true;
             number += 1;
             continue;
         }
         let left = &rows[number..];
-        let alike = &left[..left.len().min(row.uniform_run.max(1) as usize)];
-        Alike::of::<PATTERN>(&lists, alike).solve::<S, LAW, PATTERN>(
+        let uniform = &left[..left.len().min(row.uniform_run.max(1) as usize)];
+        UniformRows::new::<PATTERN>(&pointers, uniform).solve::<S, LAW, PATTERN>(
             s,
-            &lists,
-            Terms { scale, rest: row.rest },
+            &pointers,
+            RowParameters { scale, rest: row.rest },
         );
-        number += alike.len();
+        number += uniform.len();
     }
 }
 
-/// The rows that links have left.
+/// Solves torn rows.
 #[inline(always)]
 fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     s: S,
     rows: &[LinkRow],
-    sheet: &mut Sheet<'_>,
+    slices: &mut GridSlices<'_>,
     scale: f32,
-    _: &mut Pass,
+    _: &mut RowPass,
 ) {
-    let lists = Lists::of(sheet);
+    let pointers = GridPointers::new(slices);
     for row in rows.iter().filter(|row| row.is_torn) {
-        let (count, terms) = (in_chunks_of::<PATTERN>(row), Terms { scale, rest: row.rest });
-        let (start, mut done) = (lists.spot::<PATTERN>(row, count), 0);
-        // SAFETY: the row was just found to lie within the lists; there is room for whole chunks,
-        // or none is made.
+        let (count, parameters) =
+            (simd_link_count_of::<PATTERN>(row), RowParameters { scale, rest: row.rest });
+        let (start, mut done) = (pointers.cursor::<PATTERN>(row, count), 0);
+        // SAFETY: `cursor` checked that the row lies within the slices, and `contains` each chunk.
         unsafe {
             while S::LANES > Baseline::LANES && done < count {
-                let spot = start.after::<PATTERN>(done);
-                if !lists.have_room::<PATTERN>(spot, S::LANES) {
+                let cursor = start.advance::<PATTERN>(done);
+                if !pointers.contains::<PATTERN>(cursor, S::LANES) {
                     break;
                 }
-                let place = lists.place::<S, PATTERN>(spot);
-                let first = Chunk::first(s, S::LANES.min(count - done));
-                let keep = s.select_or_zero(first, Chunk::in_row(s, place, 0));
-                let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
-                chunk.finish_only::<LAW, PATTERN>(s, place, keep);
+                let at = pointers.chunk::<S, PATTERN>(cursor);
+                let first = LinkChunk::first_mask(s, S::LANES.min(count - done));
+                let mask = s.select_or_zero(first, LinkChunk::row_mask(s, at, 0));
+                let chunk = LinkChunk::compute::<LAW, PATTERN, false>(s, at, parameters);
+                chunk.apply_masked::<LAW, PATTERN>(s, at, mask);
                 done += S::LANES;
             }
-            solve_last::<LAW, PATTERN>(&lists, start, done, count, terms);
+            solve_row_tail::<LAW, PATTERN>(&pointers, start, done, count, parameters);
         }
     }
 }
 
-/// Links of a row one by one, from some link on.
+/// Solves the links of a row one by one, from link `from` on.
 #[inline(never)]
-fn solve_apart<const LAW: u8>(row: &LinkRow, from: usize, sheet: &mut Sheet<'_>, scale: f32) {
-    let row = &sheet.own(row);
+fn solve_scalar<const LAW: u8>(
+    row: &LinkRow,
+    from: usize,
+    slices: &mut GridSlices<'_>,
+    scale: f32,
+) {
+    let row = &slices.to_local(row);
     for k in from..row.count as usize {
         let link = row.first as usize + k;
-        if sheet.mask[link] != 0.0 {
+        if slices.mask[link] != 0.0 {
             let (a, b) = row.ends(k as u32);
-            let (rest, compliance) = (sheet.rest[link], sheet.compliance[link]);
-            let lambda = sheet.lambda[link];
+            let (rest, compliance) = (slices.rest[link], slices.compliance[link]);
+            let lambda = slices.lambda[link];
             let ends = (a as usize, b as usize);
-            let lambda = project_pair::<LAW, _>(ends, rest, compliance, lambda, sheet, scale);
+            let lambda = project_pair::<LAW, _>(ends, rest, compliance, lambda, slices, scale);
             if LAW == SOFT {
-                sheet.lambda[link] = lambda;
+                slices.lambda[link] = lambda;
             }
         }
-    }
-}
-
-/// Particles and links as the kernels see them, both from some first one on: the lists of each have
-/// one length.
-pub(crate) struct Sheet<'a> {
-    pub first_particle: u32,
-    pub first_link: u32,
-    pub x: &'a mut [f32],
-    pub y: &'a mut [f32],
-    pub z: &'a mut [f32],
-    pub w: &'a [f32],
-    pub mask: &'a [f32],
-    pub rest: &'a [f32],
-    pub compliance: &'a [f32],
-    /// What their ends weigh.
-    pub ends: [&'a [f32]; 2],
-    pub lambda: &'a mut [f32],
-}
-
-impl Sheet<'_> {
-    /// A row as it lies in these lists.
-    #[inline(always)]
-    fn own(&self, row: &LinkRow) -> LinkRow {
-        let (a, b) = (row.a - self.first_particle, row.b - self.first_particle);
-        LinkRow { a, b, first: row.first - self.first_link, ..*row }
-    }
-}
-
-impl ParticleAccess for Sheet<'_> {
-    #[inline(always)]
-    fn particle(&self, i: usize) -> (Vec3, f32) {
-        (Vec3::new(self.x[i], self.y[i], self.z[i]), self.w[i])
-    }
-
-    #[inline(always)]
-    fn set_position(&mut self, i: usize, x: Vec3) {
-        (self.x[i], self.y[i], self.z[i]) = (x.x, x.y, x.z);
-    }
-}
-
-/// Solves links `done` to `count` of a row, if there are any: by the fewest lanes at a time, the
-/// last ones as a chunk that reaches back over links which are done, as nothing may lie behind. So
-/// few rows need it that one way to go about it serves all machines.
-///
-/// # Safety
-/// The row lies within the lists, and has links for the fewest lanes if it has any.
-#[inline(never)]
-pub(crate) unsafe fn solve_last<const LAW: u8, const PATTERN: u8>(
-    lists: &Lists,
-    row: Spot,
-    mut done: usize,
-    count: usize,
-    terms: Terms,
-) {
-    let s = Baseline::new();
-    while done < count {
-        let from = done.min(count - Baseline::LANES);
-        // SAFETY: the caller's promise.
-        unsafe {
-            let place = lists.place::<Baseline, PATTERN>(row.after::<PATTERN>(from));
-            let chunk = Chunk::of::<LAW, PATTERN, false>(s, place, terms);
-            let keep = Chunk::in_row(s, place, done - from);
-            chunk.finish_only::<LAW, PATTERN>(s, place, keep);
-        }
-        done = from + Baseline::LANES;
     }
 }

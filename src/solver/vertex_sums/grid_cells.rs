@@ -292,7 +292,7 @@ fn evaluate_chunk<S: Simd, C: TriangleContribution>(
 }
 
 /// Loads the corners of the first and of the second triangle of `S::LANES` cells. `falling` is 1
-/// where the diagonal has_falling_diagonal from left to right, else 0.
+/// where the diagonal falls from left to right, else 0.
 #[inline(always)]
 fn load_cells<S: Simd>(
     s: S,
@@ -381,7 +381,7 @@ fn gather_chunk<S: Simd, C: TriangleContribution, const TORN: bool>(
 ) {
     let (area, zero) = (row.cells.corner_area, s.splat(0.0));
     let (quarter, half) = (s.splat(C::corner_share(area)), s.splat(C::corner_share(2.0 * area)));
-    // If the diagonal of the fourth cell has_falling_diagonal, the diagonals of all four cells meet at this
+    // If the diagonal of the fourth cell falls, the diagonals of all four cells meet at this
     // particle.
     let meets =
         s.load(&ALTERNATING, usize::from(!has_falling_diagonal(row.number as u32, first as u32)));

@@ -1,87 +1,98 @@
-//! As many links of a grid's row as there are lanes.
+//! One chunk: as many links of a grid's row as there are lanes.
+//!
+//! ```text
+//! load                two runs of particles, weights, rest lengths, compliances, λ
+//! deinterleave        to lower and upper ends (not straight rows); links are permuted likewise
+//! compute_correction  see link_projection
+//! interleave          back to the order in memory
+//! store               both runs, λ
+//! ```
+//! A chunk has two phases, `compute` and `apply`. Chunks are independent, so that the processor
+//! starts the next one while it waits for the division of this one. (Two chunks in one loop body
+//! would make WebAssembly engines run out of registers.)
+//!
+//! Reads and writes through `ChunkPointers`.
+//! Invariant: lanes outside `mask` are stored with the bits that they had.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code)
 )]
 
-use crate::math::simd::{Float, MAX_LANES, Simd};
-use crate::model::grid_rows::RowPattern;
-use crate::solver::stretch::grid_kernel::row_layout::Place;
-use crate::solver::stretch::grid_links::STRAIGHT;
+use crate::math::simd::{Baseline, Float, MAX_LANES, Simd};
+use crate::solver::stretch::grid_kernel::grid_slices::{PAIRS, STRAIGHT};
+use crate::solver::stretch::grid_kernel::row_layout::{ChunkPointers, GridPointers, RowCursor};
 use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, compute_correction};
 
-const PAIRS: u8 = RowPattern::Pairs as u8;
-
-/// What all links of a row have in common.
+/// The parameters that all links of a row share.
 #[derive(Clone, Copy)]
-pub(crate) struct Terms {
-    /// As `links::correct` has it.
+pub(crate) struct RowParameters {
+    /// As in `link_projection::compute_correction`.
     pub scale: f32,
-    /// The length at rest of those that do not give way; others have what their substep gives them.
+    /// The rest length of rigid links [m]. Under the other laws each link has its own: damping
+    /// changes it.
     pub rest: f32,
 }
 
-/// Links that are about to be solved: where their ends are, what leads from the lower to the upper
-/// ones, the shares of it that these are to move by, and the links' multipliers then; as dealt but
-/// for the ends.
-///
-/// Chunks have nothing to do with each other, so processors go on with the next while they wait for
-/// a division. Engines run out of registers if code says so too.
+/// The computed correction of the links of a chunk, in the order of the deinterleaved ends.
 #[derive(Clone, Copy)]
-pub(crate) struct Chunk<F> {
-    /// The positions of both halves of all ends, as they lie in memory.
+pub(crate) struct LinkChunk<F> {
+    /// The two runs of positions, in the order in memory.
     ends: [[F; 2]; 3],
+    /// From the lower to the upper end of each link.
     span: [F; 3],
-    /// Lower ends move along the span, upper ones against it.
+    /// The shares of the span that lower ends move along it, and upper ends against it.
     shares: [F; 2],
+    /// The new multipliers.
     lambda: F,
 }
 
-impl<F: Float> Chunk<F> {
-    /// Looks at links.
+impl<F: Float> LinkChunk<F> {
+    /// Computes the corrections of a chunk of links.
     ///
     /// # Safety
-    /// There are as many at that place, which nobody else writes to; so for all that follow.
+    /// The pointers are valid for `S::LANES` links and particles each, and no other thread writes
+    /// there.
     #[inline(always)]
-    pub unsafe fn of<const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
+    pub unsafe fn compute<const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
         s: impl Simd<F = F>,
-        place: Place,
-        Terms { scale, rest }: Terms,
+        at: ChunkPointers,
+        RowParameters { scale, rest }: RowParameters,
     ) -> Self {
         let zero = s.splat(0.0);
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller guarantees it.
         unsafe {
             let rest = if LAW == RIGID {
                 s.splat(rest)
             } else {
-                in_order::<_, PATTERN>(s, s.load_from(place.rest))
+                to_end_order::<_, PATTERN>(s, s.load_from(at.rest))
             };
             let (mut compliance, mut lambda) = (zero, zero);
             if LAW == SOFT {
-                compliance = in_order::<_, PATTERN>(s, s.load_from(place.compliance));
-                lambda = in_order::<_, PATTERN>(s, s.load_from(place.lambda));
+                compliance = to_end_order::<_, PATTERN>(s, s.load_from(at.compliance));
+                lambda = to_end_order::<_, PATTERN>(s, s.load_from(at.lambda));
             }
-            let x = halves(s, fixed(place.x));
-            let y = halves(s, fixed(place.y));
-            let z = halves(s, fixed(place.z));
-            let ((xa, xb), (ya, yb)) = (dealt::<_, PATTERN>(s, x), dealt::<_, PATTERN>(s, y));
-            let (za, zb) = dealt::<_, PATTERN>(s, z);
+            let x = load_halves(s, read_only(at.x));
+            let y = load_halves(s, read_only(at.y));
+            let z = load_halves(s, read_only(at.z));
+            let ((xa, xb), (ya, yb)) =
+                (split_ends::<_, PATTERN>(s, x), split_ends::<_, PATTERN>(s, y));
+            let (za, zb) = split_ends::<_, PATTERN>(s, z);
             let weights = if LAW == BOUND {
-                dealt::<_, PATTERN>(s, halves(s, place.w)).into()
+                split_ends::<_, PATTERN>(s, load_halves(s, at.w)).into()
             } else if IS_EVEN {
-                // Those of rigid links are 1 then.
+                // Equal weights of rigid links are 1.
                 let one = s.splat(1.0);
                 [if LAW == RIGID {
                     one
                 } else {
-                    in_order::<_, PATTERN>(s, s.load_from(place.ends[0]))
+                    to_end_order::<_, PATTERN>(s, s.load_from(at.ends[0]))
                 }; 2]
             } else {
                 [
-                    in_order::<_, PATTERN>(s, s.load_from(place.ends[0])),
-                    in_order::<_, PATTERN>(s, s.load_from(place.ends[1])),
+                    to_end_order::<_, PATTERN>(s, s.load_from(at.ends[0])),
+                    to_end_order::<_, PATTERN>(s, s.load_from(at.ends[1])),
                 ]
             };
             let span = [xb - xa, yb - ya, zb - za];
@@ -91,69 +102,78 @@ impl<F: Float> Chunk<F> {
         }
     }
 
-    /// Which links are still in the row, but for the first `done`.
+    /// The mask of the links that are still in the row, without the first `done` links.
+    ///
+    /// # Safety
+    /// As for [`LinkChunk::compute`].
     #[inline(always)]
-    pub unsafe fn in_row(s: impl Simd<F = F>, place: Place, done: usize) -> F {
-        // SAFETY: the caller's promise.
-        unsafe { s.select_or_zero(s.load(&COUNTS, MAX_LANES - done), s.load_from(place.mask)) }
+    pub unsafe fn row_mask(s: impl Simd<F = F>, at: ChunkPointers, done: usize) -> F {
+        // SAFETY: the caller guarantees it.
+        unsafe { s.select_or_zero(s.load(&MASKS, MAX_LANES - done), s.load_from(at.mask)) }
     }
 
-    /// The first `count` links.
+    /// The mask of the first `count` links.
     #[inline(always)]
-    pub fn first(s: impl Simd<F = F>, count: usize) -> F {
-        s.load(&COUNTS, 2 * MAX_LANES - count)
+    pub fn first_mask(s: impl Simd<F = F>, count: usize) -> F {
+        s.load(&MASKS, 2 * MAX_LANES - count)
     }
 
-    /// Moves the ends of all links.
+    /// Applies the corrections of all links.
+    ///
+    /// # Safety
+    /// As for [`LinkChunk::compute`].
     #[inline(always)]
-    pub unsafe fn finish<const LAW: u8, const PATTERN: u8>(
+    pub unsafe fn apply<const LAW: u8, const PATTERN: u8>(
         self,
         s: impl Simd<F = F>,
-        place: Place,
+        at: ChunkPointers,
     ) {
-        // SAFETY: the caller's promise.
-        unsafe { self.store::<LAW, PATTERN, false>(s, place, self.lambda) }
+        // SAFETY: the caller guarantees it.
+        unsafe { self.store::<LAW, PATTERN, false>(s, at, self.lambda) }
     }
 
-    /// The same of those links alone that are to be kept, as they lie in memory; what is beyond is
-    /// written anew as it was.
+    /// Applies the corrections of the links in `mask`, which is in the order in memory; all other
+    /// numbers are stored unchanged.
+    ///
+    /// # Safety
+    /// As for [`LinkChunk::compute`].
     #[inline(always)]
-    pub unsafe fn finish_only<const LAW: u8, const PATTERN: u8>(
+    pub unsafe fn apply_masked<const LAW: u8, const PATTERN: u8>(
         self,
         s: impl Simd<F = F>,
-        place: Place,
-        keep: F,
+        at: ChunkPointers,
+        mask: F,
     ) {
-        let keep = in_order::<_, PATTERN>(s, keep);
-        // SAFETY: the caller's promise.
-        unsafe { self.store::<LAW, PATTERN, true>(s, place, keep) }
+        let mask = to_end_order::<_, PATTERN>(s, mask);
+        // SAFETY: the caller guarantees it.
+        unsafe { self.store::<LAW, PATTERN, true>(s, at, mask) }
     }
 
     #[inline(always)]
     unsafe fn store<const LAW: u8, const PATTERN: u8, const MASKED: bool>(
         self,
         s: impl Simd<F = F>,
-        place: Place,
-        keep: F,
+        at: ChunkPointers,
+        mask: F,
     ) {
         let Self { ends: [x, y, z], span: [dx, dy, dz], shares, lambda } = self;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller guarantees it.
         unsafe {
             if LAW == SOFT {
                 let lambda = if MASKED {
-                    let old = in_order::<_, PATTERN>(s, s.load_from(place.lambda));
-                    s.select(keep, lambda, old)
+                    let old = to_end_order::<_, PATTERN>(s, s.load_from(at.lambda));
+                    s.select(mask, lambda, old)
                 } else {
                     lambda
                 };
                 let lambda =
                     if PATTERN == STRAIGHT { lambda } else { s.from_shuffled_order(lambda) };
-                s.store_to(place.lambda, lambda);
+                s.store_to(at.lambda, lambda);
             }
-            let x = pushed::<_, PATTERN, MASKED>(s, x, dx, shares, keep);
-            let y = pushed::<_, PATTERN, MASKED>(s, y, dy, shares, keep);
-            let z = pushed::<_, PATTERN, MASKED>(s, z, dz, shares, keep);
-            for (to, [low, high]) in [(place.x, x), (place.y, y), (place.z, z)] {
+            let x = corrected::<_, PATTERN, MASKED>(s, x, dx, shares, mask);
+            let y = corrected::<_, PATTERN, MASKED>(s, y, dy, shares, mask);
+            let z = corrected::<_, PATTERN, MASKED>(s, z, dz, shares, mask);
+            for (to, [low, high]) in [(at.x, x), (at.y, y), (at.z, z)] {
                 s.store_to(to[0], low);
                 s.store_to(to[1], high);
             }
@@ -161,41 +181,42 @@ impl<F: Float> Chunk<F> {
     }
 }
 
-/// What lies link by link, dealt as the ends are.
+/// Permutes one number per link to the order that the ends have after they are deinterleaved.
 #[inline(always)]
-fn in_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
+fn to_end_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
     if PATTERN == STRAIGHT { v } else { s.to_shuffled_order(v) }
 }
 
-/// 0 as often as there may be lanes, then 1 as often, then 0 again.
-const COUNTS: [f32; 3 * MAX_LANES] = {
-    let mut counts = [0.0; 3 * MAX_LANES];
+/// As many zeros as a vector has lanes at most, as many ones, as many zeros: a vector that is
+/// loaded across a border is the mask of a number of first or last lanes.
+const MASKS: [f32; 3 * MAX_LANES] = {
+    let mut masks = [0.0; 3 * MAX_LANES];
     let mut at = MAX_LANES;
     while at < 2 * MAX_LANES {
-        counts[at] = 1.0;
+        masks[at] = 1.0;
         at += 1;
     }
-    counts
+    masks
 };
 
 #[inline(always)]
-fn fixed([a, b]: [*mut f32; 2]) -> [*const f32; 2] {
+fn read_only([a, b]: [*mut f32; 2]) -> [*const f32; 2] {
     [a, b]
 }
 
-/// Both halves of one column at the ends of a chunk's links.
+/// Loads the two runs of one column.
 ///
 /// # Safety
-/// As for `Chunk::of`.
+/// As for [`LinkChunk::compute`].
 #[inline(always)]
-unsafe fn halves<S: Simd>(s: S, [a, b]: [*const f32; 2]) -> [S::F; 2] {
-    // SAFETY: the caller's promise.
+unsafe fn load_halves<S: Simd>(s: S, [a, b]: [*const f32; 2]) -> [S::F; 2] {
+    // SAFETY: the caller guarantees it.
     unsafe { [s.load_from(a), s.load_from(b)] }
 }
 
-/// The same dealt out to lower and upper ends.
+/// Splits the two runs of one column into lower and upper ends.
 #[inline(always)]
-fn dealt<S: Simd, const PATTERN: u8>(s: S, [low, high]: [S::F; 2]) -> (S::F, S::F) {
+fn split_ends<S: Simd, const PATTERN: u8>(s: S, [low, high]: [S::F; 2]) -> (S::F, S::F) {
     match PATTERN {
         STRAIGHT => (low, high),
         PAIRS => s.deinterleave(low, high),
@@ -203,26 +224,55 @@ fn dealt<S: Simd, const PATTERN: u8>(s: S, [low, high]: [S::F; 2]) -> (S::F, S::
     }
 }
 
-/// Both halves of one column, moved: lower ends along a span by their share, upper ones against it.
+/// The two runs of one column after the correction: lower ends move along the span by their share,
+/// upper ends against it.
 #[inline(always)]
-fn pushed<S: Simd, const PATTERN: u8, const MASKED: bool>(
+fn corrected<S: Simd, const PATTERN: u8, const MASKED: bool>(
     s: S,
     [low, high]: [S::F; 2],
     span: S::F,
     [to_a, to_b]: [S::F; 2],
-    keep: S::F,
+    mask: S::F,
 ) -> [S::F; 2] {
-    // What changes no number at all, not even a zero's sign, when it is added, and when it is
-    // taken.
+    // Adding −0 or subtracting +0 changes no number, not even the sign of a zero.
     let (nothing, zero) = (s.splat(-0.0), s.splat(0.0));
-    let chosen = |v: S::F, nothing: S::F| if MASKED { s.select(keep, v, nothing) } else { v };
+    let masked = |v: S::F, unchanged: S::F| if MASKED { s.select(mask, v, unchanged) } else { v };
     if PATTERN == STRAIGHT {
-        let (added, taken) = (chosen(span * to_a, nothing), chosen(span * to_b, zero));
-        return [low + added, high - taken];
+        let (added, subtracted) = (masked(span * to_a, nothing), masked(span * to_b, zero));
+        return [low + added, high - subtracted];
     }
     let against = to_b * s.splat(-1.0);
-    let (to_a, to_b) = (chosen(span * to_a, nothing), chosen(span * against, nothing));
+    let (to_a, to_b) = (masked(span * to_a, nothing), masked(span * against, nothing));
     let (to_low, to_high) =
         if PATTERN == PAIRS { s.interleave(to_a, to_b) } else { s.deinterleave_pairs(to_a, to_b) };
     [low + to_low, high + to_high]
+}
+
+/// Solves links `done` to `count` of a row, if there are any, with the smallest vectors.
+///
+/// The last chunk overlaps with links that are done and masks them, because nothing may lie behind
+/// the row. Few rows need it, so that one version serves all instruction sets.
+///
+/// # Safety
+/// The row lies within the slices, and has none or at least `Baseline::LANES` links.
+#[inline(never)]
+pub(crate) unsafe fn solve_row_tail<const LAW: u8, const PATTERN: u8>(
+    pointers: &GridPointers,
+    row: RowCursor,
+    mut done: usize,
+    count: usize,
+    parameters: RowParameters,
+) {
+    let s = Baseline::new();
+    while done < count {
+        let from = done.min(count - Baseline::LANES);
+        // SAFETY: the caller guarantees it.
+        unsafe {
+            let at = pointers.chunk::<Baseline, PATTERN>(row.advance::<PATTERN>(from));
+            let chunk = LinkChunk::compute::<LAW, PATTERN, false>(s, at, parameters);
+            let mask = LinkChunk::row_mask(s, at, done - from);
+            chunk.apply_masked::<LAW, PATTERN>(s, at, mask);
+        }
+        done = from + Baseline::LANES;
+    }
 }

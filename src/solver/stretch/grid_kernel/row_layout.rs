@@ -1,6 +1,17 @@
-//! Where the rows of a grid lie in memory, for kernels that load and store without looking.
+//! Pointers to the rows of a grid: each row is checked once, then chunks load and store unchecked.
+//!
+//! ```text
+//! RowPattern::Straight       a: ● ● ● ●  (contiguous)     b: ● ● ● ●  (contiguous)
+//! RowPattern::Pairs, Quads   a and b alternate in one contiguous run: [ low half │ high half ]
+//! ```
+//! A chunk of L links so touches two runs of L particles: at a and at b if the row is straight, the
+//! low and the high half of 2 L neighbours otherwise.
+//!
+//! Reads `GridSlices` and `LinkRow`; writes nothing.
+//! Invariant: a cursor that `GridPointers::cursor` returned has `count` links, and the particles at
+//! their ends, within the slices.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code)
@@ -8,37 +19,38 @@
 
 use crate::math::simd::Simd;
 use crate::model::grid_rows::{LinkRow, RowPattern};
-use crate::solver::stretch::grid_links::{STRAIGHT, Sheet};
+use crate::solver::stretch::grid_kernel::grid_slices::{GridSlices, QUADS, STRAIGHT};
 
-/// The fewest lanes that there are.
-const FEWEST: usize = 4;
+/// The number of lanes of the smallest vector.
+const MIN_LANES: usize = 4;
 
-/// How many links of a row go in chunks: all, but for those of a row shorter than any chunk, and an
-/// odd one where every two links belong together.
+/// The number of links of a row that go through SIMD chunks: all of them, except an odd last one of
+/// a row of quads, and those of a row that is shorter than the smallest chunk.
 #[inline(always)]
-pub(crate) fn in_chunks(row: &LinkRow) -> usize {
-    chunked(row.count, row.pattern == RowPattern::Quads)
+pub(crate) fn simd_link_count(row: &LinkRow) -> usize {
+    round_down(row.count, row.pattern == RowPattern::Quads)
 }
 
-/// As `in_chunks`, of a row whose pattern is known.
+/// As [`simd_link_count`], for a row whose pattern is known at compile time.
 #[inline(always)]
-pub(crate) fn in_chunks_of<const PATTERN: u8>(row: &LinkRow) -> usize {
-    chunked(row.count, PATTERN == RowPattern::Quads as u8)
+pub(crate) fn simd_link_count_of<const PATTERN: u8>(row: &LinkRow) -> usize {
+    round_down(row.count, PATTERN == QUADS)
 }
 
 #[inline(always)]
-fn chunked(count: u32, is_in_twos: bool) -> usize {
-    let count = if is_in_twos { count & !1 } else { count } as usize;
-    if count < FEWEST { 0 } else { count }
+fn round_down(count: u32, is_paired: bool) -> usize {
+    let count = if is_paired { count & !1 } else { count } as usize;
+    if count < MIN_LANES { 0 } else { count }
 }
 
-/// Where the lists of a sheet begin.
+/// The addresses of the columns of `GridSlices`.
 #[derive(Clone, Copy)]
-pub(crate) struct Lists {
+pub(crate) struct GridPointers {
     first_particle: u32,
     first_link: u32,
-    /// How many particles there are, and links.
+    /// The number of particles.
     particles: usize,
+    /// The number of links.
     links: usize,
     x: *mut f32,
     y: *mut f32,
@@ -51,11 +63,22 @@ pub(crate) struct Lists {
     lambda: *mut f32,
 }
 
-impl Lists {
+impl GridPointers {
     #[inline(always)]
-    pub fn of(sheet: &mut Sheet<'_>) -> Self {
-        let Sheet { first_particle, first_link, x, y, z, w, mask, rest, compliance, ends, lambda } =
-            sheet;
+    pub fn new(slices: &mut GridSlices<'_>) -> Self {
+        let GridSlices {
+            first_particle,
+            first_link,
+            x,
+            y,
+            z,
+            w,
+            mask,
+            rest,
+            compliance,
+            ends,
+            lambda,
+        } = slices;
         let particles = w.len().min(x.len()).min(y.len()).min(z.len());
         let links = rest.len().min(mask.len()).min(compliance.len()).min(lambda.len());
         Self {
@@ -75,52 +98,53 @@ impl Lists {
         }
     }
 
-    /// Where a row begins.
+    /// The cursor at the first link of a row.
     ///
     /// # Panics
-    /// If its first `count` links do not lie within the sheet.
+    /// If its first `count` links do not lie within the slices.
     #[inline(always)]
-    pub fn spot<const PATTERN: u8>(&self, row: &LinkRow, count: usize) -> Spot {
-        // What lies before the sheet is far behind it then.
+    pub fn cursor<const PATTERN: u8>(&self, row: &LinkRow, count: usize) -> RowCursor {
+        // An index before the slices wraps around and fails the check below.
         let particle = |number: u32| number.wrapping_sub(self.first_particle) as usize;
         let b = if PATTERN == STRAIGHT { row.b } else { row.a };
         let link = row.first.wrapping_sub(self.first_link) as usize;
-        let spot = Spot { a: particle(row.a), b: particle(b), link };
-        let is_within = spot.a <= spot.b && self.have_room::<PATTERN>(spot, count);
-        assert!(is_within, "rows lie within their sheet");
-        spot
+        let cursor = RowCursor { a: particle(row.a), b: particle(b), link };
+        let is_within = cursor.a <= cursor.b && self.contains::<PATTERN>(cursor, count);
+        assert!(is_within, "every row lies within the slices of its thread");
+        cursor
     }
 
-    /// Whether there are so many links from a spot on, and particles at their ends.
+    /// Whether the slices contain so many links from a cursor on, and the particles at their ends.
     #[inline(always)]
-    pub fn have_room<const PATTERN: u8>(&self, spot: Spot, links: usize) -> bool {
+    pub fn contains<const PATTERN: u8>(&self, cursor: RowCursor, links: usize) -> bool {
         let particles = if PATTERN == STRAIGHT { links } else { 2 * links };
         particles <= self.particles
-            && spot.b <= self.particles - particles
+            && cursor.b <= self.particles - particles
             && links <= self.links
-            && spot.link <= self.links - links
+            && cursor.link <= self.links - links
     }
 
-    /// What a chunk from a spot on is about.
+    /// The pointers of the chunk at a cursor.
     ///
     /// # Safety
-    /// It is in the lists, or right behind their ends.
+    /// The cursor is within the slices, or at their ends.
     #[inline(always)]
-    pub unsafe fn place<S: Simd, const PATTERN: u8>(&self, spot: Spot) -> Place {
-        let b = if PATTERN == STRAIGHT { spot.b } else { spot.a + S::LANES };
-        // SAFETY: the caller's promise; where ends alternate there are as many behind as before.
-        unsafe { self.place_of(Spot { b, ..spot }) }
+    pub unsafe fn chunk<S: Simd, const PATTERN: u8>(&self, cursor: RowCursor) -> ChunkPointers {
+        let b = if PATTERN == STRAIGHT { cursor.b } else { cursor.a + S::LANES };
+        // SAFETY: the caller guarantees it; where ends alternate, the high half follows the low
+        // half.
+        unsafe { self.chunk_of_halves(RowCursor { b, ..cursor }) }
     }
 
-    /// The same where the second half of particles is elsewhere.
+    /// The pointers of a chunk whose high half begins at `b`.
     ///
     /// # Safety
-    /// As for `place`, of both halves.
+    /// Both halves are within the slices, or at their ends.
     #[inline(always)]
-    pub unsafe fn place_of(&self, Spot { a, b, link }: Spot) -> Place {
-        // SAFETY: the caller's promise.
+    pub unsafe fn chunk_of_halves(&self, RowCursor { a, b, link }: RowCursor) -> ChunkPointers {
+        // SAFETY: the caller guarantees it.
         unsafe {
-            Place {
+            ChunkPointers {
                 x: [self.x.add(a), self.x.add(b)],
                 y: [self.y.add(a), self.y.add(b)],
                 z: [self.z.add(a), self.z.add(b)],
@@ -135,41 +159,42 @@ impl Lists {
     }
 }
 
-/// A link of a row, and the particles at its ends; both the first of two where they alternate.
+/// The index of a link of a row and of the particles at its ends. Where ends alternate, `a` and `b`
+/// are both the first particle of the run. Also the difference of two such cursors.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) struct Spot {
+pub(crate) struct RowCursor {
     pub a: usize,
     pub b: usize,
     pub link: usize,
 }
 
-impl Spot {
-    /// As far on as another one is from the very first.
+impl RowCursor {
+    /// Adds a difference.
     #[inline(always)]
-    pub fn behind(self, by: Self) -> Self {
+    pub fn offset_by(self, by: Self) -> Self {
         let Self { a, b, link } = self;
         Self { a: a.wrapping_add(by.a), b: b.wrapping_add(by.b), link: link.wrapping_add(by.link) }
     }
 
-    /// Takes back what `behind` did; what is before the very first comes out as far behind all.
+    /// Subtracts a difference, wrapping around below 0; `offset_by` wraps back.
     #[inline(always)]
-    pub fn before(self, by: Self) -> Self {
+    pub fn minus(self, by: Self) -> Self {
         let Self { a, b, link } = self;
         Self { a: a.wrapping_sub(by.a), b: b.wrapping_sub(by.b), link: link.wrapping_sub(by.link) }
     }
 
-    /// So many links further on.
+    /// The cursor so many links further on.
     #[inline(always)]
-    pub fn after<const PATTERN: u8>(self, links: usize) -> Self {
-        let ends = if PATTERN == STRAIGHT { links } else { 2 * links };
-        Self { a: self.a + ends, b: self.b + ends, link: self.link + links }
+    pub fn advance<const PATTERN: u8>(self, links: usize) -> Self {
+        let particles = if PATTERN == STRAIGHT { links } else { 2 * links };
+        Self { a: self.a + particles, b: self.b + particles, link: self.link + links }
     }
 }
 
-/// Where some links of a row lie, and the particles at their lower and upper ends; the first and
-/// the second half of all where they alternate.
+/// Pointers to the links of a chunk, and to the two runs of particles at their ends: lower and
+/// upper ends of a straight row, the low and the high half of one run otherwise.
 #[derive(Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct ChunkPointers {
     pub x: [*mut f32; 2],
     pub y: [*mut f32; 2],
     pub z: [*mut f32; 2],

@@ -1,7 +1,19 @@
-//! Rows of a grid that are alike, one after the other with nothing to find out for each; or one
-//! row.
+//! Rows of a grid that differ only in their position, solved in one loop; also single rows.
+//!
+//! ```text
+//! row 0   ▓▓▓▓ ▓▓▓▓ ▓▓▓▓ ▒      ▓ whole chunks, ▒ tail (fewer links than lanes)
+//! row 1   ▓▓▓▓ ▓▓▓▓ ▓▓▓▓ ▒      order: whole chunks of a block of rows, …, then all tails
+//! row 2   ▓▓▓▓ ▓▓▓▓ ▓▓▓▓ ▒
+//! ```
+//! Cursors advance by a constant step, so that nothing is read from the rows themselves. Chunks
+//! whose ends all have equal weights use a shorter kernel, in a loop of their own. A tail is one
+//! chunk that reaches beyond its row; masked lanes are stored unchanged. The next row would have to
+//! wait for that store, so tails come after the whole chunks of many rows.
+//!
+//! Reads rows, and particles and links through `GridPointers`; writes positions and λ.
+//! Invariant: the links of these rows are of one colour, so their order does not change the result.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code)
@@ -9,196 +21,204 @@
 
 use crate::math::simd::{MAX_LANES, Simd};
 use crate::model::grid_rows::LinkRow;
-use crate::solver::stretch::grid_kernel::row_chunk::{Chunk, Terms};
-use crate::solver::stretch::grid_kernel::row_layout::{Lists, Spot, in_chunks_of};
-use crate::solver::stretch::grid_links::{STRAIGHT, solve_last};
+use crate::solver::stretch::grid_kernel::grid_slices::STRAIGHT;
+use crate::solver::stretch::grid_kernel::row_chunk::{LinkChunk, RowParameters, solve_row_tail};
+use crate::solver::stretch::grid_kernel::row_layout::{
+    GridPointers, RowCursor, simd_link_count_of,
+};
 use crate::solver::stretch::link_projection::{BOUND, RIGID};
 use core::ops::Range;
 
-/// Links that go together, about: the positions at their ends fit into the nearest memory several
-/// times.
-const BLOCK: usize = 1024;
+/// The number of links of a block of rows: the positions at their ends fit several times into the
+/// L1 cache.
+const LINKS_PER_BLOCK: usize = 1024;
 
-/// Rows that differ in nothing but their places, which are as far from each other.
-pub(crate) struct Alike {
-    first: Spot,
-    last: Spot,
-    /// What leads from one to the next.
-    step: Spot,
+/// Rows at a constant distance from each other, and alike otherwise.
+pub(crate) struct UniformRows {
+    first: RowCursor,
+    last: RowCursor,
+    /// The distance from a row to the next.
+    step: RowCursor,
     rows: usize,
-    /// How many links of each go in chunks.
+    /// The number of links of each row that go through SIMD chunks.
     count: usize,
-    /// From which link of each to before which the two ends weigh the same.
+    /// The range of links of each row whose two ends have equal weights.
     even: [usize; 2],
 }
 
-impl Alike {
-    /// Finds out where they are.
+impl UniformRows {
+    /// Checks the rows and computes their cursors.
     ///
     /// # Panics
-    /// If they do not lie within the lists, or are not alike.
+    /// If they do not lie within the slices, or differ in more than their position.
     #[inline(always)]
-    pub fn of<const PATTERN: u8>(lists: &Lists, rows: &[LinkRow]) -> Self {
-        let spot = |row: &LinkRow| lists.spot::<PATTERN>(row, in_chunks_of::<PATTERN>(row));
+    pub fn new<const PATTERN: u8>(pointers: &GridPointers, rows: &[LinkRow]) -> Self {
+        let cursor =
+            |row: &LinkRow| pointers.cursor::<PATTERN>(row, simd_link_count_of::<PATTERN>(row));
         let (first, last) = (&rows[0], &rows[rows.len() - 1]);
-        // There may be no next.
+        // A single row has no next one.
         let step = rows.get(1).map_or(0, |next| next.a - first.a) as usize;
-        let step = Spot { a: step, b: step, link: first.count as usize };
+        let step = RowCursor { a: step, b: step, link: first.count as usize };
         let own = Self {
-            first: spot(first),
-            last: spot(last),
+            first: cursor(first),
+            last: cursor(last),
             step,
             rows: rows.len(),
-            count: in_chunks_of::<PATTERN>(first),
+            count: simd_link_count_of::<PATTERN>(first),
             even: first.equal_mass.map(|link| link.saturating_sub(first.first) as usize),
         };
-        let are_alike = last.count == first.count && own.row(own.rows - 1) == own.last;
-        assert!(are_alike, "rows are alike");
+        let are_uniform = last.count == first.count && own.row(own.rows - 1) == own.last;
+        assert!(are_uniform, "uniform rows lie at a constant distance");
         own
     }
 
-    /// Where a row begins: between the first and the last.
+    /// The cursor at the first link of a row.
     #[inline(always)]
-    fn row(&self, number: usize) -> Spot {
+    fn row(&self, number: usize) -> RowCursor {
         let Self { first, step, .. } = self;
-        Spot {
+        RowCursor {
             a: first.a + number * step.a,
             b: first.b + number * step.b,
             link: first.link + number * step.link,
         }
     }
 
-    /// Solves all their links.
+    /// Solves all links of all rows that go through SIMD chunks.
     #[inline(always)]
     pub fn solve<S: Simd, const LAW: u8, const PATTERN: u8>(
         &self,
         s: S,
-        lists: &Lists,
-        terms: Terms,
+        pointers: &GridPointers,
+        parameters: RowParameters,
     ) {
-        let left = self.count % S::LANES;
-        let whole = self.count - left;
+        let tail = self.count % S::LANES;
+        let whole = self.count - tail;
         let chunks = whole / S::LANES;
-        // What weighs the same at both ends, as nearly all does, has less to compute.
+        // Chunks `from..to` have equal weights at both ends of all links, which is nearly all of
+        // them.
         let [from, to] = self.even;
         let from = if LAW == BOUND { chunks } else { from.div_ceil(S::LANES).min(chunks) };
         let to = (to / S::LANES).clamp(from, chunks);
-        // Chunks of a kind go together, in so few rows that these are still near when the others
-        // come.
-        let block = (BLOCK / self.count.max(1)).max(1);
-        // SAFETY: the first and the last row lie within the lists, and all others between them.
+        // The positions of a block are still in the cache when its other chunks are solved.
+        let block = (LINKS_PER_BLOCK / self.count.max(1)).max(1);
+        // SAFETY: the first and the last row lie within the slices, and all others between them.
         unsafe {
             for first in (0..self.rows).step_by(block) {
                 let rows = first..(first + block).min(self.rows);
                 for chunks in [0..from, to..chunks] {
                     let part = (rows.clone(), chunks);
-                    self.solve_chunks::<S, LAW, PATTERN, false>(s, lists, part, terms);
+                    self.solve_chunks::<S, LAW, PATTERN, false>(s, pointers, part, parameters);
                 }
                 if LAW != BOUND {
                     let part = (rows, from..to);
-                    self.solve_chunks::<S, LAW, PATTERN, true>(s, lists, part, terms);
+                    self.solve_chunks::<S, LAW, PATTERN, true>(s, pointers, part, parameters);
                 }
             }
-            if left == 0 {
+            if tail == 0 {
                 return;
             }
-            // Two ends that fill half a chunk each are one, where all that is loaded for them are
-            // places.
+            // Two tails of at most half a chunk share one chunk, if nothing but positions is
+            // loaded.
             let is_even = self.even[0] <= whole && self.even[1] >= self.count;
             let mut rows = 0..self.rows;
-            if LAW == RIGID && PATTERN != STRAIGHT && is_even && 2 * left <= S::LANES {
-                let by_twos = rows.clone();
+            if LAW == RIGID && PATTERN != STRAIGHT && is_even && 2 * tail <= S::LANES {
+                let pairs = rows.clone();
                 rows.start =
-                    self.solve_ends::<S, LAW, PATTERN, true>(s, lists, by_twos, left, terms);
+                    self.solve_tails::<S, LAW, PATTERN, true>(s, pointers, pairs, tail, parameters);
             }
-            self.solve_ends::<S, LAW, PATTERN, false>(s, lists, rows, left, terms);
+            self.solve_tails::<S, LAW, PATTERN, false>(s, pointers, rows, tail, parameters);
         }
     }
 
-    /// Solves some whole chunks of each of some rows.
+    /// Solves a range of whole chunks of a range of rows.
     ///
     /// # Safety
-    /// There are such chunks and rows, all within the lists.
+    /// These chunks and rows exist and lie within the slices.
     #[inline(always)]
     unsafe fn solve_chunks<S: Simd, const LAW: u8, const PATTERN: u8, const IS_EVEN: bool>(
         &self,
         s: S,
-        lists: &Lists,
+        pointers: &GridPointers,
         (rows, chunks): (Range<usize>, Range<usize>),
-        terms: Terms,
+        parameters: RowParameters,
     ) {
         let (count, mut rows_left) = (chunks.len(), rows.len());
         if count == 0 {
             return;
         }
-        let mut spot = self.row(rows.start).after::<PATTERN>(chunks.start * S::LANES);
-        // From behind the last of a row to the first of the next; of a row alone, wherever that is.
-        let done = Spot::default().after::<PATTERN>(count * S::LANES);
-        let step = self.step.before(done);
-        // SAFETY: the caller's promise.
+        let mut cursor = self.row(rows.start).advance::<PATTERN>(chunks.start * S::LANES);
+        // From the end of the chunks of a row to their start in the next. It may be negative:
+        // wraps.
+        let done = RowCursor::default().advance::<PATTERN>(count * S::LANES);
+        let step = self.step.minus(done);
+        // SAFETY: the caller guarantees it.
         unsafe {
             while rows_left > 0 {
                 for _ in 0..count {
-                    let place = lists.place::<S, PATTERN>(spot);
-                    let chunk = Chunk::of::<LAW, PATTERN, IS_EVEN>(s, place, terms);
-                    chunk.finish::<LAW, PATTERN>(s, place);
-                    spot = spot.after::<PATTERN>(S::LANES);
+                    let at = pointers.chunk::<S, PATTERN>(cursor);
+                    let chunk = LinkChunk::compute::<LAW, PATTERN, IS_EVEN>(s, at, parameters);
+                    chunk.apply::<LAW, PATTERN>(s, at);
+                    cursor = cursor.advance::<PATTERN>(S::LANES);
                 }
-                spot = spot.behind(step);
+                cursor = cursor.offset_by(step);
                 rows_left -= 1;
             }
         }
     }
 
-    /// Solves the last `left` links of some rows, fewer than a chunk; with `BY_TWOS` set, those of
-    /// two rows at a time, as far as there are two and room. Gives the first row that it left.
+    /// Solves the last `tail` links of a range of rows, and returns the first row that is left.
+    ///
+    /// With `PAIRED`, the tails of two rows share a chunk; an odd last row, and rows at the end of
+    /// the slices, are left.
     ///
     /// # Safety
-    /// All rows lie within the lists; two ends of even links fit into a chunk, each in half of it,
-    /// if they are to go by twos.
+    /// All rows lie within the slices; `tail` is less than a chunk, with `PAIRED` at most half a
+    /// chunk of links whose ends have equal weights.
     #[inline(always)]
-    unsafe fn solve_ends<S: Simd, const LAW: u8, const PATTERN: u8, const BY_TWOS: bool>(
+    unsafe fn solve_tails<S: Simd, const LAW: u8, const PATTERN: u8, const PAIRED: bool>(
         &self,
         s: S,
-        lists: &Lists,
+        pointers: &GridPointers,
         rows: Range<usize>,
-        left: usize,
-        terms: Terms,
+        tail: usize,
+        parameters: RowParameters,
     ) -> usize {
-        let end = |number: usize| self.row(number).after::<PATTERN>(self.count - left);
-        // Chunks that reach over the ends of the last rows may reach over those of the lists.
-        let mut roomy = rows.end;
-        while roomy > rows.start && !lists.have_room::<PATTERN>(end(roomy - 1), S::LANES) {
-            roomy -= 1;
+        let end = |number: usize| self.row(number).advance::<PATTERN>(self.count - tail);
+        // A chunk that reaches beyond one of the last rows may reach beyond the slices.
+        let mut contained = rows.end;
+        while contained > rows.start && !pointers.contains::<PATTERN>(end(contained - 1), S::LANES)
+        {
+            contained -= 1;
         }
-        let (mut spot, mut step) = (end(rows.start), self.step);
-        let (mut keep, mut count) = ([0.0; MAX_LANES], roomy - rows.start);
-        keep[..left].fill(1.0);
+        let (mut cursor, mut step) = (end(rows.start), self.step);
+        let (mut mask, mut count) = ([0.0; MAX_LANES], contained - rows.start);
+        mask[..tail].fill(1.0);
         if PATTERN != STRAIGHT {
-            spot.b = spot.a + S::LANES;
+            cursor.b = cursor.a + S::LANES;
         }
-        if BY_TWOS {
-            spot.b = end(rows.start + 1).a;
-            keep[S::LANES / 2..][..left].fill(1.0);
-            (step, count) = (step.behind(step), count / 2);
+        if PAIRED {
+            cursor.b = end(rows.start + 1).a;
+            mask[S::LANES / 2..][..tail].fill(1.0);
+            (step, count) = (step.offset_by(step), count / 2);
         }
-        // SAFETY: the caller's promise, and there is room.
+        // SAFETY: the caller guarantees it, and the chunks lie within the slices.
         unsafe {
             if count > 0 {
-                let keep = s.load(&keep, 0);
+                let mask = s.load(&mask, 0);
                 for _ in 0..count {
-                    let place = lists.place_of(spot);
-                    let chunk = Chunk::of::<LAW, PATTERN, BY_TWOS>(s, place, terms);
-                    chunk.finish_only::<LAW, PATTERN>(s, place, keep);
-                    spot = spot.behind(step);
+                    let at = pointers.chunk_of_halves(cursor);
+                    let chunk = LinkChunk::compute::<LAW, PATTERN, PAIRED>(s, at, parameters);
+                    chunk.apply_masked::<LAW, PATTERN>(s, at, mask);
+                    cursor = cursor.offset_by(step);
                 }
             }
-            if BY_TWOS {
+            if PAIRED {
                 return rows.start + 2 * count;
             }
-            for number in roomy..rows.end {
-                let done = self.count - left;
-                solve_last::<LAW, PATTERN>(lists, self.row(number), done, self.count, terms);
+            for number in contained..rows.end {
+                let done = self.count - tail;
+                let row = self.row(number);
+                solve_row_tail::<LAW, PATTERN>(pointers, row, done, self.count, parameters);
             }
             rows.end
         }
