@@ -14,9 +14,9 @@
 //! The first solve of a substep comes before the links, so that the links carry the forces of
 //! bending like the weight; the second comes in the first backward sweep.
 //!
-//! Reads elements, folds, masses and the predicted positions; writes particle positions. Invariant:
-//! bending conserves linear momentum, and `bend` runs with the particles in columns or in `Packed`,
-//! whichever is current.
+//! Reads elements, folds, masses and the predicted positions; writes particle positions.
+//! Invariant: bending conserves linear momentum, and `bend` runs with the particles in columns or
+//! in `Packed`, whichever is current.
 
 pub(crate) mod banded;
 pub(crate) mod bend_scratch;

@@ -4,8 +4,8 @@
 //! eigenvalue of M⁻¹ K, relative to the stiffness of an interior element.
 //!
 //! Method: bound by the diagonal for a whole sheet; Gershgorin's circle theorem (1931) for a torn
-//! one. Reads element weights and inverse masses; `of_torn` also overwrites two buffers. Invariant:
-//! no eigenvalue exceeds the bound.
+//! one. Reads element weights and inverse masses; `of_torn` also overwrites two buffers.
+//! Invariant: no eigenvalue exceeds the bound.
 
 use crate::model::plate_elements::PerKind;
 

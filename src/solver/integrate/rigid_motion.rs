@@ -8,8 +8,9 @@
 //! Method: the rigid displacement with the same linear and angular momentum, as in the global
 //! damping of Müller et al., "Position based dynamics", 2007, sec. 3.5.
 //!
-//! Reads positions, displacements and masses; writes nothing. Invariant: the sums use eight lanes
-//! in a fixed order, so the bits do not depend on the SIMD level.
+//! Reads positions, displacements and masses; writes nothing.
+//! Invariant: the sums use eight lanes in a fixed order, so the bits do not depend on the SIMD
+//! level.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};

@@ -6,8 +6,9 @@
 //! wind, or any call that changes the cloth wakes it.
 //!
 //! Reads velocities, wind and kinematic targets; writes `world.sleep`, and velocities and history
-//! as the cloth falls asleep. Invariant: with `sleep_speed = 0` the cloth never sleeps. A sleeping
-//! cloth keeps its positions bit for bit.
+//! as the cloth falls asleep.
+//! Invariant: with `sleep_speed = 0` the cloth never sleeps. A sleeping cloth keeps its positions
+//! bit for bit.
 
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;

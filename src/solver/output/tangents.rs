@@ -9,9 +9,9 @@
 //! grows: along w (n × t). If the texture defines no direction, t is a unit vector normal to n and
 //! w is 1.
 //!
-//! Reads triangles, texture coordinates and positions; writes `Tangents`. Invariant: the sums are
-//! cached until positions or triangles change. `vertex_transform` makes them orthogonal to the
-//! normals.
+//! Reads triangles, texture coordinates and positions; writes `Tangents`.
+//! Invariant: the sums are cached until positions or triangles change. `vertex_transform` makes
+//! them orthogonal to the normals.
 
 use crate::solver::vertex_sums::triangles;
 use crate::solver::world::World;

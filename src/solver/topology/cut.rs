@@ -13,8 +13,9 @@
 //! crossing moves to that distance from it instead, so that a cut beside pins does not end at them.
 //!
 //! Reads mesh, positions, rest positions and pins; `cut` writes everything that follows from the
-//! mesh. Invariant: a triangle that a cut makes has angles of at least 5°. A plan is valid only for
-//! the world that it was made for.
+//! mesh.
+//! Invariant: a triangle that a cut makes has angles of at least 5°. A plan is valid only for the
+//! world that it was made for.
 
 use crate::geometry::blade::Blade;
 use crate::geometry::triangle::corner_areas;
