@@ -1,18 +1,27 @@
-//! BendElements: how the triangles of any mesh are curved, as the hinges at their edges tell together.
+//! Bend elements: rotation-free triangle elements that couple the hinges of each triangle of a
+//! mesh.
 //!
-//! Bent to a surface ½ xᵀ S x, a hinge shows C = c · S: one number of the three that S has, and which one is
-//! a matter of how its triangles lie. So hinges one by one are stiffer in some directions than in others. All
-//! three of a triangle say what S is there, and then its energy is what the material says in any direction:
+//! On a surface ½ xᵀ S x, a hinge measures C = c · S: one of the three numbers of S, and the
+//! position of its triangles decides which. Independent hinges are therefore stiffer in some
+//! directions than in others. The three hinges of a triangle determine S there, and the energy is
+//! exact in every direction:
 //!
 //! ```text
 //! ½ D A |S|² = ½ D A Σ Cᵢ Cⱼ (M⁻¹)ᵢⱼ / |cᵢ| |cⱼ|,    Mᵢⱼ = cᵢ · cⱼ / |cᵢ| |cⱼ|
 //! ```
-//! S is the smallest that shows these C where there are less than three, as at a border, which bears no moment.
-//! It is right for a sheet that is bent evenly, but on some meshes, where diagonals alternate, finds creases
-//! between what hinges see that cost too little. What the slopes of neighbours give, S = Σ C nnᵀ / 2 A with n
-//! across an edge (Oñate and Zárate, "Rotation-free triangular plate and shell elements", IJNME 2000), sees
-//! all creases, but on these meshes is too stiff askew. Where a mesh repeats both are the same, and elsewhere
-//! they are off to either side: half of each is taken.
+//! With fewer than three hinges (at a border, which carries no moment) S is the smallest tensor
+//! with these C.
+//!
+//! This element is exact for evenly bent sheets, but on some meshes with alternating diagonals it
+//! has creases of too little energy. The element of Oñate and Zárate ("Rotation-free triangular
+//! plate and shell elements", IJNME 2000), S = Σ C nnᵀ / 2 A with n across an edge, resists all
+//! creases, but is too stiff in oblique directions on these meshes. On periodic meshes both agree;
+//! elsewhere their errors have opposite signs, so the mean of both is used.
+//!
+//! Reads hinges and rest positions; writes `TriangleStiffness` per triangle.
+//!
+//! Invariant: an element with all its hinges active has a positive definite energy
+//! (`MIN_DETERMINANT`).
 
 use crate::math::max;
 use crate::model::hinge::{CurvatureResponse, Hinge};
@@ -21,23 +30,24 @@ use glam::{Vec2, Vec3};
 /// No hinge.
 const NONE: u32 = u32::MAX;
 
-/// Below this determinant of M its hinges hardly differ in what they tell, so that noise would be stiff: M has
-/// the rest added to its diagonal.
+/// Minimum determinant of M. Below it the hinges measure nearly the same, and rounding would become
+/// stiff; the difference is added to the diagonal of M.
 const MIN_DETERMINANT: f32 = 0.15;
 
-/// The pairs among three.
+/// The pairs of the three hinges of a triangle.
 pub(crate) const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
-/// One triangle.
+/// The element of one triangle.
 #[derive(Clone, Copy, Debug)]
 struct BendTriangle {
-    /// Its hinges, and which of a hinge's two triangles it is.
+    /// Its hinges, and for each whether the triangle is the first (0) or second (1) of that hinge.
     hinges: [u32; 3],
     sides: [u8; 3],
     /// √A / |c| of each, and 1 / 2 √A, which the slopes of neighbours give [1/m].
     sizes: [f32; 3],
+    /// Coefficient of the Oñate–Zárate element, 1 / 2 √A [1/m].
     slope_size: f32,
-    /// M of the first and second, of the first and third, of the second and third; and for slopes.
+    /// M of each pair of hinges (`PAIRS`), and the same for the Oñate–Zárate element.
     coupling: [f32; 3],
     slope_coupling: [f32; 3],
 }
@@ -46,14 +56,14 @@ struct BendTriangle {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BendElements(Vec<BendTriangle>);
 
-/// The energy of a triangle over ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
+/// Energy of a triangle divided by ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleStiffness {
-    /// Its hinges; those whose own energy is 0 may be none.
+    /// Its hinges; entries whose `own` is 0 may be missing (`NONE`).
     pub hinges: [u32; 3],
-    /// [1/m²].
+    /// Diagonal terms [1/m²].
     pub own: [f32; 3],
-    /// Of the pairs among three (`PAIRS`) [1/m²].
+    /// Terms of the pairs in `PAIRS` [1/m²].
     pub between: [f32; 3],
 }
 
@@ -66,8 +76,9 @@ struct HingeSide {
 }
 
 impl BendElements {
-    /// The triangles at these hinges: `triangles` says which two, `responses` what each shows, and `corners` where
-    /// the corners of a triangle are at rest.
+    /// Creates the elements of all triangles at these hinges. `triangles` are the two triangles of
+    /// each hinge, `responses` their responses to curvature, `corners` returns the rest positions
+    /// of a triangle and `rest` that of a vertex [m].
     pub fn new(
         hinges: &[Hinge],
         triangles: &[[u32; 2]],
@@ -107,7 +118,7 @@ impl BendElements {
                 let hinge = &hinges[edge.hinge as usize];
                 let [p, q] = [hinge.particles[0], hinge.particles[1]].map(&rest);
                 let along = flat(q - p).normalize_or_zero();
-                // The hinge's own way across leads to the apex of its first triangle.
+                // The across direction of a hinge points to the apex of its first triangle.
                 let to_apex = flat(rest(hinge.particles[2 + usize::from(edge.side)]) - p);
                 let to_apex = to_apex - along * along.dot(to_apex);
                 let to_first = if edge.side == 0 { to_apex } else { -to_apex };
@@ -132,12 +143,12 @@ impl BendElements {
         Self(triangles_with_hinges)
     }
 
-    /// How many there are.
+    /// Number of elements.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// The hinges of each.
+    /// The hinges of each element.
     pub fn hinges(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
         let is_one = |hinge: &u32| *hinge != NONE;
         self.0.iter().map(move |triangle_element| {
@@ -145,7 +156,8 @@ impl BendElements {
         })
     }
 
-    /// The curvature of one that is flat [1/m], if its hinges were bent by so much [rad].
+    /// The curvature |S| of a flat element whose hinges are bent by the angles `bent` [rad], in
+    /// 1/m.
     pub fn curvature(&self, at: usize, hinges: &[Hinge], bent: impl Fn(usize) -> f32) -> f32 {
         let triangle_element = &self.0[at];
         let (mut multipliers, mut shown) = ([0.0; 3], [0.0; 3]);
@@ -162,14 +174,16 @@ impl BendElements {
         let own = element.own.into_iter().zip(shown).map(|(own, c)| own * (c * c));
         let pairs = element.between.into_iter().zip(PAIRS);
         let between = pairs.map(|(between, [p, q])| 2.0 * between * (shown[p] * shown[q]));
-        // A |S|², where the slopes know A.
+        // `energy` is A |S|², and `slope_size` gives A.
         let energy = own.sum::<f32>() + between.sum::<f32>();
         2.0 * triangle_element.slope_size * max(energy, 0.0).sqrt()
     }
 
-    /// What triangles resist whose hinges hold in part, where some particles are held; `stiffness_scale` is what there is
-    /// left of a triangle's stiffness. Where a mesh goes on into a clamp only the half of a hinge outside bends,
-    /// and has all of the angle.
+    /// Computes the stiffness of all elements from the active hinges (`holds`) and the held
+    /// particles (`is_held`). `stiffness_scale` is the remaining stiffness of a triangle, 0 to 1.
+    ///
+    /// Where a mesh continues into a clamp, only the half of a hinge outside the clamp bends, and
+    /// takes the whole angle.
     pub fn compute_stiffness(
         &self,
         hinges: &[Hinge],
@@ -202,14 +216,15 @@ impl BendElements {
         }));
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         self.0.len() * size_of::<BendTriangle>()
     }
 }
 
 impl BendTriangle {
-    /// Its energy, if hinges are bent so many times as they show: those at 0 tell nothing.
+    /// Its stiffness, with the bend of each hinge multiplied by `multipliers`; hinges with 0 are
+    /// absent.
     fn element(&self, multipliers: [f32; 3]) -> TriangleStiffness {
         let mut coupling = self.coupling;
         for (coupling, [p, q]) in coupling.iter_mut().zip(PAIRS) {
@@ -242,11 +257,11 @@ impl BendTriangle {
     }
 }
 
-/// A coupling of less than this is rounding.
+/// Relative size of a coupling below which it is rounding.
 const NEGLIGIBLE: f32 = 1.0e-4;
 
-/// What a hinge shows of a curvature's parts along x, along y and √2 times that between, for where its own
-/// ways lead.
+/// Response of a hinge in the frame of its triangle, as coefficients of Sₓₓ, Sᵧᵧ and √2 Sₓᵧ; t and
+/// n are the directions along and across the hinge.
 fn response_vector([along, across, between]: CurvatureResponse, t: Vec2, n: Vec2) -> Vec3 {
     let half_root = 0.5_f32.sqrt();
     let parts =

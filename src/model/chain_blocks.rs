@@ -1,74 +1,89 @@
-//! Lines side by side, eight at a time, as they are solved.
+//! Chains in SIMD blocks: up to eight chains side by side, one per lane, as sequences of steps for
+//! the line solver.
 //!
-//! Where links broke, a line is pieces, one after the other in the lane that is the line's: what lies next
-//! to each other in the cloth stays so here, whatever is torn.
+//! ```text
+//! lane      0   1   2  …            step 0: first particle of each chain (rest < 0)
+//! step 0    p   p   p               step k: next link, its far particle and rest length
+//! step 1    ●   ●   ●               a torn chain starts its next segment in the same lane,
+//! step 2    ●   p   ●               with another starting step (rest < 0)
+//! ```
+//! Particles are named by slots of the interleaved position buffer: slot = particle + 1, and slot 0
+//! is a sentinel that idle lanes read.
+//!
+//! Reads `Links`; writes steps. Lanes keep their chain when it breaks, so that neighbours in the
+//! cloth stay neighbours here.
+//!
+//! Invariant: after `rebuild_stale` the steps contain each active link of all chains once.
 
 use crate::math::simd::{LANES, LaneArray};
 use crate::mesh::NONE;
 use crate::model::links::Links;
 
-/// The seat that lanes without a link look at. Every particle has the seat after its own number.
+/// Sentinel slot of idle lanes. Particle p has slot p + 1.
 pub(crate) const NO_PARTICLE: u32 = 0;
 
-/// A link of a line: its number, and whether the line runs from its second particle.
+/// A link of a chain: its number, and whether the chain runs from its second particle to its first.
 pub(crate) type ChainLink = (u32, bool);
 
-/// The next link of each lane, or the particle that its next piece begins with.
+/// One step of eight chains: the next link of each lane, or the first particle of its next segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChainStep {
-    /// The link's number; `NONE` where a piece begins, and behind the last.
+    /// Link number; `NONE` at the start of a segment and behind the last one.
     pub links: [u32; LANES],
-    /// The seat of the particle that it runs to; `NO_PARTICLE` behind the last piece.
+    /// Slot of the particle that the link leads to; `NO_PARTICLE` behind the last segment.
     pub to: [u32; LANES],
-    /// Its length at rest [m]. Where a piece begins it is that of the first link, negative; behind the last
-    /// it is 0.
+    /// Rest length [m]. At the start of a segment: that of its first link, negative. Behind the
+    /// last segment: 0.
     pub rest: LaneArray,
 }
 
 const NO_STEP: ChainStep =
     ChainStep { links: [NONE; LANES], to: [NO_PARTICLE; LANES], rest: [0.0; LANES] };
 
-/// Lines whose particles lie evenly: by so many apart along a line, and from one line to the next.
+/// A block whose particles lie at constant strides, as in a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct StridedBlock {
-    /// The first particle of the first line.
+    /// First particle of the first chain.
     pub first: usize,
+    /// Stride from one particle of a chain to the next, and from one chain to the next.
     pub link_stride: usize,
     pub chain_stride: usize,
-    /// How many lines.
+    /// Number of chains.
     pub chain_count: usize,
 }
 
-/// Up to eight lines that share no particle.
+/// Up to eight chains that share no particle.
 #[derive(Clone, Debug)]
 struct ChainBlock {
-    /// Where its room for steps begins, and how many there are.
+    /// First step, and number of steps.
     first_step: usize,
     steps: usize,
+    /// Whether links changed since the steps were built.
     is_stale: bool,
-    /// If all its lines are whole, as long as each other, and lie as those of a grid do.
+    /// The strides, if all chains are whole, equally long and at constant strides.
     strided: Option<StridedBlock>,
 }
 
-/// Lines in blocks, laid side by side.
+/// All chains in blocks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ChainBlocks {
     steps: Vec<ChainStep>,
     blocks: Vec<ChainBlock>,
-    /// The links of all lines as they were woven, line after line, block after block.
+    /// Links of all chains at creation, chain by chain, block by block.
     links_of_chains: Vec<ChainLink>,
-    /// Where the lines of each block begin among the members, and where the last one ends.
+    /// First entry in `links_of_chains` of each chain of a block, and the end of the last one.
     chain_starts: Vec<[u32; LANES + 1]>,
-    /// The block of each link; `NONE` for those in no line.
+    /// Block of each link; `NONE` if it is in no chain.
     block_of: Vec<u32>,
     /// Whether any block is stale.
     is_stale: bool,
-    /// Whether all blocks are strips.
+    /// Whether all blocks are strided.
     are_all_strided: bool,
 }
 
 impl ChainBlocks {
-    /// Lays lines by blocks. `links` are all there are; `can_break` says to have room for lines to break.
+    /// Builds blocks from chains. `links` are all links; `can_break` allocates for chains that tear
+    /// apart.
     pub fn new(links: &Links, blocks: &[Vec<&[ChainLink]>], can_break: bool) -> Self {
         let mut result = Self { block_of: vec![NONE; links.len()], ..Self::default() };
         let mut steps = 0;
@@ -86,7 +101,7 @@ impl ChainBlocks {
                 is_stale: true,
                 strided: None,
             });
-            // Each piece has a beginning, and a link at least.
+            // Each segment has a start and at least one link.
             let longest = lines.iter().map(|line| line.len()).max().unwrap_or(0);
             steps += if can_break { 2 * longest } else { longest + 1 };
         }
@@ -96,17 +111,17 @@ impl ChainBlocks {
         result
     }
 
-    /// The steps of each block, in the order that these are to be solved in.
+    /// The steps of each block, in the order in which they are solved.
     pub fn blocks(&self) -> impl Iterator<Item = &[ChainStep]> {
         self.blocks.iter().map(|block| &self.steps[block.first_step..][..block.steps])
     }
 
-    /// Whether all blocks are strips.
+    /// Returns whether all blocks are strided.
     pub fn are_all_strided(&self) -> bool {
         self.are_all_strided
     }
 
-    /// The blocks that are strips, as these.
+    /// The strided blocks with their steps.
     pub fn strided_blocks(&self) -> impl Iterator<Item = (StridedBlock, &[ChainStep])> {
         self.blocks
             .iter()
@@ -114,14 +129,14 @@ impl ChainBlocks {
             .filter_map(|(block, steps)| Some((block.strided?, steps)))
     }
 
-    /// How many steps there may be in a block.
+    /// Maximum number of steps of a block.
     pub fn max_steps(&self) -> usize {
         let ends = self.blocks.iter().skip(1).map(|block| block.first_step);
         let ends = ends.chain([self.steps.len()]);
         self.blocks.iter().zip(ends).map(|(block, end)| end - block.first_step).max().unwrap_or(0)
     }
 
-    /// Takes note that a link changed.
+    /// Marks the block of a link that changed.
     pub fn mark_stale(&mut self, link: usize) {
         if let Some(block) = self.blocks.get_mut(self.block_of[link] as usize) {
             block.is_stale = true;
@@ -129,7 +144,7 @@ impl ChainBlocks {
         }
     }
 
-    /// Takes over lengths at rest that changed.
+    /// Copies the rest lengths of all links, after rebuilding stale blocks.
     pub fn update_rest_lengths(&mut self, links: &Links) {
         self.rebuild_stale(links);
         for block in &self.blocks {
@@ -148,7 +163,7 @@ impl ChainBlocks {
         }
     }
 
-    /// Lays anew what changed.
+    /// Rebuilds the steps of all stale blocks.
     pub fn rebuild_stale(&mut self, links: &Links) {
         if core::mem::take(&mut self.is_stale) {
             for at in 0..self.blocks.len() {
@@ -163,6 +178,7 @@ impl ChainBlocks {
         }
     }
 
+    /// Rebuilds the steps of a block.
     fn rebuild_block(&mut self, links: &Links, at: usize) {
         let block = &mut self.blocks[at];
         let scratch = &mut self.steps[block.first_step..];
@@ -188,7 +204,7 @@ impl ChainBlocks {
         }
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         size_of::<ChainStep>() * self.steps.len()
             + size_of::<ChainLink>() * self.links_of_chains.len()
@@ -198,22 +214,23 @@ impl ChainBlocks {
 }
 
 impl StridedBlock {
-    /// What the steps of a block are, if that is a strip. Those too short to be turned in fours are none.
+    /// Detects constant strides in the steps of a block. Blocks too short to be transposed in
+    /// groups of four steps are not strided.
     fn of(steps: &[ChainStep]) -> Option<Self> {
         let first = steps.first()?.to;
-        // Where the first line has no link left, no strip begins.
+        // If the first chain has no link left, the block is not strided.
         let before_first = first[0].checked_sub(1)?;
         let lines = first.iter().take_while(|to| **to != NO_PARTICLE).count();
         let across = if lines > 1 { first[1].checked_sub(first[0])? } else { 1 };
         let along = steps.get(3)?.to[0].checked_sub(first[0])? / 3;
-        let lies = |(at, step): (usize, &ChainStep)| {
+        let matches = |(at, step): (usize, &ChainStep)| {
             let slot = |lane: usize| first[0] + at as u32 * along + lane as u32 * across;
             let to = |lane: usize| if lane < lines { slot(lane) } else { NO_PARTICLE };
             (0..LANES).all(|lane| {
                 step.to[lane] == to(lane) && (step.rest[lane] > 0.0) == (lane < lines && at > 0)
             })
         };
-        let is_strip = (along == 1 || across == 1) && steps.iter().enumerate().all(lies);
+        let is_strip = (along == 1 || across == 1) && steps.iter().enumerate().all(matches);
         is_strip.then_some(Self {
             first: before_first as usize,
             link_stride: along as usize,
@@ -223,7 +240,7 @@ impl StridedBlock {
     }
 }
 
-/// The seats that a link runs from and to; `NO_PARTICLE` if it does not hold.
+/// Slots that a link runs from and to; `NO_PARTICLE` if it is not active.
 fn slots(links: &Links, (link, is_turned): ChainLink) -> (u32, u32) {
     let link = link as usize;
     match (links.active[link], is_turned) {

@@ -1,7 +1,16 @@
-//! Chains: stretch links end to end, as straight as the mesh has them, to be solved as wholes.
+//! Chains: straight runs of stretch links, each solved as a whole (tridiagonal) by the line solver.
 //!
-//! On a grid they are its rows and columns. On any mesh links continue each other where they meet most
-//! nearly straight. Every stretch link is in one line.
+//! ```text
+//! grid:  rows and columns          mesh:  at each vertex, the straightest pairs of links continue
+//! ●──●──●──●                       each other, if they turn by less than 37° (cosine 0.8)
+//! ```
+//! Chains are packed into blocks of up to eight that share no particle, one per SIMD lane, the
+//! longest first.
+//!
+//! Reads `Links` and rest positions; writes `Chains`.
+//!
+//! Invariants: every stretch link is in exactly one chain; a chain visits no vertex twice; chains
+//! of one block share no particle.
 
 use crate::math::simd::LANES;
 use crate::math::sort::{sort, sort_by};
@@ -11,60 +20,62 @@ use crate::model::links::{LinkKind, Links};
 use core::mem::take;
 use glam::Vec3;
 
-/// Links continue each other up to a turn of which this is the cosine.
+/// Minimum cosine of the turn between two links that continue each other.
 const MIN_STRAIGHTNESS: f32 = 0.8;
 
-/// So many unfinished blocks are looked at for room.
+/// Number of unfinished blocks that are searched for a free lane.
 const OPEN_BLOCKS: usize = 16;
 
+/// Links of a chain, in order.
 type Chain = Vec<ChainLink>;
 
-/// All lines of a weave.
+/// All chains of a cloth.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chains {
-    /// Eight that share no particle side by side in a block.
+    /// The chains, eight side by side.
     pub blocks: ChainBlocks,
-    /// Links of the longest one as it was woven.
+    /// Number of links of the longest chain at creation.
     pub longest: usize,
 }
 
 impl Chains {
-    /// Finds the lines of a weave as it is woven. `rest` is the rest position of each vertex; `can_break`
-    /// says to have room for lines to break.
+    /// Divides the stretch links into chains. `rest` is the rest position of each vertex [m];
+    /// `can_break` allocates for chains that tear apart.
     pub fn new(links: &Links, rest: &[Vec3], can_break: bool) -> Self {
         let next = continuations(links, rest);
-        let mut lines = Vec::new();
+        let mut chains = Vec::new();
         let mut seen = vec![false; links.len()];
         let mut visited = vec![NONE; rest.len()];
         for link in stretch_links(links) {
             if !seen[link as usize] {
                 let start =
-                    find_chain_start(links, &next, link, &seen, lines.len() as u32, &mut visited);
-                lines.push(collect_chain(
+                    find_chain_start(links, &next, link, &seen, chains.len() as u32, &mut visited);
+                chains.push(collect_chain(
                     links,
                     &next,
                     start,
                     &mut seen,
-                    lines.len() as u32,
+                    chains.len() as u32,
                     &mut visited,
                 ));
             }
-            // A line that ran into itself from behind did not come by.
+            // The walk back may have entered a loop that does not contain this link; it becomes a
+            // chain of its own.
             if !seen[link as usize] {
                 seen[link as usize] = true;
-                lines.push(vec![(link, false)]);
+                chains.push(vec![(link, false)]);
             }
         }
-        // Those of a length go together, the longest first, in the order in which they were found.
+        // Longest first, equal lengths in the order in which they were found.
         let mut order: Vec<[u32; 2]> =
-            lines.iter().zip(0..).map(|(line, at)| [!(line.len() as u32), at]).collect();
+            chains.iter().zip(0..).map(|(chain, at)| [!(chain.len() as u32), at]).collect();
         sort(&mut order);
-        let lines: Vec<Chain> =
-            order.iter().map(|[_, at]| take(&mut lines[*at as usize])).collect();
-        let blocks = pack_into_blocks(links, &lines, rest.len());
+        let chains: Vec<Chain> =
+            order.iter().map(|[_, at]| take(&mut chains[*at as usize])).collect();
+        let blocks = pack_into_blocks(links, &chains, rest.len());
         Self {
             blocks: ChainBlocks::new(links, &blocks, can_break),
-            longest: lines.first().map_or(0, Vec::len),
+            longest: chains.first().map_or(0, Vec::len),
         }
     }
 }
@@ -73,20 +84,20 @@ fn stretch_links(links: &Links) -> impl Iterator<Item = u32> + '_ {
     (0..links.len()).filter(|link| links.kind(*link) == LinkKind::Stretch).map(|link| link as u32)
 }
 
-/// For each link the one that continues it beyond its first and beyond its second particle.
+/// For each link the links that continue it beyond its first and beyond its second particle.
 fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
-    let mut at_vertex: Vec<Vec<(u32, Vec3)>> = vec![Vec::new(); rest.len()];
+    let mut links_at_vertex: Vec<Vec<(u32, Vec3)>> = vec![Vec::new(); rest.len()];
     for link in stretch_links(links) {
         let (a, b) = (links.a[link as usize], links.b[link as usize]);
-        let way = (rest[b as usize] - rest[a as usize]).normalize_or_zero();
-        at_vertex[a as usize].push((link, way));
-        at_vertex[b as usize].push((link, -way));
+        let direction = (rest[b as usize] - rest[a as usize]).normalize_or_zero();
+        links_at_vertex[a as usize].push((link, direction));
+        links_at_vertex[b as usize].push((link, -direction));
     }
     let mut next = vec![[NONE; 2]; links.len()];
-    for (vertex, around) in at_vertex.iter().enumerate() {
+    for (vertex, links_here) in links_at_vertex.iter().enumerate() {
         let mut pairs = Vec::new();
-        for (at, (p, along)) in around.iter().enumerate() {
-            for (q, back) in &around[at + 1..] {
+        for (at, (p, along)) in links_here.iter().enumerate() {
+            for (q, back) in &links_here[at + 1..] {
                 let straight = -along.dot(*back);
                 if straight > MIN_STRAIGHTNESS {
                     pairs.push((straight, *p, *q));
@@ -105,12 +116,13 @@ fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
     next
 }
 
-/// The vertex where the walk goes on after a link.
+/// The vertex at which a walk leaves a link.
 fn far_end(links: &Links, (link, turned): (u32, bool)) -> u32 {
     if turned { links.a[link as usize] } else { links.b[link as usize] }
 }
 
-/// The next link of a walk, if it leads to a new vertex.
+/// The next link of a walk, if it exists, is unused and leads to a vertex that this walk has not
+/// visited.
 fn next_link(
     links: &Links,
     next: &[[u32; 2]],
@@ -127,7 +139,7 @@ fn next_link(
     (visited[far_end(links, to) as usize] != number).then_some(to)
 }
 
-/// The link where a line begins that has `link` in it, in the direction it runs.
+/// Walks back from `link` to the start of its chain. Returns the first link and its direction.
 fn find_chain_start(
     links: &Links,
     next: &[[u32; 2]],
@@ -137,7 +149,7 @@ fn find_chain_start(
     visited: &mut [u32],
 ) -> (u32, bool) {
     let mut at = (link, true);
-    // Marks of this walk differ from those of the walk back along it.
+    // The marks differ from those of the walk forward along the same links.
     let number = number | 1 << 31;
     visited[links.b[link as usize] as usize] = number;
     visited[links.a[link as usize] as usize] = number;
@@ -148,6 +160,7 @@ fn find_chain_start(
     (at.0, !at.1)
 }
 
+/// Walks from `start` to the end of the chain, and marks its links as seen.
 fn collect_chain(
     links: &Links,
     next: &[[u32; 2]],
@@ -156,7 +169,7 @@ fn collect_chain(
     number: u32,
     visited: &mut [u32],
 ) -> Chain {
-    let mut line = vec![start];
+    let mut chain = vec![start];
     seen[start.0 as usize] = true;
     visited[links.a[start.0 as usize] as usize] = number;
     visited[links.b[start.0 as usize] as usize] = number;
@@ -164,35 +177,35 @@ fn collect_chain(
     while let Some(to) = next_link(links, next, at, seen, (number, visited)) {
         seen[to.0 as usize] = true;
         visited[far_end(links, to) as usize] = number;
-        line.push(to);
+        chain.push(to);
         at = to;
     }
-    line
+    chain
 }
 
-/// Puts lines side by side, so that those in a block share no vertex.
+/// Packs chains into blocks of lanes, so that chains of one block share no vertex.
 fn pack_into_blocks<'a>(
     links: &Links,
-    lines: &'a [Chain],
+    chains: &'a [Chain],
     vertex_count: usize,
 ) -> Vec<Vec<&'a [ChainLink]>> {
     let mut blocks: Vec<Vec<&[ChainLink]>> = Vec::new();
-    // The blocks that each vertex is in.
-    let mut member: Vec<Vec<u32>> = vec![Vec::new(); vertex_count];
-    for line in lines {
+    // Blocks that contain each vertex.
+    let mut blocks_of_vertex: Vec<Vec<u32>> = vec![Vec::new(); vertex_count];
+    for chain in chains {
         let ends = |link: u32| [links.a[link as usize], links.b[link as usize]];
-        let vertices: Vec<u32> = line.iter().flat_map(|(link, _)| ends(*link)).collect();
+        let vertices: Vec<u32> = chain.iter().flat_map(|(link, _)| ends(*link)).collect();
         let oldest = blocks.len().saturating_sub(OPEN_BLOCKS);
         let fits = |block: &usize| {
-            let is_out = |v: &u32| !member[*v as usize].contains(&(*block as u32));
-            blocks[*block].len() < LANES && vertices.iter().all(is_out)
+            let is_absent = |v: &u32| !blocks_of_vertex[*v as usize].contains(&(*block as u32));
+            blocks[*block].len() < LANES && vertices.iter().all(is_absent)
         };
         let block = (oldest..blocks.len()).find(fits).unwrap_or(blocks.len());
         if block == blocks.len() {
             blocks.push(Vec::new());
         }
-        blocks[block].push(line);
-        vertices.iter().for_each(|v| member[*v as usize].push(block as u32));
+        blocks[block].push(chain);
+        vertices.iter().for_each(|v| blocks_of_vertex[*v as usize].push(block as u32));
     }
     blocks
 }
@@ -213,52 +226,56 @@ mod tests {
         (Mesh::new(grid::triangles(columns, rows), rest.len(), rest.len()), rest)
     }
 
-    /// Every stretch link is in one line, lines in a block share no particle, and lines are chains.
-    fn assert_sound(lines: &Chains, links: &Links) {
+    /// Asserts that every active stretch link is in one chain, chains are connected, and chains of
+    /// a block share no particle.
+    fn assert_sound(chains: &Chains, links: &Links) {
         let mut uses = vec![0; links.len()];
-        for steps in lines.blocks.blocks() {
+        for steps in chains.blocks.blocks() {
             let mut lane_of = std::collections::HashMap::new();
             let mut end = [NO_PARTICLE; LANES];
-            for next_link in steps {
+            for step in steps {
                 for lane in 0..LANES {
-                    let (link, to) = (next_link.links[lane], next_link.to[lane]);
-                    assert_eq!(link == NONE, next_link.rest[lane] <= 0.0);
+                    let (link, to) = (step.links[lane], step.to[lane]);
+                    assert_eq!(link == NONE, step.rest[lane] <= 0.0);
                     if link != NONE {
                         uses[link as usize] += 1;
-                        let seats = [links.a[link as usize] + 1, links.b[link as usize] + 1];
+                        let slots = [links.a[link as usize] + 1, links.b[link as usize] + 1];
                         let ends = [end[lane], to];
-                        assert!(seats == ends || seats == [to, end[lane]], "a line is a chain");
+                        assert!(
+                            slots == ends || slots == [to, end[lane]],
+                            "the links of a chain are connected"
+                        );
                     }
                     assert!(
                         to == NO_PARTICLE || lane_of.insert(to, lane).is_none(),
-                        "one place each"
+                        "each particle is in one lane"
                     );
                     end[lane] = to;
                 }
             }
         }
         for (link, uses) in uses.iter().enumerate() {
-            let holds = links.kind(link) == LinkKind::Stretch && links.active[link];
-            assert_eq!(*uses, u32::from(holds), "link {link}");
+            let is_active = links.kind(link) == LinkKind::Stretch && links.active[link];
+            assert_eq!(*uses, u32::from(is_active), "link {link}");
         }
     }
 
     #[test]
-    fn lines_of_a_grid_are_its_rows_and_columns() {
+    fn chains_of_a_grid_are_its_rows_and_columns() {
         let (mesh, rest) = sheet(11, 19);
         let constraints = Constraints::from_grid(11, 19, 0.1, &mesh, 0);
-        let lines = Chains::new(&constraints.links, &rest, false);
-        assert_sound(&lines, &constraints.links);
+        let chains = Chains::new(&constraints.links, &rest, false);
+        assert_sound(&chains, &constraints.links);
         // Eleven columns of eighteen links in two blocks, nineteen rows of ten in three.
-        let lengths: Vec<usize> = lines.blocks.blocks().map(<[_]>::len).collect();
+        let lengths: Vec<usize> = chains.blocks.blocks().map(<[_]>::len).collect();
         assert_eq!(lengths, [19, 19, 11, 11, 11]);
     }
 
     #[test]
-    fn lines_of_a_grid_are_all_strided_until_one_breaks() {
+    fn chains_of_a_grid_are_strided_until_one_breaks() {
         let (mesh, rest) = sheet(11, 19);
         let mut constraints = Constraints::from_grid(11, 19, 0.1, &mesh, 0);
-        let mut lines = Chains::new(&constraints.links, &rest, true);
+        let mut chains = Chains::new(&constraints.links, &rest, true);
         let strided = |first, link_stride, chain_stride, chain_count| StridedBlock {
             first,
             link_stride,
@@ -267,50 +284,50 @@ mod tests {
         };
         let columns = [strided(0, 11, 1, 8), strided(8, 11, 1, 3)];
         let rows = [strided(0, 1, 11, 8), strided(88, 1, 11, 8), strided(176, 1, 11, 3)];
-        assert!(lines.blocks.are_all_strided());
-        let strips: Vec<StridedBlock> =
-            lines.blocks.strided_blocks().map(|(strip, _)| strip).collect();
-        assert_eq!(strips, [&columns[..], &rows[..]].concat());
+        assert!(chains.blocks.are_all_strided());
+        let strided_blocks: Vec<StridedBlock> =
+            chains.blocks.strided_blocks().map(|(strided, _)| strided).collect();
+        assert_eq!(strided_blocks, [&columns[..], &rows[..]].concat());
         constraints.links.active[17] = false;
-        lines.blocks.mark_stale(17);
-        lines.blocks.rebuild_stale(&constraints.links);
-        assert!(!lines.blocks.are_all_strided());
-        assert_eq!(lines.blocks.strided_blocks().count(), 4);
+        chains.blocks.mark_stale(17);
+        chains.blocks.rebuild_stale(&constraints.links);
+        assert!(!chains.blocks.are_all_strided());
+        assert_eq!(chains.blocks.strided_blocks().count(), 4);
     }
 
     #[test]
-    fn pieces_of_broken_lines_follow_each_other() {
+    fn segments_of_broken_chains_stay_in_their_lane() {
         let (mesh, rest) = sheet(17, 9);
         let mut constraints = Constraints::from_grid(17, 9, 0.1, &mesh, 0);
-        let mut lines = Chains::new(&constraints.links, &rest, true);
-        let count = |lines: &Chains| lines.blocks.blocks().map(<[_]>::len).sum::<usize>();
-        let whole = count(&lines);
-        // Every fifth link goes, and then all of them but every seventh.
+        let mut chains = Chains::new(&constraints.links, &rest, true);
+        let count = |chains: &Chains| chains.blocks.blocks().map(<[_]>::len).sum::<usize>();
+        let whole = count(&chains);
+        // First every fifth link is removed, then all but every seventh.
         for next_link in [5, 7] {
             for link in 0..constraints.links.len() {
                 constraints.links.active[link] = (link % next_link == 0) == (next_link == 7);
-                lines.blocks.mark_stale(link);
+                chains.blocks.mark_stale(link);
             }
-            lines.blocks.rebuild_stale(&constraints.links);
-            assert_sound(&lines, &constraints.links);
-            assert_ne!(count(&lines), whole);
+            chains.blocks.rebuild_stale(&constraints.links);
+            assert_sound(&chains, &constraints.links);
+            assert_ne!(count(&chains), whole);
         }
         constraints.links.active.fill(true);
-        (0..constraints.links.len()).for_each(|link| lines.blocks.mark_stale(link));
-        lines.blocks.rebuild_stale(&constraints.links);
-        assert_sound(&lines, &constraints.links);
-        assert_eq!(count(&lines), whole);
+        (0..constraints.links.len()).for_each(|link| chains.blocks.mark_stale(link));
+        chains.blocks.rebuild_stale(&constraints.links);
+        assert_sound(&chains, &constraints.links);
+        assert_eq!(count(&chains), whole);
     }
 
     #[test]
-    fn lines_of_a_mesh_run_straight_on() {
+    fn chains_of_a_mesh_run_straight() {
         let (mesh, mut rest) = sheet(9, 9);
         for (i, x) in rest.iter_mut().enumerate() {
             x.z = (i as f32 * 1.3).sin() * 0.03;
         }
         let constraints = Constraints::from_mesh(&mesh, &rest, 0);
-        let lines = Chains::new(&constraints.links, &rest, false);
-        assert_sound(&lines, &constraints.links);
-        assert_eq!(lines.longest, 8, "from border to border");
+        let chains = Chains::new(&constraints.links, &rest, false);
+        assert_sound(&chains, &constraints.links);
+        assert_eq!(chains.longest, 8, "from border to border");
     }
 }

@@ -1,4 +1,18 @@
-//! The weave: from a mesh to all its links, and how they follow when it splits.
+//! Construction of all links of a cloth from its mesh.
+//!
+//! ```text
+//! grid:   stretch along weft and warp      mesh:  stretch along every edge
+//!         shear along both diagonals              bend across every inner edge
+//!         bend over two cells
+//!         4 colours per kind                      greedy colours
+//! ```
+//! Spring constants of edges: Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
+//!
+//! Reads `Mesh` and rest positions; writes `Constraints`. `dynamic_links` and `cut_links` update
+//! them after tears and cuts.
+//!
+//! Invariant: links of one batch share no particle, so the order inside a batch does not change the
+//! result.
 
 use crate::math::sort::sort;
 use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner, triangle_of};
@@ -13,41 +27,44 @@ use crate::model::sparse_links::SparseLinks;
 use core::ops::Range;
 use glam::Vec3;
 
-/// All links of a cloth.
+/// All links of a cloth, with indices over them.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints {
-    /// The links that it was woven with, batch by batch.
+    /// Links created with the cloth, batch by batch.
     pub links: Links,
+    /// Batches of `links`, sorted by kind.
     pub batches: Vec<LinkBatch>,
-    /// Where the links of a grid lie in rows.
+    /// The links of a grid as rows.
     pub rows: Option<GridRows>,
-    /// The stretch links as lines.
+    /// The stretch links as chains.
     pub chains: Chains,
-    /// What resists bending on any mesh.
+    /// Hinges, which resist bending on a mesh that is not a grid.
     pub hinges: Hinges,
-    /// Whether a link that it was woven with is anchored or as strong as it was no longer.
+    /// Whether the definition of a link in `links` has changed since creation.
     pub(super) is_changed: Vec<bool>,
-    /// The second sides of opened edges and what cuts made, in the order they came, see `dynamic`.
+    /// Links added by tears and cuts, in order of creation, see `dynamic_links`.
     pub dynamic: Links,
-    /// Those of them that hold by colour; as of the last time they were gathered.
+    /// Active dynamic links by colour; valid after `rebuild_sparse`.
     pub sparse: SparseLinks,
+    /// Scratch for the colouring of dynamic links.
     pub(super) coloring: Coloring,
-    /// The sites that each extra link involves; `NONE` where there are fewer.
+    /// Sites that each dynamic link depends on; `NONE` if there are fewer.
     pub(super) dynamic_sites: Vec<[u32; 4]>,
-    /// The link along the edge that starts at each corner, by its number as in `dynamic`; `NONE` on the
-    /// second side of an inner edge.
+    /// Number of the link along the edge that starts at each corner, see `dynamic_links`; `NONE` on
+    /// the second side of an inner edge.
     pub(super) link_of_edge: Vec<u32>,
-    /// Links that involve each original vertex: `links_by_site[first_of_site[v]..first_of_site[v + 1]]`.
+    /// Links that depend on each original vertex (CSR):
+    /// `links_by_site[first_of_site[v]..first_of_site[v + 1]]`.
     pub(super) first_of_site: Vec<u32>,
     pub(super) links_by_site: Vec<u32>,
-    /// The extra links of each site as chains.
+    /// Dynamic links of each site, as linked lists.
     pub(super) dynamic_head: Vec<u32>,
     pub(super) dynamic_next: Vec<[u32; 4]>,
-    /// Which way the threads of a grid run; any mesh has none.
+    /// Unit vectors along weft and warp of a grid at rest; `None` for other meshes.
     pub(super) thread_directions: Option<[Vec3; 2]>,
 }
 
-/// A link about to be woven.
+/// A link before sorting by colour.
 struct LinkDraft {
     spec: LinkSpec,
     rest: f32,
@@ -55,7 +72,8 @@ struct LinkDraft {
 }
 
 impl Constraints {
-    /// Weaves a regular grid: four colours for each kind of link.
+    /// Creates the links of a regular grid, with four colours per kind. Allocates for
+    /// `opening_capacity` dynamic links.
     pub fn from_grid(
         columns: u32,
         rows: u32,
@@ -128,7 +146,8 @@ impl Constraints {
                         corner(mesh, left / 3, middle),
                         corner(mesh, right / 3, middle),
                     ]),
-                    stiffness_scale: border_scale(at_border) * bend_shape(spacing, 2.0 * spacing),
+                    stiffness_scale: border_scale(at_border)
+                        * bend_link_stiffness(spacing, 2.0 * spacing),
                 };
                 drafts.push(LinkDraft { spec, rest: 2.0 * spacing, color: base + along / 2 % 2 });
             });
@@ -148,7 +167,8 @@ impl Constraints {
         constraints
     }
 
-    /// Weaves any mesh: a stretch link along every edge, a bend link across every inner one.
+    /// Creates the links of any mesh: a stretch link along every edge, a bend link across every
+    /// inner edge. Allocates for `opening_capacity` dynamic links.
     pub fn from_mesh(mesh: &Mesh, rest: &[Vec3], opening_capacity: usize) -> Self {
         let edges: Vec<Corner> = mesh.edges().collect();
         let distance = |a: u32, b: u32| (rest[a as usize] - rest[b as usize]).length();
@@ -161,10 +181,10 @@ impl Constraints {
             let (a, b) = (mesh.vertex(*edge), mesh.vertex(next_corner(*edge)));
             let length = distance(a, b);
             let beyond = mesh.across(*edge);
-            let both =
+            let both_areas =
                 area(triangle_of(*edge)) + if beyond == NONE { 0.0 } else { area(beyond as usize) };
             // Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
-            let stiffness_scale = both / (length * length);
+            let stiffness_scale = both_areas / (length * length);
             let spec = edge_link(
                 mesh,
                 *edge,
@@ -183,7 +203,7 @@ impl Constraints {
                 (3 * beyond..3 * beyond + 3).find(|c| mesh.vertex(*c) != a && mesh.vertex(*c) != b);
             let ends = [opposite, far.unwrap_or(opposite)];
             let length = distance(mesh.vertex(ends[0]), mesh.vertex(ends[1]));
-            let stiffness_scale = bend_shape(distance(a, b), length.max(1.0e-6));
+            let stiffness_scale = bend_link_stiffness(distance(a, b), length.max(1.0e-6));
             let support = LinkSupport::AcrossEdge(*edge);
             let spec = LinkSpec {
                 kind: LinkKind::Bend,
@@ -201,9 +221,11 @@ impl Constraints {
         let of_kind = |draft: &LinkDraft| draft.spec.kind as u32;
         let bend = drafts.iter().position(|draft| of_kind(draft) == 2).unwrap_or(drafts.len());
         let count = mesh.vertex_count();
-        let mut colors = coloring::greedy(&pairs[..bend], count);
+        let mut colors = coloring::color_greedily(&pairs[..bend], count);
         let stretch_colors = colors.iter().max().map_or(0, |most| most + 1);
-        colors.extend(coloring::greedy(&pairs[bend..], count).iter().map(|c| c + stretch_colors));
+        colors.extend(
+            coloring::color_greedily(&pairs[bend..], count).iter().map(|c| c + stretch_colors),
+        );
         for (draft, color) in drafts.iter_mut().zip(colors) {
             draft.color = color;
         }
@@ -211,7 +233,7 @@ impl Constraints {
     }
 
     fn from_drafts(mesh: &Mesh, drafts: Vec<LinkDraft>, opening_capacity: usize) -> Self {
-        // Those of a colour stay in the order in which they were drafted.
+        // Links of one colour keep the order in which they were created.
         let mut order: Vec<[u32; 2]> =
             drafts.iter().zip(0..).map(|(draft, at)| [draft.color, at]).collect();
         sort(&mut order);
@@ -263,7 +285,7 @@ impl Constraints {
         }
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         let for_each_grid_link = size_of::<LinkSpec>() + 5 * size_of::<f32>() + size_of::<bool>();
         let links = self.links.len() + self.dynamic.rest.capacity();
@@ -278,20 +300,20 @@ impl Constraints {
             + size_of::<[u32; 8]>() * self.dynamic_next.capacity()
     }
 
-    /// Takes on a material's stiffnesses.
+    /// Computes the compliances of all links from the material.
     pub fn update_compliances(&mut self, material: &Material) {
         for links in [&mut self.links, &mut self.dynamic] {
             (0..links.len()).for_each(|link| links.update_compliance(link, material));
         }
     }
 
-    /// The batches of a kind, which lie next to each other.
+    /// The batches of a kind, which are consecutive.
     pub fn batches_of(&self, kind: LinkKind) -> Range<usize> {
         let first = self.batches.partition_point(|batch| batch.kind < kind);
         first..self.batches.partition_point(|batch| batch.kind <= kind)
     }
 
-    /// The links of a kind that left their rows, if there are rows, and still hold.
+    /// The active links of a kind that left their grid row; none without rows.
     #[cfg(feature = "parallel")]
     pub fn irregular_links_of(&self, kind: LinkKind) -> &[u32] {
         let batches = &self.batches[self.batches_of(kind)];
@@ -302,26 +324,27 @@ impl Constraints {
         rows.irregular_in(first.first..last.first + last.count)
     }
 
-    /// All links that hold, as particle, particle and kind.
+    /// All active links: particle, particle and kind.
     pub fn active_links(&self) -> impl Iterator<Item = (u32, u32, LinkKind)> + '_ {
         [&self.links, &self.dynamic].into_iter().flat_map(|links| {
-            let held = (0..links.len()).filter(|link| links.active[*link]);
-            held.map(|link| (links.a[link], links.b[link], links.kind(link)))
+            let active = (0..links.len()).filter(|link| links.active[*link]);
+            active.map(|link| (links.a[link], links.b[link], links.kind(link)))
         })
     }
 }
 
-/// Spring constant of a link of length `span` that reaches across an edge of length `width`, over
-/// the bending rigidity.
+/// Spring constant, relative to the bending rigidity D, of a bend link of length `span` across an
+/// edge of length `width`.
 ///
-/// A fold by θ shortens the link by span·θ²/8 and costs the sheet ½·D·θ²·(2·width/span); equal
+/// A fold by θ shortens the link by span·θ²/8 and stores ½·D·θ²·(2·width/span) in the sheet. Equal
 /// energies at a fold of half a radian give 512·width/span³.
-pub(super) fn bend_shape(width: f32, span: f32) -> f32 {
+pub(super) fn bend_link_stiffness(width: f32, span: f32) -> f32 {
     512.0 * width / (span * span * span)
 }
 
-/// Calls `visit(along, at_border, a, b)` for links of `span` cells along a thread: `along` counts
-/// cells from its start, `at_border` is whether the thread is a border of the grid.
+/// Calls `visit(along, at_border, a, b)` for every link over `span` cells in a thread direction.
+/// `along` counts cells from the start of the thread; `at_border` tells whether the thread is a
+/// border of the grid.
 fn for_each_grid_link(
     columns: u32,
     rows: u32,
@@ -364,7 +387,7 @@ pub(super) fn edge_of(ends: [Corner; 2]) -> Corner {
 
 fn corner(mesh: &Mesh, triangle: u32, vertex: u32) -> Corner {
     let found = mesh.corner_in(triangle, vertex);
-    debug_assert!(found.is_some(), "vertex {vertex} is in triangle {triangle}");
+    debug_assert!(found.is_some(), "vertex {vertex} is a corner of triangle {triangle}");
     found.unwrap_or(3 * triangle)
 }
 
@@ -374,7 +397,8 @@ fn edge_between_triangles(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
     found.unwrap_or(3 * triangle)
 }
 
-/// For each original vertex the links that change when it splits: its own, and those it supports.
+/// Builds the CSR lists `first_of_site` and `links_by_site`: for each original vertex, the links
+/// that depend on it.
 fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
     let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * links.len());
     for (at, spec) in links.spec.iter().enumerate() {
@@ -392,7 +416,7 @@ fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
     (first, pairs.into_iter().map(|(_, link)| link).collect())
 }
 
-/// Finds edges by their ends.
+/// Lookup of edges by their two vertices.
 struct EdgeIndex {
     sorted: Vec<((u32, u32), Corner)>,
 }

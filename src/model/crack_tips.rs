@@ -1,44 +1,50 @@
-//! Tips: where a slit in the cloth ends, and threads carry most of what the slit does not.
+//! Crack tips: where a slit in the cloth ends and its load concentrates.
 //!
-//! The strain ahead of a slit of length a rises to about √(a / h) times that around it, where h is how
-//! finely the mesh can follow it. Threads that tear at a strain of their own would so let the cloth tear
-//! the earlier the finer its mesh is. What does not depend on the mesh is the energy that a slit frees as
-//! it grows (Griffith 1921): with it threads at a tip tear at √(z / h) times the strain that others
-//! do, where z is the length over which strain spreads at the tip of a real one.
+//! The strain ahead of a slit of length a is about √(a / h) times the strain around it, where h is
+//! the mesh size. With a fixed strain limit a cloth would tear the earlier the finer its mesh is.
+//! The energy that a growing slit releases (Griffith 1921) does not depend on the mesh; it follows
+//! if edges at a tip tear at √(z / h) times the usual strain, where z is the length of the process
+//! zone of a real tear.
 //!
-//! What the solver has not got to of a load looks like strain too, and at a tip it is greatest. Threads
-//! there tear at no less than that, so that a slit cloth does not come apart under its own weight.
+//! Unconverged load also appears as strain, most of all at a tip. Edges at tips therefore tear at
+//! no less than the residual strain of the solver, so that a slit cloth does not tear under its own
+//! weight.
+//!
+//! Reads mesh and rest positions; returns strains and marks.
 
 use crate::mesh::{Fan, Mesh, NONE, next_corner, prev_corner};
 use crate::model::material::Material;
 use glam::Vec3;
 
-/// Over how many thicknesses of the cloth strain spreads at a tip.
+/// Length of the process zone at a tip, in thicknesses of the cloth.
 const PROCESS_ZONE: f32 = 16.0;
 
-/// Threads at a tip tear at this share of the strain at least, however coarse the mesh is.
+/// Minimum ratio of the tear strain at a tip to the usual one, however coarse the mesh is.
 const MIN_STRAIN_RATIO: f32 = 0.2;
 
-/// From so much cloth around it on [rad], a vertex at a border is a tip: five sixths of a circle, well past
-/// any corner.
+/// Minimum angle of cloth around a border vertex that is a tip [rad]: 300°, well above that of any
+/// corner.
 const MIN_TIP_ANGLE: f32 = 5.235_988;
 
-/// The strain at which threads at a tip tear, where the solver may leave them with so much.
+/// The strain at which edges at a tip tear. `spacing` is the mesh size [m], `solver_residual` the
+/// strain that the solver may leave there.
 pub(crate) fn tear_strain(material: &Material, spacing: f32, solver_residual: f32) -> f32 {
-    let others = material.tear_stretch - 1.0;
-    let at_tip = others * tip_strain_ratio(material, spacing);
-    let at_least = if solver_residual < others { solver_residual } else { others };
-    if at_tip < at_least { at_least } else { at_tip }
+    let usual_strain = material.tear_stretch - 1.0;
+    let at_tip = usual_strain * tip_strain_ratio(material, spacing);
+    let min_strain = if solver_residual < usual_strain { solver_residual } else { usual_strain };
+    if at_tip < min_strain { min_strain } else { at_tip }
 }
 
-/// At what share of the strain that others do threads at a tip tear.
+/// Ratio of the tear strain at a tip to the usual one: √(z / h), clamped to `MIN_STRAIN_RATIO` and
+/// 1.
 fn tip_strain_ratio(material: &Material, spacing: f32) -> f32 {
     let share = (PROCESS_ZONE * material.thickness / spacing).sqrt();
     let share = if share > MIN_STRAIN_RATIO { share } else { MIN_STRAIN_RATIO };
     if share < 1.0 { share } else { 1.0 }
 }
 
-/// Whether a vertex is a tip. `rest` is the rest position of each site, `fan` room to work in.
+/// Returns whether a vertex is a crack tip. `rest` is the rest position of each site [m], `fan` is
+/// scratch.
 pub(crate) fn is_crack_tip(mesh: &Mesh, rest: &[Vec3], vertex: u32, fan: &mut Fan) -> bool {
     let corner = mesh.corner_of[vertex as usize];
     if corner == NONE {
@@ -54,9 +60,9 @@ pub(crate) fn is_crack_tip(mesh: &Mesh, rest: &[Vec3], vertex: u32, fan: &mut Fa
     !fan.is_closed && fan.corners.iter().map(angle).sum::<f32>() > MIN_TIP_ANGLE
 }
 
-/// The angle between two ways [rad], to a hundredth.
+/// The angle between two vectors [rad], accurate to 0.01.
 fn angle_between(p: Vec3, q: Vec3) -> f32 {
-    // The tangent of half of it.
+    // The tangent of half of the angle.
     let (sine, cosine) = (p.cross(q).length(), p.dot(q));
     let half = sine / (cosine + (sine * sine + cosine * cosine).sqrt());
     let arctangent = |t: f32| t / (1.0 + 0.281_25 * t * t);
@@ -73,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angles_are_right_to_a_hundredth() {
+    fn angles_are_accurate_to_a_hundredth() {
         for degrees in [1.0_f32, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 179.0] {
             let (sine, cosine) = degrees.to_radians().sin_cos();
             let found = angle_between(Vec3::X * 2.0, Vec3::new(cosine, 0.0, sine) * 0.3);
@@ -82,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn the_end_of_a_slit_is_a_tip_and_corners_are_not() {
+    fn the_end_of_a_slit_is_a_crack_tip_and_corners_are_not() {
         let frame = crate::mesh::grid::GridFrame {
             origin: Vec3::ZERO,
             right: Vec3::X,

@@ -1,26 +1,35 @@
-//! Links where a cut divides triangles: those on what was divided go, others take their place.
+//! Update of links when a cut splits an edge.
 //!
-//! Of the links around a divided edge, the one along it becomes two in a row. The new edges across its
-//! triangles get links as any mesh has them, and every new fold a bend link across it. Links across an
-//! edge that is only moved to a new triangle are knotted anew at the new vertex, and links of two edges
-//! in a row are gone with either of them. New links are extra ones, so that no colour changes.
+//! ```text
+//!       o                     o        link along near–far  ─▶ two links
+//!      ╱ ╲                   ╱│╲       new edge v–o         ─▶ stretch or shear link, and a
+//! near ─── far   ─▶   near ──v── far                           bend link across it
+//!      ╲ ╱                   ╲│╱       links across moved edges ─▶ end at v instead
+//!       o′                    o′       links over two edges ─▶ removed with either edge
+//! ```
+//! New links are dynamic links, so that the colours of the original ones do not change.
+//!
+//! Reads `EdgeSplit`, mesh and rest positions; writes `Constraints` and the list of links per
+//! triangle.
+//!
+//! Invariant: every edge has a link again after `split_edge`.
 
 use crate::math::sort::sort;
 use crate::mesh::split_edge::{EdgeSplit, SplitTriangle};
 use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner};
-use crate::model::constraints::{Constraints, bend_shape, edge_of};
+use crate::model::constraints::{Constraints, bend_link_stiffness, edge_of};
 use crate::model::dynamic_links::DYNAMIC;
 use crate::model::links::{LinkKind, LinkSpec, LinkSupport, ThreadDirection};
 use crate::model::material::Material;
 use glam::Vec3;
 
-/// Which links touch each triangle; some may have left it since.
+/// Numbers of the links that depend on each triangle; may contain links that no longer do.
 pub(crate) type LinksOfTriangle = Vec<Vec<u32>>;
 
-/// How far a thread's direction may be from an edge along it: the cosine of a sixteenth of a circle.
+/// Minimum cosine between an edge and a thread direction for a stretch link: 22.5°.
 const MIN_ALIGNMENT: f32 = 0.923_879_5;
 
-/// The cloth at rest, and what it is made of.
+/// The cloth at rest, and its material.
 #[derive(Clone, Copy)]
 pub(crate) struct RestShape<'a> {
     pub mesh: &'a Mesh,
@@ -45,7 +54,7 @@ impl RestShape<'_> {
 }
 
 impl Constraints {
-    /// Which links touch which triangles.
+    /// Lists the links that depend on each triangle.
     pub fn links_of_triangles(&self, triangles: usize) -> LinksOfTriangle {
         let mut links_of = vec![Vec::new(); triangles];
         let created = (0..self.links.len() as u32).map(|link| (link, &self.links.spec));
@@ -57,7 +66,7 @@ impl Constraints {
         links_of
     }
 
-    /// Brings the links in line with a division of the mesh, which is done already.
+    /// Updates all links after `Mesh::split_edge`.
     pub fn split_edge(
         &mut self,
         rest_shape: RestShape<'_>,
@@ -91,13 +100,13 @@ impl Constraints {
         self.add_bend_links(rest_shape, split, links_of);
     }
 
-    /// The link along the edge that is divided.
+    /// The link along the edge that was split.
     fn link_along(&self, split: &EdgeSplit) -> Option<u32> {
         let mut found = split.sides().map(|side| self.link_of_edge[side.edge as usize]);
         found.find(|number| *number != NONE)
     }
 
-    /// A link along the edge that moved moves with it.
+    /// Moves the link along the moved edge to the added triangle.
     fn update_edge_link(&mut self, split: &EdgeSplit, number: u32, links_of: &mut LinksOfTriangle) {
         let (links, at) = self.link(number);
         let edge = edge_of(links.spec[at].ends);
@@ -110,7 +119,8 @@ impl Constraints {
         self.link_of_edge[side.new_edge() as usize] = number;
     }
 
-    /// A link over two edges in a row lasts if neither was divided.
+    /// Removes a link over two consecutive edges if one of them was split; otherwise updates its
+    /// corners.
     fn update_two_edge_link(
         &mut self,
         split: &EdgeSplit,
@@ -135,8 +145,9 @@ impl Constraints {
         links.spec[at] = LinkSpec { ends, support: LinkSupport::TwoEdges(middles), ..spec };
     }
 
-    /// A link across an edge has lost an end: the new vertex is across that edge now. If the edge itself
-    /// was divided, the folds across its parts get their own.
+    /// Replaces a link across an edge that lost an end: it ends at the new vertex instead. If the
+    /// edge itself was split, the link is only removed, and `add_bend_links` adds links across its
+    /// parts.
     fn replace_across_link(
         &mut self,
         rest_shape: RestShape<'_>,
@@ -145,7 +156,7 @@ impl Constraints {
         links_of: &mut LinksOfTriangle,
     ) {
         let (links, at) = self.link(number);
-        let (mut spec, held) = (links.spec[at], links.active[at]);
+        let (mut spec, was_active) = (links.spec[at], links.active[at]);
         let LinkSupport::AcrossEdge(mut edge) = spec.support else { return };
         let mut is_met = false;
         for side in split.sides() {
@@ -157,7 +168,8 @@ impl Constraints {
                 if *end == prev_corner(side.edge) {
                     return self.remove_link(number);
                 }
-                // The near end was across from the edge that moved, the far end from the one that stays.
+                // The near end lay opposite the moved edge, the far end opposite the edge that
+                // stays.
                 *end = if *end == side.edge { 3 * side.added } else { next_corner(side.edge) };
             }
             edge = if edge == side.moved_edge() { side.new_edge() } else { edge };
@@ -167,17 +179,18 @@ impl Constraints {
         }
         self.remove_link(number);
         let rest = rest_shape.distance(spec.ends[0], spec.ends[1]);
-        if !held || rest <= 0.0 {
+        if !was_active || rest <= 0.0 {
             return;
         }
         spec.support = LinkSupport::AcrossEdge(edge);
         if spec.kind == LinkKind::Bend {
-            spec.stiffness_scale = bend_shape(rest_shape.distance(edge, next_corner(edge)), rest);
+            spec.stiffness_scale =
+                bend_link_stiffness(rest_shape.distance(edge, next_corner(edge)), rest);
         }
         self.add_link(rest_shape, spec, rest, links_of);
     }
 
-    /// The link along the divided edge becomes two.
+    /// Replaces the link along the split edge by two, with the same stiffness per length.
     fn split_link(
         &mut self,
         rest_shape: RestShape<'_>,
@@ -199,7 +212,7 @@ impl Constraints {
         }
     }
 
-    /// The edge from the new vertex to the opposite one gets a link.
+    /// Adds a link along the new edge from the new vertex to the opposite one.
     fn add_inner_edge_link(
         &mut self,
         rest_shape: RestShape<'_>,
@@ -207,21 +220,22 @@ impl Constraints {
         links_of: &mut LinksOfTriangle,
     ) {
         let edge = next_corner(side.edge);
-        let way = rest_shape.at(next_corner(edge)) - rest_shape.at(edge);
-        let length = way.length();
-        let both = rest_shape.area(side.kept()) + rest_shape.area(side.added);
-        let (kind, thread) = self.kind_in_direction(way * (1.0 / length));
+        let vector = rest_shape.at(next_corner(edge)) - rest_shape.at(edge);
+        let length = vector.length();
+        let both_areas = rest_shape.area(side.kept()) + rest_shape.area(side.added);
+        let (kind, thread) = self.kind_in_direction(vector * (1.0 / length));
         let spec = LinkSpec {
             kind,
             direction: thread,
             ends: [edge, next_corner(edge)],
             support: LinkSupport::Edge,
-            stiffness_scale: both / (length * length),
+            stiffness_scale: both_areas / (length * length),
         };
         self.add_link(rest_shape, spec, length, links_of);
     }
 
-    /// Bend links across the new edges: within the divided triangles, and over the divided edge.
+    /// Adds bend links across the new edges: within the divided triangles, and across both parts of
+    /// the split edge.
     fn add_bend_links(
         &mut self,
         rest_shape: RestShape<'_>,
@@ -260,7 +274,8 @@ impl Constraints {
         if rest <= 0.0 {
             return;
         }
-        let stiffness_scale = bend_shape(rest_shape.distance(edge, next_corner(edge)), rest);
+        let stiffness_scale =
+            bend_link_stiffness(rest_shape.distance(edge, next_corner(edge)), rest);
         let (kind, thread) = (LinkKind::Bend, ThreadDirection::Warp);
         let spec = LinkSpec {
             kind,
@@ -272,7 +287,8 @@ impl Constraints {
         self.add_link(rest_shape, spec, rest, links_of);
     }
 
-    /// What a link along a direction resists: on a grid, one across the threads only shear.
+    /// Kind and thread direction of a link along `direction`: on a grid, links oblique to the
+    /// threads resist shear only.
     fn kind_in_direction(&self, direction: Vec3) -> (LinkKind, ThreadDirection) {
         let Some([weft, warp]) = self.thread_directions else {
             return (LinkKind::Stretch, ThreadDirection::Warp);
@@ -310,6 +326,7 @@ impl Constraints {
     }
 }
 
+/// Adds a link to the lists of all triangles that it depends on.
 fn register(links_of: &mut LinksOfTriangle, number: u32, spec: &LinkSpec) {
     for corner in spec.dependent_corners() {
         let list = &mut links_of[corner as usize / 3];
@@ -319,7 +336,7 @@ fn register(links_of: &mut LinksOfTriangle, number: u32, spec: &LinkSpec) {
     }
 }
 
-/// Where a corner at an end of the moved edge is now.
+/// Present place of a corner at an end of the moved edge.
 fn moved_corner(side: SplitTriangle, corner: Corner) -> Corner {
     if corner == next_corner(side.edge) { 3 * side.added + 1 } else { 3 * side.added + 2 }
 }

@@ -1,7 +1,15 @@
-//! Extra links, and how all links follow the mesh: an opened edge needs a link on its second side, and
-//! what a cut divides needs new ones.
+//! Dynamic links, and the update of all links after the mesh changed.
 //!
-//! A link has a number: that in its list, plus `DYNAMIC` for an extra one.
+//! An opened edge needs a link on its second side, and a cut needs links at its new vertices. These
+//! links are appended to `Constraints::dynamic`, so that the batches and colours of the original
+//! links never change.
+//!
+//! A link number is the index in its list, plus `DYNAMIC` for a dynamic link.
+//!
+//! Reads `Mesh` and `Material`; writes `Constraints`.
+//!
+//! Invariant: after `update_site` for every changed site and one `rebuild_sparse`, all links agree
+//! with the mesh.
 
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::constraints::{Constraints, edge_of};
@@ -9,16 +17,16 @@ use crate::model::links::{LinkSpec, LinkSupport, Links};
 use crate::model::material::Material;
 use glam::Vec3;
 
-/// Marks the number of an extra link.
+/// Flag in the number of a dynamic link.
 pub(super) const DYNAMIC: u32 = 1 << 31;
 
 impl Constraints {
-    /// Which way the threads of a grid run, unit vectors along the weft and the warp.
+    /// Sets the unit vectors along weft and warp of a grid at rest.
     pub fn set_thread_directions(&mut self, thread_directions: [Vec3; 2]) {
         self.thread_directions = Some(thread_directions);
     }
 
-    /// Makes room for `count` more extra links, and for `sites` in all.
+    /// Allocates for `count` more dynamic links, and for `sites` sites in all.
     pub fn reserve(&mut self, count: usize, sites: usize) {
         self.dynamic.reserve(count);
         self.sparse.reserve(self.dynamic.len() + count);
@@ -31,7 +39,7 @@ impl Constraints {
         }
     }
 
-    /// A link by its number.
+    /// The list and index of a link number.
     pub(super) fn link(&self, number: u32) -> (&Links, usize) {
         if number >= DYNAMIC {
             (&self.dynamic, (number - DYNAMIC) as usize)
@@ -40,7 +48,8 @@ impl Constraints {
         }
     }
 
-    /// A link by its number, to change what it is anchored to or how strong it is.
+    /// The list and index of a link number, for changing its definition; marks an original link as
+    /// changed.
     pub(super) fn link_mut(&mut self, number: u32) -> (&mut Links, usize) {
         if number >= DYNAMIC {
             (&mut self.dynamic, (number - DYNAMIC) as usize)
@@ -50,7 +59,7 @@ impl Constraints {
         }
     }
 
-    /// Adds an extra link, and gives its number.
+    /// Appends a dynamic link and returns its number.
     pub(super) fn push_dynamic(
         &mut self,
         mesh: &Mesh,
@@ -88,14 +97,15 @@ impl Constraints {
         number
     }
 
-    /// Gives the second side of an opened edge a link of its own; either side keeps half the strength.
+    /// Gives the second side of an opened edge its own link. Each of the two links keeps half of
+    /// the stiffness.
     ///
-    /// The cloth has seen to room for it.
+    /// The caller has reserved capacity.
     pub fn open_edge(&mut self, mesh: &Mesh, sides: [Corner; 2], material: &Material) {
         let of = |edge: Corner| self.link_of_edge[edge as usize];
         let (number, bare) =
             if of(sides[0]) == NONE { (of(sides[1]), sides[0]) } else { (of(sides[0]), sides[1]) };
-        // No cloth has an edge without a link, but bytes from outside may say so.
+        // Every edge has a link, except in corrupt saves.
         if number == NONE {
             return;
         }
@@ -107,7 +117,7 @@ impl Constraints {
         self.push_dynamic(mesh, spec, rest, material);
     }
 
-    /// Brings every link of a site in line with the mesh.
+    /// Updates every link that depends on a site after its vertices changed.
     pub fn update_site(&mut self, mesh: &Mesh, site: u32) {
         for at in self.site_range(site) {
             let link = self.links_by_site[at] as usize;
@@ -126,8 +136,8 @@ impl Constraints {
         }
     }
 
-    /// Gathers the links that sweeps find in no row, after some changed. `particles` is how many there
-    /// are.
+    /// Rebuilds the lists of dynamic and irregular links for the sweeps, after links changed.
+    /// `particles` is the number of particles.
     pub fn rebuild_sparse(&mut self, particles: usize) {
         self.sparse.rebuild_colored(&self.dynamic, particles, &mut self.coloring);
         if let Some(rows) = &mut self.rows {
@@ -135,13 +145,13 @@ impl Constraints {
         }
     }
 
-    /// The links that it was woven with of a site.
+    /// The original links that depend on a site.
     pub fn links_of_site(&self, site: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
         let range = self.site_range(site);
         self.links_by_site[range].iter().map(|link| (&self.links, *link as usize))
     }
 
-    /// The extra links of a site, the newest first.
+    /// The dynamic links that depend on a site, the newest first.
     pub fn dynamic_links_of_site(&self, site: u32) -> impl Iterator<Item = (&Links, usize)> + '_ {
         let some = |at: u32| (at != NONE).then_some(at);
         let first = some(self.first_dynamic(site));
@@ -165,11 +175,11 @@ impl Constraints {
         slot.map_or(NONE, |slot| self.dynamic_next[at as usize][slot])
     }
 
-    /// What became of the links since they were woven: those that changed, and the extra ones.
+    /// Returns what changed since creation, for a save.
     pub fn link_changes(&self) -> LinkChanges {
         let changed = (0..self.links.len()).filter(|link| self.is_changed[*link]);
         LinkChanges {
-            created: changed.map(|link| (link as u32, self.links.spec[link])).collect(),
+            original: changed.map(|link| (link as u32, self.links.spec[link])).collect(),
             dynamic: self
                 .dynamic
                 .spec
@@ -180,9 +190,10 @@ impl Constraints {
         }
     }
 
-    /// Makes those changes to a fresh weave over the changed mesh; false if they do not fit it.
+    /// Applies saved changes to the fresh links of a mesh that is already torn or cut. Returns
+    /// false if they do not fit.
     ///
-    /// Links follow the mesh only when they are told to.
+    /// The caller then runs `update_site` for all sites.
     pub fn apply_changes(
         &mut self,
         mesh: &Mesh,
@@ -197,7 +208,7 @@ impl Constraints {
                 && spec.stiffness_scale >= 0.0
         };
         self.link_of_edge.resize(corners as usize, NONE);
-        for (link, spec) in &link_changes.created {
+        for (link, spec) in &link_changes.original {
             let at = *link as usize;
             let Some(created) = self.links.spec.get(at).copied() else { return false };
             if !(fits(spec) && spec.kind == created.kind && spec.direction == created.direction) {
@@ -223,9 +234,9 @@ impl Constraints {
     }
 }
 
-/// What became of the links of a cloth since it was woven.
+/// Changes of the links since creation. Field order is part of the save format.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub(crate) struct LinkChanges {
-    created: Vec<(u32, LinkSpec)>,
+    original: Vec<(u32, LinkSpec)>,
     dynamic: Vec<(LinkSpec, f32)>,
 }

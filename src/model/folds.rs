@@ -1,10 +1,14 @@
-//! Folds that stay: what each plate or hinge is bent by when nothing bends it.
+//! Folds (plastic bending): the rest angle of each plate element or hinge.
 //!
-//! Real sheets are bent for good where they are bent sharply. A fold of given angle lies on one element
-//! or on several, as the mesh has it, so that none of them can tell by itself: what counts is the angle
-//! along some length of the sheet. With φ that angle and φ_y the material's, a fold that is let go keeps
-//! φ − φ_y; each element keeps its part of it. If the material hardens or weakens, φ_y grows by H for each angle that
-//! the fold gives way by, see `hardening`, so that of one folded for the first time (φ − φ_y) / (1 + H) stays.
+//! A fold is permanent if it is sharper than the material's yield angle φ_y. Depending on the mesh,
+//! a fold of given angle lies on one element or on several, so no element can decide alone: the
+//! angle within a length of sheet (`fold_length`) counts. A fold by φ that is released keeps φ −
+//! φ_y, and each element its part of it. With hardening, φ_y grows by H per radian of plastic
+//! angle, see `hardening`, so that a first fold keeps (φ − φ_y) / (1 + H).
+//!
+//! Reads positions, normals and `Material`; writes rest angles, offsets and `Hardening`.
+//!
+//! Invariants: |angle| ≤ `MAX_ANGLE`; `offset` follows from `angle`.
 
 use crate::math::columns::Columns;
 use crate::math::trig::{asin, sin};
@@ -16,37 +20,37 @@ use crate::model::material::Material;
 use crate::model::plate_elements::{PerKind, PlateElements};
 use glam::Vec3;
 
-/// A fold counts over at least and at most so many elements in a row.
+/// Minimum and maximum number of consecutive elements over which a fold counts.
 const MIN_FOLD_ELEMENTS: usize = 3;
 const MAX_FOLD_ELEMENTS: usize = 128;
 
-/// Angles below this are no folds [rad].
+/// Angles below this are not folds [rad].
 const TINY_ANGLE: f32 = 1.0e-3;
 
-/// What elements are bent by at rest. Of a grid each kind has a list; of other meshes the first one is that
-/// of its hinges.
+/// Rest angles of all elements. A grid has a list per kind; for another mesh the first list holds
+/// its hinges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Folds {
-    /// Angles at rest [rad], …
+    /// Rest angles [rad].
     pub angle: PerKind<Vec<f32>>,
-    /// … and what curvatures are by them [m].
+    /// Rest curvatures that follow from them: lengths along the normal [m].
     pub offset: PerKind<Vec<f32>>,
-    /// Whether there is any.
+    /// Whether any angle is not 0.
     pub has_any: bool,
-    /// How much folds have given way so far.
+    /// Plastic curvature accumulated so far.
     pub hardening: Hardening,
-    /// How bent each particle of a grid is, or was at rest [rad].
+    /// Scratch: larger of current and rest angle of each grid particle [rad].
     bent: Vec<f32>,
-    /// What each particle's cells are to be twisted by more [rad].
+    /// Scratch: increment of the rest twist of the cells around each particle [rad].
     twist_increment: Vec<f32>,
-    /// If that counts: how each particle of a grid or hinge rested before it gave way [rad], and what each hinge
-    /// had given way by in all.
+    /// Scratch for hardening: rest angles before yielding, per grid particle or hinge [rad], and
+    /// the plastic angle accumulated per hinge [rad].
     previous_rest: Vec<[f32; 3]>,
     hinge_hardening: Vec<f32>,
 }
 
 impl Folds {
-    /// A grid's; all flat.
+    /// The folds of a flat grid.
     pub fn of_plates(plates: &PlateElements) -> Self {
         let list = || vec![0.0; plates.count()];
         let each = || [list(), list(), list()];
@@ -60,7 +64,7 @@ impl Folds {
         }
     }
 
-    /// Those of a mesh with these hinges.
+    /// The folds of a mesh with these hinges, all unbent.
     pub fn of_hinges(hinges: &Hinges) -> Self {
         let list = || vec![0.0; hinges.all.len()];
         Self {
@@ -71,7 +75,7 @@ impl Folds {
         }
     }
 
-    /// Takes over angles from elsewhere; false if they do not fit.
+    /// Replaces the rest angles by saved ones. Returns false if they do not fit.
     pub fn restore_angles(
         &mut self,
         angle: PerKind<Vec<f32>>,
@@ -96,7 +100,7 @@ impl Folds {
         true
     }
 
-    /// Makes room for how much folds give way, if the material counts it.
+    /// Allocates for hardening, if the material uses it.
     pub fn reserve_hardening(&mut self, material: &Material) {
         self.hardening.reserve(material);
         if material.tracks_hardening() {
@@ -106,12 +110,12 @@ impl Folds {
         }
     }
 
-    /// The angles to keep; none if all is flat.
+    /// The angles for a save; empty if all are 0.
     pub fn saved_angles(&self) -> PerKind<Vec<f32>> {
         if self.has_any { self.angle.clone() } else { PerKind::default() }
     }
 
-    /// Sets an element's angle at rest.
+    /// Sets the rest angle of an element, clamped to ±`MAX_ANGLE`, and its offset.
     fn set_angle(&mut self, kind: usize, at: usize, angle: f32, lengths: &ElementLengths<'_>) {
         let angle = max(min(angle, MAX_ANGLE), -MAX_ANGLE);
         self.angle[kind][at] = angle;
@@ -124,7 +128,7 @@ impl Folds {
             if kind == 2 { length * angle } else { 2.0 * length * sin(f64::from(0.5 * angle)) };
     }
 
-    /// Lets the folds of a grid follow where it is bent beyond what its material bears.
+    /// Updates the rest angles of a grid where it is bent beyond its yield limit.
     pub fn yield_plates(
         &mut self,
         plates: &PlateElements,
@@ -173,14 +177,14 @@ impl Folds {
         self.bent = bent;
     }
 
-    /// Takes note of how a grid rests, before it gives way.
+    /// Stores the rest angles of a grid before it yields.
     fn store_rest_angles(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
             self.previous_rest[at] = self.tensor(plates, at);
         }
     }
 
-    /// Counts by how much a grid rests otherwise than it was.
+    /// Adds the change of rest angles of a grid to the hardening.
     fn accumulate_plate_hardening(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
             let (is, previous_rest) = (self.tensor(plates, at), self.previous_rest[at]);
@@ -193,7 +197,7 @@ impl Folds {
         }
     }
 
-    /// Lets the elements of a particle follow; whether they do.
+    /// Updates the elements of one particle; returns whether they yielded.
     fn yield_plate(
         &mut self,
         bent_grid: &BentGrid<'_>,
@@ -205,7 +209,7 @@ impl Folds {
         let (q, rest) = (bent_grid.tensor(at), self.tensor(plates, at));
         let larger = if norm(q) > norm(rest) { q } else { rest };
         let fold = fold_angle(plates, yield_rule.fold_elements, bent, larger, at);
-        // This element's part of what the whole fold may give way by.
+        // The part of the whole fold's limit that falls to this element.
         let limit = yield_rule.angle * bent[at] / max(fold, bent[at]);
         let limit = yield_rule.hardened_limit(limit, self.hardening.at(at) * plates.spacing);
         let Some(new) = yield_rule.yielded_rest(q, rest, limit) else { return false };
@@ -219,6 +223,7 @@ impl Folds {
         true
     }
 
+    /// Rest angles of a particle along weft and warp, and mean twist of its cells.
     fn tensor(&self, plates: &PlateElements, at: usize) -> [f32; 3] {
         let of_kind = |kind: usize, at: usize| {
             if plates.area_fraction[kind][at] > 0.0 { self.angle[kind][at] } else { 0.0 }
@@ -226,7 +231,8 @@ impl Folds {
         [of_kind(0, at), of_kind(1, at), mean_twist(plates, at, |cell| self.angle[2][cell])]
     }
 
-    /// Lets the folds at hinges follow where they are bent beyond what their material bears.
+    /// Updates the rest angles of hinges that are bent beyond their yield limit. `mean` is the mean
+    /// edge length [m].
     pub fn yield_hinges(&mut self, hinges: &Hinges, material: &Material, mean: f32, x: &Columns) {
         let (tracks_hardening, mut gives_way) = (material.tracks_hardening(), false);
         if tracks_hardening {
@@ -255,8 +261,8 @@ impl Folds {
         }
     }
 
-    /// Takes note of how hinges rest before they give way, and of what each has given way by: half of what both its
-    /// triangles have, over what a fold along it has of them.
+    /// Stores the rest angles of hinges before they yield, and computes the plastic angle of each:
+    /// the mean plastic curvature of its two triangles times its fold width.
     fn store_hinge_state(&mut self, hinges: &Hinges) {
         for (previous_rest, rest) in self.previous_rest.iter_mut().zip(&self.angle[0]) {
             *previous_rest = [*rest, 0.0, 0.0];
@@ -270,7 +276,7 @@ impl Folds {
         }
     }
 
-    /// Counts by how much triangles rest otherwise than they did.
+    /// Adds the change of rest curvature of each triangle to the hardening.
     fn accumulate_hinge_hardening(&mut self, hinges: &Hinges) {
         for triangle in 0..hinges.elements.count() {
             let twist_increment =
@@ -280,7 +286,7 @@ impl Folds {
         }
     }
 
-    /// Adds a fold along a line of a grid, in the grid's own plane [m].
+    /// Adds a fold by `angle` [rad] along a line in the plane of a grid.
     pub fn crease_plates(
         &mut self,
         plates: &PlateElements,
@@ -312,7 +318,8 @@ impl Folds {
         }
     }
 
-    /// Adds a fold along a line of any mesh at rest [m]; `corners` are where each hinge's particles are.
+    /// Adds a fold by `angle` [rad] along the segment `from`–`to` of a mesh at rest, over `width`
+    /// to either side [m]. `corners` returns the rest positions of a hinge.
     pub fn crease_hinges(
         &mut self,
         hinges: &Hinges,
@@ -355,16 +362,16 @@ impl Folds {
     }
 }
 
-/// The most that an element is bent by at rest [rad]: a half turn would have no side.
+/// Maximum rest angle [rad]; at a half turn the side would be undefined.
 const MAX_ANGLE: f32 = 3.0;
 
-/// The length of each element, over which its curvature is an angle.
+/// Length of each element, over which its curvature is an angle [m].
 pub(crate) enum ElementLengths<'a> {
     Grid(f32),
     Hinges(&'a [Hinge]),
 }
 
-/// A line on a grid's plane: where it starts, which way it goes and how far.
+/// A segment in the plane of a grid: start, unit direction, unit normal and length [m].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CreaseLine {
     pub from: [f32; 2],
@@ -374,7 +381,7 @@ pub(crate) struct CreaseLine {
 }
 
 impl CreaseLine {
-    /// From one point to another that is apart from it.
+    /// The segment between two different points.
     pub fn new(from: [f32; 2], to: [f32; 2]) -> Self {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let length = (dx * dx + dy * dy).sqrt();
@@ -386,7 +393,8 @@ impl CreaseLine {
         max(self.normal[0].abs(), self.normal[1].abs())
     }
 
-    /// How much of a fold belongs to a point: 1 on the line, 0 from `width` on, or beyond its ends.
+    /// Share of a fold that belongs to a point: 1 on the segment, falling to 0 at distance `width`;
+    /// 0 beyond the ends.
     fn share(&self, [x, y]: [f32; 2], width: f32, spacing: f32) -> f32 {
         let (dx, dy) = (x - self.from[0], y - self.from[1]);
         let ahead = dx * self.along[0] + dy * self.along[1];
@@ -396,12 +404,12 @@ impl CreaseLine {
     }
 }
 
-/// When and how far folds follow.
+/// Yield condition and flow rule.
 struct YieldRule {
     angle: f32,
     creep: f32,
     hardening_rate: f32,
-    /// Elements in a row that count as one fold.
+    /// Number of consecutive elements that count as one fold.
     fold_elements: usize,
 }
 
@@ -416,12 +424,13 @@ impl YieldRule {
         }
     }
 
-    /// How far an element bends and still opens, of which that is `limit` before it has given way by `hinge_hardening`.
+    /// The yield limit of an element, after hardening by the plastic angle `hinge_hardening`.
     fn hardened_limit(&self, limit: f32, hinge_hardening: f32) -> f32 {
         if hinge_hardening > 0.0 { limit + self.hardening_rate * hinge_hardening } else { limit }
     }
 
-    /// What the angle at rest becomes; nothing if it stays. The limit grows with what this adds to it.
+    /// The new rest angles, or `None` if the element stays elastic. `q` are the current angles,
+    /// `rest` the rest angles. The limit grows with the plastic angle that this step adds.
     fn yielded_rest(&self, q: [f32; 3], rest: [f32; 3], limit: f32) -> Option<[f32; 3]> {
         let by = [q[0] - rest[0], q[1] - rest[1], q[2] - rest[2]];
         let (strain, size) = (norm(by), norm(q));
@@ -430,7 +439,8 @@ impl YieldRule {
         }
         let grows = 1.0 + self.creep * self.hardening_rate;
         if dot(by, q) > 0.0 {
-            // Folded more: it keeps a share of all that is beyond the limit, and no less than before.
+            // Folded further: the element keeps a share of all that exceeds the limit, and never
+            // less than before.
             if size <= limit {
                 return None;
             }
@@ -443,7 +453,8 @@ impl YieldRule {
     }
 }
 
-/// The angle of a fold whose curvature is so much over its length.
+/// The fold angle whose curvature vector has the given length relative to the element, inverse of c
+/// = 2 sin(θ/2).
 fn angle_of(curve: f32) -> f32 {
     if curve.abs() < 0.25 {
         let square = curve * curve;
@@ -452,15 +463,17 @@ fn angle_of(curve: f32) -> f32 {
     2.0 * asin(max(min(0.5 * curve, 1.0), -1.0))
 }
 
+/// Product of two symmetric tensors (xx, yy, xy).
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + 2.0 * (a[2] * b[2])
 }
 
+/// Frobenius norm of a symmetric tensor (xx, yy, xy).
 fn norm(q: [f32; 3]) -> f32 {
     dot(q, q).sqrt()
 }
 
-/// A grid as it is bent now.
+/// Current positions and normals of a grid.
 struct BentGrid<'a> {
     plates: &'a PlateElements,
     x: &'a Columns,
@@ -488,7 +501,7 @@ impl BentGrid<'_> {
     }
 }
 
-/// The mean over the cells around a particle.
+/// Mean over the cells around a particle.
 fn mean_twist(plates: &PlateElements, at: usize, of: impl Fn(usize) -> f32) -> f32 {
     let (row, column) = (at / plates.columns, at % plates.columns);
     let (mut sum, mut count) = (0.0, 0.0);
@@ -503,8 +516,9 @@ fn mean_twist(plates: &PlateElements, at: usize, of: impl Fn(usize) -> f32) -> f
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// The angle of the fold that goes through a particle: what its row or column has of it, whichever it crosses
-/// more squarely, as a fold square to it would have.
+/// The angle of the fold through a particle: the largest sum over `fold_elements` consecutive
+/// elements that include the particle, along the row or the column, whichever the fold crosses more
+/// nearly at a right angle, projected to a crossing at a right angle.
 fn fold_angle(
     plates: &PlateElements,
     fold_elements: usize,
@@ -526,7 +540,7 @@ fn fold_angle(
     let first = at - before * step;
     let of = |k: usize| bent[first + k * step];
     let count = before + behind + 1;
-    // The most that a stretch of this length has that the particle is in.
+    // Maximum over the windows of this length that contain the particle.
     let mut sum: f32 = (0..count.min(fold_elements)).map(of).sum();
     let mut most = sum;
     for k in fold_elements..count {

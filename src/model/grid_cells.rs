@@ -1,32 +1,39 @@
-//! The cells of a grid, row by row: where two triangles each lie as they were made, eight cells can
-//! be summed up at once.
+//! Cells of a regular grid, two triangles each. Where both triangles have their original particles,
+//! kernels process eight cells at once.
+//!
+//! Reads `Mesh`; writes flags per cell and a packed list of the other triangles.
+//!
+//! Invariant: a triangle is in the packed list exactly if one of its bits in `moved_corners` is
+//! set; current after `rebuild_torn`.
 
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
 
-/// The cells of a grid; cell = row · (columns − 1) + column, its triangles are twice that and one on.
+/// The cells of a grid. Cell = row · (columns − 1) + column; its triangles are 2 · cell and 2 ·
+/// cell + 1.
 #[derive(Clone, Debug)]
 pub(crate) struct GridCells {
-    /// Particles across.
+    /// Particles per row.
     pub columns: usize,
-    /// Particles down.
+    /// Particles per column.
     pub rows: usize,
-    /// Which of the corners of its two triangles have been split off, in turn a bit each, …
+    /// Corners of the two triangles that have another particle than at creation: bits 0 to 2 and 3
+    /// to 5.
     pub moved_corners: Vec<u8>,
-    /// … and whether a cut put a corner elsewhere.
+    /// Whether a cut moved a corner of the cell to another site.
     pub is_cut: Vec<bool>,
-    /// What of a triangle's area at rest falls to a corner that is not its right angle [m²]; a right one
-    /// has twice that.
+    /// Rest area per acute corner of a triangle [m²]; the right-angled corner has twice as much.
     pub corner_area: f32,
-    /// The triangles with a corner that was split off, row by row, as of the last time they were gathered, …
+    /// Triangles with a moved corner, row by row, as of the last `rebuild_torn`.
     torn_triangles: Vec<u32>,
-    /// … and their corners, so that sums need not look for them.
+    /// Their particles.
     torn_particles: Vec<[u32; 3]>,
-    /// Where among them each row of cells begins, and where the last one ends.
+    /// First entry of each row of cells in `torn_triangles`, and the end of the last one.
     torn_row_starts: Vec<u32>,
 }
 
 impl GridCells {
+    /// The cells of a grid with `columns` × `rows` particles at `spacing` [m].
     pub fn new(columns: u32, rows: u32, spacing: f32) -> Self {
         let (columns, rows) = (columns as usize, rows as usize);
         let count = (columns - 1) * (rows - 1);
@@ -42,14 +49,14 @@ impl GridCells {
         }
     }
 
-    /// Makes room for every cell to tear.
+    /// Allocates so that every cell may tear.
     pub fn reserve(&mut self) {
         let more = 2 * self.moved_corners.len() - self.torn_triangles.len();
         self.torn_triangles.reserve_exact(more);
         self.torn_particles.reserve_exact(more);
     }
 
-    /// Gathers the triangles that are torn, after some changed.
+    /// Rebuilds the list of torn triangles, after some changed.
     pub fn rebuild_torn(&mut self, mesh: &Mesh) {
         self.torn_triangles.clear();
         let rows = self.moved_corners.chunks_exact(self.columns - 1).enumerate();
@@ -69,29 +76,29 @@ impl GridCells {
             .extend(self.torn_triangles.iter().map(|at| mesh.triangles[*at as usize]));
     }
 
-    /// Whether any triangle has a corner that was split off.
+    /// Returns whether any triangle has a moved corner.
     pub fn is_torn(&self) -> bool {
         !self.torn_triangles.is_empty()
     }
 
-    /// The triangles of a row of cells with a corner that was split off, and their corners.
+    /// The torn triangles of a row of cells, and their particles.
     pub fn torn_triangles(&self, row: usize) -> (&[u32], &[[u32; 3]]) {
         let own = self.torn_row_starts[row] as usize..self.torn_row_starts[row + 1] as usize;
         (&self.torn_triangles[own.clone()], &self.torn_particles[own])
     }
 
-    /// Which corners of a triangle have been split off, a bit each.
+    /// Corners of a triangle that have moved, one bit each.
     #[inline(always)]
     pub fn moved_corners_of(&self, triangle: usize) -> u8 {
         self.moved_corners[triangle / 2] >> (3 * (triangle % 2)) & 0b111
     }
 
-    /// The area of a triangle that no cut divided, at rest [m²].
+    /// Rest area of a triangle that no cut divided [m²].
     pub fn rest_area(&self) -> f32 {
         self.corner_area + 2.0 * self.corner_area + self.corner_area
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         let triangle = size_of::<u32>() + size_of::<[u32; 3]>();
         2 * self.moved_corners.len()
@@ -99,7 +106,7 @@ impl GridCells {
             + triangle * self.torn_triangles.capacity()
     }
 
-    /// Takes note of what a split did around a site.
+    /// Updates the flags of the cells around a site, after its vertices changed.
     pub fn update_site(&mut self, mesh: &Mesh, site: u32) {
         let (row, column) = (site as usize / self.columns, site as usize % self.columns);
         for row in row.saturating_sub(1)..(row + 1).min(self.rows - 1) {

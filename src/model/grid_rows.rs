@@ -1,8 +1,17 @@
-//! Where a weave is a regular grid: its links as rows that straight loads can run along.
+//! Rows of links of a regular grid, whose particles lie at regular strides for SIMD loads.
 //!
-//! This is an optimisation of the general list of links and no more: the same links in the same
-//! colours. A link that tears or gets another particle leaves its row (its mask turns 0); if it still
-//! holds, it goes on as a stray.
+//! ```text
+//! Straight  a+k ── b+k         two grid rows; also diagonals and vertical bend links
+//! Pairs     a+2k ── a+2k+1     ●─● ●─● ●─●       neighbours in one row
+//! Quads     a+k ── a+k+2       k = 0, 1, 4, 5, 8, …: every second in one row
+//! ```
+//! An optimised layout of the general list of links: same links, same colours. A link that is torn,
+//! or gets another particle, leaves its row (its mask becomes 0). If it is still active it becomes
+//! irregular and is solved by gather and scatter.
+//!
+//! Reads `Links` sorted by batch; writes rows, masks and the `SparseLinks` of irregular links.
+//!
+//! Invariant: a link is active exactly if its mask is 1 or it is in the irregular set.
 
 use crate::math::simd::MAX_LANES;
 use crate::model::link_set::LinkSet;
@@ -10,65 +19,68 @@ use crate::model::links::{LinkBatch, Links};
 use crate::model::sparse_links::SparseLinks;
 use core::ops::Range;
 
-/// How the particles of a row's links lie in memory. Link `k` of a row joins …
+/// Memory layout of the particles of a row. Link `k` of a row joins …
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RowPattern {
     /// … `a + k` and `b + k`: between two rows of the grid.
     Straight,
     /// … `a + 2k` and `a + 2k + 1`: neighbours in one row.
     Pairs,
-    /// … `a + k` and `a + k + 2`, for k = 0, 1, then 4, 5 and so on: every second in one row.
+    /// … `a + k` and `a + k + 2` for k = 0, 1, 4, 5, 8, …: every second particle in one row.
     Quads,
 }
 
-/// Links that lie in a row.
+/// A row of links.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LinkRow {
     pub pattern: RowPattern,
+    /// First particle of the lower ends, and of the upper ends.
     pub a: u32,
     pub b: u32,
+    /// First link, and number of links.
     pub first: u32,
     pub count: u32,
-    /// The length at rest of all its links [m].
+    /// Rest length of all its links [m].
     pub rest: f32,
-    /// Whether a link has left it.
+    /// Whether a link has left the row.
     pub is_torn: bool,
-    /// From which link to before which the two ends weigh the same; see `solver::weights`.
+    /// Range of links whose two ends have equal inverse masses, see
+    /// `solver::stretch::inverse_masses`.
     pub equal_mass: [u32; 2],
-    /// How many rows from this one on are alike: whole, the same links even, one as far behind the other
-    /// as the next; 0 if this one itself is torn.
+    /// Number of rows from this one on that are uniform: not torn, the same range of equal masses,
+    /// and a constant stride from one row to the next. 0 if this row is torn.
     pub uniform_run: u32,
 }
 
-/// All rows of a grid's weave.
+/// All rows of a grid's links.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GridRows {
     pub rows: Vec<LinkRow>,
     /// 1 for a link in its row, 0 for one that left it.
     pub mask: Vec<f32>,
-    /// Links that left their row and still hold.
+    /// Active links that left their row.
     irregular: LinkSet,
-    /// The same as sweeps want them, batch by batch; as of the last time they were gathered.
+    /// The irregular links as the kernels read them, batch by batch; valid after `rebuild_sparse`.
     pub sparse: SparseLinks,
-    /// The row of each link.
+    /// Row of each link.
     row_of: Vec<u32>,
 }
 
 impl GridRows {
-    /// Finds the rows in links that are sorted as a grid of so many columns weaves them; the ends are
-    /// those it wove.
+    /// Divides links into rows. `a`, `b` and `rest` describe the links of a fresh grid with
+    /// `columns` columns, sorted by batch; `batch_starts` are the first links of the batches.
     pub fn new(columns: u32, [a, b]: [&[u32]; 2], rest: &[f32], batch_starts: &[usize]) -> Self {
         let mut rows: Vec<LinkRow> = Vec::new();
         let mut row_of = Vec::with_capacity(a.len());
         for link in 0..a.len() {
-            let goes_on = rows.last_mut().is_some_and(|row| {
-                let may_go_on = rest[link] == row.rest && !row.is_full(columns);
+            let continues = rows.last_mut().is_some_and(|row| {
+                let may_continue = rest[link] == row.rest && !row.is_full(columns);
                 let fits =
-                    may_go_on && !batch_starts.contains(&link) && row.accepts(a[link], b[link]);
+                    may_continue && !batch_starts.contains(&link) && row.accepts(a[link], b[link]);
                 row.count += u32::from(fits);
                 fits
             });
-            if !goes_on {
+            if !continues {
                 rows.push(LinkRow::new(link as u32, (a[link], b[link]), rest[link]));
             }
             row_of.push(rows.len() as u32 - 1);
@@ -77,19 +89,19 @@ impl GridRows {
         Self { rows, mask, row_of, ..Self::default() }
     }
 
-    /// The rows that hold the links `range`, which are a batch.
+    /// The rows of a batch, given its range of links.
     pub fn rows_of_batch(&self, range: Range<usize>) -> Range<usize> {
         let row = |link: usize| self.row_of.get(link).map_or(self.rows.len(), |row| *row as usize);
         row(range.start)..row(range.end)
     }
 
-    /// The strays among the links `range`.
+    /// The irregular links within `range`.
     #[cfg(feature = "parallel")]
     pub fn irregular_in(&self, range: Range<usize>) -> &[u32] {
         self.irregular.in_range(range)
     }
 
-    /// Takes note of what became of a link.
+    /// Updates the row, mask and set of a link after its ends or its activity changed.
     pub fn update_link(&mut self, link: usize, ends: (u32, u32), holds: bool) {
         let row = &self.rows[self.row_of[link] as usize];
         let is_in_place = row.ends(link as u32 - row.first) == ends;
@@ -100,7 +112,7 @@ impl GridRows {
         self.irregular.set(link, holds && !is_in_place);
     }
 
-    /// Takes note that a link left a row.
+    /// Marks a row as torn, and shortens the uniform runs that contain it.
     fn mark_torn(&mut self, row: usize) {
         (self.rows[row].is_torn, self.rows[row].uniform_run) = (true, 0);
         let before = self.rows[..row].iter_mut().rev().zip(1..);
@@ -109,7 +121,7 @@ impl GridRows {
         }
     }
 
-    /// Finds the rows that are alike, after it became known which links are even.
+    /// Recomputes `uniform_run` of all rows, after `equal_mass` changed.
     pub fn rebuild_uniform_runs(&mut self) {
         for at in (0..self.rows.len()).rev() {
             let (rows, behind) = self.rows.split_at_mut(at + 1);
@@ -126,7 +138,7 @@ impl GridRows {
         }
     }
 
-    /// Gathers the strays, after links changed.
+    /// Rebuilds `sparse` from the irregular links, after links changed.
     pub fn rebuild_sparse(&mut self, links: &Links, batches: &[LinkBatch]) {
         self.sparse.clear();
         for batch in batches {
@@ -135,19 +147,20 @@ impl GridRows {
         }
     }
 
-    /// Makes room for every link to stray.
+    /// Allocates so that every link may become irregular.
     pub fn reserve(&mut self) {
         self.irregular.reserve(self.mask.len());
         self.sparse.reserve(self.mask.len());
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         12 * self.mask.len() + size_of::<LinkRow>() * self.rows.len() + self.sparse.bytes()
     }
 }
 
 impl LinkRow {
+    /// A row of one link.
     fn new(first: u32, (a, b): (u32, u32), rest: f32) -> Self {
         let pattern = match b - a {
             1 => RowPattern::Pairs,
@@ -167,21 +180,21 @@ impl LinkRow {
         }
     }
 
-    /// Whether it has all links of one row of the grid and they fill chunks: those of the next row would
-    /// only bring what is uneven, at borders, between what is even.
+    /// Whether the row has all links of one grid row and fills whole SIMD chunks. A longer row
+    /// would place the unequal masses at grid borders between equal ones.
     fn is_full(&self, columns: u32) -> bool {
         let is_whole = self.pattern != RowPattern::Straight && 2 * self.count == columns;
         is_whole && self.count.is_multiple_of(MAX_LANES as u32)
     }
 
-    /// Whether a link from `a` to `b` goes on with this row, whose lower ends all lie before its upper
-    /// ones where it is straight.
+    /// Whether a link from `a` to `b` continues the row. In a straight row all lower ends lie
+    /// before the upper ends.
     fn accepts(&self, a: u32, b: u32) -> bool {
-        let has_room = self.pattern != RowPattern::Straight || a < self.b;
-        has_room && self.ends(self.count) == (a, b)
+        let fits = self.pattern != RowPattern::Straight || a < self.b;
+        fits && self.ends(self.count) == (a, b)
     }
 
-    /// Whether one that is behind it differs from it in nothing but its place.
+    /// Whether the next row has the same layout at another offset.
     fn has_same_layout(&self, next: &Self) -> bool {
         next.uniform_run > 0
             && next.pattern == self.pattern
@@ -194,7 +207,7 @@ impl LinkRow {
                 == self.equal_mass.map(|link| link - self.first)
     }
 
-    /// The particles of its link `k`.
+    /// The particles of link `k` of the row.
     #[inline(always)]
     pub fn ends(&self, k: u32) -> (u32, u32) {
         let along = match self.pattern {
@@ -205,7 +218,7 @@ impl LinkRow {
         (self.a + along, self.b + along)
     }
 
-    /// How many of its links have their lower end before a particle.
+    /// Number of links whose lower end lies before `particle`.
     #[cfg(feature = "parallel")]
     pub fn count_before(&self, particle: u32) -> u32 {
         let along = particle.saturating_sub(self.a);
@@ -217,7 +230,8 @@ impl LinkRow {
         count.min(self.count)
     }
 
-    /// The part of it that holds such links, of which there are some. A row of quads is cut between two.
+    /// The part of the row within a range of links, which must overlap. A row of quads is cut
+    /// between two quads.
     #[cfg(feature = "parallel")]
     pub fn slice(&self, links: Range<u32>) -> Self {
         let from = links.start.max(self.first) - self.first;
@@ -231,7 +245,7 @@ impl LinkRow {
 mod tests {
     use super::*;
 
-    /// The rows of one colour of a sheet five particles wide: four, two rows of the sheet apart.
+    /// The rows of one colour of a grid of five columns: four rows, two grid rows apart.
     fn four_rows() -> GridRows {
         let a: Vec<u32> = (0..4).flat_map(|row| (0..5).map(move |k| 10 * row + k)).collect();
         let b: Vec<u32> = a.iter().map(|a| a + 5).collect();
@@ -247,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_alike_up_to_one_that_is_uneven_or_elsewhere() {
+    fn a_uniform_run_ends_at_a_row_with_other_masses_or_another_stride() {
         let mut rows = four_rows();
         rows.rebuild_uniform_runs();
         assert_eq!(uniform_run(&rows), [4, 3, 2, 1]);
@@ -261,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_alike_up_to_one_that_tears() {
+    fn a_uniform_run_ends_at_a_torn_row() {
         let mut rows = four_rows();
         rows.rebuild_uniform_runs();
         let (link, ends) = (11, (21, 26));

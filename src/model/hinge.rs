@@ -1,40 +1,58 @@
+//! Hinge: bending across one inner edge of a triangle mesh.
+//!
+//! ```text
+//!      a           C = Σ wᵢ xᵢ over the four particles, with cotangents of the angles at edge pq
+//!    ╱   ╲         as weights: a vector that is zero while both triangles are in one plane
+//!   p ─── q
+//!    ╲   ╱         energy ½ D k |C|², k = 3 / area
+//!      b
+//! ```
+//! Bergou et al., "A quadratic bending model for inextensible surfaces", SGP 2006. The weights are
+//! those at rest, so the energy is quadratic in the positions.
+//!
+//! Invariant: Σ wᵢ = 0, so rigid motions store no energy.
 use glam::Vec3;
 
-/// A rest shape that is bent by less than this share of its size is flat.
+/// A rest curvature below this share of the edge length counts as flat.
 const MAX_FLAT_CURVATURE: f32 = 1.0e-4;
 
-/// What a hinge shows of a curvature whose parts along its edge, across and between are these.
+/// Response of a hinge to the curvature of a surface: |C| per curvature along its edge, across it,
+/// and per twist.
 pub(crate) type CurvatureResponse = [f32; 3];
 
-/// One hinge: its particles, their weights, and what it takes to bend it.
+/// One hinge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hinge {
-    /// The ends of the edge, and what is across from it on either side.
+    /// Particles: p and q at the ends of the edge, a and b opposite it.
     pub particles: [u32; 4],
+    /// Weight of each in C.
     pub weight: [f32; 4],
-    /// Energy over ½ D |C|² of one that goes by itself [1/m²].
+    /// Energy divided by ½ D |C|², for a hinge that is solved alone [1/m²].
     pub shape: f32,
-    /// What |C| is at rest, to the side that its normal is on [m].
+    /// C at rest, along the hinge normal [m].
     pub rest: f32,
-    /// The length of its edge, and how much of the sheet across it is its own [m].
+    /// Length of the edge, and width of the strip across it that belongs to the hinge [m].
     pub length: f32,
     pub width: f32,
 }
 
 impl Hinge {
-    /// Its curvature, for where its particles are [m].
+    /// The curvature vector C at positions `x` [m].
     pub fn curvature(&self, x: [Vec3; 4]) -> Vec3 {
         let [p, q, a, b] = self.weight;
         x[0] * p + x[1] * q + x[2] * a + x[3] * b
     }
 
-    /// How much of the sheet across it bends as it does where a fold goes along it [m].
+    /// Width of sheet that bends like this hinge when a fold runs along it [m].
     pub fn fold_width(&self) -> f32 {
         1.5 * self.width
     }
 
-    /// A hinge between two triangles, from where its corners are at rest; none if one has no area. Also
-    /// what a cylinder gives it on average and should, each over ½ D κ², and what it shows of a curvature.
+    /// Creates the hinge between two triangles from their rest positions [m]; `None` if one has no
+    /// area.
+    ///
+    /// Also returns the energies of a cylinder, averaged over its directions, in this hinge and in
+    /// the exact sheet, both divided by ½ D κ², and the response to curvature.
     pub fn between_triangles(
         particles: [u32; 4],
         [p, q, a, b]: [Vec3; 4],
@@ -58,7 +76,7 @@ impl Hinge {
         let curvature = p * weight[0] + q * weight[1] + a * weight[2] + b * weight[3];
         let bent = curvature.dot(hinge_normal([p, q, a, b]));
         let rest = if bent.abs() > MAX_FLAT_CURVATURE * length { bent } else { 0.0 };
-        // Unfolded, with the edge along x.
+        // Positions in the unfolded plane, with the edge along x.
         let unfold = |c: Vec3, doubled: f32| (edge.dot(c - p) / length, doubled / length);
         let ((ax, ay), (bx, by)) = (unfold(a, area_a), unfold(b, area_b));
         let corners = [(0.0, 0.0), (length, 0.0), (ax, ay), (bx, -by)];
@@ -76,8 +94,8 @@ impl Hinge {
     }
 }
 
-/// The side that a hinge bends to if it is bent by more than naught: square to its edge and to the way
-/// across; naught if it has none.
+/// The direction in which C points for a positive bend: perpendicular to the edge and to a − b;
+/// zero if undefined.
 #[inline(always)]
 pub(crate) fn hinge_normal([p, q, a, b]: [Vec3; 4]) -> Vec3 {
     let across = (q - p).cross(a - b);

@@ -1,17 +1,15 @@
-//! Hinges: what resists bending across the edges of any mesh.
+//! Hinges of a mesh: resistance to bending where there is no regular grid.
 //!
-//! ```text
-//!      a           C = Σ cᵢ xᵢ over the two triangles at an edge pq, with cotangents of their angles
-//!    ╱   ╲         at the edge as weights: a vector that is naught while they are in one plane
-//!   p ─── q
-//!    ╲   ╱         energy ½ D k |C|², k = 3 / area
-//!      b
-//! ```
-//! Bergou et al., "A quadratic bending model for inextensible surfaces", SGP 2006. How much energy that
-//! gives a sheet in the shape of a cylinder depends on how its edges lie, and is about three times
-//! what it should be. So the hinges of a triangle are taken together, see `facets`: then a strip of any mesh
-//! bends as the material says, whichever way it is cut. Hinges that a cut makes go by themselves: a mesh
-//! measures at its own flaps what they give a cylinder, over all its directions, and takes them by so much less.
+//! A sum of independent hinges stores about three times the exact energy of a cylinder, and the
+//! factor depends on the direction of the edges. Therefore the three hinges of a triangle act
+//! together, see `bend_elements`; then a strip of any mesh bends as the material says, in any
+//! direction. Hinges that a cut adds act alone: their energy is divided by the mean ratio of hinge
+//! energy to exact energy of cylinders, measured on the mesh.
+//!
+//! Reads mesh, bend links and rest positions; writes `Hinges`.
+//!
+//! Invariant: hinges are sorted by colour (neighbours in the list share no particle, for
+//! pipelining), and each belongs to one bend link.
 
 use crate::math::sort::sort_by;
 use crate::mesh::{Corner, Mesh, next_corner, triangle_of};
@@ -20,31 +18,32 @@ use crate::model::hinge::{CurvatureResponse, Hinge};
 use crate::model::links::{LinkKind, LinkSupport, Links};
 use glam::Vec3;
 
-/// What a grid's triangles give a cylinder, over what they should: 3 along threads, 4½ halfway between.
+/// Ratio of hinge energy to exact energy of a cylinder for the triangles of a grid: between 3 along
+/// threads and 4½ at 45°.
 const GRID_ENERGY_RATIO: f32 = 3.75;
 
-/// The hinges of a weave.
+/// The hinges of a cloth.
 #[derive(Clone, Debug)]
 pub(crate) struct Hinges {
-    /// Those it was woven with.
+    /// Hinges created with the cloth, sorted by colour.
     pub all: Vec<Hinge>,
-    /// The bend link of each.
+    /// Bend link of each hinge.
     pub links: Vec<u32>,
-    /// How they go together.
+    /// The triangles that couple them.
     pub elements: BendElements,
-    /// Whether any is bent at rest.
+    /// Whether any hinge is bent at rest.
     pub are_bent: bool,
-    /// How often any followed its link, or lost it.
+    /// Counter of changes of hinges or of their activity.
     pub revision: u32,
-    /// What all are taken by.
+    /// Factor on the energy of a hinge that acts alone.
     scale: f32,
-    /// The first bend link, and the hinge of each from there on.
+    /// First bend link, and the hinge of each bend link from there on.
     first: usize,
     hinge_of: Vec<u32>,
 }
 
 impl Hinges {
-    /// None, for a grid, which has plates.
+    /// No hinges, for a grid, which has plate elements.
     pub fn none() -> Self {
         Self {
             all: Vec::new(),
@@ -58,8 +57,7 @@ impl Hinges {
         }
     }
 
-    /// The hinges of a mesh with these links, in the order of colours so that neighbours do not wait for
-    /// each other. `rest` is the rest position of each site.
+    /// Creates the hinges of a mesh with these links. `rest` is the rest position of each site [m].
     pub fn new(mesh: &Mesh, links: &Links, rest: &[Vec3]) -> Self {
         let is_bend = |link: &usize| links.kind(*link) == LinkKind::Bend;
         let first = (0..links.len()).find(is_bend).unwrap_or(links.len());
@@ -99,7 +97,7 @@ impl Hinges {
         Self { all, links: of, elements, are_bent, revision: 0, scale, first, hinge_of }
     }
 
-    /// Brings the hinge of a link in line with the mesh.
+    /// Updates the particles of the hinge of a link after the mesh changed.
     pub fn update_link(&mut self, mesh: &Mesh, links: &Links, link: usize) {
         let found = link.checked_sub(self.first).and_then(|at| self.hinge_of.get(at)).copied();
         let Some(hinge) = found.and_then(|at| self.all.get_mut(at as usize)) else { return };
@@ -109,7 +107,7 @@ impl Hinges {
         }
     }
 
-    /// The hinge of a link that came later.
+    /// Creates the hinge of a dynamic link; `None` if it has none.
     pub fn dynamic_hinge(
         &self,
         mesh: &Mesh,
@@ -121,7 +119,7 @@ impl Hinges {
         Some(Hinge { shape: hinge.shape * self.scale, ..hinge })
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         self.all.len() * (size_of::<Hinge>() + size_of::<u32>())
             + self.hinge_of.len() * size_of::<u32>()
@@ -129,7 +127,7 @@ impl Hinges {
     }
 }
 
-/// The corners of a link across an edge.
+/// The corners of a link across an edge: both ends of the edge, and both vertices opposite it.
 fn corners(links: &Links, link: usize) -> Option<[Corner; 4]> {
     let spec = &links.spec[link];
     match spec.support {
@@ -149,7 +147,7 @@ fn between(
     Hinge::between_triangles(at, at.map(|vertex| rest[mesh.source[vertex as usize] as usize]))
 }
 
-/// A colour for each hinge, the lowest that none of its particles has yet.
+/// A colour per hinge: the lowest that none of its particles has yet, at most 63.
 fn colors(hinges: &[(u32, Hinge, [u32; 2], CurvatureResponse)], vertex_count: usize) -> Vec<u32> {
     let mut taken = vec![0_u64; vertex_count];
     let mut colors = Vec::with_capacity(hinges.len());

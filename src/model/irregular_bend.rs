@@ -1,28 +1,35 @@
-//! IrregularBends: where a grid is torn, two threads in a row that have left their plate, and what resists that they
-//! bend where they meet. What a substep needs of them lies side by side here, colour by colour.
+//! Irregular bends: pairs of consecutive threads that left their plate element where a grid is
+//! torn, packed by colour.
+//!
+//! ```text
+//! a ──── middle ──── b        curvature a − 2 · middle + b
+//! ```
+//! Reads bend links; writes packed columns for the solver.
+//!
+//! Invariant: within a coloured group no particle appears twice.
 
 use crate::mesh::Mesh;
 use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
 use crate::model::links::{LinkSupport, Links, ThreadDirection};
 
-/// All elbows, as of the last time they were gathered.
+/// All irregular bends, as of the last `rebuild`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct IrregularBends {
-    /// The far ends of the threads, and where they meet.
+    /// Particles: the far ends of the two threads, and the particle where they meet.
     pub a: Vec<u32>,
     pub middle: Vec<u32>,
     pub b: Vec<u32>,
-    /// The particle in the middle of the plate's element that each was woven as, and what there was of that,
-    /// over one that lies inside.
+    /// Original plate element of each bend: the particle in its middle.
     pub element: Vec<u32>,
+    /// Original area fraction of that element.
     pub area_fraction: Vec<f32>,
-    /// Those of a colour and of elements along the weft (0) or the warp (1), next to each other.
+    /// Bends of one colour and kind: 0 along the weft, 1 along the warp.
     pub groups: Vec<ColorGroup>,
     coloring: Coloring,
 }
 
 impl IrregularBends {
-    /// Makes room for so many, and for `particles`.
+    /// Allocates for `count` bends and `particles` particles.
     pub fn reserve(&mut self, count: usize, particles: usize) {
         let lists = [&mut self.a, &mut self.middle, &mut self.b, &mut self.element];
         lists.into_iter().for_each(|list| list.reserve_exact(count.saturating_sub(list.len())));
@@ -31,7 +38,8 @@ impl IrregularBends {
         self.coloring.reserve(count, particles);
     }
 
-    /// Gathers those that some bend links are; `element_of` says of a link along weft or warp what it was woven as.
+    /// Rebuilds the bends from their links. `element_of(link, kind)` returns the original element
+    /// of a link and its area fraction.
     pub fn rebuild(
         &mut self,
         mesh: &Mesh,
@@ -61,7 +69,7 @@ impl IrregularBends {
         }
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         5 * size_of::<u32>() * self.a.capacity() + self.coloring.bytes()
     }

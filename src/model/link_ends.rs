@@ -1,4 +1,5 @@
-//! Which particles links end at, and up to which one: kernels look at that once, and not at each link.
+//! Particle indices at one end of all links, with an upper bound, so that kernels check bounds once
+//! per list instead of once per link.
 
 use core::ops::Deref;
 
@@ -6,17 +7,17 @@ use core::ops::Deref;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LinkEnds {
     list: Vec<u32>,
-    /// None of them is above it, nor was any before.
+    /// Upper bound of all entries, past and present.
     max_particle: u32,
 }
 
 impl LinkEnds {
-    /// A number that none of them is above.
+    /// Returns an upper bound of all entries.
     pub fn max_particle(&self) -> u32 {
         self.max_particle
     }
 
-    /// Makes room for `additional` more.
+    /// Allocates for `additional` more entries.
     pub fn reserve(&mut self, additional: usize) {
         self.list.reserve_exact(additional);
     }
@@ -46,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn none_is_above_the_most() {
+    fn no_entry_exceeds_max_particle() {
         let mut ends = LinkEnds::default();
         [3, 7, 5].into_iter().for_each(|particle| ends.push(particle));
         assert_eq!((&*ends, ends.max_particle()), (&[3, 7, 5][..], 7));

@@ -1,7 +1,15 @@
-//! Links: what joins which particles, at what length, how stiffly.
+//! Links: distance constraints between two particles.
 //!
-//! A link is anchored to corners of triangles, not to particles: when a vertex splits, the link
-//! follows the triangle that it lies on, and one whose triangles have parted is gone.
+//! ```text
+//! a ●───── rest ─────● b      E = ½ (|b − a| − rest)² / compliance
+//! ```
+//! Compliance is the inverse spring constant (XPBD; Macklin et al., MIG 2016). A link is defined by
+//! corners of triangles, not by particles: when a vertex splits, the link follows the triangles
+//! that it lies on, and is deactivated when they have separated.
+//!
+//! Reads `Mesh` and `Material`; writes columns, one entry per link.
+//!
+//! Invariant: `spec` alone determines `a`, `b` and `active` on a given mesh.
 
 use crate::math::column::Column;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
@@ -13,47 +21,53 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum LinkKind {
-    /// Structural: between neighbours along the threads, or along the edges of a free mesh.
+    /// Stretch: between neighbours along the threads of a grid, or along the edges of another mesh.
     Stretch = 0,
-    /// Between diagonal neighbours of a grid.
+    /// Shear: between diagonal neighbours of a grid.
     Shear = 1,
-    /// Between particles two cells apart, or across the edge of a free mesh.
+    /// Bending: between particles two cells apart on a grid, or between the two vertices opposite
+    /// an edge of another mesh.
     Bend = 2,
 }
 
-/// Which of the material's two stretch stiffnesses holds.
+/// Thread direction of a link: selects the stiffness of the material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum ThreadDirection {
     Weft,
     Warp,
 }
 
-/// What a link lies on.
+/// What a link lies on, which decides how long it exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum LinkSupport {
-    /// An edge of a triangle: for ever.
+    /// An edge of a triangle: the link is always active.
     Edge,
-    /// The edge, starting at this corner, across which it reaches: until that opens.
+    /// Across the edge that starts at this corner: active until the edge opens.
     AcrossEdge(Corner),
-    /// Two edges in a row: until these two corners are no longer the same vertex.
+    /// Along two consecutive edges: active while these two corners are the same vertex.
     TwoEdges([Corner; 2]),
-    /// Nothing any more: a cut divided what it lay on, and other links have taken its place.
+    /// Removed by a cut; other links have replaced it.
     Removed,
 }
 
-/// What stays of a link when its particles change.
+/// Definition of a link, independent of vertex splits. Field order is part of the save format.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LinkSpec {
+    /// What the link resists.
     pub kind: LinkKind,
+    /// Thread direction of the link.
     pub direction: ThreadDirection,
+    /// Corners at its two ends.
     pub ends: [Corner; 2],
+    /// What it lies on.
     pub support: LinkSupport,
-    /// Spring constant over material stiffness: 1 for a stretch link inside a grid.
+    /// Spring constant relative to the stiffness of the material; 1 for a stretch link inside a
+    /// grid.
     pub stiffness_scale: f32,
 }
 
 impl LinkSpec {
-    /// The corners that it depends on, some of them named more than once.
+    /// The corners that the link depends on; some may be repeated.
     pub fn dependent_corners(&self) -> [Corner; 4] {
         let [a, b] = self.ends;
         match self.support {
@@ -64,19 +78,21 @@ impl LinkSpec {
     }
 }
 
-/// Links as columns, one entry a link.
+/// Links as columns, one entry per link.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Links {
+    /// Particles at the two ends.
     pub a: LinkEnds,
     pub b: LinkEnds,
-    /// Length at rest [m].
+    /// Rest length [m].
     pub rest: Column,
     /// Inverse spring constant [m/N]; 0 is rigid.
     pub compliance: Column,
-    /// Accumulated multiplier of this substep.
+    /// Lagrange multiplier accumulated in this substep.
     pub lambda: Column,
-    /// False once torn.
+    /// Whether the link acts; false once its support is gone.
     pub active: Vec<bool>,
+    /// Definition.
     pub spec: Vec<LinkSpec>,
 }
 
@@ -89,6 +105,7 @@ impl Links {
         self.spec[link].kind
     }
 
+    /// Allocates for `capacity` more links.
     pub fn reserve(&mut self, capacity: usize) {
         let in_all = self.len() + capacity;
         self.a.reserve(capacity);
@@ -100,6 +117,7 @@ impl Links {
         self.spec.reserve_exact(capacity);
     }
 
+    /// Appends a link of rest length `rest` [m]. Its compliance is 0 until `update_compliance`.
     pub fn push(&mut self, mesh: &Mesh, spec: LinkSpec, rest: f32) {
         self.a.push(mesh.vertex(spec.ends[0]));
         self.b.push(mesh.vertex(spec.ends[1]));
@@ -110,10 +128,10 @@ impl Links {
         self.spec.push(spec);
     }
 
-    /// Follows the mesh after a split.
+    /// Updates the particles and the activity of a link after the mesh changed.
     pub fn update(&mut self, mesh: &Mesh, link: usize) {
         let spec = &self.spec[link];
-        // One that is gone keeps its particles, which no other link of its colour has.
+        // A removed link keeps its particles, which no other link of its colour has.
         if spec.support == LinkSupport::Removed {
             self.active[link] = false;
             return;
@@ -128,14 +146,14 @@ impl Links {
         };
     }
 
-    /// Takes on a material's stiffness.
+    /// Computes the compliance of a link from the material.
     pub fn update_compliance(&mut self, link: usize, material: &Material) {
         let spec = &self.spec[link];
         self.compliance[link] = compliance(spec, material);
     }
 }
 
-/// Links of one kind and colour, next to each other.
+/// A batch: consecutive links of one kind and colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LinkBatch {
     pub kind: LinkKind,

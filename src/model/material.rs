@@ -1,81 +1,97 @@
-//! What a cloth is made of, in SI units, and the presets.
+//! Material of a cloth in SI units, and presets for common fabrics.
 
 use crate::error::{Result, check};
 use serde::{Deserialize, Serialize};
 
-/// What a cloth is made of. Start from a preset and change what you need; all of it may change live.
+/// What a cloth is made of, in SI units. Start from a [`Preset`] and change what you need; all
+/// values may change while the cloth moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
-    /// Mass per area [kg/m²]; 0.18, a cotton. Above 0.
+    /// Mass per area [kg/m²], above 0. Default: 0.18, cotton.
     pub density: f32,
-    /// Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge.
+    /// Thickness [m]: gap to colliders, and between layers in surface self-collision. At least 0.
+    /// Default: 0.00035. Keep it below half of the shortest edge.
     pub thickness: f32,
-    /// Membrane stiffness along the warp (down a grid) [N/m]; 0 is as stiff as the sweeps allow.
+    /// Stretch stiffness along the warp (the columns of a grid) per width [N/m], at least 0; 0 = as
+    /// stiff as the iterations allow. Default: 0.
     pub stretch_stiffness_warp: f32,
-    /// Membrane stiffness along the weft (across a grid) [N/m]; 0 is as stiff as the sweeps allow.
+    /// Stretch stiffness along the weft (the rows of a grid) per width [N/m], at least 0; 0 = as
+    /// stiff as the iterations allow. Default: 0.
     pub stretch_stiffness_weft: f32,
-    /// Stiffness against shear [N/m]; 0 is as the stretch stiffness.
+    /// Shear stiffness per width [N/m], at least 0; 0 = mean of the stretch stiffnesses. Default:
+    /// 0.
     pub shear_stiffness: f32,
-    /// Bending rigidity per width [N·m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however
-    /// fine the mesh, the tick and the sweeps are, whichever way it is cut: exactly on grids, within a twentieth
-    /// of its bending length on other meshes. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+    /// Bending rigidity per width [N·m], at least 0; 0 = no resistance. Default: 2.5e-5.
+    ///
+    /// It is the rigidity that a cantilever test of a strip shows (BS 3356), independent of mesh
+    /// size, tick, iterations and direction: exactly on grids, within 5 % of the bending length on
+    /// other meshes. Values from 1 on use distance constraints over two cells instead, as stiff as
+    /// the iterations allow.
     pub bend_stiffness: f32,
-    /// Damping of bending [s]; 0. Bending by some angle a second is resisted as that angle times this would be;
-    /// a few hundredths calm a flutter. At least 0.
+    /// Damping of bending, as a time τ [s], at least 0: a bending rate ω is resisted like a bend by
+    /// τ·ω. A few hundredths calm flutter. Default: 0.
     pub bend_damping: f32,
-    /// Damping of stretching [s]; 0. In the same way, for links that give way. At least 0.
+    /// Damping of stretching, as a time τ [s], at least 0: an elongation rate is resisted like an
+    /// elongation of τ times that rate. Acts only on links with finite stiffness. Default: 0.
     pub stretch_damping: f32,
-    /// Coulomb coefficient against colliders; 0.4. At least 0.
+    /// Coefficient of Coulomb friction, with colliders and with itself, at least 0. Default: 0.4.
     pub friction: f32,
-    /// Share of the normal speed that a bounce gives back; 0. From 0 to 1.
+    /// Share of the normal speed that remains after a bounce off a collider, 0 to 1. Default: 0.
     pub restitution: f32,
-    /// Pressure coefficient of a triangle square to the wind; 1.2. At least 0.
+    /// Drag coefficient of a triangle perpendicular to the wind, at least 0. Default: 1.2.
     pub drag: f32,
-    /// Lift coefficient of a triangle askew to the wind; 0. At least 0.
+    /// Lift coefficient of a triangle oblique to the wind, at least 0. Default: 0.
     pub lift: f32,
-    /// Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
-    /// less, as the finer the mesh is the more of the load is there: √(16 · `thickness` / mean edge) of
-    /// the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+    /// Stretch ratio (length / rest length) at which an edge tears: above 1, or 0 = never. Default:
+    /// 4. Acts while [`Settings::tearing`](crate::Settings) is on.
+    ///
+    /// At the tip of a tear or cut, the strain at which an edge tears is smaller by the factor √(16
+    /// · `thickness` / mean edge length), at least 0.2 and at most 1, so that a notch grows under
+    /// the same load whatever the mesh size.
     pub tear_stretch: f32,
-    /// How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2.
+    /// Variation of the tear limit between edges, 0 to 1: 0 = all equal, 1 = each between 0.5 and
+    /// 1.5 times. Default: 0.2.
     pub tear_variation: f32,
-    /// Angle up to which a fold opens again [rad]; of one that was folded further, the rest stays. 0: all
-    /// opens. At least 0. Paper is near 0.8.
+    /// Yield angle of a fold [rad], at least 0; 0 = fully elastic. A fold up to this angle opens
+    /// again; of a larger fold the part beyond it remains. Paper: about 0.8. Default: 0.
     pub yield_angle: f32,
-    /// Share of a fold beyond `yield_angle` that stays; 1. From 0 to 1.
+    /// Share of a fold beyond `yield_angle` that remains, 0 to 1. Default: 1.
     pub yield_creep: f32,
-    /// Length of the sheet over which folding counts as one fold [m]; 0.01. The same angle over more than that is
-    /// only bent, and stays bent beyond a curvature of `yield_angle` over this. Three cells count at least.
-    /// At least 0.
+    /// Length of sheet across a fold, within which its angle is measured [m], at least 0; at least
+    /// three cells are used. Default: 0.01. An angle spread over a longer length is elastic up to a
+    /// curvature of `yield_angle / fold_length`.
     pub fold_length: f32,
-    /// How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of
-    /// one that is folded by φ for the first time (φ − `yield_angle`) / (1 + this) stays, and to fold it on takes
-    /// as much more. At least 0. What gives way or is creased while this and `yield_weakening` are 0 is not
-    /// counted.
+    /// Hardening: growth of the yield angle per radian of accumulated plastic angle (both
+    /// directions add up), at least 0. Default: 0.
+    ///
+    /// A first fold by φ leaves (φ − `yield_angle`) / (1 + `yield_hardening`). Plastic angles
+    /// accumulate only while this or `yield_weakening` is above 0.
     pub yield_hardening: f32,
-    /// How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by A in all, to either side,
-    /// `fold_length` of the sheet bends as if `bend_stiffness` were divided by 1 + this · A, by at most a
-    /// thousand; pressed flat, it stays as weak. It gives way under the same moment as before, so that it opens
-    /// again by more: `yield_angle` · this counts as `yield_hardening` too. At least 0.
+    /// Weakening of folds [1/rad], at least 0. Default: 0.
+    ///
+    /// After an accumulated plastic angle A, `fold_length` of sheet bends as if `bend_stiffness`
+    /// were divided by 1 + `yield_weakening` · A (at most 1000); pressing it flat does not restore
+    /// it. The yield moment stays the same, so the weaker fold springs back further: `yield_angle`
+    /// · `yield_weakening` adds to `yield_hardening`.
     pub yield_weakening: f32,
 }
 
-/// The fabrics that come with Muslin.
+/// Presets for common fabrics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum Preset {
-    /// Light and fluid, 100 g/m².
+    /// Silk: light and fluid, 100 g/m².
     Silk = 0,
-    /// Shirting, 180 g/m².
+    /// Cotton shirting, 180 g/m².
     Cotton = 1,
-    /// Heavy twill, 380 g/m².
+    /// Denim: heavy twill, 380 g/m².
     Denim = 2,
     /// Garment leather, 700 g/m².
     Leather = 3,
-    /// Office paper, 80 g/m².
+    /// Office paper, 80 g/m²; keeps folds.
     Paper = 4,
-    /// Flag nylon 200 denier, 105 g/m².
+    /// Flag nylon, 200 denier, 105 g/m².
     FlagNylon = 5,
 }
 
@@ -106,13 +122,14 @@ impl Default for Material {
 }
 
 impl Material {
-    /// The figures of a fabric.
+    /// Returns the material of a preset.
     ///
-    /// Densities and bending rigidities: silk and leather after the Chaos cloth tables and the KES
-    /// ranges, silk at the soft end of its own, with which it drapes as silks do (20 to 40 %), cotton between Wang et al. 2011 and KES, denim after Wang et al. 2011 ("11oz black
-    /// denim"), paper after ARCSim and srep06275, flag nylon estimated from vendors' weights. Only paper
-    /// keeps folds: its 0.8 rad over 0.01 m are a curvature of 80 1/m, where ARCSim's paper has 200 over
-    /// less than that.
+    /// Sources of densities and bending rigidities. Silk and leather: Chaos cloth tables and KES
+    /// ranges; silk at the soft end of its range, where it drapes like measured silks (20 to 40 %).
+    /// Cotton: between Wang et al. 2011 and KES. Denim: Wang et al. 2011 ("11oz black denim").
+    /// Paper: ARCSim and srep06275. Flag nylon: estimated from vendors' weights. Only paper keeps
+    /// folds: 0.8 rad over 0.01 m is a curvature of 80 1/m; ARCSim's paper yields at 200 1/m over a
+    /// shorter length.
     pub fn preset(preset: Preset) -> Self {
         let yield_angle = if preset == Preset::Paper { 0.8 } else { 0.0 };
         let (density, thickness, stretch, shear, bend, friction) = match preset {
@@ -136,17 +153,18 @@ impl Material {
         }
     }
 
-    /// Whether it matters what folds have given way by.
+    /// Returns whether accumulated plastic angles have an effect.
     pub(crate) fn tracks_hardening(&self) -> bool {
         self.yield_hardening > 0.0 || self.yield_weakening > 0.0
     }
 
-    /// How much more a fold opens again for each angle that it has given way by.
+    /// Growth of the yield angle per radian of accumulated plastic angle, including that from
+    /// weakening.
     pub(crate) fn effective_hardening(&self) -> f32 {
         self.yield_hardening + self.yield_weakening * self.yield_angle
     }
 
-    /// Refuses figures that no fabric has.
+    /// Refuses values that are out of range.
     pub(crate) fn check(&self) -> Result<()> {
         let not_negative = |v: f32| v.is_finite() && v >= 0.0;
         let share = |v: f32| (0.0..=1.0).contains(&v);

@@ -1,4 +1,15 @@
-//! The recipe of a cloth: its material, its links, and how far each particle is from the pins.
+//! Model of a cloth: all that follows from its descriptor and its topology.
+//!
+//! | file | content |
+//! | --- | --- |
+//! | `material`, `folds`, `hardening` | material parameters, plastic folds |
+//! | `links`, `link_ends`, `constraints`, `coloring`, `link_set` | distance constraints in colours |
+//! | `dynamic_links`, `cut_links`, `crack_tips` | how they change with tears and cuts |
+//! | `grid_rows`, `grid_cells`, `sparse_links` | layouts for the kernels |
+//! | `chains`, `chain_blocks` | straight runs of links for the line solver |
+//! | `tethers`, `pin_order` | distances to the pins |
+//! | `plate_elements`, `irregular_bend` | bending of grids |
+//! | `hinge`, `hinges`, `bend_elements` | bending of other meshes |
 
 pub(crate) mod bend_elements;
 pub(crate) mod chain_blocks;

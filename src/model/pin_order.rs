@@ -1,25 +1,30 @@
-//! The links from the pins outward: the order in which a chain that hangs is made right in one go.
+//! Pin order: links sorted by their distance from the pins, the order in which one sweep of the
+//! strain limit corrects a hanging chain.
+//!
+//! Reads `Tethers` and `Links`; writes the order.
+//!
+//! Invariant: current after `rebuild`, which must run whenever the tethers change.
 
 use crate::math::sort::sort_by;
 use crate::model::links::Links;
 use crate::model::tethers::Tethers;
 
-/// Links sorted by how far their farther end is from a pin.
+/// Links sorted by the distance of their farther end from the pins.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PinOrder {
     order: Vec<u32>,
-    /// Each particle's way along the cloth to the nearest pin [m]; infinite where there is none.
+    /// Geodesic distance of each particle to the nearest pin [m]; infinite where there is none.
     distance: Vec<f32>,
 }
 
 impl PinOrder {
-    /// Makes room for `particles` and `links` in all.
+    /// Allocates for `particles` and `links` in all.
     pub fn reserve(&mut self, particles: usize, links: usize) {
         self.order.reserve_exact(links.saturating_sub(self.order.len()));
         self.distance.reserve_exact(particles.saturating_sub(self.distance.len()));
     }
 
-    /// Sorts anew, after tethers were measured.
+    /// Sorts the links by the distances that the tethers measured.
     pub fn rebuild(&mut self, tethers: &Tethers, particle_count: usize, links: &Links) {
         self.distance.clear();
         self.distance.resize(particle_count, f32::INFINITY);
@@ -44,7 +49,7 @@ impl PinOrder {
         &self.order
     }
 
-    /// Whether the first particle is clearly nearer to a pin than the second.
+    /// Returns whether particle `a` is clearly nearer to a pin than `b`, by more than rounding.
     pub fn is_nearer(&self, a: usize, b: usize) -> bool {
         self.distance[a] < self.distance[b] * (1.0 - 1.0e-4)
     }

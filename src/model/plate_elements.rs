@@ -1,17 +1,22 @@
-//! PlateElements: what resists bending where a grid is as it was woven.
+//! Plate elements: bending of a regular grid.
 //!
-//! A sheet that is bent without stretching has the energy ½ D ∫ κₓₓ² + κᵧᵧ² + 2 κₓᵧ². On a grid the
-//! curvatures are differences of positions, and so vectors that are linear in them:
+//! A sheet that bends without stretching has the energy ½ D ∫ κₓₓ² + κᵧᵧ² + 2 κₓᵧ². On a grid the
+//! curvatures are finite differences of positions, and thus vectors that are linear in them:
 //!
 //! ```text
 //! a ──── m ──── b     weft, warp: a − 2 m + b     a ──── b
 //!                                                 │      │    twist: a − b − c + d
 //!                                                 c ──── d
 //! ```
-//! Their energy is quadratic, so that its matrix is always the same (Bergou et al., "A quadratic bending
-//! model for inextensible surfaces", SGP 2006). Borders have the part of an element's area that is theirs,
-//! and no element reaches over them: a free border bears no moment. What has left its place after a tear
-//! is an elbow, see `irregular`.
+//! The energy is quadratic, so its matrix is constant (Bergou et al., "A quadratic bending model
+//! for inextensible surfaces", SGP 2006). Elements at borders have only their part of the area, and
+//! none reaches beyond a border, so a free border carries no moment. Elements that a tear has
+//! changed become irregular bends, see `irregular_bend`.
+//!
+//! Reads `Mesh` and bend links; writes area fractions and the irregular bends.
+//!
+//! Invariant: the fraction of an element is 0 unless all its particles are the original ones and
+//! connected.
 
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
@@ -19,41 +24,41 @@ use crate::model::irregular_bend::IrregularBends;
 use crate::model::link_set::LinkSet;
 use crate::model::links::{LinkKind, LinkSupport, Links, ThreadDirection};
 
-/// The three elements that belong to a particle: the one along the weft and the one along the warp that have
-/// it in their middle, and the twist of the cell whose first corner it is.
+/// Elements per particle, by kind: along the weft and along the warp with the particle in the
+/// middle, and the twist of the cell whose first corner is the particle.
 pub(crate) type PerKind<T> = [T; 3];
 
-/// The elements of a grid.
+/// The plate elements of a grid.
 #[derive(Clone, Debug)]
 pub(crate) struct PlateElements {
-    /// Particles across.
+    /// Particles per row.
     pub columns: usize,
-    /// Particles down.
+    /// Particles per column.
     pub rows: usize,
     /// Distance between neighbours [m].
     pub spacing: f32,
-    /// What there is of each element, over one that lies inside; 0 where there is none any more.
+    /// Area of each element relative to one inside the grid; 0 if it does not exist.
     pub area_fraction: PerKind<Vec<f32>>,
-    /// What left its element and still holds, as of the last time it was gathered.
+    /// Active bends that left their element, as of the last `rebuild_irregular`.
     pub irregular: IrregularBends,
     /// The bend links of these.
     irregular_links: LinkSet,
-    /// How often elements came or went.
+    /// Counter of changes of `area_fraction`.
     pub revision: u32,
-    /// The first bend link, and the element of each from there on: the particle in its middle.
+    /// First bend link, and the middle particle of each bend link from there on.
     first: usize,
     middle: Vec<u32>,
-    /// What there was of each element when it was woven.
+    /// `area_fraction` at creation.
     created_fraction: PerKind<Vec<f32>>,
 }
 
 impl PlateElements {
-    /// The elements of a grid with these links.
+    /// Creates the elements of a grid with these links.
     pub fn new(columns: u32, rows: u32, spacing: f32, mesh: &Mesh, links: &Links) -> Self {
         let (columns, rows) = (columns as usize, rows as usize);
         let count = columns * rows;
         let mut created_fraction = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
-        let of_lines = |at: usize, lines: usize| {
+        let border_fraction = |at: usize, lines: usize| {
             let is_border = at == 0 || at == lines - 1;
             if is_border { 0.5 } else { 1.0 }
         };
@@ -61,10 +66,10 @@ impl PlateElements {
             for column in 0..columns {
                 let at = row * columns + column;
                 if column > 0 && column < columns - 1 {
-                    created_fraction[0][at] = of_lines(row, rows);
+                    created_fraction[0][at] = border_fraction(row, rows);
                 }
                 if row > 0 && row < rows - 1 {
-                    created_fraction[1][at] = of_lines(column, columns);
+                    created_fraction[1][at] = border_fraction(column, columns);
                 }
                 if row < rows - 1 && column < columns - 1 {
                     created_fraction[2][at] = 2.0;
@@ -91,12 +96,12 @@ impl PlateElements {
         }
     }
 
-    /// Particles that it was woven with.
+    /// Number of particles at creation.
     pub fn count(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// Takes note of what became of a bend link.
+    /// Updates the element of a bend link after the link changed.
     pub fn update_link(&mut self, mesh: &Mesh, links: &Links, link: usize) {
         let Some(middle) = link.checked_sub(self.first).and_then(|at| self.middle.get(at)) else {
             return;
@@ -114,14 +119,14 @@ impl PlateElements {
             }
             _ => false,
         };
-        let holds = links.active[link];
+        let is_active = links.active[link];
         let area_fraction =
-            if is_in_place && holds { self.created_fraction[kind][middle] } else { 0.0 };
+            if is_in_place && is_active { self.created_fraction[kind][middle] } else { 0.0 };
         self.set_fraction(kind, middle, area_fraction);
-        self.irregular_links.set(link, holds && !is_in_place);
+        self.irregular_links.set(link, is_active && !is_in_place);
     }
 
-    /// Takes note of which cells around a site are torn.
+    /// Updates the twist of the cells around a site after its vertices changed.
     pub fn update_cells(&mut self, mesh: &Mesh, site: u32) {
         let (row, column) = (site as usize / self.columns, site as usize % self.columns);
         for row in row.saturating_sub(1)..(row + 1).min(self.rows - 1) {
@@ -143,7 +148,7 @@ impl PlateElements {
         }
     }
 
-    /// Gathers what left its element, after links changed.
+    /// Rebuilds the irregular bends, after links changed.
     pub fn rebuild_irregular(&mut self, mesh: &Mesh, links: &Links) {
         let Self { irregular, irregular_links, first, middle, created_fraction, .. } = self;
         irregular.rebuild(mesh, links, irregular_links.as_slice(), |link, kind| {
@@ -152,13 +157,13 @@ impl PlateElements {
         });
     }
 
-    /// Makes room for every element to stray, and for so many particles.
+    /// Allocates so that every element may become irregular, for `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
         self.irregular_links.reserve(self.middle.len());
         self.irregular.reserve(self.middle.len(), particles);
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         size_of::<f32>() * (6 * self.count() + 2 * self.middle.len()) + self.irregular.bytes()
     }

@@ -1,28 +1,33 @@
-//! SparseLinks links: the few of a list that lie in no row, colour by colour. What a sweep needs of them lies
-//! side by side here, so that it reads nothing of all the others.
+//! Sparse links: the few links of a list outside the regular rows, packed by colour, so that a
+//! sweep reads nothing of the others.
+//!
+//! Reads `Links`; writes packed columns for gather/scatter kernels.
+//!
+//! Invariant: within a coloured group no particle appears twice.
 
 use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
 use crate::model::links::{LinkKind, Links};
 use core::ops::Range;
 
-/// Links by colour.
+/// Packed links, sorted by colour.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SparseLinks {
-    /// Their particles, …
+    /// Particles of each link.
     pub a: Vec<u32>,
     pub b: Vec<u32>,
-    /// … their lengths at rest [m], …
+    /// Rest length [m].
     pub rest: Vec<f32>,
-    /// … what number each has in its list, …
+    /// Number of each link in its list.
     pub link: Vec<u32>,
-    /// … and what their ends weigh, see `solver::weights`; none until they are weighed.
+    /// Inverse masses of the two ends, see `solver::stretch::inverse_masses`; empty until they are
+    /// computed.
     pub w: [Vec<f32>; 2],
-    /// Those of a kind and colour, next to each other.
+    /// Links of one kind and colour.
     groups: Vec<ColorGroup>,
 }
 
 impl SparseLinks {
-    /// Makes room for `count` in all.
+    /// Allocates for `count` links in all.
     pub fn reserve(&mut self, count: usize) {
         let more = |len: usize| count.saturating_sub(len);
         for list in [&mut self.a, &mut self.b, &mut self.link] {
@@ -35,11 +40,12 @@ impl SparseLinks {
         self.groups.reserve_exact(MAX_GROUPS.saturating_sub(self.groups.len()));
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         6 * size_of::<u32>() * self.link.capacity()
     }
 
+    /// Removes all links.
     pub fn clear(&mut self) {
         [&mut self.a, &mut self.b, &mut self.link].into_iter().for_each(Vec::clear);
         self.rest.clear();
@@ -47,14 +53,14 @@ impl SparseLinks {
         self.groups.clear();
     }
 
-    /// Adds a batch of links from a list, no two of which share a particle.
+    /// Appends a batch of links that share no particle.
     pub fn push_batch(&mut self, kind: LinkKind, links: &Links, link_numbers: &[u32]) {
         let (first, count) = (self.link.len(), link_numbers.len());
         self.groups.push(ColorGroup { kind: kind as usize, is_colored: true, first, count });
         self.append(links, link_numbers);
     }
 
-    /// Makes it those of a list that hold, coloured.
+    /// Replaces the content by the active links of a list, coloured.
     pub fn rebuild_colored(&mut self, links: &Links, particles: usize, coloring: &mut Coloring) {
         self.clear();
         let ends = |link: usize| {
@@ -74,19 +80,19 @@ impl SparseLinks {
         }
     }
 
-    /// Takes over lengths at rest that changed.
+    /// Copies the rest lengths from the list.
     pub fn update_rest_lengths(&mut self, links: &Links) {
         for (rest, link) in self.rest.iter_mut().zip(&self.link) {
             *rest = links.rest[*link as usize];
         }
     }
 
-    /// Whether it is known what their ends weigh.
+    /// Returns whether the inverse masses are computed.
     pub fn has_inverse_masses(&self) -> bool {
         self.w[0].len() == self.link.len()
     }
 
-    /// Takes note of what their ends weigh, by their kind.
+    /// Computes the inverse masses of the ends: `inverse_masses_of(kind, [a, b])`.
     pub fn compute_inverse_masses(
         &mut self,
         inverse_masses_of: impl Fn(usize, [u32; 2]) -> [f32; 2],
@@ -108,7 +114,7 @@ impl SparseLinks {
         self.groups.get(batch).map_or((0..0, true), |group| (group.range(), group.is_colored))
     }
 
-    /// The batches of a kind, which lie next to each other.
+    /// The batches of a kind, which are consecutive.
     pub fn batches_of(&self, kind: LinkKind) -> Range<usize> {
         let first = self.groups.partition_point(|group| group.kind < kind as usize);
         first..self.groups.partition_point(|group| group.kind <= kind as usize)

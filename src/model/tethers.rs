@@ -1,29 +1,43 @@
-//! Tethers: how far along the cloth each particle is from the pins, and so how far it may get.
+//! Tethers (long-range attachments): geodesic distance of each particle to the pins, which limits
+//! how far it may move away.
 //!
-//! Distances are measured on the surface at rest by unfolding triangles (Kimmel and Sethian,
-//! "Computing geodesic paths on manifolds", PNAS 1998), swept to and fro until nothing changes.
-//! Kim, Chentanez, Müller, "Long range attachments", SCA 2012, for what they are good for.
+//! Kim, Chentanez and Müller, "Long range attachments", SCA 2012. Distances are measured on the
+//! rest surface by unfolding triangles (Kimmel and Sethian, "Computing geodesic paths on
+//! manifolds", PNAS 1998), in sweeps over the triangles with alternating direction until nothing
+//! changes:
 //!
-//! A tear makes ways longer, though few of them: those that led where it opened. Each particle knows
-//! over which triangle its way came, so that these are found and measured anew, and no others.
+//! ```text
+//!         c          length(c) = min( length(a) + |ac|, length(b) + |bc|,
+//!        ╱ ╲                          straight line from the pin through edge ab, unfolded )
+//!       a───b
+//!        ╲ ╱  ← front comes from here
+//! ```
+//! A tear lengthens only the paths that crossed it. Each particle stores the triangle that its path
+//! comes through, so that those paths are found and measured again, and no others.
+//!
+//! Reads mesh, rest positions and pins; writes `TetherSet`s, which `solver::stretch::tethers`
+//! enforces.
+//!
+//! Invariant: `length` is infinite exactly if no path leads to a pin.
 
 use crate::mesh::{Fan, Mesh, NONE, triangle_of};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// With this many pins or fewer each particle is tethered to every one, else to the nearest.
+/// Up to this number of pins each particle is tethered to every pin; with more pins to the nearest
+/// one.
 const MAX_SEPARATE_PINS: usize = 4;
 
-/// Each particle's attachment to one pin.
+/// One tether per particle. Field order is part of the save format.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct TetherSet {
-    /// The pinned particle; itself where no way leads to a pin.
+    /// The pinned particle; the particle itself if no path leads to a pin.
     pub pin: Vec<u32>,
-    /// Length of the way [m]; infinite where there is none.
+    /// Geodesic distance to it [m]; infinite if no path leads to a pin.
     pub length: Vec<f32>,
-    /// The triangle over which it comes; `NONE` at a pin and where there is none.
+    /// The triangle that the path comes through; `NONE` at a pin and where there is no path.
     via_triangle: Vec<u32>,
-    /// The only pin of the set, if there is but one.
+    /// The pin of the set, if there is only one.
     pub single_pin: Option<u32>,
 }
 
@@ -36,19 +50,19 @@ pub(crate) struct Tethers {
     scratch: TetherScratch,
 }
 
-/// Room to find out what tears did.
+/// Scratch for updates after tears.
 #[derive(Clone, Debug, Default)]
 struct TetherScratch {
     fan: Fan,
-    /// Particles whose ways are gone.
+    /// Particles whose paths crossed a tear.
     invalid: Vec<u32>,
-    /// Whether each triangle is at one of those, and which ones are.
+    /// Marks of triangles at such particles, and the list of them.
     is_affected: Vec<bool>,
     affected: Vec<u32>,
 }
 
 impl Tethers {
-    /// No tethers, with room for those of `capacity` particles.
+    /// Creates no tethers, allocated for `capacity` particles.
     pub fn with_capacity(capacity: usize) -> Self {
         let list = || TetherSet {
             pin: Vec::with_capacity(capacity),
@@ -60,7 +74,7 @@ impl Tethers {
         Self { sets, used: 0, pin_count: 0, scratch: TetherScratch::default() }
     }
 
-    /// Makes room for `capacity` particles and so many triangles in all.
+    /// Allocates for `capacity` particles and `triangles` triangles in all.
     pub fn reserve(&mut self, capacity: usize, triangles: usize) {
         for set in &mut self.sets {
             set.pin.reserve_exact(capacity.saturating_sub(set.pin.len()));
@@ -75,7 +89,7 @@ impl Tethers {
         affected.reserve_exact(triangles.saturating_sub(affected.len()));
     }
 
-    /// Bytes that they hold.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         let of_set = |set: &TetherSet| {
             4 * (set.pin.capacity() + set.length.capacity() + set.via_triangle.capacity())
@@ -84,17 +98,17 @@ impl Tethers {
         self.sets.iter().map(of_set).sum::<usize>() + scratch
     }
 
-    /// How many pins there were when ways were measured.
+    /// Number of pins when the paths were measured.
     pub fn pin_count(&self) -> usize {
         self.pin_count
     }
 
+    /// The sets in use: one per pin, or one for all pins.
     pub fn sets(&self) -> &[TetherSet] {
         &self.sets[..self.used]
     }
 
-    /// Measures all ways to the `pinned` particles anew. `rest` is the rest position of each original
-    /// vertex.
+    /// Measures all paths to the `pinned` particles. `rest` is the rest position of each site [m].
     pub fn rebuild(
         &mut self,
         mesh: &Mesh,
@@ -123,7 +137,7 @@ impl Tethers {
         }
     }
 
-    /// A particle more, as a copy of another one; `update_after_tear` finds out what that did.
+    /// Appends a particle as a copy of `from`; call `update_after_tear` afterwards.
     pub fn push_copy_of(&mut self, from: u32) {
         for set in &mut self.sets[..self.used] {
             let (from, new) = (from as usize, set.pin.len() as u32);
@@ -134,8 +148,8 @@ impl Tethers {
         }
     }
 
-    /// Measures the ways anew that led over what tore: around the particles that were `touched`, which
-    /// are all that have other triangles than before. The pins are the same.
+    /// Measures the paths again that crossed a tear. `touched` are all particles whose triangles
+    /// changed; the pins have not changed.
     pub fn update_after_tear(&mut self, mesh: &Mesh, rest: &[Vec3], touched: &[u32]) {
         let scratch = &mut self.scratch;
         for set in &mut self.sets[..self.used] {
@@ -161,14 +175,15 @@ impl Tethers {
         }
     }
 
-    /// The sets in use; those of a saved cloth are given to `restore`.
+    /// Returns the sets in use, for a save.
     pub fn save(&self) -> Vec<TetherSet> {
         self.sets().to_vec()
     }
 
-    /// Takes on what was saved, in place of what was measured; false if it does not fit that.
+    /// Replaces the measured sets by saved ones. Returns false if they do not fit the pins and the
+    /// mesh.
     pub fn restore(&mut self, saved: &[TetherSet], particles: usize, triangles: usize) -> bool {
-        let fits = |(set, saved): (&TetherSet, &TetherSet)| {
+        let matches = |(set, saved): (&TetherSet, &TetherSet)| {
             let is_within = |list: &[u32], most: usize| {
                 list.iter().all(|at| *at == NONE || (*at as usize) < most)
             };
@@ -180,7 +195,7 @@ impl Tethers {
         };
         let sets = &mut self.sets[..self.used];
         if saved.len() != sets.len()
-            || !sets.iter().zip(saved).all(|(set, saved)| fits((set, saved)))
+            || !sets.iter().zip(saved).all(|(set, saved)| matches((set, saved)))
         {
             return false;
         }
@@ -194,7 +209,7 @@ impl Tethers {
 }
 
 impl TetherSet {
-    /// Sweeps over some of the triangles to and fro until nothing changes.
+    /// Relaxes over `triangles` in alternating direction until nothing changes.
     fn sweep_triangles(
         &mut self,
         mesh: &Mesh,
@@ -202,7 +217,7 @@ impl TetherSet {
         triangles: impl DoubleEndedIterator<Item = u32> + ExactSizeIterator + Clone,
     ) {
         let at = |v: u32| rest[mesh.source[v as usize] as usize];
-        // Every sweep carries the front over at least one more triangle, mostly over all of them.
+        // Every sweep advances the front by at least one triangle, usually over all of them.
         for sweep in 0..triangles.len() + 1 {
             let mut changed = false;
             let mut relax_all = |triangle: u32| {
@@ -222,7 +237,7 @@ impl TetherSet {
         }
     }
 
-    /// Where no way leads to a pin, a particle is its own anchor.
+    /// Sets the pin of each particle without a path to the particle itself.
     fn set_unreached_to_self(&mut self) {
         for (particle, pin) in self.pin.iter_mut().enumerate() {
             if *pin == NONE {
@@ -231,8 +246,8 @@ impl TetherSet {
         }
     }
 
-    /// Finds the particles whose ways are gone, after the `touched` ones lost triangles: those whose way
-    /// came over a triangle that they lost, and all whose ways came from there.
+    /// Collects the particles whose paths are gone after the `touched` ones lost triangles: those
+    /// whose path came through a lost triangle, and all whose paths came from there.
     fn invalidate(&mut self, mesh: &Mesh, touched: &[u32], scratch: &mut TetherScratch) {
         scratch.invalid.clear();
         for particle in touched {
@@ -262,7 +277,7 @@ impl TetherSet {
         invalid.push(particle);
     }
 
-    /// Shortens the way to `c` through the edge a–b of a triangle; true if it did.
+    /// Shortens the path to `c` through the edge a–b of a triangle; returns whether it did.
     fn relax(&mut self, a: u32, b: u32, c: u32, triangle: u32, at: impl Fn(u32) -> Vec3) -> bool {
         let (la, lb) = (self.length[a as usize], self.length[b as usize]);
         let old = self.length[c as usize];
@@ -283,7 +298,7 @@ impl TetherSet {
         {
             (best, pin) = (straight, self.pin[a as usize]);
         }
-        // A hair of slack ends the sweeps: f32 could go on shaving bits off.
+        // A tolerance ends the sweeps; otherwise f32 rounding could shorten paths forever.
         if best < old * (1.0 - 1.0e-5) {
             (self.length[c as usize], self.pin[c as usize]) = (best, pin);
             self.via_triangle[c as usize] = triangle;
@@ -293,7 +308,8 @@ impl TetherSet {
     }
 }
 
-/// The straight way from a source, `la` from `a` and `lb` from `b`, to `c`, if it crosses the edge.
+/// Length of the straight path to `c` from a source at distances `la` from `a` and `lb` from `b`,
+/// in the unfolded triangle. `None` if it does not cross the edge.
 fn unfold(a: Vec3, b: Vec3, c: Vec3, la: f32, lb: f32) -> Option<f32> {
     let edge = b - a;
     let width = edge.length();
@@ -318,7 +334,7 @@ mod tests {
     use crate::mesh::grid::GridFrame;
 
     #[test]
-    fn ways_over_a_flat_sheet_are_straight_lines() {
+    fn paths_over_a_flat_sheet_are_straight_lines() {
         let frame =
             GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
@@ -338,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn ways_that_a_tear_cut_off_lead_around_it() {
+    fn paths_that_a_tear_cuts_lead_around_it() {
         let frame =
             GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
@@ -362,15 +378,18 @@ mod tests {
             tethers.push_copy_of(vertex as u32);
             tethers.update_after_tear(&mesh, &rest, &[vertex as u32, new]);
         }
-        let mut anew = Tethers::with_capacity(mesh.vertex_count());
-        anew.rebuild(&mesh, &rest, 0..21);
+        let mut measured_again = Tethers::with_capacity(mesh.vertex_count());
+        measured_again.rebuild(&mesh, &rest, 0..21);
         let below = 9 * 21 + 10;
         let straight = 0.9;
-        assert!(anew.sets()[0].length[below] > 1.1 * straight, "the way leads around the slit");
-        let lengths = tethers.sets()[0].length.iter().zip(&anew.sets()[0].length);
-        for (particle, (followed, measured)) in lengths.enumerate() {
-            let off = (followed - measured).abs();
-            assert!(off <= 1.0e-3 * measured, "{particle}: {followed}, measured {measured}");
+        assert!(
+            measured_again.sets()[0].length[below] > 1.1 * straight,
+            "the path leads around the slit"
+        );
+        let lengths = tethers.sets()[0].length.iter().zip(&measured_again.sets()[0].length);
+        for (particle, (updated, measured)) in lengths.enumerate() {
+            let off = (updated - measured).abs();
+            assert!(off <= 1.0e-3 * measured, "{particle}: {updated}, measured {measured}");
         }
     }
 }
