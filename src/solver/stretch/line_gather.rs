@@ -1,4 +1,4 @@
-//! Gather and scatter of lines whose particles are at arbitrary indices.
+//! Gather and scatter of chains whose particles are at arbitrary indices.
 //!
 //! ```text
 //! columns or interleaved  ──gather──▶  points [x, y, z, w]  ──gather_step──▶  LineStep (8 lanes)

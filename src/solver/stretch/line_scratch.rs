@@ -14,7 +14,8 @@ pub(crate) struct LineScratch {
     pub points: Vec<[f32; 4]>,
     /// `[x, y, z, 0]` of each particle at the start of the substep, after the sentinel.
     pub start_points: Vec<[f32; 4]>,
-    /// Positions at the start of the substep as columns, after the sentinel; used by strips.
+    /// Positions at the start of the substep as columns, after the sentinel; used by strided
+    /// blocks.
     pub start_columns: Columns,
     /// The steps of one block, after the sentinel.
     pub steps: Vec<LineStep>,
@@ -22,12 +23,12 @@ pub(crate) struct LineScratch {
 
 impl LineScratch {
     /// Allocates buffers for blocks of at most `steps` steps over `particles` particles, and
-    /// columns if the blocks may be strips.
-    pub fn new(steps: usize, particles: usize, has_strips: bool) -> Self {
+    /// columns if blocks may be strided.
+    pub fn new(steps: usize, particles: usize, has_strided: bool) -> Self {
         Self {
             points: Vec::with_capacity(particles + 1),
             start_points: Vec::with_capacity(particles + 1),
-            start_columns: Columns::with_capacity(if has_strips { particles + 1 } else { 0 }),
+            start_columns: Columns::with_capacity(if has_strided { particles + 1 } else { 0 }),
             steps: vec![LineStep::default(); steps + 1],
         }
     }

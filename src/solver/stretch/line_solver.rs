@@ -1,44 +1,52 @@
-//! Stage `Stretch`, first sweep of a substep: direct solve of whole lines (chains of stretch
+//! Stage `Stretch`, first sweep of a substep: direct solve of whole chains (straight runs of
 //! links).
 //!
 //! ```text
-//! x₀ ●──── 1 ────● x₁ ──── 2 ────● x₂ ──── 3 ────● x₃        n_i = (x_i − x_{i−1}) / |x_i − x_{i−1}|
+//! x₀ ●──── 1 ────● x₁ ──── 2 ────● x₂ ──── 3 ────● x₃
+//!
+//! s_i = x_i − x_{i−1}    l_i = |s_i|    n_i = s_i / l_i      link i joins particles i − 1 and i
 //! ```
-//! **Tensions.** A link of a line is coupled only to its neighbours in the line, so the multipliers λ
-//! of the linearised distance constraints (XPBD, eq. 18, all links of the line at once) form a
-//! tridiagonal system with one row per link:
+//! **Tensions.** A link of a chain is coupled only to its neighbours in the chain. So the multipliers
+//! λ of the linearised distance constraints (XPBD: Macklin, Müller, Chentanez, MIG 2016, eq. 18,
+//! for all links of the chain at once) form a tridiagonal system with one row per link:
 //!
 //! ```text
-//! (w₋ + w₊ + α̃) λ − w₋ (n₋·n) λ₋ − w₊ (n·n₊) λ₊ = C        C = |x_i − x_{i−1}| − target
-//! ```
-//! w₋, w₊: inverse masses of the two ends; λ₋, λ₊: multipliers of the links before and after; α̃:
-//! compliance / h², 0 for rigid links. It is solved by elimination forward and substitution
-//! backward (Thomas algorithm). So one solve carries a load from one end of the line to the other,
-//! where sweeps would need as many iterations as the line has links.
+//! (w₋ + w₊ + α̃) λ − w₋ (n₋·n) λ₋ − w₊ (n·n₊) λ₊ = C         C = l − target
 //!
-//! **Displacements.** A link under tension (λ > 0) pulls along its direction at the *end* of the
-//! substep, not along its predicted one: its pull is q (span + u − u₋), with q = λ / target. A link
-//! under compression pulls along n. The displacements u then solve a second tridiagonal system with
-//! one row per particle, eliminated backward and substituted forward:
+//! w₋, w₊   inverse masses of the two ends of the link
+//! λ₋, λ₊   multipliers of the links before and after it; λ > 0 is tension
+//! α̃        compliance / h², 0 for rigid links
+//! ```
+//! It is solved by elimination forward and substitution backward (Thomas algorithm). One solve
+//! carries a load from one end of the chain to the other; sweeps would need as many iterations as
+//! the chain has links.
+//!
+//! **Displacements.** A link under tension pulls along its direction at the *end* of the substep, not
+//! along its predicted direction: its pull is q (s + u − u₋), with q = λ / target. A link under
+//! compression pulls with λ n. So the displacements u of the particles solve a second tridiagonal
+//! system with one row per particle, eliminated backward and substituted forward:
 //!
 //! ```text
-//! (1 + w (q + q₊)) u − w q u₋ − w q₊ u₊ = w p        p = t₊ n₊ − t n
-//!                                        t = q |x_i − x_{i−1}| under tension, λ otherwise
-//! ```
-//! Without it, a long line whose sideways vibration is faster than a substep would jitter.
+//! (1 + w (q + q₊)) u − w q u₋ − w q₊ u₊ = w (t₊ n₊ − t n)
 //!
-//! **Targets.** The target of a compliant link is its rest length. That of a rigid link keeps 70 % of
-//! the error which it had at the start of the substep: in a tangle, lines contradict other
-//! constraints, and lines that remove the whole error at once never come to rest.
+//! q, t     of the link before the particle: q = λ / target, t = q l under tension;
+//!          q = 0, t = λ under compression
+//! q₊, t₊   of the link after the particle
+//! ```
+//! Without it, a long chain whose sideways vibration is faster than a substep would jitter.
+//!
+//! **Targets.** The target of a compliant link is its rest length. The target of a rigid link keeps
+//! 70 % of the error that the link had at the start of the substep: in a tangle, chains contradict
+//! other constraints, and chains that remove the whole error at once never come to rest.
 //!
 //! ```text
 //! target = rest + (1 − 0.3) (length at the start of the substep − rest)
 //! ```
 //!
-//! Reads `constraints.lines` (eight lines side by side per block, see `model::line_blocks`),
+//! Reads `constraints.chains` (eight chains side by side per block, see `model::chain_blocks`),
 //! positions, inverse masses, the positions at the start of the substep; writes positions, and λ of
 //! compliant links.
-//! Invariant: the lines of a block share no particle and each lane is a line of its own, so the
+//! Invariant: the chains of a block share no particle and each lane is a chain of its own, so the
 //! number of lanes does not change the result; no particle moves farther than the rest length of
 //! its link.
 
@@ -56,13 +64,13 @@ use crate::solver::world::World;
 /// The least load that [`is_needed`] assumes [m/s²]: wind and grabs pull where gravity is weak.
 const MIN_LOAD: f32 = 9.81;
 
-/// The strain of a hanging line that sweeps may leave before lines are solved directly.
+/// The strain of a hanging chain that sweeps may leave before chains are solved directly.
 const MAX_SWEEP_STRAIN: f32 = 1.0e-3;
 
-/// Whether lines are solved directly.
+/// Whether chains are solved directly.
 ///
 /// The plain scheme (no tethers, or one iteration) uses sweeps only. Otherwise the direct solve
-/// runs if sweeps would leave too much strain: n sweeps leave a hanging line of N links with the
+/// runs if sweeps would leave too much strain: n sweeps leave a hanging chain of N links with the
 /// mean strain g h² N / (2 n rest).
 pub(crate) fn is_needed(world: &World) -> bool {
     let settings = &world.settings;
@@ -73,7 +81,7 @@ pub(crate) fn is_needed(world: &World) -> bool {
     settings.tethers && settings.iterations > 1 && strain > MAX_SWEEP_STRAIN
 }
 
-/// Solves all lines.
+/// Solves all chains.
 pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(&world.material, LinkKind::Stretch);
     let step = world.settings.scheme().velocity_step;
@@ -81,7 +89,7 @@ pub(crate) fn solve(world: &mut World) {
     world.constraints.chains.blocks.rebuild_stale(&world.constraints.links);
     let are_in_columns = world.level != Level::Scalar && !world.scratch.interleaved.is_current;
     if are_in_columns && world.constraints.chains.blocks.are_all_strided() {
-        solve_strips(world, scale);
+        solve_strided(world, scale);
     } else {
         line_gather::gather(world, is_rigid);
         solve_blocks(world, scale);
@@ -97,10 +105,10 @@ const GATHERS_BLOCK_FIRST: bool = cfg!(target_arch = "wasm32");
 
 /// Solves blocks whose particles are at arbitrary indices.
 fn solve_blocks(world: &mut World, scale: Option<f32>) {
-    let (level, lines) = (world.level, &world.constraints.chains.blocks);
+    let (level, chains) = (world.level, &world.constraints.chains.blocks);
     let links = &mut world.constraints.links;
     let LineScratch { points, start_points, steps: scratch, .. } = &mut world.scratch.lines;
-    for block in lines.blocks() {
+    for block in chains.blocks() {
         let steps = &mut scratch[..=block.len()];
         let gathered = LinePoints { points, start_points };
         match scale {
@@ -123,23 +131,23 @@ fn solve_blocks(world: &mut World, scale: Option<f32>) {
 }
 
 /// Solves blocks whose particles are at a fixed stride in the columns.
-fn solve_strips(world: &mut World, scale: Option<f32>) {
+fn solve_strided(world: &mut World, scale: Option<f32>) {
     let (level, scratch, p) = (world.level, &mut world.scratch, &mut world.particles);
-    let (lines, links) = (&world.constraints.chains.blocks, &mut world.constraints.links);
+    let (chains, links) = (&world.constraints.chains.blocks, &mut world.constraints.links);
     let LineScratch { start_columns: starts, steps, .. } = &mut scratch.lines;
     if scale.is_none() {
         line_strided::compute_starts(level, &scratch.predicted, &scratch.displacement, starts);
     }
-    for (strip, block) in lines.strided_blocks() {
+    for (strided, block) in chains.strided_blocks() {
         let steps = &mut steps[..=block.len()];
-        line_strided::gather(strip, &p.x, &p.w, &mut steps[1..]);
+        line_strided::gather(strided, &p.x, &p.w, &mut steps[1..]);
         if scale.is_none() {
-            line_strided::set_relaxed_targets(strip, starts, block, &mut steps[1..]);
+            line_strided::set_relaxed_targets(strided, starts, block, &mut steps[1..]);
         } else {
             set_rest_targets(block, &mut steps[1..]);
         }
         solve_gathered(level, block, steps, links, scale);
-        line_strided::scatter(strip, block, &steps[1..], &mut p.x);
+        line_strided::scatter(strided, block, &steps[1..], &mut p.x);
     }
 }
 

@@ -1,4 +1,4 @@
-//! One step of a block of lines: eight links side by side (one per lane) and the particles that
+//! One step of a block of chains: eight links side by side (one per lane) and the particles that
 //! they run to.
 //!
 //! A step carries a link through the line solver (see `line_solver` for the two systems):
@@ -13,7 +13,7 @@
 //! block fits into the L1 cache.
 //!
 //! Reads and writes its own fields only.
-//! Invariant: the lanes do not interact, so a lane has the bits of a line that is solved alone.
+//! Invariant: the lanes do not interact, so a lane has the bits of a chain that is solved alone.
 
 use crate::math::simd::{Float, LANES, LaneArray, Simd};
 
@@ -132,7 +132,7 @@ pub(crate) fn length<S: Simd>(_: S, [x, y, z]: [S::F; 3]) -> S::F {
     (x * x + y * y + z * z).sqrt()
 }
 
-/// Shortens a displacement to `limit` [m]: a line whose system is ill-conditioned would fling its
+/// Shortens a displacement to `limit` [m]: a chain whose system is ill-conditioned would fling its
 /// particles otherwise.
 #[inline(always)]
 pub(crate) fn clamp_length([x, y, z]: [f32; 3], limit: f32) -> [f32; 3] {

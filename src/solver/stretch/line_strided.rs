@@ -1,17 +1,18 @@
-//! Gather and scatter of lines whose particles are at a fixed stride, as those of a grid (strips).
+//! Gather and scatter of chains whose particles are at a fixed stride, as those of a grid (strided
+//! blocks).
 //!
-//! No index is read: particles come straight from the columns, four lines at a time.
+//! No index is read: particles come straight from the columns, four chains at a time.
 //!
 //! ```text
-//! lines side by side (across = 1)       a step of four lines is one load          *_direct
-//! lines along a column (along = 1)      four steps of four lines are four loads,
-//!                                       transposed 4 × 4                          *_transposed
-//! strips of fewer than eight lines      scalar                                    *_scalar
+//! chain_stride = 1 (chains side by side)     a step of four chains is one load       *_direct
+//! link_stride = 1 (chains along a column)    four steps of four chains are four
+//!                                            loads, transposed 4 × 4                 *_transposed
+//! fewer than eight chains                    scalar                                  *_scalar
 //! ```
 //! Reads positions, inverse masses and `scratch.predicted − scratch.displacement`; writes the steps
 //! (`LineStep`) and at the end the positions.
-//! Invariant: every function that takes pointers is called for strips that lie within the columns,
-//! which `Strip::assert_within` checked; a strip has at least four steps.
+//! Invariant: every function that takes pointers is called for strided blocks that lie within the
+//! columns, which `StridedBlock::assert_within` checked; a strided block has at least four steps.
 
 // Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
@@ -60,30 +61,30 @@ fn subtract_lanes(a: &[f32], b: &[f32], difference: &mut [f32]) {
 // `#[inline(never)]` on the loops below: WebAssembly engines run out of registers in long
 // functions.
 
-/// Gathers the positions and inverse masses of a strip.
-pub(crate) fn gather(strip: StridedBlock, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
+/// Gathers the positions and inverse masses of a strided block.
+pub(crate) fn gather(strided: StridedBlock, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
     let [x, y, z] = x.all();
     let columns = [x, y, z, w];
-    if strip.chain_count < LANES {
-        return gather_scalar(strip, columns, steps);
+    if strided.chain_count < LANES {
+        return gather_scalar(strided, columns, steps);
     }
-    strip.assert_within(steps.len(), columns);
+    strided.assert_within(steps.len(), columns);
     let columns = columns.map(<[f32]>::as_ptr);
-    // SAFETY: the strip lies within the columns, as was just checked.
+    // SAFETY: the strided block lies within the columns, as was just checked.
     unsafe {
-        if strip.chain_stride == 1 {
-            gather_direct(strip, columns, steps);
+        if strided.chain_stride == 1 {
+            gather_direct(strided, columns, steps);
         } else {
-            gather_transposed(strip, columns, steps);
+            gather_transposed(strided, columns, steps);
         }
     }
 }
 
 /// # Safety
-/// The strip lies within the columns.
+/// The strided block lies within the columns.
 #[inline(never)]
-unsafe fn gather_direct(strip: StridedBlock, columns: [*const f32; 4], steps: &mut [LineStep]) {
-    let (s, mut at) = (Baseline::new(), strip.at(0, 0));
+unsafe fn gather_direct(strided: StridedBlock, columns: [*const f32; 4], steps: &mut [LineStep]) {
+    let (s, mut at) = (Baseline::new(), strided.at(0, 0));
     for step in steps {
         for (to, column) in step.to.iter_mut().zip(columns) {
             // SAFETY: the caller guarantees it.
@@ -93,23 +94,27 @@ unsafe fn gather_direct(strip: StridedBlock, columns: [*const f32; 4], steps: &m
                 s.store(to, FOUR, s.load_from(column.add(FOUR)));
             }
         }
-        at += strip.link_stride;
+        at += strided.link_stride;
     }
 }
 
 /// # Safety
-/// The strip lies within the columns and has at least four steps.
+/// The strided block lies within the columns and has at least four steps.
 #[inline(never)]
-unsafe fn gather_transposed(strip: StridedBlock, columns: [*const f32; 4], steps: &mut [LineStep]) {
+unsafe fn gather_transposed(
+    strided: StridedBlock,
+    columns: [*const f32; 4],
+    steps: &mut [LineStep],
+) {
     let s = Baseline::new();
     for start in blocks_of_four(steps.len()) {
         let steps = &mut steps[start..start + FOUR];
         for first in [0, FOUR] {
-            let at = strip.at(first, start);
+            let at = strided.at(first, start);
             for (axis, column) in columns.into_iter().enumerate() {
                 // SAFETY: the caller guarantees it.
                 let rows =
-                    unsafe { transpose_4x4(s, load_4x4(s, column.add(at), strip.chain_stride)) };
+                    unsafe { transpose_4x4(s, load_4x4(s, column.add(at), strided.chain_stride)) };
                 for (step, row) in steps.iter_mut().zip(rows) {
                     s.store(&mut step.to[axis], first, row);
                 }
@@ -118,29 +123,29 @@ unsafe fn gather_transposed(strip: StridedBlock, columns: [*const f32; 4], steps
     }
 }
 
-/// Loads four numbers each from four addresses that are `across` numbers apart.
+/// Loads four numbers each from four addresses that are `chain_stride` numbers apart.
 ///
 /// # Safety
 /// All sixteen numbers are readable.
 #[inline(always)]
-unsafe fn load_4x4(s: Baseline, first: *const f32, across: usize) -> [Vector; FOUR] {
+unsafe fn load_4x4(s: Baseline, first: *const f32, chain_stride: usize) -> [Vector; FOUR] {
     // SAFETY: the caller guarantees it.
     unsafe {
         [
             s.load_from(first),
-            s.load_from(first.add(across)),
-            s.load_from(first.add(2 * across)),
-            s.load_from(first.add(3 * across)),
+            s.load_from(first.add(chain_stride)),
+            s.load_from(first.add(2 * chain_stride)),
+            s.load_from(first.add(3 * chain_stride)),
         ]
     }
 }
 
-fn gather_scalar(strip: StridedBlock, columns: [&[f32]; 4], steps: &mut [LineStep]) {
+fn gather_scalar(strided: StridedBlock, columns: [&[f32]; 4], steps: &mut [LineStep]) {
     for (number, step) in steps.iter_mut().enumerate() {
         for (to, column) in step.to.iter_mut().zip(columns) {
             for lane in 0..LANES {
                 to[lane] =
-                    if lane < strip.chain_count { column[strip.at(lane, number)] } else { 0.0 };
+                    if lane < strided.chain_count { column[strided.at(lane, number)] } else { 0.0 };
             }
         }
     }
@@ -148,39 +153,39 @@ fn gather_scalar(strip: StridedBlock, columns: [&[f32]; 4], steps: &mut [LineSte
 
 /// Sets the target lengths of rigid links, from their lengths at the start of the substep.
 pub(crate) fn set_relaxed_targets(
-    strip: StridedBlock,
+    strided: StridedBlock,
     starts: &Columns,
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
     let starts = starts.all();
-    if strip.chain_count < LANES {
-        return set_relaxed_targets_scalar(strip, starts, block, steps);
+    if strided.chain_count < LANES {
+        return set_relaxed_targets_scalar(strided, starts, block, steps);
     }
     let own = starts.map(|column| &column[1..]);
-    strip.assert_within(steps.len(), own);
-    // SAFETY: the strip lies within the columns, as was just checked, and the sentinel is before
-    // them.
+    strided.assert_within(steps.len(), own);
+    // SAFETY: the strided block lies within the columns, as was just checked, and the sentinel is
+    // before them.
     unsafe {
-        if strip.chain_stride == 1 {
-            set_relaxed_targets_direct(strip, own.map(<[f32]>::as_ptr), block, steps);
+        if strided.chain_stride == 1 {
+            set_relaxed_targets_direct(strided, own.map(<[f32]>::as_ptr), block, steps);
         } else {
-            set_relaxed_targets_transposed(strip, starts.map(<[f32]>::as_ptr), block, steps);
+            set_relaxed_targets_transposed(strided, starts.map(<[f32]>::as_ptr), block, steps);
         }
     }
 }
 
 /// # Safety
-/// The strip lies within the columns.
+/// The strided block lies within the columns.
 #[inline(never)]
 unsafe fn set_relaxed_targets_direct(
-    strip: StridedBlock,
+    strided: StridedBlock,
     [x, y, z]: [*const f32; 3],
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
-    let (s, mut at) = (Baseline::new(), strip.at(0, 0));
-    // The first step of a line has no link, so its target is not used.
+    let (s, mut at) = (Baseline::new(), strided.at(0, 0));
+    // The first step of a chain has no link, so its target is not used.
     let mut last = at;
     for (step, laid) in steps.iter_mut().zip(block) {
         for first in [0, FOUR] {
@@ -194,21 +199,21 @@ unsafe fn set_relaxed_targets_direct(
             };
             step.set_relaxed_target(s, first, length(s, span), &laid.rest);
         }
-        (last, at) = (at, at + strip.link_stride);
+        (last, at) = (at, at + strided.link_stride);
     }
 }
 
 /// # Safety
-/// The strip lies within the columns behind their first entry, and has at least four steps.
+/// The strided block lies within the columns behind their first entry, and has at least four steps.
 #[inline(never)]
 unsafe fn set_relaxed_targets_transposed(
-    strip: StridedBlock,
+    strided: StridedBlock,
     [x, y, z]: [*const f32; 3],
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
     let s = Baseline::new();
-    // The length of the link that runs to particle `at`. For the first particle of a line the
+    // The length of the link that runs to particle `at`. For the first particle of a chain the
     // result belongs to no link and is not used.
     let start_length = |at: usize| {
         // SAFETY: the caller guarantees it.
@@ -223,7 +228,7 @@ unsafe fn set_relaxed_targets_transposed(
     for start in blocks_of_four(steps.len()) {
         let (steps, block) = (&mut steps[start..start + FOUR], &block[start..start + FOUR]);
         for first in [0, FOUR] {
-            let (at, across) = (strip.at(first, start), strip.chain_stride);
+            let (at, across) = (strided.at(first, start), strided.chain_stride);
             let lengths = [
                 start_length(at),
                 start_length(at + across),
@@ -240,7 +245,7 @@ unsafe fn set_relaxed_targets_transposed(
 }
 
 fn set_relaxed_targets_scalar(
-    strip: StridedBlock,
+    strided: StridedBlock,
     starts: [&[f32]; 3],
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
@@ -248,9 +253,9 @@ fn set_relaxed_targets_scalar(
     for lane in 0..LANES {
         let mut last = [0.0; 3];
         for (number, (step, laid)) in steps.iter_mut().zip(block).enumerate() {
-            let at = strip.at(lane, number) + 1;
+            let at = strided.at(lane, number) + 1;
             let start =
-                if lane < strip.chain_count { starts.map(|column| column[at]) } else { last };
+                if lane < strided.chain_count { starts.map(|column| column[at]) } else { last };
             let start_length = length(Scalar, [0, 1, 2].map(|axis| start[axis] - last[axis]));
             step.set_relaxed_target(Scalar, lane, start_length, &laid.rest);
             last = start;
@@ -258,46 +263,46 @@ fn set_relaxed_targets_scalar(
     }
 }
 
-/// Displaces the particles of a strip; none moves farther than the rest length of its link.
+/// Displaces the particles of a strided block; none moves farther than the rest length of its link.
 pub(crate) fn scatter(
-    strip: StridedBlock,
+    strided: StridedBlock,
     block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     x: &mut Columns,
 ) {
     let columns = &mut x.all_mut();
-    let mut is_done = strip.chain_count == LANES;
+    let mut is_done = strided.chain_count == LANES;
     if is_done {
-        strip.assert_within(steps.len(), columns.each_ref().map(|column| &**column));
+        strided.assert_within(steps.len(), columns.each_ref().map(|column| &**column));
         let columns = columns.each_mut().map(|column| column.as_mut_ptr());
-        // SAFETY: the strip lies within the columns, as was just checked.
+        // SAFETY: the strided block lies within the columns, as was just checked.
         is_done = unsafe {
-            if strip.chain_stride == 1 {
-                scatter_direct(strip, block, steps, columns)
+            if strided.chain_stride == 1 {
+                scatter_direct(strided, block, steps, columns)
             } else {
-                scatter_transposed(strip, block, steps, columns)
+                scatter_transposed(strided, block, steps, columns)
             }
         };
     }
     if !is_done {
-        (0..strip.chain_count)
-            .for_each(|line| scatter_line_clamped(strip, block, steps, columns, line));
+        (0..strided.chain_count)
+            .for_each(|chain| scatter_chain_clamped(strided, block, steps, columns, chain));
     }
 }
 
-/// Displaces the particles of a strip without a limit. Returns true if no displacement exceeds its
-/// limit; otherwise [`scatter_line_clamped`] must repeat all lines.
+/// Displaces the particles of a strided block without a limit. Returns true if no displacement
+/// exceeds its limit; otherwise [`scatter_chain_clamped`] must repeat all chains.
 ///
 /// # Safety
-/// The strip lies within the columns.
+/// The strided block lies within the columns.
 #[inline(never)]
 unsafe fn scatter_direct(
-    strip: StridedBlock,
+    strided: StridedBlock,
     block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     columns: [*mut f32; 3],
 ) -> bool {
-    let (s, mut at) = (Baseline::new(), strip.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strided.at(0, 0));
     let zero = s.splat(0.0);
     let (mut u, mut other_u) = ([zero; 3], [zero; 3]);
     let (mut excess, mut other_excess) = (zero, zero);
@@ -317,18 +322,18 @@ unsafe fn scatter_direct(
                 s.store_to(column.add(FOUR), other_moved[axis]);
             }
         }
-        at += strip.link_stride;
+        at += strided.link_stride;
     }
     !(s.any_positive(excess) || s.any_positive(other_excess))
 }
 
-/// As [`scatter_direct`], for lines that run along a column.
+/// As [`scatter_direct`], for chains that run along a column.
 ///
 /// # Safety
-/// The strip lies within the columns and has at least four steps.
+/// The strided block lies within the columns and has at least four steps.
 #[inline(never)]
 unsafe fn scatter_transposed(
-    strip: StridedBlock,
+    strided: StridedBlock,
     block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     columns: [*mut f32; 3],
@@ -340,7 +345,7 @@ unsafe fn scatter_transposed(
         let (mut displacements, mut done) = ([[zero; FOUR]; 3], 0);
         for start in blocks_of_four(steps.len()) {
             let (steps, block) = (&steps[start..start + FOUR], &block[start..start + FOUR]);
-            let at = strip.at(first, start);
+            let at = strided.at(first, start);
             // The last four steps overlap with steps that are done.
             let before = FOUR - 1 - (done - start);
             done = start + FOUR;
@@ -354,9 +359,11 @@ unsafe fn scatter_transposed(
                     moved[number] = u + s.load(&step.to[axis], first);
                     largest[number] = abs(s, u).max(largest[number]);
                 }
-                for (line, row) in transpose_4x4(s, moved).into_iter().enumerate() {
+                for (chain, row) in transpose_4x4(s, moved).into_iter().enumerate() {
                     // SAFETY: the caller guarantees it.
-                    unsafe { s.store_to(columns[axis].add(at + line * strip.chain_stride), row) };
+                    unsafe {
+                        s.store_to(columns[axis].add(at + chain * strided.chain_stride), row)
+                    };
                 }
             }
             for (component, laid) in largest.into_iter().zip(block) {
@@ -367,20 +374,20 @@ unsafe fn scatter_transposed(
     !s.any_positive(excess)
 }
 
-/// Displaces the particles of one line, none farther than its limit.
-fn scatter_line_clamped(
-    strip: StridedBlock,
+/// Displaces the particles of one chain, none farther than its limit.
+fn scatter_chain_clamped(
+    strided: StridedBlock,
     block: &[chain_blocks::ChainStep],
     steps: &[LineStep],
     columns: &mut [&mut [f32]; 3],
-    line: usize,
+    chain: usize,
 ) {
     let mut u = [0.0; 3];
     for (number, (step, laid)) in steps.iter().zip(block).enumerate() {
-        u = step.displacement(Scalar, line, u);
-        let moved = step.displaced(Scalar, line, clamp_length(u, laid.rest[line].abs()));
+        u = step.displacement(Scalar, chain, u);
+        let moved = step.displaced(Scalar, chain, clamp_length(u, laid.rest[chain].abs()));
         for (column, moved) in columns.iter_mut().zip(moved) {
-            column[strip.at(line, number)] = moved;
+            column[strided.at(chain, number)] = moved;
         }
     }
 }
@@ -392,13 +399,13 @@ fn blocks_of_four(count: usize) -> impl Iterator<Item = usize> {
 }
 
 impl StridedBlock {
-    /// The index of the particle that a step of a line runs to.
+    /// The index of the particle that a step of a chain runs to.
     #[inline(always)]
-    fn at(&self, line: usize, step: usize) -> usize {
-        self.first + line * self.chain_stride + step * self.link_stride
+    fn at(&self, chain: usize, step: usize) -> usize {
+        self.first + chain * self.chain_stride + step * self.link_stride
     }
 
-    /// Checks that eight lines of so many steps lie within columns.
+    /// Checks that eight chains of so many steps lie within columns.
     ///
     /// # Panics
     /// If they do not.
@@ -406,7 +413,7 @@ impl StridedBlock {
         let last = self.at(LANES - 1, steps - 1);
         assert!(
             columns.iter().all(|column| last < column.len()),
-            "every line runs over existing particles"
+            "every chain runs over existing particles"
         );
     }
 }

@@ -7,8 +7,8 @@
 //!
 //! | law | correction of the pair | source |
 //! | --- | --- | --- |
-//! | `SOFT` | Δλ = −(C + α̃ λ) / (w_a + w_b + α̃),  α̃ = compliance / h² | XPBD, eq. 18 |
-//! | `RIGID` | Halley's step towards the root of l² = rest², w relative to the mean of both | below |
+//! | `SOFT` | Δλ = −(C + α̃ λ) / (w_a + w_b + α̃), α̃ = compliance / h² | XPBD, eq. 18 |
+//! | `RIGID` | Halley's step to the root of l² = rest², w relative to their mean | below |
 //! | `BOUND` | as `SOFT` with α̃ = 0 and C = max(l − limit · rest, 0) | Provot 1995 |
 //!
 //! XPBD: Macklin, Müller, Chentanez, "XPBD", MIG 2016. Halley's step needs no square root: a link

@@ -1,4 +1,4 @@
-//! SIMD kernel of the line solver: the two tridiagonal systems of a block of lines.
+//! SIMD kernel of the line solver: the two tridiagonal systems of a block of chains.
 //!
 //! For the equations see `line_solver`. The forward pass eliminates the first system (tensions);
 //! the backward pass substitutes the tensions and, in the same loop, eliminates the second system
@@ -15,7 +15,7 @@
 //!
 //! Reads gathered positions, weights and targets (`LineStep`); writes the shares and offsets into
 //! the steps, and −λ of compliant links.
-//! Invariant: lanes do not interact. Where a piece of a line begins, and behind its last link,
+//! Invariant: lanes do not interact. Where a piece of a chain begins, and behind its last link,
 //! there is a step without a link (rest ≤ 0): its λ, q and coupling are 0, so it separates the
 //! systems.
 
@@ -34,7 +34,7 @@ use crate::solver::stretch::line_gather::LinePoints;
 use crate::solver::stretch::line_step::{Lanes3, LineStep};
 
 /// Added to the diagonal as a share of it, and the least pivot as a share of w₋ + w₊: the system of
-/// a straight line with two held ends is singular.
+/// a straight chain with two held ends is singular.
 const REGULARIZATION: f32 = 1.0e-6;
 
 /// Defines a function that solves a block: with compliance or without, gathering it or gathered
@@ -58,7 +58,7 @@ solving!(solve_soft, true, false);
 solving!(gather_solve_rigid, false, true);
 solving!(gather_solve_soft, true, true);
 
-/// Solves one line at a time.
+/// Solves one chain at a time.
 fn solve_scalar<const SOFT: bool, const GATHERS: bool>(
     block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
