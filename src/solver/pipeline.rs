@@ -79,13 +79,13 @@ pub(crate) fn tick(world: &mut World) -> bool {
     }
     world.particles.x_prev_tick.copy_from(&world.particles.x);
     if world.settings.max_stretch > 0.0 {
-        timed!(world, Limit, strain_limit::begin(world));
+        timed!(world, Limit, strain_limit::store_initial_velocities(world));
     }
     timed!(world, Colliders, collide::begin_tick(world));
     timed!(world, Pairs, surface::begin(world));
     timed!(world, Forces, forces::compute_acceleration(world));
     if world.settings.tethers {
-        timed!(world, Tethers, tethers::measure_slack(world));
+        timed!(world, Tethers, tethers::update_slack(world));
     } else {
         world.tether_slack = f32::INFINITY;
     }
@@ -128,7 +128,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::predict_positions(world));
     timed!(world, Hold, targets::apply(world, number));
     if world.settings.tethers && !world.is_pin_stretch_current {
-        timed!(world, Tethers, tethers::look(world));
+        timed!(world, Tethers, tethers::refresh_pin_positions(world));
     }
     distance::reset(world);
     timed!(world, Bend, bend::solve_first(world));
@@ -139,7 +139,7 @@ fn run_substep(world: &mut World, number: u32) {
     }
     timed!(world, Stretch, damping::remove(world));
     if world.settings.max_stretch > 0.0 {
-        timed!(world, Limit, strain_limit::draw_in(world));
+        timed!(world, Limit, strain_limit::project_once(world));
     }
     timed!(world, Bend, mesh_kernel::scatter(world));
     timed!(world, Pairs, particle_pairs::pair(world));

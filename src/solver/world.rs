@@ -63,7 +63,7 @@ pub(crate) struct World {
     pub tethers: Tethers,
     /// Links sorted by distance from the pins; valid only while `max_stretch > 0`.
     pub pin_order: PinOrder,
-    /// See `tethers::measure_slack`; infinite before the first tick and after pins or places
+    /// See `tethers::update_slack`; infinite before the first tick and after pins or places
     /// changed.
     pub tether_slack: f32,
     /// Largest ratio of the distance between two pins to their distance along the rest cloth; at
@@ -149,7 +149,7 @@ pub(crate) struct TickScratch {
     /// The velocity that each particle began the tick with, while there is a stretch bound [m/s].
     pub initial_velocity: Columns,
     /// Where the pin is that each particle is tethered to [m], if it is one of many.
-    pub tether_anchor: Columns,
+    pub tether_pins: Columns,
     /// Mass plus soft-pin term of each particle, in use while there are soft pins [kg].
     pub effective_mass: Vec<f32>,
     /// Particles that anchor constraints moved in this substep.
@@ -180,7 +180,7 @@ impl TickScratch {
             displacement: Columns::with_capacity(capacity),
             predicted: Columns::with_capacity(capacity),
             initial_velocity: Columns::with_capacity(capacity),
-            tether_anchor: Columns::with_capacity(capacity),
+            tether_pins: Columns::with_capacity(capacity),
             effective_mass: Vec::new(),
             anchor_moved: Vec::new(),
             end_weights: crate::solver::stretch::end_weights::EndWeights::default(),

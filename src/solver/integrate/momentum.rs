@@ -21,7 +21,7 @@ pub(crate) fn keep(world: &mut World) {
     }
     list_starts(world);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let moves = &mut scratch.tether_anchor;
+    let moves = &mut scratch.tether_pins;
     moves.resize(p.len());
     let all = p.x.all().into_iter().zip(scratch.predicted.all()).zip(moves.all_mut());
     for ((x, predicted), moves) in all {

@@ -20,7 +20,7 @@
 
 use crate::math::simd::{Scalar, Simd, leveled, vectored};
 use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
-use crate::solver::stretch::tethers::within;
+use crate::solver::stretch::tethers::project_into_sphere;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::BdfScheme;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -185,7 +185,7 @@ fn clamp_lanes<S: Simd>(
     while at + S::LANES <= count {
         let from = [s.load(x, at), s.load(y, at), s.load(z, at)];
         let displacement = [s.load(dx, at), s.load(dy, at), s.load(dz, at)];
-        if let Some(clamped) = within(
+        if let Some(clamped) = project_into_sphere(
             s,
             displacement,
             rigid.displacement_lanes(s, from),
@@ -220,7 +220,7 @@ fn clamp_scalar(
     for ((((x, y), z), w), ((dx, dy), dz)) in x.iter().zip(y).zip(z).zip(w).zip(displacements) {
         let (displacement, common) =
             ([*dx, *dy, *dz], rigid.displacement_lanes(Scalar, [*x, *y, *z]));
-        if let Some(clamped) = within(Scalar, displacement, common, max_length, *w) {
+        if let Some(clamped) = project_into_sphere(Scalar, displacement, common, max_length, *w) {
             [*dx, *dy, *dz] = clamped;
             *is_clamped = true;
         }

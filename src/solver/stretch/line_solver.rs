@@ -6,9 +6,10 @@
 //!
 //! s_i = x_i − x_{i−1}    l_i = |s_i|    n_i = s_i / l_i      link i joins particles i − 1 and i
 //! ```
-//! **Tensions.** A link of a chain is coupled only to its neighbours in the chain. So the multipliers
-//! λ of the linearised distance constraints (XPBD: Macklin, Müller, Chentanez, MIG 2016, eq. 18,
-//! for all links of the chain at once) form a tridiagonal system with one row per link:
+//! **Tensions.** A link of a chain is coupled only to its neighbours in the chain. So the
+//! multipliers λ of the linearised distance constraints (XPBD: Macklin, Müller, Chentanez, MIG
+//! 2016, eq. 18, for all links of the chain at once) form a tridiagonal system with one row per
+//! link:
 //!
 //! ```text
 //! (w₋ + w₊ + α̃) λ − w₋ (n₋·n) λ₋ − w₊ (n·n₊) λ₊ = C         C = l − target
@@ -21,8 +22,8 @@
 //! carries a load from one end of the chain to the other; sweeps would need as many iterations as
 //! the chain has links.
 //!
-//! **Displacements.** A link under tension pulls along its direction at the *end* of the substep, not
-//! along its predicted direction: its pull is q (s + u − u₋), with q = λ / target. A link under
+//! **Displacements.** A link under tension pulls along its direction at the *end* of the substep,
+//! not along its predicted direction: its pull is q (s + u − u₋), with q = λ / target. A link under
 //! compression pulls with λ n. So the displacements u of the particles solve a second tridiagonal
 //! system with one row per particle, eliminated backward and substituted forward:
 //!

@@ -1,122 +1,152 @@
-//! Stage `Limit`: after a tick no stretch or shear link is longer than `max_stretch` lets it be.
+//! Stage `Limit`: after a tick no stretch or shear link is longer than (1 + `max_stretch`) times
+//! its rest length.
 //!
-//! Sweeps draw in what is too long, in the manner of Provot, "Deformation constraints in a
-//! mass-spring model", Graphics Interface 1995. That converges fast but promises nothing, so the
-//! ends of what is left go back to where they were a tick ago, and with them whatever that
-//! stretches: the bound held there, so this ends. What a particle is moved by, it moved over the
-//! whole tick, so its velocity changes by that, as far as it got anywhere. A cloth that was held
-//! apart has nowhere to go back to: it gets more sweeps, a few ticks of them where it was pulled
-//! far out, and no velocity from them.
-
-use crate::solver::collide;
-use crate::solver::stretch::distance::project_upper_bound;
-use crate::solver::stretch::sweep_order::SweepOrder;
-use crate::solver::stretch::tethers;
-
-use crate::solver::kinematic::anchors;
-
-use crate::solver::stretch::rollback;
+//! With e = `max_stretch`, l and r the length and rest length of a link:
+//!
+//! ```text
+//! 1. In each substep, one sweep:     l > (1 + e/2) r  →  l = (1 + e/2) r         project_once
+//! 2. At the end of the tick, until no l > (1 + 0.996 e) r, at most 24 rounds:    project_all
+//!      every 8th round              one pass along the pin order                 sweep_from_pins
+//!      every round                  a sweep as in 1 (forward, backward in turn),
+//!                                   then colliders and anchors
+//! 3. Repeat: both ends of every l > (1 + 0.996 e) r go to their rollback         roll_back
+//!    positions, until none moves
+//! 4. Velocities follow the corrections                                           update_velocities
+//! ```
+//! The sweeps are those of Provot, "Deformation constraints in a mass-spring model", Graphics
+//! Interface 1995: the ends of a long link move towards each other by their inverse masses. They
+//! converge fast but guarantee nothing. The rollback does: at the rollback positions (see
+//! `rollback`) the limit held a tick ago, and every pass moves at least one more particle there for
+//! good. The margins 0.996 and e/2 cover rounding and make the sweeps end early.
+//!
+//! A cloth that pins, grabs or anchors hold apart cannot satisfy the limit. This is reported once.
+//! When it is free again there is nothing to roll back to: it contracts by tethers and up to 2000
+//! rounds, over a few ticks if it was pulled far, and the particles that move get no velocity from
+//! it.
+//!
+//! **Velocities** (4). The corrections x − x₀ of the tick of length T count as velocity, but
+//! bounded: links that contradict each other push a particle out and the limit pulls it back, which
+//! must not add energy. With the mean velocity m = (x − x_last) / T of the tick and the velocity v₀
+//! at its start:
+//!
+//! ```text
+//! d = v + (x − x₀) / T − m
+//! v ← 0                          if v₀ · m < 0: the particle was pulled back; it would oscillate
+//! v ← m + d min(1, |m| / |d|)    otherwise: a body that accelerates evenly from rest has v = 2 m
+//! ```
+//! Reads `constraints`, `pin_order`, `tethers`, pins, grabs, anchors; writes positions, velocities,
+//! `over_stretched` and one event.
+//! Invariant: no link is over the limit that was not over it a tick ago.
 
 use crate::math::columns::Columns;
 use crate::model::links::{LinkKind, Links};
+use crate::solver::collide;
+use crate::solver::kinematic::anchors;
+use crate::solver::stretch::distance::project_upper_bound;
+use crate::solver::stretch::sweep_order::SweepOrder;
+use crate::solver::stretch::{rollback, tethers};
 use crate::solver::world::World;
 use crate::state::events::{Event, EventKind};
 use glam::Vec3;
 
-/// Sweeps before the cloth goes back.
-const FEW_SWEEPS: u32 = 24;
+/// The largest number of rounds before the cloth rolls back.
+const MAX_ROUNDS: u32 = 24;
 
-/// Sweeps where there is nothing to go back to, since the cloth was held apart until now.
-const MANY_SWEEPS: u32 = 2000;
+/// The largest number of rounds for a cloth that was held apart and cannot roll back.
+const MAX_CONTRACTION_ROUNDS: u32 = 2000;
 
-/// What is worked towards is less than what is promised by this share of the allowance, which
-/// covers rounding.
-const HAIR: f32 = 4.0e-3;
+/// The rounding margin, as a share of `max_stretch`: the limit that is worked towards is less than
+/// the limit that is guaranteed.
+const ROUNDING_MARGIN: f32 = 4.0e-3;
 
-/// Links are drawn in to this share of what they may be stretched by, so that the sweeps end.
-const AIM: f32 = 0.5;
+/// The share of `max_stretch` that a projected link keeps, so that the sweeps end.
+const TARGET_SHARE: f32 = 0.5;
 
-/// Every so many sweeps one goes from the pins outward.
-const HANG_EVERY: u32 = 8;
+/// Every so many rounds, one pass goes along the pin order.
+const ROUNDS_PER_PIN_SWEEP: u32 = 8;
 
 const KINDS: [LinkKind; 2] = [LinkKind::Stretch, LinkKind::Shear];
 
-/// A tick begins.
-pub(crate) fn begin(world: &mut World) {
+/// Stores the velocities at the start of the tick.
+pub(crate) fn store_initial_velocities(world: &mut World) {
     world.scratch.initial_velocity.copy_from(&world.particles.v);
 }
 
-/// In a substep: a sweep that keeps what the solver has not got to yet within the bound, so that at
-/// the end of the tick there is little to do.
-pub(crate) fn draw_in(world: &mut World) {
-    let aim = 1.0 + world.settings.max_stretch * AIM;
-    KINDS.into_iter().for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, aim));
+/// Runs one sweep within a substep, so that little is left to do at the end of the tick.
+pub(crate) fn project_once(world: &mut World) {
+    let target = 1.0 + world.settings.max_stretch * TARGET_SHARE;
+    KINDS
+        .into_iter()
+        .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, target));
 }
 
-/// Makes the bound hold. Where pins, grabs or leashes hold a cloth apart it cannot; that is told
-/// once, until it holds again.
+/// Enforces the limit at the end of a tick.
+///
+/// Where pins, grabs or anchors hold the cloth apart the limit cannot hold. That is reported by one
+/// event, and again only after it held in between.
 pub(crate) fn enforce(world: &mut World) {
-    let allowance = world.settings.max_stretch;
-    let (most, inner) = (1.0 + allowance, 1.0 + allowance * (1.0 - HAIR));
-    if first_over(world, inner).is_some() {
-        draw_together(world, inner);
+    let max_stretch = world.settings.max_stretch;
+    let (limit, inner) = (1.0 + max_stretch, 1.0 + max_stretch * (1.0 - ROUNDING_MARGIN));
+    if find_over_stretched(world, inner).is_some() {
+        project_all(world, inner);
     }
-    world.over_stretched = over(world, most).count() as u32;
+    world.over_stretched = over_stretched_links(world, limit).count() as u32;
     if world.over_stretched == 0 {
         world.over_stretch_reported = false;
     } else if !core::mem::replace(&mut world.over_stretch_reported, true) {
-        tell(world, most);
+        push_event(world, limit);
     }
 }
 
-fn draw_together(world: &mut World, most: f32) {
+/// Steps 2 to 4 of the module doc, for links longer than `limit` times their rest length.
+fn project_all(world: &mut World, limit: f32) {
     world.scratch.predicted.copy_from(&world.particles.x);
     world.scratch.displacement.fill(Vec3::ZERO);
-    let aim = 1.0 + world.settings.max_stretch * AIM;
+    let target = 1.0 + world.settings.max_stretch * TARGET_SHARE;
     let was_over = world.over_stretched > 0;
-    let is_led = !world.anchors.is_empty();
-    let is_free_again = was_over && !is_led && !is_held_apart(world, most);
-    tethers::look(world);
-    for number in 0..if is_free_again { MANY_SWEEPS } else { FEW_SWEEPS } {
+    let has_anchors = !world.anchors.is_empty();
+    let is_free_again = was_over && !has_anchors && !is_held_apart(world, limit);
+    tethers::refresh_pin_positions(world);
+    for round in 0..if is_free_again { MAX_CONTRACTION_ROUNDS } else { MAX_ROUNDS } {
         if is_free_again {
-            tethers::draw_in(world, aim);
+            tethers::project(world, target);
         }
-        // Between a few pins none is outward of all.
-        if number % HANG_EVERY == 0 && world.tethers.sets().len() == 1 {
-            hang(world, aim);
+        // With several tethers per particle the links have no single order outward from the pins.
+        if round % ROUNDS_PER_PIN_SWEEP == 0 && world.tethers.sets().len() == 1 {
+            sweep_from_pins(world, target);
         }
-        if number % 2 == 0 {
+        if round % 2 == 0 {
             KINDS
                 .into_iter()
-                .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, aim));
+                .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, target));
         } else {
             KINDS
                 .into_iter()
                 .rev()
-                .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, aim));
+                .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, target));
         }
         collide::project_out(world);
         anchors::project_at_end(world);
-        if first_over(world, most).is_none() {
+        if find_over_stretched(world, limit).is_none() {
             break;
         }
     }
     if is_free_again {
-        // There is nothing to go back to; and what was held apart comes together, but is not flung.
-        stop(world);
+        // The last tick is no state to roll back to, and the contraction must not fling the cloth.
+        stop_moved(world);
     } else {
-        // What leashes hold apart finds its way together as they let it: that it was, is not to go
-        // back to.
-        if !(was_over && is_led) {
-            go_back(world, most);
+        // Anchors that hold the cloth apart held it apart in the last tick too; it contracts as
+        // they let it, without a rollback.
+        if !(was_over && has_anchors) {
+            roll_back(world, limit);
         }
         anchors::project_at_end(world);
-        follow(world);
+        update_velocities(world);
     }
 }
 
-/// Velocities end where something was moved since `scratch.predicted`.
-fn stop(world: &mut World) {
+/// Sets the velocities of all particles to zero that moved since `scratch.predicted` was stored.
+fn stop_moved(world: &mut World) {
     let (p, before) = (&mut world.particles, &world.scratch.predicted);
     for i in (0..p.len()).filter(|i| p.x.at(*i) != before.at(*i)) {
         p.v.set(i, Vec3::ZERO);
@@ -125,90 +155,85 @@ fn stop(world: &mut World) {
     }
 }
 
-/// Draws in what is too long from the pins outward. Of the two ends of a link the one that is
-/// farther from the pins gives way, so that a chain that hangs is right after one sweep.
-fn hang(world: &mut World, aim: f32) {
+/// Shortens links that are too long, in pin order. Only the end that is farther from the pins
+/// moves, so that one pass is exact for a hanging chain.
+fn sweep_from_pins(world: &mut World, target: f32) {
     let (links, p) = (&world.constraints.links, &mut world.particles);
     for link in world.pin_order.order() {
         let link = *link as usize;
         let (a, b) = (links.a[link] as usize, links.b[link] as usize);
         let span = p.x.at(b) - p.x.at(a);
-        let (length2, longest) = (span.length_squared(), links.rest[link] * aim);
+        let (length2, longest) = (span.length_squared(), links.rest[link] * target);
         if !links.active[link] || length2 <= longest * longest {
             continue;
         }
-        let over = span * (1.0 - longest / length2.sqrt());
+        let excess = span * (1.0 - longest / length2.sqrt());
         if p.w[b] > 0.0 && world.pin_order.is_nearer(a, b) {
-            p.x.add(b, -over);
+            p.x.add(b, -excess);
         } else if p.w[a] > 0.0 && world.pin_order.is_nearer(b, a) {
-            p.x.add(a, over);
+            p.x.add(a, excess);
         }
     }
 }
 
-/// Whether something held is farther from a pin than the cloth between them can reach.
-fn is_held_apart(world: &World, most: f32) -> bool {
+/// Whether a held particle is farther from a pin than `limit` times their geodesic distance.
+fn is_held_apart(world: &World, limit: f32) -> bool {
     let p = &world.particles;
     let held = || (0..p.len()).filter(|i| p.w[*i] <= 0.0);
     world.tethers.sets().iter().any(|set| {
         held().any(|i| {
             let span = p.x.at(i) - p.x.at(set.pin[i] as usize);
-            span.length() > set.length[i] * most
+            span.length() > set.length[i] * limit
         })
     })
 }
 
-/// Takes the ends of every link that is too long back to where they were, see `home`, and with them
-/// what that stretches, until nothing is too long that was not before.
-fn go_back(world: &mut World, most: f32) {
+/// Moves the ends of every link that is too long to their rollback positions (see `rollback`), and
+/// then those of the links that this stretches, until no particle moves.
+fn roll_back(world: &mut World, limit: f32) {
     rollback::compute(world);
-    let woven = world.constraints.links.len();
-    let mut went = true;
-    while core::mem::take(&mut went) {
-        for link in 0..woven + world.constraints.dynamic.len() {
-            let (links, at) = if link < woven {
+    let count = world.constraints.links.len();
+    let mut has_moved = true;
+    while core::mem::take(&mut has_moved) {
+        for link in 0..count + world.constraints.dynamic.len() {
+            let (links, at) = if link < count {
                 (&world.constraints.links, link)
             } else {
-                (&world.constraints.dynamic, link - woven)
+                (&world.constraints.dynamic, link - count)
             };
-            if !is_over(links, at, &world.particles.x, most) {
+            if !is_over_stretched(links, at, &world.particles.x, limit) {
                 continue;
             }
             for end in [links.a[at] as usize, links.b[at] as usize] {
-                let home = world.scratch.rollback.positions.at(end);
-                if world.particles.x.at(end) != home {
-                    world.particles.x.set(end, home);
-                    went = true;
+                let target = world.scratch.rollback.positions.at(end);
+                if world.particles.x.at(end) != target {
+                    world.particles.x.set(end, target);
+                    has_moved = true;
                 }
             }
         }
     }
 }
 
-/// Velocities follow what happened since `scratch.predicted`, but not everywhere.
-///
-/// Links that cannot all have their lengths push each other out, and the bound puts them back: that
-/// gets nowhere, and there must be no velocity left. So none differs from the mean over the tick by
-/// more than that itself, for what gets on from rest by an even push ends at twice its mean. And
-/// what came back from where it was going keeps none, or it would go to and fro for
-/// ever.
-fn follow(world: &mut World) {
+/// Adds the corrections since `scratch.predicted` to the velocities, as the module doc describes
+/// (4).
+fn update_velocities(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
         let mean = (p.x.at(i) - p.x_prev_tick.at(i)) * inv_tick;
-        let own = p.v.at(i) + (p.x.at(i) - scratch.predicted.at(i)) * inv_tick - mean;
-        let (own2, mean2) = (own.length_squared(), mean.length_squared());
-        // What tore off in this tick has no velocity from before.
-        let came_back =
+        let difference = p.v.at(i) + (p.x.at(i) - scratch.predicted.at(i)) * inv_tick - mean;
+        let (difference2, mean2) = (difference.length_squared(), mean.length_squared());
+        // A particle that a tear made in this tick has no initial velocity.
+        let was_pulled_back =
             i < scratch.initial_velocity.x.len() && scratch.initial_velocity.at(i).dot(mean) < 0.0;
-        let v = if came_back {
+        let v = if was_pulled_back {
             Vec3::ZERO
-        } else if own2 > mean2 {
-            mean + own * (mean2 / own2).sqrt()
+        } else if difference2 > mean2 {
+            mean + difference * (mean2 / difference2).sqrt()
         } else {
-            mean + own
+            mean + difference
         };
         let change = v - p.v.at(i);
         p.v.add(i, change);
@@ -217,31 +242,32 @@ fn follow(world: &mut World) {
     }
 }
 
-/// Whether a link is longer than `most` times its rest length.
-fn is_over(links: &Links, link: usize, x: &Columns, most: f32) -> bool {
+/// Whether an active stretch or shear link is longer than `limit` times its rest length.
+fn is_over_stretched(links: &Links, link: usize, x: &Columns, limit: f32) -> bool {
     let span = x.at(links.b[link] as usize) - x.at(links.a[link] as usize);
-    let longest = links.rest[link] * most;
+    let longest = links.rest[link] * limit;
     links.active[link]
         && links.kind(link) != LinkKind::Bend
         && span.length_squared() > longest * longest
 }
 
-/// The ends of links that are too long.
-fn over(world: &World, most: f32) -> impl Iterator<Item = (usize, usize)> + '_ {
+/// The ends of all links that are longer than `limit` times their rest length.
+fn over_stretched_links(world: &World, limit: f32) -> impl Iterator<Item = (usize, usize)> + '_ {
     [&world.constraints.links, &world.constraints.dynamic].into_iter().flat_map(move |links| {
-        let over =
-            (0..links.len()).filter(move |link| is_over(links, *link, &world.particles.x, most));
-        over.map(|link| (links.a[link] as usize, links.b[link] as usize))
+        let long = (0..links.len())
+            .filter(move |link| is_over_stretched(links, *link, &world.particles.x, limit));
+        long.map(|link| (links.a[link] as usize, links.b[link] as usize))
     })
 }
 
 #[inline(never)]
-fn first_over(world: &World, most: f32) -> Option<(usize, usize)> {
-    over(world, most).next()
+fn find_over_stretched(world: &World, limit: f32) -> Option<(usize, usize)> {
+    over_stretched_links(world, limit).next()
 }
 
-fn tell(world: &mut World, most: f32) {
-    let Some((a, b)) = first_over(world, most) else {
+/// Reports one link that is too long, and how many there are.
+fn push_event(world: &mut World, limit: f32) {
+    let Some((a, b)) = find_over_stretched(world, limit) else {
         return;
     };
     let middle = (world.particles.x.at(a) + world.particles.x.at(b)) * 0.5;

@@ -1,6 +1,34 @@
-//! Stage `Tethers`: no particle gets farther from a pin than its way along the cloth.
+//! Stage `Tethers`: long-range attachments of every particle to the pins.
+//!
+//! ```text
+//! pin ●~~~~~~~~~~~~~~● particle       |x − pin| ≤ slack · d
+//!      d: geodesic distance along the cloth at rest [m]
+//! ```
+//! Kim, Chentanez, Müller, "Long range attachments", SCA 2012. A particle beyond its bound is
+//! projected onto the sphere around the pin; a particle within it is not touched, so a tether never
+//! pushes:
+//!
+//! ```text
+//! x ← pin + (x − pin) slack d / |x − pin|      if |x − pin| > slack d and w > 0
+//! ```
+//! With few pins each particle has a tether to every pin, with many only to the nearest (see
+//! `model::tethers`). The slack is one factor for all tethers. It is computed once a tick,
+//!
+//! ```text
+//! slack = max( min(slack, max |x − pin| / d) − 2 s⁻¹ tick,   hold stretch,   1 + ε )
+//! hold stretch   max distance / d between two held particles, at least 1
+//! ε              0 for rigid links; else 0.005 + 4 σ g L / K, at most max_stretch / 2
+//!                σ: density, L: longest d, K: the least stretch stiffness; σ g L / K is the
+//!                strain at the top of a strip of length L that hangs under its own weight
+//! ```
+//! so that tethers carry the load which the sweeps have not carried yet, and none of what the cloth
+//! really stretches by. A cloth that was held apart contracts at the rate of the first term: at
+//! once, it would be flung.
+//!
+//! Reads `tethers`, pins, grabs, inverse masses; writes positions, `tether_slack`, `pin_stretch`.
+//! Invariant: tethers move a particle towards its pin only.
 
-// Where there are no vectors, all goes number by number.
+// Where there is no SIMD, only the scalar path is used.
 #![cfg_attr(
     not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")),
     allow(dead_code)
@@ -15,76 +43,72 @@ use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::pins::Pin;
 
-/// What tethers of soft links give at least.
-const LEAST_SLACK: f32 = 0.005;
+/// The least slack of tethers if links are compliant, beyond 1.
+const MIN_SOFT_SLACK: f32 = 0.005;
 
-/// How fast what was held apart is drawn in once nothing holds it, in lengths of the way a second.
-const DRAW_IN: f32 = 2.0;
+/// The rate at which the slack decreases after the cloth was held apart [1/s].
+const CONTRACTION_RATE: f32 = 2.0;
 
-/// By how much the load may exceed the cloth's own weight on a strip.
-const SAFETY: f32 = 4.0;
+/// The load that tethers leave to the links, over the cloth's own weight: folds and wind add to it.
+const LOAD_FACTOR: f32 = 4.0;
 
-/// Looks up where the pins are, after they moved.
-pub(crate) fn look(world: &mut World) {
+/// Copies the positions of the pins to `scratch.tether_pins`, one per particle, if there are many
+/// pins.
+pub(crate) fn refresh_pin_positions(world: &mut World) {
     let [x, y, z] = world.particles.x.all();
     let (y, z) = (&y[..x.len()], &z[..x.len()]);
     for set in world.tethers.sets().iter().filter(|set| set.single_pin.is_none()) {
-        let found = &mut world.scratch.tether_anchor;
-        found.resize(set.pin.len());
-        let [to_x, to_y, to_z] = found.all_mut();
-        for (((anchor, to_x), to_y), to_z) in set.pin.iter().zip(to_x).zip(to_y).zip(to_z) {
-            let at = *anchor as usize;
+        let positions = &mut world.scratch.tether_pins;
+        positions.resize(set.pin.len());
+        let [to_x, to_y, to_z] = positions.all_mut();
+        for (((pin, to_x), to_y), to_z) in set.pin.iter().zip(to_x).zip(to_y).zip(to_z) {
+            let at = *pin as usize;
             (*to_x, *to_y, *to_z) = (x[at], y[at], z[at]);
         }
     }
 }
 
-/// Pulls every particle within reach of the pins it is tethered to.
+/// Projects every particle to within its tethers, with the slack of this tick.
 pub(crate) fn solve(world: &mut World) {
-    draw_in(world, world.tether_slack);
+    project(world, world.tether_slack);
 }
 
-/// How much farther than along the cloth at rest a particle may get, as a factor: so much that
-/// tethers bear what the sweeps have not got to, and nothing of what the cloth really stretches by.
-///
-/// Cloth that was held apart is drawn in little by little: at once would fling it.
-pub(crate) fn measure_slack(world: &mut World) {
-    look(world);
-    let apart = held_apart(world);
-    let own = 1.0 + stretch_of_own_weight(world);
-    let now = min(world.tether_slack, farthest(world));
-    let eased = now - DRAW_IN * world.settings.tick;
-    world.tether_slack = max(eased, max(apart, own));
+/// Computes the slack of this tick by the formula of the module doc.
+pub(crate) fn update_slack(world: &mut World) {
+    refresh_pin_positions(world);
+    let hold_stretch = update_hold_stretch(world);
+    let own = 1.0 + compute_weight_strain(world);
+    let now = min(world.tether_slack, compute_max_stretch(world));
+    let contracted = now - CONTRACTION_RATE * world.settings.tick;
+    world.tether_slack = max(contracted, max(hold_stretch, own));
 }
 
-/// How far the cloth is from its pins now: the distance over the way, at most.
-fn farthest(world: &World) -> f32 {
+/// The largest distance of a particle from its pin over its geodesic distance.
+fn compute_max_stretch(world: &World) -> f32 {
     let (level, x) = (world.level, world.particles.x.all());
-    let mut most = 0.0;
+    let mut max_ratio2 = 0.0;
     for set in world.tethers.sets() {
         match set.single_pin {
             Some(pin) => {
                 let pin = world.particles.x.at(pin as usize).to_array();
-                farthest_from_one(level, x, pin, &set.length, &mut most);
+                max_ratio_to_single(level, x, pin, &set.length, &mut max_ratio2);
             }
             None => {
-                farthest_from_many(
+                max_ratio_to_each(
                     level,
                     x,
-                    world.scratch.tether_anchor.all(),
+                    world.scratch.tether_pins.all(),
                     &set.length,
-                    &mut most,
+                    &mut max_ratio2,
                 );
             }
         }
     }
-    most.sqrt()
+    max_ratio2.sqrt()
 }
 
-/// More than the load of gravity stretches the cloth by; nothing where links are rigid.
-///
-/// A strip of length L hangs with a strain of σ g L / K at its top; folds and wind may add to that.
-fn stretch_of_own_weight(world: &World) -> f32 {
+/// The strain ε that tethers leave to compliant links, see the module doc; 0 if links are rigid.
+fn compute_weight_strain(world: &World) -> f32 {
     let material = &world.material;
     let (weft, warp) = (material.stretch_stiffness_weft, material.stretch_stiffness_warp);
     let softest = if weft > 0.0 && (warp == 0.0 || weft < warp) { weft } else { warp };
@@ -92,48 +116,51 @@ fn stretch_of_own_weight(world: &World) -> f32 {
         return 0.0;
     }
     let sets = world.tethers.sets().iter().flat_map(|set| &set.length);
-    let longest = sets.fold(0.0, |most: f32, l| if l.is_finite() { max(*l, most) } else { most });
+    let longest =
+        sets.fold(0.0, |largest: f32, l| if l.is_finite() { max(*l, largest) } else { largest });
     let [_, heaviest] = world.mass_scales.range();
     let load = material.density * world.settings.gravity.length() * heaviest;
     let strain = load * longest / softest;
-    let own = LEAST_SLACK + SAFETY * strain;
+    let own = MIN_SOFT_SLACK + LOAD_FACTOR * strain;
     let bound = world.settings.max_stretch;
     if bound > 0.0 && bound * 0.5 < own { bound * 0.5 } else { own }
 }
 
-/// How far pins and grabs hold the cloth apart: the distance between two of them over the way along
-/// the cloth between them, at most.
-fn held_apart(world: &mut World) -> f32 {
+/// The largest distance of two pinned or grabbed particles over their geodesic distance; at least
+/// 1.
+///
+/// Updates `pin_stretch` if that is out of date.
+fn update_hold_stretch(world: &mut World) -> f32 {
     if !world.is_pin_stretch_current {
-        world.pin_stretch = pins_apart(world);
+        world.pin_stretch = compute_pin_stretch(world);
     }
-    // A grab may hold a pinned particle too.
-    let is_held = world.grabs.iter().next().is_some();
+    // A grab may move a pinned particle.
+    let is_grabbed = world.grabs.iter().next().is_some();
     let x = &world.particles.x;
-    // One that moved gets to its target but for rounding, and is there a tick later.
-    let rests = |pin: &Pin| {
+    // A pin that moved reaches its target up to rounding, and exactly one tick later.
+    let is_at_rest = |pin: &Pin| {
         pin.from == pin.target && (pin.is_soft() || x.at(pin.particle as usize) == pin.target)
     };
-    world.is_pin_stretch_current = !is_held && world.pins.iter().all(rests);
-    let mut most = world.pin_stretch;
+    world.is_pin_stretch_current = !is_grabbed && world.pins.iter().all(is_at_rest);
+    let mut largest = world.pin_stretch;
     for set in world.tethers.sets() {
         for held in world.grabs.iter().map(|held| held.particle as usize) {
-            let (length, anchor) = (set.length[held], set.pin[held]);
+            let (length, pin) = (set.length[held], set.pin[held]);
             if length > 0.0 && length.is_finite() {
-                most = max((x.at(held) - x.at(anchor as usize)).length() / length, most);
+                largest = max((x.at(held) - x.at(pin as usize)).length() / length, largest);
             }
         }
     }
-    most
+    largest
 }
 
-/// As `held_apart`, for pins only; at least 1.
-fn pins_apart(world: &World) -> f32 {
+/// The largest distance of two pins over their geodesic distance; at least 1.
+fn compute_pin_stretch(world: &World) -> f32 {
     let x = &world.particles.x;
-    let mut most = 1.0;
-    let mut compare = |a: u32, b: u32, way: f32| {
+    let mut largest = 1.0;
+    let mut compare = |a: u32, b: u32, geodesic: f32| {
         let span = x.at(b as usize) - x.at(a as usize);
-        most = max(span.length() / way, most);
+        largest = max(span.length() / geodesic, largest);
     };
     for set in world.tethers.sets() {
         if let Some(pin) = set.single_pin {
@@ -142,7 +169,7 @@ fn pins_apart(world: &World) -> f32 {
             joined.for_each(|other| compare(pin, other, set.length[other as usize]));
             continue;
         }
-        // Where the parts of two pins meet, a way leads from one to the other.
+        // An edge between the regions of two pins closes a path from one pin to the other.
         for triangle in &world.mesh.triangles {
             let [a, b, c] = triangle.map(|v| v as usize);
             for (p, q) in [(a, b), (b, c), (c, a)] {
@@ -154,27 +181,27 @@ fn pins_apart(world: &World) -> f32 {
             }
         }
     }
-    most
+    largest
 }
 
-/// Pulls every particle within `slack` times its way to the pins.
-pub(crate) fn draw_in(world: &mut World, slack: f32) {
+/// Projects every particle to within `slack` times its geodesic distance from its pins.
+pub(crate) fn project(world: &mut World, slack: f32) {
     let (level, threads, p) = (world.level, world.threads, &mut world.particles);
-    let (found, interleaved) = (&world.scratch.tether_anchor, &mut world.scratch.interleaved);
+    let (pins, interleaved) = (&world.scratch.tether_pins, &mut world.scratch.interleaved);
     for set in world.tethers.sets() {
         if interleaved.is_current {
-            pull_packed(threads, set, slack, found, interleaved);
+            project_interleaved(threads, set, slack, pins, interleaved);
         } else {
-            pull_set(level, threads, set, slack, found, &mut p.x, &p.w);
+            project_columns(level, threads, set, slack, pins, &mut p.x, &p.w);
         }
     }
 }
 
-fn pull_packed(
+fn project_interleaved(
     threads: Threads,
     set: &TetherSet,
     slack: f32,
-    found: &Columns,
+    pins: &Columns,
     interleaved: &mut InterleavedParticles,
 ) {
     let InterleavedParticles { points, w, .. } = interleaved;
@@ -183,22 +210,22 @@ fn pull_packed(
     match only {
         Some(pin) => {
             threads.parallel_for(particles, MIN_PARTICLES_PER_THREAD, |(points, w, length)| {
-                packed_to_one(points, pin, length, slack, w);
+                interleaved_to_single(points, pin, length, slack, w);
             })
         }
         None => {
             threads.parallel_for(
-                (particles, found.all()),
+                (particles, pins.all()),
                 MIN_PARTICLES_PER_THREAD,
                 |((points, w, length), pins)| {
-                    packed_to_many(points, pins, length, slack, w);
+                    interleaved_to_each(points, pins, length, slack, w);
                 },
             );
         }
     }
 }
 
-fn packed_to_one(
+fn interleaved_to_single(
     points: &mut [[f32; 4]],
     [px, py, pz, _]: [f32; 4],
     length: &[f32],
@@ -207,13 +234,15 @@ fn packed_to_one(
 ) {
     for ((point, length), w) in points.iter_mut().zip(length).zip(w) {
         let [x, y, z, _] = *point;
-        if let Some([x, y, z]) = within(Scalar, [x, y, z], [px, py, pz], length * slack, *w) {
+        if let Some([x, y, z]) =
+            project_into_sphere(Scalar, [x, y, z], [px, py, pz], length * slack, *w)
+        {
             *point = [x, y, z, 0.0];
         }
     }
 }
 
-fn packed_to_many(
+fn interleaved_to_each(
     points: &mut [[f32; 4]],
     [px, py, pz]: [&[f32]; 3],
     length: &[f32],
@@ -223,18 +252,20 @@ fn packed_to_many(
     let pins = px.iter().zip(py).zip(pz);
     for (((point, length), w), ((px, py), pz)) in points.iter_mut().zip(length).zip(w).zip(pins) {
         let [x, y, z, _] = *point;
-        if let Some([x, y, z]) = within(Scalar, [x, y, z], [*px, *py, *pz], length * slack, *w) {
+        if let Some([x, y, z]) =
+            project_into_sphere(Scalar, [x, y, z], [*px, *py, *pz], length * slack, *w)
+        {
             *point = [x, y, z, 0.0];
         }
     }
 }
 
-fn pull_set(
+fn project_columns(
     level: Level,
     threads: Threads,
     set: &TetherSet,
     slack: f32,
-    found: &Columns,
+    pins: &Columns,
     x: &mut Columns,
     w: &[f32],
 ) {
@@ -246,47 +277,47 @@ fn pull_set(
                 (x.all_mut(), length, w),
                 MIN_PARTICLES_PER_THREAD,
                 |(x, length, w)| {
-                    pull_to_one(level, x, pin, length, slack, w);
+                    columns_to_single(level, x, pin, length, slack, w);
                 },
             );
         }
         None => {
-            let particles = (x.all_mut(), found.all(), length, w);
+            let particles = (x.all_mut(), pins.all(), length, w);
             threads.parallel_for(particles, MIN_PARTICLES_PER_THREAD, |(x, pins, length, w)| {
-                pull_to_many(level, x, pins, length, slack, w);
+                columns_to_each(level, x, pins, length, slack, w);
             });
         }
     }
 }
 
 vectored! {
-    fn pull_to_one(x: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32])
-        = to_one, Avx512, to_one_apart
+    fn columns_to_single(x: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32])
+        = single_lanes, Avx512, single_scalar
 }
 
 vectored! {
-    fn pull_to_many(
+    fn columns_to_each(
         x: [&mut [f32]; 3],
         pins: [&[f32]; 3],
         length: &[f32],
         slack: f32,
         w: &[f32],
-    ) = to_many, Avx512, to_many_apart
+    ) = each_lanes, Avx512, each_scalar
 }
 
 vectored! {
-    /// The square of how far a particle is from its pin over the way, if that is more than `most`.
-    fn farthest_from_one(x: [&[f32]; 3], pin: [f32; 3], length: &[f32], most: &mut f32)
-        = from_one, Avx2, from_one_apart
+    /// Raises `largest` to the largest squared ratio of distance to geodesic distance.
+    fn max_ratio_to_single(x: [&[f32]; 3], pin: [f32; 3], length: &[f32], largest: &mut f32)
+        = single_ratio_lanes, Avx2, single_ratio_scalar
 }
 
 vectored! {
-    fn farthest_from_many(x: [&[f32]; 3], pins: [&[f32]; 3], length: &[f32], most: &mut f32)
-        = from_many, Avx2, from_many_apart
+    fn max_ratio_to_each(x: [&[f32]; 3], pins: [&[f32]; 3], length: &[f32], largest: &mut f32)
+        = each_ratio_lanes, Avx2, each_ratio_scalar
 }
 
 #[inline(always)]
-fn to_one<S: Simd>(
+fn single_lanes<S: Simd>(
     s: S,
     [x, y, z]: [&mut [f32]; 3],
     pin: [f32; 3],
@@ -295,35 +326,36 @@ fn to_one<S: Simd>(
     w: &[f32],
 ) {
     let pins = [s.splat(pin[0]), s.splat(pin[1]), s.splat(pin[2])];
-    // One length for all, so that one check does.
+    // Equal lengths let the compiler drop all bounds checks but one.
     let count = length.len();
     let (x, y, z, w) = (&mut x[..count], &mut y[..count], &mut z[..count], &w[..count]);
     let mut at = 0;
     while at + S::LANES <= count {
-        let reach = s.load(length, at) * s.splat(slack);
+        let radius = s.load(length, at) * s.splat(slack);
         let from = [s.load(x, at), s.load(y, at), s.load(z, at)];
-        if let Some(near) = within(s, from, pins, reach, s.load(w, at)) {
-            s.store(x, at, near[0]);
-            s.store(y, at, near[1]);
-            s.store(z, at, near[2]);
+        if let Some(projected) = project_into_sphere(s, from, pins, radius, s.load(w, at)) {
+            s.store(x, at, projected[0]);
+            s.store(y, at, projected[1]);
+            s.store(z, at, projected[2]);
         }
         at += S::LANES;
     }
     let x = [&mut x[at..], &mut y[at..], &mut z[at..]];
-    to_one_apart(x, pin, &length[at..], slack, &w[at..]);
+    single_scalar(x, pin, &length[at..], slack, &w[at..]);
 }
 
-fn to_one_apart([x, y, z]: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32]) {
+fn single_scalar([x, y, z]: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32]) {
     let particles = x.iter_mut().zip(y).zip(z);
     for ((((x, y), z), length), w) in particles.zip(length).zip(w) {
-        if let Some(near) = within(Scalar, [*x, *y, *z], pin, length * slack, *w) {
-            [*x, *y, *z] = near;
+        if let Some(projected) = project_into_sphere(Scalar, [*x, *y, *z], pin, length * slack, *w)
+        {
+            [*x, *y, *z] = projected;
         }
     }
 }
 
 #[inline(always)]
-fn to_many<S: Simd>(
+fn each_lanes<S: Simd>(
     s: S,
     [x, y, z]: [&mut [f32]; 3],
     [px, py, pz]: [&[f32]; 3],
@@ -331,27 +363,27 @@ fn to_many<S: Simd>(
     slack: f32,
     w: &[f32],
 ) {
-    // As in `to_one`.
+    // As in `single_lanes`.
     let count = length.len();
     let (x, y, z, w) = (&mut x[..count], &mut y[..count], &mut z[..count], &w[..count]);
     let (px, py, pz) = (&px[..count], &py[..count], &pz[..count]);
     let mut at = 0;
     while at + S::LANES <= count {
         let pins = [s.load(px, at), s.load(py, at), s.load(pz, at)];
-        let reach = s.load(length, at) * s.splat(slack);
+        let radius = s.load(length, at) * s.splat(slack);
         let from = [s.load(x, at), s.load(y, at), s.load(z, at)];
-        if let Some(near) = within(s, from, pins, reach, s.load(w, at)) {
-            s.store(x, at, near[0]);
-            s.store(y, at, near[1]);
-            s.store(z, at, near[2]);
+        if let Some(projected) = project_into_sphere(s, from, pins, radius, s.load(w, at)) {
+            s.store(x, at, projected[0]);
+            s.store(y, at, projected[1]);
+            s.store(z, at, projected[2]);
         }
         at += S::LANES;
     }
     let (x, pins) = ([&mut x[at..], &mut y[at..], &mut z[at..]], [&px[at..], &py[at..], &pz[at..]]);
-    to_many_apart(x, pins, &length[at..], slack, &w[at..]);
+    each_scalar(x, pins, &length[at..], slack, &w[at..]);
 }
 
-fn to_many_apart(
+fn each_scalar(
     [x, y, z]: [&mut [f32]; 3],
     [px, py, pz]: [&[f32]; 3],
     length: &[f32],
@@ -361,67 +393,75 @@ fn to_many_apart(
     let particles = x.iter_mut().zip(y).zip(z);
     let pins = px.iter().zip(py).zip(pz);
     for (((((x, y), z), ((px, py), pz)), length), w) in particles.zip(pins).zip(length).zip(w) {
-        if let Some(near) = within(Scalar, [*x, *y, *z], [*px, *py, *pz], length * slack, *w) {
-            [*x, *y, *z] = near;
+        if let Some(projected) =
+            project_into_sphere(Scalar, [*x, *y, *z], [*px, *py, *pz], length * slack, *w)
+        {
+            [*x, *y, *z] = projected;
         }
     }
 }
 
-/// `x` where it is held or within `reach` of `pin`, else as far towards it as that; nothing if all
-/// are where they may be.
+/// Projects points outside a sphere onto it: returns `x` where it is inside or held (w = 0), else
+/// the nearest point of the sphere; none if no lane moves. `radius` is in [m].
 #[inline(always)]
-pub(crate) fn within<S: Simd>(
+pub(crate) fn project_into_sphere<S: Simd>(
     s: S,
     x: [S::F; 3],
     pin: [S::F; 3],
-    reach: S::F,
+    radius: S::F,
     w: S::F,
 ) -> Option<[S::F; 3]> {
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     let length2 = dx * dx + dy * dy + dz * dz;
-    let is_far = (length2 - reach * reach).min(w);
-    if !s.any_positive(is_far) {
+    let is_outside = (length2 - radius * radius).min(w);
+    if !s.any_positive(is_outside) {
         return None;
     }
-    let share = reach / length2.sqrt();
+    let share = radius / length2.sqrt();
     Some([
-        s.select(is_far, pin[0] + dx * share, x[0]),
-        s.select(is_far, pin[1] + dy * share, x[1]),
-        s.select(is_far, pin[2] + dz * share, x[2]),
+        s.select(is_outside, pin[0] + dx * share, x[0]),
+        s.select(is_outside, pin[1] + dy * share, x[1]),
+        s.select(is_outside, pin[2] + dz * share, x[2]),
     ])
 }
 
 #[inline(always)]
-fn from_one<S: Simd>(s: S, [x, y, z]: [&[f32]; 3], pin: [f32; 3], length: &[f32], most: &mut f32) {
-    let mut far = s.splat(*most);
+fn single_ratio_lanes<S: Simd>(
+    s: S,
+    [x, y, z]: [&[f32]; 3],
+    pin: [f32; 3],
+    length: &[f32],
+    largest: &mut f32,
+) {
+    let mut ratio = s.splat(*largest);
     let pins = [s.splat(pin[0]), s.splat(pin[1]), s.splat(pin[2])];
     let count = length.len();
     let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
     let mut at = 0;
     while at + S::LANES <= count {
         let x = [s.load(x, at), s.load(y, at), s.load(z, at)];
-        far = ratio2(x, pins, s.load(length, at)).max(far);
+        ratio = squared_ratio(x, pins, s.load(length, at)).max(ratio);
         at += S::LANES;
     }
-    *most = greatest(s, far);
-    from_one_apart([&x[at..], &y[at..], &z[at..]], pin, &length[at..], most);
+    *largest = max_lane(s, ratio);
+    single_ratio_scalar([&x[at..], &y[at..], &z[at..]], pin, &length[at..], largest);
 }
 
-fn from_one_apart([x, y, z]: [&[f32]; 3], pin: [f32; 3], length: &[f32], most: &mut f32) {
+fn single_ratio_scalar([x, y, z]: [&[f32]; 3], pin: [f32; 3], length: &[f32], largest: &mut f32) {
     for (((x, y), z), length) in x.iter().zip(y).zip(z).zip(length) {
-        *most = max(ratio2([*x, *y, *z], pin, *length), *most);
+        *largest = max(squared_ratio([*x, *y, *z], pin, *length), *largest);
     }
 }
 
 #[inline(always)]
-fn from_many<S: Simd>(
+fn each_ratio_lanes<S: Simd>(
     s: S,
     [x, y, z]: [&[f32]; 3],
     [px, py, pz]: [&[f32]; 3],
     length: &[f32],
-    most: &mut f32,
+    largest: &mut f32,
 ) {
-    let mut far = s.splat(*most);
+    let mut ratio = s.splat(*largest);
     let count = length.len();
     let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
     let (px, py, pz) = (&px[..count], &py[..count], &pz[..count]);
@@ -429,38 +469,38 @@ fn from_many<S: Simd>(
     while at + S::LANES <= count {
         let x = [s.load(x, at), s.load(y, at), s.load(z, at)];
         let pins = [s.load(px, at), s.load(py, at), s.load(pz, at)];
-        far = ratio2(x, pins, s.load(length, at)).max(far);
+        ratio = squared_ratio(x, pins, s.load(length, at)).max(ratio);
         at += S::LANES;
     }
-    *most = greatest(s, far);
+    *largest = max_lane(s, ratio);
     let pins = [&px[at..], &py[at..], &pz[at..]];
-    from_many_apart([&x[at..], &y[at..], &z[at..]], pins, &length[at..], most);
+    each_ratio_scalar([&x[at..], &y[at..], &z[at..]], pins, &length[at..], largest);
 }
 
-fn from_many_apart(
+fn each_ratio_scalar(
     [x, y, z]: [&[f32]; 3],
     [px, py, pz]: [&[f32]; 3],
     length: &[f32],
-    most: &mut f32,
+    largest: &mut f32,
 ) {
     let pins = px.iter().zip(py).zip(pz);
     for ((((x, y), z), ((px, py), pz)), length) in x.iter().zip(y).zip(z).zip(pins).zip(length) {
-        *most = max(ratio2([*x, *y, *z], [*px, *py, *pz], *length), *most);
+        *largest = max(squared_ratio([*x, *y, *z], [*px, *py, *pz], *length), *largest);
     }
 }
 
-/// The greatest number of all lanes.
+/// The largest number of all lanes.
 #[inline(always)]
-fn greatest<S: Simd>(s: S, numbers: S::F) -> f32 {
+fn max_lane<S: Simd>(s: S, numbers: S::F) -> f32 {
     let mut lanes = [0.0; MAX_LANES];
     s.store(&mut lanes, 0, numbers);
     lanes.into_iter().fold(0.0, max)
 }
 
-/// The square of how far a particle is from its pin over the way. A pin is no way from itself,
-/// which is no number here, and counts for nothing.
+/// The squared ratio of the distance of a particle from its pin to its geodesic distance. It is NaN
+/// for a pin itself, 0 / 0, which `max` ignores.
 #[inline(always)]
-fn ratio2<F: Float>(x: [F; 3], pin: [F; 3], length: F) -> F {
+fn squared_ratio<F: Float>(x: [F; 3], pin: [F; 3], length: F) -> F {
     let [dx, dy, dz] = [x[0] - pin[0], x[1] - pin[1], x[2] - pin[2]];
     (dx * dx + dy * dy + dz * dz) / (length * length)
 }

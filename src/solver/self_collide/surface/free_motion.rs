@@ -34,10 +34,10 @@ pub(crate) fn keep(
 ) {
     momentum::list_starts(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    interleaved::list_ways(before, now, &mut scratch.tether_anchor);
+    interleaved::list_ways(before, now, &mut scratch.tether_pins);
     let free = FreeParticles {
         x: scratch.relative_wind.all(),
-        displacement: scratch.tether_anchor.all(),
+        displacement: scratch.tether_pins.all(),
         mass: &p.mass,
         w: &p.w,
     };
