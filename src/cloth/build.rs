@@ -243,7 +243,7 @@ fn build_world(
         seams: None,
         constraints,
         rest,
-        crossings: Vec::new(),
+        cut_sites: Vec::new(),
         crack_tips: Vec::with_capacity(capacity),
         corner_area: areas,
         grid_frame: frame,

@@ -196,7 +196,7 @@ impl<'a> RestVertices<'a> {
             },
             None => Self {
                 original: world.mesh.original_count as usize,
-                crossings: &world.crossings,
+                crossings: &world.cut_sites,
                 of_vertices: &world.mesh.source,
             },
         }

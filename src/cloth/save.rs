@@ -128,7 +128,7 @@ impl Cloth {
             wind: CowOf::Borrowed(&world.wind),
             triangles: CowOf::Borrowed(&world.mesh.triangles),
             sources: CowOf::Borrowed(&world.mesh.source),
-            crossings: CowOf::Borrowed(&world.crossings),
+            crossings: CowOf::Borrowed(&world.cut_sites),
             hems: CowOf::Borrowed(&world.mesh.rest_borders),
             seams: CowOf::Borrowed(&world.seams),
             links: world.constraints.link_changes(),
@@ -230,7 +230,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
         require(are_known && crossing.fraction > 0.0 && crossing.fraction < 1.0)?;
         world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
     }
-    world.crossings = saved.crossings.into_owned();
+    world.cut_sites = saved.crossings.into_owned();
     require(sources.iter().all(|site| (*site as usize) < world.rest.len()))?;
     require(sources[..world.mesh.vertex_count()].iter().copied().eq(0..world.mesh.original_count))?;
     let particles = saved.particles.into_owned();

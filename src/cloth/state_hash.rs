@@ -26,7 +26,7 @@ impl Cloth {
         hasher.write_f32s(&p.w);
         hasher.write_u32s(world.mesh.triangles.as_flattened());
         hasher.write_u32s(&world.mesh.source);
-        for crossing in &world.crossings {
+        for crossing in &world.cut_sites {
             hasher.write_u32s(&crossing.ends);
             hasher.write_f32s(&[crossing.fraction]);
         }

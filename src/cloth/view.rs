@@ -238,7 +238,7 @@ impl Cloth {
         world.threads.run_in_pool(world.particles.len(), || {
             with_float_env(|| outputs.refresh_normals(world))
         });
-        self.world.profile.book(Stage::Outputs, start);
+        self.world.profile.add(Stage::Outputs, start);
     }
 
     /// Returns the approximate memory use [bytes].

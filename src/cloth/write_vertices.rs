@@ -133,7 +133,7 @@ impl Cloth {
             frayed,
         };
         with_float_env(|| writer.write(streams, vertices));
-        self.world.profile.book(Stage::Outputs, start);
+        self.world.profile.add(Stage::Outputs, start);
         Ok(())
     }
 }

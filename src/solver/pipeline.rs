@@ -27,29 +27,24 @@
 //! ```
 //! Method: extended position-based dynamics with small substeps (Macklin, Müller, Chentanez,
 //! "XPBD", MIG 2016; Macklin et al., "Small Steps in Physics Simulation", SCA 2019). Sweeps
-//! alternate in direction, because the BDF2 scheme (`state::settings::Scheme`) needs a symmetric
+//! alternate in direction, because the BDF2 scheme (`state::settings::BdfScheme`) needs a symmetric
 //! solver.
 //!
 //! Reads and writes `World`. Each line of the code below is one stage, timed under its `Stage`.
 //! Invariant: the order of the stages is part of the result; the same input gives the same bits.
-//! The last pass is the last stage that moves particles, so its bounds hold when the tick ends.
-
-use crate::solver::stage::Stage;
-use crate::solver::{bend, collide};
-
-use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};
-
-use crate::solver::kinematic::{anchors, targets};
-
-use crate::solver::self_collide::{particle_pairs, surface};
-
-use crate::solver::stretch::{damping, distance, line_solver, mesh_kernel, strain_limit, tethers};
-
-use crate::solver::topology::tear;
+//! With a strain limit or anchors, the last pass moves particles last, so these bounds hold when the
+//! tick ends.
 
 use crate::model::links::LinkKind;
+use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};
+use crate::solver::kinematic::{anchors, targets};
+use crate::solver::self_collide::{particle_pairs, surface};
+use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
+use crate::solver::stretch::{damping, distance, line_solver, mesh_kernel, strain_limit, tethers};
+use crate::solver::topology::tear;
 use crate::solver::world::World;
+use crate::solver::{bend, collide};
 
 /// Runs one stage and adds its time to the profile.
 macro_rules! timed {
@@ -58,7 +53,7 @@ macro_rules! timed {
         run_stage($world, |$world| {
             $work;
         });
-        $world.profile.book(Stage::$stage, start);
+        $world.profile.add(Stage::$stage, start);
     }};
 }
 

@@ -43,7 +43,7 @@ impl Profile {
 
     /// Adds the time since `start` to a stage.
     #[inline]
-    pub fn book(&mut self, stage: Stage, start: f64) {
+    pub fn add(&mut self, stage: Stage, start: f64) {
         if let Some(clock) = self.clock {
             self.seconds[stage as usize] += (clock() - start) as f32;
         }

@@ -1,7 +1,7 @@
 //! The stages of a tick, as profile slots, demo rows and benchmark columns.
 //!
 //! This list is the only one: profile, statistics, bindings and benchmarks follow it. `pipeline`
-//! runs the stages and books the time of each under its variant.
+//! runs the stages and adds the time of each to its variant.
 //! Invariant: variants, order and names are public; `ALL[stage as usize] == stage`.
 
 /// A stage of a tick. The variants follow the order in which most ticks run them; some stages run

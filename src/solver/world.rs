@@ -34,7 +34,12 @@ use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::integrate::sleep_timer::SleepTimer;
+use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::profile::Profile;
+use crate::solver::stretch::damping_scratch::DampingScratch;
+use crate::solver::stretch::end_weights::EndWeights;
+use crate::solver::stretch::line_scratch::LineScratch;
+use crate::solver::stretch::rollback_state::RollbackState;
 use crate::solver::topology::piece_labels::PieceLabels;
 use crate::solver::topology::tear_scratch::TearScratch;
 use crate::state::anchors::AnchorConstraints;
@@ -63,8 +68,8 @@ pub(crate) struct World {
     pub tethers: Tethers,
     /// Links sorted by distance from the pins; valid only while `max_stretch > 0`.
     pub pin_order: PinOrder,
-    /// See `tethers::update_slack`; infinite before the first tick and after pins or places
-    /// changed.
+    /// Factor by which tethers may exceed their rest length, see `tethers::update_slack`; infinite before the
+    /// first tick and after pins or positions changed.
     pub tether_slack: f32,
     /// Largest ratio of the distance between two pins to their distance along the rest cloth; at
     /// least 1. Above 1 the pins stretch the cloth by themselves.
@@ -73,8 +78,8 @@ pub(crate) struct World {
     pub is_pin_stretch_current: bool,
     /// Rest position of each site [m].
     pub rest: Vec<Vec3>,
-    /// The edge points where cuts made sites; these sites follow those of the original vertices.
-    pub crossings: Vec<CutSite>,
+    /// Edge points where cuts made sites; these sites follow those of the original vertices.
+    pub cut_sites: Vec<CutSite>,
     /// Share of its triangle's rest area that belongs to each corner [m²].
     pub corner_area: Vec<[f32; 3]>,
     /// Origin, axes and spacing of the rest grid; `None` for other meshes.
@@ -146,24 +151,25 @@ pub(crate) struct TickScratch {
     pub displacement: Columns,
     /// Predicted position of each particle in this substep [m].
     pub predicted: Columns,
-    /// The velocity that each particle began the tick with, while there is a stretch bound [m/s].
+    /// Velocity of each particle at the start of the tick, while there is a strain limit [m/s].
     pub initial_velocity: Columns,
-    /// Where the pin is that each particle is tethered to [m], if it is one of many.
+    /// Position of the pin to which each particle is tethered, if there are several pins [m]. Later
+    /// stages use it as a buffer.
     pub tether_pins: Columns,
     /// Mass plus soft-pin term of each particle, in use while there are soft pins [kg].
     pub effective_mass: Vec<f32>,
     /// Particles that anchor constraints moved in this substep.
     pub anchor_moved: Vec<u32>,
-    pub end_weights: crate::solver::stretch::end_weights::EndWeights,
-    pub interleaved: crate::solver::particle_stage::interleaved_particles::InterleavedParticles,
-    pub lines: crate::solver::stretch::line_scratch::LineScratch,
+    pub end_weights: EndWeights,
+    pub interleaved: InterleavedParticles,
+    pub lines: LineScratch,
     pub bend: BendScratch,
-    pub damping: crate::solver::stretch::damping_scratch::DampingScratch,
+    pub damping: DampingScratch,
     pub contacts: crate::solver::collide::ContactScratch,
     pub tear: TearScratch,
-    pub rollback: crate::solver::stretch::rollback_state::RollbackState,
+    pub rollback: RollbackState,
     /// Edges that the current vertex split opened.
-    pub openings: Vec<OpenedEdge>,
+    pub opened_edges: Vec<OpenedEdge>,
     pub pieces: PieceLabels,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
@@ -183,19 +189,15 @@ impl TickScratch {
             tether_pins: Columns::with_capacity(capacity),
             effective_mass: Vec::new(),
             anchor_moved: Vec::new(),
-            end_weights: crate::solver::stretch::end_weights::EndWeights::default(),
-            interleaved:
-                crate::solver::particle_stage::interleaved_particles::InterleavedParticles::default(
-                ),
-            lines: crate::solver::stretch::line_scratch::LineScratch::default(),
+            end_weights: EndWeights::default(),
+            interleaved: InterleavedParticles::default(),
+            lines: LineScratch::default(),
             bend: BendScratch::default(),
-            damping: crate::solver::stretch::damping_scratch::DampingScratch::default(),
+            damping: DampingScratch::default(),
             contacts: crate::solver::collide::ContactScratch::default(),
             tear: TearScratch::with_capacity(max_tears),
-            rollback: crate::solver::stretch::rollback_state::RollbackState::with_capacity(
-                capacity, triangles,
-            ),
-            openings: Vec::with_capacity(2),
+            rollback: RollbackState::with_capacity(capacity, triangles),
+            opened_edges: Vec::with_capacity(2),
             pieces: PieceLabels::new(triangles),
             piece_stack: Vec::with_capacity(triangles),
         };

@@ -1,9 +1,9 @@
 //! Stage `Predict`: each particle moves by its history and its acceleration, as if unconstrained.
 //!
 //! ```text
-//! displacement = carry · moved + step (v_ahead + step · a)        x ← x + displacement
+//! d = extrapolation · d₋ + velocity_step (v_extrapolated + velocity_step · a)        x ← x + d
 //! ```
-//! Method: the predictor of `state::settings::Scheme` (BDF1 or BDF2). A displacement larger than
+//! Method: the predictor of `state::settings::BdfScheme`, with d₋ the displacement of the last substep. A displacement larger than
 //! `max_displacement` relative to the rigid motion of the cloth is clamped, so that a violent jerk
 //! is absorbed while the cloth may still fall, fly and spin at any speed.
 //!
@@ -39,15 +39,15 @@ pub(crate) fn predict_positions(world: &mut World) {
     threads.parallel_for(
         (write, read),
         MIN_PARTICLES_PER_THREAD,
-        |(write, (moved, v_ahead, a, w))| {
+        |(write, (previous, v_extrapolated, a, w))| {
             let mut is_one_long = false;
-            for (((displacement, moved), v_ahead), a) in
-                write.into_iter().zip(moved).zip(v_ahead).zip(a)
+            for (((displacement, previous), v_extrapolated), a) in
+                write.into_iter().zip(previous).zip(v_extrapolated).zip(a)
             {
                 compute_displacement(
                     level,
                     displacement,
-                    [moved, v_ahead, a, w],
+                    [previous, v_extrapolated, a, w],
                     scheme,
                     limit,
                     &mut is_one_long,
@@ -84,18 +84,18 @@ leveled! {
 #[inline(always)]
 fn compute_displacement_column(
     displacement: &mut [f32],
-    [moved, v_ahead, a, w]: [&[f32]; 4],
+    [previous, v_extrapolated, a, w]: [&[f32]; 4],
     scheme: BdfScheme,
     limit: f32,
     is_long: &mut bool,
 ) {
-    let BdfScheme { velocity_step: step, extrapolation: carry, .. } = scheme;
+    let BdfScheme { velocity_step, extrapolation, .. } = scheme;
     // Accumulated without a branch, so that the compiler vectorises the loop.
     let mut long = 0_u32;
-    for ((((displacement, moved), v_ahead), a), w) in
-        displacement.iter_mut().zip(moved).zip(v_ahead).zip(a).zip(w)
+    for ((((displacement, previous), v_extrapolated), a), w) in
+        displacement.iter_mut().zip(previous).zip(v_extrapolated).zip(a).zip(w)
     {
-        let free = moved * carry + (v_ahead + a * step) * step;
+        let free = previous * extrapolation + (v_extrapolated + a * velocity_step) * velocity_step;
         *displacement = if *w > 0.0 { free } else { 0.0 };
         long |= u32::from(displacement.abs() > limit);
     }

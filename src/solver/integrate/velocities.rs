@@ -1,13 +1,14 @@
 //! Stage `Velocities`: velocities and history from the corrected positions.
 //!
 //! ```text
-//! d = displacement + (x − predicted)       v = (lead · d − trail · moved) / h       moved ← d
+//! d = displacement + (x − predicted)     v = (new_weight · d − old_weight · d₋) / h     d₋ ← d
 //! ```
-//! Method: the corrector of `state::settings::Scheme` (BDF1 or BDF2). Damping scales the velocity
+//! Method: the corrector of `state::settings::BdfScheme`. Damping scales the velocity
 //! and its whole history alike, so a free particle slows down by exactly exp(−damping · h).
 //! Particles in contact with a collider or moved by an anchor get their velocities afterwards.
 //!
-//! Reads positions, `scratch.displacement` and `scratch.predicted`; writes `moved`, `v`, `v_ahead`.
+//! Reads positions, `scratch.displacement` and `scratch.predicted`; writes the
+//! particles' `displacement` (d₋), `v` and `v_extrapolated`.
 //! Invariant: positions stay as they are.
 
 use crate::solver::collide::response::resolve_velocities;
@@ -31,14 +32,15 @@ pub(crate) fn update(world: &mut World) {
         (read, write),
         MIN_PARTICLES_PER_THREAD,
         |((x, predicted, displacement), write)| {
-            let (moved, v, v_ahead) = write;
+            let (previous, v, v_extrapolated) = write;
             let read = x.into_iter().zip(predicted).zip(displacement);
-            let write = moved.into_iter().zip(v).zip(v_ahead);
-            for (((x, predicted), displacement), ((moved, v), v_ahead)) in read.zip(write) {
+            let write = previous.into_iter().zip(v).zip(v_extrapolated);
+            for (((x, predicted), displacement), ((previous, v), v_extrapolated)) in read.zip(write)
+            {
                 update_column(
                     level,
                     [x, predicted, displacement],
-                    [moved, v, v_ahead],
+                    [previous, v, v_extrapolated],
                     scheme,
                     decay,
                 );
@@ -58,19 +60,19 @@ leveled! {
 #[inline(always)]
 fn update_column_lanes(
     [x, predicted, displacement]: [&[f32]; 3],
-    [moved, v, v_ahead]: [&mut [f32]; 3],
+    [previous, v, v_extrapolated]: [&mut [f32]; 3],
     scheme: BdfScheme,
     decay: f32,
 ) {
-    let (lead, trail) = (scheme.new_weight / scheme.h, scheme.old_weight / scheme.h);
+    let (new_weight, old_weight) = (scheme.new_weight / scheme.h, scheme.old_weight / scheme.h);
     let read = x.iter().zip(predicted).zip(displacement);
-    let write = moved.iter_mut().zip(v).zip(v_ahead);
-    for (((x, predicted), displacement), ((moved, v), v_ahead)) in read.zip(write) {
+    let write = previous.iter_mut().zip(v).zip(v_extrapolated);
+    for (((x, predicted), displacement), ((previous, v), v_extrapolated)) in read.zip(write) {
         // The correction is small, so this difference is exact in f32.
         let step = displacement + (x - predicted);
-        let v_new = step * lead - *moved * trail;
-        *v_ahead = (v_new + (v_new - *v) * scheme.extrapolation) * decay;
+        let v_new = step * new_weight - *previous * old_weight;
+        *v_extrapolated = (v_new + (v_new - *v) * scheme.extrapolation) * decay;
         *v = v_new * decay;
-        *moved = step * decay;
+        *previous = step * decay;
     }
 }

@@ -117,7 +117,7 @@ fn split_edge(world: &mut World, edge: Corner, share: f32, touching: &mut LinksO
     let site = world.rest.len() as u32;
     let crossing = CutSite { ends, fraction: share };
     world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
-    world.crossings.push(crossing);
+    world.cut_sites.push(crossing);
     let division = world.mesh.split_edge(edge, site);
     let vertex = match &mut world.seams {
         Some(seams) => seams.split_edge(&division, [a, b], share),

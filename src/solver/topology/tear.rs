@@ -7,7 +7,7 @@
 //! ```
 //! Method: of the two ends of the link, the one whose other links pull harder splits first. The fan
 //! on the side of the link gets a new vertex, so no triangle is lost. A link at a crack tip tears
-//! at a lower strain, which makes crack growth independent of the mesh size (see
+//! at a lower strain, so that crack growth does not depend on the mesh size (see
 //! `model::crack_tips`).
 //!
 //! Reads positions, links, crack tips, settings and material; writes the mesh, particles, pins,
@@ -54,9 +54,7 @@ pub(crate) fn tear_overstretched(world: &mut World) {
     }
     refresh_crack_tips(world, &mut scratch);
     if torn > 0 {
-        split_separation::part(world, scratch.touched.iter().copied());
-        update_pieces(world);
-        world.update_tethers(&scratch.touched);
+        update_after_tears(world, &scratch.touched);
     }
     world.scratch.tear = scratch;
 }
@@ -72,12 +70,17 @@ pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
         && (tear_link(world, &mut scratch, a, b) || open_border_edge(world, &mut scratch, a, b));
     refresh_crack_tips(world, &mut scratch);
     if torn {
-        split_separation::part(world, scratch.touched.iter().copied());
-        update_pieces(world);
-        world.update_tethers(&scratch.touched);
+        update_after_tears(world, &scratch.touched);
     }
     world.scratch.tear = scratch;
     torn
+}
+
+/// Separates the two sides of fresh tears, and updates piece labels and tethers.
+fn update_after_tears(world: &mut World, touched: &[u32]) {
+    split_separation::part(world, touched.iter().copied());
+    update_pieces(world);
+    world.update_tethers(touched);
 }
 
 /// Updates `crack_tips` at the vertices that tears changed.
@@ -259,7 +262,7 @@ fn split_arc(world: &mut World, scratch: &mut TearScratch, end: u32, arc: FanArc
             world.mesh.gather_fan(world.mesh.corner_of[*vertex as usize], fan);
         }
     }
-    let mut opened = core::mem::take(&mut world.scratch.openings);
+    let mut opened = core::mem::take(&mut world.scratch.opened_edges);
     opened.clear();
     let new = world.mesh.split_vertex(&scratch.fan, arc, &mut opened);
     push_split_vertex(world, new, end, &mut scratch.mass_fan);
@@ -275,7 +278,7 @@ fn split_arc(world: &mut World, scratch: &mut TearScratch, end: u32, arc: FanArc
         }
     }
     update_links(world, &opened);
-    world.scratch.openings = opened;
+    world.scratch.opened_edges = opened;
 }
 
 /// Far ends of the edges that a split of `arc` opens: the spokes where the arc starts and ends.
