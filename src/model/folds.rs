@@ -18,7 +18,6 @@ use crate::model::hinge::{Hinge, hinge_normal};
 use crate::model::hinges::Hinges;
 use crate::model::material::Material;
 use crate::model::plate_elements::{PerKind, PlateElements};
-use glam::Vec3;
 
 /// Minimum and maximum number of consecutive elements over which a fold counts.
 const MIN_FOLD_ELEMENTS: usize = 3;
@@ -116,7 +115,13 @@ impl Folds {
     }
 
     /// Sets the rest angle of an element, clamped to ±`MAX_ANGLE`, and its offset.
-    fn set_angle(&mut self, kind: usize, at: usize, angle: f32, lengths: &ElementLengths<'_>) {
+    pub(super) fn set_angle(
+        &mut self,
+        kind: usize,
+        at: usize,
+        angle: f32,
+        lengths: &ElementLengths<'_>,
+    ) {
         let angle = max(min(angle, MAX_ANGLE), -MAX_ANGLE);
         self.angle[kind][at] = angle;
         self.has_any |= angle != 0.0;
@@ -178,14 +183,14 @@ impl Folds {
     }
 
     /// Stores the rest angles of a grid before it yields.
-    fn store_rest_angles(&mut self, plates: &PlateElements) {
+    pub(super) fn store_rest_angles(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
             self.previous_rest[at] = self.tensor(plates, at);
         }
     }
 
     /// Adds the change of rest angles of a grid to the hardening.
-    fn accumulate_plate_hardening(&mut self, plates: &PlateElements) {
+    pub(super) fn accumulate_plate_hardening(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
             let (is, previous_rest) = (self.tensor(plates, at), self.previous_rest[at]);
             let by = norm([
@@ -263,7 +268,7 @@ impl Folds {
 
     /// Stores the rest angles of hinges before they yield, and computes the plastic angle of each:
     /// the mean plastic curvature of its two triangles times its fold width.
-    fn store_hinge_state(&mut self, hinges: &Hinges) {
+    pub(super) fn store_hinge_state(&mut self, hinges: &Hinges) {
         for (previous_rest, rest) in self.previous_rest.iter_mut().zip(&self.angle[0]) {
             *previous_rest = [*rest, 0.0, 0.0];
         }
@@ -277,87 +282,12 @@ impl Folds {
     }
 
     /// Adds the change of rest curvature of each triangle to the hardening.
-    fn accumulate_hinge_hardening(&mut self, hinges: &Hinges) {
+    pub(super) fn accumulate_hinge_hardening(&mut self, hinges: &Hinges) {
         for triangle in 0..hinges.elements.count() {
             let twist_increment =
                 |hinge: usize| self.angle[0][hinge] - self.previous_rest[hinge][0];
             let by = hinges.elements.curvature(triangle, &hinges.all, twist_increment);
             self.hardening.add(triangle, by);
-        }
-    }
-
-    /// Adds a fold by `angle` [rad] along a line in the plane of a grid.
-    pub fn crease_plates(
-        &mut self,
-        plates: &PlateElements,
-        line: CreaseLine,
-        angle: f32,
-        tracks_hardening: bool,
-    ) {
-        if tracks_hardening {
-            self.store_rest_angles(plates);
-        }
-        let (spacing, columns) = (plates.spacing, plates.columns);
-        let lengths = ElementLengths::Grid(spacing);
-        let ([nx, ny], width) = (line.normal, spacing * line.widest());
-        for at in 0..plates.count() {
-            let (row, column) = ((at / columns) as f32, (at % columns) as f32);
-            let share = line.share([column * spacing, row * spacing], width, spacing);
-            let center = [(column + 0.5) * spacing, (row + 0.5) * spacing];
-            let of_cell = line.share(center, width, spacing);
-            let whole = angle * spacing / width;
-            let folds = [nx * nx * share, ny * ny * share, nx * ny * of_cell];
-            for (kind, fold) in folds.into_iter().enumerate() {
-                if fold != 0.0 && plates.area_fraction[kind][at] > 0.0 {
-                    self.set_angle(kind, at, self.angle[kind][at] + whole * fold, &lengths);
-                }
-            }
-        }
-        if tracks_hardening {
-            self.accumulate_plate_hardening(plates);
-        }
-    }
-
-    /// Adds a fold by `angle` [rad] along the segment `from`–`to` of a mesh at rest, over `width`
-    /// to either side [m]. `corners` returns the rest positions of a hinge.
-    pub fn crease_hinges(
-        &mut self,
-        hinges: &Hinges,
-        corners: impl Fn(&Hinge) -> [Vec3; 4],
-        [from, to]: [Vec3; 2],
-        width: f32,
-        angle: f32,
-        tracks_hardening: bool,
-    ) {
-        if tracks_hardening {
-            self.store_hinge_state(hinges);
-        }
-        let (length, along) = ((to - from).length(), (to - from).normalize_or_zero());
-        for (at, hinge) in hinges.all.iter().enumerate() {
-            let x = corners(hinge);
-            let middle = (x[0] + x[1]) * 0.5 - from;
-            let side = hinge_normal(x).cross(along).normalize_or_zero();
-            let (ahead, off) = (middle.dot(along), middle.dot(side));
-            let near = (middle - along * ahead).length();
-            if near >= width || ahead < -0.5 * width || ahead > length + 0.5 * width {
-                continue;
-            }
-            let density = angle * (1.0 - off.abs() / width) / width;
-            let terms = x.iter().zip(hinge.weight).map(|(x, weight)| {
-                let d = (*x - from - middle).dot(side);
-                weight * d * d
-            });
-            let curve = 0.5 * density * terms.sum::<f32>();
-            let twist_increment = angle_of(curve / hinge.length);
-            self.set_angle(
-                0,
-                at,
-                self.angle[0][at] + twist_increment,
-                &ElementLengths::Hinges(&hinges.all),
-            );
-        }
-        if tracks_hardening {
-            self.accumulate_hinge_hardening(hinges);
         }
     }
 }
@@ -369,39 +299,6 @@ const MAX_ANGLE: f32 = 3.0;
 pub(crate) enum ElementLengths<'a> {
     Grid(f32),
     Hinges(&'a [Hinge]),
-}
-
-/// A segment in the plane of a grid: start, unit direction, unit normal and length [m].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CreaseLine {
-    pub from: [f32; 2],
-    pub along: [f32; 2],
-    pub normal: [f32; 2],
-    pub length: f32,
-}
-
-impl CreaseLine {
-    /// The segment between two different points.
-    pub fn new(from: [f32; 2], to: [f32; 2]) -> Self {
-        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-        let length = (dx * dx + dy * dy).sqrt();
-        let along = [dx / length, dy / length];
-        Self { from, along, normal: [-along[1], along[0]], length }
-    }
-
-    fn widest(&self) -> f32 {
-        max(self.normal[0].abs(), self.normal[1].abs())
-    }
-
-    /// Share of a fold that belongs to a point: 1 on the segment, falling to 0 at distance `width`;
-    /// 0 beyond the ends.
-    fn share(&self, [x, y]: [f32; 2], width: f32, spacing: f32) -> f32 {
-        let (dx, dy) = (x - self.from[0], y - self.from[1]);
-        let ahead = dx * self.along[0] + dy * self.along[1];
-        let off = dx * self.normal[0] + dy * self.normal[1];
-        let is_beside = ahead >= -0.5 * spacing && ahead <= self.length + 0.5 * spacing;
-        if is_beside { max(1.0 - off.abs() / width, 0.0) } else { 0.0 }
-    }
 }
 
 /// Yield condition and flow rule.
@@ -455,7 +352,7 @@ impl YieldRule {
 
 /// The fold angle whose curvature vector has the given length relative to the element, inverse of c
 /// = 2 sin(θ/2).
-fn angle_of(curve: f32) -> f32 {
+pub(super) fn angle_of(curve: f32) -> f32 {
     if curve.abs() < 0.25 {
         let square = curve * curve;
         return curve * (1.0 + square * (1.0 / 24.0 + square * (3.0 / 640.0)));

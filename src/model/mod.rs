@@ -2,7 +2,8 @@
 //!
 //! | file | content |
 //! | --- | --- |
-//! | `material`, `folds`, `hardening` | material parameters, plastic folds |
+//! | `material` | material parameters and presets |
+//! | `folds`, `hardening`, `creases` | plastic bending |
 //! | `links`, `link_ends`, `constraints`, `coloring`, `link_set` | distance constraints in colours |
 //! | `dynamic_links`, `cut_links`, `crack_tips` | how they change with tears and cuts |
 //! | `grid_rows`, `grid_cells`, `sparse_links` | layouts for the kernels |
@@ -17,6 +18,7 @@ pub(crate) mod chains;
 pub(crate) mod coloring;
 pub(crate) mod constraints;
 pub(crate) mod crack_tips;
+pub(crate) mod creases;
 pub(crate) mod cut_links;
 pub(crate) mod dynamic_links;
 pub(crate) mod folds;

@@ -6,7 +6,8 @@
 //! Reads the rest mesh, hinges and plate elements; writes `world.folds`.
 //! Invariant: after an edit the lists of `folds` still have one entry per bending element.
 
-use crate::model::folds::{CreaseLine, ElementLengths};
+use crate::model::creases::CreaseLine;
+use crate::model::folds::ElementLengths;
 use crate::model::hinge::Hinge;
 use crate::model::plate_elements::PerKind;
 use crate::solver::world::World;
