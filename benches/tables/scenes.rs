@@ -4,7 +4,7 @@ use crate::Effort;
 use crate::measure::{in_turn, seconds};
 use crate::table::{Table, number};
 use muslin::Cloth;
-use muslin_scenes::{Cast, Curtain, Drapes, Flag, HangingSheet, Scene, SheetOnBall};
+use muslin_scenes::{SceneInstance, Curtain, Drapes, Flag, HangingSheet, Scene, SheetOnBall};
 use std::hint::black_box;
 
 /// Ticks until a scene is itself.
@@ -50,7 +50,7 @@ fn row<S: Scene>(effort: Effort) -> Vec<String> {
 }
 
 /// Milliseconds of a tick.
-fn round(cast: &mut Cast, ticks: u32) -> f64 {
+fn round(cast: &mut SceneInstance, ticks: u32) -> f64 {
     let spent = seconds(|| {
         for _ in 0..ticks {
             cast.step(1);

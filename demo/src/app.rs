@@ -3,7 +3,7 @@
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, LinkKind, Result, Stage};
-use muslin_scenes::Cast;
+use muslin_scenes::SceneInstance;
 use three_d::{CoreError, RenderTarget};
 
 use crate::blade::Afterglow;
@@ -22,7 +22,7 @@ const LONGEST_FRAME: f32 = 0.1;
 /// The running demo.
 pub struct App {
     settings: Settings,
-    cast: Cast,
+    cast: SceneInstance,
     camera: Camera,
     hands: Pointers,
     /// The blade is out for as long as a key is held.
@@ -223,7 +223,7 @@ impl App {
     /// Lets `seconds` pass.
     ///
     /// # Errors
-    /// As [`Cast::advance`].
+    /// As [`SceneInstance::advance`].
     pub fn frame(&mut self, seconds: f32) -> Result<()> {
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
         self.camera.advance(seconds.min(LONGEST_FRAME), self.hands.any());

@@ -6,7 +6,7 @@ use std::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, Wind};
 use muslin_scenes::disc::Disc;
-use muslin_scenes::{Cast, Curtain, Drapes, Flag, HangingSheet, SheetOnBall};
+use muslin_scenes::{SceneInstance, Curtain, Drapes, Flag, HangingSheet, SheetOnBall};
 use serde::{Deserialize, Serialize};
 
 use crate::camera::Rig;
@@ -71,8 +71,8 @@ impl Show {
 pub fn weave(settings: &Settings) -> Option<[u32; 2]> {
     match settings.scene {
         Show::Sheet | Show::Ball => Some([settings.resolution; 2]),
-        Show::Flag => Some(Flag::weave(settings.resolution)),
-        Show::Curtain => Some(Curtain::weave(settings.resolution)),
+        Show::Flag => Some(Flag::grid_size(settings.resolution)),
+        Show::Curtain => Some(Curtain::grid_size(settings.resolution)),
         Show::Discs => None,
     }
 }
@@ -133,7 +133,7 @@ pub fn span(settings: &Settings) -> Vec2 {
 }
 
 /// What the cloth hangs on and lies over, as it is drawn.
-pub fn solids(settings: &Settings, cast: &Cast) -> Vec<Solid> {
+pub fn solids(settings: &Settings, cast: &SceneInstance) -> Vec<Solid> {
     match settings.scene {
         Show::Sheet => Vec::new(),
         Show::Ball => {
@@ -148,7 +148,7 @@ pub fn solids(settings: &Settings, cast: &Cast) -> Vec<Solid> {
             let pole = Solid::rod(foot, top, POLE, 0x8d93a3);
             vec![pole, Solid::ball(top + Vec3::Y * 0.02, 0.034, BRASS)]
         }
-        Show::Discs => Drapes::PLACES.iter().flat_map(|place| pedestal(*place)).collect(),
+        Show::Discs => Drapes::CENTRES.iter().flat_map(|place| pedestal(*place)).collect(),
         Show::Curtain => {
             let ball =
                 cast.ball().map(|(centre, radius)| Solid::ball(centre, radius - SKIN, 0xc9563f));
@@ -179,7 +179,7 @@ fn rod() -> Vec<Solid> {
         solids.push(Solid::rod(foot, end, 0.018, 0x8d93a3));
         solids.push(Solid::block(foot, foot + Vec3::Y * 0.03, 0.16, 0.01, 0x4a5264));
     }
-    for ring in Curtain::rings() {
+    for ring in Curtain::ring_positions() {
         let across = Vec3::X * 0.007;
         let on_rod = ring.with_y(Curtain::ROD.y).with_z(0.0);
         solids.push(Solid::block(on_rod - across, on_rod + across, 0.028, 0.006, BRASS));
@@ -192,17 +192,17 @@ fn rod() -> Vec<Solid> {
 ///
 /// # Errors
 /// As [`Cloth::grid`] and [`Cloth::mesh`]; clamped settings give none.
-pub fn build(settings: &Settings, calm: bool) -> Result<Cast> {
+pub fn build(settings: &Settings, calm: bool) -> Result<SceneInstance> {
     let mut cast = match settings.scene {
         Show::Discs => discs(settings)?.into(),
         Show::Curtain => {
             let mut desc = Curtain::desc(settings.resolution);
             desc.material = settings.fabric.material();
-            let mut curtain = Curtain::hung(&desc)?;
+            let mut curtain = Curtain::hang_on_rings(&desc)?;
             put_floor(&mut curtain)?;
-            Cast::with_ball(curtain, Curtain::BALL)?
+            SceneInstance::with_ball(curtain, Curtain::BALL)?
         }
-        _ => Cast::from(sheet(settings)?),
+        _ => SceneInstance::from(sheet(settings)?),
     };
     tune(&mut cast, settings, calm)?;
     Ok(cast)
@@ -219,12 +219,12 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
     // The stiffness slider multiplies them by up to twelve sweeps: four are smooth, and cheap.
     desc.settings.substeps = 4;
     let mut cloth = match settings.scene {
-        Show::Flag => Flag::hoisted(&desc, settings.pinning != Pinning::TopEdge)?,
+        Show::Flag => Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?,
         _ => Cloth::grid(&desc)?,
     };
     put_floor(&mut cloth)?;
     if settings.scene == Show::Ball {
-        SheetOnBall::put_ball(&mut cloth)?;
+        SheetOnBall::add_ball(&mut cloth)?;
     } else {
         drape(&mut cloth, settings)?;
     }
@@ -238,11 +238,11 @@ fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
         let preset = Material::preset(fabric.preset());
         let material = Material { tear_stretch: fabric.material().tear_stretch, ..preset };
         let mut cloth = Cloth::mesh(&Drapes::desc(rings, place, material))?;
-        Drapes::put_pedestal(&mut cloth, place)?;
-        Drapes::put_floor(&mut cloth, CLEARANCE)?;
+        Drapes::add_pedestal(&mut cloth, place)?;
+        Drapes::add_floor(&mut cloth, CLEARANCE)?;
         Ok(cloth)
     };
-    DISCS.into_iter().zip(Drapes::PLACES).map(disc).collect()
+    DISCS.into_iter().zip(Drapes::CENTRES).map(disc).collect()
 }
 
 /// Particles across a disc: a few less, since there are three.
@@ -303,7 +303,7 @@ fn drape(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
 ///
 /// # Errors
 /// As [`Cloth::set_settings`] and [`Cloth::set_wind`]; clamped settings give none.
-pub fn tune(cast: &mut Cast, settings: &Settings, calm: bool) -> Result<()> {
+pub fn tune(cast: &mut SceneInstance, settings: &Settings, calm: bool) -> Result<()> {
     cast.cloths.iter_mut().try_for_each(|cloth| tune_one(cloth, settings, calm))
 }
 

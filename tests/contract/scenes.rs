@@ -1,9 +1,9 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
 use crate::common::crossings::crossings;
-use muslin_scenes::{Cast, Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SheetOnBall};
+use muslin_scenes::{SceneInstance, Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SheetOnBall};
 
-fn keeps_its_promise<S: Scene>() -> Cast {
+fn keeps_its_promise<S: Scene>() -> SceneInstance {
     let mut cast = S::build();
     let mut played = 0;
     for seconds in [1, 5, 20] {

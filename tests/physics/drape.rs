@@ -57,7 +57,7 @@ const RINGS: u32 = 28;
 fn shown(material: &Material, turn: f32) -> (f32, usize) {
     let (cloth, ticks) = draped(material, RINGS, turn, fine());
     assert!(ticks < MOST, "it did not settle in {ticks} ticks");
-    let folds = Outline::of(&cloth, RADIUS).folds();
+    let folds = Outline::from_cloth(&cloth, RADIUS).count_folds();
     (100.0 * drape_coefficient(&cloth, HELD, RADIUS), folds)
 }
 

@@ -1,4 +1,14 @@
-//! Crumpling: hands close around a whole sheet, again and again, and let go of it.
+//! Crumpling: plane colliders ("palms") close around a whole sheet several times, until it is a ball.
+//!
+//! The palms face the centre of the sheet from directions that are spread evenly over a sphere. Each
+//! of the `RADII` is one squeeze:
+//!
+//! ```text
+//! close to the radius ─▶ hold ─▶ yield a little ─▶ remove the palms ─▶ pause ─▶ next, rotated
+//! ```
+//!
+//! [`Squeeze::tick`] moves the colliders of the cloth before each tick. Meanwhile the yield angle of
+//! the material is lower, because paper that is held folded creeps.
 
 #[cfg(test)]
 mod tests;
@@ -6,137 +16,149 @@ mod tests;
 use glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Material, Result};
 
-/// So many palms close all around it. With fewer, paper is pinched where they meet.
+/// Number of palms. With fewer, paper is pinched where they meet.
 const PALMS: u32 = 32;
-/// How far from the middle they close to, one time after the other, in units: little by little, as hands do.
-const BALLS: [f32; 6] = [1.1, 1.05, 1.0, 0.95, 0.9, 0.9];
-/// How long that takes from the second time on, and how long they stay closed [s].
-const AGAIN: f32 = 0.3;
-const CLOSED: f32 = 0.2;
-/// They yield to that much of it then, in so much time, or in as much when they let go at last [s].
-const YIELDS: f32 = 1.15;
-const YIELDING: f32 = 0.2;
-const LETS_GO: f32 = 0.5;
-/// How long they are off until they close again [s].
-const LOOSE: f32 = 0.12;
-/// How far they are turned from one time to the next [rad], and what about.
-const TURN: f32 = 1.7;
-const ABOUT: Vec3 = Vec3::new(0.830_455, 0.498_273, 0.249_136);
-/// Angle up to which folds open again that hands keep pressing [rad]: held folded, paper gives way.
-const PRESSED: f32 = 0.2;
-/// How high over the floor that is at least, in units.
-const HEIGHT: f32 = 2.2;
-/// Their friction: paper slides under them rather than being drawn out.
+/// Distance of the closed palms from the centre in each squeeze [units]; it shrinks gradually.
+const RADII: [f32; 6] = [1.1, 1.05, 1.0, 0.95, 0.9, 0.9];
+/// Duration of closing from the second squeeze on [s].
+const RECLOSE_TIME: f32 = 0.3;
+/// How long the palms stay closed [s].
+const HOLD_TIME: f32 = 0.2;
+/// Factor on the radius to which the palms yield after holding.
+const YIELD_FACTOR: f32 = 1.15;
+/// Duration of yielding [s].
+const YIELD_TIME: f32 = 0.2;
+/// Duration of yielding in the last squeeze [s].
+const LAST_YIELD_TIME: f32 = 0.5;
+/// Pause between two squeezes, without palms [s].
+const PAUSE: f32 = 0.12;
+/// Rotation of all palms from one squeeze to the next [rad].
+const ROTATION: f32 = 1.7;
+/// Axis of that rotation.
+const ROTATION_AXIS: Vec3 = Vec3::new(0.830_455, 0.498_273, 0.249_136);
+/// Yield angle during a squeeze [rad]: paper that is held folded creeps.
+const PRESSED_YIELD_ANGLE: f32 = 0.2;
+/// Smallest height of the centre above the floor [units].
+const MIN_HEIGHT: f32 = 2.2;
+/// Friction of the palms: low, so that paper slides under them and is not pulled out.
 const FRICTION: f32 = 0.2;
 
-/// Hands that close.
+/// A running sequence of squeezes.
 #[derive(Debug)]
 pub struct Squeeze {
     palms: Vec<Palm>,
-    /// Where the ball will be, and how long a unit is [m].
-    middle: Vec3,
+    /// Centre of the ball [m].
+    centre: Vec3,
+    /// Length of a unit [m].
     unit: f32,
-    /// How long they have been at it this time [s], and which time it is.
+    /// Time since the current squeeze began [s].
     age: f32,
-    time: usize,
-    /// Angle up to which folds open again, out of hands [rad].
+    /// Index of the current squeeze in [`RADII`].
+    round: usize,
+    /// Yield angle of the material before and after the squeezes [rad].
     yield_angle: f32,
 }
 
-/// A plane that faces the middle.
+/// A plane collider that faces the centre.
 #[derive(Debug)]
 struct Palm {
     collider: Collider,
-    /// The way out, and how far out it was at first [m].
-    out: Vec3,
-    from: f32,
+    /// Unit direction from the centre to the palm.
+    outward: Vec3,
+    /// Distance from the centre at the start of the squeeze [m].
+    start: f32,
 }
 
 impl Squeeze {
-    /// How long hands take to close at first [s].
+    /// Duration of closing in the first squeeze [s].
     pub const CLOSING: f32 = 1.0;
 
-    /// Puts palms all around a sheet, just outside, where a unit is so long [m].
+    /// Adds palms all around the sheet, just outside it; `unit` is the length of a unit [m].
     ///
     /// # Errors
     /// As [`Cloth::add_collider`].
     pub fn new(cloth: &mut Cloth, unit: f32) -> Result<Self> {
-        let (palms, middle) = (Vec::with_capacity(PALMS as usize), Vec3::ZERO);
+        let (palms, centre) = (Vec::with_capacity(PALMS as usize), Vec3::ZERO);
         let yield_angle = cloth.material().yield_angle;
-        let mut hands = Self { palms, middle, unit, age: 0.0, time: 0, yield_angle };
-        hands.spread(cloth)?;
-        set_yield_angle(cloth, yield_angle.min(PRESSED))?;
-        Ok(hands)
+        let mut squeeze = Self { palms, centre, unit, age: 0.0, round: 0, yield_angle };
+        squeeze.add_palms(cloth)?;
+        set_yield_angle(cloth, yield_angle.min(PRESSED_YIELD_ANGLE))?;
+        Ok(squeeze)
     }
 
-    fn spread(&mut self, cloth: &mut Cloth) -> Result<()> {
+    /// Adds the palms of the current squeeze as colliders.
+    fn add_palms(&mut self, cloth: &mut Cloth) -> Result<()> {
         let positions = cloth.positions();
-        let middle = positions.iter().sum::<Vec3>() / positions.len() as f32;
-        let floor = (crate::receipt::FLOOR + HEIGHT) * self.unit;
-        self.middle = middle.with_y(middle.y.max(floor));
-        let turned = Quat::from_axis_angle(ABOUT.normalize(), TURN * self.time as f32);
-        for at in 0..PALMS {
-            let out = turned * around(at);
-            let far = |x: &Vec3| (*x - self.middle).dot(out);
-            let from = cloth.positions().iter().map(far).fold(self.ball(), f32::max);
+        let mean = positions.iter().sum::<Vec3>() / positions.len() as f32;
+        let floor = (crate::receipt::FLOOR + MIN_HEIGHT) * self.unit;
+        self.centre = mean.with_y(mean.y.max(floor));
+        let rotation =
+            Quat::from_axis_angle(ROTATION_AXIS.normalize(), ROTATION * self.round as f32);
+        for palm in 0..PALMS {
+            let outward = rotation * spread_direction(palm);
+            let distance = |x: &Vec3| (*x - self.centre).dot(outward);
+            let start = cloth.positions().iter().map(distance).fold(self.radius(), f32::max);
             let desc = ColliderDesc {
-                position: self.middle + out * from,
-                rotation: facing_in(out),
+                position: self.centre + outward * start,
+                rotation: rotation_towards_centre(outward),
                 friction: FRICTION,
                 ..ColliderDesc::default()
             };
-            self.palms.push(Palm { collider: cloth.add_collider(&desc)?, out, from });
+            self.palms.push(Palm { collider: cloth.add_collider(&desc)?, outward, start });
         }
         Ok(())
     }
 
-    /// How far from the middle palms close to this time [m].
-    fn ball(&self) -> f32 {
-        BALLS[self.time] * self.unit
+    /// Returns the distance of the closed palms from the centre in the current squeeze [m].
+    fn radius(&self) -> f32 {
+        RADII[self.round] * self.unit
     }
 
-    /// Goes on for one tick, and says whether there is more to do; hands have let go otherwise.
+    /// Moves the palms for the next tick of `seconds` [s], and returns whether the sequence continues. At
+    /// the end all palms are removed.
     ///
     /// # Errors
-    /// As [`Cloth::move_collider`].
+    /// As [`Cloth::move_collider`] and [`Cloth::add_collider`].
     pub fn tick(&mut self, seconds: f32, cloth: &mut Cloth) -> Result<bool> {
         self.age += seconds;
-        let is_last = self.time + 1 == BALLS.len();
-        let closing = if self.time == 0 { Self::CLOSING } else { AGAIN };
-        let yielding = if is_last { LETS_GO } else { YIELDING };
-        let since = self.age - closing - CLOSED;
-        if since > yielding {
-            self.open(cloth)?;
+        let is_last = self.round + 1 == RADII.len();
+        let closing = if self.round == 0 { Self::CLOSING } else { RECLOSE_TIME };
+        let yield_time = if is_last { LAST_YIELD_TIME } else { YIELD_TIME };
+        let since_hold = self.age - closing - HOLD_TIME;
+        if since_hold > yield_time {
+            self.remove_palms(cloth)?;
             if is_last {
                 set_yield_angle(cloth, self.yield_angle)?;
                 return Ok(false);
             }
-            if since > yielding + LOOSE {
-                (self.age, self.time) = (0.0, self.time + 1);
-                self.spread(cloth)?;
+            if since_hold > yield_time + PAUSE {
+                (self.age, self.round) = (0.0, self.round + 1);
+                self.add_palms(cloth)?;
             }
             return Ok(true);
         }
-        let (ball, share) = (self.ball(), (self.age / closing).min(1.0));
+        let (radius, share) = (self.radius(), (self.age / closing).min(1.0));
         let share = share * share * (3.0 - 2.0 * share);
-        let yields = 1.0 + (YIELDS - 1.0) * (since / yielding).max(0.0);
-        for Palm { collider, out, from } in &self.palms {
-            let far = if since > 0.0 { ball * yields } else { from + share * (ball - from) };
-            cloth.move_collider(*collider, self.middle + *out * far, facing_in(*out))?;
+        let factor = 1.0 + (YIELD_FACTOR - 1.0) * (since_hold / yield_time).max(0.0);
+        for Palm { collider, outward, start } in &self.palms {
+            let distance =
+                if since_hold > 0.0 { radius * factor } else { start + share * (radius - start) };
+            let position = self.centre + *outward * distance;
+            cloth.move_collider(*collider, position, rotation_towards_centre(*outward))?;
         }
         Ok(true)
     }
 
-    /// Lets go before the time.
+    /// Ends the sequence early.
     ///
     /// # Errors
     /// As [`Cloth::remove_collider`].
     pub fn release(mut self, cloth: &mut Cloth) -> Result<()> {
         set_yield_angle(cloth, self.yield_angle)?;
-        self.open(cloth)
+        self.remove_palms(cloth)
     }
 
-    fn open(&mut self, cloth: &mut Cloth) -> Result<()> {
+    fn remove_palms(&mut self, cloth: &mut Cloth) -> Result<()> {
         self.palms.drain(..).try_for_each(|palm| cloth.remove_collider(palm.collider))
     }
 }
@@ -146,14 +168,16 @@ fn set_yield_angle(cloth: &mut Cloth, yield_angle: f32) -> Result<()> {
     cloth.set_material(Material { yield_angle, ..material })
 }
 
-/// Directions spread evenly over a ball, each turned on by the golden angle.
-fn around(at: u32) -> Vec3 {
-    let y = 1.0 - (2 * at + 1) as f32 / PALMS as f32;
-    let (sin, cos) = (2.399_963 * at as f32).sin_cos();
-    let flat = (1.0 - y * y).sqrt();
-    Vec3::new(flat * cos, y, flat * sin)
+/// Returns one of [`PALMS`] unit directions that are spread evenly over the sphere: a Fibonacci lattice,
+/// in which each is rotated by the golden angle.
+fn spread_direction(index: u32) -> Vec3 {
+    let y = 1.0 - (2 * index + 1) as f32 / PALMS as f32;
+    let (sin, cos) = (2.399_963 * index as f32).sin_cos();
+    let horizontal = (1.0 - y * y).sqrt();
+    Vec3::new(horizontal * cos, y, horizontal * sin)
 }
 
-fn facing_in(out: Vec3) -> Quat {
-    Quat::from_rotation_arc(Vec3::Y, -out)
+/// Returns the rotation that turns the normal of a plane (+y) towards the centre.
+fn rotation_towards_centre(outward: Vec3) -> Quat {
+    Quat::from_rotation_arc(Vec3::Y, -outward)
 }

@@ -338,7 +338,7 @@ impl Tender {
 
     /// Particles across and down.
     pub fn weave(&self) -> [u32; 2] {
-        self.settings.sheet.weave(self.small)
+        self.settings.sheet.grid_size(self.small)
     }
 
     /// Where a particle is, in units.
@@ -397,7 +397,7 @@ impl Tender {
         self.cloth.reset();
         self.forget();
         // Creases are gone, those of the roll too, and the brief's masses.
-        if let Err(error) = self.settings.sheet.finish(&mut self.cloth, self.small) {
+        if let Err(error) = self.settings.sheet.apply_initial_state(&mut self.cloth, self.small) {
             unreachable!("the scene's own sheet: {error}");
         }
     }

@@ -1,4 +1,4 @@
-//! Tests: what hands leave of a sheet.
+//! Tests of crumpling: the sheet becomes a ball that comes to rest and does not intersect itself.
 
 #[path = "../../../../tests/common/crossings.rs"]
 mod crossings;
@@ -8,10 +8,10 @@ use crate::Sheet;
 
 const TICK: f32 = 1.0 / 120.0;
 
-/// Paper that is squeezed after so many ticks and let fall.
-fn squeezed(small: bool, after: u32) -> Cloth {
+/// Returns paper that was crumpled after `ticks` ticks.
+fn crumpled(small: bool, ticks: u32) -> Cloth {
     let mut cloth = Sheet::Paper.hang(small).unwrap();
-    cloth.step(after);
+    cloth.step(ticks);
     cloth.unpin_all();
     let mut squeeze = Squeeze::new(&mut cloth, Sheet::Paper.unit()).unwrap();
     while squeeze.tick(TICK, &mut cloth).unwrap() {
@@ -25,26 +25,29 @@ fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
 }
 
 #[test]
-fn what_was_squeezed_is_a_ball_and_comes_to_rest() {
-    // On small screens or others, squeezed after so many ticks.
-    for (small, after) in [(false, 60), (true, 60), (true, 75), (true, 90)] {
-        let mut cloth = squeezed(small, after);
+fn crumpled_paper_is_a_ball_and_comes_to_rest() {
+    // The grid of small screens or the full one, and the tick at which crumpling starts.
+    for (small, ticks) in [(false, 60), (true, 60), (true, 75), (true, 90)] {
+        let mut cloth = crumpled(small, ticks);
         cloth.step(600);
         let before = cloth.positions().to_vec();
         cloth.step(120);
         let unit = Sheet::Paper.unit();
-        let moved = cloth.positions().iter().zip(&before).map(|(x, at)| x.distance(*at));
-        let most = moved.fold(0.0, f32::max) / unit;
-        assert!(most < 0.03, "{small}, {after}: within a second one moves by {most} units");
+        let distances = cloth.positions().iter().zip(&before).map(|(x, old)| x.distance(*old));
+        let largest = distances.fold(0.0, f32::max) / unit;
+        assert!(largest < 0.03, "{small}, {ticks}: a particle moves {largest} units in a second");
         let x = cloth.positions();
-        let middle = x.iter().sum::<Vec3>() / x.len() as f32;
-        // Flat, its corners are 4.2 away.
-        let reach = x.iter().map(|at| at.distance(middle) / unit).fold(0.0, f32::max);
-        assert!(reach < 1.9, "{small}, {after}: it reaches {reach} units from its middle");
-        let low = x.iter().fold(Vec3::MAX, |low, at| low.min(*at));
-        let size = x.iter().fold(Vec3::MIN, |high, at| high.max(*at)) - low;
-        let round = size.min_element() / size.max_element();
-        assert!(round > 0.6, "{small}, {after}: it lies in a box of {size} m");
-        assert_eq!(crossings::crossings(&cloth), 0, "{small}, {after}");
+        let centre = x.iter().sum::<Vec3>() / x.len() as f32;
+        // The corners of the flat sheet are 4.2 units away.
+        let radius = x.iter().map(|x| x.distance(centre) / unit).fold(0.0, f32::max);
+        assert!(
+            radius < 1.9,
+            "{small}, {ticks}: the farthest particle is {radius} units from the centre"
+        );
+        let low = x.iter().fold(Vec3::MAX, |low, x| low.min(*x));
+        let size = x.iter().fold(Vec3::MIN, |high, x| high.max(*x)) - low;
+        let roundness = size.min_element() / size.max_element();
+        assert!(roundness > 0.6, "{small}, {ticks}: the bounding box is {size} m");
+        assert_eq!(crossings::crossings(&cloth), 0, "{small}, {ticks}");
     }
 }
