@@ -1,6 +1,6 @@
 //! Interleaved positions for the distance constraints and the implicit bending of meshes.
 //!
-//! The position of a particle is one aligned load of `[x, y, z, 0]`, whatever its index is; columns
+//! The position of a particle is one load of `[x, y, z, 0]`, whatever its index is; columns
 //! would need three loads from three cache lines. Inverse masses stay in a list of their own,
 //! because most links have the weights of their ends beside them (see `stretch::end_weights`).
 //!

@@ -4,8 +4,8 @@
 //! | layout | file | used by |
 //! | --- | --- | --- |
 //! | columns (SoA), one array per coordinate | `access` | links and bends of grids |
-//! | one list of `[x, y, z, 0]`, inverse masses beside it | `interleaved_particles` | links of meshes |
-//! | one list of `[x, y, z, w]` | `interleaved` | self-collision |
+//! | `[x, y, z, 0]`, and a list of w | `interleaved_particles` | links of meshes |
+//! | `[x, y, z, w]` | `interleaved` | self-collision |
 
 pub(crate) mod access;
 pub(crate) mod interleaved;

@@ -32,9 +32,9 @@ pub(crate) fn apply(world: &mut World) {
     let ratio = world.material.stretch_damping / world.settings.scheme().h;
     let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
     let start = |i: u32| predicted.at(i as usize) - displacement.at(i as usize);
-    let Constraints { links, dynamic: extra, .. } = &mut world.constraints;
+    let Constraints { links, dynamic, .. } = &mut world.constraints;
     let undamped = &mut world.scratch.damping.undamped;
-    for (links, [rest, compliance]) in [links, extra].into_iter().zip(undamped) {
+    for (links, [rest, compliance]) in [links, dynamic].into_iter().zip(undamped) {
         rest.clone_from(&links.rest);
         compliance.clone_from(&links.compliance);
         damp(links, start, ratio);
@@ -47,9 +47,9 @@ pub(crate) fn remove(world: &mut World) {
     if !is_on(world) {
         return;
     }
-    let Constraints { links, dynamic: extra, .. } = &mut world.constraints;
+    let Constraints { links, dynamic, .. } = &mut world.constraints;
     let undamped = &world.scratch.damping.undamped;
-    for (links, [rest, compliance]) in [links, extra].into_iter().zip(undamped) {
+    for (links, [rest, compliance]) in [links, dynamic].into_iter().zip(undamped) {
         links.rest.copy_from_slice(rest);
         links.compliance.copy_from_slice(compliance);
     }

@@ -5,16 +5,16 @@
 
 use crate::math::column::Column;
 
-/// Rest lengths and compliances without damping: of the links, then of the extra links of tears.
+/// Rest lengths and compliances without damping: of the links, then of the dynamic links.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DampingScratch {
     pub undamped: [[Column; 2]; 2],
 }
 
 impl DampingScratch {
-    /// Allocates columns for so many `links` and `extra` links.
-    pub fn new(links: usize, extra: usize) -> Self {
+    /// Allocates columns for so many `links` and `dynamic` links.
+    pub fn new(links: usize, dynamic: usize) -> Self {
         let columns = |count: usize| [Column::with_capacity(count), Column::with_capacity(count)];
-        Self { undamped: [columns(links), columns(extra)] }
+        Self { undamped: [columns(links), columns(dynamic)] }
     }
 }

@@ -7,16 +7,16 @@
 //! arithmetic). A colour is stored as one batch of links. Three kernels solve a batch:
 //!
 //! ```text
-//! links of a grid            row by row                       grid_links, on threads: tiling
-//! links of any other mesh    interleaved positions            mesh_kernel
-//! strays, links of tears     gathered, with their own colours sparse
+//! links of a grid             row by row                      grid_links, on threads: tiling
+//! links of any other mesh     interleaved positions           mesh_kernel
+//! irregular, dynamic links    gathered, colours of their own  sparse
 //! ```
 //! Macklin, Müller, Chentanez, "XPBD", MIG 2016, eq. 18.
 //!
 //! Reads `constraints`, `material`, `particles.w`; writes `particles.x` (or the interleaved copy
 //! while that is current) and λ of the links.
 //! Invariant: the links of one colour share no particle, so the order inside a colour does not
-//! change the result; the extra links of torn edges come after all batches (before them in a
+//! change the result; the dynamic links of torn edges come after all batches (before them in a
 //! backward sweep).
 
 #[cfg(feature = "parallel")]
@@ -67,11 +67,11 @@ fn sweep<const LAW: u8>(world: &mut World, kind: LinkKind, order: SweepOrder, sc
         SweepOrder::Forward => {
             solve_batches::<LAW>(world, kind, order, scale);
             let batches = world.constraints.sparse.batches_of(kind);
-            batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
+            batches.for_each(|at| solve_dynamic::<LAW>(world, at, order, scale));
         }
         SweepOrder::Backward => {
             let batches = world.constraints.sparse.batches_of(kind).rev();
-            batches.for_each(|at| solve_extra::<LAW>(world, at, order, scale));
+            batches.for_each(|at| solve_dynamic::<LAW>(world, at, order, scale));
             solve_batches::<LAW>(world, kind, order, scale);
         }
     }
@@ -106,7 +106,7 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
             let links = &mut constraints.links;
             grid_links::solve::<LAW>(world.level, grid, range.clone(), links, ends, p, scale);
         }
-        // The strays of one batch share no particle, so that the order does not matter.
+        // The irregular links of one batch share no particle, so that the order does not matter.
         let (links, order) = (&mut constraints.links, SweepOrder::Forward);
         sparse::solve::<LAW, _>(world.level, &grid.sparse, (at, order), links, p, scale);
     } else if interleaved.is_current {
@@ -125,14 +125,14 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
     }
 }
 
-/// Solves one batch of the extra links that tears made.
-fn solve_extra<const LAW: u8>(world: &mut World, at: usize, order: SweepOrder, scale: f32) {
+/// Solves one batch of dynamic links, which tears made.
+fn solve_dynamic<const LAW: u8>(world: &mut World, at: usize, order: SweepOrder, scale: f32) {
     let (level, at) = (world.level, (at, order));
     let (p, interleaved) = (&mut world.particles, &mut world.scratch.interleaved);
-    let (loose, links) = (&world.constraints.sparse, &mut world.constraints.dynamic);
+    let (sparse_links, links) = (&world.constraints.sparse, &mut world.constraints.dynamic);
     if interleaved.is_current {
-        sparse::solve::<LAW, _>(level, loose, at, links, interleaved, scale);
+        sparse::solve::<LAW, _>(level, sparse_links, at, links, interleaved, scale);
     } else {
-        sparse::solve::<LAW, _>(level, loose, at, links, p, scale);
+        sparse::solve::<LAW, _>(level, sparse_links, at, links, p, scale);
     }
 }

@@ -74,20 +74,20 @@ impl LinePoints<'_> {
         s: S,
         first: usize,
         start: &mut [S::F; 4],
-        laid: &chain_blocks::ChainStep,
+        chain_step: &chain_blocks::ChainStep,
         step: &mut LineStep,
     ) {
-        let to = gather_transpose(s, self.points, &laid.to[first..]);
+        let to = gather_transpose(s, self.points, &chain_step.to[first..]);
         for (lanes, to) in step.to.iter_mut().zip(to) {
             s.store(lanes, first, to);
         }
         if SOFT {
-            return step.set_rest_target(s, first, &laid.rest);
+            return step.set_rest_target(s, first, &chain_step.rest);
         }
         let last = *start;
-        *start = gather_transpose(s, self.start_points, &laid.to[first..]);
+        *start = gather_transpose(s, self.start_points, &chain_step.to[first..]);
         let span = [start[0] - last[0], start[1] - last[1], start[2] - last[2]];
-        step.set_relaxed_target(s, first, length(s, span), &laid.rest);
+        step.set_relaxed_target(s, first, length(s, span), &chain_step.rest);
     }
 }
 
@@ -126,8 +126,8 @@ fn gather_lanes<S: Simd, const SOFT: bool>(
 ) {
     for first in (0..LANES).step_by(S::LANES) {
         let mut start = [s.splat(0.0); 4];
-        for (laid, step) in block.iter().zip(&mut *steps) {
-            points.gather_step::<S, SOFT>(s, first, &mut start, laid, step);
+        for (chain_step, step) in block.iter().zip(&mut *steps) {
+            points.gather_step::<S, SOFT>(s, first, &mut start, chain_step, step);
         }
     }
 }
@@ -167,11 +167,16 @@ fn scatter_lanes<S: Simd>(
 ) {
     for first in (0..LANES).step_by(S::LANES) {
         let (mut u, mut excess) = ([s.splat(0.0); 3], s.splat(0.0));
-        for (laid, step) in block.iter().zip(steps) {
+        for (chain_step, step) in block.iter().zip(steps) {
             u = step.displacement(s, first, u);
-            excess = limit_excess(s, max_component(s, u), &laid.rest, first).max(excess);
+            excess = limit_excess(s, max_component(s, u), &chain_step.rest, first).max(excess);
             let [x, y, z] = step.displaced(s, first, u);
-            scatter_transpose(s, points, &laid.to[first..], [x, y, z, s.load(&step.to[3], first)]);
+            scatter_transpose(
+                s,
+                points,
+                &chain_step.to[first..],
+                [x, y, z, s.load(&step.to[3], first)],
+            );
         }
         *may_exceed |= s.any_positive(excess);
     }
@@ -186,11 +191,11 @@ fn scatter_clamped(
 ) {
     for lane in 0..LANES {
         let mut u = [0.0; 3];
-        for (laid, step) in block.iter().zip(steps) {
+        for (chain_step, step) in block.iter().zip(steps) {
             u = step.displacement(Scalar, lane, u);
-            let limit = laid.rest[lane].abs();
+            let limit = chain_step.rest[lane].abs();
             let [x, y, z] = step.displaced(Scalar, lane, clamp_length(u, limit));
-            points[laid.to[lane] as usize] = [x, y, z, step.to[3][lane]];
+            points[chain_step.to[lane] as usize] = [x, y, z, step.to[3][lane]];
         }
     }
 }

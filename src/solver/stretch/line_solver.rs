@@ -154,8 +154,8 @@ fn solve_strided(world: &mut World, scale: Option<f32>) {
 
 /// Sets the target lengths of compliant links.
 fn set_rest_targets(block: &[chain_blocks::ChainStep], steps: &mut [LineStep]) {
-    for (step, laid) in steps.iter_mut().zip(block) {
-        (0..LANES).for_each(|lane| step.set_rest_target(Scalar, lane, &laid.rest));
+    for (step, chain_step) in steps.iter_mut().zip(block) {
+        (0..LANES).for_each(|lane| step.set_rest_target(Scalar, lane, &chain_step.rest));
     }
 }
 

@@ -187,7 +187,7 @@ unsafe fn set_relaxed_targets_direct(
     let (s, mut at) = (Baseline::new(), strided.at(0, 0));
     // The first step of a chain has no link, so its target is not used.
     let mut last = at;
-    for (step, laid) in steps.iter_mut().zip(block) {
+    for (step, chain_step) in steps.iter_mut().zip(block) {
         for first in [0, FOUR] {
             // SAFETY: the caller guarantees it.
             let span = unsafe {
@@ -197,7 +197,7 @@ unsafe fn set_relaxed_targets_direct(
                     s.load_from(z.add(at + first)) - s.load_from(z.add(last + first)),
                 ]
             };
-            step.set_relaxed_target(s, first, length(s, span), &laid.rest);
+            step.set_relaxed_target(s, first, length(s, span), &chain_step.rest);
         }
         (last, at) = (at, at + strided.link_stride);
     }
@@ -235,10 +235,10 @@ unsafe fn set_relaxed_targets_transposed(
                 start_length(at + 2 * across),
                 start_length(at + 3 * across),
             ];
-            for ((step, laid), start_length) in
+            for ((step, chain_step), start_length) in
                 steps.iter_mut().zip(block).zip(transpose_4x4(s, lengths))
             {
-                step.set_relaxed_target(s, first, start_length, &laid.rest);
+                step.set_relaxed_target(s, first, start_length, &chain_step.rest);
             }
         }
     }
@@ -252,12 +252,12 @@ fn set_relaxed_targets_scalar(
 ) {
     for lane in 0..LANES {
         let mut last = [0.0; 3];
-        for (number, (step, laid)) in steps.iter_mut().zip(block).enumerate() {
+        for (number, (step, chain_step)) in steps.iter_mut().zip(block).enumerate() {
             let at = strided.at(lane, number) + 1;
             let start =
                 if lane < strided.chain_count { starts.map(|column| column[at]) } else { last };
             let start_length = length(Scalar, [0, 1, 2].map(|axis| start[axis] - last[axis]));
-            step.set_relaxed_target(Scalar, lane, start_length, &laid.rest);
+            step.set_relaxed_target(Scalar, lane, start_length, &chain_step.rest);
             last = start;
         }
     }
@@ -306,13 +306,13 @@ unsafe fn scatter_direct(
     let zero = s.splat(0.0);
     let (mut u, mut other_u) = ([zero; 3], [zero; 3]);
     let (mut excess, mut other_excess) = (zero, zero);
-    for (step, laid) in steps.iter().zip(block) {
+    for (step, chain_step) in steps.iter().zip(block) {
         u = step.displacement(s, 0, u);
-        excess = limit_excess(s, max_component(s, u), &laid.rest, 0).max(excess);
+        excess = limit_excess(s, max_component(s, u), &chain_step.rest, 0).max(excess);
         let moved = step.displaced(s, 0, u);
         other_u = step.displacement(s, FOUR, other_u);
         other_excess =
-            limit_excess(s, max_component(s, other_u), &laid.rest, FOUR).max(other_excess);
+            limit_excess(s, max_component(s, other_u), &chain_step.rest, FOUR).max(other_excess);
         let other_moved = step.displaced(s, FOUR, other_u);
         for axis in 0..3 {
             // SAFETY: the caller guarantees it.
@@ -366,8 +366,8 @@ unsafe fn scatter_transposed(
                     };
                 }
             }
-            for (component, laid) in largest.into_iter().zip(block) {
-                excess = limit_excess(s, component, &laid.rest, first).max(excess);
+            for (component, chain_step) in largest.into_iter().zip(block) {
+                excess = limit_excess(s, component, &chain_step.rest, first).max(excess);
             }
         }
     }
@@ -383,9 +383,9 @@ fn scatter_chain_clamped(
     chain: usize,
 ) {
     let mut u = [0.0; 3];
-    for (number, (step, laid)) in steps.iter().zip(block).enumerate() {
+    for (number, (step, chain_step)) in steps.iter().zip(block).enumerate() {
         u = step.displacement(Scalar, chain, u);
-        let moved = step.displaced(Scalar, chain, clamp_length(u, laid.rest[chain].abs()));
+        let moved = step.displaced(Scalar, chain, clamp_length(u, chain_step.rest[chain].abs()));
         for (column, moved) in columns.iter_mut().zip(moved) {
             column[strided.at(chain, number)] = moved;
         }

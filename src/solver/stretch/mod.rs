@@ -1,5 +1,19 @@
-//! Stage `Stretch` and its bounds: distance constraints, line solver, tethers, strain limit,
-//! damping.
+//! Stage `Stretch` and its bounds: everything that acts along the links.
+//!
+//! ```text
+//! substep   damping::apply            rest lengths and compliances of damped links
+//!           line_solver               first sweep: chains as tridiagonal systems
+//!           distance                  other sweeps ─┬─ grid_links ─ grid_kernel, tiling
+//!                                                   ├─ mesh_kernel
+//!                                                   └─ sparse
+//!           tethers                   after each sweep
+//!           damping::remove
+//!           strain_limit              one sweep
+//! tick      strain_limit              sweeps, then rollback
+//! ```
+//! `link_projection` has the arithmetic of one link. The files `*_scratch`, `rollback_state`,
+//! `end_weights` and `line_step` hold data only: `solver::world` imports them, so they do not
+//! import it.
 
 pub(crate) mod damping;
 pub(crate) mod damping_scratch;

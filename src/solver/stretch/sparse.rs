@@ -1,8 +1,8 @@
 //! SIMD kernel for sparse links: links at arbitrary indices, whose ends are gathered and scattered.
 //!
-//! These are the links that left the rows of a grid (strays) and the extra links that tears made.
-//! They have colours of their own. Links of a batch that could not be coloured go one by one, in
-//! sweep order.
+//! These are the links that left the rows of a grid (irregular links) and those that tears made
+//! (dynamic links). They have colours of their own. Links of a batch that could not be coloured go
+//! one by one, in sweep order.
 //!
 //! Reads `SparseLinks` (ends, rest lengths, weights) and the compliances of the list that they
 //! index; writes positions and λ.

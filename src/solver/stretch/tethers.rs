@@ -22,8 +22,8 @@
 //!                strain at the top of a strip of length L that hangs under its own weight
 //! ```
 //! so that tethers carry the load which the sweeps have not carried yet, and none of what the cloth
-//! really stretches by. A cloth that was held apart contracts at the rate of the first term: at
-//! once, it would be flung.
+//! really stretches by. A cloth that was held apart contracts at the rate of the first term,
+//! because contracting in one tick would fling it.
 //!
 //! Reads `tethers`, pins, grabs, inverse masses; writes positions, `tether_slack`, `pin_stretch`.
 //! Invariant: tethers move a particle towards its pin only.

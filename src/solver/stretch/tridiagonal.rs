@@ -89,24 +89,30 @@ fn solve_lanes<S: Simd, const SOFT: bool, const GATHERS: bool>(
         let (mut forward, mut other_forward) = (group.begin_forward(), group.begin_forward());
         let (mut start, mut other_start) = ([s.splat(0.0); 4], [s.splat(0.0); 4]);
         let mut last = &*sentinel;
-        for (laid, step) in block.iter().zip(&mut *steps) {
+        for (chain_step, step) in block.iter().zip(&mut *steps) {
             if GATHERS {
-                points.gather_step::<S, SOFT>(s, group.first, &mut start, laid, step);
+                points.gather_step::<S, SOFT>(s, group.first, &mut start, chain_step, step);
             }
-            group.eliminate::<SOFT>(&mut forward, last, (laid, step), links, scale);
+            group.eliminate::<SOFT>(&mut forward, last, (chain_step, step), links, scale);
             if is_double {
                 if GATHERS {
-                    points.gather_step::<S, SOFT>(s, other.first, &mut other_start, laid, step);
+                    points.gather_step::<S, SOFT>(
+                        s,
+                        other.first,
+                        &mut other_start,
+                        chain_step,
+                        step,
+                    );
                 }
-                other.eliminate::<SOFT>(&mut other_forward, last, (laid, step), links, scale);
+                other.eliminate::<SOFT>(&mut other_forward, last, (chain_step, step), links, scale);
             }
             last = step;
         }
         let (mut backward, mut other_backward) = (group.begin_backward(), group.begin_backward());
-        for (laid, step) in block.iter().zip(&mut *steps).rev() {
-            group.substitute::<SOFT>(&mut backward, (laid, step), links);
+        for (chain_step, step) in block.iter().zip(&mut *steps).rev() {
+            group.substitute::<SOFT>(&mut backward, (chain_step, step), links);
             if is_double {
-                other.substitute::<SOFT>(&mut other_backward, (laid, step), links);
+                other.substitute::<SOFT>(&mut other_backward, (chain_step, step), links);
             }
         }
     }
@@ -185,7 +191,7 @@ impl<S: Simd> LaneGroup<S> {
         &self,
         forward: &mut Forward<S::F>,
         last: &LineStep,
-        (laid, step): (&chain_blocks::ChainStep, &mut LineStep),
+        (chain_step, step): (&chain_blocks::ChainStep, &mut LineStep),
         links: &Links,
         scale: f32,
     ) {
@@ -204,13 +210,13 @@ impl<S: Simd> LaneGroup<S> {
         let cosine = n[0] * n_before[0] + n[1] * n_before[1] + n[2] * n_before[2];
         let error = length - self.load(&step.target);
         self.store(&mut step.target, length * self.load(&step.inv_target));
-        let (rest, last_w) = (self.load(&laid.rest), self.load(from_w));
+        let (rest, last_w) = (self.load(&chain_step.rest), self.load(from_w));
         let coupling = s.select_or_zero(rest, last_w * cosine);
         self.store(&mut step.coupling, coupling);
         let both = last_w + self.load(to_w);
         let mut diagonal = both * s.splat(1.0 + REGULARIZATION);
         if SOFT {
-            diagonal = diagonal + self.softness(links, self.own(&laid.links), scale);
+            diagonal = diagonal + self.softness(links, self.own(&chain_step.links), scale);
         }
         let share = coupling * forward.inv_pivot;
         let pivot = (diagonal - share * coupling).max(both * s.splat(REGULARIZATION));
@@ -239,7 +245,7 @@ impl<S: Simd> LaneGroup<S> {
     fn substitute<const SOFT: bool>(
         &self,
         backward: &mut Backward<S::F>,
-        (laid, step): (&chain_blocks::ChainStep, &mut LineStep),
+        (chain_step, step): (&chain_blocks::ChainStep, &mut LineStep),
         links: &mut Links,
     ) {
         let s = self.s;
@@ -264,7 +270,7 @@ impl<S: Simd> LaneGroup<S> {
         if SOFT {
             let mut lanes = [0.0; LANES];
             s.store(&mut lanes, 0, lambda);
-            for (link, lambda) in self.own(&laid.links).iter().zip(lanes) {
+            for (link, lambda) in self.own(&chain_step.links).iter().zip(lanes) {
                 if *link != NONE {
                     links.lambda[*link as usize] = -lambda;
                 }
