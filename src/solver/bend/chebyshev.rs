@@ -1,9 +1,9 @@
 //! Chebyshev iteration: approximates an implicit bending step by a few explicit ones.
 //!
-//! An implicit step removes the share λ / (1 + λ) of a shape whose stiffness over mass is λ. The
-//! Chebyshev iteration (Golub and Varga 1961) approximates 1 / (1 + λ) by a polynomial q for all λ
-//! up to a bound; each step only evaluates forces. The interval is chosen so that λ = 0 is a root
-//! of the error:
+//! Method: an implicit step removes the share λ / (1 + λ) of a shape whose stiffness over mass is
+//! λ. The Chebyshev iteration (Golub and Varga 1961) approximates 1 / (1 + λ) by a polynomial q for
+//! all λ up to a bound; each step only evaluates forces. The interval is chosen so that λ = 0 is a
+//! root of the error:
 //!
 //! ```text
 //! 1 − (1 + λ) q(λ) = T(y(λ)) / T(y(−1)),    y maps λ = 0 to the first root of T and the bound to 1
@@ -12,7 +12,8 @@
 //! With one step this is explicit Euler. The number of steps is about the square root of the bound.
 //!
 //! Reads a bound for the stiffness over mass; gives coefficients for `plate` and `mesh_implicit`.
-//! Invariant: for every λ from 0 to the bound the relative error is at most `MAX_ERROR`.
+//! Invariant: for every λ from 0 to the bound the relative error is at most `MAX_ERROR`, or
+//! `MAX_ERROR_ONE_STEP` with one step.
 
 /// Largest number of steps.
 const MAX_STEPS: usize = 10;

@@ -1,11 +1,11 @@
 //! Stage `Bend`: bending elements pull the cloth towards its rest curvature.
 //!
 //! ```text
-//! mesh                  bend_stiffness > 0 and < 1           bend_stiffness >= 1
-//! grid                  plate elements, `plate` (ADI)        distance links over two edges,
-//!   torn parts          `irregular`, element by element      solved with the other links
-//! any other mesh        hinges, `mesh_implicit`
-//!   parts that cuts made  `hinge`, hinge by hinge
+//! mesh             0 < bend_stiffness < 1                bend_stiffness >= 1
+//! grid             plate elements: `plate` (ADI)         distance links over two edges,
+//!   torn parts     `irregular`, element by element       solved with the other links
+//! any other mesh   hinges: `mesh_implicit`
+//! after a cut      `hinge`, hinge by hinge
 //! ```
 //! Method: quadratic bending energy (Bergou et al., "A quadratic bending model for inextensible
 //! surfaces", SGP 2006), one implicit step per substep for the whole sheet. `bend_stiffness` is the
@@ -15,8 +15,8 @@
 //! bending like the weight; the second comes in the first backward sweep.
 //!
 //! Reads elements, folds, masses and the predicted positions; writes particle positions.
-//! Invariant: bending conserves linear momentum, and `bend` runs with the particles in columns or
-//! in `Packed`, whichever is current.
+//! Invariant: bending conserves linear momentum. The stage works on columns or on the interleaved
+//! layout, whichever is current. With `bend_stiffness` 0 it does nothing.
 
 pub(crate) mod banded;
 pub(crate) mod bend_scratch;

@@ -1,8 +1,8 @@
 //! Time integration: forces, prediction, velocities, momentum of free pieces, recovery, sleep.
 //!
-//! `forces` runs once per tick, `predict` and `velocities` frame each substep; the other modules
-//! watch over the result: `momentum` removes spurious spin, `recover` replaces invalid numbers, and
-//! `sleep` skips the ticks of a cloth at rest.
+//! `forces` runs once per tick; `predict` starts and `velocities` ends each substep. `momentum`
+//! removes spurious spin, `recover` replaces invalid numbers, and `sleep` skips the ticks of a
+//! cloth at rest.
 
 pub(crate) mod forces;
 pub(crate) mod momentum;

@@ -3,9 +3,10 @@
 //! ```text
 //! d = extrapolation · d₋ + velocity_step (v_extrapolated + velocity_step · a)        x ← x + d
 //! ```
-//! Method: the predictor of `state::settings::BdfScheme`, with d₋ the displacement of the last substep. A displacement larger than
-//! `max_displacement` relative to the rigid motion of the cloth is clamped, so that a violent jerk
-//! is absorbed while the cloth may still fall, fly and spin at any speed.
+//! Method: the predictor of `state::settings::BdfScheme`, with d₋ the displacement of the last
+//! substep. A displacement larger than `max_displacement` relative to the rigid motion of the cloth
+//! is clamped, so that a violent jerk is absorbed while the cloth may still fall, fly and spin at
+//! any speed.
 //!
 //! Reads positions, history, acceleration and inverse masses; writes positions,
 //! `scratch.displacement` and `scratch.predicted`.

@@ -4,7 +4,7 @@
 //! gets its last position, velocity zero and the history of free fall.
 //!
 //! Reads and writes position, history and velocities of particles; writes one event `Recovered`.
-//! Invariant: after this stage every number of every particle is finite.
+//! Invariant: after this stage every position, velocity and history is finite.
 
 use crate::math::simd::leveled;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};

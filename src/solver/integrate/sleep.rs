@@ -1,6 +1,6 @@
 //! Sleep: the cloth skips its ticks after it has been at rest for a while.
 //!
-//! Method: as in rigid-body engines, a tick counts as still if every particle is slower than
+//! Method: as in rigid-body engines, a tick counts as still if no particle is faster than
 //! `sleep_speed` [m/s]. After `TIME_TO_SLEEP` of still ticks the cloth sleeps: velocities become
 //! zero and later ticks only advance the clock. A moving pin, anchor, grab or collider, uneven
 //! wind, or any call that changes the cloth wakes it.

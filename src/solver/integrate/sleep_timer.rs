@@ -8,6 +8,6 @@ use serde::{Deserialize, Serialize};
 /// Number of ticks for which the cloth has been at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SleepTimer {
-    /// Consecutive ticks in which every particle was slower than `sleep_speed`.
+    /// Consecutive ticks in which no particle was faster than `sleep_speed`.
     pub still_ticks: u32,
 }

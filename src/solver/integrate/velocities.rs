@@ -3,12 +3,12 @@
 //! ```text
 //! d = displacement + (x − predicted)     v = (new_weight · d − old_weight · d₋) / h     d₋ ← d
 //! ```
-//! Method: the corrector of `state::settings::BdfScheme`. Damping scales the velocity
-//! and its whole history alike, so a free particle slows down by exactly exp(−damping · h).
-//! Particles in contact with a collider or moved by an anchor get their velocities afterwards.
+//! Method: the corrector of `state::settings::BdfScheme`. Damping scales the velocity and its whole
+//! history alike, so a free particle slows down by exactly exp(−damping · h). Particles in contact
+//! with a collider or moved by an anchor get their velocities afterwards.
 //!
-//! Reads positions, `scratch.displacement` and `scratch.predicted`; writes the
-//! particles' `displacement` (d₋), `v` and `v_extrapolated`.
+//! Reads positions, `scratch.displacement` and `scratch.predicted`; writes the particles'
+//! `displacement` (d₋), `v` and `v_extrapolated`.
 //! Invariant: positions stay as they are.
 
 use crate::solver::collide::response::resolve_velocities;

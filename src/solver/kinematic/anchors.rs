@@ -1,14 +1,14 @@
 //! Stage `Hold`, anchors: max distance and backstop constraints to animated positions.
 //!
 //! ```text
-//!        ╭───────╮   the particle stays inside the sphere of max_distance about its anchor ●
-//!        │   ●   │   and outside the backstop sphere behind it
-//!        ╰─╭───╮─╯
-//!          │   │
-//!          ╰───╯
+//!    ╭───────────╮      outer sphere: |x − anchor| <= max_distance
+//!    │     ● anchor     backstop: |x − center| >= backstop_radius,
+//!    │   ╭───╮   │        center = anchor − normal (backstop_distance + backstop_radius)
+//!    ╰───┤   ├───╯
+//!        ╰───╯
 //! ```
-//! Method: projection onto the nearest valid position (`AnchorConstraint::keep`), one pass, because
-//! each anchor constrains one particle only.
+//! Method: projection onto the nearest valid position (`AnchorConstraint::project`), one pass,
+//! because each anchor constrains one particle only.
 //!
 //! Reads anchors and inverse masses; writes positions, and the list `scratch.anchor_moved`.
 //! Invariant: this runs after all other constraints of a substep, so the bound of an anchor holds

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! hard pin   x ← target, w = 0
-//! soft pin   spring of stiffness k:   x ← x + k s² w (target − x),   w = 1 / (m + k s²),   s = step
+//! soft pin   spring of stiffness k:   x ← x + k s² w (target − x),   w = 1 / (m + k s²)
 //! grab       x ← towards the pointer, at most max_displacement per substep, w = 0
+//! s: velocity step of the integration scheme [s]
 //! ```
 //! Method: a soft pin is solved implicitly together with the inertia of its particle, m / s². Both
 //! are springs, so their sum is one spring of stiffness (m + k s²) / s² about their common minimum.

@@ -4,8 +4,8 @@
 //! triangle   T = (p dv₂ − q dv₁) sign(d),  d = du₁ dv₂ − du₂ dv₁     p, q: its edges from corner a
 //! vertex     t = ΣT − n (n · ΣT), normalised;  handedness w = sign(Σd)
 //! ```
-//! Method: tangents from texture gradients as in Lengyel's method. T grows with the area of the
-//! triangle in the texture, so large triangles weigh more. The handedness w tells on which side v
+//! Method: the direction of increasing u on each triangle, summed per vertex. T grows with the area
+//! of the triangle in the texture, so large triangles weigh more. The handedness w tells on which side v
 //! grows: along w (n × t). If the texture defines no direction, t is a unit vector normal to n and
 //! w is 1.
 //!

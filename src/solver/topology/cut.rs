@@ -79,11 +79,11 @@ pub(crate) fn plan(world: &World, blade: &Blade) -> CutPlan {
 
 /// Executes a plan that was made for this world in its current state.
 pub(crate) fn cut(world: &mut World, plan: &CutPlan) {
-    let mut touching = world.constraints.links_of_triangles(world.mesh.triangles.len());
+    let mut links_of_triangle = world.constraints.links_of_triangles(world.mesh.triangles.len());
     let links = plan.opened + 12 * plan.splits.len();
     world.constraints.reserve(links, world.capacity());
     for (edge, share) in &plan.splits {
-        split_edge(world, *edge, *share, &mut touching);
+        split_edge(world, *edge, *share, &mut links_of_triangle);
     }
     world.mesh.rebuild_vertex_corners();
     let (mut opened, mut copies) = (Vec::new(), Vec::new());
@@ -111,7 +111,12 @@ pub(crate) fn cut(world: &mut World, plan: &CutPlan) {
 }
 
 /// Splits one edge of the world at `share`, with its particle, links, seams, areas and anchors.
-fn split_edge(world: &mut World, edge: Corner, share: f32, touching: &mut LinksOfTriangle) {
+fn split_edge(
+    world: &mut World,
+    edge: Corner,
+    share: f32,
+    links_of_triangle: &mut LinksOfTriangle,
+) {
     let [a, b] = [world.mesh.vertex(edge), world.mesh.vertex(next_corner(edge))];
     let ends = [a, b].map(|end| world.mesh.source[end as usize]);
     let site = world.rest.len() as u32;
@@ -141,8 +146,8 @@ fn split_edge(world: &mut World, edge: Corner, share: f32, touching: &mut LinksO
     if let [Some(a), Some(b)] = anchors {
         world.anchors.insert(AnchorConstraint::between(new as u32, &a, &b, share));
     }
-    let recipe = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
-    world.constraints.split_edge(recipe, &division, touching);
+    let rest_shape = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
+    world.constraints.split_edge(rest_shape, &division, links_of_triangle);
     let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.at(new));
     (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);
@@ -156,19 +161,19 @@ struct CutDraft<'a> {
     rest: Vec<Vec3>,
     x: Vec<Vec3>,
     /// Whether the cut passes through each vertex.
-    is_on: Vec<bool>,
+    is_on_cut: Vec<bool>,
     splits: Vec<(Corner, f32)>,
 }
 
 impl<'a> CutDraft<'a> {
     fn new(world: &'a World, blade: &Blade) -> Self {
         let x: Vec<Vec3> = world.particles.x.iter().collect();
-        let is_on = x
+        let is_on_cut = x
             .iter()
             .map(|x| blade.signed_side(*x) == 0.0 && blade.contains(x.as_dvec3()))
             .collect();
         let rest = world.mesh.source.iter().map(|site| world.rest[*site as usize]).collect();
-        Self { world, mesh: world.mesh.clone(), rest, x, is_on, splits: Vec::new() }
+        Self { world, mesh: world.mesh.clone(), rest, x, is_on_cut, splits: Vec::new() }
     }
 
     /// Splits the edges that the blade crosses.
@@ -189,10 +194,10 @@ impl<'a> CutDraft<'a> {
             if self.is_pinned(end) {
                 *share = if end == a { NEAR_VERTEX } else { 1.0 - NEAR_VERTEX };
             } else {
-                self.is_on[end] = true;
+                self.is_on_cut[end] = true;
             }
         }
-        let continues = self.continues(&crossed);
+        let continues = self.continuations(&crossed);
         let mut pending: Vec<(Corner, f32)> = crossed
             .into_iter()
             .zip(continues)
@@ -201,20 +206,20 @@ impl<'a> CutDraft<'a> {
         for at in 0..pending.len() {
             let (edge, share) = pending[at];
             let [a, b] = self.ends(edge);
-            if self.is_on[a] || self.is_on[b] {
+            if self.is_on_cut[a] || self.is_on_cut[b] {
                 continue;
             }
             if !self.can_split(edge, share) {
                 let nearer_first = if share > 0.5 { [b, a] } else { [a, b] };
                 let end = nearer_first.into_iter().find(|end| !self.is_pinned(*end));
-                self.is_on[end.unwrap_or(nearer_first[0])] = true;
+                self.is_on_cut[end.unwrap_or(nearer_first[0])] = true;
                 continue;
             }
             let division = self.mesh.split_edge(edge, NONE);
             self.splits.push((edge, share));
             self.rest.push(self.rest[a] + (self.rest[b] - self.rest[a]) * share);
             self.x.push(self.x[a] + (self.x[b] - self.x[a]) * share);
-            self.is_on.push(true);
+            self.is_on_cut.push(true);
             for side in division.sides() {
                 for (other, _) in &mut pending[at + 1..] {
                     *other = if *other == side.moved_edge() { side.new_edge() } else { *other };
@@ -225,8 +230,9 @@ impl<'a> CutDraft<'a> {
 
     /// Whether the cut continues from each crossed edge into a triangle: to another crossed edge or
     /// to a vertex. If the blade ends inside a triangle, the cut ends at the last edge before.
-    fn continues(&self, crossed: &[(Corner, f32)]) -> Vec<bool> {
-        let is_between_ends = |edge: Corner| !self.ends(edge).iter().any(|end| self.is_on[*end]);
+    fn continuations(&self, crossed: &[(Corner, f32)]) -> Vec<bool> {
+        let is_between_ends =
+            |edge: Corner| !self.ends(edge).iter().any(|end| self.is_on_cut[*end]);
         let mut hits = vec![0_u8; self.mesh.triangles.len()];
         let sides = |edge: Corner| [edge / 3, self.mesh.across(edge)];
         for (edge, _) in crossed.iter().filter(|(edge, _)| is_between_ends(*edge)) {
@@ -235,7 +241,7 @@ impl<'a> CutDraft<'a> {
             }
         }
         for (hits, triangle) in hits.iter_mut().zip(&self.mesh.triangles) {
-            *hits += triangle.iter().filter(|v| self.is_on[**v as usize]).count() as u8;
+            *hits += triangle.iter().filter(|v| self.is_on_cut[**v as usize]).count() as u8;
         }
         let continues = |edge: Corner| {
             sides(edge).iter().any(|triangle| *triangle != NONE && hits[*triangle as usize] > 1)
@@ -247,11 +253,11 @@ impl<'a> CutDraft<'a> {
     fn can_split(&self, edge: Corner, share: f32) -> bool {
         let [a, b] = self.ends(edge);
         let middle = self.rest[a] + (self.rest[b] - self.rest[a]) * share;
-        let beyond = self.mesh.across(edge);
+        let neighbor = self.mesh.across(edge);
         let ends = self.mesh.ends(edge);
         let twin = (0..3)
-            .filter(|_| beyond != NONE)
-            .map(|k| 3 * beyond + k)
+            .filter(|_| neighbor != NONE)
+            .map(|k| 3 * neighbor + k)
             .find(|other| self.mesh.ends(*other) == ends);
         [Some(edge), twin].into_iter().flatten().all(|edge| {
             let opposite = self.rest[self.mesh.vertex(prev_corner(edge)) as usize];
@@ -273,10 +279,10 @@ impl<'a> CutDraft<'a> {
     fn edges_along(&self, blade: &Blade) -> Vec<Corner> {
         let side = |triangle: u32| self.side(blade, triangle);
         let is_along = |edge: &Corner| {
-            let beyond = self.mesh.across(*edge);
-            beyond != NONE
-                && self.ends(*edge).iter().all(|end| self.is_on[*end])
-                && side(edge / 3) != side(beyond)
+            let neighbor = self.mesh.across(*edge);
+            neighbor != NONE
+                && self.ends(*edge).iter().all(|end| self.is_on_cut[*end])
+                && side(edge / 3) != side(neighbor)
         };
         self.mesh.edges().filter(is_along).collect()
     }
@@ -285,7 +291,7 @@ impl<'a> CutDraft<'a> {
     /// they agree, else by its centroid.
     fn side(&self, blade: &Blade, triangle: u32) -> bool {
         let corners = self.mesh.triangles[triangle as usize].map(|v| v as usize);
-        let off_cut = || corners.into_iter().filter(|v| !self.is_on[*v]);
+        let off_cut = || corners.into_iter().filter(|v| !self.is_on_cut[*v]);
         let on_positive = |v: usize| blade.signed_side(self.x[v]) > 0.0;
         let positive = off_cut().filter(|v| on_positive(*v)).count();
         match (positive, off_cut().count()) {

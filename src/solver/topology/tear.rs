@@ -5,8 +5,8 @@
 //!    ─────● end ─ ─ ▶ other   ─────● ●─────     The triangles at `end` fall into two fans, one on
 //!        ╱ │ ╲                    ╱   ╲         each side of the plane across the link.
 //! ```
-//! Method: of the two ends of the link, the one whose other links pull harder splits first. The fan
-//! on the side of the link gets a new vertex, so no triangle is lost. A link at a crack tip tears
+//! Method: of the two ends of the link, the one that carries more load splits first. The fan on the
+//! side of the link gets a new vertex, so no triangle is lost. A link at a crack tip tears
 //! at a lower strain, so that crack growth does not depend on the mesh size (see
 //! `model::crack_tips`).
 //!
