@@ -4,8 +4,8 @@
 //! `calls` holds the functions by theme, `types` the structs; pointers are followed in `boundary`
 //! only, and cloths live in `registry`.
 
-mod boundary;
-mod calls;
+mod ffi;
+mod functions;
 mod log;
 mod registry;
 mod status;

@@ -1,6 +1,6 @@
 //! What the library tells the host's log. Nothing, unless the host asks.
 
-use crate::boundary;
+use crate::ffi::callback::{UserPointer, call_log_function};
 use core::ffi::{c_char, c_void};
 use std::ffi::CString;
 use std::sync::{Mutex, PoisonError};
@@ -19,28 +19,29 @@ pub type MuslinLogFn =
 
 /// Whom to tell, and how much.
 #[derive(Clone, Copy)]
-pub struct Listener {
+pub struct LogListener {
     pub function: MuslinLogFn,
     pub max_level: u32,
-    pub user: boundary::User,
+    pub user: UserPointer,
 }
 
-static LISTENER: Mutex<Listener> =
-    Mutex::new(Listener { function: None, max_level: 0, user: boundary::User::NONE });
+static LISTENER: Mutex<LogListener> =
+    Mutex::new(LogListener { function: None, max_level: 0, user: UserPointer::NULL });
 
 /// Replaces whoever listened before.
-pub fn listen(listener: Listener) {
+pub fn set_listener(listener: LogListener) {
     *LISTENER.lock().unwrap_or_else(PoisonError::into_inner) = listener;
 }
 
 /// Tells the listener, if it wants to hear this level. The listener may call the library: nothing is
 /// locked meanwhile, so call this with nothing locked.
-pub fn tell(level: u32, message: impl FnOnce() -> String) {
+pub fn emit(level: u32, message: impl FnOnce() -> String) {
     let listener = *LISTENER.lock().unwrap_or_else(PoisonError::into_inner);
-    if level > listener.max_level || listener.function.is_none() {
+    let Some(function) = listener.function else { return };
+    if level > listener.max_level {
         return;
     }
     if let Ok(message) = CString::new(message()) {
-        boundary::call_listener(&listener, level, &message);
+        call_log_function(function, level, &message, listener.user);
     }
 }

@@ -1,18 +1,18 @@
 //! All cloths behind their handles: generational slots, each cloth behind its own lock.
 
-use crate::boundary::guard;
+use crate::ffi::panic_guard::run_guarded;
 use crate::log::{self, MUSLIN_LOG_INFO};
-use crate::status::{MuslinStatus, Refusal, Result};
+use crate::status::{CallError, MuslinStatus, Result};
 use crate::types::value::MuslinCloth;
 use muslin_core::Cloth;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 /// A cloth that may be destroyed while another thread is about to use it: then there is none left.
-type Cell = Arc<Mutex<Option<Cloth>>>;
+type SharedCloth = Arc<Mutex<Option<Cloth>>>;
 
 struct Slot {
     generation: u32,
-    cell: Option<Cell>,
+    cloth: Option<SharedCloth>,
 }
 
 /// Handles are `generation << 32 | slot + 1`, so zero is none.
@@ -26,28 +26,29 @@ impl Registry {
         let at = match self.free.pop() {
             Some(at) => at,
             None => {
-                let full = || Refusal::new(MuslinStatus::Full, "no room is left for another cloth");
+                let full =
+                    || CallError::new(MuslinStatus::Full, "no room is left for another cloth");
                 let at = u32::try_from(self.slots.len()).map_err(|_| full())?;
-                self.slots.push(Slot { generation: 1, cell: None });
+                self.slots.push(Slot { generation: 1, cloth: None });
                 at
             }
         };
         let slot = &mut self.slots[at as usize];
-        slot.cell = Some(Arc::new(Mutex::new(Some(cloth))));
+        slot.cloth = Some(Arc::new(Mutex::new(Some(cloth))));
         Ok(MuslinCloth { id: u64::from(slot.generation) << 32 | (u64::from(at) + 1) })
     }
 
-    fn find(&self, cloth: MuslinCloth) -> Option<&Cell> {
+    fn find(&self, cloth: MuslinCloth) -> Option<&SharedCloth> {
         let at = (cloth.id & u64::from(u32::MAX)).checked_sub(1)?;
         let slot = self.slots.get(usize::try_from(at).ok()?)?;
-        (u64::from(slot.generation) == cloth.id >> 32).then_some(slot.cell.as_ref()).flatten()
+        (u64::from(slot.generation) == cloth.id >> 32).then_some(slot.cloth.as_ref()).flatten()
     }
 
     /// Makes the handle stale. A slot whose generations are all used is left empty for good.
     fn remove(&mut self, cloth: MuslinCloth) {
         let at = (cloth.id & u64::from(u32::MAX)) as u32 - 1;
         let slot = &mut self.slots[at as usize];
-        slot.cell = None;
+        slot.cloth = None;
         if let Some(next) = slot.generation.checked_add(1) {
             slot.generation = next;
             self.free.push(at);
@@ -62,12 +63,12 @@ fn registry() -> MutexGuard<'static, Registry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn cell(cloth: MuslinCloth) -> Result<Cell> {
-    registry().find(cloth).cloned().ok_or_else(Refusal::bad_cloth)
+fn find_cloth(cloth: MuslinCloth) -> Result<SharedCloth> {
+    registry().find(cloth).cloned().ok_or_else(CallError::bad_cloth)
 }
 
-fn busy() -> Refusal {
-    Refusal::new(MuslinStatus::Busy, "`cloth` must not be in use on another thread")
+fn busy() -> CallError {
+    CallError::new(MuslinStatus::Busy, "`cloth` must not be in use on another thread")
 }
 
 /// Keeps a new cloth and names it.
@@ -78,37 +79,39 @@ pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
 /// Runs `call` on a cloth that nobody else uses meanwhile. A panic spoils the cloth for good.
 pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -> MuslinStatus {
     let mut call = Some(call);
-    guard(|| on_cloth(cloth, &mut |cloth| call.take().map_or(Ok(()), |call| call(cloth))))
+    run_guarded(|| {
+        with_cloth_dyn(cloth, &mut |cloth| call.take().map_or(Ok(()), |call| call(cloth)))
+    })
 }
 
 /// The same for all calls at once.
-fn on_cloth(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
-    let cell = cell(cloth)?;
-    let mut held = match cell.try_lock() {
-        Ok(held) => held,
+fn with_cloth_dyn(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
+    let shared = find_cloth(cloth)?;
+    let mut locked = match shared.try_lock() {
+        Ok(locked) => locked,
         Err(TryLockError::WouldBlock) => return Err(busy()),
-        Err(TryLockError::Poisoned(_)) => return Err(Refusal::spoilt()),
+        Err(TryLockError::Poisoned(_)) => return Err(CallError::poisoned_cloth()),
     };
-    call(held.as_mut().ok_or_else(Refusal::bad_cloth)?)
+    call(locked.as_mut().ok_or_else(CallError::bad_cloth)?)
 }
 
 /// Destroys a cloth, a spoilt one too.
 pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
-    let status = guard(|| {
-        let cell = cell(cloth)?;
-        let mut held = match cell.try_lock() {
-            Ok(held) => held,
+    let status = run_guarded(|| {
+        let shared = find_cloth(cloth)?;
+        let mut locked = match shared.try_lock() {
+            Ok(locked) => locked,
             Err(TryLockError::WouldBlock) => return Err(busy()),
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
         };
-        let gone = held.take().ok_or_else(Refusal::bad_cloth)?;
+        let destroyed = locked.take().ok_or_else(CallError::bad_cloth)?;
         registry().remove(cloth);
-        drop(held);
-        drop(gone);
+        drop(locked);
+        drop(destroyed);
         Ok(())
     });
     if status == MuslinStatus::Ok {
-        log::tell(MUSLIN_LOG_INFO, || format!("cloth {:#x} is destroyed", cloth.id));
+        log::emit(MUSLIN_LOG_INFO, || format!("cloth {:#x} is destroyed", cloth.id));
     }
     status
 }

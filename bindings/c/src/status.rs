@@ -42,7 +42,7 @@ pub enum MuslinStatus {
 }
 
 /// Every status with what it says in general.
-const SENTENCES: [(MuslinStatus, &CStr); 13] = [
+const STATUS_MESSAGES: [(MuslinStatus, &CStr); 13] = [
     (MuslinStatus::Ok, c"done"),
     (MuslinStatus::BadValue, c"a value is missing, out of its range or not finite"),
     (MuslinStatus::BadIndex, c"an index points past the last particle or vertex"),
@@ -59,24 +59,24 @@ const SENTENCES: [(MuslinStatus, &CStr); 13] = [
 ];
 
 /// What the status of this number says in general.
-pub fn sentence(number: u32) -> &'static CStr {
-    let found = SENTENCES.iter().find(|(status, _)| *status as u32 == number);
-    found.map_or(c"no status of this version", |(_, sentence)| sentence)
+pub fn status_message(number: u32) -> &'static CStr {
+    let found = STATUS_MESSAGES.iter().find(|(status, _)| *status as u32 == number);
+    found.map_or(c"no status of this version", |(_, message)| message)
 }
 
 /// A call that was refused: its status and a sentence that names the field and the rule.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
+pub struct CallError {
     pub status: MuslinStatus,
-    pub sentence: String,
+    pub message: String,
 }
 
 /// What calls give inside of this crate.
-pub type Result<T = (), E = Refusal> = core::result::Result<T, E>;
+pub type Result<T = (), E = CallError> = core::result::Result<T, E>;
 
-impl Refusal {
-    pub fn new(status: MuslinStatus, sentence: impl Into<String>) -> Self {
-        Self { status, sentence: sentence.into() }
+impl CallError {
+    pub fn new(status: MuslinStatus, message: impl Into<String>) -> Self {
+        Self { status, message: message.into() }
     }
 
     /// "`field` must …", as the core says it.
@@ -98,7 +98,7 @@ impl Refusal {
     }
 
     /// A cloth that a defect of ours left half-changed.
-    pub fn spoilt() -> Self {
+    pub fn poisoned_cloth() -> Self {
         Self::new(
             MuslinStatus::Panicked,
             "a defect of Muslin stopped an earlier call on this cloth; it can only be destroyed",
@@ -106,7 +106,7 @@ impl Refusal {
     }
 }
 
-impl From<Error> for Refusal {
+impl From<Error> for CallError {
     fn from(error: Error) -> Self {
         let status = match error {
             Error::BadValue { .. } | Error::BadStream { .. } => MuslinStatus::BadValue,
@@ -123,20 +123,20 @@ impl From<Error> for Refusal {
 }
 
 thread_local! {
-    static LAST: RefCell<CString> = RefCell::new(CString::default());
+    static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
 }
 
 /// Keeps a sentence for muslin_last_error on this thread.
-pub fn remember(sentence: &str) {
+pub fn set_last_error(message: &str) {
     // No sentence of ours holds a zero byte; one that did would be left out.
-    let sentence = CString::new(sentence).unwrap_or_default();
+    let message = CString::new(message).unwrap_or_default();
     // On a thread that is just ending, nobody can ask any more.
-    let _ = LAST.try_with(|last| *last.borrow_mut() = sentence);
+    let _ = LAST_ERROR.try_with(|last| *last.borrow_mut() = message);
 }
 
 /// This thread's last sentence; stays where it is until the next refusal.
-pub fn last() -> *const c_char {
-    LAST.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
+pub fn last_error() -> *const c_char {
+    LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
 }
 
 #[cfg(test)]
@@ -145,19 +145,19 @@ mod tests {
 
     #[test]
     fn every_status_says_something_of_its_own() {
-        for (number, (status, said)) in SENTENCES.iter().enumerate() {
+        for (number, (status, said)) in STATUS_MESSAGES.iter().enumerate() {
             assert_eq!(*status as usize, number);
-            assert_eq!(sentence(number as u32), *said);
-            assert_eq!(SENTENCES.iter().filter(|(_, other)| other == said).count(), 1);
+            assert_eq!(status_message(number as u32), *said);
+            assert_eq!(STATUS_MESSAGES.iter().filter(|(_, other)| other == said).count(), 1);
         }
-        assert_eq!(sentence(13), c"no status of this version");
+        assert_eq!(status_message(13), c"no status of this version");
     }
 
     #[test]
     fn a_refusal_of_the_core_keeps_its_words() {
         let error = Error::BadValue { field: "settings.tick", must: "be above 0 and at most 1" };
-        let refusal = Refusal::from(error);
+        let refusal = CallError::from(error);
         assert_eq!(refusal.status, MuslinStatus::BadValue);
-        assert_eq!(refusal.sentence, "`settings.tick` must be above 0 and at most 1");
+        assert_eq!(refusal.message, "`settings.tick` must be above 0 and at most 1");
     }
 }

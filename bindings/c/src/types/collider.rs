@@ -1,8 +1,8 @@
 //! What a cloth falls on.
 
 use super::value::{MuslinQuat, MuslinVec3};
-use crate::boundary;
-use crate::status::{Refusal, Result};
+use crate::ffi::pointers::{read_u32s, read_vec3s};
+use crate::status::{CallError, Result};
 use core::ptr;
 use muslin_core::{ColliderDesc, Shape};
 
@@ -137,31 +137,31 @@ impl MuslinColliderDesc {
             rows: self.rows,
             ..ColliderDesc::default()
         };
-        let must = |fits: bool, field: &str, must: &str| {
-            if fits { Ok(()) } else { Err(Refusal::bad_value(field, must)) }
+        let require = |fits: bool, field: &str, must: &str| {
+            if fits { Ok(()) } else { Err(CallError::bad_value(field, must)) }
         };
         if matches!(shape, Shape::Convex | Shape::Mesh) {
-            must(self.vertex_count >= 3, "vertex_count", "be at least 3")?;
-            must(self.vertex_count <= MAX_VERTICES, "vertex_count", "be at most 4194304")?;
+            require(self.vertex_count >= 3, "vertex_count", "be at least 3")?;
+            require(self.vertex_count <= MAX_VERTICES, "vertex_count", "be at most 4194304")?;
             let (stride, count) = (self.position_stride, self.vertex_count);
             // SAFETY: the caller's promise above.
             desc.positions =
-                unsafe { boundary::points("positions", self.positions.cast(), stride, count)? };
+                unsafe { read_vec3s("positions", self.positions.cast(), stride, count)? };
         }
         if matches!(shape, Shape::Mesh) {
-            must(self.index_count > 0, "index_count", "be at least 3")?;
-            must(self.index_count <= MAX_INDICES, "index_count", "be at most 50331648")?;
-            must(self.index_count.is_multiple_of(3), "index_count", "be a multiple of 3")?;
+            require(self.index_count > 0, "index_count", "be at least 3")?;
+            require(self.index_count <= MAX_INDICES, "index_count", "be at most 50331648")?;
+            require(self.index_count.is_multiple_of(3), "index_count", "be a multiple of 3")?;
             // SAFETY: the caller's promise above.
-            desc.indices = unsafe { boundary::list("indices", self.indices, self.index_count)? };
+            desc.indices = unsafe { read_u32s("indices", self.indices, self.index_count)? };
         }
         if matches!(shape, Shape::Heightfield) {
-            let few = |count: u32| (2..=MAX_HEIGHTS).contains(&count);
-            must(few(self.columns), "columns", "be from 2 to 4096")?;
-            must(few(self.rows), "rows", "be from 2 to 4096")?;
+            let is_allowed = |count: u32| (2..=MAX_HEIGHTS).contains(&count);
+            require(is_allowed(self.columns), "columns", "be from 2 to 4096")?;
+            require(is_allowed(self.rows), "rows", "be from 2 to 4096")?;
             let count = self.columns * self.rows;
             // SAFETY: the caller's promise above; a number has the size of any other.
-            let bits = unsafe { boundary::list("heights", self.heights.cast(), count)? };
+            let bits = unsafe { read_u32s("heights", self.heights.cast(), count)? };
             desc.heights = bits.into_iter().map(f32::from_bits).collect();
         }
         Ok(desc)

@@ -3,7 +3,7 @@
 use super::material::MuslinMaterial;
 use super::settings::MuslinSettings;
 use super::value::MuslinVec3;
-use crate::status::{Refusal, Result};
+use crate::status::{CallError, Result};
 use muslin_core::{AS_MANY_AGAIN, GridDesc, PinMode};
 
 /// Nothing is pinned: it falls.
@@ -70,7 +70,7 @@ impl Default for MuslinGridDesc {
 }
 
 impl TryFrom<MuslinGridDesc> for GridDesc {
-    type Error = Refusal;
+    type Error = CallError;
 
     fn try_from(desc: MuslinGridDesc) -> Result<Self> {
         Ok(Self {
@@ -96,6 +96,6 @@ fn pin_mode(number: u32) -> Result<PinMode> {
         MUSLIN_PIN_TOP_EDGE => Ok(PinMode::TopEdge),
         MUSLIN_PIN_TOP_CORNERS => Ok(PinMode::TopCorners),
         MUSLIN_PIN_CORNERS => Ok(PinMode::Corners),
-        _ => Err(Refusal::bad_value("pin_mode", "be one of MUSLIN_PIN_...")),
+        _ => Err(CallError::bad_value("pin_mode", "be one of MUSLIN_PIN_...")),
     }
 }

@@ -1,6 +1,6 @@
 //! What a cloth is made of.
 
-use crate::status::{Refusal, Result};
+use crate::status::{CallError, Result};
 use muslin_core::{Material, Preset};
 
 /// Light and fluid, 100 g/m^2.
@@ -147,6 +147,6 @@ pub fn preset(number: u32) -> Result<Preset> {
         MUSLIN_PRESET_LEATHER => Ok(Preset::Leather),
         MUSLIN_PRESET_PAPER => Ok(Preset::Paper),
         MUSLIN_PRESET_FLAG_NYLON => Ok(Preset::FlagNylon),
-        _ => Err(Refusal::bad_value("preset", "be one of MUSLIN_PRESET_...")),
+        _ => Err(CallError::bad_value("preset", "be one of MUSLIN_PRESET_...")),
     }
 }

@@ -3,8 +3,8 @@
 use super::grid::MUSLIN_AS_MANY_AGAIN;
 use super::material::MuslinMaterial;
 use super::settings::MuslinSettings;
-use crate::boundary;
-use crate::status::{Refusal, Result};
+use crate::ffi::pointers::{read_u32s, read_vec2s, read_vec3s};
+use crate::status::{CallError, Result};
 use core::ptr;
 use muslin_core::MeshDesc;
 
@@ -98,16 +98,16 @@ impl MuslinMeshDesc {
             (self.pinned_count <= self.vertex_count, "pinned_count", "be at most `vertex_count`"),
         ];
         if let Some((_, field, must)) = counts.into_iter().find(|(fits, ..)| !fits) {
-            return Err(Refusal::bad_value(field, must));
+            return Err(CallError::bad_value(field, must));
         }
         let (stride, count) = (self.position_stride, self.vertex_count);
         // SAFETY: the caller's promise above.
         let (positions, indices, uvs, pinned) = unsafe {
             (
-                boundary::points("positions", self.positions.cast(), stride, count)?,
-                boundary::list("indices", self.indices, self.index_count)?,
-                boundary::pairs(self.uvs, count),
-                boundary::list("pinned", self.pinned, self.pinned_count)?,
+                read_vec3s("positions", self.positions.cast(), stride, count)?,
+                read_u32s("indices", self.indices, self.index_count)?,
+                read_vec2s(self.uvs, count),
+                read_u32s("pinned", self.pinned, self.pinned_count)?,
             )
         };
         Ok(MeshDesc {

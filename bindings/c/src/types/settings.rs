@@ -1,7 +1,7 @@
 //! How time runs.
 
 use super::value::MuslinVec3;
-use crate::status::{Refusal, Result};
+use crate::status::{CallError, Result};
 use muslin_core::{SelfCollision, Settings};
 
 /// For `self_collision`: parts of the cloth go through each other.
@@ -102,7 +102,7 @@ impl From<&Settings> for MuslinSettings {
 }
 
 impl TryFrom<MuslinSettings> for Settings {
-    type Error = Refusal;
+    type Error = CallError;
 
     fn try_from(settings: MuslinSettings) -> Result<Self> {
         Ok(Self {
@@ -129,7 +129,7 @@ fn self_collision(number: u32) -> Result<SelfCollision> {
         MUSLIN_SELF_COLLISION_NONE => Ok(SelfCollision::None),
         MUSLIN_SELF_COLLISION_SURFACE => Ok(SelfCollision::Surface),
         MUSLIN_SELF_COLLISION_PARTICLES => Ok(SelfCollision::Particles),
-        _ => Err(Refusal::bad_value("settings.self_collision", "be 0, 1 or 2")),
+        _ => Err(CallError::bad_value("settings.self_collision", "be 0, 1 or 2")),
     }
 }
 
@@ -137,6 +137,6 @@ fn switch(number: u32, field: &str) -> Result<bool> {
     match number {
         0 => Ok(false),
         1 => Ok(true),
-        _ => Err(Refusal::bad_value(field, "be 0 or 1")),
+        _ => Err(CallError::bad_value(field, "be 0 or 1")),
     }
 }

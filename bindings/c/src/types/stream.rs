@@ -1,6 +1,6 @@
 //! Where vertices are written, which and how.
 
-use crate::status::{Refusal, Result};
+use crate::status::{CallError, Result};
 use core::ffi::c_void;
 use core::ptr;
 use muslin_core::glam::{Affine3, Mat3, Vec3};
@@ -75,7 +75,7 @@ impl MuslinStream {
     /// What is written and how; `at` says which of the streams it is.
     pub fn choices(&self, at: usize) -> Result<(Attribute, VertexFormat)> {
         let bad = |field: &str, kind: &str| {
-            Refusal::bad_value(
+            CallError::bad_value(
                 format_args!("streams[{at}].{field}"),
                 format_args!("be a MUSLIN_{kind}_..."),
             )
@@ -130,11 +130,11 @@ impl Default for MuslinWriteDesc {
 }
 
 impl TryFrom<MuslinWriteDesc> for WriteDesc {
-    type Error = Refusal;
+    type Error = CallError;
 
     fn try_from(desc: MuslinWriteDesc) -> Result<Self> {
         if desc.flip_normals > 1 {
-            return Err(Refusal::bad_value("flip_normals", "be 0 or 1"));
+            return Err(CallError::bad_value("flip_normals", "be 0 or 1"));
         }
         let t = desc.transform;
         let column = |at: usize| Vec3::new(t[at], t[at + 4], t[at + 8]);

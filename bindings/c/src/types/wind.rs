@@ -1,7 +1,7 @@
 //! The air around a cloth.
 
 use super::value::MuslinVec3;
-use crate::status::{Refusal, Result};
+use crate::status::{CallError, Result};
 use muslin_core::{Wind, WindModel};
 
 /// The air pushes each triangle along its normal, by the square of the relative speed; still air
@@ -51,13 +51,13 @@ impl Default for MuslinWind {
 }
 
 impl TryFrom<MuslinWind> for Wind {
-    type Error = Refusal;
+    type Error = CallError;
 
     fn try_from(wind: MuslinWind) -> Result<Self> {
         let model = match wind.model {
             MUSLIN_WIND_SURFACE => WindModel::Surface,
             MUSLIN_WIND_SINE_FIELD => WindModel::SineField,
-            _ => return Err(Refusal::bad_value("wind.model", "be one of MUSLIN_WIND_...")),
+            _ => return Err(CallError::bad_value("wind.model", "be one of MUSLIN_WIND_...")),
         };
         Ok(Self {
             model,

@@ -1,6 +1,7 @@
 //! Colliders come, move and go.
 
-use crate::boundary::{self, Out};
+use crate::ffi::pointers::Out;
+use crate::ffi::versioned_struct::read_struct;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::collider::MuslinColliderDesc;
@@ -20,7 +21,7 @@ pub unsafe extern "C" fn muslin_cloth_add_collider(
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
     let (desc, out_collider) =
-        unsafe { (boundary::read("desc", desc), Out::new("out_collider", out_collider)) };
+        unsafe { (read_struct("desc", desc), Out::new("out_collider", out_collider)) };
     with_cloth(cloth, |cloth| {
         // SAFETY: the caller's promise above.
         let (desc, out_collider) = (unsafe { desc?.read()? }, out_collider?);
@@ -71,7 +72,8 @@ pub unsafe extern "C" fn muslin_cloth_get_collider_impulse(
     out_angular: *mut MuslinVec3,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let (linear, angular) = unsafe { (Out::optional(out_linear), Out::optional(out_angular)) };
+    let (linear, angular) =
+        unsafe { (Out::new_optional(out_linear), Out::new_optional(out_angular)) };
     with_cloth(cloth, |cloth| {
         let impulse = cloth.collider_impulse(Collider::from_bits(collider.id))?;
         linear.into_iter().for_each(|out| out.write(impulse.linear.into()));

@@ -1,7 +1,7 @@
 //! Particles stay near where animation has them.
 
-use super::pins::check_count;
-use crate::boundary;
+use crate::ffi::pointers::{read_f32s, read_u32s, read_vec3s};
+use crate::functions::particles::check_count;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::value::MuslinCloth;
@@ -26,10 +26,7 @@ pub unsafe extern "C" fn muslin_cloth_set_max_distances(
         check_count(cloth, count)?;
         // SAFETY: the caller's promise above.
         let (particles, distances) = unsafe {
-            (
-                boundary::list("particles", particles, count)?,
-                boundary::numbers("distances", distances, count)?,
-            )
+            (read_u32s("particles", particles, count)?, read_f32s("distances", distances, count)?)
         };
         Ok(cloth.set_max_distances(&particles, &distances)?)
     })
@@ -55,9 +52,9 @@ pub unsafe extern "C" fn muslin_cloth_set_backstops(
         // SAFETY: the caller's promise above.
         let (particles, distances, radii) = unsafe {
             (
-                boundary::list("particles", particles, count)?,
-                boundary::numbers("distances", distances, count)?,
-                boundary::numbers("radii", radii, count)?,
+                read_u32s("particles", particles, count)?,
+                read_f32s("distances", distances, count)?,
+                read_f32s("radii", radii, count)?,
             )
         };
         Ok(cloth.set_backstops(&particles, &distances, &radii)?)
@@ -87,9 +84,9 @@ pub unsafe extern "C" fn muslin_cloth_set_anchors(
         // SAFETY: the caller's promise above.
         let (particles, positions, normals) = unsafe {
             (
-                boundary::list("particles", particles, count)?,
-                boundary::points("positions", positions, stride, count)?,
-                boundary::points("normals", normals, stride, normal_count)?,
+                read_u32s("particles", particles, count)?,
+                read_vec3s("positions", positions, stride, count)?,
+                read_vec3s("normals", normals, stride, normal_count)?,
             )
         };
         Ok(cloth.set_anchors(&particles, &positions, &normals)?)

@@ -1,19 +1,20 @@
 //! A walk through the calls that follow pointers, with buffers that end where they say: what Miri looks over
 //! (`cargo xtask miri`).
 
+use super::anchors::*;
 use super::attachments::*;
 use super::colliders::*;
 use super::create::*;
 use super::init::*;
-use super::leashes::*;
 use super::library::*;
-use super::pins::*;
-use super::point::*;
-use super::read::*;
+use super::parameters::*;
+use super::particles::*;
+use super::picking::*;
 use super::save::*;
-use super::tear::*;
 use super::time::*;
-use super::write::*;
+use super::topology::*;
+use super::vertex_buffers::*;
+use super::views::*;
 use crate::status::MuslinStatus;
 use crate::types::changes::MuslinChanges;
 use crate::types::collider::MuslinColliderDesc;

@@ -1,8 +1,8 @@
 //! Particles are pinned, put, pushed and weighed.
 
-use crate::boundary;
+use crate::ffi::pointers::{read_f32s, read_optional, read_u32s, read_vec3s};
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal, Result};
+use crate::status::{CallError, MuslinStatus, Result};
 use crate::types::value::{MuslinCloth, MuslinVec3};
 use core::ffi::c_void;
 use muslin_core::{Cloth, Error};
@@ -20,7 +20,7 @@ pub unsafe extern "C" fn muslin_cloth_pin(
     target: *const MuslinVec3,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let target = unsafe { boundary::optional(target) };
+    let target = unsafe { read_optional(target) };
     with_cloth(cloth, |cloth| Ok(cloth.pin(particle, target.map(Into::into))?))
 }
 
@@ -60,12 +60,12 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
         // SAFETY: the caller's promise above.
         let (particles, targets) = unsafe {
             (
-                boundary::list("particles", particles, count)?,
-                boundary::points("positions", positions, stride, count)?,
+                read_u32s("particles", particles, count)?,
+                read_vec3s("positions", positions, stride, count)?,
             )
         };
         cloth.set_pin_targets(&particles, &targets).map_err(|error| match error {
-            Error::BadValue { must, .. } => Refusal::bad_value("positions", must),
+            Error::BadValue { must, .. } => CallError::bad_value("positions", must),
             error => error.into(),
         })
     })
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_stiffness(
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
         // SAFETY: the caller's promise above.
-        let particles = unsafe { boundary::list("particles", particles, count)? };
+        let particles = unsafe { read_u32s("particles", particles, count)? };
         Ok(cloth.set_pin_stiffness(&particles, stiffness)?)
     })
 }
@@ -113,10 +113,7 @@ pub unsafe extern "C" fn muslin_cloth_set_mass_scales(
         check_count(cloth, count)?;
         // SAFETY: the caller's promise above.
         let (particles, scales) = unsafe {
-            (
-                boundary::list("particles", particles, count)?,
-                boundary::numbers("scales", scales, count)?,
-            )
+            (read_u32s("particles", particles, count)?, read_f32s("scales", scales, count)?)
         };
         Ok(cloth.set_mass_scales(&particles, &scales)?)
     })
@@ -154,6 +151,6 @@ pub(super) fn check_count(cloth: &Cloth, count: u32) -> Result {
     if fits {
         Ok(())
     } else {
-        Err(Refusal::bad_value("count", "be at most the number of particles"))
+        Err(CallError::bad_value("count", "be at most the number of particles"))
     }
 }

@@ -1,8 +1,9 @@
 //! Tearing and cutting by hand, and what happened.
 
-use crate::boundary::{Out, Report};
+use crate::ffi::pointers::Out;
+use crate::ffi::versioned_struct::OutStruct;
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal};
+use crate::status::{CallError, MuslinStatus};
 use crate::types::event::MuslinEvent;
 use crate::types::value::{MuslinCloth, MuslinVec3};
 
@@ -23,8 +24,8 @@ pub extern "C" fn muslin_cloth_tear_edge(
         if cloth.tear_edge(particle_a, particle_b)? {
             return Ok(());
         }
-        let sentence = "the edge did not give way: its ends are held, or it is a border";
-        Err(Refusal::new(MuslinStatus::NotTorn, sentence))
+        let message = "the edge did not give way: its ends are held, or it is a border";
+        Err(CallError::new(MuslinStatus::NotTorn, message))
     })
 }
 
@@ -72,7 +73,7 @@ pub unsafe extern "C" fn muslin_cloth_cut(
     out_edges: *mut u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out_edges = unsafe { Out::optional(out_edges) };
+    let out_edges = unsafe { Out::new_optional(out_edges) };
     with_cloth(cloth, |cloth| {
         let edges = cloth.cut(from.into(), to.into(), sweep.into())?;
         if let Some(out_edges) = out_edges {
@@ -97,7 +98,7 @@ pub unsafe extern "C" fn muslin_cloth_next_event(
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
     let (out_event, out_some) =
-        unsafe { (Report::new("out_event", out_event), Out::new("out_some", out_some)) };
+        unsafe { (OutStruct::new("out_event", out_event), Out::new("out_some", out_some)) };
     with_cloth(cloth, |cloth| {
         let (out_event, out_some) = (out_event?, out_some?);
         let event = cloth.next_event();

@@ -1,7 +1,8 @@
 //! The other half of the header's inline `..._init` functions: they pass the sizes that the caller's
 //! compiler knew.
 
-use crate::boundary::{self, guard};
+use crate::ffi::panic_guard::run_guarded;
+use crate::ffi::versioned_struct::{init_desc, init_struct};
 use crate::status::MuslinStatus;
 use crate::types::collider::MuslinColliderDesc;
 use crate::types::grid::MuslinGridDesc;
@@ -18,7 +19,7 @@ pub unsafe extern "C" fn muslin_settings_init_sized(
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe { boundary::init("settings", settings, struct_size) })
+    run_guarded(|| unsafe { init_struct("settings", settings, struct_size) })
 }
 
 /// What muslin_material_init calls: pass the sizeof of MuslinMaterial.
@@ -28,7 +29,7 @@ pub unsafe extern "C" fn muslin_material_init_sized(
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe { boundary::init("material", material, struct_size) })
+    run_guarded(|| unsafe { init_struct("material", material, struct_size) })
 }
 
 /// What muslin_wind_init calls: pass the sizeof of MuslinWind.
@@ -38,7 +39,7 @@ pub unsafe extern "C" fn muslin_wind_init_sized(
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe { boundary::init("wind", wind, struct_size) })
+    run_guarded(|| unsafe { init_struct("wind", wind, struct_size) })
 }
 
 /// What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc.
@@ -48,7 +49,7 @@ pub unsafe extern "C" fn muslin_collider_desc_init_sized(
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe { boundary::init("desc", desc, struct_size) })
+    run_guarded(|| unsafe { init_struct("desc", desc, struct_size) })
 }
 
 /// What muslin_stream_init calls: pass the sizeof of MuslinStream.
@@ -58,7 +59,7 @@ pub unsafe extern "C" fn muslin_stream_init_sized(
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe { boundary::init("stream", stream, struct_size) })
+    run_guarded(|| unsafe { init_struct("stream", stream, struct_size) })
 }
 
 /// What muslin_write_desc_init calls: pass the sizeof of MuslinWriteDesc.
@@ -68,7 +69,7 @@ pub unsafe extern "C" fn muslin_write_desc_init_sized(
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe { boundary::init("desc", desc, struct_size) })
+    run_guarded(|| unsafe { init_struct("desc", desc, struct_size) })
 }
 
 /// What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
@@ -81,9 +82,7 @@ pub unsafe extern "C" fn muslin_grid_desc_init_sized(
     settings_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe {
-        boundary::init_nested("desc", desc, struct_size, material_size, settings_size)
-    })
+    run_guarded(|| unsafe { init_desc("desc", desc, struct_size, material_size, settings_size) })
 }
 
 /// What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
@@ -96,7 +95,5 @@ pub unsafe extern "C" fn muslin_mesh_desc_init_sized(
     settings_size: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    guard(|| unsafe {
-        boundary::init_nested("desc", desc, struct_size, material_size, settings_size)
-    })
+    run_guarded(|| unsafe { init_desc("desc", desc, struct_size, material_size, settings_size) })
 }

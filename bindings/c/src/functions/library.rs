@@ -1,8 +1,8 @@
 //! About the library itself: version, words for statuses, log.
 
-use crate::boundary::User;
-use crate::log::{Listener, MuslinLogFn, listen};
-use crate::status::{MuslinStatus, last, sentence};
+use crate::ffi::callback::UserPointer;
+use crate::log::{LogListener, MuslinLogFn, set_listener};
+use crate::status::{MuslinStatus, last_error, status_message};
 use core::ffi::{CStr, c_char, c_void};
 use core::ptr;
 use muslin_core::Stage;
@@ -29,7 +29,7 @@ pub extern "C" fn muslin_version_string() -> *const c_char {
 /// What a MuslinStatus says in general, any number: never NULL, always valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_status_string(status: u32) -> *const c_char {
-    sentence(status).as_ptr()
+    status_message(status).as_ptr()
 }
 
 /// Why the last call of this thread that was refused was refused: a sentence that names the field and
@@ -38,7 +38,7 @@ pub extern "C" fn muslin_status_string(status: u32) -> *const c_char {
 /// Never NULL; valid until the next call of this thread that is refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_last_error() -> *const c_char {
-    last()
+    last_error()
 }
 
 /// The name of a stage of a tick, 0 and up, for `seconds` of MuslinStats: always valid; NULL for a stage
@@ -78,7 +78,7 @@ pub extern "C" fn muslin_set_log(
     max_level: u32,
     user: *mut c_void,
 ) -> MuslinStatus {
-    listen(Listener { function: log, max_level, user: User(user) });
+    set_listener(LogListener { function: log, max_level, user: UserPointer(user) });
     MuslinStatus::Ok
 }
 

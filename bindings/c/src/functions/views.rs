@@ -1,6 +1,7 @@
 //! Reading: what a renderer needs, and numbers.
 
-use crate::boundary::{Out, Report};
+use crate::ffi::pointers::Out;
+use crate::ffi::versioned_struct::OutStruct;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::changes::MuslinChanges;
@@ -19,7 +20,7 @@ pub unsafe extern "C" fn muslin_cloth_view(
     out_view: *mut MuslinView,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out = unsafe { Report::new("out_view", out_view) };
+    let out = unsafe { OutStruct::new("out_view", out_view) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.view().into());
         Ok(())
@@ -37,7 +38,7 @@ pub unsafe extern "C" fn muslin_cloth_changes(
     out_changes: *mut MuslinChanges,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out = unsafe { Report::new("out_changes", out_changes) };
+    let out = unsafe { OutStruct::new("out_changes", out_changes) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.changes(since_topology_revision).into());
         Ok(())
@@ -52,7 +53,7 @@ pub unsafe extern "C" fn muslin_cloth_get_mesh_report(
     out_report: *mut MuslinMeshReport,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out = unsafe { Report::new("out_report", out_report) };
+    let out = unsafe { OutStruct::new("out_report", out_report) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.mesh_report().into());
         Ok(())
@@ -66,7 +67,7 @@ pub unsafe extern "C" fn muslin_cloth_get_stats(
     out_stats: *mut MuslinStats,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out = unsafe { Report::new("out_stats", out_stats) };
+    let out = unsafe { OutStruct::new("out_stats", out_stats) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.stats().into());
         cloth.set_clock(Some(seconds));

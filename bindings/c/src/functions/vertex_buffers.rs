@@ -1,8 +1,10 @@
 //! Writing into the caller's own buffers.
 
-use crate::boundary::{self, Buffer};
+use crate::ffi::pointers::OutBuffer;
+use crate::ffi::stream_list::read_streams;
+use crate::ffi::versioned_struct::read_struct;
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal};
+use crate::status::{CallError, MuslinStatus};
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
 use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
@@ -27,11 +29,11 @@ pub unsafe extern "C" fn muslin_cloth_write_vertices(
     with_cloth(cloth, |cloth| {
         // SAFETY: the caller's promise above; none of the buffers is the cloth's.
         let (streams, desc) = unsafe {
-            let streams = boundary::streams(streams, stream_count, |bytes| cloth.lends(&bytes))?;
-            let desc = if desc.is_null() { None } else { Some(boundary::read("desc", desc)?) };
+            let streams = read_streams(streams, stream_count, |bytes| cloth.lends(&bytes))?;
+            let desc = if desc.is_null() { None } else { Some(read_struct("desc", desc)?) };
             (streams, MuslinWriteDesc::try_into(desc.unwrap_or_default())?)
         };
-        Ok(cloth.write_vertices(streams.all(), &desc)?)
+        Ok(cloth.write_vertices(streams.as_slice(), &desc)?)
     })
 }
 
@@ -52,16 +54,16 @@ pub unsafe extern "C" fn muslin_cloth_write_indices(
     base_vertex: u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let buffer = unsafe { Buffer::new(buffer, size) };
+    let buffer = unsafe { OutBuffer::new(buffer, size) };
     with_cloth(cloth, |cloth| {
-        let buffer = buffer.ok_or_else(|| Refusal::bad_value("buffer", "not be NULL"))?;
+        let buffer = buffer.ok_or_else(|| CallError::bad_value("buffer", "not be NULL"))?;
         let format = match index_format {
             16 => IndexFormat::U16,
             32 => IndexFormat::U32,
-            _ => return Err(Refusal::bad_value("index_format", "be 16 or 32")),
+            _ => return Err(CallError::bad_value("index_format", "be 16 or 32")),
         };
         if flip > 1 {
-            return Err(Refusal::bad_value("flip", "be 0 or 1"));
+            return Err(CallError::bad_value("flip", "be 0 or 1"));
         }
         let mut bytes = vec![0; cloth.indices().len() * format.size()];
         cloth.write_indices(&mut bytes, format, flip == 1, base_vertex)?;

@@ -1,7 +1,7 @@
 //! Particles are carried by moving transforms.
 
-use super::pins::check_count;
-use crate::boundary::{self, Out};
+use crate::ffi::pointers::{Out, read_u32s};
+use crate::functions::particles::check_count;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::value::{MuslinAttachment, MuslinCloth, MuslinQuat, MuslinVec3};
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn muslin_cloth_attach(
         check_count(cloth, count)?;
         let out_attachment = out_attachment?;
         // SAFETY: the caller's promise above.
-        let particles = unsafe { boundary::list("particles", particles, count)? };
+        let particles = unsafe { read_u32s("particles", particles, count)? };
         let attachment = cloth.attach(&particles, position.into(), rotation.into())?;
         out_attachment.write(MuslinAttachment { id: attachment.to_bits() });
         Ok(())

@@ -1,18 +1,20 @@
 //! The functions of the header, one theme a file.
 
+mod anchors;
 mod attachments;
 mod colliders;
 mod create;
 mod init;
-mod leashes;
 mod library;
-mod pins;
-mod point;
-mod read;
+mod parameters;
+mod particles;
+mod picking;
+mod reference_frame;
 mod save;
-mod tear;
-mod teleport;
 mod time;
+mod topology;
+mod vertex_buffers;
+mod views;
+
 #[cfg(test)]
-mod walk;
-mod write;
+mod miri_tests;

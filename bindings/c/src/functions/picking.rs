@@ -1,14 +1,15 @@
 //! Pointing at a cloth, and taking hold of it.
 
-use crate::boundary::{Out, Report};
+use crate::ffi::pointers::Out;
+use crate::ffi::versioned_struct::OutStruct;
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal};
+use crate::status::{CallError, MuslinStatus};
 use crate::types::hit::MuslinHit;
 use crate::types::value::{MuslinCloth, MuslinGrab, MuslinVec3};
 use muslin_core::Grab;
 
-fn nothing_hit() -> Refusal {
-    Refusal::new(MuslinStatus::NothingHit, "the ray meets nothing")
+fn nothing_hit() -> CallError {
+    CallError::new(MuslinStatus::NothingHit, "the ray meets nothing")
 }
 
 /// The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
@@ -25,7 +26,7 @@ pub unsafe extern "C" fn muslin_cloth_raycast(
     out_hit: *mut MuslinHit,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out = unsafe { Report::new("out_hit", out_hit) };
+    let out = unsafe { OutStruct::new("out_hit", out_hit) };
     with_cloth(cloth, |cloth| {
         let out = out?;
         let hit = cloth.raycast(origin.into(), direction.into(), max_distance)?;
@@ -51,7 +52,7 @@ pub unsafe extern "C" fn muslin_cloth_grab_ray(
     out_at: *mut MuslinVec3,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let (out_grab, out_at) = unsafe { (Out::new("out_grab", out_grab), Out::optional(out_at)) };
+    let (out_grab, out_at) = unsafe { (Out::new("out_grab", out_grab), Out::new_optional(out_at)) };
     with_cloth(cloth, |cloth| {
         let out_grab = out_grab?;
         let held = cloth.grab_ray(origin.into(), direction.into(), radius)?;

@@ -1,9 +1,9 @@
 //! A cloth as bytes, and back.
 
-use super::create::create;
-use crate::boundary::{self, Buffer, Out};
+use crate::ffi::pointers::{Out, OutBuffer, borrow_bytes};
+use crate::functions::create::create;
 use crate::registry::with_cloth;
-use crate::status::{MuslinStatus, Refusal};
+use crate::status::{CallError, MuslinStatus};
 use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
 use muslin_core::Cloth;
@@ -23,10 +23,11 @@ pub unsafe extern "C" fn muslin_cloth_save(
     out_needed: *mut usize,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let (buffer, out_needed) = unsafe { (Buffer::new(buffer, size), Out::optional(out_needed)) };
+    let (buffer, out_needed) =
+        unsafe { (OutBuffer::new(buffer, size), Out::new_optional(out_needed)) };
     with_cloth(cloth, |cloth| {
         if buffer.is_none() && out_needed.is_none() {
-            return Err(Refusal::bad_value("out_needed", "not be NULL where `buffer` is"));
+            return Err(CallError::bad_value("out_needed", "not be NULL where `buffer` is"));
         }
         let bytes = cloth.save();
         if let Some(buffer) = buffer {
@@ -53,7 +54,7 @@ pub unsafe extern "C" fn muslin_cloth_restore(
     let out_cloth = unsafe { Out::new("out_cloth", out_cloth) };
     create(out_cloth, || {
         // SAFETY: the caller's promise above.
-        let bytes = unsafe { boundary::bytes("buffer", buffer, size)? };
+        let bytes = unsafe { borrow_bytes("buffer", buffer, size)? };
         Ok(Cloth::restore(bytes)?)
     })
 }

@@ -1,6 +1,6 @@
 //! Time runs.
 
-use crate::boundary::Out;
+use crate::ffi::pointers::Out;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::value::MuslinCloth;
@@ -18,7 +18,7 @@ pub unsafe extern "C" fn muslin_cloth_advance(
     out_ticks: *mut u32,
 ) -> MuslinStatus {
     // SAFETY: the caller's promise above.
-    let out_ticks = unsafe { Out::optional(out_ticks) };
+    let out_ticks = unsafe { Out::new_optional(out_ticks) };
     with_cloth(cloth, |cloth| {
         let ticks = cloth.advance(seconds)?;
         if let Some(out_ticks) = out_ticks {

@@ -1,6 +1,13 @@
 //! Structs of other versions, and panics.
 
-use super::*;
+use crate::ffi::panic_guard::run_guarded;
+use crate::ffi::pointers::read_vec3s;
+use crate::ffi::versioned_struct::{NestedDesc, OutStruct, VersionedStruct, init_desc, read_desc};
+use crate::status::{MuslinStatus, Result};
+use core::ffi::CStr;
+use core::mem::offset_of;
+use core::ptr;
+use muslin_core::glam::Vec3;
 
 /// A material as an older program knew it, as the library knows it, and as a newer one will.
 #[repr(C)]
@@ -18,7 +25,7 @@ impl<const EXTRA: usize> Default for Material<EXTRA> {
 }
 
 // SAFETY: three fields of numbers, without gaps.
-unsafe impl<const EXTRA: usize> Growing for Material<EXTRA> {
+unsafe impl<const EXTRA: usize> VersionedStruct for Material<EXTRA> {
     const FIRST_SIZE: usize = 8;
     const INIT: &'static str = "material_init";
 }
@@ -46,7 +53,7 @@ impl<const MATERIAL: usize, const SETTINGS: usize> Default for Desc<MATERIAL, SE
 }
 
 // SAFETY: the fields show it.
-unsafe impl<const M: usize, const S: usize> Nesting for Desc<M, S> {
+unsafe impl<const M: usize, const S: usize> NestedDesc for Desc<M, S> {
     type Material = Material<M>;
     type Settings = Material<S>;
     const HEAD: usize = offset_of!(Desc<0, 0>, material);
@@ -57,7 +64,7 @@ unsafe impl<const M: usize, const S: usize> Nesting for Desc<M, S> {
 }
 
 /// Begins a caller's `Theirs` as the library's `Ours`, changes it, and reads it back.
-fn pass<Ours: Nesting, const M: usize, const S: usize>(
+fn pass<Ours: NestedDesc, const M: usize, const S: usize>(
     change: impl FnOnce(&mut Desc<M, S>),
 ) -> Result<Ours> {
     let mut theirs = Desc::<M, S>::default();
@@ -66,10 +73,10 @@ fn pass<Ours: Nesting, const M: usize, const S: usize>(
     let [whole, material, settings] = sizes.map(|size| size as u32);
     let at = (&raw mut theirs).cast::<Ours>();
     // SAFETY: `theirs` is as large as it says, and so are its parts.
-    unsafe { init_nested("desc", at, whole, material, settings)? };
+    unsafe { init_desc("desc", at, whole, material, settings)? };
     change(&mut theirs);
     // SAFETY: as before.
-    unsafe { read_nested("desc", (&raw const theirs).cast::<Ours>()) }
+    unsafe { read_desc("desc", (&raw const theirs).cast::<Ours>()) }
 }
 
 #[test]
@@ -98,34 +105,38 @@ fn a_newer_caller_is_understood_unless_it_uses_what_is_new() {
 
     let refused = pass::<Desc<1, 0>, 4, 3>(|theirs| theirs.material.extra[2] = 1.0).unwrap_err();
     assert_eq!(refused.status, MuslinStatus::Unsupported);
-    assert!(refused.sentence.starts_with("`material.struct_size`"), "{}", refused.sentence);
+    assert!(refused.message.starts_with("`material.struct_size`"), "{}", refused.message);
     let refused = pass::<Desc<1, 0>, 4, 3>(|theirs| theirs.settings.extra[0] = 1.0).unwrap_err();
-    assert!(refused.sentence.starts_with("`settings.struct_size`"), "{}", refused.sentence);
+    assert!(refused.message.starts_with("`settings.struct_size`"), "{}", refused.message);
 }
 
 #[test]
 fn parts_of_other_sizes_than_the_whole_allows_are_refused() {
     let too_large = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.settings.struct_size = 400);
-    assert_eq!(too_large.unwrap_err().sentence, "`struct_size` must be set by desc_init");
+    assert_eq!(too_large.unwrap_err().message, "`struct_size` must be set by desc_init");
     let too_small = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.material.struct_size = 4);
     let rule = "`material.struct_size` must be set by material_init";
-    assert_eq!(too_small.unwrap_err().sentence, rule);
+    assert_eq!(too_small.unwrap_err().message, rule);
     let never_begun = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.struct_size = 0xcdcd_cdcc);
-    assert_eq!(never_begun.unwrap_err().sentence, "`struct_size` must be set by desc_init");
+    assert_eq!(never_begun.unwrap_err().message, "`struct_size` must be set by desc_init");
 }
 
 #[test]
 fn a_report_fills_what_the_caller_has_and_no_more() {
-    let told = Material::<1> { density: 1.5, extra: [2.5], ..Material::default() };
+    let struct_size = Material::<1> { density: 1.5, extra: [2.5], ..Material::default() };
     let mut older = [Material::<0>::default(), Material { struct_size: 77, ..Material::default() }];
     // SAFETY: `older[0]` is as large as it says.
-    unsafe { Report::new("out", (&raw mut older[0]).cast::<Material<1>>()) }.unwrap().write(&told);
+    unsafe { OutStruct::new("out", (&raw mut older[0]).cast::<Material<1>>()) }
+        .unwrap()
+        .write(&struct_size);
     assert_eq!((older[0].struct_size, older[0].density), (8, 1.5));
     assert_eq!((older[1].struct_size, older[1].density), (77, 0.25));
 
     let mut newer = Material::<3>::default();
     // SAFETY: `newer` is as large as it says.
-    unsafe { Report::new("out", (&raw mut newer).cast::<Material<1>>()) }.unwrap().write(&told);
+    unsafe { OutStruct::new("out", (&raw mut newer).cast::<Material<1>>()) }
+        .unwrap()
+        .write(&struct_size);
     assert_eq!((newer.struct_size, newer.density, newer.extra), (20, 1.5, [2.5, 0.0, 0.0]));
 }
 
@@ -134,19 +145,19 @@ fn points_are_read_wherever_they_lie() {
     let floats: Vec<u8> = (0..8).flat_map(|i| (i as f32).to_le_bytes()).collect();
     let odd = [&[0], &floats[..]].concat();
     // SAFETY: `odd` holds two points that begin 16 bytes apart, one byte in.
-    let read = unsafe { points("positions", odd.as_ptr().add(1).cast(), 16, 2) };
+    let read = unsafe { read_vec3s("positions", odd.as_ptr().add(1).cast(), 16, 2) };
     assert_eq!(read.unwrap(), [Vec3::new(0.0, 1.0, 2.0), Vec3::new(4.0, 5.0, 6.0)]);
     for stride in [4, 8, 13, 14] {
         // SAFETY: nothing is read.
-        let refused = unsafe { points("positions", odd.as_ptr().cast(), stride, 0) };
+        let refused = unsafe { read_vec3s("positions", odd.as_ptr().cast(), stride, 0) };
         assert_eq!(refused.unwrap_err().status, MuslinStatus::BadValue, "{stride}");
     }
 }
 
 #[test]
 fn a_panic_ends_at_the_boundary() {
-    assert_eq!(guard(|| panic!("on purpose, {}", 7)), MuslinStatus::Panicked);
+    assert_eq!(run_guarded(|| panic!("on purpose, {}", 7)), MuslinStatus::Panicked);
     // SAFETY: the pointer is valid until this thread's next refusal.
-    let said = unsafe { CStr::from_ptr(crate::status::last()) };
+    let said = unsafe { CStr::from_ptr(crate::status::last_error()) };
     assert_eq!(said, c"a defect of Muslin stopped the call: on purpose, 7");
 }

@@ -1,0 +1,76 @@
+//! X
+
+use crate::ffi::versioned_struct::{NestedDesc, VersionedStruct};
+use crate::types::changes::MuslinChanges;
+use crate::types::collider::MuslinColliderDesc;
+use crate::types::event::MuslinEvent;
+use crate::types::grid::MuslinGridDesc;
+use crate::types::hit::MuslinHit;
+use crate::types::material::MuslinMaterial;
+use crate::types::mesh::MuslinMeshDesc;
+use crate::types::mesh_report::MuslinMeshReport;
+use crate::types::settings::MuslinSettings;
+use crate::types::stats::{MUSLIN_STAGE_SLOTS, MuslinStats};
+use crate::types::stream::{MuslinStream, MuslinWriteDesc};
+use crate::types::view::MuslinView;
+use crate::types::wind::MuslinWind;
+use core::mem::offset_of;
+
+/// Implements [`VersionedStruct`] for each struct, from its last field in the first release and its
+/// last field now, each with its size [bytes], and the name of its `init` function.
+macro_rules! versioned_structs {
+    ($($name:ident: $first:ident[$first_size:expr], $last:ident[$last_size:expr], $init:literal;)*) => {$(
+        // SAFETY: the definition is `repr(C)`, starts with `struct_size` and holds only numbers and
+        // pointers; the assertion below shows that no padding follows the last field.
+        unsafe impl VersionedStruct for $name {
+            const FIRST_SIZE: usize = offset_of!($name, $first) + $first_size;
+            const INIT: &'static str = $init;
+        }
+        const _: () = assert!(offset_of!($name, $last) + $last_size == size_of::<$name>());
+    )*};
+}
+
+versioned_structs! {
+    // Struct: last field of the first release, last field now, `init` function.
+    MuslinSettings: tearing[4], sleep_speed[4], "muslin_settings_init";
+    MuslinMaterial: yield_creep[4], yield_weakening[4], "muslin_material_init";
+    MuslinWind: seed[4], seed[4], "muslin_wind_init";
+    MuslinColliderDesc: restitution[4], heights[size_of::<*const f32>()],
+        "muslin_collider_desc_init";
+    MuslinEvent: source[4], count[4], "muslin_event_init";
+    MuslinHit: normal[12], normal[12], "muslin_hit_init";
+    MuslinView: state_revision[4], particles[size_of::<*const u32>()], "muslin_view_init";
+    MuslinMeshReport: is_grid[4], is_grid[4], "muslin_mesh_report_init";
+    MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
+    MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
+    MuslinWriteDesc: offset[4], offset[4], "muslin_write_desc_init";
+    MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], max_speed[4], "muslin_stats_init";
+}
+
+/// Implements [`NestedDesc`] for each descriptor that ends in a material and settings.
+macro_rules! nested_descs {
+    ($($name:ident, $init:literal;)*) => {$(
+        // SAFETY: the definition is `repr(C)`, starts with `struct_size` and holds only numbers and
+        // pointers before the material; the assertions below show where material and settings are
+        // and how they are aligned.
+        unsafe impl NestedDesc for $name {
+            type Material = MuslinMaterial;
+            type Settings = MuslinSettings;
+            const HEAD: usize = offset_of!($name, material);
+            const INIT: &'static str = $init;
+            fn set_parts(&mut self, material: MuslinMaterial, settings: MuslinSettings) {
+                (self.material, self.settings) = (material, settings);
+            }
+        }
+        const _: () = assert!(
+            offset_of!($name, settings) == offset_of!($name, material) + size_of::<MuslinMaterial>()
+        );
+    )*};
+}
+
+nested_descs! {
+    MuslinGridDesc, "muslin_grid_desc_init";
+    MuslinMeshDesc, "muslin_mesh_desc_init";
+}
+
+const _: () = assert!(align_of::<MuslinMaterial>() == 4 && align_of::<MuslinSettings>() == 4);
