@@ -1,23 +1,46 @@
-/* Muslin: cloth that hangs, is grabbed, blows and tears, the same bits on every machine.
+/* Muslin: deterministic cloth simulation.
  *
- * Generated from bindings/c; MUSLIN_BLESS=1 cargo test -p muslin-c --test header writes it anew.
+ * Generated from bindings/c. To write it again:
+ *   MUSLIN_BLESS=1 cargo test -p muslin-c --test header
  *
- * Metres, kilograms, seconds, radians; right-handed, y up by default (gravity is a setting).
+ * From nothing to a first frame:
  *
- * Begin every struct that has a struct_size with its muslin_..._init, which knows how large your
- * compiler made it: so an old program runs with a newer library, and a new one with an older library
- * as long as it does not use what that lacks.
+ *   MuslinGridDesc desc;
+ *   MuslinCloth cloth = {0};
+ *   MuslinView view;
+ *   muslin_grid_desc_init(&desc);
+ *   muslin_view_init(&view);
+ *   muslin_cloth_create_grid(&desc, &cloth);
+ *   muslin_cloth_advance(cloth, 1.0f / 60.0f, NULL);
+ *   muslin_cloth_view(cloth, &view);
+ *   draw(view.positions, view.normals, view.vertex_count, view.indices, view.index_count);
+ *   muslin_cloth_destroy(cloth);
  *
- * What is not MUSLIN_STATUS_OK was refused, and changed nothing: neither the cloth nor what the
- * out_... parameters point to. muslin_last_error() says why in a sentence that names the field.
+ * Units: metres, kilograms, seconds, radians. Right-handed axes; y is up by default (gravity is a
+ * setting).
  *
- * A pointer is NULL only where that is said; else it is refused as MUSLIN_STATUS_BAD_VALUE. What it
- * points to must be there and as large as its type, its count or its struct_size says. No pointer is
- * kept after a call. What the library lends is valid as long as is said there.
+ * Errors: a function that can fail returns a MuslinStatus. With any status but MUSLIN_STATUS_OK
+ * the call changed nothing: neither the cloth nor the memory behind its out_... parameters.
+ * muslin_last_error() returns a message that names the argument and the rule. Every function that
+ * takes a cloth may return MUSLIN_STATUS_BAD_HANDLE, MUSLIN_STATUS_BUSY or MUSLIN_STATUS_PANICKED;
+ * the comments list the other statuses.
  *
- * Different cloths may be used on different threads at once. A cloth in use on one thread is
- * MUSLIN_STATUS_BUSY on another. Do not copy a cloth's borrowed memory on one thread while another
- * changes that cloth.
+ * Structs: initialise every struct that has a struct_size with its muslin_..._init function. It
+ * stores the size that your compiler knows and the defaults. So an old program runs with a newer
+ * library, and a new program runs with an older library as long as it does not use fields that
+ * this lacks.
+ *
+ * Pointers: NULL is allowed only where the comment says so; otherwise it gives
+ * MUSLIN_STATUS_BAD_VALUE. The memory must be as large as the type, the count or the struct_size
+ * says. It need not be aligned, except for the buffers of MuslinStream. The library keeps no
+ * pointer after a call, except for those of muslin_set_log. Memory that the library lends stays
+ * valid as long as the comment says.
+ *
+ * Threads: different cloths may be used on different threads at once. A call on a cloth that
+ * another thread is using returns MUSLIN_STATUS_BUSY. Do not read memory borrowed from a cloth on
+ * one thread while another thread changes that cloth.
+ *
+ * Determinism: the same calls give the same bits on every platform.
  */
 
 #pragma once
@@ -25,60 +48,69 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** A defect of Muslin stopped a call. */
+/** A bug in Muslin interrupted a call. */
 #define MUSLIN_LOG_ERROR 1
 
-/** A call was refused; the message is what muslin_last_error says. */
+/** A call was refused. The message is that of muslin_last_error. */
 #define MUSLIN_LOG_WARN 2
 
-/** A cloth was made or destroyed. */
+/** A cloth was created or destroyed. */
 #define MUSLIN_LOG_INFO 3
 
-/** Light and fluid, 100 g/m^2. */
+/** Silk: light and fluid, 100 g/m^2. */
 #define MUSLIN_PRESET_SILK 0
 
-/** Shirting, 180 g/m^2. */
+/** Cotton shirting, 180 g/m^2. */
 #define MUSLIN_PRESET_COTTON 1
 
-/** Heavy twill, 380 g/m^2. */
+/** Denim: heavy twill, 380 g/m^2. */
 #define MUSLIN_PRESET_DENIM 2
 
 /** Garment leather, 700 g/m^2. */
 #define MUSLIN_PRESET_LEATHER 3
 
-/** Office paper, 80 g/m^2. */
+/** Office paper, 80 g/m^2; keeps folds. */
 #define MUSLIN_PRESET_PAPER 4
 
-/** Flag nylon 200 denier, 105 g/m^2. */
+/** Flag nylon of 200 denier, 105 g/m^2. */
 #define MUSLIN_PRESET_FLAG_NYLON 5
 
-/** For `self_collision`: parts of the cloth go through each other. */
+/** Value of `self_collision`: parts of the cloth pass through each other. */
 #define MUSLIN_SELF_COLLISION_NONE 0
 
 /**
- * For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses,
- * with the material's friction. A thickness counts up to half of the mean rest length. What is nearer than
- * two thicknesses in the weave keeps half of that distance. The two sides of a slit part by a
- * thousandth of the mean rest length as it opens, so that they keep from each other too. What pins or grabs
- * hold takes along what is in its way, and what is caught between two such may be forced through. What
- * crosses all the same, from the start, as this is switched on or where particles are placed, is drawn out
- * again unless it is held: the smaller part goes back to the side of the rest, mostly within a second. It
- * costs about as much as the rest of a tick while little touches, several times that where layers lie on
- * each other, and from twenty to hundreds of times where sheets of thousands of particles crumple.
+ * Value of `self_collision`: triangles collide with triangles, so that no part of the surface
+ * passes through another. With the material's friction.
+ *
+ * - Gap: the material's thickness, or `self_distance`, at most half of the mean rest length. Parts
+ *   that are nearer than two gaps in the rest shape keep half of their rest distance.
+ * - Tears: the two sides of a fresh tear are moved apart by 1/1000 of the mean rest length, so
+ *   that they collide too.
+ * - Pins and grabs: what they hold pushes other parts out of its way. Cloth that is caught between
+ *   two held parts may be forced through.
+ * - Existing intersections (at the start, after this is switched on, or where particles were
+ *   placed) are untangled, unless they are held: the smaller part moves back to the side of the
+ *   rest, mostly within a second.
+ * - Cost: about as much as the rest of a tick while little touches; several times that where
+ *   layers lie on each other; 20 to several hundred times where sheets of thousands of particles
+ *   crumple.
  */
 #define MUSLIN_SELF_COLLISION_SURFACE 1
 
 /**
- * For `self_collision`: particles keep from particles, as if they were balls: cheap, without friction, and
- * a fold may slip through where particles are farther apart than `self_distance`. Those that are woven into
- * one piece nearer than that, or than one and a half mean rest lengths, do not count; what is held neither.
+ * Value of `self_collision`: particles collide with particles, as if they were balls.
+ *
+ * - Cheap and without friction. A fold may pass through where particles are farther apart than
+ *   `self_distance`.
+ * - Two particles of one piece do not collide if their distance in the rest shape is below
+ *   `self_distance` or 1.5 mean rest lengths. Pinned and grabbed particles do not collide.
  */
 #define MUSLIN_SELF_COLLISION_PARTICLES 2
 
-/** Nothing is pinned: it falls. */
+/** No particle is pinned: the cloth falls. */
 #define MUSLIN_PIN_NONE 0
 
-/** The whole first row is pinned. */
+/** All particles of the first row are pinned. */
 #define MUSLIN_PIN_TOP_EDGE 1
 
 /** The two ends of the first row are pinned. */
@@ -87,49 +119,54 @@
 /** All four corners are pinned. */
 #define MUSLIN_PIN_CORNERS 3
 
-/** For `extra_particles`: room for as many particles again as the cloth starts with. */
+/**
+ * Value of `extra_particles` that reserves as many particles again as the cloth starts with.
+ */
 #define MUSLIN_AS_MANY_AGAIN UINT32_MAX
 
 /**
- * The air pushes each triangle along its normal, by the square of the relative speed; still air
- * brakes.
+ * Aerodynamic forces on each triangle, proportional to the square of the relative air speed. Still
+ * air damps the motion.
  */
 #define MUSLIN_WIND_SURFACE 0
 
 /**
- * The air pushes each particle as a field of sine waves, whichever way the cloth faces. The length
- * of `velocity` is its strength as an acceleration [m/s^2].
+ * A field of sine waves that accelerates each particle, independent of the direction of the
+ * surface. The length of `velocity` is the strength [m/s^2].
  */
 #define MUSLIN_WIND_SINE_FIELD 1
 
-/** All that is below `position` along the turned y axis. */
+/** Half-space below `position` along the rotated y axis; infinite in extent. */
 #define MUSLIN_SHAPE_PLANE 0
 
-/** A ball of `radius` around `position`. */
+/** Sphere of `radius` around `position`. */
 #define MUSLIN_SHAPE_SPHERE 1
 
 /**
- * Balls of `radius` and `top_radius` at -`half_height` and +`half_height` along the turned y axis, and all
- * between them.
+ * Capsule along the rotated y axis: spheres of `radius` at -`half_height` and of `top_radius` at
+ * +`half_height`, and all between them (a tapered capsule if the radii differ).
  */
 #define MUSLIN_SHAPE_CAPSULE 2
 
-/** A box that reaches `half_extents` to either side of `position` along each turned axis. */
+/** Box that extends by `half_extents` to either side of `position` along each rotated axis. */
 #define MUSLIN_SHAPE_BOX 3
 
-/** The least convex body that holds all of `positions`. */
+/** Convex hull of `positions`. */
 #define MUSLIN_SHAPE_CONVEX 4
 
 /**
- * The triangles that `indices` join of `positions`. Cloth stays on the side where it is: both are outside,
- * and nothing is inside, so that it need not be closed nor wound one way. It keeps a gap of 0.1 mm at
- * least.
+ * Triangle mesh: the triangles of `indices` over `positions`.
+ *
+ * The cloth stays on the side where it is: both sides are outside. So the mesh need not be closed
+ * or consistently wound. The gap is at least 0.1 mm.
  */
 #define MUSLIN_SHAPE_MESH 5
 
 /**
- * Ground: all below a surface over `columns` * `rows` heights, `spacing` apart along the turned x and z axes
- * from `position` on, as deep as it is wide. It has no sides.
+ * Terrain: all below a surface over a grid of `columns` * `rows` heights.
+ *
+ * The heights are `spacing` apart along the rotated x and z axes, starting at `position`. The
+ * terrain is as deep as it is wide, and has no side walls.
  */
 #define MUSLIN_SHAPE_HEIGHTFIELD 6
 
@@ -137,769 +174,883 @@
 #define MUSLIN_EVENT_EDGE_TORN 0
 
 /**
- * `vertex` was split off from `source`. Where a particle with several vertices was split between them, so that
- * none had to be: both are the lowest vertex that went to the new particle.
+ * `vertex` was split off from `source`.
+ *
+ * If a particle with several vertices was split between these vertices, no vertex had to be split:
+ * then both are the lowest vertex that moved to the new particle.
  */
 #define MUSLIN_EVENT_VERTEX_SPLIT 1
 
-/** A piece of `count` triangles, one of them at `vertex`, came off. */
+/** A piece of `count` triangles came off; `vertex` belongs to one of them. */
 #define MUSLIN_EVENT_PIECE_DETACHED 2
 
-/** `count` particles had left the realm of numbers and were put back where they last were. */
+/**
+ * `count` particles had positions or velocities that were not finite, and were put back to their
+ * last valid positions.
+ */
 #define MUSLIN_EVENT_RECOVERED 3
 
-/** Tearing stopped: the room that `extra_particles` reserved for it is used up. Told once. */
+/**
+ * Tearing stopped: the particles that `extra_particles` reserved are used up. Reported once.
+ */
 #define MUSLIN_EVENT_RESERVE_USED_UP 4
 
 /**
- * Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
- * `particle_a` and `particle_b`. Told once, until the bound holds again.
+ * Pins, grabs or anchors stretch the cloth past `max_stretch`: `count` links exceed it, one of
+ * them between `particle_a` and `particle_b`. Reported once, until the limit holds again.
  */
 #define MUSLIN_EVENT_HELD_APART 5
 
 /**
- * A cut made `vertex` on the edge between `particle_a` and `particle_b`; and, if they are different vertices on
- * either side of that edge, the one after it for the other side.
+ * A cut added `vertex` on the edge between `particle_a` and `particle_b`.
+ *
+ * If the two sides of that edge have different vertices there, the next vertex belongs to the
+ * other side.
  */
 #define MUSLIN_EVENT_EDGE_DIVIDED 6
 
-/** Where a vertex is [m]: x y z, and 1 in 16 bits. */
+/** Position [m]: x y z; in 16-bit formats x y z 1. */
 #define MUSLIN_ATTRIBUTE_POSITION 0
 
-/** Its unit normal: x y z, and 0 in 16 bits. */
+/** Unit normal: x y z; in 16-bit formats x y z 0. */
 #define MUSLIN_ATTRIBUTE_NORMAL 1
 
 /**
- * The unit direction square to the normal in which the texture coordinate u grows, x y z, and w, which
- * is 1 or -1: v grows along cross(normal, tangent) times w. It is the sum over the vertex's triangles of
- * (p dv2 - q dv1) sign(du1 dv2 - du2 dv1), p and q being edges and (du1, dv1), (du2, dv2) what they
- * are in the texture, made square to the normal; where a texture says nothing, any such direction.
+ * Tangent: x y z w. The unit vector perpendicular to the normal in which texture coordinate u
+ * grows; w is 1 or -1, and v grows along cross(normal, tangent) times w.
+ *
+ * It is the sum over the vertex's triangles of (p dv2 - q dv1) sign(du1 dv2 - du2 dv1), made
+ * perpendicular to the normal. p and q are edges of the triangle; (du1, dv1) and (du2, dv2) are
+ * the same edges in texture space. Where texture coordinates are degenerate, it is any
+ * perpendicular direction.
  */
 #define MUSLIN_ATTRIBUTE_TANGENT 2
 
-/** Its texture coordinates: u v. */
+/** Texture coordinates: u v. */
 #define MUSLIN_ATTRIBUTE_UV 3
 
 /**
- * 1 at a border that a tear or a cut made, which a renderer may fringe, else 0; and another 0 in 16 bits.
+ * 1 on a border that a tear or cut made, e.g. to draw fringes, else 0; in 16-bit formats followed
+ * by 0.
  */
 #define MUSLIN_ATTRIBUTE_FRAYED 4
 
-/** 32-bit floats: 12 bytes of a position or normal, 16 of a tangent, 8 of a uv, 4 of frayed. */
+/** 32-bit floats. Bytes: position and normal 12, tangent 16, uv 8, frayed 4. */
 #define MUSLIN_FORMAT_F32 0
 
-/** 16-bit floats: 8 bytes, of a uv or frayed 4. What is beyond 65504 becomes that. */
+/**
+ * 16-bit floats. Values beyond 65504 are clamped. Bytes: position, normal and tangent 8, uv and
+ * frayed 4.
+ */
 #define MUSLIN_FORMAT_F16 1
 
 /**
- * 16-bit whole numbers from -32767 to 32767, which stand for -1 to 1: 8 bytes of a normal or tangent, 4
- * of frayed; nothing else.
+ * Signed 16-bit integers; -32767 to 32767 stand for -1 to 1. Bytes: normal and tangent 8, frayed
+ * 4. Not for other attributes.
  */
 #define MUSLIN_FORMAT_SNORM16 2
 
 /**
- * A direction as two of those, x and y where it meets the octahedron |x| + |y| + |z| = 1, its lower
- * half (z < 0) folded outward, to (1 - |y|) sign(x) and (1 - |x|) sign(y): 4 bytes of a normal; 8 of a
- * tangent, those two, w and 0; nothing else.
+ * Unit vectors in octahedral encoding, as two 16-bit integers like MUSLIN_FORMAT_SNORM16. Bytes:
+ * normal 4, tangent 8 (u, v, w and 0). Not for other attributes.
+ *
+ * The vector is projected onto the octahedron |x| + |y| + |z| = 1. The encoding is x and y, with
+ * the lower half (z < 0) folded outward to (1 - |y|) sign(x) and (1 - |x|) sign(y).
  */
 #define MUSLIN_FORMAT_OCTAHEDRAL16 3
 
-/** How many streams one call takes. */
+/** Largest number of streams in one call. */
 #define MUSLIN_MAX_STREAMS 16
 
-/** For `vertex_count`: all from the first one on. */
+/** Value of `vertex_count` that means all vertices from `first_vertex` on. */
 #define MUSLIN_ALL_VERTICES UINT32_MAX
 
-/** Room for the times of stages in MuslinStats; how many there are is in `stage_count`. */
+/** Length of `seconds` in MuslinStats. `stage_count` says how many entries are used. */
 #define MUSLIN_STAGE_SLOTS 31
 
 /**
- * What became of a call. Whatever is not MUSLIN_STATUS_OK left the cloth and all `out_...` parameters
- * as they were, and muslin_last_error() says why in a sentence.
+ * Result of a call.
+ *
+ * With any status but MUSLIN_STATUS_OK, the call changed neither the cloth nor the memory behind
+ * its `out_...` parameters, and muslin_last_error() returns a message that names the argument and
+ * the rule.
  */
 typedef enum MuslinStatus {
-  /** Done. */
+  /** The call succeeded. */
   MUSLIN_STATUS_OK = 0,
-  /**
-   * An argument or a field is NULL, out of its range or not finite, or does not fit another one.
-   */
+  /** An argument or field is NULL, out of range, not finite, or inconsistent with another one. */
   MUSLIN_STATUS_BAD_VALUE = 1,
-  /** An index points past the last particle or vertex. */
+  /** An index is not below the number of particles, vertices or points. */
   MUSLIN_STATUS_BAD_INDEX = 2,
-  /** A handle of a cloth, grab, attachment or collider that is not there (any more). */
+  /**
+   * A handle of a cloth, grab, attachment or collider is stale, made up or from another cloth.
+   */
   MUSLIN_STATUS_BAD_HANDLE = 3,
-  /** The triangles cannot be cloth. */
+  /** The mesh cannot be made into cloth, even after repair. */
   MUSLIN_STATUS_BAD_MESH = 4,
-  /** The bytes are not a saved cloth of this version, or were damaged. */
+  /** The bytes are not a saved cloth, come from another format version, or are damaged. */
   MUSLIN_STATUS_BAD_SAVE = 5,
-  /** The room that was reserved is used up. */
+  /**
+   * A limit on the number of items is reached, or the reserve for tears and cuts
+   * (`extra_particles`) is used up.
+   */
   MUSLIN_STATUS_FULL = 6,
-  /** A wish that this version does not know or does not fulfil yet. */
+  /** This version does not support the requested value or struct version. */
   MUSLIN_STATUS_UNSUPPORTED = 7,
-  /** The cloth is in use on another thread at this moment. */
+  /** Another thread is using the cloth. The call did nothing; try again. */
   MUSLIN_STATUS_BUSY = 8,
   /** The caller's buffer is too small. */
   MUSLIN_STATUS_BUFFER_TOO_SMALL = 9,
-  /** The ray meets nothing. Not a mistake, so it is not logged. */
+  /** The ray hits nothing. Not an error, so it is not logged. */
   MUSLIN_STATUS_NOTHING_HIT = 10,
   /**
-   * The edge did not give way: its ends are held, or it is a border. Not a mistake, so it is not
-   * logged.
+   * The edge did not tear: both ends are pinned or grabbed, or it is a border edge. Not an
+   * error, so it is not logged.
    */
   MUSLIN_STATUS_NOT_TORN = 11,
   /**
-   * A defect of Muslin stopped the call half-way; please report it. The cloth is of no use any more:
-   * all that it still takes is muslin_cloth_destroy.
+   * A bug in Muslin interrupted the call; please report it. The cloth is unusable: the only call
+   * that it still accepts is muslin_cloth_destroy.
    */
   MUSLIN_STATUS_PANICKED = 12,
 } MuslinStatus;
 
 /**
- * Gets a message of the library: its level (MUSLIN_LOG_...), a sentence that is valid for the time of
- * the call, and the `user` pointer of muslin_set_log.
+ * Function of the host that receives log messages.
+ *
+ * `level` is one of MUSLIN_LOG_...; `message` is valid during the call only; `user` is the pointer
+ * that was passed to muslin_set_log.
  */
 typedef void (*MuslinLogFn)(uint32_t level, const char *message, void *user);
 
-/** A point, a direction or a velocity. */
+/** A point, direction or velocity. */
 typedef struct MuslinVec3 {
-  /** Along x. */
+  /** x component. */
   float x;
-  /** Along y. */
+  /** y component. */
   float y;
-  /** Along z. */
+  /** z component. */
   float z;
 } MuslinVec3;
 
 /**
- * What a cloth is made of, in SI units. All of it may change between ticks.
+ * Material of a cloth, in SI units. Every field may be changed between ticks.
  *
- * Begin with muslin_material_init, or go on from there with muslin_material_preset, and change what
- * you need.
+ * Initialise it with muslin_material_init; muslin_material_preset then sets the values of a
+ * fabric.
  */
 typedef struct MuslinMaterial {
   /** Set by muslin_material_init. */
   uint32_t struct_size;
-  /** Mass per area [kg/m^2]; 0.18, a cotton. Above 0. */
+  /** Mass per area [kg/m^2]. Default 0.18 (cotton). Above 0. */
   float density;
-  /** Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge. */
+  /**
+   * Gap that the cloth keeps from anything it touches [m]. Default 0.00035. At least 0. Choose
+   * less than half of the shortest edge.
+   */
   float thickness;
-  /** Membrane stiffness along the warp (down a grid) [N/m]; 0 is as stiff as the sweeps allow. */
+  /**
+   * Membrane stiffness along the warp (the columns of a grid) [N/m]. Default 0: as stiff as the
+   * solver reaches. At least 0.
+   */
   float stretch_stiffness_warp;
   /**
-   * Membrane stiffness along the weft (across a grid) [N/m]; 0 is as stiff as the sweeps allow.
+   * Membrane stiffness along the weft (the rows of a grid) [N/m]. Default 0: as stiff as the
+   * solver reaches. At least 0.
    */
   float stretch_stiffness_weft;
-  /** Stiffness against shear [N/m]; 0 is as the stretch stiffness. */
+  /** Shear stiffness [N/m]. Default 0: the stretch stiffness. At least 0. */
   float shear_stiffness;
   /**
-   * Bending rigidity per width [N m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however
-   * fine the mesh, the tick and the sweeps are, whichever way it is cut: exactly on grids, within a twentieth
-   * of its bending length on other meshes. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+   * Bending rigidity per width [N m]. Default 2.5e-5. At least 0.
+   *
+   * - It is the value that a strip hanging from a clamp shows (BS 3356), independent of mesh
+   *   resolution, tick, substeps and iterations, and of the direction in which the strip is cut:
+   *   exactly on grids, to 1/20 of the bending length on other meshes.
+   * - 0 is limp.
+   * - 1 or more uses links over two cells instead, as rigid as the solver reaches.
    */
   float bend_stiffness;
   /**
-   * Damping of bending [s]; 0. Bending by some angle a second is resisted as that angle times this would be;
-   * a few hundredths calm a flutter. At least 0.
+   * Damping of bending [s]. Default 0. At least 0. Bending at some angle per second is resisted
+   * like this angle times `bend_damping`; a few hundredths stop a flutter.
    */
   float bend_damping;
-  /** Damping of stretching [s]; 0. In the same way, for links that give way. At least 0. */
+  /**
+   * Damping of stretching [s], in the same way, for links that have a stiffness. Default 0. At
+   * least 0.
+   */
   float stretch_damping;
-  /** Coulomb coefficient against colliders; 0.4. At least 0. */
+  /**
+   * Coulomb friction coefficient against colliders and between layers. Default 0.4. At least 0.
+   */
   float friction;
-  /** Share of the normal speed that a bounce gives back; 0. From 0 to 1. */
+  /** Share of the normal velocity that a bounce returns. Default 0. From 0 to 1. */
   float restitution;
-  /** Pressure coefficient of a triangle square to the wind; 1.2. At least 0. */
+  /** Drag coefficient of a triangle perpendicular to the wind. Default 1.2. At least 0. */
   float drag;
-  /** Lift coefficient of a triangle askew to the wind; 0. At least 0. */
+  /** Lift coefficient of a triangle oblique to the wind. Default 0. At least 0. */
   float lift;
   /**
-   * Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
-   * less, as the finer the mesh is the more of the load is there: sqrt(16 thickness / mean edge) of
-   * the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+   * Ratio of length to rest length at which an edge tears. Default 4. Above 1, or 0: never.
+   *
+   * At a crack tip a smaller strain suffices: sqrt(16 thickness / mean edge) of it, at least
+   * 1/5. On a finer mesh the load is more concentrated there; with this factor, a crack grows at
+   * the same load on any mesh.
    */
   float tear_stretch;
-  /** How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2. */
+  /**
+   * Variation of the tear limit between edges. Default 0.2. From 0 (all edges alike) to 1 (the
+   * limit varies by half).
+   */
   float tear_variation;
   /**
-   * Angle up to which a fold opens again [rad]; of one that was folded further, the rest stays. 0: all
-   * opens. At least 0. Paper is near 0.8.
+   * Angle up to which a fold opens again completely [rad]; of a sharper fold, the excess stays.
+   * Default 0: folds never stay. At least 0. Paper has about 0.8.
    */
   float yield_angle;
-  /** Share of a fold beyond `yield_angle` that stays; 1. From 0 to 1. */
+  /** Share of the excess over `yield_angle` that stays. Default 1. From 0 to 1. */
   float yield_creep;
   /**
-   * Length of the sheet over which folding counts as one fold [m]; 0.01. The same angle over more than that is
-   * only bent, and stays bent beyond a curvature of `yield_angle` over this. Three cells count at least.
-   * At least 0.
+   * Length of cloth over which bending counts as one fold [m]. Default 0.01. At least 0; at
+   * least three cells are used.
+   *
+   * The same angle spread over a greater length is only a bend; a bend stays if its curvature
+   * exceeds `yield_angle` / `fold_length`.
    */
   float fold_length;
   /**
-   * How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of
-   * one that is folded by an angle for the first time (angle - `yield_angle`) / (1 + this) stays, and to fold it
-   * on takes as much more. At least 0. What gives way or is creased while this and `yield_weakening` are 0 is
-   * not counted.
+   * Growth of the yield angle with accumulated yielding (in either direction). Default 0. At
+   * least 0.
+   *
+   * Of a first fold by some angle, (angle - `yield_angle`) / (1 + `yield_hardening`) stays, and
+   * folding it further needs as much more. Yielding and creases are not counted while this and
+   * `yield_weakening` are 0.
    */
   float yield_hardening;
   /**
-   * How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by an angle in all, to either
-   * side, `fold_length` of the sheet bends as if `bend_stiffness` were divided by 1 + this times angle, by at
-   * most a thousand; pressed flat, it stays as weak. It gives way under the same moment as before, so that it
-   * opens again by more: `yield_angle` times this counts as `yield_hardening` too. At least 0.
+   * Loss of bending stiffness with accumulated yielding [1/rad]. Default 0. At least 0.
+   *
+   * After yielding by an angle in total (in either direction), `fold_length` of the cloth bends
+   * as if `bend_stiffness` were divided by 1 + `yield_weakening` * angle, at most by 1000;
+   * pressing the fold flat does not restore it. The moment at which it yields stays the same, so
+   * the fold opens further: `yield_angle` * `yield_weakening` adds to `yield_hardening`.
    */
   float yield_weakening;
 } MuslinMaterial;
 
 /**
- * How time runs: ticks, sweeps, gravity, damping and the switches of the solver. All of it may
- * change between ticks.
+ * Settings of the simulation: time steps, gravity, damping and solver options. Every field may be
+ * changed between ticks. Initialise it with muslin_settings_init.
  *
- * One tick is `substeps` times (predict, then `iterations` sweeps over all links). More of either
- * makes the cloth stiffer; at the same cost substeps stiffen more than iterations do.
- * Begin with muslin_settings_init.
+ * A tick is divided into `substeps`. Each substep predicts the positions and then solves all
+ * constraints `iterations` times. More of either makes the cloth stiffer; at the same cost,
+ * substeps stiffen it more than iterations.
  */
 typedef struct MuslinSettings {
   /** Set by muslin_settings_init. */
   uint32_t struct_size;
-  /** Length of a tick [s]; 1/60. Above 0, at most 1. */
+  /** Length of a tick [s]. Default 1/60. Above 0, at most 1. */
   float tick;
-  /** Substeps in a tick; 4. From 1 to 1000. */
+  /** Substeps per tick. Default 4. From 1 to 1000. */
   uint32_t substeps;
   /**
-   * Sweeps over the links in a substep, to and fro in turn; 2. From 1 to 1000. With a single sweep
-   * velocities are of first order, which brakes all motion; from two on they are of second order,
-   * and nothing brakes but `damping` and the air.
+   * Solver iterations per substep, in alternating order. Default 2. From 1 to 1000.
+   *
+   * With 1, the time integration is of first order, which damps all motion. From 2 on it is of
+   * second order; then only `damping` and the air damp.
    */
   uint32_t iterations;
   /**
-   * Ticks that one advance may run; 5. What a late frame owes beyond it is dropped. At least 1.
+   * Largest number of ticks of one muslin_cloth_advance; the rest of the backlog is dropped.
+   * Default 5. At least 1.
    */
   uint32_t max_ticks_per_advance;
-  /** Acceleration of everything [m/s^2]; 0, -9.81, 0. */
+  /** Gravitational acceleration [m/s^2]. Default 0, -9.81, 0. */
   MuslinVec3 gravity;
   /**
-   * Rate at which velocity decays [1/s]: as exp(-damping t), whatever the step; 0.5. At least 0.
+   * Rate at which velocities decay [1/s], as exp(-`damping` t), independent of the step. Default
+   * 0.5. At least 0.
    */
   float damping;
   /**
-   * The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
-   * rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
+   * Largest displacement of a particle per substep, relative to the rigid motion of the cloth,
+   * in mean rest lengths. Default 0.5. Above 0. It also limits the speed of a grabbed particle.
    */
   float max_displacement;
   /**
-   * The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
-   * apart: 0.02 is 2 %; 0, no bound. At least 0.
+   * Strain limit: the largest strain of any stretch or shear link after a tick, unless pins,
+   * grabs or anchors hold it apart. Default 0: no limit. 0.02 is 2 %. At least 0.
    */
   float max_stretch;
   /**
-   * 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
-   * They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
-   * From two iterations on, whole lines of links are solved at once as well.
+   * 1: tethers (long-range attachments) keep every particle within its rest distance of the
+   * pins; 0: no tethers. Default 1.
+   *
+   * Tethers carry the load that the iterations do not reach; they do not resist the stretch of
+   * links that have a stiffness. From 2 iterations on, whole chains of links are solved at once
+   * as well.
    */
   uint32_t tethers;
   /**
-   * Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first),
-   * MUSLIN_SELF_COLLISION_SURFACE or MUSLIN_SELF_COLLISION_PARTICLES.
+   * Self-collision: MUSLIN_SELF_COLLISION_NONE (default), MUSLIN_SELF_COLLISION_SURFACE or
+   * MUSLIN_SELF_COLLISION_PARTICLES.
    */
   uint32_t self_collision;
   /**
-   * Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is
-   * at most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it
-   * is at most twice that length.
+   * Gap of self-collision [m]. Default 0.
+   *
+   * - Surface: 0 means the material's thickness. At most half of the mean rest length.
+   * - Particles: 0 means 2/3 of the mean rest length. At most twice the mean rest length.
    */
   float self_distance;
-  /** 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0. */
+  /**
+   * 1: links that are stretched past `tear_stretch` of MuslinMaterial tear; 0: they do not.
+   * Default 0.
+   */
   uint32_t tearing;
-  /** Vertices that tearing may split in one tick, the worst first; 8. At least 1. */
+  /**
+   * Largest number of vertices that tearing splits per tick; the most stretched come first.
+   * Default 8. At least 1.
+   */
   uint32_t max_tears_per_tick;
   /**
-   * A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at
-   * next to no cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the
-   * sine field keep a cloth awake. See `asleep` of MuslinStats.
+   * Speed below which the cloth falls asleep [m/s]. Default 0: never. At least 0.
+   *
+   * A cloth whose particles were all slower for half a second stops moving, at almost no cost,
+   * until something changes or touches it. Gusts, turbulence and MUSLIN_WIND_SINE_FIELD keep it
+   * awake. See `asleep` of MuslinStats.
    */
   float sleep_speed;
 } MuslinSettings;
 
 /**
- * A regular grid of particles; particle = row * columns + column. Begin with muslin_grid_desc_init.
+ * A regular grid of particles. The particle at `row` and `column` has the index `row * columns +
+ * column`. Initialise it with muslin_grid_desc_init.
  *
- * `material` and `settings` carry sizes of their own: replace them by structs that began with
- * muslin_material_init and muslin_settings_init in the same program.
+ * `material` and `settings` have sizes of their own: replace them only by structs that were
+ * initialised with muslin_material_init and muslin_settings_init in the same program.
  */
 typedef struct MuslinGridDesc {
   /** Set by muslin_grid_desc_init. */
   uint32_t struct_size;
-  /** Particles across; 40. At least 2. */
+  /** Particles per row. Default 40. At least 2. */
   uint32_t columns;
-  /** Particles down; 40. At least 2. */
+  /** Number of rows. Default 40. At least 2. A grid has at most 4194304 particles. */
   uint32_t rows;
-  /** Distance between neighbours [m]; 0.05. From 1e-6 to 1e6. */
+  /** Distance between neighbours [m]. Default 0.05. From 1e-6 to 1e6. */
   float spacing;
   /**
-   * Where particle (0, 0), the top left, is [m]; 0, 0, 0. Within 2097152 `spacing` of zero along each axis.
+   * Position of particle (0, 0), the top left corner [m]. Default 0, 0, 0. Within 2097152 times
+   * `spacing` of zero along each axis.
    */
   MuslinVec3 origin;
-  /** Unit direction of a row; 1, 0, 0. */
+  /** Unit direction along a row. Default 1, 0, 0. */
   MuslinVec3 right;
-  /** Unit direction of a column, square to `right`; 0, -1, 0. */
+  /** Unit direction along a column, perpendicular to `right`. Default 0, -1, 0. */
   MuslinVec3 down;
   /**
-   * What is pinned from the start: MUSLIN_PIN_NONE, MUSLIN_PIN_TOP_EDGE (this at first),
+   * Particles that are pinned from the start: MUSLIN_PIN_NONE, MUSLIN_PIN_TOP_EDGE (default),
    * MUSLIN_PIN_TOP_CORNERS or MUSLIN_PIN_CORNERS.
    */
   uint32_t pin_mode;
-  /** Particles that tears may add; MUSLIN_AS_MANY_AGAIN. */
+  /**
+   * Particles to reserve for tears and cuts. Default MUSLIN_AS_MANY_AGAIN; 0 if the cloth never
+   * tears.
+   */
   uint32_t extra_particles;
-  /** What it is made of. */
+  /** Material. */
   MuslinMaterial material;
-  /** How its time runs. */
+  /** Settings. */
   MuslinSettings settings;
 } MuslinGridDesc;
 
 /**
- * A cloth; { 0 } is none. A destroyed or made-up one is refused as MUSLIN_STATUS_BAD_HANDLE.
+ * Handle of a cloth. { 0 } is none. A stale or made-up handle gives MUSLIN_STATUS_BAD_HANDLE.
  */
 typedef struct MuslinCloth {
-  /** Says which; it means nothing to you. */
+  /** Identifies the cloth; opaque. */
   uint64_t id;
 } MuslinCloth;
 
 /**
- * Any triangle mesh, as artists export them. Begin with muslin_mesh_desc_init, then give it positions and
- * indices.
+ * Any triangle mesh, as modelling tools export them. Initialise it with muslin_mesh_desc_init,
+ * then set positions and indices.
  *
- * What cannot be cloth in it is repaired, and muslin_cloth_get_mesh_report tells what was: doubled vertices are
- * welded, triangles without an area and repeated ones dropped; where more than two triangles share an edge the
- * flattest two stay joined and the others get an edge of their own; sheets that meet at a mere point are parted;
- * the triangles of a piece are turned to face as most of them do. Vertices that no triangle uses stay where they
- * are.
+ * Defects are repaired in this order; muslin_cloth_get_mesh_report counts the repairs:
+ * - duplicate vertices are welded (see `weld_distance`);
+ * - triangles without an area and repeated triangles are dropped;
+ * - where more than two triangles share an edge, the flattest pair stays joined and the others get
+ *   an edge of their own;
+ * - sheets that touch in a single vertex are separated there;
+ * - within each piece, triangles are turned to face as most of them do.
  *
- * A mesh that is a regular grid, its vertices and triangles in the order that muslin_cloth_create_grid has them,
- * is woven as that grid is: it moves in the same bits.
+ * Vertices that no triangle uses stay where they are.
  *
- * All lists are copied while the cloth is made. `material` and `settings` carry sizes of their own:
- * replace them by structs that began with muslin_material_init and muslin_settings_init in the same
- * program.
+ * A mesh that is a regular grid, with vertices and triangles in the order of
+ * muslin_cloth_create_grid, is simulated as that grid, with identical bits.
+ *
+ * All lists are copied during the call. `material` and `settings` have sizes of their own: replace
+ * them only by structs that were initialised with muslin_material_init and muslin_settings_init in
+ * the same program.
  */
 typedef struct MuslinMeshDesc {
   /** Set by muslin_mesh_desc_init. */
   uint32_t struct_size;
   /**
-   * Where the vertices are at rest [m], 3 numbers a vertex. Each is the particle of its number if nothing is
-   * welded or split, see MuslinView's `particles`.
+   * Rest positions of the vertices [m], 3 numbers per vertex. If nothing is welded or split,
+   * vertex i is particle i; otherwise see `particles` of MuslinView.
    */
   const float *positions;
-  /** Bytes from one position to the next; 0, which is 12. A multiple of 4. */
+  /**
+   * Distance between the starts of consecutive positions [bytes]; 0 means 12. Default 0. A
+   * multiple of 4.
+   */
   uint32_t position_stride;
-  /** How many vertices there are; 0. From 3 to 4194304. */
+  /** Number of vertices. Default 0. From 3 to 4194304. */
   uint32_t vertex_count;
-  /** Vertices of the triangles, 3 a triangle, counter-clockwise seen from its front. */
+  /** Vertices of the triangles, 3 per triangle, counter-clockwise seen from the front. */
   const uint32_t *indices;
-  /** How many indices there are; 0. A multiple of 3, at most 50331648. */
+  /** Number of indices. Default 0. A multiple of 3, at most 50331648. */
   uint32_t index_count;
-  /** Texture coordinates, 2 numbers a vertex; or NULL: none. */
+  /** Texture coordinates, 2 numbers per vertex, or NULL for none. */
   const float *uvs;
-  /** Vertices whose particles are pinned from the start; or NULL: none. */
+  /** Vertices whose particles are pinned from the start, or NULL for none. */
   const uint32_t *pinned;
-  /** How many `pinned` there are; 0. At most `vertex_count`. */
+  /** Number of entries of `pinned`. Default 0. At most `vertex_count`. */
   uint32_t pinned_count;
   /**
-   * Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, -1 (or
-   * anything below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one before
-   * it that stayed apart; but the corners of a triangle stay apart, however small it is. Keep it well below
-   * the shortest edge.
+   * Vertices at most this far apart share one particle [m]. Default -1.
+   *
+   * 0 welds vertices at exactly the same position; a negative value welds nothing. Vertices are
+   * processed in order: each joins the nearest earlier vertex that was not welded itself.
+   * Corners of one triangle are never welded together. Choose a value well below the shortest
+   * edge.
    */
   float weld_distance;
-  /** Particles that tears may add; MUSLIN_AS_MANY_AGAIN. */
+  /**
+   * Particles to reserve for tears and cuts. Default MUSLIN_AS_MANY_AGAIN; 0 if the cloth never
+   * tears.
+   */
   uint32_t extra_particles;
-  /** What it is made of. */
+  /** Material. */
   MuslinMaterial material;
-  /** How its time runs. */
+  /** Settings. */
   MuslinSettings settings;
 } MuslinMeshDesc;
 
 /**
- * The air around a cloth. It gusts, wanders and swirls, always the same way for the same seed.
- * Begin with muslin_wind_init: still air.
+ * The air around a cloth: steady wind with gusts, changing direction and turbulence. Equal seeds
+ * give equal gusts. Initialise it with muslin_wind_init, which describes still air.
  */
 typedef struct MuslinWind {
   /** Set by muslin_wind_init. */
   uint32_t struct_size;
-  /** How the air pushes: MUSLIN_WIND_SURFACE (this at first) or MUSLIN_WIND_SINE_FIELD. */
+  /** Model: MUSLIN_WIND_SURFACE (default) or MUSLIN_WIND_SINE_FIELD. */
   uint32_t model;
-  /** Mean velocity of the air [m/s]; 0, 0, 0. */
+  /** Mean velocity of the air [m/s]. Default 0, 0, 0. */
   MuslinVec3 velocity;
-  /** How much the speed swells and falls, as a share of it; 0. From 0 to 1. */
+  /** Variation of the speed over time, as a share of it. Default 0. From 0 to 1. */
   float gust;
-  /** How far the direction strays [rad]; 0. From 0 to pi. */
+  /** Variation of the direction over time [rad]. Default 0. From 0 to pi. */
   float wander;
-  /** Swirls in space, as a share of the speed; 0. From 0 to 1. */
+  /** Variation of the air velocity in space, as a share of the speed. Default 0. From 0 to 1. */
   float turbulence;
-  /** Density of the air [kg/m^3]; 1.2. At least 0; 0 is a vacuum. */
+  /** Density of the air [kg/m^3]. Default 1.2. At least 0; 0 is a vacuum. */
   float air_density;
-  /** Which gusts and swirls; 0. */
+  /** Selects the sequence of gusts and turbulence. Default 0. */
   uint32_t seed;
 } MuslinWind;
 
-/** A rotation: a unit quaternion; { 0, 0, 0, 1 } turns nothing. */
+/** A rotation as a unit quaternion. { 0, 0, 0, 1 } is no rotation. */
 typedef struct MuslinQuat {
-  /** Axis along x times the sine of half the angle. */
+  /** Axis x times the sine of half the angle. */
   float x;
-  /** Axis along y times the sine of half the angle. */
+  /** Axis y times the sine of half the angle. */
   float y;
-  /** Axis along z times the sine of half the angle. */
+  /** Axis z times the sine of half the angle. */
   float z;
   /** Cosine of half the angle. */
   float w;
 } MuslinQuat;
 
 /**
- * A transform that particles of one cloth are attached to; { 0 } is none. It is of use with the cloth that
- * gave it, and with those restored from it.
+ * Handle of an attachment: a transform that carries particles. { 0 } is none. Valid for the cloth
+ * that returned it and for cloths restored from it.
  */
 typedef struct MuslinAttachment {
-  /** Says which; it means nothing to you. */
+  /** Identifies the attachment; opaque. */
   uint32_t id;
 } MuslinAttachment;
 
-/** Where a ray hits a cloth. Begin with muslin_hit_init. */
+/** Where a ray hits a cloth. Initialise it with muslin_hit_init. */
 typedef struct MuslinHit {
   /** Set by muslin_hit_init. */
   uint32_t struct_size;
-  /** The triangle that was hit: index 3 * triangle and the two after it. */
+  /** Triangle that was hit: its corners are the indices 3 * triangle and the two after it. */
   uint32_t triangle;
-  /** Its particle nearest to the hit. */
+  /** Corner particle nearest to the hit. */
   uint32_t particle;
-  /** Weight of the triangle's second corner. */
+  /** Barycentric weight of the triangle's second corner. */
   float u;
-  /** Weight of the triangle's third corner. */
+  /** Barycentric weight of the triangle's third corner. */
   float v;
   /** Distance from the ray's origin [m]. */
   float distance;
-  /** Where [m]. */
+  /** Point of the hit [m]. */
   MuslinVec3 position;
   /** Unit normal of the triangle, on the side that was hit. */
   MuslinVec3 normal;
 } MuslinHit;
 
 /**
- * A hold on one particle of one cloth; { 0 } is none. It is of use with the cloth that gave it, and
- * with those restored from it.
+ * Handle of a grab of one particle. { 0 } is none. Valid for the cloth that returned it and for
+ * cloths restored from it.
  */
 typedef struct MuslinGrab {
-  /** Says which; it means nothing to you. */
+  /** Identifies the grab; opaque. */
   uint32_t id;
 } MuslinGrab;
 
 /**
- * Something that happened in a tick. Fields that its kind does not mention are 0. `particle_a` and `particle_b`
- * are particles, `vertex` and `source` are vertices, see MuslinView's `particles`. Begin with
- * muslin_event_init.
+ * An event. Fields that its kind does not mention are 0. Initialise it with muslin_event_init.
+ *
+ * `particle_a` and `particle_b` are particles, `vertex` and `source` are vertices; see `particles`
+ * of MuslinView.
  */
 typedef struct MuslinEvent {
   /** Set by muslin_event_init. */
   uint32_t struct_size;
-  /** What happened: one of MUSLIN_EVENT_... */
+  /** Kind: one of MUSLIN_EVENT_.... */
   uint32_t kind;
-  /** In which tick, counted from creation or reset. */
+  /** Tick of the event, counted from creation or reset. */
   uint32_t tick;
-  /** Where [m]. */
+  /** Position of the event [m]. */
   MuslinVec3 position;
-  /** An end of the edge. */
+  /** First end of the edge. */
   uint32_t particle_a;
-  /** The other end. */
+  /** Second end of the edge. */
   uint32_t particle_b;
-  /** The vertex that came to be. */
+  /** The new vertex. */
   uint32_t vertex;
-  /** The vertex that it was split off from. */
+  /** The vertex that the new one was split off from. */
   uint32_t source;
-  /** How many. */
+  /** Number of triangles, particles or links. */
   uint32_t count;
 } MuslinEvent;
 
 /**
- * A collider: its shape, where it is and how it feels. Begin with muslin_collider_desc_init: a floor
- * at height 0. Fields that its shape does not use are ignored; all lists are copied while it is added.
+ * Descriptor of a collider: shape, pose and surface properties. Initialise it with
+ * muslin_collider_desc_init, which describes a floor at height 0.
+ *
+ * Fields that the shape does not use are ignored. All lists are copied when the collider is added.
  */
 typedef struct MuslinColliderDesc {
   /** Set by muslin_collider_desc_init. */
   uint32_t struct_size;
-  /** What it is, one of MUSLIN_SHAPE_...; MUSLIN_SHAPE_PLANE. */
+  /** Shape: one of MUSLIN_SHAPE_.... Default MUSLIN_SHAPE_PLANE. */
   uint32_t shape;
-  /** Where it is [m]; 0, 0, 0. A point of the surface of a plane. */
+  /** Position [m]; for a plane, a point on its surface. Default 0, 0, 0. */
   MuslinVec3 position;
-  /** How it is turned; not at all. A plane's normal is the turned y axis. */
+  /** Rotation, a unit quaternion; a plane's normal is the rotated y axis. Default: none. */
   MuslinQuat rotation;
-  /** Coulomb coefficient; -1, which takes the material's. Else at least 0. */
+  /** Coulomb friction coefficient. Default -1: that of the material. Otherwise at least 0. */
   float friction;
   /**
-   * Share of the normal speed that a bounce gives back; -1, which takes the material's. Else from
-   * 0 to 1.
+   * Share of the normal velocity that a bounce returns. Default -1: that of the material.
+   * Otherwise from 0 to 1.
    */
   float restitution;
   /**
-   * Share of the sliding speed that every substep of touching leaves, beside Coulomb friction; 1,
-   * all of it. From 0 to 1.
+   * Share of the tangential velocity that remains after each substep in contact, in addition to
+   * Coulomb friction. Default 1 (all of it). From 0 to 1.
    */
   float tangential_restitution;
   /**
-   * Gap kept from its surface [m]; -1, which takes the material's thickness. Else at least 0. Where a surface is
-   * round or bends little, particles stay farther off by what is between them would sink in: at most a fifth
-   * of the mean edge from balls and capsules, a tenth from others.
+   * Gap between cloth and surface [m]. Default -1: the material's thickness. Otherwise at least
+   * 0.
+   *
+   * On surfaces that are round or slightly curved, particles keep a larger gap, so that the
+   * triangles between them do not sink in: up to 1/5 of the mean edge for spheres and capsules,
+   * 1/10 for other shapes.
    */
   float thickness;
-  /** Of a sphere or capsule [m]; 0.5. Above 0. */
+  /** Radius of a sphere or capsule [m]. Default 0.5. Above 0. */
   float radius;
-  /** Of the upper end of a capsule [m]; -1, which is as `radius`. Else above 0. */
+  /** Radius of the upper end of a capsule [m]. Default -1: `radius`. Otherwise above 0. */
   float top_radius;
-  /** Of a capsule: from its middle to the centres of its ends [m]; 0.5. At least 0. */
+  /**
+   * Capsule: distance from its centre to the centres of its ends [m]. Default 0.5. At least 0.
+   */
   float half_height;
-  /** Of a box: from its middle to its sides [m]; 0.5 each. Above 0. */
+  /** Box: distance from its centre to its sides [m]. Default 0.5 each. Above 0. */
   MuslinVec3 half_extents;
-  /** Of a heightfield: from one height to the next [m]; 1. Above 0. */
+  /** Heightfield: distance between neighbouring heights [m]. Default 1. Above 0. */
   float spacing;
-  /** Of a heightfield: heights along x; 0. From 2 to 4096. */
+  /** Heightfield: number of heights along x. Default 0. From 2 to 4096. */
   uint32_t columns;
-  /** Of a heightfield: heights along z; 0. From 2 to 4096. */
+  /** Heightfield: number of heights along z. Default 0. From 2 to 4096. */
   uint32_t rows;
-  /** Bytes from one position to the next; 0, which is 12. A multiple of 4. */
+  /**
+   * Distance between the starts of consecutive positions [bytes]; 0 means 12. Default 0. A
+   * multiple of 4.
+   */
   uint32_t position_stride;
   /**
-   * How many positions there are; 0. Of a convex body from 4 to 1024, of a mesh at most 4194304.
+   * Number of positions. Default 0. From 4 to 1024 for a convex hull, at most 4194304 for a
+   * mesh.
    */
   uint32_t vertex_count;
-  /** How many indices there are; 0. A multiple of 3, at most 50331648. */
+  /** Number of indices. Default 0. A multiple of 3, at most 50331648. */
   uint32_t index_count;
-  /** Of a convex body or a mesh: its points [m], 3 numbers each. */
+  /** Convex hull or mesh: points [m], 3 numbers each. */
   const float *positions;
-  /** Of a mesh: points of its triangles, 3 each. Triangles without an area do not count. */
+  /** Mesh: 3 points per triangle. Triangles without an area are ignored. */
   const uint32_t *indices;
-  /** Of a heightfield: `columns` * `rows` heights [m], row by row along x. */
+  /** Heightfield: `columns` * `rows` heights [m], row by row along x. */
   const float *heights;
 } MuslinColliderDesc;
 
 /**
- * A collider of one cloth; { 0 } is none. It is of use with the cloth that gave it, and with those
+ * Handle of a collider. { 0 } is none. Valid for the cloth that returned it and for cloths
  * restored from it.
  */
 typedef struct MuslinCollider {
-  /** Says which; it means nothing to you. */
+  /** Identifies the collider; opaque. */
   uint32_t id;
 } MuslinCollider;
 
 /**
- * A cloth as its renderer sees it: the library's own memory, borrowed. Begin with muslin_view_init.
+ * Output lists of a cloth, borrowed from the library's own memory. Read only. Initialise it with
+ * muslin_view_init.
  *
- * The pointers stay valid, and what they point to stays as it is, until the next call that changes
- * the cloth (advance, step, reset, pin, set_position, tear_edge, cut, destroy, ...). Read, do not write.
+ * The pointers and the data behind them stay valid until the next call that changes the cloth
+ * (advance, step, reset, pin, set_position, tear_edge, cut, destroy and others).
+ *
+ * Vertices are drawn; particles are simulated. See `particles` for their relation.
  */
 typedef struct MuslinView {
   /** Set by muslin_view_init. */
   uint32_t struct_size;
-  /** Positions [m], 3 numbers a vertex. */
+  /** Positions [m], 3 numbers per vertex. */
   const float *positions;
   /**
-   * Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses. Vertices that
-   * share a particle share its normal.
+   * Unit normals, weighted by triangle area, 3 numbers per vertex; zeros for a vertex that no
+   * triangle uses. Vertices of the same particle share its normal.
    */
   const float *normals;
-  /** Texture coordinates, 2 numbers a vertex. */
+  /** Texture coordinates, 2 numbers per vertex. */
   const float *uvs;
-  /** Vertices of the triangles, 3 a triangle. */
+  /** Vertices of the triangles, 3 per triangle, counter-clockwise seen from the front. */
   const uint32_t *indices;
   /**
-   * Which original vertex each vertex came from, 1 a vertex; for one that a cut made on an edge, the
-   * nearer end's.
+   * Vertex of the descriptor that each vertex came from; for a vertex that a cut added on an
+   * edge, that of the nearer end.
    */
   const uint32_t *source_vertices;
-  /** How many vertices there are. */
+  /** Number of vertices. */
   uint32_t vertex_count;
-  /** How many indices there are: 3 a triangle. */
+  /** Number of indices, 3 per triangle. */
   uint32_t index_count;
-  /** How many vertices there may ever be. */
+  /** Largest number of vertices that the cloth may ever have. */
   uint32_t vertex_capacity;
-  /** How many indices there may ever be. */
+  /** Largest number of indices that the cloth may ever have. */
   uint32_t index_capacity;
-  /** Changes when indices do. */
+  /** Changes whenever the indices change. */
   uint32_t topology_revision;
-  /** Changes when positions do. */
+  /** Changes whenever positions change. */
   uint32_t state_revision;
   /**
-   * 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others,
-   * those at the borders that the cloth was made with among them. 1 byte a vertex.
+   * 1 byte per vertex: 1 on a border that a tear or cut made, e.g. to draw fringes; else 0, also
+   * on borders of the original cloth.
    */
   const uint8_t *frayed;
   /**
-   * The particle of each vertex, 1 a vertex. A mesh that was welded or had sheets to be parted has several
-   * vertices to a particle; else each vertex is the particle of its number.
+   * Particle of each vertex. A mesh that was welded, or whose sheets were separated, has several
+   * vertices per particle; otherwise vertex i is particle i.
    *
-   * Calls that touch the cloth (pins, grabs, tears by hand, positions and velocities) take particles, and
-   * what a ray hits tells one. Of an event, `particle_a` and `particle_b` are particles, `vertex` and `source`
-   * are vertices. Triangles have the same numbers in both.
+   * Calls that act on the cloth (pins, grabs, tears, positions and velocities) take particles,
+   * and a ray hit returns one. In an event, `particle_a` and `particle_b` are particles,
+   * `vertex` and `source` are vertices. Triangles have the same numbers in both.
    */
   const uint32_t *particles;
 } MuslinView;
 
 /**
- * The parts of a cloth's lists that changed with its triangles since some revision: of what does not
- * change with every tick, as texture coordinates, source vertices and frayed borders. Begin with
- * muslin_changes_init.
+ * Ranges of a cloth's output lists that changed since a topology revision: what a renderer must
+ * upload again. Initialise it with muslin_changes_init.
+ *
+ * The vertex range concerns the attributes that stay constant between topology changes: texture
+ * coordinates, source vertices, particles and frayed borders. Positions and normals change with
+ * every tick.
  */
 typedef struct MuslinChanges {
   /** Set by muslin_changes_init. */
   uint32_t struct_size;
-  /** The first vertex that is new or not as it was. */
+  /** First changed vertex; 0 if there is none. */
   uint32_t first_vertex;
-  /** How many vertices from there on. */
+  /** Number of vertices in the changed range. */
   uint32_t vertex_count;
-  /** The first index that is new or not as it was. */
+  /** First changed index; 0 if there is none. */
   uint32_t first_index;
-  /** How many indices from there on. */
+  /** Number of indices in the changed range. */
   uint32_t index_count;
 } MuslinChanges;
 
 /**
- * What had to be repaired of a mesh before it could be cloth, and what it is now. Begin with
+ * What was repaired in a mesh before it became cloth, and the result. Initialise it with
  * muslin_mesh_report_init.
  *
- * Repairs come in this order: vertices are welded, triangles without an area and repeated ones are dropped,
- * edges and vertices where more than one sheet meets are split, triangles that face the other way are turned.
+ * Repairs are made in this order: vertices are welded; triangles without an area and repeated
+ * triangles are dropped; edges and vertices where several sheets meet are split; triangles that
+ * face the other way are turned.
  */
 typedef struct MuslinMeshReport {
   /** Set by muslin_mesh_report_init. */
   uint32_t struct_size;
-  /** Vertices that were given. */
+  /** Number of given vertices. */
   uint32_t vertices;
-  /** Triangles that were given. */
+  /** Number of given triangles. */
   uint32_t triangles;
-  /** Particles that came of it. */
+  /** Number of resulting particles. */
   uint32_t particles;
-  /** Triangles that were kept. */
+  /** Number of triangles that were kept. */
   uint32_t kept_triangles;
-  /** Vertices that joined another one's particle. */
+  /** Number of vertices that share the particle of another vertex. */
   uint32_t welded_vertices;
-  /** Triangles that were dropped: they had no area, or named a vertex twice. */
+  /** Number of dropped triangles that had no area or used a vertex twice. */
   uint32_t dropped_degenerate;
-  /** Triangles that were dropped: an earlier one has the same corners. */
+  /** Number of dropped triangles whose corners were those of an earlier one. */
   uint32_t dropped_duplicates;
-  /** Triangles that were turned round, so that they face as their neighbours do. */
+  /** Number of triangles that were turned to face as their neighbours do. */
   uint32_t turned_triangles;
-  /** Edges that had more than two triangles. */
+  /** Number of edges that had more than two triangles. */
   uint32_t split_edges;
   /**
-   * Particles that came to be where sheets were parted that met at such an edge or at a mere point.
+   * Number of particles that were added where sheets met at such an edge or at a single vertex.
    */
   uint32_t split_vertices;
   /**
-   * Vertices that no triangle uses. They are particles without mass that stay where they are, unless they
-   * were welded.
+   * Number of vertices that no triangle uses. Unless they were welded, they are particles
+   * without mass that stay where they are.
    */
   uint32_t unused_vertices;
-  /** Pieces: sets of triangles joined by edges. */
+  /** Number of pieces: sets of triangles connected by edges. */
   uint32_t pieces;
   /**
-   * Pieces that have no two sides, such as a Moebius strip: a line across them is left where neighbours face
-   * opposite ways.
+   * Number of pieces with only one side, such as a Moebius strip: along a line across them,
+   * neighbours face opposite ways.
    */
   uint32_t one_sided_pieces;
-  /** 1 if it is woven as the regular grid that it was found to be; 0. */
+  /** 1 if the mesh is simulated as a regular grid, else 0. */
   uint32_t is_grid;
 } MuslinMeshReport;
 
-/** Numbers about a cloth. Begin with muslin_stats_init. */
+/** Statistics of a cloth. Initialise it with muslin_stats_init. */
 typedef struct MuslinStats {
   /** Set by muslin_stats_init. */
   uint32_t struct_size;
-  /** How many particles there are. */
+  /** Number of particles. */
   uint32_t particles;
-  /** How many triangles there are. */
+  /** Number of triangles. */
   uint32_t triangles;
-  /** How many links it was woven with. */
+  /** Number of links in the rest state. */
   uint32_t constraints;
-  /** How many links hold now. */
+  /** Number of links that are intact now. */
   uint32_t active_constraints;
-  /** How many pieces hang together by edges. */
+  /** Number of pieces: sets of triangles connected by edges. */
   uint32_t pieces;
-  /** Ticks since it was made or reset. */
+  /** Ticks since the cloth was made or reset. */
   uint32_t ticks;
   /**
-   * The share of a tick that advance still owes, 0 to 1: how far to blend from the last tick's
-   * positions to this one's when drawing.
+   * Part of a tick that muslin_cloth_advance has not simulated yet, from 0 to 1: the factor by
+   * which to blend from the positions of the last tick to the current ones when drawing.
    */
   float blend;
-  /** The greatest stretch of a stretch link: 0.01 is 1 % over its rest length. */
+  /** Largest strain of a stretch link: 0.01 is 1 % above its rest length. */
   float max_stretch;
-  /** The mean stretch of the stretch links. */
+  /** Mean strain of the stretch links. */
   float mean_stretch;
-  /** Energy of motion [J]. */
+  /** Kinetic energy [J]. */
   float kinetic_energy;
-  /** How many of `seconds` tell of a stage. */
+  /** Number of used entries of `seconds`. */
   uint32_t stage_count;
-  /** Memory that it holds [B], about. */
+  /** Approximate memory use [bytes]. */
   uint64_t bytes;
   /**
-   * Time that each stage took in the last call that ran ticks [s]; muslin_stage_name names them.
-   * Timing begins with the first muslin_cloth_get_stats of a cloth: until then zeros.
+   * Time of each stage in the last call that ran ticks [s]; muslin_stage_name returns their
+   * names.
+   *
+   * Timing starts with the first muslin_cloth_get_stats of a cloth; until then all entries are
+   * 0.
    */
   float seconds[MUSLIN_STAGE_SLOTS];
   /**
-   * How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
+   * Number of links past `max_stretch` of MuslinSettings, which pins, grabs or anchors hold
+   * apart; 0 without that limit.
    */
   uint32_t over_stretched;
-  /** 1 if it sleeps, see `sleep_speed` of MuslinSettings. */
+  /** 1 if the cloth sleeps, see `sleep_speed` of MuslinSettings; else 0. */
   uint32_t asleep;
-  /** The speed of its fastest particle [m/s]. */
+  /** Speed of the fastest particle [m/s]. */
   float max_speed;
 } MuslinStats;
 
 /**
- * A place that one attribute of vertices is written to. Streams may share a buffer: interleaved, at
- * equal strides, or one behind the other. Begin with muslin_stream_init, or take muslin_stream.
+ * A destination for one vertex attribute. Initialise it with muslin_stream_init, or make it with
+ * muslin_stream.
+ *
+ * Streams may share a buffer: interleaved at equal strides, or one after the other.
  */
 typedef struct MuslinStream {
-  /** Set by muslin_stream_init; equal for all streams of a call. */
+  /** Set by muslin_stream_init. Equal for all streams of a call. */
   uint32_t struct_size;
-  /** What is written: MUSLIN_ATTRIBUTE_...; MUSLIN_ATTRIBUTE_POSITION. */
+  /** Attribute: one of MUSLIN_ATTRIBUTE_.... Default MUSLIN_ATTRIBUTE_POSITION. */
   uint32_t attribute;
-  /** How: MUSLIN_FORMAT_...; MUSLIN_FORMAT_F32. */
+  /** Number format: one of MUSLIN_FORMAT_.... Default MUSLIN_FORMAT_F32. */
   uint32_t format;
   /**
-   * Bytes from one vertex to the next: a multiple of the 4 (MUSLIN_FORMAT_F32) or 2 bytes of a number,
-   * and at least what the attribute takes; 0, which leaves no gaps.
+   * Distance between the starts of consecutive vertices [bytes]. Default 0: tightly packed.
+   * Otherwise a multiple of the component size (4 for MUSLIN_FORMAT_F32, else 2), at least the
+   * size of the attribute.
    */
   uint32_t stride;
-  /** Where the first vertex goes, aligned to a number; NULL. It is yours, not a view's. */
+  /**
+   * Address of the first vertex, aligned to the component size. Default NULL. Your own memory,
+   * not that of a view.
+   */
   void *buffer;
-  /** Bytes from there to the end of the buffer; 0. */
+  /** Bytes from `buffer` to the end of the memory. Default 0. */
   size_t size;
 } MuslinStream;
 
 /**
- * Which vertices are written, and how they are placed. Begin with muslin_write_desc_init: all, as they
- * are.
+ * Selects the vertices to write and how they are transformed. Initialise it with
+ * muslin_write_desc_init, which selects all vertices, untransformed.
  */
 typedef struct MuslinWriteDesc {
   /** Set by muslin_write_desc_init. */
   uint32_t struct_size;
-  /** The first vertex; 0. It goes to the beginning of each stream. */
+  /** First vertex to write; it goes to the start of each stream. Default 0. */
   uint32_t first_vertex;
-  /** How many; MUSLIN_ALL_VERTICES. */
+  /** Number of vertices to write. Default MUSLIN_ALL_VERTICES. */
   uint32_t vertex_count;
   /**
-   * How far from the last tick to this one, from 0 to 1; 1. The stats' `blend` is how far the time is
-   * that was asked for. Normals and tangents are those of the surface there.
+   * Time to draw, from 0 (last tick) to 1 (current tick). Default 1. Pass `blend` of MuslinStats
+   * for smooth motion. Normals and tangents belong to the interpolated surface.
    */
   float blend;
   /**
-   * What is done to positions, after the offset: three rows of four, so that x becomes
-   * t[0] x + t[1] y + t[2] z + t[3]; nothing. Normals stay square to the surface and on their side of
-   * it, tangents along it.
+   * Transform of the positions, applied after the offset: three rows of four numbers, so that x
+   * becomes t[0] x + t[1] y + t[2] z + t[3]. Default: identity. Normals stay perpendicular to
+   * the surface and on their side of it; tangents stay in the surface.
    */
   float transform[12];
-  /** 1 if normals point to the other side, for the back of a cloth; 0. */
+  /** 1 if normals point to the other side, e.g. for the back of the cloth. Default 0. */
   uint32_t flip_normals;
   /**
-   * How far positions are moved along the normals that are written [m]; 0. Half of the thickness on
-   * either side gives a cloth a body.
+   * Distance by which positions are moved along the written normals [m]. Default 0. Half of the
+   * thickness on either side gives the cloth a visible thickness.
    */
   float offset;
 } MuslinWriteDesc;
@@ -908,118 +1059,132 @@ typedef struct MuslinWriteDesc {
 extern "C" {
 #endif // __cplusplus
 
-/** The version of the library that runs: 0x00MMmmpp, major, minor, patch. */
+/** Returns the version of the running library as 0x00MMmmpp: major, minor, patch. */
 uint32_t muslin_version(void);
 
-/** The version of the library that runs: "major.minor.patch". Always valid. */
+/**
+ * Returns the version of the running library as "major.minor.patch". The pointer is always valid.
+ */
 const char *muslin_version_string(void);
 
-/** What a MuslinStatus says in general, any number: never NULL, always valid. */
+/**
+ * Returns the general meaning of a MuslinStatus. Accepts any number; the pointer is always valid.
+ */
 const char *muslin_status_string(uint32_t status);
 
 /**
- * Why the last call of this thread that was refused was refused: a sentence that names the field and
- * the rule. "" if none was yet. Calls that are not refused leave it as it is.
+ * Returns the message of this thread's last call that was refused; it names the argument and the
+ * rule. "" if no call was refused yet. Successful calls do not change it.
  *
- * Never NULL; valid until the next call of this thread that is refused.
+ * The pointer is never NULL, and valid until the next call of this thread that is refused.
  */
 const char *muslin_last_error(void);
 
 /**
- * The name of a stage of a tick, 0 and up, for `seconds` of MuslinStats: always valid; NULL for a stage
- * that is not.
+ * Returns the name of a stage of the tick, for `seconds` of MuslinStats. Stages are numbered from
+ * 0; NULL beyond the last one. The pointer is always valid.
  */
 const char *muslin_stage_name(uint32_t stage);
 
 /**
- * Sends what the library has to say, up to `max_level` (MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN,
- * MUSLIN_LOG_INFO), to `log`. At first, and with NULL, it is silent.
+ * Sends log messages up to `max_level` (MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN or MUSLIN_LOG_INFO) to
+ * `log`. NULL, the initial value, switches the log off.
  *
- * `log` is called on whichever thread made the library speak, maybe on several at once, and may call
- * the library. `user` is handed to it and nothing else. Both must be good until they are replaced and
- * until calls that are under way on other threads have returned.
+ * `log` is called on the thread of the call that it reports, perhaps on several threads at once,
+ * and may call the library. `user` is passed to it unchanged. Both must stay valid until they are
+ * replaced and calls that are running on other threads have returned.
  */
-MuslinStatus muslin_set_log(MuslinLogFn log,
-                            uint32_t max_level,
-                            void *user);
+MuslinStatus muslin_set_log(MuslinLogFn log, uint32_t max_level, void *user);
 
 /**
  * Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule;
- * MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
+ * @return MUSLIN_STATUS_BAD_VALUE for an invalid field of `desc`; MUSLIN_STATUS_UNSUPPORTED if
+ * `desc` is of a newer version and uses fields that this library does not have
  */
 MuslinStatus muslin_cloth_create_grid(const MuslinGridDesc *desc,
                                       MuslinCloth *out_cloth);
 
 /**
- * Makes a cloth from any triangle mesh; its lists are copied. What cannot be cloth in it is repaired, see
- * muslin_cloth_get_mesh_report. Destroy it with muslin_cloth_destroy.
+ * Makes a cloth from any triangle mesh; its lists are copied. Defects of the mesh are repaired,
+ * see muslin_cloth_get_mesh_report. Destroy the cloth with muslin_cloth_destroy.
  *
- * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
- * and the rule; MUSLIN_STATUS_BAD_MESH what is beyond repair: a triangle whose area is not finite, or that none
- * has an area; MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
+ * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX for an invalid field of `desc`;
+ * MUSLIN_STATUS_BAD_MESH if the mesh cannot be repaired: a triangle has an area that is not
+ * finite, or no triangle has an area; MUSLIN_STATUS_UNSUPPORTED if `desc` is of a newer version
+ * and uses fields that this library does not have
  */
 MuslinStatus muslin_cloth_create_mesh(const MuslinMeshDesc *desc,
                                       MuslinCloth *out_cloth);
 
 /**
- * Destroys a cloth: its handle is stale from then on, and what was borrowed from it is gone.
+ * Destroys a cloth. Its handle becomes stale; memory borrowed from it must no longer be read.
  */
 MuslinStatus muslin_cloth_destroy(MuslinCloth cloth);
 
 /**
- * Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs and no
- * events. Settings, material, wind and colliders stay as they are.
+ * Restores the initial state: rest shape, no tears or cuts, zero velocities, the pins of the
+ * descriptor, time zero, all mass scales 1. Removes all grabs, attachments, anchors, creases and
+ * events.
+ *
+ * Settings, material, wind and colliders stay as they are now. Handles of grabs and attachments
+ * become stale; handles of colliders stay valid.
  */
 MuslinStatus muslin_cloth_reset(MuslinCloth cloth);
 
 /**
- * Fills in the figures of a fabric: MUSLIN_PRESET_SILK, MUSLIN_PRESET_COTTON, MUSLIN_PRESET_DENIM,
- * MUSLIN_PRESET_LEATHER, MUSLIN_PRESET_PAPER or MUSLIN_PRESET_FLAG_NYLON. `material` has begun with
- * muslin_material_init, or is part of a descriptor that has begun.
+ * Sets the values of a fabric: MUSLIN_PRESET_SILK, MUSLIN_PRESET_COTTON, MUSLIN_PRESET_DENIM,
+ * MUSLIN_PRESET_LEATHER, MUSLIN_PRESET_PAPER or MUSLIN_PRESET_FLAG_NYLON.
+ *
+ * `material` must be initialised with muslin_material_init, or be part of an initialised
+ * descriptor.
  *
  * @return MUSLIN_STATUS_BAD_VALUE for any other `preset`
  */
 MuslinStatus muslin_material_preset(MuslinMaterial *material, uint32_t preset);
 
-/** How time runs. `out_settings` has begun with muslin_settings_init. */
+/** Reads the current settings. Initialise `out_settings` with muslin_settings_init. */
 MuslinStatus muslin_cloth_get_settings(MuslinCloth cloth,
                                        MuslinSettings *out_settings);
 
 /**
- * Changes how time runs, from the next tick on. Velocities stay as they are.
+ * Replaces the settings; they take effect with the next tick. Velocities stay as they are.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule; MUSLIN_STATUS_UNSUPPORTED what this
- * version does not do yet
+ * @return MUSLIN_STATUS_BAD_VALUE for an invalid field; MUSLIN_STATUS_UNSUPPORTED if `settings` is
+ * of a newer version and uses fields that this library does not have
  */
 MuslinStatus muslin_cloth_set_settings(MuslinCloth cloth,
                                        const MuslinSettings *settings);
 
-/** What it is made of. `out_material` has begun with muslin_material_init. */
+/** Reads the current material. Initialise `out_material` with muslin_material_init. */
 MuslinStatus muslin_cloth_get_material(MuslinCloth cloth,
                                        MuslinMaterial *out_material);
 
 /**
- * Changes what it is made of, from the next tick on. Velocities stay as they are.
+ * Replaces the material; it takes effect with the next tick. Velocities stay as they are.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
+ * @return MUSLIN_STATUS_BAD_VALUE for an invalid field; MUSLIN_STATUS_UNSUPPORTED if `material` is
+ * of a newer version and uses fields that this library does not have
  */
 MuslinStatus muslin_cloth_set_material(MuslinCloth cloth,
                                        const MuslinMaterial *material);
 
 /**
- * Changes the air around it, from the next tick on.
+ * Replaces the wind; it takes effect with the next tick.
  *
- * @return MUSLIN_STATUS_BAD_VALUE names the field and the rule
+ * @return MUSLIN_STATUS_BAD_VALUE for an invalid field; MUSLIN_STATUS_UNSUPPORTED if `wind` is of
+ * a newer version and uses fields that this library does not have
  */
 MuslinStatus muslin_cloth_set_wind(MuslinCloth cloth, const MuslinWind *wind);
 
 /**
- * Runs the ticks that a frame of `seconds` [s] owes; `out_ticks` (may be NULL) gets their number.
+ * Runs the ticks that are due after `seconds` [s] of frame time. `out_ticks` (may be NULL)
+ * receives how many ran.
  *
- * What is left over waits for the next frame, see `blend` of MuslinStats. A late frame owes at most
- * `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
+ * The remainder, less than one tick, is kept for the next call; `blend` of MuslinStats returns it
+ * as a share of a tick. At most `max_ticks_per_advance` ticks run; the rest of the backlog is
+ * dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
+ * change nothing.
  *
  * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
  */
@@ -1027,38 +1192,45 @@ MuslinStatus muslin_cloth_advance(MuslinCloth cloth,
                                   float seconds,
                                   uint32_t *out_ticks);
 
-/** Runs exactly `ticks` ticks. */
+/**
+ * Runs exactly `ticks` ticks. The time that muslin_cloth_advance keeps for the next frame does not
+ * change.
+ */
 MuslinStatus muslin_cloth_step(MuslinCloth cloth, uint32_t ticks);
 
 /**
- * Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
- * next tick; a particle that is pinned already gets a new target, which nothing carries, and keeps its
- * stiffness.
+ * Pins a particle at `target` [m], or at its current position if `target` is NULL.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite
+ * The particle reaches the target over the next tick. If it is already pinned, the target changes
+ * and the stiffness stays; an attached particle leaves its attachment.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
+ * target is not finite
  */
 MuslinStatus muslin_cloth_pin(MuslinCloth cloth,
                               uint32_t particle,
                               const MuslinVec3 *target);
 
 /**
- * Lets a particle go. One that is not pinned stays as it is.
+ * Releases a pinned particle, which keeps its velocity. Has no effect on a particle that is not
+ * pinned.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not
+ * @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist
  */
 MuslinStatus muslin_cloth_unpin(MuslinCloth cloth, uint32_t particle);
 
-/** Lets every particle go. */
+/** Releases all pinned particles. */
 MuslinStatus muslin_cloth_unpin_all(MuslinCloth cloth);
 
 /**
- * Gives `count` pins their targets at once; particles that are not pinned yet are from now on. The
- * targets [m] are 3 floats each at `positions`, and begin `stride` bytes apart: 0 is 12, else a multiple
- * of 4. No more than there are particles; with 0 both pointers may be NULL.
+ * Sets the targets [m] of `count` pins at once, e.g. every frame for an animated edge. Particles
+ * that are not pinned yet become pinned.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
- * is not finite, or a rule above
+ * Targets are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a multiple
+ * of 4). With `count` 0 both pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * target is not finite, `stride` is invalid, or `count` exceeds the number of particles
  */
 MuslinStatus muslin_cloth_set_pin_targets(MuslinCloth cloth,
                                           const uint32_t *particles,
@@ -1067,14 +1239,20 @@ MuslinStatus muslin_cloth_set_pin_targets(MuslinCloth cloth,
                                           uint32_t count);
 
 /**
- * Says how hard `count` pins pull towards their targets [N/m]: as springs, or exactly if `stiffness` is 0,
- * as they do at first. A soft pin holds a load of 1 N 1/`stiffness` from its target; the cloth counts as free
- * there, for tears and for max_stretch, and is not tethered to it. 1e3 N/m feels firm, 10 N/m lets a sheet of
- * cotton sag by a few centimetres. A tear through a soft pin shares its stiffness out by mass. With 0
- * particles the pointer may be NULL.
+ * Sets the stiffness [N/m] with which `count` pins pull particles towards their targets. 0, the
+ * initial value, holds them exactly; above 0 the pin is a spring.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for one that is
- * not pinned, a stiffness that is below 0 or not finite, or more than there are particles
+ * - A load of 1 N moves a soft pin's particle 1/`stiffness` metres from its target: 1e3 N/m feels
+ *   firm, 10 N/m lets a sheet of cotton sag by a few centimetres.
+ * - For tears and `max_stretch` the cloth counts as free at a soft pin, and it is not tethered to
+ *   it.
+ * - A tear through a soft pin divides its stiffness in proportion to mass.
+ *
+ * With `count` 0 the pointer may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * particle is not pinned, `stiffness` is negative or not finite, or `count` exceeds the number of
+ * particles
  */
 MuslinStatus muslin_cloth_set_pin_stiffness(MuslinCloth cloth,
                                             const uint32_t *particles,
@@ -1082,14 +1260,16 @@ MuslinStatus muslin_cloth_set_pin_stiffness(MuslinCloth cloth,
                                             float stiffness);
 
 /**
- * Makes `count` particles heavier or lighter than their material, by a factor each: 1, as at first, is what
- * its density and the area about them give. A hem of 5 hangs straight; a coin sewn in may be 100. Factors
- * stay when the density changes. Neighbours may well be a hundredfold apart; where it is thousands, what
- * hangs by the light ones stretches them until there are more substeps. With 0 particles both pointers may
- * be NULL.
+ * Multiplies the masses of `count` particles by factors: 1, the initial value, keeps the mass that
+ * density and surrounding area give. A hem hangs straight at about 5; a coin that is sewn in may
+ * be 100.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a factor that is
- * not from 0.001 to 1000, or more than there are particles
+ * Factors stay when the density changes. Neighbours may differ by a factor of 100; at factors in
+ * the thousands, light particles that carry heavy ones stretch unless `substeps` is raised. With
+ * `count` 0 both pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * factor is not from 0.001 to 1000, or `count` exceeds the number of particles
  */
 MuslinStatus muslin_cloth_set_mass_scales(MuslinCloth cloth,
                                           const uint32_t *particles,
@@ -1097,35 +1277,42 @@ MuslinStatus muslin_cloth_set_mass_scales(MuslinCloth cloth,
                                           uint32_t count);
 
 /**
- * Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
+ * Places a particle at `position` [m] at once. Its velocity stays as it is. A pinned particle
+ * stays pinned, at the new position.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position
- * that is not finite
+ * @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
+ * position is not finite
  */
 MuslinStatus muslin_cloth_set_position(MuslinCloth cloth,
                                        uint32_t particle,
                                        MuslinVec3 position);
 
 /**
- * Gives a particle a velocity [m/s].
+ * Sets the velocity of a particle [m/s].
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a velocity
- * that is not finite
+ * @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
+ * velocity is not finite
  */
 MuslinStatus muslin_cloth_set_velocity(MuslinCloth cloth,
                                        uint32_t particle,
                                        MuslinVec3 velocity);
 
 /**
- * Attaches `count` particles to a transform at `position` [m], turned by `rotation`: a bone, a pole, the body
- * of a car. They are pinned where they are now, and from then on muslin_cloth_move_attachment carries them.
- * Those that are pinned already, or attached to something else, keep their stiffness. One that gets a target
- * of its own later, or is unpinned, leaves the attachment. Vertices that a tear or a cut makes of attached
- * ones are attached too. With 0 particles the pointer may be NULL. No attachment outlives a reset.
+ * Attaches `count` particles to a transform at `position` [m] with `rotation`, e.g. a bone, a pole
+ * or a car body. The particles are pinned at their current positions; muslin_cloth_move_attachment
+ * moves them.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position that is
- * not finite, a rotation that is no unit quaternion, or more than there are particles; MUSLIN_STATUS_FULL if
- * there are 64 attachments already
+ * - A particle that is already pinned, or attached to another transform, keeps its stiffness and
+ *   moves to this attachment.
+ * - A particle leaves the attachment when it gets a pin target of its own or is unpinned.
+ * - A tear or cut through attached particles attaches the new particles too.
+ * - muslin_cloth_reset removes all attachments.
+ *
+ * With `count` 0 the pointer may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if
+ * `position` is not finite, `rotation` is not a unit quaternion, or `count` exceeds the number of
+ * particles; MUSLIN_STATUS_FULL if there are 64 attachments already
  */
 MuslinStatus muslin_cloth_attach(MuslinCloth cloth,
                                  const uint32_t *particles,
@@ -1135,11 +1322,11 @@ MuslinStatus muslin_cloth_attach(MuslinCloth cloth,
                                  MuslinAttachment *out_attachment);
 
 /**
- * Moves a transform that particles are attached to: they get there over the next tick, turning on the way
- * as it turns, and are exactly there when it ends.
+ * Moves an attachment: its particles reach the new pose over the next tick, rotating with the
+ * transform, and are exactly there at the end of the tick.
  *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE for a position that is not
- * finite or a rotation that is no unit quaternion
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE if `position` is
+ * not finite or `rotation` is not a unit quaternion
  */
 MuslinStatus muslin_cloth_move_attachment(MuslinCloth cloth,
                                           MuslinAttachment attachment,
@@ -1147,21 +1334,29 @@ MuslinStatus muslin_cloth_move_attachment(MuslinCloth cloth,
                                           MuslinQuat rotation);
 
 /**
- * Lets all go that an attachment still carries, with the velocity that they have.
+ * Removes an attachment and unpins the particles that it still carries; they keep their
+ * velocities.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was detached before
  */
 MuslinStatus muslin_cloth_detach(MuslinCloth cloth, MuslinAttachment attachment);
 
 /**
- * Says how far `count` particles may be from their anchors [m]: after every tick none is farther, whatever
- * pulls at it. Infinity, as at first, is as far as they like; 0 holds them there. The anchor of a particle is
- * where muslin_cloth_set_anchors has it, and until that was called where the particle is now. A pinned or
- * grabbed particle goes by that alone. What keeps a cloth apart so may stretch it past max_stretch, which is
- * told as if pins did. With 0 particles both pointers may be NULL. None outlives a reset.
+ * Limits how far `count` particles may be from their anchors [m]. The limit holds after every
+ * tick, whatever pulls at the particle.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a distance that is
- * not at least 0, or more than there are particles
+ * - Infinity, the initial value, means no limit; 0 fixes the particle to its anchor.
+ * - The anchor of a particle is the position of the last muslin_cloth_set_anchors; before the
+ *   first one, it is the particle's current position.
+ * - Pins and grabs take precedence over the limit.
+ * - A limit may stretch the cloth past `max_stretch`; this is reported as for pins, in MuslinStats
+ *   and by MUSLIN_EVENT_HELD_APART.
+ * - muslin_cloth_reset removes all limits.
+ *
+ * With `count` 0 both pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * distance is negative or NaN, or `count` exceeds the number of particles
  */
 MuslinStatus muslin_cloth_set_max_distances(MuslinCloth cloth,
                                             const uint32_t *particles,
@@ -1169,13 +1364,15 @@ MuslinStatus muslin_cloth_set_max_distances(MuslinCloth cloth,
                                             uint32_t count);
 
 /**
- * Gives `count` particles backstops: spheres behind their anchors that they stay out of, so that a garment
- * does not sink into the body that wears it. Each has a radius [m], 0 for none, and begins a distance [m]
- * behind its anchor, against the normal that muslin_cloth_set_anchors gave: without one there is no
- * backstop. With 0 particles the pointers may be NULL.
+ * Gives `count` particles backstops: spheres behind their anchors that the particles cannot enter,
+ * so that a garment does not sink into the body that wears it.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a distance or
- * radius that is below 0 or not finite, or more than there are particles
+ * Each sphere has a radius [m], 0 for none. Its surface is the given distance [m] behind the
+ * anchor, opposite to the normal of muslin_cloth_set_anchors; a particle without a normal has no
+ * backstop. With `count` 0 the pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * distance or radius is negative or not finite, or `count` exceeds the number of particles
  */
 MuslinStatus muslin_cloth_set_backstops(MuslinCloth cloth,
                                         const uint32_t *particles,
@@ -1184,14 +1381,17 @@ MuslinStatus muslin_cloth_set_backstops(MuslinCloth cloth,
                                         uint32_t count);
 
 /**
- * Says where animation has `count` particles [m], and which way is out of the body there, for
- * muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it each frame: anchors get there over
- * the next tick, and those of particles that had none are there at once. Positions and normals are 3 floats
- * each, and begin `stride` bytes apart in both: 0 is 12, else a multiple of 4. Normals need not be of length
- * 1; with NULL those of before stay. With 0 particles all pointers may be NULL.
+ * Sets the animated positions [m] and outward normals of `count` particles, for
+ * muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it once per frame.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a number that is not
- * finite, a normal of no length, more than there are particles, or a rule above
+ * Anchors move to the new positions over the next tick; a particle's first anchor is in place at
+ * once. Positions and normals are 3 floats each; consecutive ones start `stride` bytes apart in
+ * both lists (0 means 12; a multiple of 4). Normals need not have length 1; NULL keeps the
+ * previous normals. With `count` 0 all pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * number is not finite, a normal has length 0, `stride` is invalid, or `count` exceeds the number
+ * of particles
  */
 MuslinStatus muslin_cloth_set_anchors(MuslinCloth cloth,
                                       const uint32_t *particles,
@@ -1200,15 +1400,17 @@ MuslinStatus muslin_cloth_set_anchors(MuslinCloth cloth,
                                       uint32_t stride,
                                       uint32_t count);
 
-/** Takes away all anchors, maximum distances and backstops. */
+/** Removes all anchors, maximum distances and backstops. */
 MuslinStatus muslin_cloth_clear_leashes(MuslinCloth cloth);
 
 /**
- * The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
- * side. `direction` need not have length one. `out_hit` has begun with muslin_hit_init.
+ * Finds the first triangle that a ray hits within `max_distance` [m], from either side.
  *
- * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
- * `direction` are finite, `direction` is not zero, and `max_distance` is at least 0
+ * `direction` need not have length 1; `max_distance` may be infinite. Initialise `out_hit` with
+ * muslin_hit_init.
+ *
+ * @return MUSLIN_STATUS_NOTHING_HIT if the ray hits nothing; MUSLIN_STATUS_BAD_VALUE if `origin`
+ * or `direction` is not finite, `direction` is zero, or `max_distance` is negative or NaN
  */
 MuslinStatus muslin_cloth_raycast(MuslinCloth cloth,
                                   MuslinVec3 origin,
@@ -1217,13 +1419,15 @@ MuslinStatus muslin_cloth_raycast(MuslinCloth cloth,
                                   MuslinHit *out_hit);
 
 /**
- * Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
- * else the nearest one within `radius` [m] of it. `out_at` (may be NULL) gets where that particle is
- * [m].
+ * Grabs the particle that a ray points at: the nearest corner of the first triangle that the ray
+ * hits; if it hits none, the particle nearest to the ray within `radius` [m].
  *
- * @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
- * `direction` are finite, `direction` is not zero, and `radius` is at least 0 and finite;
- * MUSLIN_STATUS_FULL if 64 grabs are held already
+ * `out_at` (may be NULL) receives the position of the particle [m]. See
+ * muslin_cloth_grab_particle.
+ *
+ * @return MUSLIN_STATUS_NOTHING_HIT if there is no such particle; MUSLIN_STATUS_BAD_VALUE if
+ * `origin` or `direction` is not finite, `direction` is zero, or `radius` is negative or not
+ * finite; MUSLIN_STATUS_FULL if there are 64 grabs already
  */
 MuslinStatus muslin_cloth_grab_ray(MuslinCloth cloth,
                                    MuslinVec3 origin,
@@ -1233,20 +1437,22 @@ MuslinStatus muslin_cloth_grab_ray(MuslinCloth cloth,
                                    MuslinVec3 *out_at);
 
 /**
- * Takes hold of a particle where it is. It follows muslin_cloth_move_grab exactly, but for a limit of
- * `max_displacement` a substep, and carries the cloth along.
+ * Grabs a particle at its current position.
  *
- * @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_FULL if 64 grabs are held
- * already
+ * The particle then follows the target of muslin_cloth_move_grab exactly, at most
+ * `max_displacement` per substep, and pulls the cloth along.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_FULL if there are
+ * 64 grabs already
  */
 MuslinStatus muslin_cloth_grab_particle(MuslinCloth cloth,
                                         uint32_t particle,
                                         MuslinGrab *out_grab);
 
 /**
- * Gives a grab a new target [m].
+ * Sets the target of a grab [m].
  *
- * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE for a target that
+ * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE if the target
  * is not finite
  */
 MuslinStatus muslin_cloth_move_grab(MuslinCloth cloth,
@@ -1254,38 +1460,42 @@ MuslinStatus muslin_cloth_move_grab(MuslinCloth cloth,
                                     MuslinVec3 target);
 
 /**
- * Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and returns to
- * its pin over the next tick.
+ * Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
+ * returns to its pin over the next tick.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
  */
-MuslinStatus muslin_cloth_release(MuslinCloth cloth,
-                                  MuslinGrab grab);
+MuslinStatus muslin_cloth_release(MuslinCloth cloth, MuslinGrab grab);
 
 /**
- * Tears the cloth between two neighbouring particles, as over-stretching would: the more loaded of the
- * two is split by the plane across the way between them. Where neither has anything on its other
- * side, the edge itself opens, if it starts at a border.
+ * Tears the cloth between two neighbouring particles, as over-stretching does.
  *
- * @return MUSLIN_STATUS_NOT_TORN if it did not give way: both ends are pinned or grabbed, or the edge is
- * a border already; MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE unless
- * the two are the ends of an edge; MUSLIN_STATUS_FULL if the reserve for tears is used up
+ * The particle under the higher load is split by the plane that is perpendicular to the edge. If
+ * neither particle has triangles on its other side, the edge itself opens, provided that it starts
+ * at a border.
+ *
+ * @return MUSLIN_STATUS_NOT_TORN if both ends are pinned or grabbed, or the edge is already a
+ * border; MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE unless the
+ * two are the ends of an edge; MUSLIN_STATUS_FULL if the reserve for tears is used up
  */
 MuslinStatus muslin_cloth_tear_edge(MuslinCloth cloth,
                                     uint32_t particle_a,
                                     uint32_t particle_b);
 
 /**
- * Gives the cloth a fold of `angle` [rad] along a line, from `from` to `to` [m], both where they are in the
- * cloth as it was made. From then on the cloth rests folded by so much more along it: towards its front,
- * where the triangles are counter-clockwise, if `angle` is above 0, and else away from it.
+ * Adds a fold of `angle` [rad] to the rest shape, along the line from `from` to `to` [m]. Both
+ * points are given on the cloth as it was made.
  *
- * The line need not follow the mesh: the fold is shared out over the cells beside it. It bends no more than
- * `bend_stiffness` can make it, and stays until muslin_cloth_reset; folding by -`angle` along the same line
- * takes it away. Where the line is not on the cloth nothing is folded.
+ * - A positive angle folds towards the front of the cloth (the side from which triangles are
+ *   counter-clockwise), a negative one away from it.
+ * - The line need not follow the mesh: the fold is distributed over the cells beside it. A line
+ *   that misses the cloth has no effect.
+ * - The cloth bends only as far as `bend_stiffness` can turn it.
+ * - The fold lasts until muslin_cloth_reset; a second crease of -`angle` along the same line
+ *   removes it.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a number that is not finite, for `to` equal to `from`, and unless
- * `angle` is from -3 to 3; the cloth is untouched then
+ * @return MUSLIN_STATUS_BAD_VALUE if a number is not finite, `to` equals `from`, or `angle` is not
+ * from -3 to 3; the cloth is unchanged then
  */
 MuslinStatus muslin_cloth_crease(MuslinCloth cloth,
                                  MuslinVec3 from,
@@ -1293,21 +1503,26 @@ MuslinStatus muslin_cloth_crease(MuslinCloth cloth,
                                  float angle);
 
 /**
- * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m]. `out_edges`
- * (may be NULL) gets how many edges opened; 0 leaves the cloth as it was.
+ * Cuts the cloth with a blade: the segment from `from` to `to` [m], swept along `sweep` [m].
  *
- * Triangles that the blade goes through are divided along it: vertices come to be on the edges that it
- * crosses, between their ends in all that they have, and the mesh opens along them. Where it would come
- * nearer to a vertex than an eighth of an edge, or leave a triangle with an angle below 5 degrees or
- * less area than one in 200 of a square of the mean edge, the cut goes through the nearer vertex
- * instead; past a pinned one it goes at an eighth of the edge. Where the blade ends inside a triangle,
- * the cut ends at the edge before. Vertices that a cut makes are free; a pinned one that it goes through
- * is pinned on both sides. Mass and area at rest stay. Each edge that is crossed takes one particle of
- * the reserve (`extra_particles`), and one more where it opens.
+ * `out_edges` (may be NULL) receives the number of opened edges; 0 means that the blade missed and
+ * nothing changed.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a number that is not finite, or unless `to` is apart from `from` and
- * `sweep` leads away from the line through both; MUSLIN_STATUS_FULL if the reserve cannot take the whole
- * cut; the cloth is untouched then
+ * - Triangles that the blade crosses are divided along it: new vertices lie on the crossed edges,
+ *   with attributes interpolated between the edge's ends, and the mesh opens along them.
+ * - The cut goes through an existing vertex instead if it would pass closer than an eighth of an
+ *   edge, or would leave a triangle with an angle below 5 degrees or with less than 1/200 of the
+ *   area of a square of the mean edge. It does not snap to a pinned vertex; it passes it at an
+ *   eighth of the edge.
+ * - Where the blade ends inside a triangle, the cut ends at the edge before it.
+ * - New vertices are free; a pinned vertex that the cut goes through is pinned on both sides.
+ * - Mass and rest area are conserved.
+ * - Each crossed edge uses one particle of the reserve (`extra_particles`), and one more if it
+ *   opens.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE if a number is not finite, `to` equals `from`, or `sweep` is
+ * zero or parallel to the segment; MUSLIN_STATUS_FULL if the reserve cannot hold the whole cut;
+ * the cloth is unchanged then
  */
 MuslinStatus muslin_cloth_cut(MuslinCloth cloth,
                               MuslinVec3 from,
@@ -1316,34 +1531,42 @@ MuslinStatus muslin_cloth_cut(MuslinCloth cloth,
                               uint32_t *out_edges);
 
 /**
- * Takes the oldest event that was not read yet; the 1024 newest are kept. `out_some` becomes 1, or 0 if
- * there is none, which leaves `out_event` as it is. `out_event` has begun with muslin_event_init.
+ * Removes the oldest unread event and writes it to `out_event`. The newest 1024 are kept.
  *
- * They come by tick; in a tick recoveries first, then tears, the worst first, and of each the vertices that
- * it split before the torn edge; then, if there was no room for another, that; then the pieces that
- * came off, in the order of their first triangles; then what is held apart. A cut tells the edges that it
- * divided, in its order; those that it opened; the vertices that it split; and the pieces.
+ * `out_some` becomes 1, or 0 if there is no event; then `out_event` is not written. Initialise
+ * `out_event` with muslin_event_init.
+ *
+ * Events are ordered by tick, and within a tick:
+ * - recoveries;
+ * - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
+ * - the used-up reserve, if there was no room for another tear;
+ * - detached pieces, ordered by their first triangle;
+ * - links that pins or grabs hold past `max_stretch`.
+ *
+ * A cut adds the edges that it divided, in its order, then the edges that it opened, the vertices
+ * that it split, and the detached pieces.
  */
 MuslinStatus muslin_cloth_next_event(MuslinCloth cloth,
                                      MuslinEvent *out_event,
                                      uint32_t *out_some);
 
 /**
- * Adds a collider to a cloth.
+ * Adds a collider to a cloth. It acts from the next tick on.
  *
- * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field and the rule;
- * MUSLIN_STATUS_UNSUPPORTED for a shape that this version does not know; MUSLIN_STATUS_FULL if there are
- * 1024 colliders already
+ * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX for an invalid field of `desc`;
+ * MUSLIN_STATUS_UNSUPPORTED for a shape that this version does not have; MUSLIN_STATUS_FULL if
+ * there are 1024 colliders already
  */
 MuslinStatus muslin_cloth_add_collider(MuslinCloth cloth,
                                        const MuslinColliderDesc *desc,
                                        MuslinCollider *out_collider);
 
 /**
- * Moves a collider; it gets there over the next tick, so that it sweeps.
+ * Moves a collider to a new pose, which it reaches over the next tick. The motion is swept, so a
+ * fast collider does not jump through the cloth.
  *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
- * finite or a rotation that is no unit quaternion
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE if `position` is not
+ * finite or `rotation` is not a unit quaternion
  */
 MuslinStatus muslin_cloth_move_collider(MuslinCloth cloth,
                                         MuslinCollider collider,
@@ -1351,7 +1574,7 @@ MuslinStatus muslin_cloth_move_collider(MuslinCloth cloth,
                                         MuslinQuat rotation);
 
 /**
- * Removes a collider.
+ * Removes a collider. Its handle becomes stale.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was removed before
  */
@@ -1359,10 +1582,11 @@ MuslinStatus muslin_cloth_remove_collider(MuslinCloth cloth,
                                           MuslinCollider collider);
 
 /**
- * Tells what the cloth did to a collider in the last tick: `out_linear` (may be NULL) gets the momentum
- * [kg m/s], `out_angular` (may be NULL) the angular momentum about the collider's position [kg m2/s].
- * Divided by the length of a tick they are the force and the torque, for an engine that moves what the
- * cloth lies on.
+ * Reads the impulse that the cloth applied to a collider in the last tick.
+ *
+ * `out_linear` (may be NULL) receives the linear impulse [kg m/s], `out_angular` (may be NULL) the
+ * angular impulse about the collider's position [kg m^2/s]. Divided by the length of a tick they
+ * are force and torque, for an engine that simulates the collider as a rigid body.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was removed
  */
@@ -1372,42 +1596,54 @@ MuslinStatus muslin_cloth_get_collider_impulse(MuslinCloth cloth,
                                                MuslinVec3 *out_angular);
 
 /**
- * Says where the body is that wears the cloth, and how it is turned: muslin_cloth_teleport and
- * muslin_cloth_move_frame go from there. At first, and after a reset, that is the origin. It moves nothing.
+ * Sets the pose of the body that wears the cloth, the start for muslin_cloth_teleport and
+ * muslin_cloth_move_frame. Moves nothing.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion
+ * The initial pose, also after muslin_cloth_reset, is the origin without rotation.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE if `position` is not finite or `rotation` is not a unit
+ * quaternion
  */
 MuslinStatus muslin_cloth_set_frame(MuslinCloth cloth,
                                     MuslinVec3 position,
                                     MuslinQuat rotation);
 
 /**
- * Takes the cloth along as the body that wears it jumps from where muslin_cloth_set_frame, muslin_cloth_move_frame
- * or the last teleport had it: at once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs
- * and anchors go along; colliders do not, see muslin_cloth_teleport_collider. In a frame it comes before
- * muslin_cloth_move_attachment and muslin_cloth_set_anchors.
+ * Moves the cloth with the body that wears it to a new pose at once, as a rigid body and without
+ * inertia. Velocities rotate with it.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion, or if
- * something would get farther off than a number can say
+ * The motion starts at the pose of the last muslin_cloth_set_frame, muslin_cloth_move_frame or
+ * muslin_cloth_teleport. Pins, attachments, grabs and anchors move too; colliders do not, see
+ * muslin_cloth_teleport_collider. In a frame, call this before muslin_cloth_move_attachment and
+ * muslin_cloth_set_anchors.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE if `position` is not finite, `rotation` is not a unit
+ * quaternion, or a moved value would not be finite; the cloth is unchanged then
  */
 MuslinStatus muslin_cloth_teleport(MuslinCloth cloth,
                                    MuslinVec3 position,
                                    MuslinQuat rotation);
 
 /**
- * Takes the cloth along as the body that wears it runs and turns on from where muslin_cloth_set_frame,
- * muslin_cloth_teleport or the last muslin_cloth_move_frame had it: over the next tick, and with only a share
- * of its inertia. At 1 it feels all of the body's motion, as if nothing were said; at 0 none, as if the body stood
- * still and the rest of the world moved past; between, so much of it, both of the way and of the turn.
+ * Moves the cloth with the body that wears it to a new pose over the next tick; the cloth feels
+ * only the share `inertia` of the motion.
  *
- * What is not felt takes particles along at once, as a solid body; over the tick they, pins, attachments and
- * anchors get to where the body has them then. Colliders and grabs stay where they are told to be, and the
- * cloth meets them as one who goes with the body sees them move. Air goes along as far as the motion is not
- * felt. In a frame it comes before muslin_cloth_move_attachment, muslin_cloth_move_collider and
+ * - 1: the cloth feels the whole motion, as without this call.
+ * - 0: the cloth feels nothing, as if the body stood still and the world moved.
+ * - Between: it feels this share of the translation and of the rotation.
+ *
+ * The motion starts at the pose of the last muslin_cloth_set_frame, muslin_cloth_teleport or
+ * muslin_cloth_move_frame. The part that is not felt moves particles at once, as a rigid body.
+ * Pins, attachments and anchors reach the body's new pose over the tick. Colliders and grabs stay
+ * at the poses that you give; the cloth meets them with the velocity that they have relative to
+ * the body. The air moves with the body by the share that is not felt.
+ *
+ * In a frame, call this before muslin_cloth_move_attachment, muslin_cloth_move_collider and
  * muslin_cloth_set_anchors.
  *
- * @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite, a rotation that is no unit quaternion, an
- * inertia that is not from 0 to 1, or if something would get farther off than a number can say
+ * @return MUSLIN_STATUS_BAD_VALUE if `position` is not finite, `rotation` is not a unit
+ * quaternion, `inertia` is not from 0 to 1, or a moved value would not be finite; the cloth is
+ * unchanged then
  */
 MuslinStatus muslin_cloth_move_frame(MuslinCloth cloth,
                                      MuslinVec3 position,
@@ -1415,10 +1651,10 @@ MuslinStatus muslin_cloth_move_frame(MuslinCloth cloth,
                                      float inertia);
 
 /**
- * Puts a collider somewhere at once: it does not sweep, and what lay on it does not feel it go.
+ * Places a collider at a new pose at once, without a sweep and without dragging the cloth along.
  *
- * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
- * finite or a rotation that is no unit quaternion
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE if `position` is not
+ * finite or `rotation` is not a unit quaternion
  */
 MuslinStatus muslin_cloth_teleport_collider(MuslinCloth cloth,
                                             MuslinCollider collider,
@@ -1426,46 +1662,56 @@ MuslinStatus muslin_cloth_teleport_collider(MuslinCloth cloth,
                                             MuslinQuat rotation);
 
 /**
- * All that a renderer reads, without a copy; see MuslinView for how long it is valid. Normals are
- * computed when first asked for after a change. `out_view` has begun with muslin_view_init.
+ * Returns all lists that a renderer needs, without a copy; MuslinView says how long they stay
+ * valid.
+ *
+ * Normals are computed if positions changed since they were last read. Initialise `out_view` with
+ * muslin_view_init.
  */
 MuslinStatus muslin_cloth_view(MuslinCloth cloth, MuslinView *out_view);
 
 /**
- * Which vertices and indices are new or not as they were when the view's `topology_revision` was
- * `since_topology_revision`: all that a renderer must upload again of what does not change with every
- * tick. Everything, if that is more than 64 changes ago, or was never (0 is never). `out_changes` has
- * begun with muslin_changes_init.
+ * Returns the vertex and index ranges that changed after the view's `topology_revision` was
+ * `since_topology_revision`: what a renderer must upload again, besides positions and normals.
+ *
+ * Returns everything if that revision is more than 64 changes old or never existed; pass 0 for the
+ * first upload. Initialise `out_changes` with muslin_changes_init.
  */
 MuslinStatus muslin_cloth_changes(MuslinCloth cloth,
                                   uint32_t since_topology_revision,
                                   MuslinChanges *out_changes);
 
 /**
- * What had to be repaired of the mesh that the cloth was made of; nothing of a grid. `out_report` has begun with
- * muslin_mesh_report_init.
+ * Returns what was repaired in the mesh that the cloth was made from. A grid needs no repair.
+ * Initialise `out_report` with muslin_mesh_report_init.
  */
 MuslinStatus muslin_cloth_get_mesh_report(MuslinCloth cloth,
                                           MuslinMeshReport *out_report);
 
-/** Numbers about the cloth as it is now. `out_stats` has begun with muslin_stats_init. */
+/**
+ * Returns statistics of the current state, computed in time proportional to the size of the cloth.
+ * Initialise `out_stats` with muslin_stats_init.
+ */
 MuslinStatus muslin_cloth_get_stats(MuslinCloth cloth, MuslinStats *out_stats);
 
 /**
- * A hash over all that the next tick depends on: equal on every machine that was told the same.
+ * Returns a hash of all state that the next tick depends on. Equal calls give equal hashes on
+ * every platform.
  */
 MuslinStatus muslin_cloth_state_hash(MuslinCloth cloth, uint64_t *out_hash);
 
 /**
- * Writes vertices into buffers of yours: each attribute in the format, at the place and at the distances
- * that one of the `stream_count` streams says. Nothing else in the buffers is touched. With room for the
- * view's `vertex_capacity` vertices they fit for ever. `desc` may be NULL: all vertices, as they are.
+ * Writes vertices into your own buffers, each attribute with the format, address and stride of its
+ * stream: separate, interleaved or one after the other. Other bytes are untouched.
+ *
+ * Buffers for the view's `vertex_capacity` vertices are always large enough. With `desc` NULL all
+ * vertices are written, untransformed.
  *
  * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the vertices do not fit the `size` of a stream;
- * MUSLIN_STATUS_BAD_VALUE for a field of a stream or of `desc` that cannot be, a format that an attribute
- * is not written in, bytes that two streams write or that a view is of, unless `stream_count` is from 1 to
- * MUSLIN_MAX_STREAMS, or if a stream takes normals or tangents and the transform cannot be inverted; the
- * buffers are untouched then
+ * MUSLIN_STATUS_BAD_VALUE if `stream_count` is not from 1 to MUSLIN_MAX_STREAMS, a field of a
+ * stream or of `desc` is invalid, a format cannot write its attribute, two streams overlap, a
+ * buffer is memory of a view, or normals or tangents are written with a transform that cannot be
+ * inverted; the buffers are untouched then
  */
 MuslinStatus muslin_cloth_write_vertices(MuslinCloth cloth,
                                          const MuslinStream *streams,
@@ -1473,13 +1719,15 @@ MuslinStatus muslin_cloth_write_vertices(MuslinCloth cloth,
                                          const MuslinWriteDesc *desc);
 
 /**
- * Writes the indices of all triangles to the beginning of `buffer`, which has room for `size` bytes:
- * `index_format` is how many bits each takes, 16 or 32; each has `base_vertex` added, and every triangle
- * is turned round if `flip` is 1. With room for the view's `index_capacity` it fits for ever.
+ * Writes the indices of all triangles to the start of `buffer`, which has `size` bytes.
  *
- * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `size` is less than the view's `index_count` takes;
- * MUSLIN_STATUS_BAD_VALUE unless `index_format` and `flip` are one of these, or for 16 bits if an index is
- * above 65534; `buffer` is untouched then
+ * `index_format` is the width of an index in bits, 16 or 32. `base_vertex` is added to each index.
+ * With `flip` 1 the winding of every triangle is reversed. A buffer for the view's
+ * `index_capacity` indices is always large enough.
+ *
+ * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `size` is less than the view's `index_count` indices
+ * need; MUSLIN_STATUS_BAD_VALUE if `index_format` or `flip` has another value, or an index would
+ * be above 65534 in 16 bits or 4294967294 in 32 bits; `buffer` is untouched then
  */
 MuslinStatus muslin_cloth_write_indices(MuslinCloth cloth,
                                         void *buffer,
@@ -1489,13 +1737,14 @@ MuslinStatus muslin_cloth_write_indices(MuslinCloth cloth,
                                         uint32_t base_vertex);
 
 /**
- * Writes all of a cloth into `size` bytes at `buffer`; `out_needed` gets the number of bytes that it
- * takes. With `buffer` NULL it gets only that number. With a buffer `out_needed` may be NULL.
+ * Writes the complete state of a cloth to `size` bytes at `buffer`. `out_needed` receives the
+ * number of bytes of the save.
  *
- * The bytes are the same on every machine, and hold until the cloth changes.
+ * If `buffer` is NULL, only that number is returned; otherwise `out_needed` may be NULL. The bytes
+ * are the same on every platform. The number is valid until the cloth changes.
  *
- * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if it does not fit: nothing is written, muslin_last_error names
- * the size that it takes
+ * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the save does not fit: nothing is written, and
+ * muslin_last_error() states the required size
  */
 MuslinStatus muslin_cloth_save(MuslinCloth cloth,
                                void *buffer,
@@ -1503,36 +1752,40 @@ MuslinStatus muslin_cloth_save(MuslinCloth cloth,
                                size_t *out_needed);
 
 /**
- * Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
- * any other: it goes on in the same bits. Handles of grabs, attachments and colliders hold for it too.
+ * Makes a cloth from `size` bytes at `buffer` that muslin_cloth_save wrote, perhaps on another
+ * platform. It continues with the same bits.
  *
- * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
+ * Handles of grabs, attachments and colliders are valid for the new cloth too. Untrusted bytes are
+ * safe: they give a valid cloth or an error.
+ *
+ * @return MUSLIN_STATUS_BAD_SAVE if the bytes are not a save, come from another format version, or
+ * are damaged
  */
 MuslinStatus muslin_cloth_restore(const void *buffer,
                                   size_t size,
                                   MuslinCloth *out_cloth);
 
-/** What muslin_settings_init calls: pass the sizeof of MuslinSettings. */
+/** Called by muslin_settings_init with the sizeof of MuslinSettings. */
 MuslinStatus muslin_settings_init_sized(MuslinSettings *settings, uint32_t struct_size);
 
-/** What muslin_material_init calls: pass the sizeof of MuslinMaterial. */
+/** Called by muslin_material_init with the sizeof of MuslinMaterial. */
 MuslinStatus muslin_material_init_sized(MuslinMaterial *material, uint32_t struct_size);
 
-/** What muslin_wind_init calls: pass the sizeof of MuslinWind. */
+/** Called by muslin_wind_init with the sizeof of MuslinWind. */
 MuslinStatus muslin_wind_init_sized(MuslinWind *wind, uint32_t struct_size);
 
-/** What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc. */
+/** Called by muslin_collider_desc_init with the sizeof of MuslinColliderDesc. */
 MuslinStatus muslin_collider_desc_init_sized(MuslinColliderDesc *desc,
                                              uint32_t struct_size);
 
-/** What muslin_stream_init calls: pass the sizeof of MuslinStream. */
+/** Called by muslin_stream_init with the sizeof of MuslinStream. */
 MuslinStatus muslin_stream_init_sized(MuslinStream *stream, uint32_t struct_size);
 
-/** What muslin_write_desc_init calls: pass the sizeof of MuslinWriteDesc. */
+/** Called by muslin_write_desc_init with the sizeof of MuslinWriteDesc. */
 MuslinStatus muslin_write_desc_init_sized(MuslinWriteDesc *desc, uint32_t struct_size);
 
 /**
- * What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
+ * Called by muslin_grid_desc_init with the sizeof of MuslinGridDesc, MuslinMaterial and
  * MuslinSettings, all of the same header.
  */
 MuslinStatus muslin_grid_desc_init_sized(MuslinGridDesc *desc,
@@ -1541,7 +1794,7 @@ MuslinStatus muslin_grid_desc_init_sized(MuslinGridDesc *desc,
                                          uint32_t settings_size);
 
 /**
- * What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
+ * Called by muslin_mesh_desc_init with the sizeof of MuslinMeshDesc, MuslinMaterial and
  * MuslinSettings, all of the same header.
  */
 MuslinStatus muslin_mesh_desc_init_sized(MuslinMeshDesc *desc,
@@ -1553,7 +1806,7 @@ MuslinStatus muslin_mesh_desc_init_sized(MuslinMeshDesc *desc,
 }  // extern "C"
 #endif  // __cplusplus
 
-/* Begin a struct: set its size, as the compiler of this very program knows it, and defaults. */
+/* Initialise a struct: its size, as the compiler of this program knows it, and the defaults. */
 
 static inline void muslin_settings_init(MuslinSettings *settings) {
   (void)muslin_settings_init_sized(settings, (uint32_t)sizeof(MuslinSettings));
@@ -1591,7 +1844,7 @@ static inline void muslin_write_desc_init(MuslinWriteDesc *desc) {
   (void)muslin_write_desc_init_sized(desc, (uint32_t)sizeof(MuslinWriteDesc));
 }
 
-/* A whole stream at once; see MuslinStream for what each is. */
+/* Returns a stream with all of its fields set; see MuslinStream. */
 static inline MuslinStream muslin_stream(uint32_t attribute, uint32_t format, void *buffer,
                                          uint32_t stride, size_t size) {
   MuslinStream stream;
@@ -1604,7 +1857,7 @@ static inline MuslinStream muslin_stream(uint32_t attribute, uint32_t format, vo
   return stream;
 }
 
-/* Begin a report: set its size, as the compiler of this very program knows it. */
+/* Initialise an output struct: its size, as the compiler of this program knows it. */
 
 static inline void muslin_view_init(MuslinView *view) {
   view->struct_size = (uint32_t)sizeof(MuslinView);

@@ -1,12 +1,17 @@
-/* Muslin for C++17: the calls of muslin.h by a class that destroys its cloth. Header only, nothing added.
+/* Muslin for C++17: a class that owns a cloth and wraps the functions of muslin.h. Header only.
  *
- * Whatever may be refused gives a muslin::Result. With exceptions, value() throws a muslin::Error that says
- * why; without them (-fno-exceptions, or MUSLIN_NO_EXCEPTIONS defined) it prints that and aborts, so ask
- * the result first: it is true if the call was done, and why() says why it was not, until the next
- * refusal on this thread.
+ * Functions that can fail return a muslin::Result, which is true if the call succeeded.
+ *
+ * - With exceptions, Result::value() returns the value or throws a muslin::Error.
+ * - Without exceptions (-fno-exceptions, or MUSLIN_NO_EXCEPTIONS defined), Result::value() prints
+ *   the message and aborts if the call failed, so test the result first.
+ * - Result::why() returns the message of a failed call, until the next failed call on this thread.
  *
  *   muslin::Cloth cloth = muslin::Cloth::grid(muslin::grid_desc()).value();
  *   cloth.advance(1.0f / 60.0f).value();
+ *
+ * Each member function calls the muslin_cloth_... function of the same name; muslin.h documents its
+ * effect, units, ranges and errors.
  */
 #pragma once
 
@@ -30,10 +35,11 @@
 namespace muslin {
 
 #ifndef MUSLIN_NO_EXCEPTIONS
-/** A call that was refused, and changed nothing. */
+/** Exception of a call that failed and changed nothing. */
 class Error : public std::runtime_error {
  public:
   explicit Error(MuslinStatus status) : std::runtime_error(muslin_last_error()), status_(status) {}
+  /** The status of the call. */
   MuslinStatus status() const noexcept { return status_; }
 
  private:
@@ -43,7 +49,8 @@ class Error : public std::runtime_error {
 
 namespace detail {
 
-[[noreturn]] inline void refuse(MuslinStatus status) {
+/** Throws an Error; without exceptions, prints the message and aborts. */
+[[noreturn]] inline void fail(MuslinStatus status) {
 #ifdef MUSLIN_NO_EXCEPTIONS
   std::fprintf(stderr, "muslin: %s (status %d)\n", muslin_last_error(), static_cast<int>(status));
   std::abort();
@@ -54,23 +61,26 @@ namespace detail {
 
 }  // namespace detail
 
-/** What became of a call that gives a T. */
+/** Result of a call that returns a T. */
 template <class T>
 class [[nodiscard]] Result {
  public:
   Result(MuslinStatus status, T value) : status_(status), value_(std::move(value)) {}
 
+  /** Whether the call succeeded. */
   explicit operator bool() const noexcept { return status_ == MUSLIN_STATUS_OK; }
+  /** The status of the call. */
   MuslinStatus status() const noexcept { return status_; }
+  /** The message of the failed call, until the next failed call on this thread. */
   const char *why() const noexcept { return *this ? "" : muslin_last_error(); }
 
-  /** What the call gave; throws or aborts if it was refused. */
+  /** Returns the value; throws or aborts if the call failed. */
   T value() && {
-    if (!*this) detail::refuse(status_);
+    if (!*this) detail::fail(status_);
     return std::move(value_);
   }
   const T &value() const & {
-    if (!*this) detail::refuse(status_);
+    if (!*this) detail::fail(status_);
     return value_;
   }
 
@@ -79,28 +89,32 @@ class [[nodiscard]] Result {
   T value_;
 };
 
-/** What became of a call that gives nothing. */
+/** Result of a call that returns no value. */
 template <>
 class [[nodiscard]] Result<void> {
  public:
   Result(MuslinStatus status) noexcept : status_(status) {}
 
+  /** Whether the call succeeded. */
   explicit operator bool() const noexcept { return status_ == MUSLIN_STATUS_OK; }
+  /** The status of the call. */
   MuslinStatus status() const noexcept { return status_; }
+  /** The message of the failed call, until the next failed call on this thread. */
   const char *why() const noexcept { return *this ? "" : muslin_last_error(); }
 
-  /** Throws or aborts if the call was refused. */
+  /** Throws or aborts if the call failed. */
   void value() const {
-    if (!*this) detail::refuse(status_);
+    if (!*this) detail::fail(status_);
   }
 
  private:
   MuslinStatus status_;
 };
 
+/** Result of a call that returns no value. */
 using Done = Result<void>;
 
-/* Descriptors that have begun. */
+/* Initialised structs with their defaults. */
 
 inline MuslinGridDesc grid_desc() noexcept {
   MuslinGridDesc desc;
@@ -120,7 +134,7 @@ inline MuslinSettings settings() noexcept {
   return settings;
 }
 
-/** The figures of a fabric: MUSLIN_PRESET_... */
+/** Returns the material of a fabric, one of MUSLIN_PRESET_.... */
 inline Result<MuslinMaterial> material(std::uint32_t preset) noexcept {
   MuslinMaterial material;
   muslin_material_init(&material);
@@ -146,12 +160,12 @@ inline MuslinWriteDesc write_desc() noexcept {
   return desc;
 }
 
-/** A cloth that goes when this does. It may be moved, not copied. */
+/** Owns a cloth and destroys it. Movable, not copyable. */
 class Cloth {
  public:
-  /** None; every call but this and those that make one is refused. */
+  /** Owns no cloth: calls on it fail with MUSLIN_STATUS_BAD_HANDLE. */
   Cloth() noexcept = default;
-  /** Takes a cloth over. */
+  /** Takes ownership of a cloth. */
   explicit Cloth(MuslinCloth cloth) noexcept : cloth_(cloth) {}
   Cloth(Cloth &&other) noexcept : cloth_(other.release_handle()) {}
   Cloth &operator=(Cloth &&other) noexcept {
@@ -165,33 +179,37 @@ class Cloth {
   Cloth &operator=(const Cloth &) = delete;
   ~Cloth() { destroy(); }
 
+  /** Makes a cloth from a regular grid. */
   static Result<Cloth> grid(const MuslinGridDesc &desc) noexcept {
     MuslinCloth cloth{};
     const MuslinStatus status = muslin_cloth_create_grid(&desc, &cloth);
     return {status, Cloth(cloth)};
   }
 
+  /** Makes a cloth from any triangle mesh. */
   static Result<Cloth> mesh(const MuslinMeshDesc &desc) noexcept {
     MuslinCloth cloth{};
     const MuslinStatus status = muslin_cloth_create_mesh(&desc, &cloth);
     return {status, Cloth(cloth)};
   }
 
+  /** Makes a cloth from bytes that save() returned. */
   static Result<Cloth> restore(const void *buffer, std::size_t size) noexcept {
     MuslinCloth cloth{};
     const MuslinStatus status = muslin_cloth_restore(buffer, size, &cloth);
     return {status, Cloth(cloth)};
   }
 
-  /** For what is not here. */
+  /** The C handle, for functions that this class does not have. Still owned by this object. */
   MuslinCloth handle() const noexcept { return cloth_; }
+  /** Whether this object owns a cloth. */
   explicit operator bool() const noexcept { return cloth_.id != 0; }
-  /** Gives the cloth away; destroy it with muslin_cloth_destroy. */
+  /** Gives up ownership; the caller must call muslin_cloth_destroy. */
   MuslinCloth release_handle() noexcept { return std::exchange(cloth_, MuslinCloth{}); }
 
   Done reset() noexcept { return muslin_cloth_reset(cloth_); }
   Done step(std::uint32_t ticks = 1) noexcept { return muslin_cloth_step(cloth_, ticks); }
-  /** How many ticks ran. */
+  /** Runs the ticks that are due after `seconds` [s]; returns how many ran. */
   Result<std::uint32_t> advance(float seconds) noexcept {
     std::uint32_t ticks = 0;
     const MuslinStatus status = muslin_cloth_advance(cloth_, seconds, &ticks);
@@ -199,18 +217,18 @@ class Cloth {
   }
 
   Result<MuslinSettings> settings() const noexcept {
-    MuslinSettings told = muslin::settings();
-    const MuslinStatus status = muslin_cloth_get_settings(cloth_, &told);
-    return {status, told};
+    MuslinSettings current = muslin::settings();
+    const MuslinStatus status = muslin_cloth_get_settings(cloth_, &current);
+    return {status, current};
   }
   Done set_settings(const MuslinSettings &settings) noexcept {
     return muslin_cloth_set_settings(cloth_, &settings);
   }
   Result<MuslinMaterial> material() const noexcept {
-    MuslinMaterial told;
-    muslin_material_init(&told);
-    const MuslinStatus status = muslin_cloth_get_material(cloth_, &told);
-    return {status, told};
+    MuslinMaterial current;
+    muslin_material_init(&current);
+    const MuslinStatus status = muslin_cloth_get_material(cloth_, &current);
+    return {status, current};
   }
   Done set_material(const MuslinMaterial &material) noexcept {
     return muslin_cloth_set_material(cloth_, &material);
@@ -273,20 +291,20 @@ class Cloth {
     return muslin_cloth_set_velocity(cloth_, particle, velocity);
   }
 
-  /** Nothing if the ray meets nothing. */
+  /** Returns the first hit of a ray; empty if it hits nothing. */
   Result<std::optional<MuslinHit>> raycast(MuslinVec3 origin, MuslinVec3 direction,
                                            float max_distance) const noexcept {
     MuslinHit hit;
     muslin_hit_init(&hit);
     const MuslinStatus status = muslin_cloth_raycast(cloth_, origin, direction, max_distance, &hit);
-    return some(status, hit);
+    return hit_or_empty(status, hit);
   }
-  /** Nothing if the ray meets nothing. */
+  /** Grabs the particle that a ray points at; empty if there is none. */
   Result<std::optional<MuslinGrab>> grab_ray(MuslinVec3 origin, MuslinVec3 direction, float radius,
                                              MuslinVec3 *out_at = nullptr) noexcept {
     MuslinGrab grab{};
     const MuslinStatus status = muslin_cloth_grab_ray(cloth_, origin, direction, radius, &grab, out_at);
-    return some(status, grab);
+    return hit_or_empty(status, grab);
   }
   Result<MuslinGrab> grab_particle(std::uint32_t particle) noexcept {
     MuslinGrab grab{};
@@ -298,13 +316,13 @@ class Cloth {
   }
   Done release(MuslinGrab grab) noexcept { return muslin_cloth_release(cloth_, grab); }
 
-  /** How many edges opened. */
+  /** Cuts with a swept segment; returns the number of opened edges. */
   Result<std::uint32_t> cut(MuslinVec3 from, MuslinVec3 to, MuslinVec3 sweep) noexcept {
     std::uint32_t edges = 0;
     const MuslinStatus status = muslin_cloth_cut(cloth_, from, to, sweep, &edges);
     return {status, edges};
   }
-  /** Whether the edge gave way. */
+  /** Tears an edge; returns whether it tore. */
   Result<bool> tear_edge(std::uint32_t particle_a, std::uint32_t particle_b) noexcept {
     const MuslinStatus status = muslin_cloth_tear_edge(cloth_, particle_a, particle_b);
     if (status == MUSLIN_STATUS_NOT_TORN) return {MUSLIN_STATUS_OK, false};
@@ -313,7 +331,7 @@ class Cloth {
   Done crease(MuslinVec3 from, MuslinVec3 to, float angle) noexcept {
     return muslin_cloth_crease(cloth_, from, to, angle);
   }
-  /** Nothing if all were read. */
+  /** Removes and returns the oldest event; empty if there is none. */
   Result<std::optional<MuslinEvent>> next_event() noexcept {
     MuslinEvent event;
     std::uint32_t is_some = 0;
@@ -336,9 +354,9 @@ class Cloth {
   Done remove_collider(MuslinCollider collider) noexcept {
     return muslin_cloth_remove_collider(cloth_, collider);
   }
-  /** What a cloth did to a collider in a tick. */
+  /** Impulse that the cloth applied to a collider in the last tick. */
   struct Impulse {
-    /** Momentum [kg m/s], and angular momentum about the collider's position [kg m2/s]. */
+    /** Linear impulse [kg m/s]; angular impulse about the collider's position [kg m^2/s]. */
     MuslinVec3 linear, angular;
   };
   Result<Impulse> collider_impulse(MuslinCollider collider) const noexcept {
@@ -348,19 +366,21 @@ class Cloth {
     return {status, impulse};
   }
 
-  /** The cloth's own memory, valid until the next call that changes it. */
+  /** Output lists in the cloth's own memory, valid until the next call that changes it. */
   Result<MuslinView> view() const noexcept {
     MuslinView view;
     muslin_view_init(&view);
     const MuslinStatus status = muslin_cloth_view(cloth_, &view);
     return {status, view};
   }
+  /** Output ranges that changed after the given topology revision. */
   Result<MuslinChanges> changes(std::uint32_t since_topology_revision) const noexcept {
     MuslinChanges changes;
     muslin_changes_init(&changes);
     const MuslinStatus status = muslin_cloth_changes(cloth_, since_topology_revision, &changes);
     return {status, changes};
   }
+  /** Writes vertices into your own buffers. */
   template <std::size_t N>
   Done write_vertices(const MuslinStream (&streams)[N], const MuslinWriteDesc &desc) const noexcept {
     return muslin_cloth_write_vertices(cloth_, streams, static_cast<std::uint32_t>(N), &desc);
@@ -369,7 +389,7 @@ class Cloth {
                      std::uint32_t base_vertex = 0) const noexcept {
     return muslin_cloth_write_indices(cloth_, buffer, size, index_format, flip ? 1 : 0, base_vertex);
   }
-  /** What had to be repaired of the mesh that it was made of. */
+  /** What was repaired in the mesh that the cloth was made from. */
   Result<MuslinMeshReport> mesh_report() const noexcept {
     MuslinMeshReport report;
     muslin_mesh_report_init(&report);
@@ -387,6 +407,7 @@ class Cloth {
     const MuslinStatus status = muslin_cloth_state_hash(cloth_, &hash);
     return {status, hash};
   }
+  /** Returns the complete state as bytes. */
   Result<std::vector<unsigned char>> save() const {
     std::size_t needed = 0;
     std::vector<unsigned char> bytes;
@@ -400,7 +421,7 @@ class Cloth {
 
  private:
   template <class T>
-  static Result<std::optional<T>> some(MuslinStatus status, const T &found) noexcept {
+  static Result<std::optional<T>> hit_or_empty(MuslinStatus status, const T &found) noexcept {
     if (status == MUSLIN_STATUS_NOTHING_HIT) return {MUSLIN_STATUS_OK, std::nullopt};
     return {status, found};
   }

@@ -1,5 +1,5 @@
-//! Gives the shared library its soname: its major version, which changes when old programs need another
-//! header.
+//! Sets the soname of the shared library: `libmuslin.so.` and the major version, which changes when
+//! programs must be compiled again.
 
 use std::env;
 

@@ -177,10 +177,10 @@ static void streams_are_refused_by_field_and_nothing_is_written(void) {
   BAD_STREAM(buffer, NULL, BAD_VALUE, "`streams[1].buffer` must not be NULL");
   BAD_STREAM(buffer, room + 17, BAD_VALUE, "`streams[1].buffer` must be aligned");
   BAD_STREAM(buffer, room + 8, BAD_VALUE, "`streams[1].buffer` must be apart");
-  BAD_STREAM(buffer, inside, BAD_VALUE, "`streams[1].buffer` must not be what a view is of");
+  BAD_STREAM(buffer, inside, BAD_VALUE, "`streams[1].buffer` must not be memory of a view");
   BAD_STREAM(size, 0, MUSLIN_STATUS_BUFFER_TOO_SMALL, "but is 0");
   BAD_STREAM(size, 32 * (size_t)(view.vertex_count - 1) + 7, MUSLIN_STATUS_BUFFER_TOO_SMALL, "`streams[1].size`");
-  BAD_STREAM(size, SIZE_MAX, BAD_VALUE, "`streams[1].size` must be the size of something");
+  BAD_STREAM(size, SIZE_MAX, BAD_VALUE, "`streams[1].size` must fit in the address space");
   BAD_STREAM(struct_size, 0, BAD_VALUE, "`streams[1].struct_size` must be that of the first");
   BAD_STREAM(struct_size, 4000, BAD_VALUE, "`streams[1].struct_size`");
 

@@ -1,8 +1,9 @@
-//! The C face of Muslin: `libmuslin.a`, `libmuslin.so` and `include/muslin.h`.
+//! The C library of Muslin: `libmuslin.a`, `libmuslin.so` and `include/muslin.h`.
 //!
-//! The docs of this crate are written for the readers of the header, which is generated from them.
-//! `calls` holds the functions by theme, `types` the structs; pointers are followed in `boundary`
-//! only, and cloths live in `registry`.
+//! The header is generated from the doc comments of `functions`, `types`, `status` and `log`, so
+//! these are written for readers of the header. `ffi` converts between C memory and Rust values and
+//! stops panics; `registry` maps handles to cloths.
+//! Invariant: raw pointers are dereferenced in `ffi` only.
 
 mod ffi;
 mod functions;

@@ -1,4 +1,12 @@
-//! All cloths behind their handles: generational slots, each cloth behind its own lock.
+//! Table of all cloths: generational slots, each cloth behind a lock of its own.
+//!
+//! ```text
+//! handle = generation << 32 | (slot + 1)      0 is no handle
+//! ```
+//!
+//! Reads and writes the global table.
+//! Invariant: a handle never refers to another cloth than the one it was made for; a lock is only
+//! tried, never waited for.
 
 use crate::ffi::panic_guard::run_guarded;
 use crate::log::{self, MUSLIN_LOG_INFO};
@@ -7,7 +15,7 @@ use crate::types::value::MuslinCloth;
 use muslin_core::Cloth;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
-/// A cloth that may be destroyed while another thread is about to use it: then there is none left.
+/// A cloth, or `None` if another thread destroyed it after its slot was looked up.
 type SharedCloth = Arc<Mutex<Option<Cloth>>>;
 
 struct Slot {
@@ -15,7 +23,7 @@ struct Slot {
     cloth: Option<SharedCloth>,
 }
 
-/// Handles are `generation << 32 | slot + 1`, so zero is none.
+/// All slots, and the indices of the free ones.
 struct Registry {
     slots: Vec<Slot>,
     free: Vec<u32>,
@@ -44,7 +52,7 @@ impl Registry {
         (u64::from(slot.generation) == cloth.id >> 32).then_some(slot.cloth.as_ref()).flatten()
     }
 
-    /// Makes the handle stale. A slot whose generations are all used is left empty for good.
+    /// Makes the handle stale. A slot that has used all of its generations stays empty.
     fn remove(&mut self, cloth: MuslinCloth) {
         let at = (cloth.id & u64::from(u32::MAX)) as u32 - 1;
         let slot = &mut self.slots[at as usize];
@@ -58,7 +66,7 @@ impl Registry {
 
 static REGISTRY: Mutex<Registry> = Mutex::new(Registry { slots: Vec::new(), free: Vec::new() });
 
-/// The registry, for a moment: whoever holds it waits for nothing.
+/// Locks the table. Callers hold the lock only briefly and never wait while holding it.
 fn registry() -> MutexGuard<'static, Registry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -71,12 +79,12 @@ fn busy() -> CallError {
     CallError::new(MuslinStatus::Busy, "`cloth` must not be in use on another thread")
 }
 
-/// Keeps a new cloth and names it.
+/// Stores a new cloth and returns its handle.
 pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
     registry().insert(cloth)
 }
 
-/// Runs `call` on a cloth that nobody else uses meanwhile. A panic spoils the cloth for good.
+/// Runs `call` with exclusive access to a cloth. A panic makes the cloth unusable.
 pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -> MuslinStatus {
     let mut call = Some(call);
     run_guarded(|| {
@@ -84,7 +92,7 @@ pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -
     })
 }
 
-/// The same for all calls at once.
+/// The part of `with_cloth` that is compiled once, not once per caller.
 fn with_cloth_dyn(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
     let shared = find_cloth(cloth)?;
     let mut locked = match shared.try_lock() {
@@ -95,7 +103,7 @@ fn with_cloth_dyn(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result
     call(locked.as_mut().ok_or_else(CallError::bad_cloth)?)
 }
 
-/// Destroys a cloth, a spoilt one too.
+/// Destroys a cloth, also one that a panic made unusable.
 pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
     let status = run_guarded(|| {
         let shared = find_cloth(cloth)?;
@@ -111,7 +119,7 @@ pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
         Ok(())
     });
     if status == MuslinStatus::Ok {
-        log::emit(MUSLIN_LOG_INFO, || format!("cloth {:#x} is destroyed", cloth.id));
+        log::emit(MUSLIN_LOG_INFO, || format!("cloth {:#x} was destroyed", cloth.id));
     }
     status
 }
@@ -127,14 +135,14 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_spoils_its_cloth_and_no_other() {
-        let (spoilt, sound) = (small_cloth(), small_cloth());
-        assert_eq!(with_cloth(spoilt, |_| panic!("on purpose")), MuslinStatus::Panicked);
-        assert_eq!(with_cloth(spoilt, |_| Ok(())), MuslinStatus::Panicked);
-        assert_eq!(with_cloth(sound, |_| Ok(())), MuslinStatus::Ok);
-        assert_eq!(destroy(spoilt), MuslinStatus::Ok);
-        assert_eq!(with_cloth(spoilt, |_| Ok(())), MuslinStatus::BadHandle);
-        assert_eq!(destroy(sound), MuslinStatus::Ok);
+    fn a_panic_makes_only_its_own_cloth_unusable() {
+        let (poisoned, healthy) = (small_cloth(), small_cloth());
+        assert_eq!(with_cloth(poisoned, |_| panic!("on purpose")), MuslinStatus::Panicked);
+        assert_eq!(with_cloth(poisoned, |_| Ok(())), MuslinStatus::Panicked);
+        assert_eq!(with_cloth(healthy, |_| Ok(())), MuslinStatus::Ok);
+        assert_eq!(destroy(poisoned), MuslinStatus::Ok);
+        assert_eq!(with_cloth(poisoned, |_| Ok(())), MuslinStatus::BadHandle);
+        assert_eq!(destroy(healthy), MuslinStatus::Ok);
     }
 
     #[test]
@@ -151,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slot_that_is_used_up_names_no_other_cloth() {
+    fn a_slot_without_free_generations_is_not_reused() {
         let mut registry = Registry { slots: Vec::new(), free: Vec::new() };
         let cloth = || Cloth::grid(&GridDesc { columns: 2, rows: 2, ..GridDesc::default() });
         let first = registry.insert(cloth().unwrap()).unwrap();

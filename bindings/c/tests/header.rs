@@ -1,4 +1,6 @@
-//! `include/muslin.h` says what the library is.
+//! Tests: `include/muslin.h` is what cbindgen generates from the sources.
+//!
+//! `MUSLIN_BLESS=1 cargo test -p muslin-c --test header` writes the header again.
 
 use std::env;
 use std::fs;
@@ -6,8 +8,8 @@ use std::path::Path;
 
 const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
-/// The files with items of the header, in its order: types that others hold first, then functions by
-/// theme.
+/// The source files with items of the header, in its order: types before the types that contain them,
+/// then functions by theme.
 const FILES: [&str; 31] = [
     "status.rs",
     "log.rs",
@@ -42,7 +44,7 @@ const FILES: [&str; 31] = [
     "functions/init.rs",
 ];
 
-/// The header as the sources have it. Asks neither cargo nor a network nor a nightly compiler.
+/// Returns the header that the sources give. Needs neither cargo nor network nor a nightly compiler.
 fn generated() -> String {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(own.join("cbindgen.toml")).unwrap();
@@ -54,20 +56,24 @@ fn generated() -> String {
     builder.generate().unwrap().write(&mut header);
     let lines: Vec<String> =
         String::from_utf8(header).unwrap().lines().map(str::to_owned).collect();
-    on_one_line(&by_plain_names(&lines)).iter().map(|line| format!("{line}\n")).collect()
+    join_short_comments(&remove_struct_keywords(&lines))
+        .iter()
+        .map(|line| format!("{line}\n"))
+        .collect()
 }
 
-/// `enum MuslinStatus muslin_...(struct MuslinCloth cloth)` without the words that a typedef spares.
-fn by_plain_names(lines: &[String]) -> Vec<String> {
+/// Removes `struct` and `enum` where the typedef name suffices, as in
+/// `enum MuslinStatus muslin_...(struct MuslinCloth cloth)`.
+fn remove_struct_keywords(lines: &[String]) -> Vec<String> {
     let mut shift = 0;
     let rename = |line: &String| {
         if line.starts_with("typedef") {
             return line.clone();
         }
         let indent = line.len() - line.trim_start().len();
-        // The rest of a function whose beginning became shorter.
-        let moved = if indent > 2 { &line[shift.min(indent)..] } else { line.as_str() };
-        let plain = moved.replace("struct Muslin", "Muslin").replace("enum Muslin", "Muslin");
+        // Continuation lines of a function whose first line became shorter.
+        let aligned = if indent > 2 { &line[shift.min(indent)..] } else { line.as_str() };
+        let plain = aligned.replace("struct Muslin", "Muslin").replace("enum Muslin", "Muslin");
         if let (Some(was), Some(is), false) = (line.find('('), plain.find('('), indent > 2) {
             shift = was - is;
         }
@@ -76,8 +82,8 @@ fn by_plain_names(lines: &[String]) -> Vec<String> {
     lines.iter().map(rename).collect()
 }
 
-/// Comments of one sentence on one line, where it is not too long for that.
-fn on_one_line(lines: &[String]) -> Vec<String> {
+/// Puts a comment of one short line on a single line: `/** ... */`.
+fn join_short_comments(lines: &[String]) -> Vec<String> {
     let (mut out, mut at) = (Vec::new(), 0);
     while at < lines.len() {
         let sentence = lines.get(at + 1).and_then(|line| line.trim_start().strip_prefix("* "));
@@ -97,9 +103,9 @@ fn on_one_line(lines: &[String]) -> Vec<String> {
     out
 }
 
-/// Every file of the sources that exports something is one of [`FILES`].
+/// Every source file that exports something must be one of [`FILES`].
 #[test]
-fn no_file_is_left_out_of_the_header() {
+fn every_file_with_exports_is_in_the_header() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for folder in ["", "types", "functions"] {
         for entry in fs::read_dir(src.join(folder)).unwrap() {
@@ -115,7 +121,7 @@ fn no_file_is_left_out_of_the_header() {
 }
 
 #[test]
-fn the_header_is_what_the_sources_say() {
+fn the_header_matches_the_sources() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../include/muslin.h");
     let generated = generated();
     if env::var_os("MUSLIN_BLESS").is_some() {
@@ -128,11 +134,14 @@ fn the_header_is_what_the_sources_say() {
         let (old, new) = (old.next(), new.next());
         assert_eq!(
             old, new,
-            "line {line} of include/muslin.h is not what the sources say; if they are right: {COMMAND}"
+            "line {line} of include/muslin.h differs from the sources; to write it again: {COMMAND}"
         );
         if old.is_none() {
             break;
         }
     }
-    assert_eq!(written, generated, "line ends of include/muslin.h differ; write it: {COMMAND}");
+    assert_eq!(
+        written, generated,
+        "line ends of include/muslin.h differ; to write it again: {COMMAND}"
+    );
 }

@@ -1,9 +1,12 @@
-//! X
+//! Calls from the library into the host.
+//!
+//! Reads the host's function and user pointer.
+//! Invariant: the user pointer is passed on and never dereferenced.
 
 use core::ffi::{CStr, c_char, c_void};
 use core::ptr;
 
-/// X
+/// The pointer that the host gets back with each message.
 #[derive(Clone, Copy)]
 pub struct UserPointer(pub *mut c_void);
 
@@ -15,7 +18,7 @@ impl UserPointer {
 // function may be called with it on any thread.
 unsafe impl Send for UserPointer {}
 
-/// X
+/// Passes a message to the host's log function.
 pub fn call_log_function(
     function: unsafe extern "C" fn(level: u32, message: *const c_char, user: *mut c_void),
     level: u32,

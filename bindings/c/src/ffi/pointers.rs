@@ -1,4 +1,7 @@
-//! X
+//! Reads lists from the caller's memory and writes results into it.
+//!
+//! Reads and writes caller memory of the length that the caller states.
+//! Invariant: no pointer is kept after the call, and none is assumed to be aligned.
 
 use crate::status::{CallError, MuslinStatus, Result};
 use core::ffi::c_void;
@@ -7,49 +10,53 @@ use core::ptr::NonNull;
 use core::{ptr, slice};
 use muslin_core::glam::{Vec2, Vec3};
 
+/// Returns an error for `field` unless `ok`.
 pub fn check(ok: bool, field: impl Display, must: &str) -> Result {
     if ok { Ok(()) } else { Err(CallError::bad_value(field, must)) }
 }
 
+/// Returns an error for `name` if the pointer is NULL.
 pub fn check_not_null<T>(name: &str, at: *const T) -> Result {
     check(!at.is_null(), name, "not be NULL")
 }
 
-/// Where a result goes.
+/// An output parameter that is not NULL.
 pub struct Out<T>(NonNull<T>);
 
 impl<T> Out<T> {
+    /// Checks an output parameter.
+    ///
     /// # Safety
-    /// `at` is NULL or may be written until the call returns.
+    /// `at` is NULL or writable until the call returns.
     pub unsafe fn new(name: &str, at: *mut T) -> Result<Self> {
         check_not_null(name, at)?;
         NonNull::new(at).map(Self).ok_or_else(|| CallError::bad_value(name, "not be NULL"))
     }
 
-    /// For a result that not everybody wants.
+    /// An output parameter that may be NULL.
     ///
     /// # Safety
-    /// `at` is NULL or may be written until the call returns.
+    /// `at` is NULL or writable until the call returns.
     pub unsafe fn new_optional(at: *mut T) -> Option<Self> {
         NonNull::new(at).map(Self)
     }
 
     pub fn write(self, value: T) {
-        // SAFETY: who made this vouched for it.
+        // SAFETY: the creator of `self` guaranteed that the pointer is writable.
         unsafe { self.0.as_ptr().write_unaligned(value) };
     }
 }
 
-/// A value that need not be given.
+/// Reads a value; `None` at NULL.
 ///
 /// # Safety
 /// `at` is NULL or points to a `T`.
 pub unsafe fn read_optional<T: Copy>(at: *const T) -> Option<T> {
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     (!at.is_null()).then(|| unsafe { at.read_unaligned() })
 }
 
-/// `count` numbers, copied. None may be at NULL.
+/// Copies `count` numbers. The pointer may be NULL if `count` is 0.
 ///
 /// # Safety
 /// `at` is NULL or points to `count` numbers.
@@ -58,21 +65,21 @@ pub unsafe fn read_u32s(name: &str, at: *const u32, count: u32) -> Result<Vec<u3
         return Ok(Vec::new());
     }
     check_not_null(name, at)?;
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     Ok((0..count as usize).map(|i| unsafe { at.add(i).read_unaligned() }).collect())
 }
 
-/// `count` numbers, copied. None may be at NULL.
+/// Copies `count` numbers. The pointer may be NULL if `count` is 0.
 ///
 /// # Safety
 /// `at` is NULL or points to `count` numbers.
 pub unsafe fn read_f32s(name: &str, at: *const f32, count: u32) -> Result<Vec<f32>> {
-    // SAFETY: the caller's promise above; any bits are a number of either kind.
+    // SAFETY: guaranteed by the caller; u32 and f32 have the same size, and any bits are valid.
     let bits = unsafe { read_u32s(name, at.cast::<u32>(), count)? };
     Ok(bits.into_iter().map(f32::from_bits).collect())
 }
 
-/// `count` pairs of numbers, copied; none at NULL.
+/// Copies `count` pairs of numbers; returns an empty list at NULL.
 ///
 /// # Safety
 /// `at` is NULL or points to `2 * count` numbers.
@@ -81,14 +88,14 @@ pub unsafe fn read_vec2s(at: *const f32, count: u32) -> Vec<Vec2> {
         return Vec::new();
     }
     let at = at.cast::<[f32; 2]>();
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     (0..count as usize).map(|i| Vec2::from(unsafe { at.add(i).read_unaligned() })).collect()
 }
 
-/// `count` points that begin `stride` bytes apart (0 is 12), copied.
+/// Copies `count` points whose starts are `stride` bytes apart; 0 means 12.
 ///
 /// # Safety
-/// `at` is NULL or points to as many points, so far apart.
+/// `at` is NULL or points to `count` points with that stride.
 pub unsafe fn read_vec3s(
     name: &str,
     at: *const c_void,
@@ -103,47 +110,47 @@ pub unsafe fn read_vec3s(
     }
     check_not_null(name, at)?;
     let point = |i: usize| {
-        // SAFETY: the caller's promise above.
+        // SAFETY: guaranteed by the caller.
         let point = unsafe { at.byte_add(i * stride).cast::<[f32; 3]>().read_unaligned() };
         Vec3::from(point)
     };
     Ok((0..count as usize).map(point).collect())
 }
 
-/// The caller's bytes.
+/// Borrows `size` bytes of the caller.
 ///
 /// # Safety
-/// `at` is NULL or points to `size` bytes that stay as they are until the call returns.
+/// `at` is NULL or points to `size` bytes that do not change until the call returns.
 pub unsafe fn borrow_bytes<'a>(name: &str, at: *const c_void, size: usize) -> Result<&'a [u8]> {
     check_not_null(name, at)?;
-    check(isize::try_from(size).is_ok(), "size", "be the size of something in memory")?;
-    // SAFETY: the caller's promise above; the size fits, and bytes need no alignment.
+    check(isize::try_from(size).is_ok(), "size", "fit in the address space")?;
+    // SAFETY: guaranteed by the caller; the size was checked, and bytes need no alignment.
     Ok(unsafe { slice::from_raw_parts(at.cast(), size) })
 }
 
-/// The caller's buffer.
+/// A buffer of the caller for bytes of variable length.
 pub struct OutBuffer {
     at: *mut u8,
     size: usize,
 }
 
 impl OutBuffer {
-    /// None at NULL.
+    /// A buffer of `size` bytes; `None` at NULL.
     ///
     /// # Safety
-    /// `at` is NULL or points to `size` bytes that may be written until the call returns.
+    /// `at` is NULL or points to `size` bytes that are writable until the call returns.
     pub unsafe fn new(at: *mut c_void, size: usize) -> Option<Self> {
         (!at.is_null()).then_some(Self { at: at.cast(), size })
     }
 
-    /// Fills the beginning of the buffer, if all of `bytes` fits.
+    /// Writes `bytes` to the start of the buffer; refuses if they do not fit.
     pub fn write(self, bytes: &[u8]) -> Result {
         if bytes.len() > self.size {
             let rule = format!("`size` must be at least {}, but is {}", bytes.len(), self.size);
             return Err(CallError::new(MuslinStatus::BufferTooSmall, rule));
         }
-        // SAFETY: who made this vouched for `size` bytes, and no more are written; our bytes are new,
-        // so they are not the caller's.
+        // SAFETY: the creator of `self` guaranteed `size` writable bytes, and no more are written.
+        // `bytes` is memory of the library, so it does not overlap the caller's buffer.
         unsafe { ptr::copy_nonoverlapping(bytes.as_ptr(), self.at, bytes.len()) };
         Ok(())
     }

@@ -1,4 +1,7 @@
-//! X
+//! The versioned structs of the header, with their sizes in the first release.
+//!
+//! Reads the struct definitions in `types`; implements the traits of `versioned_struct` for them.
+//! Invariant: an assertion per struct shows that its last field ends it, without padding.
 
 use crate::ffi::versioned_struct::{NestedDesc, VersionedStruct};
 use crate::types::changes::MuslinChanges;

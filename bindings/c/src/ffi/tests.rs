@@ -1,4 +1,4 @@
-//! Structs of other versions, and panics.
+//! Tests of versioned structs, unaligned points and panics.
 
 use crate::ffi::panic_guard::run_guarded;
 use crate::ffi::pointers::read_vec3s;
@@ -9,7 +9,7 @@ use core::mem::offset_of;
 use core::ptr;
 use muslin_core::glam::Vec3;
 
-/// A material as an older program knew it, as the library knows it, and as a newer one will.
+/// A material with `EXTRA` fields more than in its first version.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Material<const EXTRA: usize> {
@@ -24,7 +24,7 @@ impl<const EXTRA: usize> Default for Material<EXTRA> {
     }
 }
 
-// SAFETY: three fields of numbers, without gaps.
+// SAFETY: all fields are 4-byte numbers, so there is no padding.
 unsafe impl<const EXTRA: usize> VersionedStruct for Material<EXTRA> {
     const FIRST_SIZE: usize = 8;
     const INIT: &'static str = "material_init";
@@ -52,7 +52,7 @@ impl<const MATERIAL: usize, const SETTINGS: usize> Default for Desc<MATERIAL, SE
     }
 }
 
-// SAFETY: the fields show it.
+// SAFETY: `repr(C)`, and `HEAD` is the offset of the material in every version.
 unsafe impl<const M: usize, const S: usize> NestedDesc for Desc<M, S> {
     type Material = Material<M>;
     type Settings = Material<S>;
@@ -63,7 +63,8 @@ unsafe impl<const M: usize, const S: usize> NestedDesc for Desc<M, S> {
     }
 }
 
-/// Begins a caller's `Theirs` as the library's `Ours`, changes it, and reads it back.
+/// Initialises a caller's descriptor through the library's version `Ours`, changes it, and reads it
+/// back.
 fn pass<Ours: NestedDesc, const M: usize, const S: usize>(
     change: impl FnOnce(&mut Desc<M, S>),
 ) -> Result<Ours> {
@@ -72,15 +73,15 @@ fn pass<Ours: NestedDesc, const M: usize, const S: usize>(
         [size_of_val(&theirs), size_of_val(&theirs.material), size_of_val(&theirs.settings)];
     let [whole, material, settings] = sizes.map(|size| size as u32);
     let at = (&raw mut theirs).cast::<Ours>();
-    // SAFETY: `theirs` is as large as it says, and so are its parts.
+    // SAFETY: `theirs` and its parts have the stated sizes.
     unsafe { init_desc("desc", at, whole, material, settings)? };
     change(&mut theirs);
-    // SAFETY: as before.
+    // SAFETY: `theirs` and its parts have the stated sizes.
     unsafe { read_desc("desc", (&raw const theirs).cast::<Ours>()) }
 }
 
 #[test]
-fn an_older_caller_gets_the_defaults_of_what_it_does_not_know() {
+fn fields_that_an_older_caller_lacks_get_their_defaults() {
     let ours: Desc<2, 3> = pass::<_, 0, 1>(|theirs| {
         theirs.columns = 7;
         theirs.material.density = 3.0;
@@ -94,7 +95,7 @@ fn an_older_caller_gets_the_defaults_of_what_it_does_not_know() {
 }
 
 #[test]
-fn a_newer_caller_is_understood_unless_it_uses_what_is_new() {
+fn a_newer_caller_is_accepted_unless_it_sets_new_fields() {
     let ours: Desc<1, 0> = pass::<_, 4, 3>(|theirs| {
         assert_eq!(theirs.material.extra, [0.5, 0.0, 0.0, 0.0]);
         theirs.material.extra[0] = 6.0;
@@ -111,53 +112,53 @@ fn a_newer_caller_is_understood_unless_it_uses_what_is_new() {
 }
 
 #[test]
-fn parts_of_other_sizes_than_the_whole_allows_are_refused() {
+fn part_sizes_that_exceed_the_descriptor_are_refused() {
     let too_large = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.settings.struct_size = 400);
     assert_eq!(too_large.unwrap_err().message, "`struct_size` must be set by desc_init");
     let too_small = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.material.struct_size = 4);
     let rule = "`material.struct_size` must be set by material_init";
     assert_eq!(too_small.unwrap_err().message, rule);
-    let never_begun = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.struct_size = 0xcdcd_cdcc);
-    assert_eq!(never_begun.unwrap_err().message, "`struct_size` must be set by desc_init");
+    let uninitialized = pass::<Desc<1, 1>, 1, 1>(|theirs| theirs.struct_size = 0xcdcd_cdcc);
+    assert_eq!(uninitialized.unwrap_err().message, "`struct_size` must be set by desc_init");
 }
 
 #[test]
-fn a_report_fills_what_the_caller_has_and_no_more() {
-    let struct_size = Material::<1> { density: 1.5, extra: [2.5], ..Material::default() };
+fn an_output_struct_is_written_within_the_callers_size() {
+    let report = Material::<1> { density: 1.5, extra: [2.5], ..Material::default() };
     let mut older = [Material::<0>::default(), Material { struct_size: 77, ..Material::default() }];
-    // SAFETY: `older[0]` is as large as it says.
+    // SAFETY: `older[0]` has the size that it states.
     unsafe { OutStruct::new("out", (&raw mut older[0]).cast::<Material<1>>()) }
         .unwrap()
-        .write(&struct_size);
+        .write(&report);
     assert_eq!((older[0].struct_size, older[0].density), (8, 1.5));
     assert_eq!((older[1].struct_size, older[1].density), (77, 0.25));
 
     let mut newer = Material::<3>::default();
-    // SAFETY: `newer` is as large as it says.
+    // SAFETY: `newer` has the size that it states.
     unsafe { OutStruct::new("out", (&raw mut newer).cast::<Material<1>>()) }
         .unwrap()
-        .write(&struct_size);
+        .write(&report);
     assert_eq!((newer.struct_size, newer.density, newer.extra), (20, 1.5, [2.5, 0.0, 0.0]));
 }
 
 #[test]
-fn points_are_read_wherever_they_lie() {
+fn points_are_read_from_unaligned_memory() {
     let floats: Vec<u8> = (0..8).flat_map(|i| (i as f32).to_le_bytes()).collect();
-    let odd = [&[0], &floats[..]].concat();
-    // SAFETY: `odd` holds two points that begin 16 bytes apart, one byte in.
-    let read = unsafe { read_vec3s("positions", odd.as_ptr().add(1).cast(), 16, 2) };
+    let unaligned = [&[0], &floats[..]].concat();
+    // SAFETY: `unaligned` holds two points, 16 bytes apart, from byte 1 on.
+    let read = unsafe { read_vec3s("positions", unaligned.as_ptr().add(1).cast(), 16, 2) };
     assert_eq!(read.unwrap(), [Vec3::new(0.0, 1.0, 2.0), Vec3::new(4.0, 5.0, 6.0)]);
     for stride in [4, 8, 13, 14] {
-        // SAFETY: nothing is read.
-        let refused = unsafe { read_vec3s("positions", odd.as_ptr().cast(), stride, 0) };
+        // SAFETY: with a count of 0 nothing is read.
+        let refused = unsafe { read_vec3s("positions", unaligned.as_ptr().cast(), stride, 0) };
         assert_eq!(refused.unwrap_err().status, MuslinStatus::BadValue, "{stride}");
     }
 }
 
 #[test]
-fn a_panic_ends_at_the_boundary() {
+fn a_panic_becomes_a_status() {
     assert_eq!(run_guarded(|| panic!("on purpose, {}", 7)), MuslinStatus::Panicked);
-    // SAFETY: the pointer is valid until this thread's next refusal.
-    let said = unsafe { CStr::from_ptr(crate::status::last_error()) };
-    assert_eq!(said, c"a defect of Muslin stopped the call: on purpose, 7");
+    // SAFETY: the pointer is valid until this thread's next error.
+    let message = unsafe { CStr::from_ptr(crate::status::last_error()) };
+    assert_eq!(message, c"a bug in Muslin interrupted the call: on purpose, 7");
 }

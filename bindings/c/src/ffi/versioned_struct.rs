@@ -1,83 +1,98 @@
-//! X
+//! Structs that carry their own size, so that programs and library may be of different versions.
+//!
+//! ```text
+//! caller older:  [ size | known fields ]            missing fields get their defaults
+//! caller newer:  [ size | known fields | more ]     accepted if the bytes of `more` are zero
+//! ```
+//!
+//! Reads descriptors and writes reports in caller memory, within the size that the struct states.
+//! Invariant: fields are only ever added at the end of a struct, so a prefix of any version is
+//! valid.
 
 use crate::ffi::pointers::{check, check_not_null};
 use crate::status::{CallError, MuslinStatus, Result};
 use core::fmt::Display;
-use core::ptr;
-use core::ptr::NonNull;
+use core::ptr::{self, NonNull};
 
-/// A struct of the header that begins with its size and grows at its end.
+/// A struct of the header that starts with its size and grows only at its end.
 ///
 /// # Safety
-/// It is `repr(C)`, begins with a `u32`, has no gap at its end, and holds only numbers and pointers, so
-/// that any bytes are a value.
+/// The struct is `repr(C)`, starts with a `u32`, has no padding at its end, and holds only numbers
+/// and pointers, so that every bit pattern is a valid value.
 pub unsafe trait VersionedStruct: Copy + Default {
-    /// Its size when it was first released [B].
+    /// Size in the first release [bytes].
     const FIRST_SIZE: usize;
-    /// How to begin one.
+    /// Name of the header's `init` function.
     const INIT: &'static str;
 }
 
-/// No struct ever grows beyond this [B]: whatever says so was never begun.
+/// Larger than any version of a struct [bytes]; a larger value means that the struct was not
+/// initialised.
 const MAX_STRUCT_SIZE: usize = 4096;
 
-/// The size that a struct says it has.
+/// Reads the size that a struct states, and checks it.
 ///
 /// # Safety
 /// `at` points to at least 4 bytes.
 unsafe fn read_struct_size(
     field: impl Display,
     at: *const u8,
-    least: usize,
+    min_size: usize,
     init: &str,
 ) -> Result<usize> {
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     let struct_size = unsafe { at.cast::<u32>().read_unaligned() } as usize;
-    let fits = (least..=MAX_STRUCT_SIZE).contains(&struct_size) && struct_size.is_multiple_of(4);
-    if fits {
+    let is_valid =
+        (min_size..=MAX_STRUCT_SIZE).contains(&struct_size) && struct_size.is_multiple_of(4);
+    if is_valid {
         Ok(struct_size)
     } else {
         Err(CallError::bad_value(field, format_args!("be set by {init}")))
     }
 }
 
-/// Refuses bytes that this version does not know, unless they are all zero.
+/// Refuses bytes that this version does not know, unless all of them are zero.
 ///
 /// # Safety
-/// `at` points to `to` bytes at least.
+/// `at` points to at least `to` bytes.
 unsafe fn check_unknown_bytes_are_zero(
     field: impl Display,
     at: *const u8,
     from: usize,
     to: usize,
 ) -> Result {
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     if (from..to).all(|i| unsafe { at.add(i).read() } == 0) {
         return Ok(());
     }
-    let what = format!("`{field}` tells of a newer struct, with fields that this version lacks");
-    Err(CallError::new(MuslinStatus::Unsupported, what))
+    let message = format!(
+        "`{field}` must not be that of a newer struct whose added fields are used: this version lacks \
+         them"
+    );
+    Err(CallError::new(MuslinStatus::Unsupported, message))
 }
 
-/// A descriptor as far as the caller's compiler knew it; what it did not know gets its default.
+/// Reads a descriptor. Fields that the caller's version does not have get their defaults.
 ///
 /// # Safety
-/// `at` is NULL or points to a `T` of this or another version, of the size that it says.
+/// `at` is NULL or points to a `T` of this or another version, of the size that it states.
 pub unsafe fn read_struct<T: VersionedStruct>(name: &str, at: *const T) -> Result<T> {
     check_not_null(name, at)?;
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     unsafe { read_struct_at("struct_size", at.cast()) }.map(|(value, _)| value)
 }
 
+/// Reads a descriptor at a pointer that is not NULL; also returns the size that it states.
+///
 /// # Safety
-/// As [`read`], but not NULL.
+/// `at` points to a `T` of this or another version, of the size that it states.
 pub unsafe fn read_struct_at<T: VersionedStruct>(
     field: impl Display + Copy,
     at: *const u8,
 ) -> Result<(T, usize)> {
     let (mut value, ours) = (T::default(), size_of::<T>());
-    // SAFETY: the caller's promise above: `told` bytes are there. `known` is at most that and at most
-    // `ours`; a `T` holds only numbers and pointers, so any bytes are a value.
+    // SAFETY: the caller guarantees `struct_size` readable bytes. `known` is at most that and at most
+    // `ours`. A `T` holds only numbers and pointers, so every bit pattern is valid.
     unsafe {
         let struct_size = read_struct_size(field, at, T::FIRST_SIZE, T::INIT)?;
         check_unknown_bytes_are_zero(field, at, ours, struct_size)?;
@@ -87,40 +102,41 @@ pub unsafe fn read_struct_at<T: VersionedStruct>(
     }
 }
 
-/// A descriptor that ends in a material and settings, each with a size of its own. What follows the
-/// first of them lies where the caller's compiler put it.
+/// A descriptor that ends in a material and settings, each with a size of its own. The caller's
+/// version of the material decides where its settings start.
 ///
 /// # Safety
-/// It is `repr(C)`, begins with a `u32`, its material lies `HEAD` bytes from its beginning and its
-/// settings right behind, both aligned to 4, and it holds only numbers and pointers before.
+/// The struct is `repr(C)` and starts with a `u32`; its material is `HEAD` bytes from its start,
+/// its settings follow directly, both aligned to 4; before them it holds only numbers and pointers.
 pub unsafe trait NestedDesc: Copy + Default {
-    /// Its material.
+    /// The material.
     type Material: VersionedStruct;
-    /// Its settings.
+    /// The settings.
     type Settings: VersionedStruct;
-    /// Bytes before the material; they never change.
+    /// Bytes before the material. They are the same in all versions.
     const HEAD: usize;
-    /// How to begin one.
+    /// Name of the header's `init` function.
     const INIT: &'static str;
-    /// Puts the two in.
+    /// Sets material and settings.
     fn set_parts(&mut self, material: Self::Material, settings: Self::Settings);
 }
 
-/// A descriptor with its parts, as far as the caller's compiler knew them.
+/// Reads a descriptor with its material and settings, each of its own version.
 ///
 /// # Safety
-/// `at` is NULL or points to a `T` of this or another version, of the sizes that it and its parts say.
+/// `at` is NULL or points to a `T` of this or another version, of the sizes that it and its parts
+/// state.
 pub unsafe fn read_desc<T: NestedDesc>(name: &str, at: *const T) -> Result<T> {
     check_not_null(name, at)?;
     let (at, mut desc) = (at.cast::<u8>(), T::default());
-    let inside = |end: usize, struct_size: usize| {
+    let check_is_inside = |end: usize, struct_size: usize| {
         check(end <= struct_size, "struct_size", &format!("be set by {}", T::INIT))
     };
-    // SAFETY: the caller's promise above: `told` bytes are there, and no part is read that ends beyond
-    // them. The head is all numbers and pointers, so any bytes are a value.
+    // SAFETY: the caller guarantees `struct_size` readable bytes, and no part is read that ends beyond
+    // them. The head holds only numbers and pointers, so every bit pattern is valid.
     unsafe {
-        let least = T::HEAD + T::Material::FIRST_SIZE + T::Settings::FIRST_SIZE;
-        let struct_size = read_struct_size("struct_size", at, least, T::INIT)?;
+        let min_size = T::HEAD + T::Material::FIRST_SIZE + T::Settings::FIRST_SIZE;
+        let struct_size = read_struct_size("struct_size", at, min_size, T::INIT)?;
         let material_at = T::HEAD;
         let size = read_struct_size(
             "material.struct_size",
@@ -129,7 +145,7 @@ pub unsafe fn read_desc<T: NestedDesc>(name: &str, at: *const T) -> Result<T> {
             T::Material::INIT,
         )?;
         let settings_at = material_at + size;
-        inside(settings_at + T::Settings::FIRST_SIZE, struct_size)?;
+        check_is_inside(settings_at + T::Settings::FIRST_SIZE, struct_size)?;
         let size = read_struct_size(
             "settings.struct_size",
             at.add(settings_at),
@@ -137,10 +153,10 @@ pub unsafe fn read_desc<T: NestedDesc>(name: &str, at: *const T) -> Result<T> {
             T::Settings::INIT,
         )?;
         let end = settings_at + size;
-        inside(end, struct_size)?;
+        check_is_inside(end, struct_size)?;
         let (material, _) = read_struct_at("material.struct_size", at.add(material_at))?;
         let (settings, _) = read_struct_at("settings.struct_size", at.add(settings_at))?;
-        // What rounds the whole up to its alignment is anything.
+        // Padding that rounds the size up to the alignment may have any value.
         check_unknown_bytes_are_zero(
             "struct_size",
             at,
@@ -153,13 +169,13 @@ pub unsafe fn read_desc<T: NestedDesc>(name: &str, at: *const T) -> Result<T> {
     Ok(desc)
 }
 
-/// Begins a struct of the caller's size: zeros, the defaults of what this version knows, and the size.
+/// Initialises a struct of the caller's size: defaults of the known fields, zeros behind them.
 ///
 /// # Safety
-/// `at` points to `size` bytes that may be written.
+/// `at` points to `size` writable bytes.
 unsafe fn write_defaults<T: VersionedStruct>(at: *mut u8, size: usize) {
     let value = T::default();
-    // SAFETY: the caller's promise above; `known` is at most `size`.
+    // SAFETY: guaranteed by the caller; `known` is at most `size`.
     unsafe {
         at.write_bytes(0, size);
         let known = size.min(size_of::<T>());
@@ -169,29 +185,29 @@ unsafe fn write_defaults<T: VersionedStruct>(at: *mut u8, size: usize) {
 }
 
 /// Refuses a size that no version of a struct has.
-fn check_size_argument(name: &str, size: u32, least: usize) -> Result<usize> {
+fn check_size_argument(name: &str, size: u32, min_size: usize) -> Result<usize> {
     let size = size as usize;
-    let fits = (least..=MAX_STRUCT_SIZE).contains(&size) && size.is_multiple_of(4);
-    check(fits, name, "be the sizeof of the struct")?;
+    let is_valid = (min_size..=MAX_STRUCT_SIZE).contains(&size) && size.is_multiple_of(4);
+    check(is_valid, name, "be the sizeof of the struct")?;
     Ok(size)
 }
 
-/// Begins a struct of the caller's size.
+/// Initialises a struct of the caller's size.
 ///
 /// # Safety
-/// `at` is NULL or points to `size` bytes that may be written.
+/// `at` is NULL or points to `size` writable bytes.
 pub unsafe fn init_struct<T: VersionedStruct>(name: &str, at: *mut T, size: u32) -> Result {
     check_not_null(name, at)?;
     let size = check_size_argument("struct_size", size, T::FIRST_SIZE)?;
-    // SAFETY: the caller's promise above.
+    // SAFETY: guaranteed by the caller.
     unsafe { write_defaults::<T>(at.cast(), size) };
     Ok(())
 }
 
-/// Begins a struct of the caller's size, and its parts of theirs.
+/// Initialises a descriptor and its parts, each of the caller's size.
 ///
 /// # Safety
-/// `at` is NULL or points to `size` bytes that may be written.
+/// `at` is NULL or points to `size` writable bytes.
 pub unsafe fn init_desc<T: NestedDesc>(
     name: &str,
     at: *mut T,
@@ -204,7 +220,7 @@ pub unsafe fn init_desc<T: NestedDesc>(
     let settings = check_size_argument("settings_size", settings_size, T::Settings::FIRST_SIZE)?;
     let size = check_size_argument("struct_size", size, T::HEAD + material + settings)?;
     let (at, head) = (at.cast::<u8>(), T::default());
-    // SAFETY: the caller's promise above; head and parts together are at most `size`.
+    // SAFETY: guaranteed by the caller; head and parts together are at most `size`.
     unsafe {
         at.write_bytes(0, size);
         ptr::copy_nonoverlapping((&raw const head).cast::<u8>(), at, T::HEAD);
@@ -215,29 +231,32 @@ pub unsafe fn init_desc<T: NestedDesc>(
     Ok(())
 }
 
-/// Where a struct goes that may be of another version.
+/// An output struct that may be of another version.
 pub struct OutStruct<T> {
     at: NonNull<T>,
     size: usize,
 }
 
 impl<T: VersionedStruct> OutStruct<T> {
+    /// Checks an output struct and the size that it states.
+    ///
     /// # Safety
-    /// `at` is NULL or points to a `T` of this or another version, of the size that it says, that may be
-    /// written until the call returns.
+    /// `at` is NULL or points to a `T` of this or another version, of the size that it states, that
+    /// is writable until the call returns.
     pub unsafe fn new(name: &str, at: *mut T) -> Result<Self> {
         let at = NonNull::new(at).ok_or_else(|| CallError::bad_value(name, "not be NULL"))?;
         let field = format!("{name}->struct_size");
-        // SAFETY: the caller's promise above.
+        // SAFETY: guaranteed by the caller.
         let size = unsafe { read_struct_size(&field, at.as_ptr().cast(), T::FIRST_SIZE, T::INIT)? };
         Ok(Self { at, size })
     }
 
-    /// Writes what the caller's compiler knew; what this version does not know becomes zero.
+    /// Writes the fields that the caller's version has. Bytes that this version does not know
+    /// become zero.
     pub fn write(self, value: &T) {
         let (at, known) = (self.at.as_ptr().cast::<u8>(), self.size.min(size_of::<T>()));
-        // SAFETY: who made this vouched for `size` bytes, and `known` is at most that. The first four
-        // bytes, the size, stay as they are.
+        // SAFETY: the creator of `self` guaranteed `size` writable bytes, and `known` is at most that.
+        // The first four bytes, the size, stay as they are.
         unsafe {
             ptr::copy_nonoverlapping((&raw const *value).cast::<u8>().add(4), at.add(4), known - 4);
             at.add(known).write_bytes(0, self.size - known);

@@ -1,4 +1,4 @@
-//! Particles stay near where animation has them.
+//! Anchors: maximum distance and backstop around an animated target.
 
 use crate::ffi::pointers::{read_f32s, read_u32s, read_vec3s};
 use crate::functions::particles::check_count;
@@ -7,14 +7,21 @@ use crate::status::MuslinStatus;
 use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
 
-/// Says how far `count` particles may be from their anchors [m]: after every tick none is farther, whatever
-/// pulls at it. Infinity, as at first, is as far as they like; 0 holds them there. The anchor of a particle is
-/// where muslin_cloth_set_anchors has it, and until that was called where the particle is now. A pinned or
-/// grabbed particle goes by that alone. What keeps a cloth apart so may stretch it past max_stretch, which is
-/// told as if pins did. With 0 particles both pointers may be NULL. None outlives a reset.
+/// Limits how far `count` particles may be from their anchors [m]. The limit holds after every
+/// tick, whatever pulls at the particle.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a distance that is
-/// not at least 0, or more than there are particles
+/// - Infinity, the initial value, means no limit; 0 fixes the particle to its anchor.
+/// - The anchor of a particle is the position of the last muslin_cloth_set_anchors; before the
+///   first one, it is the particle's current position.
+/// - Pins and grabs take precedence over the limit.
+/// - A limit may stretch the cloth past `max_stretch`; this is reported as for pins, in MuslinStats
+///   and by MUSLIN_EVENT_HELD_APART.
+/// - muslin_cloth_reset removes all limits.
+///
+/// With `count` 0 both pointers may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// distance is negative or NaN, or `count` exceeds the number of particles
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_max_distances(
     cloth: MuslinCloth,
@@ -24,7 +31,7 @@ pub unsafe extern "C" fn muslin_cloth_set_max_distances(
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let (particles, distances) = unsafe {
             (read_u32s("particles", particles, count)?, read_f32s("distances", distances, count)?)
         };
@@ -32,13 +39,15 @@ pub unsafe extern "C" fn muslin_cloth_set_max_distances(
     })
 }
 
-/// Gives `count` particles backstops: spheres behind their anchors that they stay out of, so that a garment
-/// does not sink into the body that wears it. Each has a radius [m], 0 for none, and begins a distance [m]
-/// behind its anchor, against the normal that muslin_cloth_set_anchors gave: without one there is no
-/// backstop. With 0 particles the pointers may be NULL.
+/// Gives `count` particles backstops: spheres behind their anchors that the particles cannot enter,
+/// so that a garment does not sink into the body that wears it.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a distance or
-/// radius that is below 0 or not finite, or more than there are particles
+/// Each sphere has a radius [m], 0 for none. Its surface is the given distance [m] behind the
+/// anchor, opposite to the normal of muslin_cloth_set_anchors; a particle without a normal has no
+/// backstop. With `count` 0 the pointers may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// distance or radius is negative or not finite, or `count` exceeds the number of particles
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_backstops(
     cloth: MuslinCloth,
@@ -49,7 +58,7 @@ pub unsafe extern "C" fn muslin_cloth_set_backstops(
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let (particles, distances, radii) = unsafe {
             (
                 read_u32s("particles", particles, count)?,
@@ -61,14 +70,17 @@ pub unsafe extern "C" fn muslin_cloth_set_backstops(
     })
 }
 
-/// Says where animation has `count` particles [m], and which way is out of the body there, for
-/// muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it each frame: anchors get there over
-/// the next tick, and those of particles that had none are there at once. Positions and normals are 3 floats
-/// each, and begin `stride` bytes apart in both: 0 is 12, else a multiple of 4. Normals need not be of length
-/// 1; with NULL those of before stay. With 0 particles all pointers may be NULL.
+/// Sets the animated positions [m] and outward normals of `count` particles, for
+/// muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it once per frame.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a number that is not
-/// finite, a normal of no length, more than there are particles, or a rule above
+/// Anchors move to the new positions over the next tick; a particle's first anchor is in place at
+/// once. Positions and normals are 3 floats each; consecutive ones start `stride` bytes apart in
+/// both lists (0 means 12; a multiple of 4). Normals need not have length 1; NULL keeps the
+/// previous normals. With `count` 0 all pointers may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// number is not finite, a normal has length 0, `stride` is invalid, or `count` exceeds the number
+/// of particles
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_anchors(
     cloth: MuslinCloth,
@@ -81,7 +93,7 @@ pub unsafe extern "C" fn muslin_cloth_set_anchors(
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
         let normal_count = if normals.is_null() { 0 } else { count };
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let (particles, positions, normals) = unsafe {
             (
                 read_u32s("particles", particles, count)?,
@@ -93,7 +105,7 @@ pub unsafe extern "C" fn muslin_cloth_set_anchors(
     })
 }
 
-/// Takes away all anchors, maximum distances and backstops.
+/// Removes all anchors, maximum distances and backstops.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_clear_leashes(cloth: MuslinCloth) -> MuslinStatus {
     with_cloth(cloth, |cloth| {

@@ -1,4 +1,4 @@
-//! Particles are carried by moving transforms.
+//! Attachments: groups of pins that a moving transform carries.
 
 use crate::ffi::pointers::{Out, read_u32s};
 use crate::functions::particles::check_count;
@@ -7,15 +7,21 @@ use crate::status::MuslinStatus;
 use crate::types::value::{MuslinAttachment, MuslinCloth, MuslinQuat, MuslinVec3};
 use muslin_core::Attachment;
 
-/// Attaches `count` particles to a transform at `position` [m], turned by `rotation`: a bone, a pole, the body
-/// of a car. They are pinned where they are now, and from then on muslin_cloth_move_attachment carries them.
-/// Those that are pinned already, or attached to something else, keep their stiffness. One that gets a target
-/// of its own later, or is unpinned, leaves the attachment. Vertices that a tear or a cut makes of attached
-/// ones are attached too. With 0 particles the pointer may be NULL. No attachment outlives a reset.
+/// Attaches `count` particles to a transform at `position` [m] with `rotation`, e.g. a bone, a pole
+/// or a car body. The particles are pinned at their current positions; muslin_cloth_move_attachment
+/// moves them.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position that is
-/// not finite, a rotation that is no unit quaternion, or more than there are particles; MUSLIN_STATUS_FULL if
-/// there are 64 attachments already
+/// - A particle that is already pinned, or attached to another transform, keeps its stiffness and
+///   moves to this attachment.
+/// - A particle leaves the attachment when it gets a pin target of its own or is unpinned.
+/// - A tear or cut through attached particles attaches the new particles too.
+/// - muslin_cloth_reset removes all attachments.
+///
+/// With `count` 0 the pointer may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if
+/// `position` is not finite, `rotation` is not a unit quaternion, or `count` exceeds the number of
+/// particles; MUSLIN_STATUS_FULL if there are 64 attachments already
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_attach(
     cloth: MuslinCloth,
@@ -25,12 +31,12 @@ pub unsafe extern "C" fn muslin_cloth_attach(
     rotation: MuslinQuat,
     out_attachment: *mut MuslinAttachment,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out_attachment = unsafe { Out::new("out_attachment", out_attachment) };
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
         let out_attachment = out_attachment?;
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let particles = unsafe { read_u32s("particles", particles, count)? };
         let attachment = cloth.attach(&particles, position.into(), rotation.into())?;
         out_attachment.write(MuslinAttachment { id: attachment.to_bits() });
@@ -38,11 +44,11 @@ pub unsafe extern "C" fn muslin_cloth_attach(
     })
 }
 
-/// Moves a transform that particles are attached to: they get there over the next tick, turning on the way
-/// as it turns, and are exactly there when it ends.
+/// Moves an attachment: its particles reach the new pose over the next tick, rotating with the
+/// transform, and are exactly there at the end of the tick.
 ///
-/// @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE for a position that is not
-/// finite or a rotation that is no unit quaternion
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE if `position` is
+/// not finite or `rotation` is not a unit quaternion
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_move_attachment(
     cloth: MuslinCloth,
@@ -56,7 +62,8 @@ pub extern "C" fn muslin_cloth_move_attachment(
     })
 }
 
-/// Lets all go that an attachment still carries, with the velocity that they have.
+/// Removes an attachment and unpins the particles that it still carries; they keep their
+/// velocities.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if it was detached before
 #[unsafe(no_mangle)]

@@ -1,4 +1,4 @@
-//! Colliders come, move and go.
+//! Colliders: add, move, remove, and read the impulse.
 
 use crate::ffi::pointers::Out;
 use crate::ffi::versioned_struct::read_struct;
@@ -8,32 +8,33 @@ use crate::types::collider::MuslinColliderDesc;
 use crate::types::value::{MuslinCloth, MuslinCollider, MuslinQuat, MuslinVec3};
 use muslin_core::Collider;
 
-/// Adds a collider to a cloth.
+/// Adds a collider to a cloth. It acts from the next tick on.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field and the rule;
-/// MUSLIN_STATUS_UNSUPPORTED for a shape that this version does not know; MUSLIN_STATUS_FULL if there are
-/// 1024 colliders already
+/// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX for an invalid field of `desc`;
+/// MUSLIN_STATUS_UNSUPPORTED for a shape that this version does not have; MUSLIN_STATUS_FULL if
+/// there are 1024 colliders already
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_add_collider(
     cloth: MuslinCloth,
     desc: *const MuslinColliderDesc,
     out_collider: *mut MuslinCollider,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let (desc, out_collider) =
         unsafe { (read_struct("desc", desc), Out::new("out_collider", out_collider)) };
     with_cloth(cloth, |cloth| {
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let (desc, out_collider) = (unsafe { desc?.read()? }, out_collider?);
         out_collider.write(MuslinCollider { id: cloth.add_collider(&desc)?.to_bits() });
         Ok(())
     })
 }
 
-/// Moves a collider; it gets there over the next tick, so that it sweeps.
+/// Moves a collider to a new pose, which it reaches over the next tick. The motion is swept, so a
+/// fast collider does not jump through the cloth.
 ///
-/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
-/// finite or a rotation that is no unit quaternion
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE if `position` is not
+/// finite or `rotation` is not a unit quaternion
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_move_collider(
     cloth: MuslinCloth,
@@ -47,7 +48,7 @@ pub extern "C" fn muslin_cloth_move_collider(
     })
 }
 
-/// Removes a collider.
+/// Removes a collider. Its handle becomes stale.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if it was removed before
 #[unsafe(no_mangle)]
@@ -58,10 +59,11 @@ pub extern "C" fn muslin_cloth_remove_collider(
     with_cloth(cloth, |cloth| Ok(cloth.remove_collider(Collider::from_bits(collider.id))?))
 }
 
-/// Tells what the cloth did to a collider in the last tick: `out_linear` (may be NULL) gets the momentum
-/// [kg m/s], `out_angular` (may be NULL) the angular momentum about the collider's position [kg m2/s].
-/// Divided by the length of a tick they are the force and the torque, for an engine that moves what the
-/// cloth lies on.
+/// Reads the impulse that the cloth applied to a collider in the last tick.
+///
+/// `out_linear` (may be NULL) receives the linear impulse [kg m/s], `out_angular` (may be NULL) the
+/// angular impulse about the collider's position [kg m^2/s]. Divided by the length of a tick they
+/// are force and torque, for an engine that simulates the collider as a rigid body.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if it was removed
 #[unsafe(no_mangle)]
@@ -71,7 +73,7 @@ pub unsafe extern "C" fn muslin_cloth_get_collider_impulse(
     out_linear: *mut MuslinVec3,
     out_angular: *mut MuslinVec3,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let (linear, angular) =
         unsafe { (Out::new_optional(out_linear), Out::new_optional(out_angular)) };
     with_cloth(cloth, |cloth| {

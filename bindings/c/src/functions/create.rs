@@ -1,4 +1,4 @@
-//! Cloths come and go, and what they are made of changes.
+//! Creating, destroying and resetting cloths.
 
 use crate::ffi::panic_guard::run_guarded;
 use crate::ffi::pointers::Out;
@@ -11,7 +11,7 @@ use crate::types::mesh::MuslinMeshDesc;
 use crate::types::value::MuslinCloth;
 use muslin_core::Cloth;
 
-/// Makes a cloth through `make`, writes its handle, and tells the log.
+/// Makes a cloth with `make`, writes its handle, and logs it.
 pub fn create(
     out_cloth: Result<Out<MuslinCloth>>,
     make: impl FnOnce() -> Result<Cloth>,
@@ -28,7 +28,7 @@ pub fn create(
     });
     if let Some((handle, particles, bytes)) = made {
         log::emit(MUSLIN_LOG_INFO, || {
-            format!("cloth {:#x} is made: {particles} particles, {bytes} bytes", handle.id)
+            format!("cloth {:#x} was created: {particles} particles, {bytes} bytes", handle.id)
         });
     }
     status
@@ -36,50 +36,55 @@ pub fn create(
 
 /// Makes a cloth from a regular grid. Destroy it with muslin_cloth_destroy.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE names the field of `desc` that cannot be, and the rule;
-/// MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
+/// @return MUSLIN_STATUS_BAD_VALUE for an invalid field of `desc`; MUSLIN_STATUS_UNSUPPORTED if
+/// `desc` is of a newer version and uses fields that this library does not have
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_create_grid(
     desc: *const MuslinGridDesc,
     out_cloth: *mut MuslinCloth,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out_cloth = unsafe { Out::new("out_cloth", out_cloth) };
     create(out_cloth, || {
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let desc = unsafe { read_desc("desc", desc)? };
         Ok(Cloth::grid(&desc.try_into()?)?)
     })
 }
 
-/// Makes a cloth from any triangle mesh; its lists are copied. What cannot be cloth in it is repaired, see
-/// muslin_cloth_get_mesh_report. Destroy it with muslin_cloth_destroy.
+/// Makes a cloth from any triangle mesh; its lists are copied. Defects of the mesh are repaired,
+/// see muslin_cloth_get_mesh_report. Destroy the cloth with muslin_cloth_destroy.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX names the field of `desc` that cannot be,
-/// and the rule; MUSLIN_STATUS_BAD_MESH what is beyond repair: a triangle whose area is not finite, or that none
-/// has an area; MUSLIN_STATUS_UNSUPPORTED what this version does not do yet
+/// @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX for an invalid field of `desc`;
+/// MUSLIN_STATUS_BAD_MESH if the mesh cannot be repaired: a triangle has an area that is not
+/// finite, or no triangle has an area; MUSLIN_STATUS_UNSUPPORTED if `desc` is of a newer version
+/// and uses fields that this library does not have
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_create_mesh(
     desc: *const MuslinMeshDesc,
     out_cloth: *mut MuslinCloth,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out_cloth = unsafe { Out::new("out_cloth", out_cloth) };
     create(out_cloth, || {
-        // SAFETY: the caller's promise above, for the lists too.
+        // SAFETY: by the header's rules, the lists of `desc` are as long as its counts say.
         let desc = unsafe { read_desc("desc", desc)?.read()? };
         Ok(Cloth::mesh(&desc)?)
     })
 }
 
-/// Destroys a cloth: its handle is stale from then on, and what was borrowed from it is gone.
+/// Destroys a cloth. Its handle becomes stale; memory borrowed from it must no longer be read.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_destroy(cloth: MuslinCloth) -> MuslinStatus {
     registry::destroy(cloth)
 }
 
-/// Back to the start: rest shape, untorn, at rest, pinned as it was made, at time zero, no grabs and no
-/// events. Settings, material, wind and colliders stay as they are.
+/// Restores the initial state: rest shape, no tears or cuts, zero velocities, the pins of the
+/// descriptor, time zero, all mass scales 1. Removes all grabs, attachments, anchors, creases and
+/// events.
+///
+/// Settings, material, wind and colliders stay as they are now. Handles of grabs and attachments
+/// become stale; handles of colliders stay valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_reset(cloth: MuslinCloth) -> MuslinStatus {
     with_cloth(cloth, |cloth| {

@@ -1,5 +1,5 @@
-//! The other half of the header's inline `..._init` functions: they pass the sizes that the caller's
-//! compiler knew.
+//! The library's part of the header's inline `..._init` functions, which pass the struct sizes that
+//! the caller's compiler knows.
 
 use crate::ffi::panic_guard::run_guarded;
 use crate::ffi::versioned_struct::{init_desc, init_struct};
@@ -12,67 +12,67 @@ use crate::types::settings::MuslinSettings;
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
 use crate::types::wind::MuslinWind;
 
-/// What muslin_settings_init calls: pass the sizeof of MuslinSettings.
+/// Called by muslin_settings_init with the sizeof of MuslinSettings.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_settings_init_sized(
     settings: *mut MuslinSettings,
     struct_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_struct("settings", settings, struct_size) })
 }
 
-/// What muslin_material_init calls: pass the sizeof of MuslinMaterial.
+/// Called by muslin_material_init with the sizeof of MuslinMaterial.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_material_init_sized(
     material: *mut MuslinMaterial,
     struct_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_struct("material", material, struct_size) })
 }
 
-/// What muslin_wind_init calls: pass the sizeof of MuslinWind.
+/// Called by muslin_wind_init with the sizeof of MuslinWind.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_wind_init_sized(
     wind: *mut MuslinWind,
     struct_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_struct("wind", wind, struct_size) })
 }
 
-/// What muslin_collider_desc_init calls: pass the sizeof of MuslinColliderDesc.
+/// Called by muslin_collider_desc_init with the sizeof of MuslinColliderDesc.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_collider_desc_init_sized(
     desc: *mut MuslinColliderDesc,
     struct_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_struct("desc", desc, struct_size) })
 }
 
-/// What muslin_stream_init calls: pass the sizeof of MuslinStream.
+/// Called by muslin_stream_init with the sizeof of MuslinStream.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_stream_init_sized(
     stream: *mut MuslinStream,
     struct_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_struct("stream", stream, struct_size) })
 }
 
-/// What muslin_write_desc_init calls: pass the sizeof of MuslinWriteDesc.
+/// Called by muslin_write_desc_init with the sizeof of MuslinWriteDesc.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_write_desc_init_sized(
     desc: *mut MuslinWriteDesc,
     struct_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_struct("desc", desc, struct_size) })
 }
 
-/// What muslin_grid_desc_init calls: pass the sizeof of MuslinGridDesc, MuslinMaterial and
+/// Called by muslin_grid_desc_init with the sizeof of MuslinGridDesc, MuslinMaterial and
 /// MuslinSettings, all of the same header.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_grid_desc_init_sized(
@@ -81,11 +81,11 @@ pub unsafe extern "C" fn muslin_grid_desc_init_sized(
     material_size: u32,
     settings_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_desc("desc", desc, struct_size, material_size, settings_size) })
 }
 
-/// What muslin_mesh_desc_init calls: pass the sizeof of MuslinMeshDesc, MuslinMaterial and
+/// Called by muslin_mesh_desc_init with the sizeof of MuslinMeshDesc, MuslinMaterial and
 /// MuslinSettings, all of the same header.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_mesh_desc_init_sized(
@@ -94,6 +94,6 @@ pub unsafe extern "C" fn muslin_mesh_desc_init_sized(
     material_size: u32,
     settings_size: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     run_guarded(|| unsafe { init_desc("desc", desc, struct_size, material_size, settings_size) })
 }

@@ -1,4 +1,4 @@
-//! About the library itself: version, words for statuses, log.
+//! The library itself: version, status messages, last error, stage names, log.
 
 use crate::ffi::callback::UserPointer;
 use crate::log::{LogListener, MuslinLogFn, set_listener};
@@ -7,42 +7,42 @@ use core::ffi::{CStr, c_char, c_void};
 use core::ptr;
 use muslin_core::Stage;
 
-/// The parts of the version, as the package says them.
+/// Major, minor and patch version of the package.
 const VERSION: [&str; 3] = [
     env!("CARGO_PKG_VERSION_MAJOR"),
     env!("CARGO_PKG_VERSION_MINOR"),
     env!("CARGO_PKG_VERSION_PATCH"),
 ];
 
-/// The version of the library that runs: 0x00MMmmpp, major, minor, patch.
+/// Returns the version of the running library as 0x00MMmmpp: major, minor, patch.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_version() -> u32 {
     VERSION.iter().fold(0, |version, part| (version << 8) | part.parse::<u32>().unwrap_or(0))
 }
 
-/// The version of the library that runs: "major.minor.patch". Always valid.
+/// Returns the version of the running library as "major.minor.patch". The pointer is always valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_version_string() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// What a MuslinStatus says in general, any number: never NULL, always valid.
+/// Returns the general meaning of a MuslinStatus. Accepts any number; the pointer is always valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_status_string(status: u32) -> *const c_char {
     status_message(status).as_ptr()
 }
 
-/// Why the last call of this thread that was refused was refused: a sentence that names the field and
-/// the rule. "" if none was yet. Calls that are not refused leave it as it is.
+/// Returns the message of this thread's last call that was refused; it names the argument and the
+/// rule. "" if no call was refused yet. Successful calls do not change it.
 ///
-/// Never NULL; valid until the next call of this thread that is refused.
+/// The pointer is never NULL, and valid until the next call of this thread that is refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_last_error() -> *const c_char {
     last_error()
 }
 
-/// The name of a stage of a tick, 0 and up, for `seconds` of MuslinStats: always valid; NULL for a stage
-/// that is not.
+/// Returns the name of a stage of the tick, for `seconds` of MuslinStats. Stages are numbered from
+/// 0; NULL beyond the last one. The pointer is always valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_stage_name(stage: u32) -> *const c_char {
     let names: [&CStr; Stage::COUNT] = [
@@ -66,12 +66,12 @@ pub extern "C" fn muslin_stage_name(stage: u32) -> *const c_char {
     names.get(stage as usize).map_or(ptr::null(), |name| name.as_ptr())
 }
 
-/// Sends what the library has to say, up to `max_level` (MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN,
-/// MUSLIN_LOG_INFO), to `log`. At first, and with NULL, it is silent.
+/// Sends log messages up to `max_level` (MUSLIN_LOG_ERROR, MUSLIN_LOG_WARN or MUSLIN_LOG_INFO) to
+/// `log`. NULL, the initial value, switches the log off.
 ///
-/// `log` is called on whichever thread made the library speak, maybe on several at once, and may call
-/// the library. `user` is handed to it and nothing else. Both must be good until they are replaced and
-/// until calls that are under way on other threads have returned.
+/// `log` is called on the thread of the call that it reports, perhaps on several threads at once,
+/// and may call the library. `user` is passed to it unchanged. Both must stay valid until they are
+/// replaced and calls that are running on other threads have returned.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_set_log(
     log: MuslinLogFn,
@@ -87,10 +87,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stages_are_named_as_the_core_names_them() {
+    fn stage_names_are_those_of_the_core() {
         for (at, stage) in Stage::ALL.iter().enumerate() {
             let name = muslin_stage_name(at as u32);
-            // SAFETY: not NULL, and then it is one of the words above.
+            // SAFETY: a name that is not NULL is one of the literals above.
             let name = (!name.is_null()).then(|| unsafe { CStr::from_ptr(name) });
             assert_eq!(name.and_then(|name| name.to_str().ok()), Some(stage.name()));
         }

@@ -1,5 +1,5 @@
-//! A walk through the calls that follow pointers, with buffers that end where they say: what Miri looks over
-//! (`cargo xtask miri`).
+//! Calls of every function that dereferences pointers, with unaligned lists and with buffers that
+//! end exactly where they must, for Miri (`cargo xtask miri`).
 
 use super::anchors::*;
 use super::attachments::*;
@@ -35,23 +35,23 @@ use core::mem::MaybeUninit;
 use core::ptr::{null, null_mut};
 use core::slice;
 
-const UPRIGHT: MuslinQuat = MuslinQuat { x: 0.0, y: 0.0, z: 0.0, w: 1.0 };
+const IDENTITY: MuslinQuat = MuslinQuat { x: 0.0, y: 0.0, z: 0.0, w: 1.0 };
 
 fn at(x: f32, y: f32, z: f32) -> MuslinVec3 {
     MuslinVec3 { x, y, z }
 }
 
-/// What a call of the header's `init` macros leaves in memory that nobody wrote to before.
-fn begun<T>(init: impl FnOnce(*mut T) -> MuslinStatus) -> T {
+/// Returns what an `init` function writes into uninitialised memory.
+fn initialized<T>(init: impl FnOnce(*mut T) -> MuslinStatus) -> T {
     let mut value = MaybeUninit::uninit();
     assert_eq!(init(value.as_mut_ptr()), MuslinStatus::Ok);
-    // SAFETY: a call that succeeds has written all of it.
+    // SAFETY: a call that succeeds has written the whole value.
     unsafe { value.assume_init() }
 }
 
-/// What a call writes, into memory that nobody wrote to before.
+/// Returns what a call writes into uninitialised memory.
 fn written<T>(call: impl FnOnce(*mut T) -> MuslinStatus) -> T {
-    begun(call)
+    initialized(call)
 }
 
 fn size<T>() -> u32 {
@@ -59,8 +59,8 @@ fn size<T>() -> u32 {
 }
 
 fn small_grid() -> MuslinGridDesc {
-    // SAFETY: the memory is as large as the sizes say.
-    let mut desc: MuslinGridDesc = begun(|desc| unsafe {
+    // SAFETY: the memory has the stated sizes.
+    let mut desc: MuslinGridDesc = initialized(|desc| unsafe {
         muslin_grid_desc_init_sized(
             desc,
             size::<MuslinGridDesc>(),
@@ -73,34 +73,34 @@ fn small_grid() -> MuslinGridDesc {
     desc
 }
 
-/// Words as bytes that lie at an odd place, as in a file read into memory.
-fn odd_bytes(numbers: &[f32]) -> Vec<u8> {
+/// Floats as bytes at an odd address.
+fn unaligned_bytes(numbers: &[f32]) -> Vec<u8> {
     let bytes = numbers.iter().flat_map(|number| number.to_ne_bytes());
     core::iter::once(0).chain(bytes).collect()
 }
 
 fn grid() -> MuslinCloth {
     let desc = small_grid();
-    // SAFETY: both are valid for the call.
+    // SAFETY: both pointers are valid for the call.
     written(|cloth| unsafe { muslin_cloth_create_grid(&desc, cloth) })
 }
 
 #[track_caller]
-fn good(status: MuslinStatus) {
-    // SAFETY: the text ends in a zero and lives until this thread's next call.
+fn assert_ok(status: MuslinStatus) {
+    // SAFETY: the message ends in a zero byte and lives until this thread's next error.
     let why = || unsafe { CStr::from_ptr(muslin_last_error()) }.to_string_lossy();
     assert_eq!(status, MuslinStatus::Ok, "{}", why());
 }
 
 #[test]
-fn a_grid_is_made_moved_torn_read_saved_and_destroyed() {
+fn a_grid_is_created_stepped_torn_read_saved_and_destroyed() {
     let cloth = grid();
-    // SAFETY: every pointer of this test is to memory of the size that goes with it, valid for its call.
+    // SAFETY: every pointer in this test is valid for its call, with the size that is passed along.
     unsafe {
         let mut ticks = 7;
-        good(muslin_cloth_advance(cloth, 0.04, &mut ticks));
+        assert_ok(muslin_cloth_advance(cloth, 0.04, &mut ticks));
         assert_eq!(ticks, 2);
-        good(muslin_cloth_advance(cloth, 0.0, null_mut()));
+        assert_ok(muslin_cloth_advance(cloth, 0.0, null_mut()));
 
         let view: MuslinView = written(|view: *mut MuslinView| {
             (*view).struct_size = size::<MuslinView>();
@@ -111,9 +111,9 @@ fn a_grid_is_made_moved_torn_read_saved_and_destroyed() {
         let indices = slice::from_raw_parts(view.indices, view.index_count as usize);
         assert!(indices.iter().all(|index| *index < view.vertex_count));
 
-        good(muslin_cloth_tear_edge(cloth, 8, 9));
+        assert_ok(muslin_cloth_tear_edge(cloth, 8, 9));
         let mut edges = 0;
-        good(muslin_cloth_cut(
+        assert_ok(muslin_cloth_cut(
             cloth,
             at(0.15, 0.1, -1.0),
             at(0.15, -0.17, -1.0),
@@ -126,7 +126,7 @@ fn a_grid_is_made_moved_torn_read_saved_and_destroyed() {
         while some == 1 {
             let mut event = MaybeUninit::<MuslinEvent>::uninit();
             (*event.as_mut_ptr()).struct_size = size::<MuslinEvent>();
-            good(muslin_cloth_next_event(cloth, event.as_mut_ptr(), &mut some));
+            assert_ok(muslin_cloth_next_event(cloth, event.as_mut_ptr(), &mut some));
             events += some;
         }
         assert!(events > 0);
@@ -139,58 +139,64 @@ fn a_grid_is_made_moved_torn_read_saved_and_destroyed() {
         let mut needed = 0;
         assert_eq!(muslin_cloth_save(cloth, null_mut(), 0, &mut needed), MuslinStatus::Ok);
         let mut bytes = vec![0_u8; needed];
-        good(muslin_cloth_save(cloth, bytes.as_mut_ptr().cast(), bytes.len(), null_mut()));
+        assert_ok(muslin_cloth_save(cloth, bytes.as_mut_ptr().cast(), bytes.len(), null_mut()));
         let mut restored = MuslinCloth { id: 0 };
         let saved = bytes.as_ptr().cast();
-        good(muslin_cloth_restore(saved, bytes.len(), &mut restored));
+        assert_ok(muslin_cloth_restore(saved, bytes.len(), &mut restored));
         assert_ne!(muslin_cloth_restore(saved, bytes.len() - 1, &mut restored), MuslinStatus::Ok);
         let [mut hash, mut same] = [0; 2];
-        good(muslin_cloth_state_hash(cloth, &mut hash));
-        good(muslin_cloth_state_hash(restored, &mut same));
+        assert_ok(muslin_cloth_state_hash(cloth, &mut hash));
+        assert_ok(muslin_cloth_state_hash(restored, &mut same));
         assert_eq!(hash, same);
-        good(muslin_cloth_destroy(restored));
-        assert_ne!(muslin_cloth_step(restored, 1), MuslinStatus::Ok, "its handle is stale");
+        assert_ok(muslin_cloth_destroy(restored));
+        assert_ne!(muslin_cloth_step(restored, 1), MuslinStatus::Ok, "the handle is stale");
     }
-    good(muslin_cloth_reset(cloth));
-    good(muslin_cloth_destroy(cloth));
+    assert_ok(muslin_cloth_reset(cloth));
+    assert_ok(muslin_cloth_destroy(cloth));
 }
 
 #[test]
-fn hands_pins_and_bodies_take_lists_from_odd_places() {
+fn pins_attachments_and_grabs_read_unaligned_lists() {
     let cloth = grid();
-    // SAFETY: every pointer of this test is to memory of the size that goes with it, valid for its call.
+    // SAFETY: every pointer in this test is valid for its call, with the size that is passed along.
     unsafe {
         let particles = [5, 6];
-        let places = odd_bytes(&[0.1, -0.1, 0.0, 9.0, 0.2, -0.1, 0.01, 9.0]);
-        let odd: *const c_void = places.as_ptr().add(1).cast();
-        good(muslin_cloth_set_pin_targets(cloth, particles.as_ptr(), odd, 16, 2));
-        good(muslin_cloth_set_pin_stiffness(cloth, particles.as_ptr(), 2, 0.5));
-        good(muslin_cloth_set_mass_scales(cloth, particles.as_ptr(), [2.0, 3.0].as_ptr(), 2));
-        good(muslin_cloth_set_max_distances(cloth, particles.as_ptr(), [0.1, 0.2].as_ptr(), 2));
+        let positions = unaligned_bytes(&[0.1, -0.1, 0.0, 9.0, 0.2, -0.1, 0.01, 9.0]);
+        let unaligned: *const c_void = positions.as_ptr().add(1).cast();
+        assert_ok(muslin_cloth_set_pin_targets(cloth, particles.as_ptr(), unaligned, 16, 2));
+        assert_ok(muslin_cloth_set_pin_stiffness(cloth, particles.as_ptr(), 2, 0.5));
+        assert_ok(muslin_cloth_set_mass_scales(cloth, particles.as_ptr(), [2.0, 3.0].as_ptr(), 2));
+        assert_ok(muslin_cloth_set_max_distances(
+            cloth,
+            particles.as_ptr(),
+            [0.1, 0.2].as_ptr(),
+            2,
+        ));
         let [distances, radii] = [[0.1, 0.1], [1.0, 1.0]];
-        good(muslin_cloth_set_backstops(
+        assert_ok(muslin_cloth_set_backstops(
             cloth,
             particles.as_ptr(),
             distances.as_ptr(),
             radii.as_ptr(),
             2,
         ));
-        let normals = odd_bytes(&[0.0, 0.0, 1.0, 9.0, 0.0, 0.0, 1.0, 9.0]);
+        let normals = unaligned_bytes(&[0.0, 0.0, 1.0, 9.0, 0.0, 0.0, 1.0, 9.0]);
         let normal = normals.as_ptr().add(1).cast();
-        good(muslin_cloth_set_anchors(cloth, particles.as_ptr(), odd, normal, 16, 2));
-        good(muslin_cloth_pin(cloth, 9, null()));
-        good(muslin_cloth_pin(cloth, 10, &at(0.2, -0.2, 0.0)));
+        assert_ok(muslin_cloth_set_anchors(cloth, particles.as_ptr(), unaligned, normal, 16, 2));
+        assert_ok(muslin_cloth_pin(cloth, 9, null()));
+        assert_ok(muslin_cloth_pin(cloth, 10, &at(0.2, -0.2, 0.0)));
         let attachment: MuslinAttachment = written(|out| {
-            muslin_cloth_attach(cloth, [12, 13].as_ptr(), 2, at(0.0, 0.0, 0.0), UPRIGHT, out)
+            muslin_cloth_attach(cloth, [12, 13].as_ptr(), 2, at(0.0, 0.0, 0.0), IDENTITY, out)
         });
-        good(muslin_cloth_move_attachment(cloth, attachment, at(0.0, 0.01, 0.0), UPRIGHT));
+        assert_ok(muslin_cloth_move_attachment(cloth, attachment, at(0.0, 0.01, 0.0), IDENTITY));
 
         let mut desc: MuslinColliderDesc =
-            begun(|desc| muslin_collider_desc_init_sized(desc, size::<MuslinColliderDesc>()));
+            initialized(|desc| muslin_collider_desc_init_sized(desc, size::<MuslinColliderDesc>()));
         desc.position = at(0.15, -0.5, 0.0);
         let collider: MuslinCollider = written(|out| muslin_cloth_add_collider(cloth, &desc, out));
-        let wind: MuslinWind = begun(|wind| muslin_wind_init_sized(wind, size::<MuslinWind>()));
-        good(muslin_cloth_set_wind(cloth, &wind));
+        let wind: MuslinWind =
+            initialized(|wind| muslin_wind_init_sized(wind, size::<MuslinWind>()));
+        assert_ok(muslin_cloth_set_wind(cloth, &wind));
 
         let hit: MuslinHit = written(|hit: *mut MuslinHit| {
             (*hit).struct_size = size::<MuslinHit>();
@@ -198,11 +204,11 @@ fn hands_pins_and_bodies_take_lists_from_odd_places() {
         });
         assert!(hit.particle < 16);
         let grab: MuslinGrab = written(|out| {
-            let (from, way) = (at(0.1, -0.26, 1.0), at(0.0, 0.0, -1.0));
-            muslin_cloth_grab_ray(cloth, from, way, 0.1, out, null_mut())
+            let (origin, direction) = (at(0.1, -0.26, 1.0), at(0.0, 0.0, -1.0));
+            muslin_cloth_grab_ray(cloth, origin, direction, 0.1, out, null_mut())
         });
-        good(muslin_cloth_move_grab(cloth, grab, at(0.1, -0.3, 0.1)));
-        good(muslin_cloth_step(cloth, 2));
+        assert_ok(muslin_cloth_move_grab(cloth, grab, at(0.1, -0.3, 0.1)));
+        assert_ok(muslin_cloth_step(cloth, 2));
         let impulse: MuslinVec3 =
             written(|out| muslin_cloth_get_collider_impulse(cloth, collider, out, null_mut()));
         assert!(impulse.x.is_finite());
@@ -211,29 +217,29 @@ fn hands_pins_and_bodies_take_lists_from_odd_places() {
             muslin_cloth_get_stats(cloth, stats)
         });
         assert_eq!(stats.particles, 16);
-        good(muslin_cloth_release(cloth, grab));
-        good(muslin_cloth_detach(cloth, attachment));
-        good(muslin_cloth_remove_collider(cloth, collider));
-        good(muslin_cloth_clear_leashes(cloth));
-        good(muslin_cloth_unpin_all(cloth));
+        assert_ok(muslin_cloth_release(cloth, grab));
+        assert_ok(muslin_cloth_detach(cloth, attachment));
+        assert_ok(muslin_cloth_remove_collider(cloth, collider));
+        assert_ok(muslin_cloth_clear_leashes(cloth));
+        assert_ok(muslin_cloth_unpin_all(cloth));
 
         assert_ne!(muslin_cloth_set_wind(cloth, null()), MuslinStatus::Ok);
-        assert_ne!(muslin_cloth_set_pin_targets(cloth, null(), odd, 16, 2), MuslinStatus::Ok);
+        assert_ne!(muslin_cloth_set_pin_targets(cloth, null(), unaligned, 16, 2), MuslinStatus::Ok);
     }
-    good(muslin_cloth_destroy(cloth));
+    assert_ok(muslin_cloth_destroy(cloth));
 }
 
 #[test]
-fn a_mesh_is_read_from_rows_and_written_into_rows() {
+fn a_mesh_is_read_and_written_with_strides() {
     let corners: [f32; 20] = [
         0.0, 0.0, 0.0, 7.0, 7.0, 1.0, 0.0, 0.0, 7.0, 7.0, 1.0, -1.0, 0.0, 7.0, 7.0, 0.0, -1.0, 0.0,
         7.0, 7.0,
     ];
-    // The last row ends with its position: nothing behind it may be looked at.
+    // The last row ends after its position: bytes behind it must not be read.
     let corners = corners[..18].to_vec().into_boxed_slice();
-    // SAFETY: every pointer of this test is to memory of the size that goes with it, valid for its call.
+    // SAFETY: every pointer in this test is valid for its call, with the size that is passed along.
     unsafe {
-        let mut desc: MuslinMeshDesc = begun(|desc| {
+        let mut desc: MuslinMeshDesc = initialized(|desc| {
             muslin_mesh_desc_init_sized(
                 desc,
                 size::<MuslinMeshDesc>(),
@@ -254,7 +260,7 @@ fn a_mesh_is_read_from_rows_and_written_into_rows() {
             muslin_cloth_get_mesh_report(cloth, report)
         });
         assert_eq!(report.kept_triangles, 2);
-        good(muslin_cloth_step(cloth, 1));
+        assert_ok(muslin_cloth_step(cloth, 1));
 
         let streams = [
             (MUSLIN_ATTRIBUTE_POSITION, MUSLIN_FORMAT_F32, 12),
@@ -264,24 +270,24 @@ fn a_mesh_is_read_from_rows_and_written_into_rows() {
         let mut buffers = streams.map(|(.., stride)| vec![0_u32; stride as usize]);
         let mut streams = streams.map(|(attribute, format, stride)| {
             let mut stream: MuslinStream =
-                begun(|stream| muslin_stream_init_sized(stream, size::<MuslinStream>()));
+                initialized(|stream| muslin_stream_init_sized(stream, size::<MuslinStream>()));
             (stream.attribute, stream.format, stream.stride) = (attribute, format, stride);
             stream
         });
         for (stream, buffer) in streams.iter_mut().zip(&mut buffers) {
             (stream.buffer, stream.size) = (buffer.as_mut_ptr().cast(), 4 * buffer.len());
         }
-        good(muslin_cloth_write_vertices(cloth, streams.as_ptr(), 3, null()));
-        // What looks straight ahead is zero as octahedral normal; the others have something to say.
+        assert_ok(muslin_cloth_write_vertices(cloth, streams.as_ptr(), 3, null()));
+        // Octahedral normals may be all zero (normals along z); positions and uvs are not.
         assert!(
             [&buffers[0], &buffers[2]].iter().all(|buffer| buffer.iter().any(|word| *word != 0))
         );
         streams[0].size -= 1;
         let status = muslin_cloth_write_vertices(cloth, streams.as_ptr(), 3, null());
-        assert_ne!(status, MuslinStatus::Ok, "a buffer is short of a byte");
+        assert_ne!(status, MuslinStatus::Ok, "a buffer is one byte too small");
         let mut short = [0_u16; 6];
         let size = size_of_val(&short);
-        good(muslin_cloth_write_indices(cloth, short.as_mut_ptr().cast(), size, 16, 0, 0));
-        good(muslin_cloth_destroy(cloth));
+        assert_ok(muslin_cloth_write_indices(cloth, short.as_mut_ptr().cast(), size, 16, 0, 0));
+        assert_ok(muslin_cloth_destroy(cloth));
     }
 }

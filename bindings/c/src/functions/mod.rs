@@ -1,4 +1,7 @@
-//! The functions of the header, one theme a file.
+//! The functions of the header, one theme per file.
+//!
+//! Each checks its pointers, looks up the cloth, calls the core and writes results.
+//! Invariant: output parameters are written only when the whole call succeeds.
 
 mod anchors;
 mod attachments;

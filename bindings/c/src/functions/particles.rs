@@ -1,4 +1,4 @@
-//! Particles are pinned, put, pushed and weighed.
+//! Pins, mass scales, positions and velocities of particles.
 
 use crate::ffi::pointers::{read_f32s, read_optional, read_u32s, read_vec3s};
 use crate::registry::with_cloth;
@@ -7,32 +7,34 @@ use crate::types::value::{MuslinCloth, MuslinVec3};
 use core::ffi::c_void;
 use muslin_core::{Cloth, Error};
 
-/// Holds a particle at `target` [m], or where it is if that is NULL. The target is reached over the
-/// next tick; a particle that is pinned already gets a new target, which nothing carries, and keeps its
-/// stiffness.
+/// Pins a particle at `target` [m], or at its current position if `target` is NULL.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
-/// is not finite
+/// The particle reaches the target over the next tick. If it is already pinned, the target changes
+/// and the stiffness stays; an attached particle leaves its attachment.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
+/// target is not finite
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_pin(
     cloth: MuslinCloth,
     particle: u32,
     target: *const MuslinVec3,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let target = unsafe { read_optional(target) };
     with_cloth(cloth, |cloth| Ok(cloth.pin(particle, target.map(Into::into))?))
 }
 
-/// Lets a particle go. One that is not pinned stays as it is.
+/// Releases a pinned particle, which keeps its velocity. Has no effect on a particle that is not
+/// pinned.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not
+/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_unpin(cloth: MuslinCloth, particle: u32) -> MuslinStatus {
     with_cloth(cloth, |cloth| Ok(cloth.unpin(particle)?))
 }
 
-/// Lets every particle go.
+/// Releases all pinned particles.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_unpin_all(cloth: MuslinCloth) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
@@ -41,12 +43,14 @@ pub extern "C" fn muslin_cloth_unpin_all(cloth: MuslinCloth) -> MuslinStatus {
     })
 }
 
-/// Gives `count` pins their targets at once; particles that are not pinned yet are from now on. The
-/// targets [m] are 3 floats each at `positions`, and begin `stride` bytes apart: 0 is 12, else a multiple
-/// of 4. No more than there are particles; with 0 both pointers may be NULL.
+/// Sets the targets [m] of `count` pins at once, e.g. every frame for an animated edge. Particles
+/// that are not pinned yet become pinned.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a target that
-/// is not finite, or a rule above
+/// Targets are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a multiple
+/// of 4). With `count` 0 both pointers may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// target is not finite, `stride` is invalid, or `count` exceeds the number of particles
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
     cloth: MuslinCloth,
@@ -57,7 +61,7 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let (particles, targets) = unsafe {
             (
                 read_u32s("particles", particles, count)?,
@@ -71,14 +75,20 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
     })
 }
 
-/// Says how hard `count` pins pull towards their targets [N/m]: as springs, or exactly if `stiffness` is 0,
-/// as they do at first. A soft pin holds a load of 1 N 1/`stiffness` from its target; the cloth counts as free
-/// there, for tears and for max_stretch, and is not tethered to it. 1e3 N/m feels firm, 10 N/m lets a sheet of
-/// cotton sag by a few centimetres. A tear through a soft pin shares its stiffness out by mass. With 0
-/// particles the pointer may be NULL.
+/// Sets the stiffness [N/m] with which `count` pins pull particles towards their targets. 0, the
+/// initial value, holds them exactly; above 0 the pin is a spring.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for one that is
-/// not pinned, a stiffness that is below 0 or not finite, or more than there are particles
+/// - A load of 1 N moves a soft pin's particle 1/`stiffness` metres from its target: 1e3 N/m feels
+///   firm, 10 N/m lets a sheet of cotton sag by a few centimetres.
+/// - For tears and `max_stretch` the cloth counts as free at a soft pin, and it is not tethered to
+///   it.
+/// - A tear through a soft pin divides its stiffness in proportion to mass.
+///
+/// With `count` 0 the pointer may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// particle is not pinned, `stiffness` is negative or not finite, or `count` exceeds the number of
+/// particles
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_pin_stiffness(
     cloth: MuslinCloth,
@@ -88,20 +98,22 @@ pub unsafe extern "C" fn muslin_cloth_set_pin_stiffness(
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let particles = unsafe { read_u32s("particles", particles, count)? };
         Ok(cloth.set_pin_stiffness(&particles, stiffness)?)
     })
 }
 
-/// Makes `count` particles heavier or lighter than their material, by a factor each: 1, as at first, is what
-/// its density and the area about them give. A hem of 5 hangs straight; a coin sewn in may be 100. Factors
-/// stay when the density changes. Neighbours may well be a hundredfold apart; where it is thousands, what
-/// hangs by the light ones stretches them until there are more substeps. With 0 particles both pointers may
-/// be NULL.
+/// Multiplies the masses of `count` particles by factors: 1, the initial value, keeps the mass that
+/// density and surrounding area give. A hem hangs straight at about 5; a coin that is sewn in may
+/// be 100.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a factor that is
-/// not from 0.001 to 1000, or more than there are particles
+/// Factors stay when the density changes. Neighbours may differ by a factor of 100; at factors in
+/// the thousands, light particles that carry heavy ones stretch unless `substeps` is raised. With
+/// `count` 0 both pointers may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// factor is not from 0.001 to 1000, or `count` exceeds the number of particles
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_set_mass_scales(
     cloth: MuslinCloth,
@@ -111,7 +123,7 @@ pub unsafe extern "C" fn muslin_cloth_set_mass_scales(
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
         check_count(cloth, count)?;
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let (particles, scales) = unsafe {
             (read_u32s("particles", particles, count)?, read_f32s("scales", scales, count)?)
         };
@@ -119,10 +131,11 @@ pub unsafe extern "C" fn muslin_cloth_set_mass_scales(
     })
 }
 
-/// Puts a particle somewhere [m], at once; it keeps its velocity. A pin goes with it.
+/// Places a particle at `position` [m] at once. Its velocity stays as it is. A pinned particle
+/// stays pinned, at the new position.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a position
-/// that is not finite
+/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
+/// position is not finite
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_set_position(
     cloth: MuslinCloth,
@@ -132,10 +145,10 @@ pub extern "C" fn muslin_cloth_set_position(
     with_cloth(cloth, |cloth| Ok(cloth.set_position(particle, position.into())?))
 }
 
-/// Gives a particle a velocity [m/s].
+/// Sets the velocity of a particle [m/s].
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_BAD_VALUE for a velocity
-/// that is not finite
+/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
+/// velocity is not finite
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_set_velocity(
     cloth: MuslinCloth,
@@ -145,7 +158,7 @@ pub extern "C" fn muslin_cloth_set_velocity(
     with_cloth(cloth, |cloth| Ok(cloth.set_velocity(particle, velocity.into())?))
 }
 
-/// Refuses a list of more particles than there are.
+/// Refuses a count that exceeds the number of particles.
 pub(super) fn check_count(cloth: &Cloth, count: u32) -> Result {
     let fits = count as usize <= cloth.positions().len();
     if fits {

@@ -1,4 +1,4 @@
-//! Pointing at a cloth, and taking hold of it.
+//! Ray casts and grabs.
 
 use crate::ffi::pointers::Out;
 use crate::ffi::versioned_struct::OutStruct;
@@ -9,14 +9,16 @@ use crate::types::value::{MuslinCloth, MuslinGrab, MuslinVec3};
 use muslin_core::Grab;
 
 fn nothing_hit() -> CallError {
-    CallError::new(MuslinStatus::NothingHit, "the ray meets nothing")
+    CallError::new(MuslinStatus::NothingHit, "the ray hits nothing")
 }
 
-/// The first triangle along a ray, within `max_distance` [m] (which may be infinite), hit from either
-/// side. `direction` need not have length one. `out_hit` has begun with muslin_hit_init.
+/// Finds the first triangle that a ray hits within `max_distance` [m], from either side.
 ///
-/// @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
-/// `direction` are finite, `direction` is not zero, and `max_distance` is at least 0
+/// `direction` need not have length 1; `max_distance` may be infinite. Initialise `out_hit` with
+/// muslin_hit_init.
+///
+/// @return MUSLIN_STATUS_NOTHING_HIT if the ray hits nothing; MUSLIN_STATUS_BAD_VALUE if `origin`
+/// or `direction` is not finite, `direction` is zero, or `max_distance` is negative or NaN
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_raycast(
     cloth: MuslinCloth,
@@ -25,7 +27,7 @@ pub unsafe extern "C" fn muslin_cloth_raycast(
     max_distance: f32,
     out_hit: *mut MuslinHit,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out = unsafe { OutStruct::new("out_hit", out_hit) };
     with_cloth(cloth, |cloth| {
         let out = out?;
@@ -35,13 +37,15 @@ pub unsafe extern "C" fn muslin_cloth_raycast(
     })
 }
 
-/// Takes hold of the particle that a ray points at: the nearest one of the triangle that it hits, or
-/// else the nearest one within `radius` [m] of it. `out_at` (may be NULL) gets where that particle is
-/// [m].
+/// Grabs the particle that a ray points at: the nearest corner of the first triangle that the ray
+/// hits; if it hits none, the particle nearest to the ray within `radius` [m].
 ///
-/// @return MUSLIN_STATUS_NOTHING_HIT if there is none; MUSLIN_STATUS_BAD_VALUE unless `origin` and
-/// `direction` are finite, `direction` is not zero, and `radius` is at least 0 and finite;
-/// MUSLIN_STATUS_FULL if 64 grabs are held already
+/// `out_at` (may be NULL) receives the position of the particle [m]. See
+/// muslin_cloth_grab_particle.
+///
+/// @return MUSLIN_STATUS_NOTHING_HIT if there is no such particle; MUSLIN_STATUS_BAD_VALUE if
+/// `origin` or `direction` is not finite, `direction` is zero, or `radius` is negative or not
+/// finite; MUSLIN_STATUS_FULL if there are 64 grabs already
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_grab_ray(
     cloth: MuslinCloth,
@@ -51,12 +55,12 @@ pub unsafe extern "C" fn muslin_cloth_grab_ray(
     out_grab: *mut MuslinGrab,
     out_at: *mut MuslinVec3,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let (out_grab, out_at) = unsafe { (Out::new("out_grab", out_grab), Out::new_optional(out_at)) };
     with_cloth(cloth, |cloth| {
         let out_grab = out_grab?;
-        let held = cloth.grab_ray(origin.into(), direction.into(), radius)?;
-        let (grab, at) = held.ok_or_else(nothing_hit)?;
+        let grabbed = cloth.grab_ray(origin.into(), direction.into(), radius)?;
+        let (grab, at) = grabbed.ok_or_else(nothing_hit)?;
         out_grab.write(MuslinGrab { id: grab.to_bits() });
         if let Some(out_at) = out_at {
             out_at.write(at.into());
@@ -65,18 +69,20 @@ pub unsafe extern "C" fn muslin_cloth_grab_ray(
     })
 }
 
-/// Takes hold of a particle where it is. It follows muslin_cloth_move_grab exactly, but for a limit of
-/// `max_displacement` a substep, and carries the cloth along.
+/// Grabs a particle at its current position.
 ///
-/// @return MUSLIN_STATUS_BAD_INDEX for a particle that is not; MUSLIN_STATUS_FULL if 64 grabs are held
-/// already
+/// The particle then follows the target of muslin_cloth_move_grab exactly, at most
+/// `max_displacement` per substep, and pulls the cloth along.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_FULL if there are
+/// 64 grabs already
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_grab_particle(
     cloth: MuslinCloth,
     particle: u32,
     out_grab: *mut MuslinGrab,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out_grab = unsafe { Out::new("out_grab", out_grab) };
     with_cloth(cloth, |cloth| {
         let out_grab = out_grab?;
@@ -85,9 +91,9 @@ pub unsafe extern "C" fn muslin_cloth_grab_particle(
     })
 }
 
-/// Gives a grab a new target [m].
+/// Sets the target of a grab [m].
 ///
-/// @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE for a target that
+/// @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE if the target
 /// is not finite
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_move_grab(
@@ -98,8 +104,8 @@ pub extern "C" fn muslin_cloth_move_grab(
     with_cloth(cloth, |cloth| Ok(cloth.move_grab(Grab::from_bits(grab.id), target.into())?))
 }
 
-/// Lets a grabbed particle go, with the velocity it has. One that is pinned stays pinned, and returns to
-/// its pin over the next tick.
+/// Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
+/// returns to its pin over the next tick.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
 #[unsafe(no_mangle)]

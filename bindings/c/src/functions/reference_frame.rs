@@ -1,14 +1,17 @@
-//! A cloth goes along with a body that jumps, or runs.
+//! Moving reference frame: the body that wears the cloth teleports or moves.
 
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::value::{MuslinCloth, MuslinCollider, MuslinQuat, MuslinVec3};
 use muslin_core::Collider;
 
-/// Says where the body is that wears the cloth, and how it is turned: muslin_cloth_teleport and
-/// muslin_cloth_move_frame go from there. At first, and after a reset, that is the origin. It moves nothing.
+/// Sets the pose of the body that wears the cloth, the start for muslin_cloth_teleport and
+/// muslin_cloth_move_frame. Moves nothing.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion
+/// The initial pose, also after muslin_cloth_reset, is the origin without rotation.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE if `position` is not finite or `rotation` is not a unit
+/// quaternion
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_set_frame(
     cloth: MuslinCloth,
@@ -18,13 +21,16 @@ pub extern "C" fn muslin_cloth_set_frame(
     with_cloth(cloth, |cloth| Ok(cloth.set_frame(position.into(), rotation.into())?))
 }
 
-/// Takes the cloth along as the body that wears it jumps from where muslin_cloth_set_frame, muslin_cloth_move_frame
-/// or the last teleport had it: at once, as a solid body, and without feeling it. Velocities turn with it. Pins, attachments, grabs
-/// and anchors go along; colliders do not, see muslin_cloth_teleport_collider. In a frame it comes before
-/// muslin_cloth_move_attachment and muslin_cloth_set_anchors.
+/// Moves the cloth with the body that wears it to a new pose at once, as a rigid body and without
+/// inertia. Velocities rotate with it.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite or a rotation that is no unit quaternion, or if
-/// something would get farther off than a number can say
+/// The motion starts at the pose of the last muslin_cloth_set_frame, muslin_cloth_move_frame or
+/// muslin_cloth_teleport. Pins, attachments, grabs and anchors move too; colliders do not, see
+/// muslin_cloth_teleport_collider. In a frame, call this before muslin_cloth_move_attachment and
+/// muslin_cloth_set_anchors.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE if `position` is not finite, `rotation` is not a unit
+/// quaternion, or a moved value would not be finite; the cloth is unchanged then
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_teleport(
     cloth: MuslinCloth,
@@ -34,19 +40,25 @@ pub extern "C" fn muslin_cloth_teleport(
     with_cloth(cloth, |cloth| Ok(cloth.teleport(position.into(), rotation.into())?))
 }
 
-/// Takes the cloth along as the body that wears it runs and turns on from where muslin_cloth_set_frame,
-/// muslin_cloth_teleport or the last muslin_cloth_move_frame had it: over the next tick, and with only a share
-/// of its inertia. At 1 it feels all of the body's motion, as if nothing were said; at 0 none, as if the body stood
-/// still and the rest of the world moved past; between, so much of it, both of the way and of the turn.
+/// Moves the cloth with the body that wears it to a new pose over the next tick; the cloth feels
+/// only the share `inertia` of the motion.
 ///
-/// What is not felt takes particles along at once, as a solid body; over the tick they, pins, attachments and
-/// anchors get to where the body has them then. Colliders and grabs stay where they are told to be, and the
-/// cloth meets them as one who goes with the body sees them move. Air goes along as far as the motion is not
-/// felt. In a frame it comes before muslin_cloth_move_attachment, muslin_cloth_move_collider and
+/// - 1: the cloth feels the whole motion, as without this call.
+/// - 0: the cloth feels nothing, as if the body stood still and the world moved.
+/// - Between: it feels this share of the translation and of the rotation.
+///
+/// The motion starts at the pose of the last muslin_cloth_set_frame, muslin_cloth_teleport or
+/// muslin_cloth_move_frame. The part that is not felt moves particles at once, as a rigid body.
+/// Pins, attachments and anchors reach the body's new pose over the tick. Colliders and grabs stay
+/// at the poses that you give; the cloth meets them with the velocity that they have relative to
+/// the body. The air moves with the body by the share that is not felt.
+///
+/// In a frame, call this before muslin_cloth_move_attachment, muslin_cloth_move_collider and
 /// muslin_cloth_set_anchors.
 ///
-/// @return MUSLIN_STATUS_BAD_VALUE for a position that is not finite, a rotation that is no unit quaternion, an
-/// inertia that is not from 0 to 1, or if something would get farther off than a number can say
+/// @return MUSLIN_STATUS_BAD_VALUE if `position` is not finite, `rotation` is not a unit
+/// quaternion, `inertia` is not from 0 to 1, or a moved value would not be finite; the cloth is
+/// unchanged then
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_move_frame(
     cloth: MuslinCloth,
@@ -57,10 +69,10 @@ pub extern "C" fn muslin_cloth_move_frame(
     with_cloth(cloth, |cloth| Ok(cloth.move_frame(position.into(), rotation.into(), inertia)?))
 }
 
-/// Puts a collider somewhere at once: it does not sweep, and what lay on it does not feel it go.
+/// Places a collider at a new pose at once, without a sweep and without dragging the cloth along.
 ///
-/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE for a position that is not
-/// finite or a rotation that is no unit quaternion
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE if `position` is not
+/// finite or `rotation` is not a unit quaternion
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_teleport_collider(
     cloth: MuslinCloth,

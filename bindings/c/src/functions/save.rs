@@ -1,4 +1,4 @@
-//! A cloth as bytes, and back.
+//! Save and restore.
 
 use crate::ffi::pointers::{Out, OutBuffer, borrow_bytes};
 use crate::functions::create::create;
@@ -8,13 +8,14 @@ use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
 use muslin_core::Cloth;
 
-/// Writes all of a cloth into `size` bytes at `buffer`; `out_needed` gets the number of bytes that it
-/// takes. With `buffer` NULL it gets only that number. With a buffer `out_needed` may be NULL.
+/// Writes the complete state of a cloth to `size` bytes at `buffer`. `out_needed` receives the
+/// number of bytes of the save.
 ///
-/// The bytes are the same on every machine, and hold until the cloth changes.
+/// If `buffer` is NULL, only that number is returned; otherwise `out_needed` may be NULL. The bytes
+/// are the same on every platform. The number is valid until the cloth changes.
 ///
-/// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if it does not fit: nothing is written, muslin_last_error names
-/// the size that it takes
+/// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the save does not fit: nothing is written, and
+/// muslin_last_error() states the required size
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_save(
     cloth: MuslinCloth,
@@ -22,12 +23,12 @@ pub unsafe extern "C" fn muslin_cloth_save(
     size: usize,
     out_needed: *mut usize,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let (buffer, out_needed) =
         unsafe { (OutBuffer::new(buffer, size), Out::new_optional(out_needed)) };
     with_cloth(cloth, |cloth| {
         if buffer.is_none() && out_needed.is_none() {
-            return Err(CallError::bad_value("out_needed", "not be NULL where `buffer` is"));
+            return Err(CallError::bad_value("out_needed", "not be NULL when `buffer` is NULL"));
         }
         let bytes = cloth.save();
         if let Some(buffer) = buffer {
@@ -40,20 +41,24 @@ pub unsafe extern "C" fn muslin_cloth_save(
     })
 }
 
-/// Makes the cloth that muslin_cloth_save turned into the `size` bytes at `buffer`, on this machine or
-/// any other: it goes on in the same bits. Handles of grabs, attachments and colliders hold for it too.
+/// Makes a cloth from `size` bytes at `buffer` that muslin_cloth_save wrote, perhaps on another
+/// platform. It continues with the same bits.
 ///
-/// @return MUSLIN_STATUS_BAD_SAVE if the bytes are not that, or not whole
+/// Handles of grabs, attachments and colliders are valid for the new cloth too. Untrusted bytes are
+/// safe: they give a valid cloth or an error.
+///
+/// @return MUSLIN_STATUS_BAD_SAVE if the bytes are not a save, come from another format version, or
+/// are damaged
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_restore(
     buffer: *const c_void,
     size: usize,
     out_cloth: *mut MuslinCloth,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out_cloth = unsafe { Out::new("out_cloth", out_cloth) };
     create(out_cloth, || {
-        // SAFETY: the caller's promise above.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let bytes = unsafe { borrow_bytes("buffer", buffer, size)? };
         Ok(Cloth::restore(bytes)?)
     })

@@ -1,14 +1,17 @@
-//! Time runs.
+//! Time stepping.
 
 use crate::ffi::pointers::Out;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
 use crate::types::value::MuslinCloth;
 
-/// Runs the ticks that a frame of `seconds` [s] owes; `out_ticks` (may be NULL) gets their number.
+/// Runs the ticks that are due after `seconds` [s] of frame time. `out_ticks` (may be NULL)
+/// receives how many ran.
 ///
-/// What is left over waits for the next frame, see `blend` of MuslinStats. A late frame owes at most
-/// `max_ticks_per_advance`; the rest is dropped. Zero changes nothing.
+/// The remainder, less than one tick, is kept for the next call; `blend` of MuslinStats returns it
+/// as a share of a tick. At most `max_ticks_per_advance` ticks run; the rest of the backlog is
+/// dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
+/// change nothing.
 ///
 /// @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
 #[unsafe(no_mangle)]
@@ -17,7 +20,7 @@ pub unsafe extern "C" fn muslin_cloth_advance(
     seconds: f32,
     out_ticks: *mut u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let out_ticks = unsafe { Out::new_optional(out_ticks) };
     with_cloth(cloth, |cloth| {
         let ticks = cloth.advance(seconds)?;
@@ -28,7 +31,8 @@ pub unsafe extern "C" fn muslin_cloth_advance(
     })
 }
 
-/// Runs exactly `ticks` ticks.
+/// Runs exactly `ticks` ticks. The time that muslin_cloth_advance keeps for the next frame does not
+/// change.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_step(cloth: MuslinCloth, ticks: u32) -> MuslinStatus {
     with_cloth(cloth, |cloth| {

@@ -1,4 +1,4 @@
-//! Writing into the caller's own buffers.
+//! Writing vertices and indices into the caller's own buffers.
 
 use crate::ffi::pointers::OutBuffer;
 use crate::ffi::stream_list::read_streams;
@@ -10,15 +10,17 @@ use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
 use muslin_core::IndexFormat;
 
-/// Writes vertices into buffers of yours: each attribute in the format, at the place and at the distances
-/// that one of the `stream_count` streams says. Nothing else in the buffers is touched. With room for the
-/// view's `vertex_capacity` vertices they fit for ever. `desc` may be NULL: all vertices, as they are.
+/// Writes vertices into your own buffers, each attribute with the format, address and stride of its
+/// stream: separate, interleaved or one after the other. Other bytes are untouched.
+///
+/// Buffers for the view's `vertex_capacity` vertices are always large enough. With `desc` NULL all
+/// vertices are written, untransformed.
 ///
 /// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the vertices do not fit the `size` of a stream;
-/// MUSLIN_STATUS_BAD_VALUE for a field of a stream or of `desc` that cannot be, a format that an attribute
-/// is not written in, bytes that two streams write or that a view is of, unless `stream_count` is from 1 to
-/// MUSLIN_MAX_STREAMS, or if a stream takes normals or tangents and the transform cannot be inverted; the
-/// buffers are untouched then
+/// MUSLIN_STATUS_BAD_VALUE if `stream_count` is not from 1 to MUSLIN_MAX_STREAMS, a field of a
+/// stream or of `desc` is invalid, a format cannot write its attribute, two streams overlap, a
+/// buffer is memory of a view, or normals or tangents are written with a transform that cannot be
+/// inverted; the buffers are untouched then
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_write_vertices(
     cloth: MuslinCloth,
@@ -27,7 +29,8 @@ pub unsafe extern "C" fn muslin_cloth_write_vertices(
     desc: *const MuslinWriteDesc,
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| {
-        // SAFETY: the caller's promise above; none of the buffers is the cloth's.
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call; `read_streams`
+        // refuses buffers that overlap the cloth's own lists.
         let (streams, desc) = unsafe {
             let streams = read_streams(streams, stream_count, |bytes| cloth.lends(&bytes))?;
             let desc = if desc.is_null() { None } else { Some(read_struct("desc", desc)?) };
@@ -37,13 +40,15 @@ pub unsafe extern "C" fn muslin_cloth_write_vertices(
     })
 }
 
-/// Writes the indices of all triangles to the beginning of `buffer`, which has room for `size` bytes:
-/// `index_format` is how many bits each takes, 16 or 32; each has `base_vertex` added, and every triangle
-/// is turned round if `flip` is 1. With room for the view's `index_capacity` it fits for ever.
+/// Writes the indices of all triangles to the start of `buffer`, which has `size` bytes.
 ///
-/// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `size` is less than the view's `index_count` takes;
-/// MUSLIN_STATUS_BAD_VALUE unless `index_format` and `flip` are one of these, or for 16 bits if an index is
-/// above 65534; `buffer` is untouched then
+/// `index_format` is the width of an index in bits, 16 or 32. `base_vertex` is added to each index.
+/// With `flip` 1 the winding of every triangle is reversed. A buffer for the view's
+/// `index_capacity` indices is always large enough.
+///
+/// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `size` is less than the view's `index_count` indices
+/// need; MUSLIN_STATUS_BAD_VALUE if `index_format` or `flip` has another value, or an index would
+/// be above 65534 in 16 bits or 4294967294 in 32 bits; `buffer` is untouched then
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_write_indices(
     cloth: MuslinCloth,
@@ -53,7 +58,7 @@ pub unsafe extern "C" fn muslin_cloth_write_indices(
     flip: u32,
     base_vertex: u32,
 ) -> MuslinStatus {
-    // SAFETY: the caller's promise above.
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
     let buffer = unsafe { OutBuffer::new(buffer, size) };
     with_cloth(cloth, |cloth| {
         let buffer = buffer.ok_or_else(|| CallError::bad_value("buffer", "not be NULL"))?;

@@ -1,22 +1,25 @@
-//! What a renderer must upload again.
+//! Ranges of the output lists that changed.
 
 use muslin_core::Changes;
 
-/// The parts of a cloth's lists that changed with its triangles since some revision: of what does not
-/// change with every tick, as texture coordinates, source vertices and frayed borders. Begin with
-/// muslin_changes_init.
+/// Ranges of a cloth's output lists that changed since a topology revision: what a renderer must
+/// upload again. Initialise it with muslin_changes_init.
+///
+/// The vertex range concerns the attributes that stay constant between topology changes: texture
+/// coordinates, source vertices, particles and frayed borders. Positions and normals change with
+/// every tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MuslinChanges {
     /// Set by muslin_changes_init.
     pub struct_size: u32,
-    /// The first vertex that is new or not as it was.
+    /// First changed vertex; 0 if there is none.
     pub first_vertex: u32,
-    /// How many vertices from there on.
+    /// Number of vertices in the changed range.
     pub vertex_count: u32,
-    /// The first index that is new or not as it was.
+    /// First changed index; 0 if there is none.
     pub first_index: u32,
-    /// How many indices from there on.
+    /// Number of indices in the changed range.
     pub index_count: u32,
 }
 

@@ -1,4 +1,4 @@
-//! What a cloth falls on.
+//! Colliders: shapes that the cloth collides with.
 
 use super::value::{MuslinQuat, MuslinVec3};
 use crate::ffi::pointers::{read_u32s, read_vec3s};
@@ -6,75 +6,85 @@ use crate::status::{CallError, Result};
 use core::ptr;
 use muslin_core::{ColliderDesc, Shape};
 
-/// All that is below `position` along the turned y axis.
+/// Half-space below `position` along the rotated y axis; infinite in extent.
 pub const MUSLIN_SHAPE_PLANE: u32 = 0;
-/// A ball of `radius` around `position`.
+/// Sphere of `radius` around `position`.
 pub const MUSLIN_SHAPE_SPHERE: u32 = 1;
-/// Balls of `radius` and `top_radius` at -`half_height` and +`half_height` along the turned y axis, and all
-/// between them.
+/// Capsule along the rotated y axis: spheres of `radius` at -`half_height` and of `top_radius` at
+/// +`half_height`, and all between them (a tapered capsule if the radii differ).
 pub const MUSLIN_SHAPE_CAPSULE: u32 = 2;
-/// A box that reaches `half_extents` to either side of `position` along each turned axis.
+/// Box that extends by `half_extents` to either side of `position` along each rotated axis.
 pub const MUSLIN_SHAPE_BOX: u32 = 3;
-/// The least convex body that holds all of `positions`.
+/// Convex hull of `positions`.
 pub const MUSLIN_SHAPE_CONVEX: u32 = 4;
-/// The triangles that `indices` join of `positions`. Cloth stays on the side where it is: both are outside,
-/// and nothing is inside, so that it need not be closed nor wound one way. It keeps a gap of 0.1 mm at
-/// least.
+/// Triangle mesh: the triangles of `indices` over `positions`.
+///
+/// The cloth stays on the side where it is: both sides are outside. So the mesh need not be closed
+/// or consistently wound. The gap is at least 0.1 mm.
 pub const MUSLIN_SHAPE_MESH: u32 = 5;
-/// Ground: all below a surface over `columns` * `rows` heights, `spacing` apart along the turned x and z axes
-/// from `position` on, as deep as it is wide. It has no sides.
+/// Terrain: all below a surface over a grid of `columns` * `rows` heights.
+///
+/// The heights are `spacing` apart along the rotated x and z axes, starting at `position`. The
+/// terrain is as deep as it is wide, and has no side walls.
 pub const MUSLIN_SHAPE_HEIGHTFIELD: u32 = 6;
 
-/// A collider: its shape, where it is and how it feels. Begin with muslin_collider_desc_init: a floor
-/// at height 0. Fields that its shape does not use are ignored; all lists are copied while it is added.
+/// Descriptor of a collider: shape, pose and surface properties. Initialise it with
+/// muslin_collider_desc_init, which describes a floor at height 0.
+///
+/// Fields that the shape does not use are ignored. All lists are copied when the collider is added.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinColliderDesc {
     /// Set by muslin_collider_desc_init.
     pub struct_size: u32,
-    /// What it is, one of MUSLIN_SHAPE_...; MUSLIN_SHAPE_PLANE.
+    /// Shape: one of MUSLIN_SHAPE_.... Default MUSLIN_SHAPE_PLANE.
     pub shape: u32,
-    /// Where it is [m]; 0, 0, 0. A point of the surface of a plane.
+    /// Position [m]; for a plane, a point on its surface. Default 0, 0, 0.
     pub position: MuslinVec3,
-    /// How it is turned; not at all. A plane's normal is the turned y axis.
+    /// Rotation, a unit quaternion; a plane's normal is the rotated y axis. Default: none.
     pub rotation: MuslinQuat,
-    /// Coulomb coefficient; -1, which takes the material's. Else at least 0.
+    /// Coulomb friction coefficient. Default -1: that of the material. Otherwise at least 0.
     pub friction: f32,
-    /// Share of the normal speed that a bounce gives back; -1, which takes the material's. Else from
-    /// 0 to 1.
+    /// Share of the normal velocity that a bounce returns. Default -1: that of the material.
+    /// Otherwise from 0 to 1.
     pub restitution: f32,
-    /// Share of the sliding speed that every substep of touching leaves, beside Coulomb friction; 1,
-    /// all of it. From 0 to 1.
+    /// Share of the tangential velocity that remains after each substep in contact, in addition to
+    /// Coulomb friction. Default 1 (all of it). From 0 to 1.
     pub tangential_restitution: f32,
-    /// Gap kept from its surface [m]; -1, which takes the material's thickness. Else at least 0. Where a surface is
-    /// round or bends little, particles stay farther off by what is between them would sink in: at most a fifth
-    /// of the mean edge from balls and capsules, a tenth from others.
+    /// Gap between cloth and surface [m]. Default -1: the material's thickness. Otherwise at least
+    /// 0.
+    ///
+    /// On surfaces that are round or slightly curved, particles keep a larger gap, so that the
+    /// triangles between them do not sink in: up to 1/5 of the mean edge for spheres and capsules,
+    /// 1/10 for other shapes.
     pub thickness: f32,
-    /// Of a sphere or capsule [m]; 0.5. Above 0.
+    /// Radius of a sphere or capsule [m]. Default 0.5. Above 0.
     pub radius: f32,
-    /// Of the upper end of a capsule [m]; -1, which is as `radius`. Else above 0.
+    /// Radius of the upper end of a capsule [m]. Default -1: `radius`. Otherwise above 0.
     pub top_radius: f32,
-    /// Of a capsule: from its middle to the centres of its ends [m]; 0.5. At least 0.
+    /// Capsule: distance from its centre to the centres of its ends [m]. Default 0.5. At least 0.
     pub half_height: f32,
-    /// Of a box: from its middle to its sides [m]; 0.5 each. Above 0.
+    /// Box: distance from its centre to its sides [m]. Default 0.5 each. Above 0.
     pub half_extents: MuslinVec3,
-    /// Of a heightfield: from one height to the next [m]; 1. Above 0.
+    /// Heightfield: distance between neighbouring heights [m]. Default 1. Above 0.
     pub spacing: f32,
-    /// Of a heightfield: heights along x; 0. From 2 to 4096.
+    /// Heightfield: number of heights along x. Default 0. From 2 to 4096.
     pub columns: u32,
-    /// Of a heightfield: heights along z; 0. From 2 to 4096.
+    /// Heightfield: number of heights along z. Default 0. From 2 to 4096.
     pub rows: u32,
-    /// Bytes from one position to the next; 0, which is 12. A multiple of 4.
+    /// Distance between the starts of consecutive positions [bytes]; 0 means 12. Default 0. A
+    /// multiple of 4.
     pub position_stride: u32,
-    /// How many positions there are; 0. Of a convex body from 4 to 1024, of a mesh at most 4194304.
+    /// Number of positions. Default 0. From 4 to 1024 for a convex hull, at most 4194304 for a
+    /// mesh.
     pub vertex_count: u32,
-    /// How many indices there are; 0. A multiple of 3, at most 50331648.
+    /// Number of indices. Default 0. A multiple of 3, at most 50331648.
     pub index_count: u32,
-    /// Of a convex body or a mesh: its points [m], 3 numbers each.
+    /// Convex hull or mesh: points [m], 3 numbers each.
     pub positions: *const f32,
-    /// Of a mesh: points of its triangles, 3 each. Triangles without an area do not count.
+    /// Mesh: 3 points per triangle. Triangles without an area are ignored.
     pub indices: *const u32,
-    /// Of a heightfield: `columns` * `rows` heights [m], row by row along x.
+    /// Heightfield: `columns` * `rows` heights [m], row by row along x.
     pub heights: *const f32,
 }
 
@@ -107,14 +117,14 @@ impl Default for MuslinColliderDesc {
     }
 }
 
-/// More than this is refused unread; the bounds of meshes that are cloth.
+/// Larger counts are refused before a list is read; the limits of cloth meshes.
 const MAX_VERTICES: u32 = 1 << 22;
 const MAX_INDICES: u32 = 12 * MAX_VERTICES;
-/// More heights in one direction than this are refused unread; the core's own bound.
+/// Larger counts are refused before the list is read; the limit of the core.
 const MAX_HEIGHTS: u32 = 4096;
 
 impl MuslinColliderDesc {
-    /// The collider, with its lists copied out of the caller's memory; only those of its shape.
+    /// Copies the lists that the shape uses out of the caller's memory.
     ///
     /// # Safety
     /// Every list is NULL or as long as its counts say.
@@ -144,7 +154,7 @@ impl MuslinColliderDesc {
             require(self.vertex_count >= 3, "vertex_count", "be at least 3")?;
             require(self.vertex_count <= MAX_VERTICES, "vertex_count", "be at most 4194304")?;
             let (stride, count) = (self.position_stride, self.vertex_count);
-            // SAFETY: the caller's promise above.
+            // SAFETY: guaranteed by the caller.
             desc.positions =
                 unsafe { read_vec3s("positions", self.positions.cast(), stride, count)? };
         }
@@ -152,7 +162,7 @@ impl MuslinColliderDesc {
             require(self.index_count > 0, "index_count", "be at least 3")?;
             require(self.index_count <= MAX_INDICES, "index_count", "be at most 50331648")?;
             require(self.index_count.is_multiple_of(3), "index_count", "be a multiple of 3")?;
-            // SAFETY: the caller's promise above.
+            // SAFETY: guaranteed by the caller.
             desc.indices = unsafe { read_u32s("indices", self.indices, self.index_count)? };
         }
         if matches!(shape, Shape::Heightfield) {
@@ -160,7 +170,7 @@ impl MuslinColliderDesc {
             require(is_allowed(self.columns), "columns", "be from 2 to 4096")?;
             require(is_allowed(self.rows), "rows", "be from 2 to 4096")?;
             let count = self.columns * self.rows;
-            // SAFETY: the caller's promise above; a number has the size of any other.
+            // SAFETY: guaranteed by the caller; u32 and f32 have the same size.
             let bits = unsafe { read_u32s("heights", self.heights.cast(), count)? };
             desc.heights = bits.into_iter().map(f32::from_bits).collect();
         }

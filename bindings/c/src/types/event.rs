@@ -1,49 +1,55 @@
-//! What happened.
+//! Events: what happened in the ticks.
 
 use super::value::MuslinVec3;
 use muslin_core::{Event, EventKind};
 
 /// The edge between `particle_a` and `particle_b` tore.
 pub const MUSLIN_EVENT_EDGE_TORN: u32 = 0;
-/// `vertex` was split off from `source`. Where a particle with several vertices was split between them, so that
-/// none had to be: both are the lowest vertex that went to the new particle.
+/// `vertex` was split off from `source`.
+///
+/// If a particle with several vertices was split between these vertices, no vertex had to be split:
+/// then both are the lowest vertex that moved to the new particle.
 pub const MUSLIN_EVENT_VERTEX_SPLIT: u32 = 1;
-/// A piece of `count` triangles, one of them at `vertex`, came off.
+/// A piece of `count` triangles came off; `vertex` belongs to one of them.
 pub const MUSLIN_EVENT_PIECE_DETACHED: u32 = 2;
-/// `count` particles had left the realm of numbers and were put back where they last were.
+/// `count` particles had positions or velocities that were not finite, and were put back to their
+/// last valid positions.
 pub const MUSLIN_EVENT_RECOVERED: u32 = 3;
-/// Tearing stopped: the room that `extra_particles` reserved for it is used up. Told once.
+/// Tearing stopped: the particles that `extra_particles` reserved are used up. Reported once.
 pub const MUSLIN_EVENT_RESERVE_USED_UP: u32 = 4;
-/// Pins or grabs hold the cloth apart: `count` links are past `max_stretch`, one of them between
-/// `particle_a` and `particle_b`. Told once, until the bound holds again.
+/// Pins, grabs or anchors stretch the cloth past `max_stretch`: `count` links exceed it, one of
+/// them between `particle_a` and `particle_b`. Reported once, until the limit holds again.
 pub const MUSLIN_EVENT_HELD_APART: u32 = 5;
-/// A cut made `vertex` on the edge between `particle_a` and `particle_b`; and, if they are different vertices on
-/// either side of that edge, the one after it for the other side.
+/// A cut added `vertex` on the edge between `particle_a` and `particle_b`.
+///
+/// If the two sides of that edge have different vertices there, the next vertex belongs to the
+/// other side.
 pub const MUSLIN_EVENT_EDGE_DIVIDED: u32 = 6;
 
-/// Something that happened in a tick. Fields that its kind does not mention are 0. `particle_a` and `particle_b`
-/// are particles, `vertex` and `source` are vertices, see MuslinView's `particles`. Begin with
-/// muslin_event_init.
+/// An event. Fields that its kind does not mention are 0. Initialise it with muslin_event_init.
+///
+/// `particle_a` and `particle_b` are particles, `vertex` and `source` are vertices; see `particles`
+/// of MuslinView.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MuslinEvent {
     /// Set by muslin_event_init.
     pub struct_size: u32,
-    /// What happened: one of MUSLIN_EVENT_...
+    /// Kind: one of MUSLIN_EVENT_....
     pub kind: u32,
-    /// In which tick, counted from creation or reset.
+    /// Tick of the event, counted from creation or reset.
     pub tick: u32,
-    /// Where [m].
+    /// Position of the event [m].
     pub position: MuslinVec3,
-    /// An end of the edge.
+    /// First end of the edge.
     pub particle_a: u32,
-    /// The other end.
+    /// Second end of the edge.
     pub particle_b: u32,
-    /// The vertex that came to be.
+    /// The new vertex.
     pub vertex: u32,
-    /// The vertex that it was split off from.
+    /// The vertex that the new one was split off from.
     pub source: u32,
-    /// How many.
+    /// Number of triangles, particles or links.
     pub count: u32,
 }
 

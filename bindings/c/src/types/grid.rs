@@ -1,4 +1,4 @@
-//! A cloth from a regular grid.
+//! Descriptor of a cloth that is made from a regular grid.
 
 use super::material::MuslinMaterial;
 use super::settings::MuslinSettings;
@@ -6,47 +6,50 @@ use super::value::MuslinVec3;
 use crate::status::{CallError, Result};
 use muslin_core::{AS_MANY_AGAIN, GridDesc, PinMode};
 
-/// Nothing is pinned: it falls.
+/// No particle is pinned: the cloth falls.
 pub const MUSLIN_PIN_NONE: u32 = 0;
-/// The whole first row is pinned.
+/// All particles of the first row are pinned.
 pub const MUSLIN_PIN_TOP_EDGE: u32 = 1;
 /// The two ends of the first row are pinned.
 pub const MUSLIN_PIN_TOP_CORNERS: u32 = 2;
 /// All four corners are pinned.
 pub const MUSLIN_PIN_CORNERS: u32 = 3;
 
-/// For `extra_particles`: room for as many particles again as the cloth starts with.
+/// Value of `extra_particles` that reserves as many particles again as the cloth starts with.
 pub const MUSLIN_AS_MANY_AGAIN: u32 = u32::MAX;
 
-/// A regular grid of particles; particle = row * columns + column. Begin with muslin_grid_desc_init.
+/// A regular grid of particles. The particle at `row` and `column` has the index `row * columns +
+/// column`. Initialise it with muslin_grid_desc_init.
 ///
-/// `material` and `settings` carry sizes of their own: replace them by structs that began with
-/// muslin_material_init and muslin_settings_init in the same program.
+/// `material` and `settings` have sizes of their own: replace them only by structs that were
+/// initialised with muslin_material_init and muslin_settings_init in the same program.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinGridDesc {
     /// Set by muslin_grid_desc_init.
     pub struct_size: u32,
-    /// Particles across; 40. At least 2.
+    /// Particles per row. Default 40. At least 2.
     pub columns: u32,
-    /// Particles down; 40. At least 2.
+    /// Number of rows. Default 40. At least 2. A grid has at most 4194304 particles.
     pub rows: u32,
-    /// Distance between neighbours [m]; 0.05. From 1e-6 to 1e6.
+    /// Distance between neighbours [m]. Default 0.05. From 1e-6 to 1e6.
     pub spacing: f32,
-    /// Where particle (0, 0), the top left, is [m]; 0, 0, 0. Within 2097152 `spacing` of zero along each axis.
+    /// Position of particle (0, 0), the top left corner [m]. Default 0, 0, 0. Within 2097152 times
+    /// `spacing` of zero along each axis.
     pub origin: MuslinVec3,
-    /// Unit direction of a row; 1, 0, 0.
+    /// Unit direction along a row. Default 1, 0, 0.
     pub right: MuslinVec3,
-    /// Unit direction of a column, square to `right`; 0, -1, 0.
+    /// Unit direction along a column, perpendicular to `right`. Default 0, -1, 0.
     pub down: MuslinVec3,
-    /// What is pinned from the start: MUSLIN_PIN_NONE, MUSLIN_PIN_TOP_EDGE (this at first),
+    /// Particles that are pinned from the start: MUSLIN_PIN_NONE, MUSLIN_PIN_TOP_EDGE (default),
     /// MUSLIN_PIN_TOP_CORNERS or MUSLIN_PIN_CORNERS.
     pub pin_mode: u32,
-    /// Particles that tears may add; MUSLIN_AS_MANY_AGAIN.
+    /// Particles to reserve for tears and cuts. Default MUSLIN_AS_MANY_AGAIN; 0 if the cloth never
+    /// tears.
     pub extra_particles: u32,
-    /// What it is made of.
+    /// Material.
     pub material: MuslinMaterial,
-    /// How its time runs.
+    /// Settings.
     pub settings: MuslinSettings,
 }
 

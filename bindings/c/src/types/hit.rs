@@ -1,25 +1,25 @@
-//! Where a ray hits.
+//! Result of a ray cast.
 
 use super::value::MuslinVec3;
 use muslin_core::Hit;
 
-/// Where a ray hits a cloth. Begin with muslin_hit_init.
+/// Where a ray hits a cloth. Initialise it with muslin_hit_init.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MuslinHit {
     /// Set by muslin_hit_init.
     pub struct_size: u32,
-    /// The triangle that was hit: index 3 * triangle and the two after it.
+    /// Triangle that was hit: its corners are the indices 3 * triangle and the two after it.
     pub triangle: u32,
-    /// Its particle nearest to the hit.
+    /// Corner particle nearest to the hit.
     pub particle: u32,
-    /// Weight of the triangle's second corner.
+    /// Barycentric weight of the triangle's second corner.
     pub u: f32,
-    /// Weight of the triangle's third corner.
+    /// Barycentric weight of the triangle's third corner.
     pub v: f32,
     /// Distance from the ray's origin [m].
     pub distance: f32,
-    /// Where [m].
+    /// Point of the hit [m].
     pub position: MuslinVec3,
     /// Unit normal of the triangle, on the side that was hit.
     pub normal: MuslinVec3,

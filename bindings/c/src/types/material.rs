@@ -1,81 +1,98 @@
-//! What a cloth is made of.
+//! Material of a cloth, and presets.
 
 use crate::status::{CallError, Result};
 use muslin_core::{Material, Preset};
 
-/// Light and fluid, 100 g/m^2.
+/// Silk: light and fluid, 100 g/m^2.
 pub const MUSLIN_PRESET_SILK: u32 = 0;
-/// Shirting, 180 g/m^2.
+/// Cotton shirting, 180 g/m^2.
 pub const MUSLIN_PRESET_COTTON: u32 = 1;
-/// Heavy twill, 380 g/m^2.
+/// Denim: heavy twill, 380 g/m^2.
 pub const MUSLIN_PRESET_DENIM: u32 = 2;
 /// Garment leather, 700 g/m^2.
 pub const MUSLIN_PRESET_LEATHER: u32 = 3;
-/// Office paper, 80 g/m^2.
+/// Office paper, 80 g/m^2; keeps folds.
 pub const MUSLIN_PRESET_PAPER: u32 = 4;
-/// Flag nylon 200 denier, 105 g/m^2.
+/// Flag nylon of 200 denier, 105 g/m^2.
 pub const MUSLIN_PRESET_FLAG_NYLON: u32 = 5;
 
-/// What a cloth is made of, in SI units. All of it may change between ticks.
+/// Material of a cloth, in SI units. Every field may be changed between ticks.
 ///
-/// Begin with muslin_material_init, or go on from there with muslin_material_preset, and change what
-/// you need.
+/// Initialise it with muslin_material_init; muslin_material_preset then sets the values of a
+/// fabric.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinMaterial {
     /// Set by muslin_material_init.
     pub struct_size: u32,
-    /// Mass per area [kg/m^2]; 0.18, a cotton. Above 0.
+    /// Mass per area [kg/m^2]. Default 0.18 (cotton). Above 0.
     pub density: f32,
-    /// Gap kept from anything touched [m]; 0.00035. Keep it below half the shortest edge.
+    /// Gap that the cloth keeps from anything it touches [m]. Default 0.00035. At least 0. Choose
+    /// less than half of the shortest edge.
     pub thickness: f32,
-    /// Membrane stiffness along the warp (down a grid) [N/m]; 0 is as stiff as the sweeps allow.
+    /// Membrane stiffness along the warp (the columns of a grid) [N/m]. Default 0: as stiff as the
+    /// solver reaches. At least 0.
     pub stretch_stiffness_warp: f32,
-    /// Membrane stiffness along the weft (across a grid) [N/m]; 0 is as stiff as the sweeps allow.
+    /// Membrane stiffness along the weft (the rows of a grid) [N/m]. Default 0: as stiff as the
+    /// solver reaches. At least 0.
     pub stretch_stiffness_weft: f32,
-    /// Stiffness against shear [N/m]; 0 is as the stretch stiffness.
+    /// Shear stiffness [N/m]. Default 0: the stretch stiffness. At least 0.
     pub shear_stiffness: f32,
-    /// Bending rigidity per width [N m]; 2.5e-5: what a strip that hangs from a clamp shows (BS 3356), however
-    /// fine the mesh, the tick and the sweeps are, whichever way it is cut: exactly on grids, within a twentieth
-    /// of its bending length on other meshes. 0 is limp; 1 or more is links over two cells instead, as rigid as the sweeps allow.
+    /// Bending rigidity per width [N m]. Default 2.5e-5. At least 0.
+    ///
+    /// - It is the value that a strip hanging from a clamp shows (BS 3356), independent of mesh
+    ///   resolution, tick, substeps and iterations, and of the direction in which the strip is cut:
+    ///   exactly on grids, to 1/20 of the bending length on other meshes.
+    /// - 0 is limp.
+    /// - 1 or more uses links over two cells instead, as rigid as the solver reaches.
     pub bend_stiffness: f32,
-    /// Damping of bending [s]; 0. Bending by some angle a second is resisted as that angle times this would be;
-    /// a few hundredths calm a flutter. At least 0.
+    /// Damping of bending [s]. Default 0. At least 0. Bending at some angle per second is resisted
+    /// like this angle times `bend_damping`; a few hundredths stop a flutter.
     pub bend_damping: f32,
-    /// Damping of stretching [s]; 0. In the same way, for links that give way. At least 0.
+    /// Damping of stretching [s], in the same way, for links that have a stiffness. Default 0. At
+    /// least 0.
     pub stretch_damping: f32,
-    /// Coulomb coefficient against colliders; 0.4. At least 0.
+    /// Coulomb friction coefficient against colliders and between layers. Default 0.4. At least 0.
     pub friction: f32,
-    /// Share of the normal speed that a bounce gives back; 0. From 0 to 1.
+    /// Share of the normal velocity that a bounce returns. Default 0. From 0 to 1.
     pub restitution: f32,
-    /// Pressure coefficient of a triangle square to the wind; 1.2. At least 0.
+    /// Drag coefficient of a triangle perpendicular to the wind. Default 1.2. At least 0.
     pub drag: f32,
-    /// Lift coefficient of a triangle askew to the wind; 0. At least 0.
+    /// Lift coefficient of a triangle oblique to the wind. Default 0. At least 0.
     pub lift: f32,
-    /// Length over rest length at which an edge tears; 4. Above 1, or 0: never. At the end of a slit it takes
-    /// less, as the finer the mesh is the more of the load is there: sqrt(16 thickness / mean edge) of
-    /// the strain, at least a fifth of it; so a notch runs on at the same load whatever the mesh.
+    /// Ratio of length to rest length at which an edge tears. Default 4. Above 1, or 0: never.
+    ///
+    /// At a crack tip a smaller strain suffices: sqrt(16 thickness / mean edge) of it, at least
+    /// 1/5. On a finer mesh the load is more concentrated there; with this factor, a crack grows at
+    /// the same load on any mesh.
     pub tear_stretch: f32,
-    /// How uneven the weave is: 0 tears all edges alike, 1 varies the limit by half; 0.2.
+    /// Variation of the tear limit between edges. Default 0.2. From 0 (all edges alike) to 1 (the
+    /// limit varies by half).
     pub tear_variation: f32,
-    /// Angle up to which a fold opens again [rad]; of one that was folded further, the rest stays. 0: all
-    /// opens. At least 0. Paper is near 0.8.
+    /// Angle up to which a fold opens again completely [rad]; of a sharper fold, the excess stays.
+    /// Default 0: folds never stay. At least 0. Paper has about 0.8.
     pub yield_angle: f32,
-    /// Share of a fold beyond `yield_angle` that stays; 1. From 0 to 1.
+    /// Share of the excess over `yield_angle` that stays. Default 1. From 0 to 1.
     pub yield_creep: f32,
-    /// Length of the sheet over which folding counts as one fold [m]; 0.01. The same angle over more than that is
-    /// only bent, and stays bent beyond a curvature of `yield_angle` over this. Three cells count at least.
-    /// At least 0.
+    /// Length of cloth over which bending counts as one fold [m]. Default 0.01. At least 0; at
+    /// least three cells are used.
+    ///
+    /// The same angle spread over a greater length is only a bend; a bend stays if its curvature
+    /// exceeds `yield_angle` / `fold_length`.
     pub fold_length: f32,
-    /// How much more a fold opens again, for each angle that it has given way by in all, to either side; 0. Of
-    /// one that is folded by an angle for the first time (angle - `yield_angle`) / (1 + this) stays, and to fold it
-    /// on takes as much more. At least 0. What gives way or is creased while this and `yield_weakening` are 0 is
-    /// not counted.
+    /// Growth of the yield angle with accumulated yielding (in either direction). Default 0. At
+    /// least 0.
+    ///
+    /// Of a first fold by some angle, (angle - `yield_angle`) / (1 + `yield_hardening`) stays, and
+    /// folding it further needs as much more. Yielding and creases are not counted while this and
+    /// `yield_weakening` are 0.
     pub yield_hardening: f32,
-    /// How much weaker a fold gets by giving way [1/rad]; 0. Where it has given way by an angle in all, to either
-    /// side, `fold_length` of the sheet bends as if `bend_stiffness` were divided by 1 + this times angle, by at
-    /// most a thousand; pressed flat, it stays as weak. It gives way under the same moment as before, so that it
-    /// opens again by more: `yield_angle` times this counts as `yield_hardening` too. At least 0.
+    /// Loss of bending stiffness with accumulated yielding [1/rad]. Default 0. At least 0.
+    ///
+    /// After yielding by an angle in total (in either direction), `fold_length` of the cloth bends
+    /// as if `bend_stiffness` were divided by 1 + `yield_weakening` * angle, at most by 1000;
+    /// pressing the fold flat does not restore it. The moment at which it yields stays the same, so
+    /// the fold opens further: `yield_angle` * `yield_weakening` adds to `yield_hardening`.
     pub yield_weakening: f32,
 }
 
@@ -138,7 +155,7 @@ impl From<MuslinMaterial> for Material {
     }
 }
 
-/// The fabric that a MUSLIN_PRESET_ number names.
+/// Returns the fabric that a MUSLIN_PRESET_ number names.
 pub fn preset(number: u32) -> Result<Preset> {
     match number {
         MUSLIN_PRESET_SILK => Ok(Preset::Silk),

@@ -1,4 +1,4 @@
-//! A cloth from any triangle mesh.
+//! Descriptor of a cloth that is made from any triangle mesh.
 
 use super::grid::MUSLIN_AS_MANY_AGAIN;
 use super::material::MuslinMaterial;
@@ -8,53 +8,61 @@ use crate::status::{CallError, Result};
 use core::ptr;
 use muslin_core::MeshDesc;
 
-/// Any triangle mesh, as artists export them. Begin with muslin_mesh_desc_init, then give it positions and
-/// indices.
+/// Any triangle mesh, as modelling tools export them. Initialise it with muslin_mesh_desc_init,
+/// then set positions and indices.
 ///
-/// What cannot be cloth in it is repaired, and muslin_cloth_get_mesh_report tells what was: doubled vertices are
-/// welded, triangles without an area and repeated ones dropped; where more than two triangles share an edge the
-/// flattest two stay joined and the others get an edge of their own; sheets that meet at a mere point are parted;
-/// the triangles of a piece are turned to face as most of them do. Vertices that no triangle uses stay where they
-/// are.
+/// Defects are repaired in this order; muslin_cloth_get_mesh_report counts the repairs:
+/// - duplicate vertices are welded (see `weld_distance`);
+/// - triangles without an area and repeated triangles are dropped;
+/// - where more than two triangles share an edge, the flattest pair stays joined and the others get
+///   an edge of their own;
+/// - sheets that touch in a single vertex are separated there;
+/// - within each piece, triangles are turned to face as most of them do.
 ///
-/// A mesh that is a regular grid, its vertices and triangles in the order that muslin_cloth_create_grid has them,
-/// is woven as that grid is: it moves in the same bits.
+/// Vertices that no triangle uses stay where they are.
 ///
-/// All lists are copied while the cloth is made. `material` and `settings` carry sizes of their own:
-/// replace them by structs that began with muslin_material_init and muslin_settings_init in the same
-/// program.
+/// A mesh that is a regular grid, with vertices and triangles in the order of
+/// muslin_cloth_create_grid, is simulated as that grid, with identical bits.
+///
+/// All lists are copied during the call. `material` and `settings` have sizes of their own: replace
+/// them only by structs that were initialised with muslin_material_init and muslin_settings_init in
+/// the same program.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinMeshDesc {
     /// Set by muslin_mesh_desc_init.
     pub struct_size: u32,
-    /// Where the vertices are at rest [m], 3 numbers a vertex. Each is the particle of its number if nothing is
-    /// welded or split, see MuslinView's `particles`.
+    /// Rest positions of the vertices [m], 3 numbers per vertex. If nothing is welded or split,
+    /// vertex i is particle i; otherwise see `particles` of MuslinView.
     pub positions: *const f32,
-    /// Bytes from one position to the next; 0, which is 12. A multiple of 4.
+    /// Distance between the starts of consecutive positions [bytes]; 0 means 12. Default 0. A
+    /// multiple of 4.
     pub position_stride: u32,
-    /// How many vertices there are; 0. From 3 to 4194304.
+    /// Number of vertices. Default 0. From 3 to 4194304.
     pub vertex_count: u32,
-    /// Vertices of the triangles, 3 a triangle, counter-clockwise seen from its front.
+    /// Vertices of the triangles, 3 per triangle, counter-clockwise seen from the front.
     pub indices: *const u32,
-    /// How many indices there are; 0. A multiple of 3, at most 50331648.
+    /// Number of indices. Default 0. A multiple of 3, at most 50331648.
     pub index_count: u32,
-    /// Texture coordinates, 2 numbers a vertex; or NULL: none.
+    /// Texture coordinates, 2 numbers per vertex, or NULL for none.
     pub uvs: *const f32,
-    /// Vertices whose particles are pinned from the start; or NULL: none.
+    /// Vertices whose particles are pinned from the start, or NULL for none.
     pub pinned: *const u32,
-    /// How many `pinned` there are; 0. At most `vertex_count`.
+    /// Number of entries of `pinned`. Default 0. At most `vertex_count`.
     pub pinned_count: u32,
-    /// Vertices at most this far apart share a particle [m]; 0 joins those at the very same place, -1 (or
-    /// anything below 0) leaves all apart. Vertices are taken in order, and each joins the nearest one before
-    /// it that stayed apart; but the corners of a triangle stay apart, however small it is. Keep it well below
-    /// the shortest edge.
+    /// Vertices at most this far apart share one particle [m]. Default -1.
+    ///
+    /// 0 welds vertices at exactly the same position; a negative value welds nothing. Vertices are
+    /// processed in order: each joins the nearest earlier vertex that was not welded itself.
+    /// Corners of one triangle are never welded together. Choose a value well below the shortest
+    /// edge.
     pub weld_distance: f32,
-    /// Particles that tears may add; MUSLIN_AS_MANY_AGAIN.
+    /// Particles to reserve for tears and cuts. Default MUSLIN_AS_MANY_AGAIN; 0 if the cloth never
+    /// tears.
     pub extra_particles: u32,
-    /// What it is made of.
+    /// Material.
     pub material: MuslinMaterial,
-    /// How its time runs.
+    /// Settings.
     pub settings: MuslinSettings,
 }
 
@@ -78,13 +86,14 @@ impl Default for MuslinMeshDesc {
     }
 }
 
-/// More vertices than this are refused unread; the core's own bound.
+/// Larger counts are refused before a list is read; the limit of the core.
 const MAX_VERTICES: u32 = 1 << 22;
-/// More indices than this are refused unread: twice what a closed surface without handles has.
+/// Larger counts are refused before a list is read: twice the number of a closed surface without
+/// handles.
 const MAX_INDICES: u32 = 12 * MAX_VERTICES;
 
 impl MuslinMeshDesc {
-    /// The mesh, copied out of the caller's memory.
+    /// Copies the mesh out of the caller's memory.
     ///
     /// # Safety
     /// Every list is NULL or as long as its count says.
@@ -101,7 +110,7 @@ impl MuslinMeshDesc {
             return Err(CallError::bad_value(field, must));
         }
         let (stride, count) = (self.position_stride, self.vertex_count);
-        // SAFETY: the caller's promise above.
+        // SAFETY: guaranteed by the caller.
         let (positions, indices, uvs, pinned) = unsafe {
             (
                 read_vec3s("positions", self.positions.cast(), stride, count)?,

@@ -1,46 +1,47 @@
-//! What became of a mesh.
+//! Report of a mesh repair.
 
 use muslin_core::MeshReport;
 
-/// What had to be repaired of a mesh before it could be cloth, and what it is now. Begin with
+/// What was repaired in a mesh before it became cloth, and the result. Initialise it with
 /// muslin_mesh_report_init.
 ///
-/// Repairs come in this order: vertices are welded, triangles without an area and repeated ones are dropped,
-/// edges and vertices where more than one sheet meets are split, triangles that face the other way are turned.
+/// Repairs are made in this order: vertices are welded; triangles without an area and repeated
+/// triangles are dropped; edges and vertices where several sheets meet are split; triangles that
+/// face the other way are turned.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MuslinMeshReport {
     /// Set by muslin_mesh_report_init.
     pub struct_size: u32,
-    /// Vertices that were given.
+    /// Number of given vertices.
     pub vertices: u32,
-    /// Triangles that were given.
+    /// Number of given triangles.
     pub triangles: u32,
-    /// Particles that came of it.
+    /// Number of resulting particles.
     pub particles: u32,
-    /// Triangles that were kept.
+    /// Number of triangles that were kept.
     pub kept_triangles: u32,
-    /// Vertices that joined another one's particle.
+    /// Number of vertices that share the particle of another vertex.
     pub welded_vertices: u32,
-    /// Triangles that were dropped: they had no area, or named a vertex twice.
+    /// Number of dropped triangles that had no area or used a vertex twice.
     pub dropped_degenerate: u32,
-    /// Triangles that were dropped: an earlier one has the same corners.
+    /// Number of dropped triangles whose corners were those of an earlier one.
     pub dropped_duplicates: u32,
-    /// Triangles that were turned round, so that they face as their neighbours do.
+    /// Number of triangles that were turned to face as their neighbours do.
     pub turned_triangles: u32,
-    /// Edges that had more than two triangles.
+    /// Number of edges that had more than two triangles.
     pub split_edges: u32,
-    /// Particles that came to be where sheets were parted that met at such an edge or at a mere point.
+    /// Number of particles that were added where sheets met at such an edge or at a single vertex.
     pub split_vertices: u32,
-    /// Vertices that no triangle uses. They are particles without mass that stay where they are, unless they
-    /// were welded.
+    /// Number of vertices that no triangle uses. Unless they were welded, they are particles
+    /// without mass that stay where they are.
     pub unused_vertices: u32,
-    /// Pieces: sets of triangles joined by edges.
+    /// Number of pieces: sets of triangles connected by edges.
     pub pieces: u32,
-    /// Pieces that have no two sides, such as a Moebius strip: a line across them is left where neighbours face
-    /// opposite ways.
+    /// Number of pieces with only one side, such as a Moebius strip: along a line across them,
+    /// neighbours face opposite ways.
     pub one_sided_pieces: u32,
-    /// 1 if it is woven as the regular grid that it was found to be; 0.
+    /// 1 if the mesh is simulated as a regular grid, else 0.
     pub is_grid: u32,
 }
 

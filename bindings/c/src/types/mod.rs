@@ -1,4 +1,8 @@
-//! The structs and numbers of the header, one noun a file, and their way from and to the core.
+//! Structs and constants of the header, one noun per file, with their conversions from and to the
+//! core.
+//!
+//! Invariant: layouts and numbers never change; structs with a `struct_size` grow only at their
+//! end.
 
 pub mod changes;
 pub mod collider;

@@ -1,75 +1,95 @@
-//! How time runs.
+//! Settings of the simulation.
 
 use super::value::MuslinVec3;
 use crate::status::{CallError, Result};
 use muslin_core::{SelfCollision, Settings};
 
-/// For `self_collision`: parts of the cloth go through each other.
+/// Value of `self_collision`: parts of the cloth pass through each other.
 pub const MUSLIN_SELF_COLLISION_NONE: u32 = 0;
-/// For `self_collision`: surface keeps from surface, a material's thickness apart, so that nothing crosses,
-/// with the material's friction. A thickness counts up to half of the mean rest length. What is nearer than
-/// two thicknesses in the weave keeps half of that distance. The two sides of a slit part by a
-/// thousandth of the mean rest length as it opens, so that they keep from each other too. What pins or grabs
-/// hold takes along what is in its way, and what is caught between two such may be forced through. What
-/// crosses all the same, from the start, as this is switched on or where particles are placed, is drawn out
-/// again unless it is held: the smaller part goes back to the side of the rest, mostly within a second. It
-/// costs about as much as the rest of a tick while little touches, several times that where layers lie on
-/// each other, and from twenty to hundreds of times where sheets of thousands of particles crumple.
+/// Value of `self_collision`: triangles collide with triangles, so that no part of the surface
+/// passes through another. With the material's friction.
+///
+/// - Gap: the material's thickness, or `self_distance`, at most half of the mean rest length. Parts
+///   that are nearer than two gaps in the rest shape keep half of their rest distance.
+/// - Tears: the two sides of a fresh tear are moved apart by 1/1000 of the mean rest length, so
+///   that they collide too.
+/// - Pins and grabs: what they hold pushes other parts out of its way. Cloth that is caught between
+///   two held parts may be forced through.
+/// - Existing intersections (at the start, after this is switched on, or where particles were
+///   placed) are untangled, unless they are held: the smaller part moves back to the side of the
+///   rest, mostly within a second.
+/// - Cost: about as much as the rest of a tick while little touches; several times that where
+///   layers lie on each other; 20 to several hundred times where sheets of thousands of particles
+///   crumple.
 pub const MUSLIN_SELF_COLLISION_SURFACE: u32 = 1;
-/// For `self_collision`: particles keep from particles, as if they were balls: cheap, without friction, and
-/// a fold may slip through where particles are farther apart than `self_distance`. Those that are woven into
-/// one piece nearer than that, or than one and a half mean rest lengths, do not count; what is held neither.
+/// Value of `self_collision`: particles collide with particles, as if they were balls.
+///
+/// - Cheap and without friction. A fold may pass through where particles are farther apart than
+///   `self_distance`.
+/// - Two particles of one piece do not collide if their distance in the rest shape is below
+///   `self_distance` or 1.5 mean rest lengths. Pinned and grabbed particles do not collide.
 pub const MUSLIN_SELF_COLLISION_PARTICLES: u32 = 2;
 
-/// How time runs: ticks, sweeps, gravity, damping and the switches of the solver. All of it may
-/// change between ticks.
+/// Settings of the simulation: time steps, gravity, damping and solver options. Every field may be
+/// changed between ticks. Initialise it with muslin_settings_init.
 ///
-/// One tick is `substeps` times (predict, then `iterations` sweeps over all links). More of either
-/// makes the cloth stiffer; at the same cost substeps stiffen more than iterations do.
-/// Begin with muslin_settings_init.
+/// A tick is divided into `substeps`. Each substep predicts the positions and then solves all
+/// constraints `iterations` times. More of either makes the cloth stiffer; at the same cost,
+/// substeps stiffen it more than iterations.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinSettings {
     /// Set by muslin_settings_init.
     pub struct_size: u32,
-    /// Length of a tick [s]; 1/60. Above 0, at most 1.
+    /// Length of a tick [s]. Default 1/60. Above 0, at most 1.
     pub tick: f32,
-    /// Substeps in a tick; 4. From 1 to 1000.
+    /// Substeps per tick. Default 4. From 1 to 1000.
     pub substeps: u32,
-    /// Sweeps over the links in a substep, to and fro in turn; 2. From 1 to 1000. With a single sweep
-    /// velocities are of first order, which brakes all motion; from two on they are of second order,
-    /// and nothing brakes but `damping` and the air.
+    /// Solver iterations per substep, in alternating order. Default 2. From 1 to 1000.
+    ///
+    /// With 1, the time integration is of first order, which damps all motion. From 2 on it is of
+    /// second order; then only `damping` and the air damp.
     pub iterations: u32,
-    /// Ticks that one advance may run; 5. What a late frame owes beyond it is dropped. At least 1.
+    /// Largest number of ticks of one muslin_cloth_advance; the rest of the backlog is dropped.
+    /// Default 5. At least 1.
     pub max_ticks_per_advance: u32,
-    /// Acceleration of everything [m/s^2]; 0, -9.81, 0.
+    /// Gravitational acceleration [m/s^2]. Default 0, -9.81, 0.
     pub gravity: MuslinVec3,
-    /// Rate at which velocity decays [1/s]: as exp(-damping t), whatever the step; 0.5. At least 0.
+    /// Rate at which velocities decay [1/s], as exp(-`damping` t), independent of the step. Default
+    /// 0.5. At least 0.
     pub damping: f32,
-    /// The farthest that a particle moves in a substep against the cloth's own rigid motion, in mean
-    /// rest lengths; 0.5. Above 0. A grabbed particle follows its pointer no faster than this either.
+    /// Largest displacement of a particle per substep, relative to the rigid motion of the cloth,
+    /// in mean rest lengths. Default 0.5. Above 0. It also limits the speed of a grabbed particle.
     pub max_displacement: f32,
-    /// The most that any thread or diagonal is stretched after a tick, unless pins or grabs hold it
-    /// apart: 0.02 is 2 %; 0, no bound. At least 0.
+    /// Strain limit: the largest strain of any stretch or shear link after a tick, unless pins,
+    /// grabs or anchors hold it apart. Default 0: no limit. 0.02 is 2 %. At least 0.
     pub max_stretch: f32,
-    /// 1: long-range attachments keep every particle within reach of the pins; 0: they do not. 1.
-    /// They bear what the sweeps do not get to, and nothing of what a load stretches soft links by.
-    /// From two iterations on, whole lines of links are solved at once as well.
+    /// 1: tethers (long-range attachments) keep every particle within its rest distance of the
+    /// pins; 0: no tethers. Default 1.
+    ///
+    /// Tethers carry the load that the iterations do not reach; they do not resist the stretch of
+    /// links that have a stiffness. From 2 iterations on, whole chains of links are solved at once
+    /// as well.
     pub tethers: u32,
-    /// Whether and how parts of the cloth keep apart: MUSLIN_SELF_COLLISION_NONE (this at first),
-    /// MUSLIN_SELF_COLLISION_SURFACE or MUSLIN_SELF_COLLISION_PARTICLES.
+    /// Self-collision: MUSLIN_SELF_COLLISION_NONE (default), MUSLIN_SELF_COLLISION_SURFACE or
+    /// MUSLIN_SELF_COLLISION_PARTICLES.
     pub self_collision: u32,
-    /// Distance that they keep [m]; 0. Where surfaces keep apart 0 takes the material's thickness, and it is
-    /// at most half of the mean rest length; where particles do, 0 takes two thirds of that length, and it
-    /// is at most twice that length.
+    /// Gap of self-collision [m]. Default 0.
+    ///
+    /// - Surface: 0 means the material's thickness. At most half of the mean rest length.
+    /// - Particles: 0 means 2/3 of the mean rest length. At most twice the mean rest length.
     pub self_distance: f32,
-    /// 1: over-stretched links tear, see `tear_stretch` of MuslinMaterial; 0: they do not. 0.
+    /// 1: links that are stretched past `tear_stretch` of MuslinMaterial tear; 0: they do not.
+    /// Default 0.
     pub tearing: u32,
-    /// Vertices that tearing may split in one tick, the worst first; 8. At least 1.
+    /// Largest number of vertices that tearing splits per tick; the most stretched come first.
+    /// Default 8. At least 1.
     pub max_tears_per_tick: u32,
-    /// A cloth of which no particle was faster for half a second sleeps [m/s]: it stays just as it is, at
-    /// next to no cost, until something changes or touches it; 0, never. At least 0. Gusts, swirls and the
-    /// sine field keep a cloth awake. See `asleep` of MuslinStats.
+    /// Speed below which the cloth falls asleep [m/s]. Default 0: never. At least 0.
+    ///
+    /// A cloth whose particles were all slower for half a second stops moving, at almost no cost,
+    /// until something changes or touches it. Gusts, turbulence and MUSLIN_WIND_SINE_FIELD keep it
+    /// awake. See `asleep` of MuslinStats.
     pub sleep_speed: f32,
 }
 

@@ -1,49 +1,53 @@
-//! Numbers about a cloth.
+//! Statistics of a cloth.
 
 use muslin_core::{Stage, Stats};
 
-/// Room for the times of stages in MuslinStats; how many there are is in `stage_count`.
+/// Length of `seconds` in MuslinStats. `stage_count` says how many entries are used.
 pub const MUSLIN_STAGE_SLOTS: usize = 31;
 
-/// Numbers about a cloth. Begin with muslin_stats_init.
+/// Statistics of a cloth. Initialise it with muslin_stats_init.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MuslinStats {
     /// Set by muslin_stats_init.
     pub struct_size: u32,
-    /// How many particles there are.
+    /// Number of particles.
     pub particles: u32,
-    /// How many triangles there are.
+    /// Number of triangles.
     pub triangles: u32,
-    /// How many links it was woven with.
+    /// Number of links in the rest state.
     pub constraints: u32,
-    /// How many links hold now.
+    /// Number of links that are intact now.
     pub active_constraints: u32,
-    /// How many pieces hang together by edges.
+    /// Number of pieces: sets of triangles connected by edges.
     pub pieces: u32,
-    /// Ticks since it was made or reset.
+    /// Ticks since the cloth was made or reset.
     pub ticks: u32,
-    /// The share of a tick that advance still owes, 0 to 1: how far to blend from the last tick's
-    /// positions to this one's when drawing.
+    /// Part of a tick that muslin_cloth_advance has not simulated yet, from 0 to 1: the factor by
+    /// which to blend from the positions of the last tick to the current ones when drawing.
     pub blend: f32,
-    /// The greatest stretch of a stretch link: 0.01 is 1 % over its rest length.
+    /// Largest strain of a stretch link: 0.01 is 1 % above its rest length.
     pub max_stretch: f32,
-    /// The mean stretch of the stretch links.
+    /// Mean strain of the stretch links.
     pub mean_stretch: f32,
-    /// Energy of motion [J].
+    /// Kinetic energy [J].
     pub kinetic_energy: f32,
-    /// How many of `seconds` tell of a stage.
+    /// Number of used entries of `seconds`.
     pub stage_count: u32,
-    /// Memory that it holds [B], about.
+    /// Approximate memory use [bytes].
     pub bytes: u64,
-    /// Time that each stage took in the last call that ran ticks [s]; muslin_stage_name names them.
-    /// Timing begins with the first muslin_cloth_get_stats of a cloth: until then zeros.
+    /// Time of each stage in the last call that ran ticks [s]; muslin_stage_name returns their
+    /// names.
+    ///
+    /// Timing starts with the first muslin_cloth_get_stats of a cloth; until then all entries are
+    /// 0.
     pub seconds: [f32; MUSLIN_STAGE_SLOTS],
-    /// How many links are past `max_stretch`, if there is such a bound: pins or grabs hold them apart.
+    /// Number of links past `max_stretch` of MuslinSettings, which pins, grabs or anchors hold
+    /// apart; 0 without that limit.
     pub over_stretched: u32,
-    /// 1 if it sleeps, see `sleep_speed` of MuslinSettings.
+    /// 1 if the cloth sleeps, see `sleep_speed` of MuslinSettings; else 0.
     pub asleep: u32,
-    /// The speed of its fastest particle [m/s].
+    /// Speed of the fastest particle [m/s].
     pub max_speed: f32,
 }
 

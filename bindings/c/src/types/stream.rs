@@ -1,4 +1,4 @@
-//! Where vertices are written, which and how.
+//! Vertex streams: where and how vertices are written.
 
 use crate::status::{CallError, Result};
 use core::ffi::c_void;
@@ -6,55 +6,66 @@ use core::ptr;
 use muslin_core::glam::{Affine3, Mat3, Vec3};
 use muslin_core::{ALL_VERTICES, Attribute, MAX_STREAMS, VertexFormat, WriteDesc};
 
-/// Where a vertex is [m]: x y z, and 1 in 16 bits.
+/// Position [m]: x y z; in 16-bit formats x y z 1.
 pub const MUSLIN_ATTRIBUTE_POSITION: u32 = 0;
-/// Its unit normal: x y z, and 0 in 16 bits.
+/// Unit normal: x y z; in 16-bit formats x y z 0.
 pub const MUSLIN_ATTRIBUTE_NORMAL: u32 = 1;
-/// The unit direction square to the normal in which the texture coordinate u grows, x y z, and w, which
-/// is 1 or -1: v grows along cross(normal, tangent) times w. It is the sum over the vertex's triangles of
-/// (p dv2 - q dv1) sign(du1 dv2 - du2 dv1), p and q being edges and (du1, dv1), (du2, dv2) what they
-/// are in the texture, made square to the normal; where a texture says nothing, any such direction.
+/// Tangent: x y z w. The unit vector perpendicular to the normal in which texture coordinate u
+/// grows; w is 1 or -1, and v grows along cross(normal, tangent) times w.
+///
+/// It is the sum over the vertex's triangles of (p dv2 - q dv1) sign(du1 dv2 - du2 dv1), made
+/// perpendicular to the normal. p and q are edges of the triangle; (du1, dv1) and (du2, dv2) are
+/// the same edges in texture space. Where texture coordinates are degenerate, it is any
+/// perpendicular direction.
 pub const MUSLIN_ATTRIBUTE_TANGENT: u32 = 2;
-/// Its texture coordinates: u v.
+/// Texture coordinates: u v.
 pub const MUSLIN_ATTRIBUTE_UV: u32 = 3;
-/// 1 at a border that a tear or a cut made, which a renderer may fringe, else 0; and another 0 in 16 bits.
+/// 1 on a border that a tear or cut made, e.g. to draw fringes, else 0; in 16-bit formats followed
+/// by 0.
 pub const MUSLIN_ATTRIBUTE_FRAYED: u32 = 4;
 
-/// 32-bit floats: 12 bytes of a position or normal, 16 of a tangent, 8 of a uv, 4 of frayed.
+/// 32-bit floats. Bytes: position and normal 12, tangent 16, uv 8, frayed 4.
 pub const MUSLIN_FORMAT_F32: u32 = 0;
-/// 16-bit floats: 8 bytes, of a uv or frayed 4. What is beyond 65504 becomes that.
+/// 16-bit floats. Values beyond 65504 are clamped. Bytes: position, normal and tangent 8, uv and
+/// frayed 4.
 pub const MUSLIN_FORMAT_F16: u32 = 1;
-/// 16-bit whole numbers from -32767 to 32767, which stand for -1 to 1: 8 bytes of a normal or tangent, 4
-/// of frayed; nothing else.
+/// Signed 16-bit integers; -32767 to 32767 stand for -1 to 1. Bytes: normal and tangent 8, frayed
+/// 4. Not for other attributes.
 pub const MUSLIN_FORMAT_SNORM16: u32 = 2;
-/// A direction as two of those, x and y where it meets the octahedron |x| + |y| + |z| = 1, its lower
-/// half (z < 0) folded outward, to (1 - |y|) sign(x) and (1 - |x|) sign(y): 4 bytes of a normal; 8 of a
-/// tangent, those two, w and 0; nothing else.
+/// Unit vectors in octahedral encoding, as two 16-bit integers like MUSLIN_FORMAT_SNORM16. Bytes:
+/// normal 4, tangent 8 (u, v, w and 0). Not for other attributes.
+///
+/// The vector is projected onto the octahedron |x| + |y| + |z| = 1. The encoding is x and y, with
+/// the lower half (z < 0) folded outward to (1 - |y|) sign(x) and (1 - |x|) sign(y).
 pub const MUSLIN_FORMAT_OCTAHEDRAL16: u32 = 3;
 
-/// How many streams one call takes.
+/// Largest number of streams in one call.
 pub const MUSLIN_MAX_STREAMS: u32 = 16;
 
-/// For `vertex_count`: all from the first one on.
+/// Value of `vertex_count` that means all vertices from `first_vertex` on.
 pub const MUSLIN_ALL_VERTICES: u32 = u32::MAX;
 
-/// A place that one attribute of vertices is written to. Streams may share a buffer: interleaved, at
-/// equal strides, or one behind the other. Begin with muslin_stream_init, or take muslin_stream.
+/// A destination for one vertex attribute. Initialise it with muslin_stream_init, or make it with
+/// muslin_stream.
+///
+/// Streams may share a buffer: interleaved at equal strides, or one after the other.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinStream {
-    /// Set by muslin_stream_init; equal for all streams of a call.
+    /// Set by muslin_stream_init. Equal for all streams of a call.
     pub struct_size: u32,
-    /// What is written: MUSLIN_ATTRIBUTE_...; MUSLIN_ATTRIBUTE_POSITION.
+    /// Attribute: one of MUSLIN_ATTRIBUTE_.... Default MUSLIN_ATTRIBUTE_POSITION.
     pub attribute: u32,
-    /// How: MUSLIN_FORMAT_...; MUSLIN_FORMAT_F32.
+    /// Number format: one of MUSLIN_FORMAT_.... Default MUSLIN_FORMAT_F32.
     pub format: u32,
-    /// Bytes from one vertex to the next: a multiple of the 4 (MUSLIN_FORMAT_F32) or 2 bytes of a number,
-    /// and at least what the attribute takes; 0, which leaves no gaps.
+    /// Distance between the starts of consecutive vertices [bytes]. Default 0: tightly packed.
+    /// Otherwise a multiple of the component size (4 for MUSLIN_FORMAT_F32, else 2), at least the
+    /// size of the attribute.
     pub stride: u32,
-    /// Where the first vertex goes, aligned to a number; NULL. It is yours, not a view's.
+    /// Address of the first vertex, aligned to the component size. Default NULL. Your own memory,
+    /// not that of a view.
     pub buffer: *mut c_void,
-    /// Bytes from there to the end of the buffer; 0.
+    /// Bytes from `buffer` to the end of the memory. Default 0.
     pub size: usize,
 }
 
@@ -72,7 +83,7 @@ impl Default for MuslinStream {
 }
 
 impl MuslinStream {
-    /// What is written and how; `at` says which of the streams it is.
+    /// Returns attribute and format; `at` is the index of the stream.
     pub fn choices(&self, at: usize) -> Result<(Attribute, VertexFormat)> {
         let bad = |field: &str, kind: &str| {
             CallError::bad_value(
@@ -89,28 +100,28 @@ impl MuslinStream {
     }
 }
 
-/// Which vertices are written, and how they are placed. Begin with muslin_write_desc_init: all, as they
-/// are.
+/// Selects the vertices to write and how they are transformed. Initialise it with
+/// muslin_write_desc_init, which selects all vertices, untransformed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinWriteDesc {
     /// Set by muslin_write_desc_init.
     pub struct_size: u32,
-    /// The first vertex; 0. It goes to the beginning of each stream.
+    /// First vertex to write; it goes to the start of each stream. Default 0.
     pub first_vertex: u32,
-    /// How many; MUSLIN_ALL_VERTICES.
+    /// Number of vertices to write. Default MUSLIN_ALL_VERTICES.
     pub vertex_count: u32,
-    /// How far from the last tick to this one, from 0 to 1; 1. The stats' `blend` is how far the time is
-    /// that was asked for. Normals and tangents are those of the surface there.
+    /// Time to draw, from 0 (last tick) to 1 (current tick). Default 1. Pass `blend` of MuslinStats
+    /// for smooth motion. Normals and tangents belong to the interpolated surface.
     pub blend: f32,
-    /// What is done to positions, after the offset: three rows of four, so that x becomes
-    /// t[0] x + t[1] y + t[2] z + t[3]; nothing. Normals stay square to the surface and on their side of
-    /// it, tangents along it.
+    /// Transform of the positions, applied after the offset: three rows of four numbers, so that x
+    /// becomes t[0] x + t[1] y + t[2] z + t[3]. Default: identity. Normals stay perpendicular to
+    /// the surface and on their side of it; tangents stay in the surface.
     pub transform: [f32; 12],
-    /// 1 if normals point to the other side, for the back of a cloth; 0.
+    /// 1 if normals point to the other side, e.g. for the back of the cloth. Default 0.
     pub flip_normals: u32,
-    /// How far positions are moved along the normals that are written [m]; 0. Half of the thickness on
-    /// either side gives a cloth a body.
+    /// Distance by which positions are moved along the written normals [m]. Default 0. Half of the
+    /// thickness on either side gives the cloth a visible thickness.
     pub offset: f32,
 }
 

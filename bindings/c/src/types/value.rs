@@ -1,65 +1,65 @@
-//! Vectors, rotations and handles: structs that pass by value and never grow.
+//! Vectors, rotations and handles: structs that are passed by value and never grow.
 
 use muslin_core::glam::{Quat, Vec3};
 
-/// A point, a direction or a velocity.
+/// A point, direction or velocity.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MuslinVec3 {
-    /// Along x.
+    /// x component.
     pub x: f32,
-    /// Along y.
+    /// y component.
     pub y: f32,
-    /// Along z.
+    /// z component.
     pub z: f32,
 }
 
-/// A rotation: a unit quaternion; { 0, 0, 0, 1 } turns nothing.
+/// A rotation as a unit quaternion. { 0, 0, 0, 1 } is no rotation.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MuslinQuat {
-    /// Axis along x times the sine of half the angle.
+    /// Axis x times the sine of half the angle.
     pub x: f32,
-    /// Axis along y times the sine of half the angle.
+    /// Axis y times the sine of half the angle.
     pub y: f32,
-    /// Axis along z times the sine of half the angle.
+    /// Axis z times the sine of half the angle.
     pub z: f32,
     /// Cosine of half the angle.
     pub w: f32,
 }
 
-/// A cloth; { 0 } is none. A destroyed or made-up one is refused as MUSLIN_STATUS_BAD_HANDLE.
+/// Handle of a cloth. { 0 } is none. A stale or made-up handle gives MUSLIN_STATUS_BAD_HANDLE.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MuslinCloth {
-    /// Says which; it means nothing to you.
+    /// Identifies the cloth; opaque.
     pub id: u64,
 }
 
-/// A hold on one particle of one cloth; { 0 } is none. It is of use with the cloth that gave it, and
-/// with those restored from it.
+/// Handle of a grab of one particle. { 0 } is none. Valid for the cloth that returned it and for
+/// cloths restored from it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MuslinGrab {
-    /// Says which; it means nothing to you.
+    /// Identifies the grab; opaque.
     pub id: u32,
 }
 
-/// A collider of one cloth; { 0 } is none. It is of use with the cloth that gave it, and with those
+/// Handle of a collider. { 0 } is none. Valid for the cloth that returned it and for cloths
 /// restored from it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MuslinCollider {
-    /// Says which; it means nothing to you.
+    /// Identifies the collider; opaque.
     pub id: u32,
 }
 
-/// A transform that particles of one cloth are attached to; { 0 } is none. It is of use with the cloth that
-/// gave it, and with those restored from it.
+/// Handle of an attachment: a transform that carries particles. { 0 } is none. Valid for the cloth
+/// that returned it and for cloths restored from it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MuslinAttachment {
-    /// Says which; it means nothing to you.
+    /// Identifies the attachment; opaque.
     pub id: u32,
 }
 

@@ -1,51 +1,54 @@
-//! What a renderer reads.
+//! Output lists that a renderer reads.
 
 use core::ptr;
 use muslin_core::View;
 use muslin_core::glam::{Vec2, Vec3};
 
-/// A cloth as its renderer sees it: the library's own memory, borrowed. Begin with muslin_view_init.
+/// Output lists of a cloth, borrowed from the library's own memory. Read only. Initialise it with
+/// muslin_view_init.
 ///
-/// The pointers stay valid, and what they point to stays as it is, until the next call that changes
-/// the cloth (advance, step, reset, pin, set_position, tear_edge, cut, destroy, ...). Read, do not write.
+/// The pointers and the data behind them stay valid until the next call that changes the cloth
+/// (advance, step, reset, pin, set_position, tear_edge, cut, destroy and others).
+///
+/// Vertices are drawn; particles are simulated. See `particles` for their relation.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinView {
     /// Set by muslin_view_init.
     pub struct_size: u32,
-    /// Positions [m], 3 numbers a vertex.
+    /// Positions [m], 3 numbers per vertex.
     pub positions: *const f32,
-    /// Unit normals, area-weighted, 3 numbers a vertex; zeros for a vertex that no triangle uses. Vertices that
-    /// share a particle share its normal.
+    /// Unit normals, weighted by triangle area, 3 numbers per vertex; zeros for a vertex that no
+    /// triangle uses. Vertices of the same particle share its normal.
     pub normals: *const f32,
-    /// Texture coordinates, 2 numbers a vertex.
+    /// Texture coordinates, 2 numbers per vertex.
     pub uvs: *const f32,
-    /// Vertices of the triangles, 3 a triangle.
+    /// Vertices of the triangles, 3 per triangle, counter-clockwise seen from the front.
     pub indices: *const u32,
-    /// Which original vertex each vertex came from, 1 a vertex; for one that a cut made on an edge, the
-    /// nearer end's.
+    /// Vertex of the descriptor that each vertex came from; for a vertex that a cut added on an
+    /// edge, that of the nearer end.
     pub source_vertices: *const u32,
-    /// How many vertices there are.
+    /// Number of vertices.
     pub vertex_count: u32,
-    /// How many indices there are: 3 a triangle.
+    /// Number of indices, 3 per triangle.
     pub index_count: u32,
-    /// How many vertices there may ever be.
+    /// Largest number of vertices that the cloth may ever have.
     pub vertex_capacity: u32,
-    /// How many indices there may ever be.
+    /// Largest number of indices that the cloth may ever have.
     pub index_capacity: u32,
-    /// Changes when indices do.
+    /// Changes whenever the indices change.
     pub topology_revision: u32,
-    /// Changes when positions do.
+    /// Changes whenever positions change.
     pub state_revision: u32,
-    /// 1 for a vertex at a border that a tear or a cut made, which a renderer may fringe; 0 for others,
-    /// those at the borders that the cloth was made with among them. 1 byte a vertex.
+    /// 1 byte per vertex: 1 on a border that a tear or cut made, e.g. to draw fringes; else 0, also
+    /// on borders of the original cloth.
     pub frayed: *const u8,
-    /// The particle of each vertex, 1 a vertex. A mesh that was welded or had sheets to be parted has several
-    /// vertices to a particle; else each vertex is the particle of its number.
+    /// Particle of each vertex. A mesh that was welded, or whose sheets were separated, has several
+    /// vertices per particle; otherwise vertex i is particle i.
     ///
-    /// Calls that touch the cloth (pins, grabs, tears by hand, positions and velocities) take particles, and
-    /// what a ray hits tells one. Of an event, `particle_a` and `particle_b` are particles, `vertex` and `source`
-    /// are vertices. Triangles have the same numbers in both.
+    /// Calls that act on the cloth (pins, grabs, tears, positions and velocities) take particles,
+    /// and a ray hit returns one. In an event, `particle_a` and `particle_b` are particles,
+    /// `vertex` and `source` are vertices. Triangles have the same numbers in both.
     pub particles: *const u32,
 }
 
@@ -91,5 +94,5 @@ impl From<View<'_>> for MuslinView {
     }
 }
 
-// Lists of vectors are lists of numbers, without gaps.
+// Lists of vectors can be read as lists of numbers: the types have no padding.
 const _: () = assert!(size_of::<Vec3>() == 12 && size_of::<Vec2>() == 8 && size_of::<bool>() == 1);

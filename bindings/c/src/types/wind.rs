@@ -1,36 +1,36 @@
-//! The air around a cloth.
+//! Wind: the air around a cloth.
 
 use super::value::MuslinVec3;
 use crate::status::{CallError, Result};
 use muslin_core::{Wind, WindModel};
 
-/// The air pushes each triangle along its normal, by the square of the relative speed; still air
-/// brakes.
+/// Aerodynamic forces on each triangle, proportional to the square of the relative air speed. Still
+/// air damps the motion.
 pub const MUSLIN_WIND_SURFACE: u32 = 0;
-/// The air pushes each particle as a field of sine waves, whichever way the cloth faces. The length
-/// of `velocity` is its strength as an acceleration [m/s^2].
+/// A field of sine waves that accelerates each particle, independent of the direction of the
+/// surface. The length of `velocity` is the strength [m/s^2].
 pub const MUSLIN_WIND_SINE_FIELD: u32 = 1;
 
-/// The air around a cloth. It gusts, wanders and swirls, always the same way for the same seed.
-/// Begin with muslin_wind_init: still air.
+/// The air around a cloth: steady wind with gusts, changing direction and turbulence. Equal seeds
+/// give equal gusts. Initialise it with muslin_wind_init, which describes still air.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MuslinWind {
     /// Set by muslin_wind_init.
     pub struct_size: u32,
-    /// How the air pushes: MUSLIN_WIND_SURFACE (this at first) or MUSLIN_WIND_SINE_FIELD.
+    /// Model: MUSLIN_WIND_SURFACE (default) or MUSLIN_WIND_SINE_FIELD.
     pub model: u32,
-    /// Mean velocity of the air [m/s]; 0, 0, 0.
+    /// Mean velocity of the air [m/s]. Default 0, 0, 0.
     pub velocity: MuslinVec3,
-    /// How much the speed swells and falls, as a share of it; 0. From 0 to 1.
+    /// Variation of the speed over time, as a share of it. Default 0. From 0 to 1.
     pub gust: f32,
-    /// How far the direction strays [rad]; 0. From 0 to pi.
+    /// Variation of the direction over time [rad]. Default 0. From 0 to pi.
     pub wander: f32,
-    /// Swirls in space, as a share of the speed; 0. From 0 to 1.
+    /// Variation of the air velocity in space, as a share of the speed. Default 0. From 0 to 1.
     pub turbulence: f32,
-    /// Density of the air [kg/m^3]; 1.2. At least 0; 0 is a vacuum.
+    /// Density of the air [kg/m^3]. Default 1.2. At least 0; 0 is a vacuum.
     pub air_density: f32,
-    /// Which gusts and swirls; 0.
+    /// Selects the sequence of gusts and turbulence. Default 0.
     pub seed: u32,
 }
 
