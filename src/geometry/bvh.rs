@@ -1,46 +1,58 @@
-//! A tree of boxes: which of many things may be near a place.
+//! A bounding volume hierarchy (BVH): a binary tree of AABBs over static items.
+//!
+//! Built top down: each node is split at the median of the box centers along its longest axis, until a
+//! leaf holds at most four items. Nodes are stored in depth-first order with a skip index, so that a query
+//! walks the array without a stack.
+//!
+//! ```text
+//! node 0 ─┬─ node 1 ─┬─ node 2 (leaf)      skip: 0 → 5, 1 → 4, 2 → 3, 3 → 4, 4 → 5
+//!         │          └─ node 3 (leaf)
+//!         └─ node 4 (leaf)
+//! ```
+//! Reads the boxes of the items once, at construction; queries read only the tree.
+//! Invariant: the tree and the order of query results depend on the boxes alone.
 
 use crate::geometry::aabb::Aabb;
 use crate::math::sort::sort_by;
 use core::ops::Range;
 
-/// Things in a leaf at most.
+/// The most items in a leaf.
 const LEAF: usize = 4;
 
-/// A tree over things with bounds, in an order that their bounds alone decide.
+/// A tree over items that are numbered from 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Bvh {
-    /// Each node before those below it.
-    nodes: Vec<Node>,
-    /// The things, leaf by leaf.
+    /// Each node stands before its children.
+    nodes: Vec<BvhNode>,
+    /// The items, leaf by leaf.
     order: Vec<u32>,
 }
 
 #[derive(Clone, Debug)]
-struct Node {
+struct BvhNode {
     bounds: Aabb,
-    /// The node after all those below it.
-    next: u32,
-    /// The things of a leaf; none of what is no leaf.
-    things: Range<u32>,
+    /// The node that follows the whole subtree of this one.
+    skip: u32,
+    /// The range of a leaf in `order`; empty in inner nodes.
+    items: Range<u32>,
 }
 
 impl Bvh {
-    /// A tree over as many things as there are bounds.
-    pub fn over(bounds: &[Aabb]) -> Self {
+    /// Builds the tree over one item per box. `bounds` must not be empty.
+    pub fn build(bounds: &[Aabb]) -> Self {
         let order = (0..bounds.len() as u32).collect();
         let mut tree = Self { nodes: Vec::new(), order };
-        tree.grow(bounds, 0..bounds.len());
+        tree.build_subtree(bounds, 0..bounds.len());
         tree
     }
 
-    fn grow(&mut self, bounds: &[Aabb], things: Range<usize>) {
+    fn build_subtree(&mut self, bounds: &[Aabb], items: Range<usize>) {
         let mut all = Aabb::EMPTY;
-        self.order[things.clone()].iter().for_each(|thing| all.merge(&bounds[*thing as usize]));
+        self.order[items.clone()].iter().for_each(|item| all.merge(&bounds[*item as usize]));
         let at = self.nodes.len();
-        let is_leaf = things.len() <= LEAF;
-        let own = if is_leaf { things.start as u32..things.end as u32 } else { 0..0 };
-        self.nodes.push(Node { bounds: all, next: 0, things: own });
+        let is_leaf = items.len() <= LEAF;
+        let own = if is_leaf { items.start as u32..items.end as u32 } else { 0..0 };
+        self.nodes.push(BvhNode { bounds: all, skip: 0, items: own });
         if !is_leaf {
             let size = all.half_extents();
             let axis = if size.x >= size.y && size.x >= size.z {
@@ -50,37 +62,38 @@ impl Bvh {
             } else {
                 2
             };
-            let middle = things.start + things.len() / 2;
-            let center = |thing: &u32| bounds[*thing as usize].center()[axis];
-            // Equal ones by their numbers, so that the order is always the same.
-            let order = &mut self.order[things.clone()];
+            let middle = items.start + items.len() / 2;
+            let center = |item: &u32| bounds[*item as usize].center()[axis];
+            // Ties are broken by number, so that the order is unique.
+            let order = &mut self.order[items.clone()];
             sort_by(order, |a, b| center(a).total_cmp(&center(b)).then(a.cmp(b)));
-            self.grow(bounds, things.start..middle);
-            self.grow(bounds, middle..things.end);
+            self.build_subtree(bounds, items.start..middle);
+            self.build_subtree(bounds, middle..items.end);
         }
-        self.nodes[at].next = self.nodes.len() as u32;
+        self.nodes[at].skip = self.nodes.len() as u32;
     }
 
-    /// The bounds of all.
+    /// Returns the bounds of all items.
     pub fn bounds(&self) -> Aabb {
         self.nodes[0].bounds
     }
 
-    /// The things in leaves that meet `place`, always in the same order.
-    pub fn near(&self, place: Aabb) -> impl Iterator<Item = u32> + '_ {
+    /// Returns the items of all leaves whose bounds overlap `query`, in the order of the tree. Items of
+    /// such a leaf that do not overlap themselves are included.
+    pub fn overlapping(&self, query: Aabb) -> impl Iterator<Item = u32> + '_ {
         let mut at = 0;
         let mut leaf = 0..0;
         core::iter::from_fn(move || {
             loop {
-                if let Some(thing) = leaf.next() {
-                    return Some(self.order[thing as usize]);
+                if let Some(item) = leaf.next() {
+                    return Some(self.order[item as usize]);
                 }
                 let node = self.nodes.get(at)?;
-                if node.bounds.overlaps(&place) {
-                    leaf = node.things.clone();
+                if node.bounds.overlaps(&query) {
+                    leaf = node.items.clone();
                     at += 1;
                 } else {
-                    at = node.next as usize;
+                    at = node.skip as usize;
                 }
             }
         })
@@ -93,24 +106,24 @@ mod tests {
     use glam::Vec3;
 
     #[test]
-    fn the_tree_finds_all_that_meets_a_place() {
+    fn a_query_finds_every_overlapping_item_and_skips_most_others() {
         let bounds: Vec<Aabb> = (0..200)
             .map(|i| {
                 let wave = |k: f32| (i as f32 * k).sin() * 3.0;
                 Aabb::from_points([Vec3::new(wave(1.1), wave(2.3), wave(0.7))]).expanded(0.1)
             })
             .collect();
-        let tree = Bvh::over(&bounds);
+        let tree = Bvh::build(&bounds);
         assert!(bounds.iter().all(|one| tree.bounds().contains(one)));
         for i in 0..50 {
             let wave = |k: f32| (i as f32 * k).cos() * 3.0;
-            let place =
-                Aabb::from_points([Vec3::new(wave(1.3), wave(0.4), wave(2.1))]).expanded(0.7);
-            let found: Vec<u32> = tree.near(place).collect();
-            for (thing, bounds) in bounds.iter().enumerate() {
-                assert!(!bounds.overlaps(&place) || found.contains(&(thing as u32)));
+            let center = Vec3::new(wave(1.3), wave(0.4), wave(2.1));
+            let query = Aabb::from_points([center]).expanded(0.7);
+            let found: Vec<u32> = tree.overlapping(query).collect();
+            for (item, bounds) in bounds.iter().enumerate() {
+                assert!(!bounds.overlaps(&query) || found.contains(&(item as u32)));
             }
-            assert!(found.len() < 150, "the tree tells {} of 200 apart", 200 - found.len());
+            assert!(found.len() < 150, "the query skips only {} of 200", 200 - found.len());
         }
     }
 }

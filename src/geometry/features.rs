@@ -1,332 +1,363 @@
-//! What sticks out of a shape of flat facets: ridges, where two of them fold, and corners.
+//! Edge and vertex features of collision shapes with flat faces, and their normal cones.
+//!
+//! ```text
+//!      outward                    A contact normal n belongs to
+//!         ▲                       - an edge if it lies in the normal cone of the edge, between the
+//!   n₀ ↖  │  ↗ n₁                   normals of its two faces:  n · inwardₖ ≤ 0 for both k;
+//!       ╲ │ ╱                     - a vertex if it lies in the normal cone of the vertex:
+//!        ╲│╱                        n · direction ≤ 0 for all of its edges.
+//!  ───────●───────
+//!  inward₀  inward₁               The cones are the Voronoi regions of the feature, seen as directions.
+//! ```
+//! The normal cones of all features tile the sphere of directions (the Gauss map of a polyhedron). Edge
+//! and vertex contacts are accepted only inside the cone of their feature, so contact normals never turn
+//! by more than the shape itself does (Ericson, "Real-Time Collision Detection", 2005, sec. 9.3 on
+//! Voronoi regions; Gottschalk, Lin, Manocha, SIGGRAPH 1996, for edge–edge axes).
+//!
+//! Reads triangles once, at construction, or heightfield cells on the fly; writes only its own lists.
+//! Invariant: features are numbered edges first, then vertices, in an order that the triangles decide.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
 use crate::math::sort::{sort, sort_by};
 use glam::Vec3;
 
-/// How much a shape bends somewhere.
+/// How much a surface bends at a feature.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Bend {
-    /// What the ways out of two facets differ by: nearly the angle, if that is small.
-    pub fold: f32,
-    /// The same, a metre of a facet's width [1/m].
-    pub per_metre: f32,
+pub(crate) struct SurfaceBend {
+    /// The exterior dihedral angle as the length of the difference of the two face normals: nearly the
+    /// angle [rad] if that is small.
+    pub angle: f32,
+    /// The angle divided by the width of the narrower face: a discrete curvature [1/m].
+    pub curvature: f32,
 }
 
-impl Bend {
-    /// How far what spans `length` over such bends gets inside.
+impl SurfaceBend {
+    /// Returns how far a chord of `length` [m] over such bends gets below the surface [m].
     ///
     /// ```text
-    /// one fold in the middle: fold L / 4    many, close together: curvature L² / 8
+    /// one bend in the middle: angle L / 4    many, close together: curvature L² / 8
     /// ```
-    pub fn sag(&self, length: f32) -> f32 {
-        let (one, many) = (self.fold * length * 0.25, self.per_metre * length * length * 0.125);
+    pub fn sagitta(&self, length: f32) -> f32 {
+        let one = self.angle * length * 0.25;
+        let many = self.curvature * length * length * 0.125;
         if one > many { one } else { many }
     }
 
-    /// At least as much as another.
+    /// Takes the larger angle and the larger curvature of both.
     pub fn merge(&mut self, other: Self) {
-        self.fold = self.fold.max(other.fold);
-        self.per_metre = self.per_metre.max(other.per_metre);
+        self.angle = self.angle.max(other.angle);
+        self.curvature = self.curvature.max(other.curvature);
     }
 }
 
-/// Which sides of a ridge or corner are outside.
+/// On which sides of a feature there is free space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Sides {
-    /// The one that `out` points to; behind is a body.
-    SignedDistance,
-    /// The same, but behind there may be cloth too.
-    Fold,
-    /// All but the facet: it is a border.
-    Border,
+pub(crate) enum FeatureSides {
+    /// On the side of `outward`; behind it lies a solid.
+    Solid,
+    /// On both sides of a surface. Contacts count only on the side of `outward`.
+    TwoSided,
+    /// Everywhere but in the face: the feature lies on the boundary of a surface.
+    Boundary,
 }
 
-/// Where two facets meet, or one ends.
+/// An edge feature: the segment where two faces meet at an angle, or where one face ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeFeature {
+    /// [m]
     pub ends: [Vec3; 2],
-    /// From it into each facet, square to it, of length one.
-    pub into: [Vec3; 2],
-    /// Out of each facet, of length one.
+    /// From the edge into each face, perpendicular to the edge, of length one.
+    pub inward: [Vec3; 2],
+    /// The normals of the faces, on the side of `outward`, of length one.
     pub normals: [Vec3; 2],
-    /// Out, between the facets.
-    pub out: Vec3,
-    pub sides: Sides,
-    pub bend: Bend,
+    /// The middle of the normal cone, of length one.
+    pub outward: Vec3,
+    pub sides: FeatureSides,
+    pub bend: SurfaceBend,
 }
 
 impl EdgeFeature {
-    /// Of two facets on whose planes `tips` are; nothing if they do not fold. One facet alone is twice the
-    /// same.
-    pub fn new(ends: [Vec3; 2], tips: [Vec3; 2], sides: Sides) -> Option<Self> {
+    /// Makes the edge `ends` of two faces, each given by any other point of its plane (`opposite`); a
+    /// boundary edge gives the same point twice. `None` if the faces lie in one plane.
+    pub fn new(ends: [Vec3; 2], opposite: [Vec3; 2], sides: FeatureSides) -> Option<Self> {
         let span = ends[1] - ends[0];
         let length = span.length();
         let along = span * (1.0 / length);
-        let widths = tips.map(|tip| {
-            let side = tip - ends[0];
+        let heights = opposite.map(|point| {
+            let side = point - ends[0];
             side - along * side.dot(along)
         });
-        let width = widths.map(Vec3::length);
-        let into = [widths[0] * (1.0 / width[0]), widths[1] * (1.0 / width[1])];
-        let inward = into[0] + into[1];
-        let fold = inward.length();
-        if !(fold > STRAIGHT && length > 0.0) {
+        let width = heights.map(Vec3::length);
+        let inward = [heights[0] * (1.0 / width[0]), heights[1] * (1.0 / width[1])];
+        let sum = inward[0] + inward[1];
+        let angle = sum.length();
+        if !(angle > MIN_ANGLE && length > 0.0) {
             return None;
         }
-        let out = inward * (-1.0 / fold);
-        let normals = into.map(|into| {
-            let normal = along.cross(into);
-            if normal.dot(out) < 0.0 { -normal } else { normal }
+        let outward = sum * (-1.0 / angle);
+        let normals = inward.map(|inward| {
+            let normal = along.cross(inward);
+            if normal.dot(outward) < 0.0 { -normal } else { normal }
         });
         let narrow = if width[0] < width[1] { width[0] } else { width[1] };
-        let bend = Bend { fold, per_metre: fold / narrow };
-        Some(Self { ends, into, normals, out, sides, bend })
+        let bend = SurfaceBend { angle, curvature: angle / narrow };
+        Some(Self { ends, inward, normals, outward, sides, bend })
     }
 
-    /// Whether a point is on the outer side of a fold.
+    /// Returns whether a point lies in front of at least one of the two faces.
     pub fn is_outside(&self, p: Vec3) -> bool {
         self.normals.iter().any(|normal| (p - self.ends[0]).dot(*normal) > 0.0)
     }
 }
 
-/// Facets that fold less than this are one plane.
-const STRAIGHT: f32 = 5.0e-3;
+/// Faces that meet at a smaller angle than this [rad] count as one plane.
+const MIN_ANGLE: f32 = 5.0e-3;
 
-/// Where ridges end.
+/// A vertex feature: the point where edge features meet.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Corner {
-    pub at: Vec3,
-    /// Out, between the ridges.
-    pub out: Vec3,
-    pub sides: Sides,
-    /// The most of its ridges.
-    pub bend: Bend,
-    /// Its entries of `Features::spokes`.
-    from: u32,
-    end: u32,
+pub(crate) struct VertexFeature {
+    /// [m]
+    pub position: Vec3,
+    /// The mean outward direction of its edges, of length one.
+    pub outward: Vec3,
+    pub sides: FeatureSides,
+    /// The largest bend of its edges.
+    pub bend: SurfaceBend,
+    /// Its range in `Features::incident_edges`.
+    first_edge: u32,
+    end_edge: u32,
 }
 
-/// A ridge; or a corner, and its number among corners.
+/// One feature; a vertex with its index in `Features::vertices`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Feature<'a> {
-    EdgeFeature(&'a EdgeFeature),
-    Corner(u32, &'a Corner),
+    Edge(&'a EdgeFeature),
+    Vertex(u32, &'a VertexFeature),
 }
 
-/// Ridges and corners.
+/// Edge and vertex features.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Features {
-    pub ridges: Vec<EdgeFeature>,
-    pub corners: Vec<Corner>,
-    /// Directions along ridges, away from corners, and out of the facets on either side of each.
-    spokes: Vec<Spoke>,
+    pub edges: Vec<EdgeFeature>,
+    pub vertices: Vec<VertexFeature>,
+    /// The edges at each vertex, vertex by vertex.
+    incident_edges: Vec<IncidentEdge>,
 }
 
-/// A ridge as one of its ends sees it.
+/// An edge as seen from one of its ends.
 #[derive(Clone, Copy, Debug)]
-struct Spoke {
-    along: Vec3,
+struct IncidentEdge {
+    /// Along the edge, away from the vertex, of length one.
+    direction: Vec3,
+    /// The normals of its faces.
     normals: [Vec3; 2],
 }
 
 impl Features {
-    /// Sees to room for so many ridges and corners.
+    /// Allocates for `count` more edges and as many vertices.
     pub fn reserve(&mut self, count: usize) {
-        self.ridges.reserve(count);
-        self.corners.reserve(count);
-        self.spokes.reserve(2 * count);
+        self.edges.reserve(count);
+        self.vertices.reserve(count);
+        self.incident_edges.reserve(2 * count);
     }
 
     pub fn clear(&mut self) {
-        self.ridges.clear();
-        self.corners.clear();
-        self.spokes.clear();
+        self.edges.clear();
+        self.vertices.clear();
+        self.incident_edges.clear();
     }
 
-    /// Adds a corner where ridges end; nothing without ridges.
-    pub fn add_corner(&mut self, at: Vec3, ridges: impl Iterator<Item = (Vec3, EdgeFeature)>) {
-        let (from, mut out) = (self.spokes.len() as u32, Vec3::ZERO);
-        let (mut bend, mut sides) = (Bend::default(), Sides::SignedDistance);
-        for (to, ridge) in ridges {
+    /// Appends the vertex where `edges` end, each given with its other end. Without edges it appends
+    /// nothing.
+    pub fn push_vertex(&mut self, at: Vec3, edges: impl Iterator<Item = (Vec3, EdgeFeature)>) {
+        let (first_edge, mut outward) = (self.incident_edges.len() as u32, Vec3::ZERO);
+        let (mut bend, mut sides) = (SurfaceBend::default(), FeatureSides::Solid);
+        for (to, edge) in edges {
             let along = to - at;
-            let along = along * (1.0 / along.length());
-            self.spokes.push(Spoke { along, normals: ridge.normals });
-            out += ridge.out;
-            bend.merge(ridge.bend);
-            if sides == Sides::SignedDistance || ridge.sides == Sides::Border {
-                sides = ridge.sides;
+            let direction = along * (1.0 / along.length());
+            self.incident_edges.push(IncidentEdge { direction, normals: edge.normals });
+            outward += edge.outward;
+            bend.merge(edge.bend);
+            if sides == FeatureSides::Solid || edge.sides == FeatureSides::Boundary {
+                sides = edge.sides;
             }
         }
-        let (end, length) = (self.spokes.len() as u32, out.length());
+        let (end_edge, length) = (self.incident_edges.len() as u32, outward.length());
         if length > 0.0 {
-            let out = out * (1.0 / length);
-            self.corners.push(Corner { at, out, sides, bend, from, end });
+            let outward = outward * (1.0 / length);
+            let position = at;
+            let vertex = VertexFeature { position, outward, sides, bend, first_edge, end_edge };
+            self.vertices.push(vertex);
         } else {
-            self.spokes.truncate(from as usize);
+            self.incident_edges.truncate(first_edge as usize);
         }
     }
 
-    /// How many ridges and corners there are.
+    /// Returns the numbers of edges and of vertices.
     pub fn counts(&self) -> [usize; 2] {
-        [self.ridges.len(), self.corners.len()]
+        [self.edges.len(), self.vertices.len()]
     }
 
-    /// Numbers of what was added when there were so many: ridges first, then corners, which are numbered after
-    /// all ridges.
-    pub fn numbers_after(
-        &self,
-        [ridges, corners]: [usize; 2],
-    ) -> impl Iterator<Item = u32> + use<> {
-        let [ridge_count, corner_count] = self.counts();
-        let corners = ridge_count + corners..ridge_count + corner_count;
-        (ridges..ridge_count).chain(corners).map(|number| number as u32)
+    /// Returns the ids of all features that were appended since [`Features::counts`] returned these
+    /// numbers. The id of a vertex is its index plus the number of edges.
+    pub fn ids_since(&self, [edges, vertices]: [usize; 2]) -> impl Iterator<Item = u32> + use<> {
+        let [edge_count, vertex_count] = self.counts();
+        let vertices = edge_count + vertices..edge_count + vertex_count;
+        (edges..edge_count).chain(vertices).map(|id| id as u32)
     }
 
-    /// What has a number.
-    pub fn at(&self, number: u32) -> Feature<'_> {
-        match self.ridges.get(number as usize) {
-            Some(ridge) => Feature::EdgeFeature(ridge),
+    /// Returns the feature with this id.
+    pub fn get(&self, id: u32) -> Feature<'_> {
+        match self.edges.get(id as usize) {
+            Some(edge) => Feature::Edge(edge),
             None => {
-                let own = number as usize - self.ridges.len();
-                Feature::Corner(own as u32, &self.corners[own])
+                let own = id as usize - self.edges.len();
+                Feature::Vertex(own as u32, &self.vertices[own])
             }
         }
     }
 
-    /// Where it is.
-    pub fn bounds(&self, number: u32) -> Aabb {
-        match self.at(number) {
-            Feature::EdgeFeature(ridge) => Aabb::from_points(ridge.ends),
-            Feature::Corner(_, corner) => Aabb { low: corner.at, high: corner.at },
+    /// Returns the bounds of a feature [m].
+    pub fn bounds(&self, id: u32) -> Aabb {
+        match self.get(id) {
+            Feature::Edge(edge) => Aabb::from_points(edge.ends),
+            Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
         }
     }
 
-    /// How much the shape bends there.
-    pub fn bend(&self, number: u32) -> Bend {
-        match self.at(number) {
-            Feature::EdgeFeature(ridge) => ridge.bend,
-            Feature::Corner(_, corner) => corner.bend,
+    /// Returns how much the surface bends at a feature.
+    pub fn bend(&self, id: u32) -> SurfaceBend {
+        match self.get(id) {
+            Feature::Edge(edge) => edge.bend,
+            Feature::Vertex(_, vertex) => vertex.bend,
         }
     }
 
-    fn spokes(&self, corner: &Corner) -> &[Spoke] {
-        &self.spokes[corner.from as usize..corner.end as usize]
+    fn incident_edges(&self, vertex: &VertexFeature) -> &[IncidentEdge] {
+        &self.incident_edges[vertex.first_edge as usize..vertex.end_edge as usize]
     }
 
-    /// Whether a plane with this normal may lie on a corner: all its ridges go down from there.
-    pub fn is_tip(&self, corner: &Corner, normal: Vec3, most: f32) -> bool {
-        self.spokes(corner).iter().all(|spoke| spoke.along.dot(normal) <= most)
+    /// Returns whether `normal` lies in the normal cone of a vertex: no edge rises above the plane through
+    /// the vertex by more than `tolerance`, the sine of an angle.
+    pub fn is_in_normal_cone(&self, vertex: &VertexFeature, normal: Vec3, tolerance: f32) -> bool {
+        let mut edges = self.incident_edges(vertex).iter();
+        edges.all(|edge| edge.direction.dot(normal) <= tolerance)
     }
 
-    /// Whether a point is on the outer side of a corner.
-    pub fn is_outside(&self, corner: &Corner, p: Vec3) -> bool {
-        let facing = |normal: &Vec3| {
-            let side = (p - corner.at).dot(*normal);
-            if normal.dot(corner.out) > 0.0 { side > 0.0 } else { side < 0.0 }
+    /// Returns whether a point lies in front of at least one face at a vertex.
+    pub fn is_outside_vertex(&self, vertex: &VertexFeature, p: Vec3) -> bool {
+        let is_in_front = |normal: &Vec3| {
+            let side = (p - vertex.position).dot(*normal);
+            if normal.dot(vertex.outward) > 0.0 { side > 0.0 } else { side < 0.0 }
         };
-        self.spokes(corner).iter().any(|spoke| spoke.normals.iter().any(facing))
+        self.incident_edges(vertex).iter().any(|edge| edge.normals.iter().any(is_in_front))
     }
 }
 
-/// The ridges and corners of a shape that stays as it is, in a tree.
+/// All features of a static shape, with a BVH over them.
 #[derive(Clone, Debug)]
 pub(crate) struct ShapeFeatures {
     pub features: Features,
-    /// Over ridges, then corners; nothing where all is flat.
+    /// Over feature ids; `None` if the shape is one plane.
     tree: Option<Bvh>,
-    pub steps: Steps,
+    pub bends: BendHistogram,
 }
 
 impl ShapeFeatures {
-    /// Of triangles with an area. Corners in the same place are one.
+    /// Builds the features of triangles, each with an area. Corners in the same place count as one
+    /// vertex. `is_solid` says that the triangles enclose a solid.
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]], is_solid: bool) -> Self {
-        let same = join_places(positions);
+        let welded = weld_positions(positions);
         let mut edges = Vec::new();
         for triangle in triangles {
-            let [a, b, c] = triangle.map(|i| same[i as usize]);
-            for [from, to, tip] in [[a, b, c], [b, c, a], [c, a, b]] {
-                edges.push(([from.min(to), from.max(to)], tip));
+            let [a, b, c] = triangle.map(|i| welded[i as usize]);
+            for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
+                edges.push(([from.min(to), from.max(to)], opposite));
             }
         }
         sort(&mut edges);
-        let (mut features, mut steps) = (Features::default(), Steps::default());
+        let (mut features, mut bends) = (Features::default(), BendHistogram::default());
         let mut ends = Vec::new();
         for edge in edges.chunk_by(|a, b| a.0 == b.0) {
-            let whole = if is_solid { Sides::SignedDistance } else { Sides::Fold };
-            let sides = if edge.len() == 2 { whole } else { Sides::Border };
+            let interior = if is_solid { FeatureSides::Solid } else { FeatureSides::TwoSided };
+            let sides = if edge.len() == 2 { interior } else { FeatureSides::Boundary };
             let at = |i: u32| positions[i as usize];
-            let tips = [at(edge[0].1), at(edge[edge.len().min(2) - 1].1)];
-            let Some(ridge) = EdgeFeature::new(edge[0].0.map(at), tips, sides) else { continue };
-            steps.add(ridge.bend);
+            let opposite = [at(edge[0].1), at(edge[edge.len().min(2) - 1].1)];
+            let Some(feature) = EdgeFeature::new(edge[0].0.map(at), opposite, sides) else {
+                continue;
+            };
+            bends.insert(feature.bend);
             let [from, to] = edge[0].0;
-            ends.extend([(from, to, features.ridges.len()), (to, from, features.ridges.len())]);
-            features.ridges.push(ridge);
+            ends.extend([(from, to, features.edges.len()), (to, from, features.edges.len())]);
+            features.edges.push(feature);
         }
         sort(&mut ends);
         for own in ends.chunk_by(|a, b| a.0 == b.0) {
             let at = positions[own[0].0 as usize];
-            let ridges: Vec<(Vec3, EdgeFeature)> = own
+            let edges: Vec<(Vec3, EdgeFeature)> = own
                 .iter()
-                .map(|(_, to, ridge)| (positions[*to as usize], features.ridges[*ridge]))
+                .map(|(_, to, edge)| (positions[*to as usize], features.edges[*edge]))
                 .collect();
-            features.add_corner(at, ridges.into_iter());
+            features.push_vertex(at, edges.into_iter());
         }
-        let numbers = features.numbers_after([0; 2]);
-        let bounds: Vec<Aabb> = numbers.map(|number| features.bounds(number)).collect();
-        let tree = (!bounds.is_empty()).then(|| Bvh::over(&bounds));
-        Self { features, tree, steps }
+        let ids = features.ids_since([0; 2]);
+        let bounds: Vec<Aabb> = ids.map(|id| features.bounds(id)).collect();
+        let tree = (!bounds.is_empty()).then(|| Bvh::build(&bounds));
+        Self { features, tree, bends }
     }
 
-    /// The numbers of ridges and, after them all, corners that may be in a place.
-    pub fn near(&self, place: Aabb) -> impl Iterator<Item = u32> + '_ {
-        self.tree.iter().flat_map(move |tree| tree.near(place))
+    /// Returns the ids of the features that may overlap `bounds`, in the order of the BVH.
+    pub fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> + '_ {
+        self.tree.iter().flat_map(move |tree| tree.overlapping(bounds))
     }
 }
 
-/// For each point the first in the same place.
-fn join_places(positions: &[Vec3]) -> Vec<u32> {
-    // Minus zero is zero.
+/// Returns, for each point, the first point in the same place.
+fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
+    // Adding zero turns minus zero into zero.
     let bits = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     sort_by(&mut order, |p, q| (bits(*p), p).cmp(&(bits(*q), q)));
-    let mut same = vec![0; positions.len()];
-    for places in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
-        places.iter().for_each(|i| same[*i as usize] = places[0]);
+    let mut welded = vec![0; positions.len()];
+    for same in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
+        same.iter().for_each(|i| welded[*i as usize] = same[0]);
     }
-    same
+    welded
 }
 
-/// The bends of a shape, sorted roughly by how much they fold: the most in each of some steps.
+/// The bends of a shape, in buckets by their angle: each bucket holds the largest angle and the largest
+/// curvature of its bends.
 #[derive(Clone, Debug)]
-pub(crate) struct Steps([Bend; STEPS]);
+pub(crate) struct BendHistogram([SurfaceBend; BUCKETS]);
 
-/// Two steps an octave.
-const STEPS: usize = 32;
+/// Two buckets per octave.
+const BUCKETS: usize = 32;
 
-/// Folds of less than two to the power of minus this are all in the first step.
-const LEAST: u32 = 16;
+/// All angles below two to the power of minus this are in the first bucket.
+const MIN_EXPONENT: u32 = 16;
 
-impl Default for Steps {
+impl Default for BendHistogram {
     fn default() -> Self {
-        Self([Bend::default(); STEPS])
+        Self([SurfaceBend::default(); BUCKETS])
     }
 }
 
-impl Steps {
-    pub fn add(&mut self, bend: Bend) {
-        // The exponent and the first bit after it.
-        let step = (bend.fold.to_bits() >> 22).saturating_sub(2 * (127 - LEAST)) as usize;
-        self.0[step.min(STEPS - 1)].merge(bend);
+impl BendHistogram {
+    /// Merges a bend into its bucket.
+    pub fn insert(&mut self, bend: SurfaceBend) {
+        // The exponent and the first bit of the mantissa.
+        let bucket = (bend.angle.to_bits() >> 22).saturating_sub(2 * (127 - MIN_EXPONENT)) as usize;
+        self.0[bucket.min(BUCKETS - 1)].merge(bend);
     }
 
-    /// The most that what spans `length` may bend without getting in by more than `sag`.
-    pub fn mild(&self, length: f32, sag: f32) -> Bend {
-        let mut mild = Bend::default();
-        let is_mild = |step: &&Bend| step.sag(length) <= sag;
-        self.0.iter().filter(is_mild).for_each(|step| mild.merge(*step));
-        mild
+    /// Returns the largest bends that a chord of `length` [m] crosses without getting below the surface by
+    /// more than `sagitta` [m].
+    pub fn largest_within(&self, length: f32, sagitta: f32) -> SurfaceBend {
+        let mut largest = SurfaceBend::default();
+        let is_within = |bend: &&SurfaceBend| bend.sagitta(length) <= sagitta;
+        self.0.iter().filter(is_within).for_each(|bend| largest.merge(*bend));
+        largest
     }
 }
 
@@ -345,46 +376,47 @@ mod tests {
         .into_iter()
         .chain([Vec3::new(2.0, 0.0, 1.0), Vec3::new(1.0, 1.0, 1.0)]);
         let positions: Vec<Vec3> = positions.collect();
-        // The last point is the same as the fourth.
+        // The last point is in the same place as the fourth.
         ShapeFeatures::build(&positions, &[[0, 1, 2], [1, 3, 2], [2, 6, 4], [6, 5, 4]], false)
     }
 
     #[test]
-    fn a_roof_has_a_ridge_and_six_borders_and_its_slopes_have_none() {
-        let Features { ridges, corners, .. } = roof().features;
-        let folds: Vec<&EdgeFeature> =
-            ridges.iter().filter(|ridge| ridge.sides == Sides::Fold).collect();
-        assert_eq!((folds.len(), ridges.len(), corners.len()), (1, 7, 6));
-        assert!((folds[0].out - Vec3::Y).length() < 1.0e-6, "{}", folds[0].out);
-        assert!((folds[0].bend.fold - 2.0_f32.sqrt()).abs() < 1.0e-6);
-        assert!(folds[0].is_outside(Vec3::new(0.0, 0.5, 0.5)));
-        assert!(!folds[0].is_outside(Vec3::new(1.0, 0.5, 0.5)));
+    fn a_roof_has_one_interior_edge_and_six_boundary_edges() {
+        let Features { edges, vertices, .. } = roof().features;
+        let is_interior = |edge: &&EdgeFeature| edge.sides == FeatureSides::TwoSided;
+        let interior: Vec<&EdgeFeature> = edges.iter().filter(is_interior).collect();
+        assert_eq!((interior.len(), edges.len(), vertices.len()), (1, 7, 6));
+        assert!((interior[0].outward - Vec3::Y).length() < 1.0e-6, "{}", interior[0].outward);
+        assert!((interior[0].bend.angle - 2.0_f32.sqrt()).abs() < 1.0e-6);
+        assert!(interior[0].is_outside(Vec3::new(0.0, 0.5, 0.5)));
+        assert!(!interior[0].is_outside(Vec3::new(1.0, 0.5, 0.5)));
     }
 
     #[test]
-    fn a_plane_lies_on_a_corner_from_where_all_goes_down() {
+    fn the_normal_cone_of_a_pyramid_tip_contains_only_normals_above_all_its_edges() {
         let positions = [Vec3::Y, Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z];
         let triangles = [[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]];
         let features = ShapeFeatures::build(&positions, &triangles, false).features;
-        let tip = features.corners.iter().find(|corner| corner.at == Vec3::Y).unwrap();
-        assert!((tip.out - Vec3::Y).length() < 1.0e-6 && tip.sides == Sides::Fold);
-        assert!(features.is_tip(tip, Vec3::Y, 0.0) && !features.is_tip(tip, Vec3::X, 0.0));
-        assert!(features.is_outside(tip, Vec3::Y * 1.1));
-        assert!(!features.is_outside(tip, Vec3::Y * 0.5));
+        let tip = features.vertices.iter().find(|vertex| vertex.position == Vec3::Y).unwrap();
+        assert!((tip.outward - Vec3::Y).length() < 1.0e-6 && tip.sides == FeatureSides::TwoSided);
+        assert!(features.is_in_normal_cone(tip, Vec3::Y, 0.0));
+        assert!(!features.is_in_normal_cone(tip, Vec3::X, 0.0));
+        assert!(features.is_outside_vertex(tip, Vec3::Y * 1.1));
+        assert!(!features.is_outside_vertex(tip, Vec3::Y * 0.5));
     }
 
     #[test]
-    fn mild_bends_are_those_that_let_little_in() {
-        let mut steps = Steps::default();
-        for fold in [0.01, 0.1, 0.125, 0.5, 1.5] {
-            steps.add(Bend { fold, per_metre: fold * 8.0 });
+    fn the_histogram_gives_the_largest_bends_within_a_sagitta() {
+        let mut bends = BendHistogram::default();
+        for angle in [0.01, 0.1, 0.125, 0.5, 1.5] {
+            bends.insert(SurfaceBend { angle, curvature: angle * 8.0 });
         }
-        let mild = steps.mild(0.1, 0.004);
-        assert_eq!((mild.fold, mild.per_metre), (0.125, 1.0));
-        assert_eq!(steps.mild(0.1, 0.0001).fold, 0.0);
-        // Many folds close together get in farther than one.
-        steps.add(Bend { fold: 0.01, per_metre: 9.0 });
-        assert_eq!(steps.mild(0.1, 0.004).fold, 0.125);
-        assert_eq!(steps.mild(0.1, 0.004).per_metre, 1.0);
+        let largest = bends.largest_within(0.1, 0.004);
+        assert_eq!((largest.angle, largest.curvature), (0.125, 1.0));
+        assert_eq!(bends.largest_within(0.1, 0.0001).angle, 0.0);
+        // Many bends close together let a chord in farther than one.
+        bends.insert(SurfaceBend { angle: 0.01, curvature: 9.0 });
+        assert_eq!(bends.largest_within(0.1, 0.004).angle, 0.125);
+        assert_eq!(bends.largest_within(0.1, 0.004).curvature, 1.0);
     }
 }

@@ -1,79 +1,94 @@
-//! Points in cubic cells, by counting sort: who is near whom.
+//! A uniform grid with wrapped cell coordinates: all pairs of points within a radius.
 //!
-//! Space is wrapped around a block of cells, so that a table of fixed size holds points wherever they
-//! are. Cells that share a place in it are far from each other.
+//! Points are sorted into cubic cells by counting sort (Green, "Particle Simulation using CUDA", 2010).
+//! The grid is a torus of 2ᵃ × 2ᵇ × 2ᶜ cells: coordinates are taken modulo the size, so a table of fixed
+//! size holds points at any position. Cells that share an entry are far from each other in space.
+//!
+//! ```text
+//! each cell is paired with itself and with 13 of its 26 neighbours, so every pair of cells meets once:
+//!
+//!   layer z:    · ■ →          layer z + 1:   ■ ■ ■       ■ the cell, → and ■: cells that it looks at
+//!               ■ ■ ■ (y + 1)                 ■ ■ ■
+//!                                             ■ ■ ■
+//! ```
+//! Reads positions; writes its own tables and pushes pairs to the list of the caller.
+//! Invariant: every pair of points nearer than the radius is pushed exactly once, at every SIMD level.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, MAX_LANES, Scalar, Simd, vectored};
 use glam::Vec3;
 
-/// Fewer cells than this along a side, and a cell would be its own neighbour's neighbour.
-const LEAST_BITS: u32 = 2;
+/// With fewer than 2² cells along an axis, two neighbours of a cell would be the same cell.
+const MIN_BITS: u32 = 2;
 
-/// The most parts of the grid that a cell looks at: itself, one beside it, and three in each of four rows.
-const PARTS: usize = 14;
+/// The most ranges of points that a cell reads: its own, one beside it, and three in each of four rows.
+const MAX_RANGES: usize = 14;
 
-/// As many points are asked about at once as there are bits in a number.
-const ASKED: usize = u64::BITS as usize;
+/// Points that are tested in one batch: one bit of a `u64` each.
+const BATCH: usize = u64::BITS as usize;
 
-/// A number that much smaller ones are rounded to whole ones by, if they are added: those count its last bits up.
-const ROUNDS: f32 = 12_582_912.0;
+/// 1.5 · 2²³: adding it rounds a much smaller number to an integer, which then stands in the low bits.
+const ROUNDING: f32 = 12_582_912.0;
 
-/// The points of a cell and of those ahead of it, and where they are; behind the last there is room for a vector.
+/// The points of one cell and of its neighbours ahead, copied together. Padded by one vector.
 #[derive(Clone, Debug, Default)]
-struct Around {
+struct Neighbourhood {
     points: Vec<u32>,
     x: Columns,
 }
 
-/// Points sorted into cells.
+/// Points sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HashGrid {
-    /// For each cell, where its points begin; and where the last ones end.
+    /// For each cell the index of its first point in `points`, and one end index.
     first: Vec<u32>,
-    /// The points, cell by cell, lowest first in each, and where they are; behind the last there is room for a
-    /// vector.
+    /// The points, cell by cell, in ascending order within a cell. Padded by one vector.
     points: Vec<u32>,
+    /// The positions of `points` [m].
     x: Columns,
-    around: Around,
+    neighbourhood: Neighbourhood,
     /// The cell of each point.
     cell: Vec<u32>,
-    /// Cells along each side, as powers of two.
+    /// The binary logarithm of the number of cells along each axis.
     bits: [u32; 3],
+    /// Cells per metre.
     per_length: f32,
 }
 
 impl HashGrid {
-    /// A grid for so many points.
+    /// Allocates a grid for at most `capacity` points.
     pub fn new(capacity: usize) -> Self {
         let all = capacity.next_power_of_two().trailing_zeros() + 1;
-        let bits = [all.div_ceil(3), (all + 1) / 3, all / 3].map(|bits| bits.max(LEAST_BITS));
+        let bits = [all.div_ceil(3), (all + 1) / 3, all / 3].map(|bits| bits.max(MIN_BITS));
         let cells = 1_usize << bits.iter().sum::<u32>();
-        let room = capacity + MAX_LANES;
+        let padded = capacity + MAX_LANES;
         Self {
             first: vec![0; cells + 2],
-            points: Vec::with_capacity(room),
-            x: Columns::with_capacity(room),
-            around: Around { points: Vec::with_capacity(room), x: Columns::with_capacity(room) },
+            points: Vec::with_capacity(padded),
+            x: Columns::with_capacity(padded),
+            neighbourhood: Neighbourhood {
+                points: Vec::with_capacity(padded),
+                x: Columns::with_capacity(padded),
+            },
             cell: Vec::with_capacity(capacity),
             bits,
             per_length: 1.0,
         }
     }
 
-    /// Bytes that it holds.
+    /// Returns the allocated bytes.
     pub fn bytes(&self) -> usize {
-        let points = self.points.capacity() + self.around.points.capacity();
+        let points = self.points.capacity() + self.neighbourhood.points.capacity();
         let whole = self.first.len() + self.cell.capacity() + points;
-        size_of::<u32>() * whole + self.x.bytes() + self.around.x.bytes()
+        size_of::<u32>() * whole + self.x.bytes() + self.neighbourhood.x.bytes()
     }
 
-    /// Sorts points into cells of such a side [m].
+    /// Sorts `points` into cells with sides of `side` [m]. There are at most as many as the capacity.
     pub fn rebuild(&mut self, points: &[Vec3], side: f32) {
         self.per_length = 1.0 / side;
         let mut cell = core::mem::take(&mut self.cell);
         cell.clear();
-        cell.extend(points.iter().map(|point| self.index(self.place(*point))));
+        cell.extend(points.iter().map(|point| self.cell_index(self.cell_coordinates(*point))));
         self.first.fill(0);
         for cell in &cell {
             self.first[*cell as usize + 2] += 1;
@@ -81,12 +96,13 @@ impl HashGrid {
         for at in 2..self.first.len() {
             self.first[at] += self.first[at - 1];
         }
-        let room = cell.len() + MAX_LANES;
-        for (points, x) in
-            [(&mut self.points, &mut self.x), (&mut self.around.points, &mut self.around.x)]
-        {
-            points.resize(room, 0);
-            x.resize(room);
+        let padded = cell.len() + MAX_LANES;
+        for (points, x) in [
+            (&mut self.points, &mut self.x),
+            (&mut self.neighbourhood.points, &mut self.neighbourhood.x),
+        ] {
+            points.resize(padded, 0);
+            x.resize(padded);
         }
         for (point, cell) in cell.iter().enumerate() {
             let next = &mut self.first[*cell as usize + 1];
@@ -97,16 +113,16 @@ impl HashGrid {
         self.cell = cell;
     }
 
-    /// Adds the pairs of points that are nearer to each other than the root of `within`, no more than a cell's side
-    /// [m²], the lower one first; in no order of theirs.
-    pub fn push_close_pairs(&mut self, level: Level, within: f32, pairs: &mut Vec<[u32; 2]>) {
-        push_close_pairs(level, self, within, pairs);
+    /// Pushes all pairs of points whose squared distance is below `radius2` [m²], each with the lower
+    /// index first. The radius is at most the side of a cell. The pairs come in the order of the cells.
+    pub fn push_close_pairs(&mut self, level: Level, radius2: f32, pairs: &mut Vec<[u32; 2]>) {
+        push_close_pairs(level, self, radius2, pairs);
     }
 
-    /// Where the points of a cell are, and then those of cells ahead of it: of half of those around it, so that each
-    /// two cells side by side meet once. Says how many parts that are; none is empty.
+    /// Writes the ranges of points of a cell and of the 13 neighbours ahead of it to `ranges`, and returns
+    /// how many there are. None is empty.
     #[inline(always)]
-    fn look_ahead(&self, cell: u32, parts: &mut [(u32, u32); PARTS]) -> usize {
+    fn collect_ranges(&self, cell: u32, ranges: &mut [(u32, u32); MAX_RANGES]) -> usize {
         let [bx, by, _] = self.bits;
         let of = |cell: u32, first: u32, bits: u32| cell >> first & ((1 << bits) - 1);
         let (x, y, z) = (of(cell, 0, bx), of(cell, bx, by), cell >> (bx + by));
@@ -114,17 +130,17 @@ impl HashGrid {
         let mut count = 0;
         let mut add = |from: u32, cells: u32| {
             let (from, to) = (self.first[from as usize], self.first[(from + cells) as usize]);
-            parts[count] = (from, to);
+            ranges[count] = (from, to);
             count += usize::from(from < to);
         };
         if x == last {
             add(cell, 1);
-            add(self.index([0, y, z]), 1);
+            add(self.cell_index([0, y, z]), 1);
         } else {
             add(cell, 2);
         }
         for (dy, dz) in [(1, 0), (u32::MAX, 1), (0, 1), (1, 1)] {
-            let row = |x: u32| self.index([x, y.wrapping_add(dy), z.wrapping_add(dz)]);
+            let row = |x: u32| self.cell_index([x, y.wrapping_add(dy), z.wrapping_add(dz)]);
             if x > 0 && x < last {
                 // Three cells side by side.
                 add(row(x - 1), 3);
@@ -137,14 +153,14 @@ impl HashGrid {
         count
     }
 
-    /// The cell of a point along each axis, not wrapped yet.
+    /// Returns the cell of a point along each axis, not wrapped yet.
     #[inline(always)]
-    fn place(&self, point: Vec3) -> [u32; 3] {
-        point.to_array().map(|c| (c * self.per_length + ROUNDS).to_bits())
+    fn cell_coordinates(&self, point: Vec3) -> [u32; 3] {
+        point.to_array().map(|c| (c * self.per_length + ROUNDING).to_bits())
     }
 
     #[inline(always)]
-    fn index(&self, [x, y, z]: [u32; 3]) -> u32 {
+    fn cell_index(&self, [x, y, z]: [u32; 3]) -> u32 {
         let [bx, by, bz] = self.bits;
         let wrap = |c: u32, bits: u32| c & ((1 << bits) - 1);
         (wrap(z, bz) << by | wrap(y, by)) << bx | wrap(x, bx)
@@ -153,40 +169,40 @@ impl HashGrid {
 
 vectored! {
     /// As [`HashGrid::push_close_pairs`].
-    fn push_close_pairs(grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>)
-        = list_by_vectors, Avx2, list_by_numbers
+    fn push_close_pairs(grid: &mut HashGrid, radius2: f32, pairs: &mut Vec<[u32; 2]>)
+        = push_pairs_simd, Avx2, push_pairs_scalar
 }
 
 #[inline(always)]
-fn list_by_numbers(grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
-    list_by_vectors(Scalar, grid, within, pairs);
+fn push_pairs_scalar(grid: &mut HashGrid, radius2: f32, pairs: &mut Vec<[u32; 2]>) {
+    push_pairs_simd(Scalar, grid, radius2, pairs);
 }
 
 #[inline(always)]
-fn list_by_vectors<S: Simd>(s: S, grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
-    let (mut parts, mut from) = ([(0, 0); PARTS], 0);
+fn push_pairs_simd<S: Simd>(s: S, grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
+    let (mut ranges, mut from) = ([(0, 0); MAX_RANGES], 0);
     while from < grid.cell.len() {
         let cell = grid.cell[grid.points[from] as usize];
         let to = grid.first[cell as usize + 1] as usize;
-        let count = grid.look_ahead(cell, &mut parts);
-        let all = grid.bring_together(s, &parts[..count]);
+        let count = grid.collect_ranges(cell, &mut ranges);
+        let all = grid.gather_neighbourhood(s, &ranges[..count]);
         for one in 0..to - from {
-            grid.around.list_with(s, one, all, within, pairs);
+            grid.neighbourhood.push_pairs_of(s, one, all, radius2, pairs);
         }
         from = to;
     }
 }
 
 impl HashGrid {
-    /// Brings the points of some parts together, and says how many there are.
+    /// Copies the points of some ranges into `neighbourhood`, and returns how many there are.
     #[inline(always)]
-    fn bring_together<S: Simd>(&mut self, s: S, parts: &[(u32, u32)]) -> usize {
-        let Around { points, x } = &mut self.around;
+    fn gather_neighbourhood<S: Simd>(&mut self, s: S, ranges: &[(u32, u32)]) -> usize {
+        let Neighbourhood { points, x } = &mut self.neighbourhood;
         let from = self.x.all();
         let mut count = 0;
-        for part in parts {
-            let (mut at, mut end) = (part.0 as usize, count);
-            count += (part.1 - part.0) as usize;
+        for range in ranges {
+            let (mut at, mut end) = (range.0 as usize, count);
+            count += (range.1 - range.0) as usize;
             while end < count {
                 for (axis, to) in x.all_mut().into_iter().enumerate() {
                     s.store(to, end, s.load(from[axis], at));
@@ -199,30 +215,30 @@ impl HashGrid {
     }
 }
 
-impl Around {
-    /// Adds the pairs of one of the points with those behind it.
+impl Neighbourhood {
+    /// Pushes the close pairs of point `one` with the points after it, of `all` points.
     #[inline(always)]
-    fn list_with<S: Simd>(
+    fn push_pairs_of<S: Simd>(
         &self,
         s: S,
         one: usize,
         all: usize,
-        within: f32,
+        radius2: f32,
         pairs: &mut Vec<[u32; 2]>,
     ) {
         let (i, columns) = (self.points[one], self.x.all());
         let x = columns.map(|column| s.splat(column[one]));
-        let (mut at, within) = (one + 1, s.splat(within));
+        let (mut at, radius2) = (one + 1, s.splat(radius2));
         while at < all {
-            // Who is near and who is not follows no rule that a processor could learn: so many are asked first.
-            let (mut near, mut asked) = (0, 0);
-            while asked < ASKED && at + asked < all {
-                let way = |axis: usize| s.load(columns[axis], at + asked) - x[axis];
-                let [x, y, z] = [way(0), way(1), way(2)];
-                near |= u64::from(s.positive_mask(within - (x * x + y * y + z * z))) << asked;
-                asked += S::LANES;
+            // Branches on the outcome are unpredictable, so a whole batch is tested before any branch.
+            let (mut near, mut tested) = (0, 0);
+            while tested < BATCH && at + tested < all {
+                let difference = |axis: usize| s.load(columns[axis], at + tested) - x[axis];
+                let [x, y, z] = [difference(0), difference(1), difference(2)];
+                near |= u64::from(s.positive_mask(radius2 - (x * x + y * y + z * z))) << tested;
+                tested += S::LANES;
             }
-            if all - at < ASKED {
+            if all - at < BATCH {
                 near &= (1 << (all - at)) - 1;
             }
             while near != 0 {
@@ -230,7 +246,7 @@ impl Around {
                 pairs.push([i.min(j), i.max(j)]);
                 near &= near - 1;
             }
-            at += ASKED;
+            at += BATCH;
         }
     }
 }
@@ -240,17 +256,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_side_by_side_have_numbers_in_a_row() {
+    fn neighbouring_cells_have_consecutive_coordinates() {
         let mut grid = HashGrid::new(1);
         grid.per_length = 1.0;
-        let number = |c: i32| grid.place(Vec3::splat(c as f32))[0];
+        let number = |c: i32| grid.cell_coordinates(Vec3::splat(c as f32))[0];
         for c in [-2_000_000, -77, -1, 0, 1, 5, 2_000_000] {
             assert_eq!(number(c + 1), number(c) + 1, "{c}");
         }
     }
 
     #[test]
-    fn all_points_that_are_near_are_found_once() {
+    fn every_close_pair_is_pushed_exactly_once_at_every_level() {
         let point = |i: u32| {
             let c = |k: u32| (i.wrapping_mul(k) % 1009) as f32 * 0.01 - 5.0;
             Vec3::new(c(7919), c(104_729), c(1299))

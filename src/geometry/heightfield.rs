@@ -1,25 +1,39 @@
-//! A heightfield: ground over a grid of heights.
+//! Heightfields: terrain over a regular grid of heights.
+//!
+//! ```text
+//! a ─── b      Each cell has two triangles, split along the diagonal a–d:
+//! │ ╲   │      a point with u > v (u along x, v along z) is over a, b, d; any other over a, c, d.
+//! │   ╲ │
+//! c ─── d      → x, ↓ z
+//! ```
+//! The distance of a point is its distance from the plane of the triangle below it: exact above the
+//! interior of that triangle, and a lower bound above convex ground.
+//!
+//! Reads its heights; writes features to the list of the caller.
+//! Invariant: edges are features only where `outward` points up: ridges, and not valleys.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{EdgeFeature, Features, Sides, Steps};
+use crate::geometry::features::{BendHistogram, EdgeFeature, FeatureSides, Features};
 use crate::math::{max, min};
 use core::ops::RangeInclusive;
 use glam::Vec3;
 
-/// All that is below a surface over a regular grid in x and z, as deep as the field is wide. Each cell has
-/// two triangles, divided from its first corner to the opposite one.
+/// All points below the surface over a regular grid in x and z, down to a depth of the larger side of
+/// the grid below its lowest point.
 #[derive(Clone, Debug)]
 pub(crate) struct Heightfield {
     columns: u32,
     rows: u32,
+    /// Between neighbouring grid points [m].
     spacing: f32,
     heights: Vec<f32>,
     bounds: Aabb,
-    steps: Steps,
+    bends: BendHistogram,
 }
 
 impl Heightfield {
-    /// Heights row by row: along x, then along z.
+    /// Makes the terrain from `columns` × `rows` heights [m], row by row: along x, then along z. There
+    /// are at least two columns and two rows.
     pub fn new(columns: u32, rows: u32, spacing: f32, heights: Vec<f32>) -> Self {
         let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
         for height in &heights {
@@ -30,13 +44,13 @@ impl Heightfield {
             low: Vec3::new(0.0, low - max(width, length), 0.0),
             high: Vec3::new(width, high, length),
         };
-        let steps = Steps::default();
-        let mut terrain = Self { columns, rows, spacing, heights, bounds, steps };
+        let bends = BendHistogram::default();
+        let mut terrain = Self { columns, rows, spacing, heights, bounds, bends };
         for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)))
         {
-            for to in SPOKES[..3].iter() {
-                let ridge = terrain.ridge([column, row], *to);
-                ridge.into_iter().for_each(|ridge| terrain.steps.add(ridge.bend));
+            for to in EDGE_DIRECTIONS[..3].iter() {
+                let edge = terrain.edge([column, row], *to);
+                edge.into_iter().for_each(|edge| terrain.bends.insert(edge.bend));
             }
         }
         terrain
@@ -46,9 +60,9 @@ impl Heightfield {
         self.bounds
     }
 
-    /// The bends of its ridges.
-    pub fn steps(&self) -> &Steps {
-        &self.steps
+    /// Returns the bends at its ridges.
+    pub fn bends(&self) -> &BendHistogram {
+        &self.bends
     }
 
     pub fn spacing(&self) -> f32 {
@@ -60,9 +74,9 @@ impl Heightfield {
         Vec3::new(column as f32 * self.spacing, height, row as f32 * self.spacing)
     }
 
-    /// How far a point is above the plane of the triangle that it is over or under, and the normal of that;
-    /// nothing beside or far below the field.
-    pub fn above(&self, p: Vec3) -> Option<(f32, Vec3)> {
+    /// Returns the signed distance of a point from the plane of the triangle at its x and z [m], and the
+    /// normal of that plane; `None` beside the terrain or below its bounds.
+    pub fn signed_distance(&self, p: Vec3) -> Option<(f32, Vec3)> {
         let Aabb { low, high } = self.bounds;
         let is_over = p.x >= low.x && p.x <= high.x && p.z >= low.z && p.z <= high.z;
         if !is_over || p.y < low.y {
@@ -83,10 +97,10 @@ impl Heightfield {
         Some(((p - first).dot(normal), normal))
     }
 
-    /// The grid's lines and rows under some bounds.
-    fn under(&self, bounds: &Aabb) -> Option<[RangeInclusive<u32>; 2]> {
+    /// Returns the columns and rows of grid points under some bounds; `None` if there are none.
+    fn grid_range(&self, bounds: &Aabb) -> Option<[RangeInclusive<u32>; 2]> {
         let range = |low: f32, high: f32, count: u32| {
-            // Casts saturate: what is beside the field ends at its rim.
+            // Casts saturate, so ranges end at the border of the terrain.
             let (from, to) = ((low / self.spacing).floor(), (high / self.spacing).ceil());
             (to >= 0.0 && from <= (count - 1) as f32)
                 .then(|| max(from, 0.0) as u32..=(to as u32).min(count - 1))
@@ -95,43 +109,43 @@ impl Heightfield {
         Some([columns, range(bounds.low.z, bounds.high.z, self.rows)?])
     }
 
-    /// The ridge from a point of the grid along a spoke; nothing where the surface folds up, not at all, or
-    /// ends.
-    fn ridge(&self, [column, row]: [u32; 2], (right, down): (i32, i32)) -> Option<EdgeFeature> {
+    /// Returns the edge feature from a grid point in one of `EDGE_DIRECTIONS`; `None` in valleys, where
+    /// the surface is flat, and at the border.
+    fn edge(&self, [column, row]: [u32; 2], (right, down): (i32, i32)) -> Option<EdgeFeature> {
         let at = |right: i32, down: i32| {
             let (column, row) = (column.checked_add_signed(right)?, row.checked_add_signed(down)?);
             (column < self.columns && row < self.rows).then(|| self.point(column, row))
         };
-        let number = SPOKES.iter().position(|spoke| *spoke == (right, down))?;
-        // Both triangles at a spoke have the spoke beside it as an edge.
-        let [one, other] = [SPOKES[(number + 1) % 6], SPOKES[(number + 5) % 6]];
+        let number = EDGE_DIRECTIONS.iter().position(|edge| *edge == (right, down))?;
+        // Each triangle at the edge also has the next or the previous edge of this point.
+        let [one, other] = [EDGE_DIRECTIONS[(number + 1) % 6], EDGE_DIRECTIONS[(number + 5) % 6]];
         let ends = [at(0, 0)?, at(right, down)?];
-        let tips = [at(one.0, one.1)?, at(other.0, other.1)?];
-        EdgeFeature::new(ends, tips, Sides::SignedDistance).filter(|ridge| ridge.out.y > 0.0)
+        let opposite = [at(one.0, one.1)?, at(other.0, other.1)?];
+        EdgeFeature::new(ends, opposite, FeatureSides::Solid).filter(|edge| edge.outward.y > 0.0)
     }
 
-    /// Adds what is under some bounds and bends more than `is_mild` lets.
-    pub fn find_under(
+    /// Pushes the edge and vertex features under some bounds, except edges for which `is_smooth` holds.
+    pub fn push_features(
         &self,
         bounds: &Aabb,
-        is_mild: impl Fn(&EdgeFeature) -> bool,
-        found: &mut Features,
+        is_smooth: impl Fn(&EdgeFeature) -> bool,
+        features: &mut Features,
     ) {
-        let Some([columns, rows]) = self.under(bounds) else { return };
+        let Some([columns, rows]) = self.grid_range(bounds) else { return };
         for (column, row) in rows.flat_map(|row| columns.clone().map(move |column| (column, row))) {
-            let own =
-                SPOKES.map(|to| self.ridge([column, row], to).filter(|ridge| !is_mild(ridge)));
-            found.ridges.extend(own[..3].iter().flatten());
+            let own = EDGE_DIRECTIONS
+                .map(|to| self.edge([column, row], to).filter(|edge| !is_smooth(edge)));
+            features.edges.extend(own[..3].iter().flatten());
             let at = self.point(column, row);
-            let ridges = own.iter().flatten();
-            found.add_corner(at, ridges.map(|ridge| (ridge.ends[1], *ridge)));
+            let edges = own.iter().flatten();
+            features.push_vertex(at, edges.map(|edge| (edge.ends[1], *edge)));
         }
     }
 }
 
-/// The edges at a point of the grid, around it: columns and rows to their other ends. The last three are
-/// the first three of other points.
-const SPOKES: [(i32, i32); 6] = [(1, 0), (1, 1), (0, 1), (-1, 0), (-1, -1), (0, -1)];
+/// The edges at a grid point in circular order, as columns and rows to their other ends. The last three
+/// are among the first three of other points.
+const EDGE_DIRECTIONS: [(i32, i32); 6] = [(1, 0), (1, 1), (0, 1), (-1, 0), (-1, -1), (0, -1)];
 
 #[cfg(test)]
 mod tests {
@@ -143,36 +157,38 @@ mod tests {
     }
 
     #[test]
-    fn points_of_the_surface_are_neither_above_nor_below_it() {
+    fn the_distance_is_zero_on_the_surface() {
         let terrain = hills();
         for column in 0..5 {
             for row in 0..4 {
                 let at = terrain.point(column, row);
-                let (height, normal) = terrain.above(at).unwrap();
+                let (height, normal) = terrain.signed_distance(at).unwrap();
                 assert!(height.abs() < 1.0e-6 && normal.y > 0.0, "{at}: {height} m");
-                let (height, normal) = terrain.above(at + Vec3::Y).unwrap();
+                let (height, normal) = terrain.signed_distance(at + Vec3::Y).unwrap();
                 assert!((height - normal.y).abs() < 1.0e-6);
             }
         }
         let middle = (terrain.point(1, 1) + terrain.point(2, 1) + terrain.point(2, 2)) / 3.0;
-        assert!(terrain.above(middle).unwrap().0.abs() < 1.0e-6);
-        assert!(terrain.above(Vec3::new(-0.1, 0.0, 0.5)).is_none());
+        assert!(terrain.signed_distance(middle).unwrap().0.abs() < 1.0e-6);
+        assert!(terrain.signed_distance(Vec3::new(-0.1, 0.0, 0.5)).is_none());
     }
 
     #[test]
-    fn a_pyramid_has_ridges_down_from_its_tip_and_valleys_have_none() {
+    fn a_pyramid_has_six_edges_at_its_tip_and_valleys_have_none() {
         let mut heights = vec![0.0; 25];
         heights[12] = 0.5;
         let terrain = Heightfield::new(5, 5, 0.5, heights);
         let place = Aabb { low: Vec3::splat(0.9), high: Vec3::splat(1.1) };
-        let mut found = Features::default();
-        terrain.find_under(&place, |_| false, &mut found);
+        let mut features = Features::default();
+        terrain.push_features(&place, |_| false, &mut features);
         let tip = Vec3::new(1.0, 0.5, 1.0);
-        assert!(found.corners.iter().any(|corner| corner.at == tip && corner.out.y > 0.9));
-        assert_eq!(found.ridges.iter().filter(|ridge| ridge.ends.contains(&tip)).count(), 6);
-        assert!(found.ridges.iter().all(|ridge| ridge.out.y > 0.0));
-        found.clear();
-        terrain.find_under(&place, |_| true, &mut found);
-        assert!(found.ridges.is_empty() && found.corners.is_empty());
+        assert!(
+            features.vertices.iter().any(|vertex| vertex.position == tip && vertex.outward.y > 0.9)
+        );
+        assert_eq!(features.edges.iter().filter(|edge| edge.ends.contains(&tip)).count(), 6);
+        assert!(features.edges.iter().all(|edge| edge.outward.y > 0.0));
+        features.clear();
+        terrain.push_features(&place, |_| true, &mut features);
+        assert!(features.edges.is_empty() && features.vertices.is_empty());
     }
 }
