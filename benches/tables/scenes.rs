@@ -4,7 +4,7 @@ use crate::Effort;
 use crate::measure::{in_turn, seconds};
 use crate::table::{Table, number};
 use muslin::Cloth;
-use muslin_scenes::{SceneInstance, Curtain, Drapes, Flag, HangingSheet, Scene, SheetOnBall};
+use muslin_scenes::{Curtain, Drapes, Flag, HangingSheet, Scene, SceneInstance, SheetOnBall};
 use std::hint::black_box;
 
 /// Ticks until a scene is itself.

@@ -7,7 +7,8 @@
 //!   ·───────────·
 //! ```
 //! A segment a–b crosses the blade if a and b lie strictly on different sides of its plane and the
-//! crossing point lies on the parallelogram. All in f64, so that side tests agree for shared points.
+//! crossing point lies on the parallelogram. All in f64, so that side tests agree for shared
+//! points.
 //!
 //! Reads only its own fields and the points that it is given, and writes nothing.
 //! Invariant: the parallelogram has an area; [`Blade::new`] refuses any other.
@@ -28,7 +29,8 @@ pub(crate) struct Blade {
 const MIN_SINE: f64 = 1.0e-4;
 
 impl Blade {
-    /// Makes the blade that the segment `from`–`to` sweeps along `sweep` [m]; `None` if it has no area.
+    /// Makes the blade that the segment `from`–`to` sweeps along `sweep` [m]; `None` if it has no
+    /// area.
     pub fn new(from: Vec3, to: Vec3, sweep: Vec3) -> Option<Self> {
         let (corner, sweep) = (from.as_dvec3(), sweep.as_dvec3());
         let edge = to.as_dvec3() - corner;
@@ -52,8 +54,8 @@ impl Blade {
         inside(along) && inside(down)
     }
 
-    /// Returns where the blade crosses the segment from `a` to `b`, as a fraction of it in 0..1; `None`
-    /// if it does not, or if an end lies on the plane.
+    /// Returns where the blade crosses the segment from `a` to `b`, as a fraction of it in 0..1;
+    /// `None` if it does not, or if an end lies on the plane.
     pub fn segment_crossing(&self, a: Vec3, b: Vec3) -> Option<f64> {
         let (at_a, at_b) = (self.signed_side(a), self.signed_side(b));
         if !((at_a < 0.0 && at_b > 0.0) || (at_a > 0.0 && at_b < 0.0)) {

@@ -1,8 +1,8 @@
 //! A bounding volume hierarchy (BVH): a binary tree of AABBs over static items.
 //!
-//! Built top down: each node is split at the median of the box centers along its longest axis, until a
-//! leaf holds at most four items. Nodes are stored in depth-first order with a skip index, so that a query
-//! walks the array without a stack.
+//! Built top down: each node is split at the median of the box centers along its longest axis,
+//! until a leaf holds at most four items. Nodes are stored in depth-first order with a skip index,
+//! so that a query walks the array without a stack.
 //!
 //! ```text
 //! node 0 ─┬─ node 1 ─┬─ node 2 (leaf)      skip: 0 → 5, 1 → 4, 2 → 3, 3 → 4, 4 → 5
@@ -78,8 +78,8 @@ impl Bvh {
         self.nodes[0].bounds
     }
 
-    /// Returns the items of all leaves whose bounds overlap `query`, in the order of the tree. Items of
-    /// such a leaf that do not overlap themselves are included.
+    /// Returns the items of all leaves whose bounds overlap `query`, in the order of the tree.
+    /// Items of such a leaf that do not overlap themselves are included.
     pub fn overlapping(&self, query: Aabb) -> impl Iterator<Item = u32> + '_ {
         let mut at = 0;
         let mut leaf = 0..0;

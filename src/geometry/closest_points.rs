@@ -1,8 +1,8 @@
 //! Closest points on triangles and segments.
 //!
 //! Point and triangle: Ericson, "Real-Time Collision Detection", 2005, sec. 5.1.5: the signs of dot
-//! products tell in which Voronoi region (corner, edge, or face) the point lies. Segment and segment:
-//! the same book, sec. 5.1.9.
+//! products tell in which Voronoi region (corner, edge, or face) the point lies. Segment and
+//! segment: the same book, sec. 5.1.9.
 //!
 //! Reads positions and writes nothing.
 //! Invariant: results are barycentric weights or segment parameters in 0..=1, up to rounding.

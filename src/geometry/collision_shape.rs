@@ -1,8 +1,9 @@
-//! The geometry of a collider in its own frame: one of the primitives, a convex hull, a triangle surface
-//! or a heightfield.
+//! The geometry of a collider in its own frame: one of the primitives, a convex hull, a triangle
+//! surface or a heightfield.
 //!
-//! It is built once from the public `ColliderDesc` and shared by all copies of the collider. The narrow
-//! phases match on it; broad and mid phase use its bounds, its distance bound and its features.
+//! It is built once from the public `ColliderDesc` and shared by all copies of the collider. The
+//! narrow phases match on it; broad and mid phase use its bounds, its distance bound and its
+//! features.
 //!
 //! Reads only itself and writes nothing.
 //! Invariant: the shape lies inside [`CollisionShape::bounds`], and
@@ -94,12 +95,12 @@ impl CollisionShape {
     }
 }
 
-/// A simple shape that contains a collision shape: the distance of a point from it is a lower bound of
-/// the distance from the shape itself.
+/// A simple shape that contains a collision shape: the distance of a point from it is a lower bound
+/// of the distance from the shape itself.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum DistanceBound {
-    /// The half space y ≤ 0. Only the end position of a particle counts: a particle that ends above the
-    /// plane is free, whatever its path was.
+    /// The half space y ≤ 0. Only the end position of a particle counts: a particle that ends above
+    /// the plane is free, whatever its path was.
     HalfSpace,
     /// All points below a height [m].
     Below(f32),

@@ -1,9 +1,9 @@
 //! Convex hulls of points, by incremental construction.
 //!
-//! Start with a tetrahedron of far points. For each further point, remove the triangles that it sees
-//! (those whose plane it lies in front of) and join the horizon, the boundary of the hole, to the point
-//! (O'Rourke, "Computational Geometry in C", 1998, sec. 4.3). In f64, with a tolerance relative to the
-//! size of the point set.
+//! Start with a tetrahedron of far points. For each further point, remove the triangles that it
+//! sees (those whose plane it lies in front of) and join the horizon, the boundary of the hole, to
+//! the point (O'Rourke, "Computational Geometry in C", 1998, sec. 4.3). In f64, with a tolerance
+//! relative to the size of the point set.
 //!
 //! Reads the points; returns new lists.
 //! Invariant: every point lies in the hull up to the tolerance, and triangles wind outward.
@@ -23,8 +23,8 @@ struct HullTriangle {
     offset: f64,
 }
 
-/// Returns the convex hull of points as face planes and as triangles of point indices; `None` if the
-/// points lie in one plane.
+/// Returns the convex hull of points as face planes and as triangles of point indices; `None` if
+/// the points lie in one plane.
 pub(crate) fn build(points: &[Vec3]) -> Option<(Polyhedron, Vec<[u32; 3]>)> {
     let bounds = Aabb::from_points(points.iter().copied());
     let at: Vec<DVec3> = points.iter().map(|point| point.as_dvec3()).collect();

@@ -7,15 +7,17 @@
 //!       ╲ │ ╱                     - a vertex if it lies in the normal cone of the vertex:
 //!        ╲│╱                        n · direction ≤ 0 for all of its edges.
 //!  ───────●───────
-//!  inward₀  inward₁               The cones are the Voronoi regions of the feature, seen as directions.
+//!  inward₀  inward₁               The cone is the Voronoi region of the feature, seen from afar.
 //! ```
-//! The normal cones of all features tile the sphere of directions (the Gauss map of a polyhedron). Edge
-//! and vertex contacts are accepted only inside the cone of their feature, so contact normals never turn
-//! by more than the shape itself does (Ericson, "Real-Time Collision Detection", 2005, sec. 9.3 on
-//! Voronoi regions; Gottschalk, Lin, Manocha, SIGGRAPH 1996, for edge–edge axes).
+//! The normal cones of all features tile the sphere of directions (the Gauss map of a polyhedron).
+//! Edge and vertex contacts are accepted only inside the cone of their feature, so contact normals
+//! never turn by more than the shape itself does (Ericson, "Real-Time Collision Detection", 2005,
+//! sec. 9.3 on Voronoi regions; Gottschalk, Lin, Manocha, SIGGRAPH 1996, for edge–edge axes).
 //!
-//! Reads triangles once, at construction, or heightfield cells on the fly; writes only its own lists.
-//! Invariant: features are numbered edges first, then vertices, in an order that the triangles decide.
+//! Reads triangles once, at construction, or heightfield cells on the fly; writes only its own
+//! lists.
+//! Invariant: features are numbered edges first, then vertices, in an order that the triangles
+//! decide.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
@@ -25,8 +27,8 @@ use glam::Vec3;
 /// How much a surface bends at a feature.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SurfaceBend {
-    /// The exterior dihedral angle as the length of the difference of the two face normals: nearly the
-    /// angle [rad] if that is small.
+    /// The exterior dihedral angle as the length of the difference of the two face normals: nearly
+    /// the angle [rad] if that is small.
     pub angle: f32,
     /// The angle divided by the width of the narrower face: a discrete curvature [1/m].
     pub curvature: f32,
@@ -78,8 +80,8 @@ pub(crate) struct EdgeFeature {
 }
 
 impl EdgeFeature {
-    /// Makes the edge `ends` of two faces, each given by any other point of its plane (`opposite`); a
-    /// boundary edge gives the same point twice. `None` if the faces lie in one plane.
+    /// Makes the edge `ends` of two faces, each given by any other point of its plane (`opposite`);
+    /// a boundary edge gives the same point twice. `None` if the faces lie in one plane.
     pub fn new(ends: [Vec3; 2], opposite: [Vec3; 2], sides: FeatureSides) -> Option<Self> {
         let span = ends[1] - ends[0];
         let length = span.length();
@@ -168,8 +170,8 @@ impl Features {
         self.incident_edges.clear();
     }
 
-    /// Appends the vertex where `edges` end, each given with its other end. Without edges it appends
-    /// nothing.
+    /// Appends the vertex where `edges` end, each given with its other end. Without edges it
+    /// appends nothing.
     pub fn push_vertex(&mut self, at: Vec3, edges: impl Iterator<Item = (Vec3, EdgeFeature)>) {
         let (first_edge, mut outward) = (self.incident_edges.len() as u32, Vec3::ZERO);
         let (mut bend, mut sides) = (SurfaceBend::default(), FeatureSides::Solid);
@@ -238,8 +240,8 @@ impl Features {
         &self.incident_edges[vertex.first_edge as usize..vertex.end_edge as usize]
     }
 
-    /// Returns whether `normal` lies in the normal cone of a vertex: no edge rises above the plane through
-    /// the vertex by more than `tolerance`, the sine of an angle.
+    /// Returns whether `normal` lies in the normal cone of a vertex: no edge rises above the plane
+    /// through the vertex by more than `tolerance`, the sine of an angle.
     pub fn is_in_normal_cone(&self, vertex: &VertexFeature, normal: Vec3, tolerance: f32) -> bool {
         let mut edges = self.incident_edges(vertex).iter();
         edges.all(|edge| edge.direction.dot(normal) <= tolerance)
@@ -326,8 +328,8 @@ fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
     welded
 }
 
-/// The bends of a shape, in buckets by their angle: each bucket holds the largest angle and the largest
-/// curvature of its bends.
+/// The bends of a shape, in buckets by their angle: each bucket holds the largest angle and the
+/// largest curvature of its bends.
 #[derive(Clone, Debug)]
 pub(crate) struct BendHistogram([SurfaceBend; BUCKETS]);
 
@@ -351,8 +353,8 @@ impl BendHistogram {
         self.0[bucket.min(BUCKETS - 1)].merge(bend);
     }
 
-    /// Returns the largest bends that a chord of `length` [m] crosses without getting below the surface by
-    /// more than `sagitta` [m].
+    /// Returns the largest bends that a chord of `length` [m] crosses without getting below the
+    /// surface by more than `sagitta` [m].
     pub fn largest_within(&self, length: f32, sagitta: f32) -> SurfaceBend {
         let mut largest = SurfaceBend::default();
         let is_within = |bend: &&SurfaceBend| bend.sagitta(length) <= sagitta;

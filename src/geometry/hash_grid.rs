@@ -1,18 +1,20 @@
 //! A uniform grid with wrapped cell coordinates: all pairs of points within a radius.
 //!
-//! Points are sorted into cubic cells by counting sort (Green, "Particle Simulation using CUDA", 2010).
-//! The grid is a torus of 2ᵃ × 2ᵇ × 2ᶜ cells: coordinates are taken modulo the size, so a table of fixed
-//! size holds points at any position. Cells that share an entry are far from each other in space.
+//! Points are sorted into cubic cells by counting sort (Green, "Particle Simulation using CUDA",
+//! 2010). The grid is a torus of 2ᵃ × 2ᵇ × 2ᶜ cells: coordinates are taken modulo the size, so a
+//! table of fixed size holds points at any position. Cells that share an entry are far from each
+//! other in space.
 //!
 //! ```text
-//! each cell is paired with itself and with 13 of its 26 neighbours, so every pair of cells meets once:
+//! each cell is paired with itself and 13 of its 26 neighbours: every pair of cells meets once
 //!
-//!   layer z:    · ■ →          layer z + 1:   ■ ■ ■       ■ the cell, → and ■: cells that it looks at
+//!   layer z:    · ■ →          layer z + 1:   ■ ■ ■       first ■: the cell; others: paired
 //!               ■ ■ ■ (y + 1)                 ■ ■ ■
 //!                                             ■ ■ ■
 //! ```
 //! Reads positions; writes its own tables and pushes pairs to the list of the caller.
-//! Invariant: every pair of points nearer than the radius is pushed exactly once, at every SIMD level.
+//! Invariant: every pair of points nearer than the radius is pushed exactly once, at every SIMD
+//! level.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, MAX_LANES, Scalar, Simd, vectored};
@@ -21,13 +23,15 @@ use glam::Vec3;
 /// With fewer than 2² cells along an axis, two neighbours of a cell would be the same cell.
 const MIN_BITS: u32 = 2;
 
-/// The most ranges of points that a cell reads: its own, one beside it, and three in each of four rows.
+/// The most ranges of points that a cell reads: its own, one beside it, and three in each of four
+/// rows.
 const MAX_RANGES: usize = 14;
 
 /// Points that are tested in one batch: one bit of a `u64` each.
 const BATCH: usize = u64::BITS as usize;
 
-/// 1.5 · 2²³: adding it rounds a much smaller number to an integer, which then stands in the low bits.
+/// 1.5 · 2²³: adding it rounds a much smaller number to an integer, which then stands in the low
+/// bits.
 const ROUNDING: f32 = 12_582_912.0;
 
 /// The points of one cell and of its neighbours ahead, copied together. Padded by one vector.
@@ -83,7 +87,8 @@ impl HashGrid {
         size_of::<u32>() * whole + self.x.bytes() + self.neighbourhood.x.bytes()
     }
 
-    /// Sorts `points` into cells with sides of `side` [m]. There are at most as many as the capacity.
+    /// Sorts `points` into cells with sides of `side` [m]. There are at most as many as the
+    /// capacity.
     pub fn rebuild(&mut self, points: &[Vec3], side: f32) {
         self.per_length = 1.0 / side;
         let mut cell = core::mem::take(&mut self.cell);
@@ -113,14 +118,15 @@ impl HashGrid {
         self.cell = cell;
     }
 
-    /// Pushes all pairs of points whose squared distance is below `radius2` [m²], each with the lower
-    /// index first. The radius is at most the side of a cell. The pairs come in the order of the cells.
+    /// Pushes all pairs of points whose squared distance is below `radius2` [m²], each with the
+    /// lower index first. The radius is at most the side of a cell. The pairs come in the order of
+    /// the cells.
     pub fn push_close_pairs(&mut self, level: Level, radius2: f32, pairs: &mut Vec<[u32; 2]>) {
         push_close_pairs(level, self, radius2, pairs);
     }
 
-    /// Writes the ranges of points of a cell and of the 13 neighbours ahead of it to `ranges`, and returns
-    /// how many there are. None is empty.
+    /// Writes the ranges of points of a cell and of the 13 neighbours ahead of it to `ranges`, and
+    /// returns how many there are. None is empty.
     #[inline(always)]
     fn collect_ranges(&self, cell: u32, ranges: &mut [(u32, u32); MAX_RANGES]) -> usize {
         let [bx, by, _] = self.bits;
@@ -179,7 +185,7 @@ fn push_pairs_scalar(grid: &mut HashGrid, radius2: f32, pairs: &mut Vec<[u32; 2]
 }
 
 #[inline(always)]
-fn push_pairs_simd<S: Simd>(s: S, grid: &mut HashGrid, within: f32, pairs: &mut Vec<[u32; 2]>) {
+fn push_pairs_simd<S: Simd>(s: S, grid: &mut HashGrid, radius2: f32, pairs: &mut Vec<[u32; 2]>) {
     let (mut ranges, mut from) = ([(0, 0); MAX_RANGES], 0);
     while from < grid.cell.len() {
         let cell = grid.cell[grid.points[from] as usize];
@@ -230,7 +236,8 @@ impl Neighbourhood {
         let x = columns.map(|column| s.splat(column[one]));
         let (mut at, radius2) = (one + 1, s.splat(radius2));
         while at < all {
-            // Branches on the outcome are unpredictable, so a whole batch is tested before any branch.
+            // Branches on the outcome are unpredictable, so a whole batch is tested before any
+            // branch.
             let (mut near, mut tested) = (0, 0);
             while tested < BATCH && at + tested < all {
                 let difference = |axis: usize| s.load(columns[axis], at + tested) - x[axis];

@@ -18,8 +18,8 @@ use crate::math::{max, min};
 use core::ops::RangeInclusive;
 use glam::Vec3;
 
-/// All points below the surface over a regular grid in x and z, down to a depth of the larger side of
-/// the grid below its lowest point.
+/// All points below the surface over a regular grid in x and z, down to a depth of the larger side
+/// of the grid below its lowest point.
 #[derive(Clone, Debug)]
 pub(crate) struct Heightfield {
     columns: u32,
@@ -32,8 +32,8 @@ pub(crate) struct Heightfield {
 }
 
 impl Heightfield {
-    /// Makes the terrain from `columns` × `rows` heights [m], row by row: along x, then along z. There
-    /// are at least two columns and two rows.
+    /// Makes the terrain from `columns` × `rows` heights [m], row by row: along x, then along z.
+    /// There are at least two columns and two rows.
     pub fn new(columns: u32, rows: u32, spacing: f32, heights: Vec<f32>) -> Self {
         let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
         for height in &heights {
@@ -74,8 +74,8 @@ impl Heightfield {
         Vec3::new(column as f32 * self.spacing, height, row as f32 * self.spacing)
     }
 
-    /// Returns the signed distance of a point from the plane of the triangle at its x and z [m], and the
-    /// normal of that plane; `None` beside the terrain or below its bounds.
+    /// Returns the signed distance of a point from the plane of the triangle at its x and z [m],
+    /// and the normal of that plane; `None` beside the terrain or below its bounds.
     pub fn signed_distance(&self, p: Vec3) -> Option<(f32, Vec3)> {
         let Aabb { low, high } = self.bounds;
         let is_over = p.x >= low.x && p.x <= high.x && p.z >= low.z && p.z <= high.z;
@@ -109,8 +109,8 @@ impl Heightfield {
         Some([columns, range(bounds.low.z, bounds.high.z, self.rows)?])
     }
 
-    /// Returns the edge feature from a grid point in one of `EDGE_DIRECTIONS`; `None` in valleys, where
-    /// the surface is flat, and at the border.
+    /// Returns the edge feature from a grid point in one of `EDGE_DIRECTIONS`; `None` in valleys,
+    /// where the surface is flat, and at the border.
     fn edge(&self, [column, row]: [u32; 2], (right, down): (i32, i32)) -> Option<EdgeFeature> {
         let at = |right: i32, down: i32| {
             let (column, row) = (column.checked_add_signed(right)?, row.checked_add_signed(down)?);
@@ -124,7 +124,8 @@ impl Heightfield {
         EdgeFeature::new(ends, opposite, FeatureSides::Solid).filter(|edge| edge.outward.y > 0.0)
     }
 
-    /// Pushes the edge and vertex features under some bounds, except edges for which `is_smooth` holds.
+    /// Pushes the edge and vertex features under some bounds, except edges for which `is_smooth`
+    /// holds.
     pub fn push_features(
         &self,
         bounds: &Aabb,
@@ -143,8 +144,8 @@ impl Heightfield {
     }
 }
 
-/// The edges at a grid point in circular order, as columns and rows to their other ends. The last three
-/// are among the first three of other points.
+/// The edges at a grid point in circular order, as columns and rows to their other ends. The last
+/// three are among the first three of other points.
 const EDGE_DIRECTIONS: [(i32, i32); 6] = [(1, 0), (1, 1), (0, 1), (-1, 0), (-1, -1), (0, -1)];
 
 #[cfg(test)]

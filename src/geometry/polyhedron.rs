@@ -3,12 +3,12 @@
 //! ```text
 //! d(p) = max over faces of (n · p − offset)
 //! ```
-//! Inside, this is the exact distance; outside, beyond edges and vertices, it is a lower bound, so the
-//! offset surfaces of a polyhedron keep its sharp edges.
+//! Inside, this is the exact distance; outside, beyond edges and vertices, it is a lower bound, so
+//! the offset surfaces of a polyhedron keep its sharp edges.
 //!
 //! Reads its faces and a point in its local frame. Writes face indices to the list of the caller.
-//! Invariant: the faces that are collected for a ball of points contain the face of largest distance for
-//! every point of that ball.
+//! Invariant: the faces that are collected for a ball of points contain the face of largest
+//! distance for every point of that ball.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::signed_distance::SignedDistance;
@@ -58,8 +58,8 @@ pub(crate) struct CandidateFaces<'a> {
 }
 
 impl SignedDistance for CandidateFaces<'_> {
-    /// Returns the largest distance from a face plane: beyond edges and vertices less than the distance
-    /// from the polyhedron.
+    /// Returns the largest distance from a face plane: beyond edges and vertices less than the
+    /// distance from the polyhedron.
     fn signed_distance(&self, p: Vec3) -> (f32, Vec3) {
         let mut most = (f32::NEG_INFINITY, Vec3::Y);
         for face in self.faces {

@@ -6,8 +6,9 @@
 //! capsule      d = |p − c(p)| − r(c)     c(p): center of the sphere of the family closest to p
 //! box          d = |max(|p| − h, 0)|     outside;  the largest of |p| − h inside
 //! ```
-//! A tapered capsule is the convex hull of two spheres of different radii: the sphere closest to a point
-//! is found by shifting the point along the axis by its distance from the axis times a constant slope.
+//! A tapered capsule is the convex hull of two spheres of different radii: the sphere closest to a
+//! point is found by shifting the point along the axis by its distance from the axis times a
+//! constant slope.
 //!
 //! Reads a point in the local frame and writes nothing.
 //! Invariant: all distances are exact, and all normals have length one.
@@ -57,14 +58,14 @@ pub(crate) struct Capsule {
     radius: f32,
     /// How much the radius falls per metre of y.
     taper: f32,
-    /// How far below a point the center of the sphere closest to it lies, per metre of distance from
-    /// the axis.
+    /// How far below a point the center of the sphere closest to it lies, per metre of distance
+    /// from the axis.
     slope: f32,
 }
 
 impl Capsule {
-    /// Makes the hull of spheres of radius `bottom` at -`half_height` and `top` at +`half_height` [m].
-    /// If one sphere contains the other, the capsule is that sphere.
+    /// Makes the hull of spheres of radius `bottom` at -`half_height` and `top` at +`half_height`
+    /// [m]. If one sphere contains the other, the capsule is that sphere.
     pub fn new(half_height: f32, bottom: f32, top: f32) -> Self {
         let difference = bottom - top;
         if difference.abs() >= 2.0 * half_height {

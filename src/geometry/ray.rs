@@ -43,7 +43,8 @@ impl Ray {
         inside.then_some(RayHit { distance, u, v })
     }
 
-    /// Returns the distance of a point from the ray [m]: from its origin if the point lies behind it.
+    /// Returns the distance of a point from the ray [m]: from its origin if the point lies behind
+    /// it.
     pub fn distance_to_point(&self, point: Vec3) -> f32 {
         let r = point - self.origin;
         let along = r.dot(self.direction);

@@ -4,8 +4,8 @@
 //! d(p) > 0 outside, d(p) < 0 inside;  n(p) = ∇d(p),  |n| = 1;  p − d n lies on the surface
 //! ```
 //! Reads the shape and a point in the local frame of the shape, and writes nothing.
-//! Invariant: d grows by at most one metre per metre, so a point that moves by less than d(p) cannot
-//! reach the surface.
+//! Invariant: d grows by at most one metre per metre, so a point that moves by less than d(p)
+//! cannot reach the surface.
 
 use glam::Vec3;
 

@@ -28,7 +28,8 @@ pub(crate) fn corner_areas([a, b, c]: [Vec3; 3]) -> [f32; 3] {
     }
     let cotangents = dots.map(|dot| dot / doubled);
     let opposite = [(c - b), (a - c), (b - a)].map(Vec3::length_squared);
-    // Each edge at a corner contributes its squared length times the cotangent of the opposite angle.
+    // Each edge at a corner contributes its squared length times the cotangent of the opposite
+    // angle.
     let half = |edge: usize| opposite[edge] * cotangents[edge] * 0.125;
     [half(1) + half(2), half(2) + half(0), half(0) + half(1)]
 }

@@ -1,8 +1,9 @@
 //! Triangle surfaces: open or closed triangle meshes without an inside. Both sides are free space.
 //!
-//! Two queries over the triangles near a particle: continuous detection (the first triangle that the
-//! path of a point crosses) and discrete detection (the closest point on the surface; Ericson,
-//! "Real-Time Collision Detection", 2005, sec. 5.1.5). A point stays on the side from which it came.
+//! Two queries over the triangles near a particle: continuous detection (the first triangle that
+//! the path of a point crosses) and discrete detection (the closest point on the surface; Ericson,
+//! "Real-Time Collision Detection", 2005, sec. 5.1.5). A point stays on the side from which it
+//! came.
 //!
 //! Reads positions and triangles once, at construction. Writes triangle indices to the list of the
 //! caller.
@@ -30,8 +31,8 @@ pub(crate) struct SurfaceTriangle {
     pub normal: Vec3,
 }
 
-/// A path that misses a triangle by no more than this fraction of its size still hits it, so that there
-/// is no gap between neighbouring triangles.
+/// A path that misses a triangle by no more than this fraction of its size still hits it, so that
+/// there is no gap between neighbouring triangles.
 const HIT_TOLERANCE: f32 = 1.0e-5;
 
 /// Returns the triangles that have an area.
@@ -90,8 +91,8 @@ impl CandidateTriangles<'_> {
         self.triangles.iter().map(|triangle| &self.surface.triangles[*triangle as usize])
     }
 
-    /// Returns the first point where the segment between two points crosses the surface, and the normal
-    /// there on the side of `from`; `None` if it crosses no candidate.
+    /// Returns the first point where the segment between two points crosses the surface, and the
+    /// normal there on the side of `from`; `None` if it crosses no candidate.
     pub fn first_crossing(&self, from: Vec3, to: Vec3) -> Option<(Vec3, Vec3)> {
         let path = to - from;
         let mut first: Option<(f32, Vec3)> = None;
@@ -121,9 +122,9 @@ impl CandidateTriangles<'_> {
         first.map(|(share, outward)| (from + path * share, outward))
     }
 
-    /// Returns the distance of a point from the surface [m] and the direction from the closest point of
-    /// the surface to it; `None` if the distance is `max_distance` or more. A point on the surface gets
-    /// the normal on the side of `from`.
+    /// Returns the distance of a point from the surface [m] and the direction from the closest
+    /// point of the surface to it; `None` if the distance is `max_distance` or more. A point on the
+    /// surface gets the normal on the side of `from`.
     pub fn closest(&self, point: Vec3, from: Vec3, max_distance: f32) -> Option<(f32, Vec3)> {
         let mut least = (max_distance * max_distance, None);
         for triangle in self.triangles() {
@@ -144,7 +145,8 @@ impl CandidateTriangles<'_> {
                     (from - triangle.corners[0]).dot(triangle.normal)
                 };
                 let outward = if side > 0.0 { triangle.normal } else { -triangle.normal };
-                // Above the interior the normal is exact, but the direction of a short vector is not.
+                // Above the interior the normal is exact, but the direction of a short vector is
+                // not.
                 let is_beside = weights.iter().any(|w| *w <= 0.0) && length > TINY;
                 let found = if is_beside {
                     (length, at * (-1.0 / length))

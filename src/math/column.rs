@@ -1,8 +1,9 @@
 //! A list of numbers that begins where a line of the processor's memory begins.
 //!
-//! Kernels walk such lists from their start in steps of a whole vector, so no load or store falls into
-//! two lines (64 bytes on all processors that Muslin knows). A `Vec` begins anywhere that a multiple of
-//! 16 bytes lets it, and then every second store does, which costs kernels up to a tenth.
+//! Kernels walk such lists from their start in steps of a whole vector, so no load or store falls
+//! into two lines (64 bytes on all processors that Muslin knows). A `Vec` begins anywhere that a
+//! multiple of 16 bytes lets it, and then every second store does, which costs kernels up to a
+//! tenth.
 
 use core::ops::{Deref, DerefMut};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -145,8 +145,8 @@ impl HostEnv {
     }
 }
 
-/// Runs `work` under the modes that were set aside last on this thread, if any were: while it waits for
-/// other threads, this one may do the host's work.
+/// Runs `work` under the modes that were set aside last on this thread, if any were: while it waits
+/// for other threads, this one may do the host's work.
 #[cfg(feature = "parallel")]
 pub(crate) fn with_host_float_env<T>(work: impl FnOnce() -> T) -> T {
     let _env = HostEnv::enter();

@@ -17,7 +17,8 @@ use glam::Vec3;
 /// Below this a length or a sum of inverse masses counts as nothing.
 pub(crate) const TINY: f32 = 1.0e-18;
 
-/// Whether two lists hold the same bits. Some at a time, with no way out between, so that they become vectors.
+/// Whether two lists hold the same bits. Some at a time, with no way out between, so that they
+/// become vectors.
 pub(crate) fn same_bits(a: &[f32], b: &[f32]) -> bool {
     let differences = |(a, b): (&[f32], &[f32])| {
         a.iter().zip(b).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()))
@@ -44,7 +45,8 @@ pub(crate) fn lerp(from: Vec3, to: Vec3, share: f32) -> Vec3 {
     if v.is_finite() { v } else { from * (1.0 - share) + to * share }
 }
 
-/// The same with the largest number there is in place of what none can say, and 0 for what came out of two such.
+/// The same with the largest number there is in place of what none can say, and 0 for what came out
+/// of two such.
 #[inline(always)]
 pub(crate) fn saturate(v: Vec3) -> Vec3 {
     if v.is_finite() { v } else { saturate_cold(v) }

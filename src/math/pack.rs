@@ -1,5 +1,5 @@
-//! Numbers as graphics cards take them: half floats, signed fractions of 16 bits, and unit vectors folded
-//! onto an octahedron.
+//! Numbers as graphics cards take them: half floats, signed fractions of 16 bits, and unit vectors
+//! folded onto an octahedron.
 //!
 //! A block of them at once, without a branch, so that compilers make vectors of it.
 
@@ -37,7 +37,8 @@ fn f16(value: f32) -> u16 {
     // The exponent's bias falls from 127 to 15, and 13 bits are rounded off.
     let rounding = 0xfff + (magnitude >> 13 & 1);
     let normal = magnitude.wrapping_sub(112 << 23).wrapping_add(rounding) >> 13;
-    // Below the least normal one, the last bit is worth 2^-24: as the last bit of what is added to 0.5.
+    // Below the least normal one, the last bit is worth 2^-24: as the last bit of what is added to
+    // 0.5.
     let subnormal = (f32::from_bits(magnitude) + 0.5).to_bits().wrapping_sub(HALF);
     let half = if magnitude < LEAST_NORMAL { subnormal } else { normal };
     (half | (bits >> 16 & 0x8000)) as u16
@@ -58,8 +59,9 @@ fn snorm16_lanes(values: &FloatBlock, out: &mut HalfBlock) {
 }
 
 leveled! {
-    /// Directions as two numbers from -1 to 1, in place of x and y: those where the direction meets the octahedron
-    /// |x| + |y| + |z| = 1, with its lower half folded outward over the diagonals. Zero stays zero.
+    /// Directions as two numbers from -1 to 1, in place of x and y: those where the direction meets
+    /// the octahedron |x| + |y| + |z| = 1, with its lower half folded outward over the diagonals.
+    /// Zero stays zero.
     pub(crate) fn to_octahedral(x: &mut FloatBlock, y: &mut FloatBlock, z: &FloatBlock) = octahedral_lanes
 }
 

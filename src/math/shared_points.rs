@@ -3,7 +3,8 @@
 use core::cell::UnsafeCell;
 use core::marker::PhantomData;
 
-/// The points of a list, each x, y, z and 0, borrowed for whoever promises to keep apart from others.
+/// The points of a list, each x, y, z and 0, borrowed for whoever promises to keep apart from
+/// others.
 #[derive(Clone, Copy)]
 pub(crate) struct SharedPoints<'a> {
     first: *mut [f32; 4],
@@ -11,7 +12,8 @@ pub(crate) struct SharedPoints<'a> {
     list: PhantomData<&'a [UnsafeCell<[f32; 4]>]>,
 }
 
-// SAFETY: a point is reached only through `at`, whose callers promise that no other thread reaches it.
+// SAFETY: a point is reached only through `at`, whose callers promise that no other thread reaches
+// it.
 unsafe impl Send for SharedPoints<'_> {}
 // SAFETY: as above.
 unsafe impl Sync for SharedPoints<'_> {}

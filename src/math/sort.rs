@@ -1,7 +1,8 @@
 //! Sorting of lists whose equal entries cannot be told apart, so that how it is done cannot matter.
 //!
-//! The standard library's sorts are fast and large: one for each kind of list, they would be a sixth of what a page
-//! loads. Here lists are sorted in parts about as fast, and with a quarter of the code; on pages in a simpler way.
+//! The standard library's sorts are fast and large: one for each kind of list, they would be a
+//! sixth of what a page loads. Here lists are sorted in parts about as fast, and with a quarter of
+//! the code; on pages in a simpler way.
 
 use core::cmp::Ordering;
 
@@ -29,8 +30,8 @@ pub(crate) fn sort_by<T>(list: &mut [T], mut order: impl FnMut(&T, &T) -> Orderi
 /// Lists up to here are sorted entry by entry.
 const SHORT: usize = 12;
 
-/// Hoare, "Quicksort", The Computer Journal 1962, with as many steps down as are allowed. Each step goes by
-/// the middle one of three entries from anywhere, since lists of a mesh repeat themselves.
+/// Hoare, "Quicksort", The Computer Journal 1962, with as many steps down as are allowed. Each step
+/// goes by the middle one of three entries from anywhere, since lists of a mesh repeat themselves.
 #[inline(never)]
 fn sort_parts<T>(mut list: &mut [T], is_less: &mut impl FnMut(&T, &T) -> bool, mut most: u32) {
     let mut dice = 1;
@@ -111,7 +112,8 @@ impl<T, F: FnMut(&T, &T) -> bool> Heap for Entries<'_, T, F> {
     }
 }
 
-/// Williams, Floyd, "Treesort 3", CACM 1964: first a heap is made, then its greatest is put behind it.
+/// Williams, Floyd, "Treesort 3", CACM 1964: first a heap is made, then its greatest is put behind
+/// it.
 fn sort_as_heap(count: usize, heap: &mut dyn Heap) {
     for step in (0..count + count / 2).rev() {
         let (mut at, end) = if let Some(root) = step.checked_sub(count) {

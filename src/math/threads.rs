@@ -1,9 +1,10 @@
-//! The threads that one cloth may use: one, unless Muslin is built with the feature `parallel` and the
-//! host allows more.
+//! The threads that one cloth may use: one, unless Muslin is built with the feature `parallel` and
+//! the host allows more.
 //!
-//! Work is cut only where no sum crosses the cut, so that every number comes about as it does on one
-//! thread: the bits are the same. The threads are rayon's, of the pool that the caller is in or else of
-//! the global one. What `join` offers to another thread lies on the stack, so nothing is allocated.
+//! Work is cut only where no sum crosses the cut, so that every number comes about as it does on
+//! one thread: the bits are the same. The threads are rayon's, of the pool that the caller is in or
+//! else of the global one. What `join` offers to another thread lies on the stack, so nothing is
+//! allocated.
 
 /// How many threads may work on a cloth at once.
 #[derive(Clone, Copy, Debug)]
@@ -87,14 +88,15 @@ mod many {
             self.most
         }
 
-        /// Into how many parts to cut `count` things, so that each has about `least` of them or more.
+        /// Into how many parts to cut `count` things, so that each has about `least` of them or
+        /// more.
         pub fn parts(self, count: usize, least: usize) -> usize {
             let least = if self.is_eager { GRAIN } else { least };
             (count / least).clamp(1, self.most as usize)
         }
 
-        /// Runs `work` on so many particles as one of the pool's threads, if it may want others: from
-        /// outside, each call for help would take longer than most of what there is to do.
+        /// Runs `work` on so many particles as one of the pool's threads, if it may want others:
+        /// from outside, each call for help would take longer than most of what there is to do.
         pub fn run_in_pool<T: Send>(self, particles: usize, work: impl FnOnce() -> T + Send) -> T {
             if self.parts(particles, FEW) == 1 || rayon::current_thread_index().is_some() {
                 return work();

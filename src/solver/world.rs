@@ -33,6 +33,7 @@ use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
+use crate::solver::collide::contact_scratch::ContactScratch;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::profile::Profile;
@@ -165,7 +166,7 @@ pub(crate) struct TickScratch {
     pub lines: LineScratch,
     pub bend: BendScratch,
     pub damping: DampingScratch,
-    pub contacts: crate::solver::collide::ContactScratch,
+    pub contacts: ContactScratch,
     pub tear: TearScratch,
     pub rollback: RollbackState,
     /// Edges that the current vertex split opened.
@@ -194,7 +195,7 @@ impl TickScratch {
             lines: LineScratch::default(),
             bend: BendScratch::default(),
             damping: DampingScratch::default(),
-            contacts: crate::solver::collide::ContactScratch::default(),
+            contacts: ContactScratch::default(),
             tear: TearScratch::with_capacity(max_tears),
             rollback: RollbackState::with_capacity(capacity, triangles),
             opened_edges: Vec::with_capacity(2),

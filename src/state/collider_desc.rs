@@ -1,10 +1,11 @@
 //! Collider descriptors: shape, pose and surface properties as a host gives them.
 
 use crate::error::{Error, Result, check, check_index};
+use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::convex_hull;
 use crate::geometry::features::ShapeFeatures;
 use crate::geometry::heightfield::Heightfield;
-use crate::geometry::shape::{Capsule, CollisionShape, Cuboid, HalfSpace, Sphere};
+use crate::geometry::primitives::{Capsule, Cuboid, HalfSpace, Sphere};
 use crate::geometry::triangle_surface;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::hasher::StateHasher;
@@ -240,7 +241,7 @@ impl ColliderDesc {
                 CollisionShape::Capsule(Capsule::new(self.half_height, self.radius, top))
             }
             Shape::Box => {
-                let cuboid = Cuboid { half: self.half_extents };
+                let cuboid = Cuboid { half_extents: self.half_extents };
                 CollisionShape::Cuboid(cuboid, cuboid.features())
             }
             Shape::Convex => {

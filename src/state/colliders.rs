@@ -5,7 +5,7 @@
 
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
-use crate::geometry::shape::CollisionShape;
+use crate::geometry::collision_shape::CollisionShape;
 use crate::math::max;
 use crate::state::collider_desc::ColliderDesc;
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};

@@ -1,7 +1,9 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
 use crate::common::crossings::crossings;
-use muslin_scenes::{SceneInstance, Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SheetOnBall};
+use muslin_scenes::{
+    Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SceneInstance, SheetOnBall,
+};
 
 fn keeps_its_promise<S: Scene>() -> SceneInstance {
     let mut cast = S::build();

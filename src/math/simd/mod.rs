@@ -172,8 +172,8 @@ macro_rules! leveled {
 }
 pub(crate) use leveled;
 
-/// Defines `fn name(level: Level, arguments…)`, which calls `body(s, arguments…)` with the token `s`
-/// of the instruction set of `level`.
+/// Defines `fn name(level: Level, arguments…)`, which calls `body(s, arguments…)` with the token
+/// `s` of the instruction set of `level`.
 ///
 /// ```text
 /// vectored! { fn name(arguments…) = body, Avx2, scalar }     at AVX-512, 8 lanes are used too

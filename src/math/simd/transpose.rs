@@ -7,7 +7,8 @@
 //! x2 y2 z2 w2         z0 z1 z2 z3
 //! x3 y3 z3 w3         w0 w1 w2 w3
 //! ```
-//! Four lanes are one 4 × 4 transpose of two rounds of shuffles; AVX2 does two of them side by side.
+//! Four lanes are one 4 × 4 transpose of two rounds of shuffles; AVX2 does two of them side by
+//! side.
 //!
 //! Reads and writes the points at given indices.
 //! Invariant: only whole points are moved; the arithmetic of callers sees the numbers unchanged.

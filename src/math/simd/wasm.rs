@@ -1,8 +1,8 @@
 //! The instruction set of WebAssembly: simd128 with 4 lanes.
 //!
 //! The choice is made at compile time: the module is built once with simd128 and once without it.
-//! Each operation is one instruction; `max` and `min` are the pseudo-maximum and pseudo-minimum, whose
-//! operands are swapped so that NaN gives `other`, as [`Float`] demands.
+//! Each operation is one instruction; `max` and `min` are the pseudo-maximum and pseudo-minimum,
+//! whose operands are swapped so that NaN gives `other`, as [`Float`] demands.
 //!
 //! Reads and writes only through `load_from`, `store_to`, and the points of [`GatherPairs`].
 //! Invariant: this file is compiled only with simd128, so the token can be made anywhere.

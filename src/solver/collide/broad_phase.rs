@@ -1,341 +1,213 @@
-//! Stage `Pairs`: which blocks of particles and triangles may touch which collider.
+//! Stage `Pairs`: the broad phase, which finds the blocks of particles and triangles near each
+//! collider.
 //!
-//! What it finds holds until a particle moved by `margin` or a collider leaves the bounds it was looked
-//! for in; so what is found late or early makes no difference to what touches. Shapes of flat facets are
-//! looked at anew in every tick.
-
-use crate::solver::collide::mid_phase;
+//! Every tick computes the swept bounds of all colliders. Blocks and candidate pairs are rebuilt
+//! only when they are stale: a particle has moved by almost `margin` since the last rebuild, a
+//! collider has left the bounds that were searched, or the cloth or its colliders have changed.
+//! Shapes with flat faces are searched again in every tick.
+//!
+//! Reads colliders, positions, predicted positions and the mesh; writes `scratch.contacts.nearby`.
+//! Invariant: results never depend on when a rebuild happens, because everything that can touch is
+//! always listed.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::Bend;
-use crate::geometry::shape::CollisionShape;
-use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::simd::leveled;
-use crate::solver::collide::mid_phase::{Pairs, Sharp, Span};
-use crate::solver::collide::{gap, is_pointed, relent};
+use crate::solver::collide::contact_distance::{contact_gap, needs_triangle_tests, smoothing};
+use crate::solver::collide::mid_phase::{CandidateRange, PairSearch};
+use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
 use crate::solver::world::World;
-use crate::state::colliders::ColliderBody;
-use crate::state::pose::Pose;
 use glam::Vec3;
 
-/// Particles or triangles in a block, which neighbours of a grid mostly share.
-pub(super) const BLOCK: usize = 64;
-
-/// How far particles may move before pairs are found anew, in mean rest lengths of edges.
+/// How far particles may move before a rebuild, in mean edge lengths at rest.
 const MARGIN: f32 = 0.5;
 
-/// Finding anew begins a little before it must, which covers rounding.
-const HASTE: f32 = 0.95;
+/// The fraction of the margin at which a rebuild is due; the rest covers rounding.
+const REBUILD_AT: f32 = 0.95;
 
-/// Blocks near each collider.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct NearbyBlocks {
-    reaches: Vec<Reach>,
-    blocks: Vec<u32>,
-    /// Where particles were when this was found.
-    found_at: Columns,
-    particle_bounds: Vec<Aabb>,
-    face_bounds: Vec<Aabb>,
-    /// The longest edge at rest, and how many triangles there were when it was measured [m].
-    longest_at_rest: (f32, usize),
-    /// No edge was longer when this was found [m].
-    longest: f32,
-    is_stale: bool,
-    pairs: Pairs,
-}
-
-/// What is near one collider.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    /// Where it is in this tick; and where it was looked for.
-    now: Room,
-    found: Room,
-    /// Its bends that are let be, and how much farther than the gap particles stay from it for that.
-    mild: Bend,
-    bulge: f32,
-    sharp: Span,
-    /// Its entries of `blocks`: particles from `from` to `middle`, triangles from there to `end`.
-    from: u32,
-    middle: u32,
-    end: u32,
-}
-
-/// Where a collider is during a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Room {
-    Bounds(Aabb),
-    /// Above neither plane, each a point and a normal.
-    Below([(Vec3, Vec3); 2]),
-}
-
-/// What is near a collider.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Found<'a> {
-    /// Blocks of particles.
-    pub blocks: &'a [u32],
-    /// Blocks of triangles.
-    pub faces: &'a [u32],
-    /// No edge is longer [m].
-    pub longest: f32,
-    /// How much farther than the gap particles stay from it [m].
-    pub bulge: f32,
-    pub sharp: Sharp<'a>,
-}
-
-impl NearbyBlocks {
-    pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
-        let (blocks, faces) = (particles.div_ceil(BLOCK), triangles.div_ceil(BLOCK));
-        let all = bodies * (blocks + faces);
-        self.reaches.reserve_exact(bodies.saturating_sub(self.reaches.len()));
-        self.blocks.reserve_exact(all.saturating_sub(self.blocks.len()));
-        self.found_at.reserve(particles);
-        let reserve = |list: &mut Vec<Aabb>, count: usize| {
-            list.reserve_exact(count.saturating_sub(list.len()));
-        };
-        reserve(&mut self.particle_bounds, blocks);
-        reserve(&mut self.face_bounds, faces);
-        self.pairs.reserve(bodies, particles, triangles);
-        self.is_stale = true;
-    }
-
-    /// All is to be found anew: colliders went, or are touched otherwise.
-    pub fn invalidate(&mut self) {
-        self.is_stale = true;
-    }
-
-    /// What is near the live collider of this number.
-    pub(super) fn of(&self, body: usize) -> Found<'_> {
-        let Reach { from, middle, end, bulge, ref sharp, .. } = self.reaches[body];
-        let part = |from: u32, end: u32| &self.blocks[from as usize..end as usize];
-        let (blocks, faces) = (part(from, middle), part(middle, end));
-        Found { blocks, faces, longest: self.longest, bulge, sharp: self.pairs.of(sharp) }
-    }
-}
-
-impl Room {
-    fn of(body: &ColliderBody, collision_shape: &CollisionShape, gap: f32) -> Self {
-        let poses = [&body.last, &body.next];
-        if let CollisionShape::HalfSpace(_) = collision_shape {
-            return Self::Below(poses.map(|pose| (pose.position, pose.to_transform().axes[1])));
-        }
-        let shape = collision_shape.bounds();
-        let mut bounds = Aabb::EMPTY;
-        poses.into_iter().for_each(|pose| bounds.merge(&around(&shape, pose, body)));
-        Self::Bounds(bounds.expanded(gap))
-    }
-
-    /// The same, with room to move in.
-    fn expanded(self, by: f32) -> Self {
-        match self {
-            Self::Bounds(bounds) => Self::Bounds(bounds.expanded(by)),
-            Self::Below(_) => self,
-        }
-    }
-
-    fn contains(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Bounds(own), Self::Bounds(other)) => own.contains(other),
-            _ => self == other,
-        }
-    }
-
-    /// Whether something in `bounds` may come within `reach` of it.
-    fn overlaps(&self, bounds: &Aabb, reach: f32) -> bool {
-        let planes = match self {
-            Self::Bounds(own) => return own.expanded(reach).overlaps(bounds),
-            Self::Below(planes) => planes,
-        };
-        let turned = planes[0].1 != planes[1].1;
-        turned
-            || planes.iter().any(|(point, normal)| {
-                let (center, half) = (bounds.center() - *point, bounds.half_extents());
-                let size = Vec3::new(normal.x.abs(), normal.y.abs(), normal.z.abs());
-                // What is not a number is near.
-                let distance = center.dot(*normal) - half.dot(size);
-                distance.is_nan() || distance <= reach
-            })
-    }
-}
-
-/// Bounds of a shape in a pose of a body; of all its turns, if it turns.
-fn around(shape: &Aabb, pose: &Pose, body: &ColliderBody) -> Aabb {
-    let frame = pose.to_transform();
-    if body.last.rotation == body.next.rotation {
-        let (center, half) = (frame.point_to_world(shape.center()), shape.half_extents());
-        let size = |v: Vec3| Vec3::new(v.x.abs(), v.y.abs(), v.z.abs());
-        let [u, v, w] = frame.axes.map(size);
-        let half = u * half.x + v * half.y + w * half.z;
-        return Aabb { low: center - half, high: center + half };
-    }
-    let farthest = |low: f32, high: f32| max(low.abs(), high.abs());
-    let (low, high) = (shape.low, shape.high);
-    let corner =
-        Vec3::new(farthest(low.x, high.x), farthest(low.y, high.y), farthest(low.z, high.z));
-    Aabb::from_points([pose.position]).expanded(corner.length())
-}
-
-/// A tick begins: looks where its colliders go.
-pub(super) fn follow(world: &mut World) {
-    let (near, thickness) = (&mut world.scratch.contacts.nearby, world.material.thickness);
+/// Updates the swept bounds of all colliders at the start of a tick.
+pub(super) fn update_swept_bounds(world: &mut World) {
+    let nearby = &mut world.scratch.contacts.nearby;
+    let thickness = world.material.thickness;
     let mut count = 0;
-    let is_new = near.is_stale;
+    let is_new = nearby.is_stale;
     if is_new {
-        near.reaches.clear();
+        nearby.entries.clear();
     }
     for body in world.colliders.iter() {
-        let Some(collision_shape) = body.collision_shape() else { continue };
-        if count == near.reaches.len() {
-            let (mild, bulge) = relent(collision_shape, world.mean_edge);
-            let nowhere = Room::Bounds(Aabb::EMPTY);
-            near.reaches.push(Reach {
-                now: nowhere,
-                found: nowhere,
-                mild,
-                bulge,
-                sharp: Span::default(),
-                from: 0,
-                middle: 0,
+        let Some(shape) = body.collision_shape() else { continue };
+        if count == nearby.entries.len() {
+            let (smooth, sagitta_margin) = smoothing(shape, world.mean_edge);
+            nearby.entries.push(ColliderEntry {
+                now: SweptBounds::EMPTY,
+                searched: SweptBounds::EMPTY,
+                smooth,
+                sagitta_margin,
+                candidates: CandidateRange::default(),
+                first_particles: 0,
+                first_triangles: 0,
                 end: 0,
             });
         }
-        let reach = &mut near.reaches[count];
-        reach.now = Room::of(body, collision_shape, gap(body, thickness) + reach.bulge);
-        // What got deep inside between ridges may be a pair or not, by when it was looked for: at the start of
-        // every tick, so that a restored cloth goes on the same.
-        near.is_stale |= collision_shape.steps().is_some() || !reach.found.contains(&reach.now);
+        let entry = &mut nearby.entries[count];
+        let distance = contact_gap(body, thickness) + entry.sagitta_margin;
+        entry.now = SweptBounds::of_body(body, shape, distance);
+        // Cloth that got deep between two edges of a shape is a candidate or not, depending on when
+        // the search ran. It therefore runs at the start of every tick, so that a restored cloth
+        // continues the same.
+        nearby.is_stale |= shape.bends().is_some() || !entry.searched.contains(&entry.now);
         count += 1;
     }
 }
 
-/// Finds pairs, if what was found holds no more.
+/// Rebuilds blocks and candidate pairs if they are stale.
 pub(crate) fn refresh(world: &mut World) {
-    let near = &world.scratch.contacts.nearby;
-    if near.reaches.is_empty() {
+    let nearby = &world.scratch.contacts.nearby;
+    if nearby.entries.is_empty() {
         return;
     }
     let margin = MARGIN * world.mean_edge;
-    let is_other = near.found_at.x.len() != world.particles.len()
-        || near.longest_at_rest.1 != world.mesh.triangles.len();
-    if near.is_stale || is_other || is_one_far(world, margin * HASTE) {
-        find(world, margin);
+    let has_topology_changed = nearby.positions_at_rebuild.x.len() != world.particles.len()
+        || nearby.longest_rest_edge.1 != world.mesh.triangles.len();
+    let is_stale = nearby.is_stale || has_topology_changed;
+    if is_stale || has_particle_moved(world, margin * REBUILD_AT) {
+        rebuild(world, margin);
     }
 }
 
-fn is_one_far(world: &World, limit: f32) -> bool {
-    let mut far = false;
-    let (x, found_at) = (world.particles.x.all(), world.scratch.contacts.nearby.found_at.all());
-    look_far(world.level, x, found_at, limit * limit, &mut far);
-    far
+/// Returns whether a particle is farther than `limit` [m] from where it was at the last rebuild.
+fn has_particle_moved(world: &World, limit: f32) -> bool {
+    let mut has_moved = false;
+    let positions_at_rebuild = world.scratch.contacts.nearby.positions_at_rebuild.all();
+    let x = world.particles.x.all();
+    any_moved(world.level, x, positions_at_rebuild, limit * limit, &mut has_moved);
+    has_moved
 }
 
 leveled! {
-    /// Whether a particle is farther away than so much squared.
-    fn look_far(x: [&[f32]; 3], from: [&[f32]; 3], limit2: f32, far: &mut bool) = look_far_lanes
+    /// Sets `has_moved` if the squared distance of two positions is above `limit2` [m²] or NaN.
+    fn any_moved(x: [&[f32]; 3], from: [&[f32]; 3], limit2: f32, has_moved: &mut bool)
+        = any_moved_lanes
 }
 
 #[inline(always)]
-fn look_far_lanes([x, y, z]: [&[f32]; 3], [u, v, w]: [&[f32]; 3], limit2: f32, far: &mut bool) {
+fn any_moved_lanes(
+    [x, y, z]: [&[f32]; 3],
+    [u, v, w]: [&[f32]; 3],
+    limit2: f32,
+    has_moved: &mut bool,
+) {
     let mut found = 0_u32;
     let now = x.iter().zip(y).zip(z);
     let then = u.iter().zip(v).zip(w);
     for (((x, y), z), ((u, v), w)) in now.zip(then) {
         let (x, y, z) = (x - u, y - v, z - w);
-        // What is not a number is far.
+        // NaN counts as moved.
         let moved2 = x * x + y * y + z * z;
         found |= u32::from(moved2.is_nan() | (moved2 > limit2));
     }
-    *far |= found != 0;
+    *has_moved |= found != 0;
 }
 
-fn find(world: &mut World, margin: f32) {
-    measure_edges(world);
+/// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle moves by
+/// `margin` [m].
+fn rebuild(world: &mut World, margin: f32) {
+    update_longest_rest_edge(world);
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
-    let near = &mut scratch.contacts.nearby;
-    near.found_at.copy_from(x);
-    near.is_stale = false;
-    // Where a particle is, and where the substep found it: a fast one is far from there already.
+    let nearby = &mut scratch.contacts.nearby;
+    nearby.positions_at_rebuild.copy_from(x);
+    nearby.is_stale = false;
+    // The position now and at the start of the substep: a fast particle is already far from there.
     let both = |i: usize| [x.at(i), scratch.predicted.at(i) - scratch.displacement.at(i)];
     let count = world.particles.len();
-    near.particle_bounds.clear();
-    near.particle_bounds.extend(
+    nearby.particle_bounds.clear();
+    nearby.particle_bounds.extend(
         (0..count)
             .step_by(BLOCK)
             .map(|first| Aabb::from_points((first..(first + BLOCK).min(count)).flat_map(both))),
     );
-    near.face_bounds.clear();
-    near.blocks.clear();
-    near.pairs.clear();
-    near.longest = 0.0;
-    for (reach, body) in near.reaches.iter_mut().zip(world.colliders.iter()) {
-        let Some(collision_shape) = body.collision_shape() else { continue };
-        // Colliders that move get room of their own.
+    nearby.triangle_bounds.clear();
+    nearby.blocks.clear();
+    nearby.candidates.clear();
+    nearby.longest_edge = 0.0;
+    for (entry, body) in nearby.entries.iter_mut().zip(world.colliders.iter()) {
+        let Some(shape) = body.collision_shape() else { continue };
+        // The bounds of moving colliders get a margin of their own.
         let slack = if body.last == body.next { 0.0 } else { margin };
-        reach.found = reach.now.expanded(slack);
-        reach.sharp = Span::default();
-        reach.from = near.blocks.len() as u32;
-        for (block, bounds) in near.particle_bounds.iter().enumerate() {
-            if reach.found.overlaps(bounds, margin) {
-                near.blocks.push(block as u32);
+        entry.searched = entry.now.expanded(slack);
+        entry.candidates = CandidateRange::default();
+        entry.first_particles = nearby.blocks.len() as u32;
+        for (block, bounds) in nearby.particle_bounds.iter().enumerate() {
+            if entry.searched.overlaps(bounds, margin) {
+                nearby.blocks.push(block as u32);
             }
         }
-        reach.middle = near.blocks.len() as u32;
-        let gap = gap(body, world.material.thickness);
-        let is_sharp = collision_shape.steps().is_some() && reach.middle > reach.from;
-        let is_pointed = is_pointed(collision_shape, near.longest_at_rest.0, gap, reach.bulge);
-        if (is_sharp || is_pointed) && near.longest == 0.0 {
-            near.longest = longest(world.mesh.triangles.iter(), |i| x.at(i)) + 2.0 * margin;
+        entry.first_triangles = nearby.blocks.len() as u32;
+        let gap = contact_gap(body, world.material.thickness);
+        let has_features = shape.bends().is_some() && entry.first_triangles > entry.first_particles;
+        let longest_rest_edge = nearby.longest_rest_edge.0;
+        let needs_triangles =
+            needs_triangle_tests(shape, longest_rest_edge, gap, entry.sagitta_margin);
+        if (has_features || needs_triangles) && nearby.longest_edge == 0.0 {
+            let triangles = world.mesh.triangles.iter();
+            nearby.longest_edge = longest_edge(triangles, |i| x.at(i)) + 2.0 * margin;
         }
-        if is_sharp {
+        if has_features {
             let (last, next) = (body.last.to_transform(), body.next.to_transform());
-            let places = |i: usize| {
-                let [now, before] = both(i);
+            let local_positions = |i: usize| {
+                let [now, start] = both(i);
                 [
                     last.point_to_local(now),
-                    last.point_to_local(before),
+                    last.point_to_local(start),
                     next.point_to_local(now),
-                    next.point_to_local(before),
+                    next.point_to_local(start),
                 ]
             };
-            let far = margin + gap + reach.bulge + body.max_arc_deviation(collision_shape);
-            let search = mid_phase::Search { reach: far, mild: reach.mild };
-            reach.sharp = near.pairs.find(collision_shape, &world.mesh, count, places, search);
+            let distance = margin + gap + entry.sagitta_margin + body.max_arc_deviation(shape);
+            let search = PairSearch { distance, smooth: entry.smooth };
+            let candidates = &mut nearby.candidates;
+            entry.candidates =
+                candidates.push_pairs(shape, &world.mesh, count, local_positions, search);
         }
-        if is_pointed {
-            if near.face_bounds.is_empty() {
-                let faces = world.mesh.triangles.chunks(BLOCK);
-                near.face_bounds.extend(faces.map(|faces| {
-                    Aabb::from_points(faces.as_flattened().iter().flat_map(|i| both(*i as usize)))
+        if needs_triangles {
+            if nearby.triangle_bounds.is_empty() {
+                let blocks = world.mesh.triangles.chunks(BLOCK);
+                nearby.triangle_bounds.extend(blocks.map(|block| {
+                    let corners = block.as_flattened().iter();
+                    Aabb::from_points(corners.flat_map(|i| both(*i as usize)))
                 }));
             }
-            for (block, bounds) in near.face_bounds.iter().enumerate() {
-                if reach.found.overlaps(bounds, margin) {
-                    near.blocks.push(block as u32);
+            for (block, bounds) in nearby.triangle_bounds.iter().enumerate() {
+                if entry.searched.overlaps(bounds, margin) {
+                    nearby.blocks.push(block as u32);
                 }
             }
         }
-        reach.end = near.blocks.len() as u32;
+        entry.end = nearby.blocks.len() as u32;
     }
 }
 
-/// How long edges are at rest, after triangles were divided.
-fn measure_edges(world: &mut World) {
+/// Measures the longest edge at rest again if the number of triangles has changed.
+fn update_longest_rest_edge(world: &mut World) {
     let triangles = &world.mesh.triangles;
-    let near = &mut world.scratch.contacts.nearby;
-    if near.longest_at_rest.1 != triangles.len() {
+    let nearby = &mut world.scratch.contacts.nearby;
+    if nearby.longest_rest_edge.1 != triangles.len() {
         let at = |i: usize| world.rest[world.mesh.source[i] as usize];
-        near.longest_at_rest = (longest(triangles.iter(), at), triangles.len());
+        nearby.longest_rest_edge = (longest_edge(triangles.iter(), at), triangles.len());
     }
 }
 
-/// The length of the longest edge.
-fn longest<'a>(triangles: impl Iterator<Item = &'a [u32; 3]>, at: impl Fn(usize) -> Vec3) -> f32 {
-    let mut most = 0.0;
+/// Returns the length of the longest edge of some triangles [m].
+fn longest_edge<'a>(
+    triangles: impl Iterator<Item = &'a [u32; 3]>,
+    at: impl Fn(usize) -> Vec3,
+) -> f32 {
+    let mut longest2 = 0.0;
     for triangle in triangles {
         let [a, b, c] = triangle.map(|i| at(i as usize));
-        for span in [b - a, c - b, a - c] {
-            most = max(span.length_squared(), most);
+        for edge in [b - a, c - b, a - c] {
+            longest2 = max(edge.length_squared(), longest2);
         }
     }
-    most.sqrt()
+    longest2.sqrt()
 }

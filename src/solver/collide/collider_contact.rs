@@ -1,4 +1,8 @@
-//! A contact.
+//! A contact between a particle and a collider, as the velocity pass needs it.
+//!
+//! Reads and writes only its own fields. The position pass fills the list, one entry per pair of
+//! particle and collider; `response` turns it into velocities and impulses.
+//! Invariant: vectors are in world space.
 
 use glam::Vec3;
 
@@ -6,24 +10,26 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ColliderContact {
     pub particle: u32,
-    /// The number of the collider among the live ones.
+    /// The index of the collider among the live ones.
     pub body: u32,
-    /// How much of what touched is the particle's: 1, if it is the particle itself.
-    pub share: f32,
-    /// Out of the collider.
+    /// The barycentric weight of the particle in the contact point, in 0..=1: 1 for the particle
+    /// itself.
+    pub weight: f32,
+    /// The outward normal of the collider, of length one.
     pub normal: Vec3,
+    /// The velocity of the collider at the contact [m/s].
     pub surface_velocity: Vec3,
-    /// Its velocity before it touched [m/s].
-    pub approach: Vec3,
-    /// How it was pushed [m].
-    pub push: Vec3,
+    /// The velocity of the particle before the contact [m/s].
+    pub approach_velocity: Vec3,
+    /// The sum of all position corrections of the substep [m].
+    pub correction: Vec3,
     pub restitution: f32,
     pub tangential_restitution: f32,
 }
 
 impl ColliderContact {
-    /// Whether it is between this particle and this collider.
-    pub fn is_of(&self, particle: usize, body: u32) -> bool {
+    /// Returns whether the contact is between this particle and this collider.
+    pub fn is_between(&self, particle: usize, body: u32) -> bool {
         self.particle as usize == particle && self.body == body
     }
 }

@@ -1,207 +1,245 @@
-//! Edges and triangles of the cloth against what sticks out of shapes of flat facets.
+//! Narrow phase: cloth edges and triangles against the edge and vertex features of shapes with flat
+//! faces.
 //!
-//! An edge touches a ridge, and a triangle a corner, where the plane that parts them has all of the shape
-//! below it. Anywhere else something else touches first: a particle a facet, or the next ridge. So
-//! ways out never turn by more than the shape does.
+//! ```text
+//! edge – edge feature         n = (q₁ − q₀) × (b − a), normalised        height = (a − q₀) · n
+//! triangle – vertex feature   n = normal of the triangle                 height = (a − q) · n
+//! ```
+//! A contact counts only if n lies in the normal cone of the feature: then the whole shape lies
+//! below the contact plane near the feature. Elsewhere another feature or a face is nearer. So
+//! contact normals never turn by more than the shape does. Cloth that is deeper than the center of
+//! the shape counts only if it passed through the feature in this substep.
+//!
+//! Reads local particles and candidate pairs; writes positions through [`PushAccumulator`].
+//! Invariant: a pair with a positive height at or above the gap is not moved.
 
 use crate::geometry::closest_points::interpolate;
-use crate::geometry::features::{Corner, EdgeFeature, Features, Sides};
-use crate::geometry::shape::CollisionShape;
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::features::{EdgeFeature, FeatureSides, Features, VertexFeature};
 use crate::math::{TINY, max, min};
-use crate::solver::collide::mid_phase::{EdgePair, Sharp, TipPair};
-use crate::solver::collide::push_accumulator::Lifts;
-use crate::solver::collide::triangle_vs_round::{Spot, cross};
-use crate::solver::collide::{Place, Push};
+use crate::solver::collide::local_particles::{LocalParticles, Penetration};
+use crate::solver::collide::mid_phase::{Candidates, EdgeEdgePair, VertexTrianglePair};
+use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::triangle_vs_round::{TriangleContact, point_crossing};
 use glam::Vec3;
 
-/// A plane may cut off this much of a ridge (a sine), which rounding may have it do. More would have what touches
-/// begin and end at once.
-const LEAN: f32 = 1.0e-3;
+/// How far a normal may lie outside a normal cone (a sine): tolerates rounding. With a larger value
+/// contacts would begin and end abruptly.
+const CONE_TOLERANCE: f32 = 1.0e-3;
 
-/// Edges that are more along a ridge than this (the square of a sine) have no way out of it.
-const ALONG: f32 = 1.0e-4;
+/// Edges at a smaller angle than this to an edge feature (its sine squared) have no contact normal.
+const MIN_SINE2: f32 = 1.0e-4;
 
-/// What is farther than so many gaps in the first round is not looked at in the others.
-const NEARBY: f32 = 4.0;
+/// Pairs farther than so many gaps apart in the first round are left out of the other rounds.
+const CLOSE_GAPS: f32 = 4.0;
 
-/// What stays the same for all pairs of a collider in a substep.
+/// What is the same for all pairs of a collider in a substep.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
-    pub collision_shape: &'a CollisionShape,
-    pub found: Sharp<'a>,
-    /// The gap that is kept [m].
+pub(super) struct FeatureContacts<'a> {
+    pub shape: &'a CollisionShape,
+    pub candidates: Candidates<'a>,
+    /// The distance to keep from features [m].
     pub gap: f32,
-    /// What is deeper than this did not get there by little and little [m].
-    pub deepest: f32,
+    /// Deeper penetrations [m] cannot have come about step by step.
+    pub max_depth: f32,
 }
 
-/// Finds the pairs that are near enough to touch in this substep; `now` is room for where particles are.
-pub(super) fn look(task: &Task<'_>, place: &Place<'_>, now: &mut Vec<Vec3>, near: &mut Vec<u32>) {
-    let Sharp { edges, tips, .. } = task.found;
-    let features = task.found.features(task.collision_shape);
-    near.clear();
-    if edges.is_empty() && tips.is_empty() {
+/// Collects the indices of the pairs that are close enough to touch in this substep: edge pairs
+/// first, then vertex pairs, numbered after all edge pairs. `local_positions` is a buffer.
+pub(super) fn collect_close_pairs(
+    features_of_body: &FeatureContacts<'_>,
+    particles: &LocalParticles<'_>,
+    local_positions: &mut Vec<Vec3>,
+    close_pairs: &mut Vec<u32>,
+) {
+    let Candidates { edges, vertices, .. } = features_of_body.candidates;
+    let features = features_of_body.candidates.features(features_of_body.shape);
+    close_pairs.clear();
+    if edges.is_empty() && vertices.is_empty() {
         return;
     }
-    now.clear();
-    now.extend((0..place.w.len()).map(|i| place.now(i)));
-    let reach = task.gap * NEARBY;
-    // Both are as long as the normal; what is not a number is near.
-    let is_near = |height: f32, normal: Vec3| {
-        !(height > 0.0 && height * height > reach * reach * normal.length_squared())
+    local_positions.clear();
+    local_positions.extend((0..particles.w.len()).map(|i| particles.end(i)));
+    let distance = features_of_body.gap * CLOSE_GAPS;
+    // Height and normal both have the length of the unnormalised normal as a factor; NaN counts as
+    // close.
+    let is_close = |height: f32, normal: Vec3| {
+        !(height > 0.0 && height * height > distance * distance * normal.length_squared())
     };
     for (at, pair) in edges.iter().enumerate() {
-        let ridge = &features.ridges[pair.ridge as usize];
-        let [a, b] = pair.ends.map(|i| now[i as usize] - ridge.ends[0]);
-        let normal = (ridge.ends[1] - ridge.ends[0]).cross(b - a);
-        let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(ridge.out));
-        // A border has no side of its own.
-        if ridge.sides == Sides::Border || is_near(height, normal) {
-            near.push(at as u32);
+        let edge = &features.edges[pair.edge as usize];
+        let [a, b] = pair.particles.map(|i| local_positions[i as usize] - edge.ends[0]);
+        let normal = (edge.ends[1] - edge.ends[0]).cross(b - a);
+        let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(edge.outward));
+        // The outward side of a boundary depends on where the cloth is.
+        if edge.sides == FeatureSides::Boundary || is_close(height, normal) {
+            close_pairs.push(at as u32);
         }
     }
-    for (at, pair) in tips.iter().enumerate() {
-        let corner = &features.corners[pair.corner as usize];
-        let [a, b, c] = pair.corners.map(|i| now[i as usize] - corner.at);
+    for (at, pair) in vertices.iter().enumerate() {
+        let vertex = &features.vertices[pair.vertex as usize];
+        let [a, b, c] = pair.particles.map(|i| local_positions[i as usize] - vertex.position);
         let normal = (b - a).cross(c - a);
-        let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(corner.out));
-        if corner.sides == Sides::Border || is_near(height, normal) {
-            near.push((edges.len() + at) as u32);
+        let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(vertex.outward));
+        if vertex.sides == FeatureSides::Boundary || is_close(height, normal) {
+            close_pairs.push((edges.len() + at) as u32);
         }
     }
 }
 
-/// Pushes what is near out of the shape once; says how far the one that was pushed the most, or 0 if there
-/// was none.
+/// Pushes the close pairs out of the shape once. Returns the depth of the deepest penetration [m],
+/// 0 if there was none.
 pub(super) fn solve(
-    task: &Task<'_>,
-    place: &mut Place<'_>,
-    near: &[u32],
-    lifts: &mut Lifts,
+    features_of_body: &FeatureContacts<'_>,
+    particles: &mut LocalParticles<'_>,
+    close_pairs: &[u32],
+    pushes: &mut PushAccumulator,
 ) -> f32 {
-    let features = task.found.features(task.collision_shape);
+    let candidates = features_of_body.candidates;
+    let features = candidates.features(features_of_body.shape);
     let mut deepest = 0.0;
-    lifts.begin(place.w.len());
-    for at in near {
+    pushes.reset(particles.w.len());
+    for at in close_pairs {
         let at = *at as usize;
-        let met = match task.found.edges.get(at) {
-            Some(pair) => meet_edge(task, features, place, pair),
-            None => meet_tip(task, features, place, &task.found.tips[at - task.found.edges.len()]),
+        let contact = match candidates.edges.get(at) {
+            Some(pair) => edge_contact(features_of_body, features, particles, pair),
+            None => {
+                let pair = &candidates.vertices[at - candidates.edges.len()];
+                vertex_contact(features_of_body, features, particles, pair)
+            }
         };
-        let Some((corners, Spot { weights, push })) = met else { continue };
-        let from = interpolate(corners.map(|i| place.before(i)), weights);
-        let to = interpolate(corners.map(|i| place.now(i)), weights);
-        let moved = place.moved(from, to, push);
-        deepest = max(push.depth, deepest);
-        lifts.add(corners, weights, corners.map(|i| place.w[i]), moved, push);
+        let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
+        let from = interpolate(corners.map(|i| particles.start(i)), weights);
+        let to = interpolate(corners.map(|i| particles.end(i)), weights);
+        let correction = particles.correction(from, to, penetration);
+        deepest = max(penetration.depth, deepest);
+        let w = corners.map(|i| particles.w[i]);
+        pushes.add(corners, weights, w, correction, penetration);
     }
-    lifts.apply(place);
+    pushes.apply(particles);
     deepest
 }
 
-fn meet_edge(
-    task: &Task<'_>,
+/// Returns the contact of a cloth edge with an edge feature, as a triangle whose third corner has
+/// no weight.
+fn edge_contact(
+    features_of_body: &FeatureContacts<'_>,
     features: &Features,
-    place: &Place<'_>,
-    pair: &EdgePair,
-) -> Option<([usize; 3], Spot)> {
-    let ridge = &features.ridges[pair.ridge as usize];
-    let [i, j] = pair.ends.map(|i| i as usize);
-    let (now, before) = ([place.now(i), place.now(j)], [place.before(i), place.before(j)]);
-    let (normal, height) = over(ridge, now)?;
-    if height >= task.gap {
+    particles: &LocalParticles<'_>,
+    pair: &EdgeEdgePair,
+) -> Option<([usize; 3], TriangleContact)> {
+    let edge = &features.edges[pair.edge as usize];
+    let [i, j] = pair.particles.map(|i| i as usize);
+    let end = [particles.end(i), particles.end(j)];
+    let start = [particles.start(i), particles.start(j)];
+    let (normal, height) = edge_normal(edge, end)?;
+    if height >= features_of_body.gap {
         return None;
     }
-    let most = min(task.collision_shape.depth(ridge.ends[0], normal), task.deepest);
-    let (share, push) = if height > -most {
-        if ridge.sides == Sides::Fold && !before.iter().all(|x| ridge.is_outside(*x)) {
+    let center_depth = features_of_body.shape.depth_of_center(edge.ends[0], normal);
+    let most = min(center_depth, features_of_body.max_depth);
+    let (fraction, penetration) = if height > -most {
+        let is_two_sided = edge.sides == FeatureSides::TwoSided;
+        if is_two_sided && !start.iter().all(|x| edge.is_outside(*x)) {
             return None;
         }
-        let share = crossing(ridge, now, normal)?;
-        let from = before[0] + (before[1] - before[0]) * share;
-        let start = (from - ridge.ends[0]).dot(normal);
-        if ridge.sides == Sides::Border && start <= 0.0 {
+        let fraction = edge_crossing(edge, end, normal)?;
+        let from = start[0] + (start[1] - start[0]) * fraction;
+        let start_height = (from - edge.ends[0]).dot(normal);
+        if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
             return None;
         }
-        (share, place.rise.push(normal, task.gap, start, height)?)
+        let depenetration = particles.depenetration;
+        let gap = features_of_body.gap;
+        (fraction, depenetration.penetration(normal, gap, start_height, height)?)
     } else {
-        // It is beyond the middle, where it can only have come through the ridge.
-        let (then, start) = over(ridge, before)?;
-        if start <= 0.0 || then.dot(normal) <= 0.0 {
+        // The edge is beyond the center, so it counts only if it came through the edge feature.
+        let (start_normal, start_height) = edge_normal(edge, start)?;
+        if start_height <= 0.0 || start_normal.dot(normal) <= 0.0 {
             return None;
         }
-        let moment = start / (start - height);
-        let then = [0, 1].map(|k| before[k] + (now[k] - before[k]) * moment);
-        (crossing(ridge, then, normal)?, Push::new(normal, task.gap - height))
+        let time = start_height / (start_height - height);
+        let crossing = [0, 1].map(|k| start[k] + (end[k] - start[k]) * time);
+        let penetration = Penetration::new(normal, features_of_body.gap - height);
+        (edge_crossing(edge, crossing, normal)?, penetration)
     };
-    // The third corner weighs nothing.
-    Some(([i, j, i], Spot { weights: [1.0 - share, share, 0.0], push }))
+    let weights = [1.0 - fraction, fraction, 0.0];
+    Some(([i, j, i], TriangleContact { weights, penetration }))
 }
 
-/// The way out that is square to a ridge and an edge, and how far out the edge is; nothing where
-/// something else of the shape is farther out.
-fn over(ridge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
-    let (along, span) = (ridge.ends[1] - ridge.ends[0], b - a);
+/// Returns the normal perpendicular to an edge feature and a cloth edge, and the height of the
+/// cloth edge along it [m]; `None` if the normal lies outside the normal cone of the feature.
+fn edge_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
+    let (along, span) = (edge.ends[1] - edge.ends[0], b - a);
     let normal = along.cross(span);
     let length2 = normal.length_squared();
-    if length2 <= ALONG * along.length_squared() * span.length_squared() {
+    if length2 <= MIN_SINE2 * along.length_squared() * span.length_squared() {
         return None;
     }
     let normal = normal * (1.0 / length2.sqrt());
-    let normal = if normal.dot(ridge.out) < 0.0 { -normal } else { normal };
-    let is_above = ridge.into.iter().all(|into| normal.dot(*into) <= LEAN);
-    is_above.then(|| (normal, (a - ridge.ends[0]).dot(normal)))
+    let normal = if normal.dot(edge.outward) < 0.0 { -normal } else { normal };
+    let is_in_cone = edge.inward.iter().all(|inward| normal.dot(*inward) <= CONE_TOLERANCE);
+    is_in_cone.then(|| (normal, (a - edge.ends[0]).dot(normal)))
 }
 
-/// Where an edge passes over a ridge, as a share of the edge.
-fn crossing(ridge: &EdgeFeature, [a, b]: [Vec3; 2], normal: Vec3) -> Option<f32> {
-    let (along, span, between) = (ridge.ends[1] - ridge.ends[0], b - a, a - ridge.ends[0]);
-    // Seen along the way out both are lines in a plane.
-    let turn = normal.dot(along.cross(span));
-    let s = normal.dot(between.cross(span)) / turn;
-    let t = normal.dot(between.cross(along)) / turn;
-    let is_on = |share: f32| (0.0..=1.0).contains(&share);
-    (is_on(s) && is_on(t)).then_some(t)
+/// Returns where a cloth edge crosses an edge feature, seen along `normal`, as a fraction of the
+/// cloth edge; `None` if they do not cross.
+fn edge_crossing(edge: &EdgeFeature, [a, b]: [Vec3; 2], normal: Vec3) -> Option<f32> {
+    let (along, span, between) = (edge.ends[1] - edge.ends[0], b - a, a - edge.ends[0]);
+    // Projected along the normal, both are segments in one plane.
+    let determinant = normal.dot(along.cross(span));
+    let s = normal.dot(between.cross(span)) / determinant;
+    let t = normal.dot(between.cross(along)) / determinant;
+    let is_within = |fraction: f32| (0.0..=1.0).contains(&fraction);
+    (is_within(s) && is_within(t)).then_some(t)
 }
 
-fn meet_tip(
-    task: &Task<'_>,
+/// Returns the contact of a cloth triangle with a vertex feature.
+fn vertex_contact(
+    features_of_body: &FeatureContacts<'_>,
     features: &Features,
-    place: &Place<'_>,
-    pair: &TipPair,
-) -> Option<([usize; 3], Spot)> {
-    let corner = &features.corners[pair.corner as usize];
-    let corners = pair.corners.map(|i| i as usize);
-    let (now, before) = (corners.map(|i| place.now(i)), corners.map(|i| place.before(i)));
-    let (normal, height) = over_tip(features, corner, now, before)?;
-    if height >= task.gap {
+    particles: &LocalParticles<'_>,
+    pair: &VertexTrianglePair,
+) -> Option<([usize; 3], TriangleContact)> {
+    let vertex = &features.vertices[pair.vertex as usize];
+    let corners = pair.particles.map(|i| i as usize);
+    let end = corners.map(|i| particles.end(i));
+    let start = corners.map(|i| particles.start(i));
+    let (normal, height) = vertex_normal(features, vertex, end, start)?;
+    if height >= features_of_body.gap {
         return None;
     }
-    let most = min(task.collision_shape.depth(corner.at, normal), task.deepest);
-    let spot = if height > -most {
-        if corner.sides == Sides::Fold && !before.iter().all(|x| features.is_outside(corner, *x)) {
+    let center_depth = features_of_body.shape.depth_of_center(vertex.position, normal);
+    let most = min(center_depth, features_of_body.max_depth);
+    let contact = if height > -most {
+        let is_two_sided = vertex.sides == FeatureSides::TwoSided;
+        if is_two_sided && !start.iter().all(|x| features.is_outside_vertex(vertex, *x)) {
             return None;
         }
-        let weights = within(now, corner.at, normal)?;
-        let start = (interpolate(before, weights) - corner.at).dot(normal);
-        Spot { weights, push: place.rise.push(normal, task.gap, start, height)? }
+        let weights = projected_weights(end, vertex.position, normal)?;
+        let start_height = (interpolate(start, weights) - vertex.position).dot(normal);
+        let depenetration = particles.depenetration;
+        let gap = features_of_body.gap;
+        let penetration = depenetration.penetration(normal, gap, start_height, height)?;
+        TriangleContact { weights, penetration }
     } else {
-        let (weights, back, _) = cross(corner.at, before, now)?;
+        let (weights, back, _) = point_crossing(vertex.position, start, end)?;
         if back.dot(normal) <= 0.0 {
             return None;
         }
-        Spot { weights, push: Push::new(normal, task.gap - height) }
+        let penetration = Penetration::new(normal, features_of_body.gap - height);
+        TriangleContact { weights, penetration }
     };
-    Some((corners, spot))
+    Some((corners, contact))
 }
 
-/// The normal of a triangle, and how far it is out of a corner along it; nothing where something else of the
-/// shape is farther out.
-fn over_tip(
+/// Returns the outward normal of a cloth triangle at a vertex feature, and the height of the
+/// triangle along it [m]; `None` if the normal lies outside the normal cone of the feature.
+fn vertex_normal(
     features: &Features,
-    corner: &Corner,
+    vertex: &VertexFeature,
     [a, b, c]: [Vec3; 3],
-    before: [Vec3; 3],
+    start: [Vec3; 3],
 ) -> Option<(Vec3, f32)> {
     let normal = (b - a).cross(c - a);
     let length = normal.length();
@@ -209,22 +247,24 @@ fn over_tip(
         return None;
     }
     let normal = normal * (1.0 / length);
-    let out = if corner.sides == Sides::Border {
-        let [p, q, r] = before;
-        // On the side where it was.
-        let then = (q - p).cross(r - p);
-        normal * then.dot(p - corner.at)
+    let outward = if vertex.sides == FeatureSides::Boundary {
+        let [p, q, r] = start;
+        // At a boundary, outward is the side where the triangle was.
+        let start_normal = (q - p).cross(r - p);
+        normal * start_normal.dot(p - vertex.position)
     } else {
-        corner.out
+        vertex.outward
     };
-    let normal = if normal.dot(out) < 0.0 { -normal } else { normal };
-    features.is_tip(corner, normal, LEAN).then(|| (normal, (a - corner.at).dot(normal)))
+    let normal = if normal.dot(outward) < 0.0 { -normal } else { normal };
+    let is_in_cone = features.is_in_normal_cone(vertex, normal, CONE_TOLERANCE);
+    is_in_cone.then(|| (normal, (a - vertex.position).dot(normal)))
 }
 
-/// What the corners of a triangle weigh in the point of it that is over a place.
-fn within([a, b, c]: [Vec3; 3], at: Vec3, normal: Vec3) -> Option<[f32; 3]> {
-    let part = |p: Vec3, q: Vec3| normal.dot((p - at).cross(q - at));
-    let (u, v, w) = (part(b, c), part(c, a), part(a, b));
+/// Returns the barycentric weights of a point projected along `normal` onto a triangle; `None` if
+/// it lies beside it.
+fn projected_weights([a, b, c]: [Vec3; 3], at: Vec3, normal: Vec3) -> Option<[f32; 3]> {
+    let area = |p: Vec3, q: Vec3| normal.dot((p - at).cross(q - at));
+    let (u, v, w) = (area(b, c), area(c, a), area(a, b));
     let whole = u + v + w;
     let weights = [u / whole, v / whole, w / whole];
     weights.iter().all(|weight| *weight >= 0.0).then_some(weights)

@@ -1,304 +1,339 @@
-//! Stage `Pairs` for shapes of flat facets: which facets are near each particle, and which edges and
-//! triangles of the cloth are near what sticks out.
+//! The mid phase, for shapes with flat faces: candidate pairs of cloth primitives and shape
+//! features.
 //!
-//! A particle, and so all of an edge or triangle, moves by `reach` at most before all is found anew; so
-//! whatever is nearer than that now is all that may touch until then.
+//! ```text
+//! particle  – face             (convex hulls and triangle surfaces only)
+//! edge      – edge feature
+//! triangle  – vertex feature
+//! ```
+//! Each particle is bounded by a ball around its local positions now and at the start of the
+//! substep, in the frames of the collider at both ends of the tick (a motion bound). Blocks of 32
+//! triangles query the BVH of features; the rest is tested by distance. Features that bend little
+//! count as smooth and are left out: there particles keep a margin instead.
+//!
+//! Reads the mesh and local positions; writes [`CandidatePairs`].
+//! Invariant: until a particle moves farther than the search allowed for, every pair that can touch
+//! is listed.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
-use crate::geometry::features::{Bend, EdgeFeature, Feature, Features, ShapeFeatures};
-use crate::geometry::shape::CollisionShape;
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures, SurfaceBend};
 use crate::math::max;
 use crate::mesh::{Mesh, NONE};
 use glam::Vec3;
 
-/// Triangles that are looked at together, which neighbours of a grid mostly share.
+/// Triangles that query the features together; on a grid they are mostly neighbours.
 const BLOCK: usize = 32;
 
-/// What was found, of all colliders.
+/// The candidate pairs of all colliders.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Pairs {
-    /// Ridges and edges of the cloth.
-    edges: Vec<EdgePair>,
-    /// Corners and triangles of the cloth.
-    tips: Vec<TipPair>,
-    /// Where the facets of each particle begin in `facets`.
-    starts: Vec<u32>,
-    facets: Vec<u32>,
-    /// What sticks out of heightfields near the cloth.
-    ground: Features,
-    seen: Vec<Seen>,
-    /// Features near a block, and where they are.
-    around: Vec<(u32, Aabb)>,
+pub(crate) struct CandidatePairs {
+    edges: Vec<EdgeEdgePair>,
+    vertices: Vec<VertexTrianglePair>,
+    /// Where the faces of each particle begin in `faces`.
+    face_starts: Vec<u32>,
+    faces: Vec<u32>,
+    /// The features of heightfields near the cloth, which are made on the fly.
+    terrain_features: Features,
+    motion_bounds: Vec<MotionBound>,
+    /// The features near a block of triangles, with their bounds.
+    block_features: Vec<(u32, Aabb)>,
 }
 
-/// A ridge, and an edge of the cloth.
+/// An edge feature of a collider and an edge of the cloth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct EdgePair {
-    pub ridge: u32,
-    pub ends: [u32; 2],
+pub(crate) struct EdgeEdgePair {
+    /// The index of the edge feature.
+    pub edge: u32,
+    /// The particles of the cloth edge.
+    pub particles: [u32; 2],
 }
 
-/// A corner, and a triangle of the cloth.
+/// A vertex feature of a collider and a triangle of the cloth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TipPair {
-    pub corner: u32,
-    pub corners: [u32; 3],
+pub(crate) struct VertexTrianglePair {
+    /// The index of the vertex feature.
+    pub vertex: u32,
+    /// The particles of the cloth triangle.
+    pub particles: [u32; 3],
 }
 
-/// The part of `Pairs` that is one collider's.
+/// The part of [`CandidatePairs`] that belongs to one collider.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Span {
+pub(super) struct CandidateRange {
     edges: [u32; 2],
-    tips: [u32; 2],
-    start: u32,
+    vertices: [u32; 2],
+    first_face_start: u32,
 }
 
-/// What was found near one collider.
+/// The candidate pairs of one collider.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sharp<'a> {
-    pub edges: &'a [EdgePair],
-    pub tips: &'a [TipPair],
-    starts: &'a [u32],
-    facets: &'a [u32],
-    ground: &'a Features,
+pub(crate) struct Candidates<'a> {
+    pub edges: &'a [EdgeEdgePair],
+    pub vertices: &'a [VertexTrianglePair],
+    face_starts: &'a [u32],
+    faces: &'a [u32],
+    terrain_features: &'a Features,
 }
 
-impl<'a> Sharp<'a> {
-    /// The facets near a particle.
-    pub fn facets(&self, i: usize) -> &'a [u32] {
-        match self.starts.get(i..i + 2) {
-            Some(range) => &self.facets[range[0] as usize..range[1] as usize],
+impl<'a> Candidates<'a> {
+    /// Returns the faces near a particle.
+    pub fn faces(&self, i: usize) -> &'a [u32] {
+        match self.face_starts.get(i..i + 2) {
+            Some(range) => &self.faces[range[0] as usize..range[1] as usize],
             None => &[],
         }
     }
 
-    /// What pairs speak of.
-    pub fn features(&self, collision_shape: &'a CollisionShape) -> &'a Features {
-        relief_of(collision_shape).map_or(self.ground, |relief| &relief.features)
+    /// Returns the features that the indices of pairs refer to.
+    pub fn features(&self, shape: &'a CollisionShape) -> &'a Features {
+        features_of(shape).map_or(self.terrain_features, |own| &own.features)
     }
 }
 
-/// Where a particle is on its way, as a collider sees it: within `radius` of a place.
+/// A ball that contains all local positions of a particle, and the box of everything that it may
+/// touch.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
-    at: Vec3,
+struct MotionBound {
+    center: Vec3,
+    /// [m]
     radius: f32,
-    /// All that it may touch until all is found anew.
     bounds: Aabb,
 }
 
-impl Seen {
-    fn new(places: [Vec3; 4], reach: f32) -> Self {
-        let at = (places[0] + places[1] + places[2] + places[3]) * 0.25;
+impl MotionBound {
+    /// Bounds four positions; `distance` [m] is added to the box.
+    fn new(positions: [Vec3; 4], distance: f32) -> Self {
+        let center = (positions[0] + positions[1] + positions[2] + positions[3]) * 0.25;
         let mut radius2 = 0.0;
-        for place in places {
-            radius2 = max((place - at).length_squared(), radius2);
+        for position in positions {
+            radius2 = max((position - center).length_squared(), radius2);
         }
         let radius = radius2.sqrt();
-        let far = Vec3::splat(radius + reach);
-        Self { at, radius, bounds: Aabb { low: at - far, high: at + far } }
+        let half = Vec3::splat(radius + distance);
+        Self { center, radius, bounds: Aabb { low: center - half, high: center + half } }
     }
 }
 
-fn relief_of(collision_shape: &CollisionShape) -> Option<&ShapeFeatures> {
-    match collision_shape {
-        CollisionShape::Cuboid(_, relief)
-        | CollisionShape::ConvexHull(_, relief)
-        | CollisionShape::TriangleSurface(_, relief) => Some(relief),
+/// Returns the features of a shape that has them from the start.
+fn features_of(shape: &CollisionShape) -> Option<&ShapeFeatures> {
+    match shape {
+        CollisionShape::Cuboid(_, features)
+        | CollisionShape::ConvexHull(_, features)
+        | CollisionShape::TriangleSurface(_, features) => Some(features),
         _ => None,
     }
 }
 
-/// How near what is to be found is [m], and which bends nobody needs to look at.
+/// The parameters of a search for pairs.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Search {
-    pub reach: f32,
-    pub mild: Bend,
+pub(super) struct PairSearch {
+    /// Pairs that are this near [m] are candidates.
+    pub distance: f32,
+    /// Features that bend no more than this count as smooth.
+    pub smooth: SurfaceBend,
 }
 
-impl Search {
-    fn is_mild(&self, bend: &Bend) -> bool {
-        bend.fold <= self.mild.fold && bend.per_metre <= self.mild.per_metre
+impl PairSearch {
+    fn is_smooth(&self, bend: &SurfaceBend) -> bool {
+        bend.angle <= self.smooth.angle && bend.curvature <= self.smooth.curvature
     }
 }
 
-impl Pairs {
-    /// Room for what is usual: each of a few colliders of flat facets is near much of the cloth. What there is
-    /// no room for yet is made room for when it is found first.
+impl CandidatePairs {
+    /// Allocates for the usual number of pairs: up to four colliders with flat faces, each near
+    /// much of the cloth. More pairs allocate when they are first found.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         let few = bodies.min(4);
         fn reserve<T>(list: &mut Vec<T>, count: usize) {
             list.reserve_exact(count.saturating_sub(list.len()));
         }
         reserve(&mut self.edges, 4 * few * triangles);
-        reserve(&mut self.tips, few * triangles);
-        reserve(&mut self.starts, bodies * (particles + 1));
-        reserve(&mut self.facets, 8 * few * particles);
-        reserve(&mut self.around, triangles);
-        self.ground.reserve(triangles);
-        reserve(&mut self.seen, particles);
+        reserve(&mut self.vertices, few * triangles);
+        reserve(&mut self.face_starts, bodies * (particles + 1));
+        reserve(&mut self.faces, 8 * few * particles);
+        reserve(&mut self.block_features, triangles);
+        self.terrain_features.reserve(triangles);
+        reserve(&mut self.motion_bounds, particles);
     }
 
     pub fn clear(&mut self) {
         self.edges.clear();
-        self.tips.clear();
-        self.starts.clear();
-        self.facets.clear();
-        self.ground.clear();
+        self.vertices.clear();
+        self.face_starts.clear();
+        self.faces.clear();
+        self.terrain_features.clear();
     }
 
-    /// What was found for a collider.
-    pub fn of(&self, span: &Span) -> Sharp<'_> {
-        Sharp {
-            edges: &self.edges[span.edges[0] as usize..span.edges[1] as usize],
-            tips: &self.tips[span.tips[0] as usize..span.tips[1] as usize],
-            starts: &self.starts[span.start as usize..],
-            facets: &self.facets,
-            ground: &self.ground,
+    /// Returns the pairs of a collider.
+    pub(super) fn of_range(&self, range: &CandidateRange) -> Candidates<'_> {
+        Candidates {
+            edges: &self.edges[range.edges[0] as usize..range.edges[1] as usize],
+            vertices: &self.vertices[range.vertices[0] as usize..range.vertices[1] as usize],
+            face_starts: &self.face_starts[range.first_face_start as usize..],
+            faces: &self.faces,
+            terrain_features: &self.terrain_features,
         }
     }
 
-    /// Finds what is near a shape, which sees each of `count` particles in `places`.
-    pub fn find(
+    /// Pushes the candidate pairs of a shape and returns their range. `local_positions` gives the
+    /// four local positions of each of `count` particles.
+    pub(super) fn push_pairs(
         &mut self,
-        collision_shape: &CollisionShape,
+        shape: &CollisionShape,
         mesh: &Mesh,
         count: usize,
-        places: impl Fn(usize) -> [Vec3; 4],
-        search: Search,
-    ) -> Span {
-        let (edges, tips) = (self.edges.len() as u32, self.tips.len() as u32);
-        let start = self.starts.len() as u32;
-        self.seen.clear();
-        self.seen.extend((0..count).map(|i| Seen::new(places(i), search.reach)));
-        self.find_facets(collision_shape, search.reach);
-        self.find_features(collision_shape, mesh, search);
-        let (edges, tips) = ([edges, self.edges.len() as u32], [tips, self.tips.len() as u32]);
-        Span { edges, tips, start }
+        local_positions: impl Fn(usize) -> [Vec3; 4],
+        search: PairSearch,
+    ) -> CandidateRange {
+        let (edges, vertices) = (self.edges.len() as u32, self.vertices.len() as u32);
+        let first_face_start = self.face_starts.len() as u32;
+        self.motion_bounds.clear();
+        let bound = |i: usize| MotionBound::new(local_positions(i), search.distance);
+        self.motion_bounds.extend((0..count).map(bound));
+        self.push_faces(shape, search.distance);
+        self.push_feature_pairs(shape, mesh, search);
+        CandidateRange {
+            edges: [edges, self.edges.len() as u32],
+            vertices: [vertices, self.vertices.len() as u32],
+            first_face_start,
+        }
     }
 
-    fn find_facets(&mut self, collision_shape: &CollisionShape, reach: f32) {
-        let bounds = collision_shape.bounds();
-        if !matches!(
-            collision_shape,
-            CollisionShape::ConvexHull(..) | CollisionShape::TriangleSurface(..)
-        ) {
+    /// Pushes the faces within `distance` [m] of each particle.
+    fn push_faces(&mut self, shape: &CollisionShape, distance: f32) {
+        let bounds = shape.bounds();
+        let has_faces =
+            matches!(shape, CollisionShape::ConvexHull(..) | CollisionShape::TriangleSurface(..));
+        if !has_faces {
             return;
         }
-        for seen in &self.seen {
-            self.starts.push(self.facets.len() as u32);
-            if !seen.bounds.overlaps(&bounds) {
+        for particle in &self.motion_bounds {
+            self.face_starts.push(self.faces.len() as u32);
+            if !particle.bounds.overlaps(&bounds) {
                 continue;
             }
-            match collision_shape {
+            let radius = particle.radius + distance;
+            match shape {
                 CollisionShape::ConvexHull(body, _) => {
-                    body.find_foremost(seen.at, seen.radius + reach, &mut self.facets);
+                    body.push_candidate_faces(particle.center, radius, &mut self.faces);
                 }
                 CollisionShape::TriangleSurface(surface, _) => {
-                    surface.find_near(seen.at, seen.radius + reach, &mut self.facets);
+                    surface.push_triangles_near(particle.center, radius, &mut self.faces);
                 }
                 _ => {}
             }
         }
-        self.starts.push(self.facets.len() as u32);
+        self.face_starts.push(self.faces.len() as u32);
     }
 
-    fn find_features(&mut self, collision_shape: &CollisionShape, mesh: &Mesh, search: Search) {
-        let bounds = collision_shape.bounds();
-        let ground = self.ground.counts();
-        if let CollisionShape::Heightfield(terrain) = collision_shape {
+    /// Pushes the pairs of cloth edges with edge features and of cloth triangles with vertex
+    /// features.
+    fn push_feature_pairs(&mut self, shape: &CollisionShape, mesh: &Mesh, search: PairSearch) {
+        let bounds = shape.bounds();
+        let earlier = self.terrain_features.counts();
+        if let CollisionShape::Heightfield(terrain) = shape {
             let mut all = Aabb::EMPTY;
-            self.seen.iter().for_each(|seen| all.merge(&seen.bounds));
-            terrain.find_under(&all, |ridge| search.is_mild(&ridge.bend), &mut self.ground);
+            self.motion_bounds.iter().for_each(|particle| all.merge(&particle.bounds));
+            let is_smooth = |edge: &EdgeFeature| search.is_smooth(&edge.bend);
+            terrain.push_features(&all, is_smooth, &mut self.terrain_features);
         }
         for (number, block) in mesh.triangles.chunks(BLOCK).enumerate() {
-            let mut place = Aabb::EMPTY;
-            block.as_flattened().iter().for_each(|i| place.merge(&self.seen[*i as usize].bounds));
-            if !place.overlaps(&bounds) {
+            let mut block_bounds = Aabb::EMPTY;
+            let corners = block.as_flattened().iter();
+            corners.for_each(|i| block_bounds.merge(&self.motion_bounds[*i as usize].bounds));
+            if !block_bounds.overlaps(&bounds) {
                 continue;
             }
-            self.around.clear();
-            let features = match relief_of(collision_shape) {
-                Some(relief) => {
-                    let all = relief.near(place);
-                    let rough = all.filter(|at| !search.is_mild(&relief.features.bend(*at)));
-                    self.around.extend(rough.map(|at| (at, relief.features.bounds(at))));
-                    &relief.features
+            self.block_features.clear();
+            let features = match features_of(shape) {
+                Some(own) => {
+                    let all = own.overlapping(block_bounds);
+                    let sharp = all.filter(|id| !search.is_smooth(&own.features.bend(*id)));
+                    self.block_features.extend(sharp.map(|id| (id, own.features.bounds(id))));
+                    &own.features
                 }
                 None => {
-                    let own = self.ground.numbers_after(ground);
-                    let placed = own.map(|at| (at, self.ground.bounds(at)));
-                    self.around.extend(placed.filter(|(_, bounds)| bounds.overlaps(&place)));
-                    &self.ground
+                    let ids = self.terrain_features.ids_since(earlier);
+                    let all = ids.map(|id| (id, self.terrain_features.bounds(id)));
+                    let near = all.filter(|(_, bounds)| bounds.overlaps(&block_bounds));
+                    self.block_features.extend(near);
+                    &self.terrain_features
                 }
             };
             let first = number * BLOCK;
-            let block = Block { features, seen: &self.seen, reach: search.reach };
+            let (motion_bounds, distance) = (&self.motion_bounds, search.distance);
+            let block = TriangleBlock { features, motion_bounds, distance };
             for triangle in first..(first + BLOCK).min(mesh.triangles.len()) {
-                block.pair(mesh, triangle, &self.around, &mut self.edges, &mut self.tips);
+                let pairs = (&mut self.edges, &mut self.vertices);
+                block.push_pairs_of(mesh, triangle, &self.block_features, pairs);
             }
         }
     }
 }
 
-/// Triangles of the cloth and features in the same place.
-struct Block<'a> {
+/// A block of cloth triangles and the features of one shape.
+struct TriangleBlock<'a> {
     features: &'a Features,
-    seen: &'a [Seen],
-    reach: f32,
+    motion_bounds: &'a [MotionBound],
+    /// [m]
+    distance: f32,
 }
 
-impl Block<'_> {
-    /// Finds the pairs of a triangle and those of its edges that no triangle before it has.
-    fn pair(
+impl TriangleBlock<'_> {
+    /// Pushes the pairs of a triangle and of those of its edges that no triangle with a lower index
+    /// has.
+    fn push_pairs_of(
         &self,
         mesh: &Mesh,
         triangle: usize,
-        around: &[(u32, Aabb)],
-        edges: &mut Vec<EdgePair>,
-        tips: &mut Vec<TipPair>,
+        block_features: &[(u32, Aabb)],
+        (edges, vertices): (&mut Vec<EdgeEdgePair>, &mut Vec<VertexTrianglePair>),
     ) {
         let corners = mesh.triangles[triangle];
-        let [a, b, c] = corners.map(|i| self.seen[i as usize]);
-        let mut place = a.bounds;
-        place.merge(&b.bounds);
-        place.merge(&c.bounds);
+        let [a, b, c] = corners.map(|i| self.motion_bounds[i as usize]);
+        let mut triangle_bounds = a.bounds;
+        triangle_bounds.merge(&b.bounds);
+        triangle_bounds.merge(&c.bounds);
         let across = mesh.across[triangle];
-        for (feature, _) in around.iter().filter(|(_, bounds)| bounds.overlaps(&place)) {
-            match self.features.at(*feature) {
-                Feature::EdgeFeature(ridge) => {
+        let near = block_features.iter().filter(|(_, bounds)| bounds.overlaps(&triangle_bounds));
+        for (feature, _) in near {
+            match self.features.get(*feature) {
+                Feature::Edge(edge) => {
                     for (k, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
                         let is_own = across[k] == NONE || across[k] as usize > triangle;
-                        if is_own && self.is_edge_near(ridge, ends) {
-                            let ends = [corners[k], corners[(k + 1) % 3]];
-                            edges.push(EdgePair { ridge: *feature, ends });
+                        if is_own && self.is_edge_near(edge, ends) {
+                            let particles = [corners[k], corners[(k + 1) % 3]];
+                            edges.push(EdgeEdgePair { edge: *feature, particles });
                         }
                     }
                 }
-                Feature::Corner(number, corner) => {
-                    let now = [a, b, c].map(|seen| seen.at - corner.at);
-                    let apart2 = interpolate(now, triangle_to_origin(now)).length_squared();
-                    let most = self.reach + max(max(a.radius, b.radius), c.radius);
-                    if apart2.is_nan() || apart2 <= most * most {
-                        tips.push(TipPair { corner: number, corners });
+                Feature::Vertex(index, vertex) => {
+                    let relative = [a, b, c].map(|corner| corner.center - vertex.position);
+                    let closest = interpolate(relative, triangle_to_origin(relative));
+                    let distance2 = closest.length_squared();
+                    let most = self.distance + max(max(a.radius, b.radius), c.radius);
+                    if distance2.is_nan() || distance2 <= most * most {
+                        vertices.push(VertexTrianglePair { vertex: index, particles: corners });
                     }
                 }
             }
         }
     }
 
-    fn is_edge_near(&self, ridge: &EdgeFeature, [a, b]: [Seen; 2]) -> bool {
-        let mut place = a.bounds;
-        place.merge(&b.bounds);
-        if !Aabb::from_points(ridge.ends).overlaps(&place) {
+    /// Returns whether a cloth edge may come near an edge feature; true for NaN.
+    fn is_edge_near(&self, edge: &EdgeFeature, [a, b]: [MotionBound; 2]) -> bool {
+        let mut bounds = a.bounds;
+        bounds.merge(&b.bounds);
+        if !Aabb::from_points(edge.ends).overlaps(&bounds) {
             return false;
         }
-        let (s, t) = segment_to_segment(ridge.ends, [a.at, b.at]);
-        let on_ridge = ridge.ends[0] + (ridge.ends[1] - ridge.ends[0]) * s;
-        let apart2 = (a.at + (b.at - a.at) * t - on_ridge).length_squared();
-        let most = self.reach + max(a.radius, b.radius);
-        // What is not a number is near.
-        apart2.is_nan() || apart2 <= most * most
+        let (s, t) = segment_to_segment(edge.ends, [a.center, b.center]);
+        let on_feature = edge.ends[0] + (edge.ends[1] - edge.ends[0]) * s;
+        let on_cloth = a.center + (b.center - a.center) * t;
+        let distance2 = (on_cloth - on_feature).length_squared();
+        let most = self.distance + max(a.radius, b.radius);
+        distance2.is_nan() || distance2 <= most * most
     }
 }

@@ -1,235 +1,272 @@
-//! Particles against shapes.
+//! Narrow phase: particles against collision shapes.
+//!
+//! ```text
+//! solid (half space, sphere,     signed distance; continuous detection if the particle went
+//!   capsule, box, hull)          around or through the body
+//! triangle surface               first crossing of the path, then closest point
+//! heightfield                    samples along the path, half a cell apart
+//! ```
+//! Continuous detection for solids is conservative advancement (Mirtich, "Impulse-based dynamic
+//! simulation", 1996): step along the path to the plane in front of the body, until the surface is
+//! reached or the path ends. Concave places are resolved by projecting onto up to four planes, one
+//! after the other.
+//!
+//! Reads local particles and candidate faces; writes positions and contacts through
+//! [`LocalParticles`], and lower bounds of distances.
+//! Invariant: a particle that started outside ends outside, whatever its speed.
 
+use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::heightfield::Heightfield;
-use crate::geometry::polyhedron::Foremost;
-use crate::geometry::shape::{CollisionShape, SignedDistance};
-use crate::geometry::triangle_surface::Patch;
+use crate::geometry::polyhedron::CandidateFaces;
+use crate::geometry::signed_distance::SignedDistance;
+use crate::geometry::triangle_surface::CandidateTriangles;
 use crate::math::simd::Level;
 use crate::math::{max, min};
-use crate::solver::collide::broad_phase::BLOCK;
-use crate::solver::collide::mid_phase::Sharp;
-use crate::solver::collide::{Place, Push, Rise, distance_cull};
+use crate::solver::collide::distance_cull;
+use crate::solver::collide::local_particles::{Depenetration, LocalParticles, Penetration};
+use crate::solver::collide::mid_phase::Candidates;
+use crate::solver::collide::nearby_blocks::BLOCK;
 use glam::Vec3;
 
-/// Steps towards a surface; by then one is there, or passes it by.
-const STEPS: u32 = 24;
+/// The most steps of conservative advancement.
+const MAX_STEPS: u32 = 24;
 
-/// Ways out that point apart no more than this (its cosine) belong to one side of a shape.
+/// Normals at the start and at the end whose angle has at least this cosine belong to the same side
+/// of a body.
 const SAME_SIDE: f32 = 0.7;
 
-/// Pushes the particles of some blocks out of a shape; `clear` then holds how far each of them is from it at
-/// least, and is as it was where nobody looked.
-pub(super) fn solve(
+/// Pushes the free particles of some blocks out of a shape. Afterwards `clearance` holds a lower
+/// bound of the distance of each particle of these blocks from the shape [m]; entries of other
+/// particles are unchanged.
+pub(super) fn solve_blocks(
     level: Level,
-    collision_shape: &CollisionShape,
-    place: &mut Place<'_>,
+    shape: &CollisionShape,
+    particles: &mut LocalParticles<'_>,
     blocks: &[u32],
-    sharp: &Sharp<'_>,
-    clear: &mut [f32],
+    candidates: &Candidates<'_>,
+    clearance: &mut [f32],
 ) {
-    let count = place.w.len();
-    let bound = collision_shape.bound();
+    let count = particles.w.len();
+    let bound = shape.distance_bound();
     for block in blocks {
         let first = *block as usize * BLOCK;
         let range = first..(first + BLOCK).min(count);
-        if !distance_cull::look(level, place, bound, range.clone(), clear) {
+        let may_touch =
+            distance_cull::update_clearance(level, particles, bound, range.clone(), clearance);
+        if !may_touch {
             continue;
         }
         for i in range {
-            // Negated, so that what is not a number is looked at.
-            if place.w[i] <= 0.0 || clear[i] > place.gap {
+            // The comparison is false for NaN, so that NaN is tested.
+            if particles.w[i] <= 0.0 || clearance[i] > particles.gap {
                 continue;
             }
-            push(collision_shape, place, sharp, i);
+            solve_particle(shape, particles, candidates, i);
         }
     }
 }
 
-/// Pushes a particle out of a shape.
+/// Pushes one particle out of a shape.
 #[inline(never)]
-pub(super) fn push(
-    collision_shape: &CollisionShape,
-    place: &mut Place<'_>,
-    sharp: &Sharp<'_>,
+pub(super) fn solve_particle(
+    shape: &CollisionShape,
+    particles: &mut LocalParticles<'_>,
+    candidates: &Candidates<'_>,
     i: usize,
 ) {
-    let (before, now, gap) = (place.before(i), place.now(i), place.gap);
-    let rise = place.rise;
-    let patch = |surface| Patch { surface, facets: sharp.facets(i) };
-    let found = match collision_shape {
-        CollisionShape::HalfSpace(solid) => meet_solid(solid, before, now, gap, rise),
-        CollisionShape::Sphere(solid) => meet_solid(solid, before, now, gap, rise),
-        CollisionShape::Capsule(solid) => meet_solid(solid, before, now, gap, rise),
-        CollisionShape::Cuboid(solid, _) => meet_solid(solid, before, now, gap, rise),
+    let (start, end, gap) = (particles.start(i), particles.end(i), particles.gap);
+    let depenetration = particles.depenetration;
+    let nearby = |surface| CandidateTriangles { surface, triangles: candidates.faces(i) };
+    let penetration = match shape {
+        CollisionShape::HalfSpace(solid) => solid_contact(solid, start, end, gap, depenetration),
+        CollisionShape::Sphere(solid) => solid_contact(solid, start, end, gap, depenetration),
+        CollisionShape::Capsule(solid) => solid_contact(solid, start, end, gap, depenetration),
+        CollisionShape::Cuboid(solid, _) => solid_contact(solid, start, end, gap, depenetration),
         CollisionShape::ConvexHull(body, _) => {
-            let solid = Foremost { body, faces: sharp.facets(i) };
-            if solid.faces.is_empty() { None } else { meet_solid(&solid, before, now, gap, rise) }
+            let solid = CandidateFaces { body, faces: candidates.faces(i) };
+            if solid.faces.is_empty() {
+                None
+            } else {
+                solid_contact(&solid, start, end, gap, depenetration)
+            }
         }
         CollisionShape::TriangleSurface(surface, _) => {
-            meet_surface(&patch(surface), before, now, max(gap, SKIN))
+            surface_contact(&nearby(surface), start, end, max(gap, MIN_SURFACE_GAP))
         }
-        CollisionShape::Heightfield(terrain) => meet_terrain(terrain, before, now, gap),
+        CollisionShape::Heightfield(terrain) => terrain_contact(terrain, start, end, gap),
     };
-    let Some(found) = found else { return };
-    let moved = place.moved(before, now, found);
-    // Friction moves along a plane, which a bent surface is not.
-    let moved = match collision_shape {
+    let Some(penetration) = penetration else { return };
+    let correction = particles.correction(start, end, penetration);
+    // Friction moves along a plane and can cross a bent surface.
+    let correction = match shape {
         CollisionShape::TriangleSurface(surface, _)
-            if patch(surface).strike(before, now + moved).is_some() =>
+            if nearby(surface).first_crossing(start, end + correction).is_some() =>
         {
-            before - now
+            start - end
         }
-        _ => moved,
+        _ => correction,
     };
-    place.push_point(i, now, found.normal, moved);
+    particles.apply_local_correction(i, end, penetration.normal, correction);
 }
 
-/// Gap that surfaces without an inside keep at least [m]: what came to lie on one could not say any more on
-/// which side it was.
-const SKIN: f32 = 1.0e-4;
+/// The least gap to surfaces without an inside [m]: a point that lies on the surface has lost its
+/// side.
+const MIN_SURFACE_GAP: f32 = 1.0e-4;
 
-/// Planes of a bent shape that a particle may be pushed out of, one after the other.
-const PLANES: u32 = 4;
+/// The most planes of a concave place that a particle is projected onto, one after the other.
+const MAX_PLANES: u32 = 4;
 
-/// Of a gap that was just opened, rounding may have left so much.
-const OPEN: f32 = 0.95;
+/// The fraction of the gap that counts as clear after a projection; the rest covers rounding.
+const CLEAR: f32 = 0.95;
 
-/// A surface: where the way goes through first, or what is closest. What finds no way out stays where it
-/// was.
-fn meet_surface(surface: &Patch<'_>, before: Vec3, now: Vec3, gap: f32) -> Option<Push> {
-    let mut at = now;
-    for number in 0..PLANES {
-        if let Some((point, out)) = surface.strike(before, at) {
-            at += out * (gap - (at - point).dot(out));
+/// Returns the penetration of a particle at a triangle surface: at the first crossing of its path,
+/// or else at the closest point. If no projection ends on the right side, the particle goes back to
+/// `start`.
+fn surface_contact(
+    surface: &CandidateTriangles<'_>,
+    start: Vec3,
+    end: Vec3,
+    gap: f32,
+) -> Option<Penetration> {
+    let mut at = end;
+    for number in 0..MAX_PLANES {
+        if let Some((point, outward)) = surface.first_crossing(start, at) {
+            at += outward * (gap - (at - point).dot(outward));
             continue;
         }
-        let reach = if number == 0 { gap } else { gap * OPEN };
-        let Some((distance, out)) = surface.closest(at, before, reach) else {
-            return push_from(now, at);
+        let max_distance = if number == 0 { gap } else { gap * CLEAR };
+        let Some((distance, outward)) = surface.closest(at, start, max_distance) else {
+            return penetration_between(end, at);
         };
-        at += out * (gap - distance);
+        at += outward * (gap - distance);
     }
-    let is_through = surface.strike(before, at).is_some();
-    push_from(now, if is_through { before } else { at })
+    let is_through = surface.first_crossing(start, at).is_some();
+    penetration_between(end, if is_through { start } else { at })
 }
 
-fn push_from(now: Vec3, to: Vec3) -> Option<Push> {
-    let out = to - now;
+/// Returns the penetration whose resolution moves a point from `end` to `target`; `None` if both
+/// are the same.
+fn penetration_between(end: Vec3, target: Vec3) -> Option<Penetration> {
+    let out = target - end;
     let depth = out.length();
-    (depth > 0.0).then(|| Push::new(out * (1.0 / depth), depth))
+    (depth > 0.0).then(|| Penetration::new(out * (1.0 / depth), depth))
 }
 
-/// Ground: what is below it now comes up, what went through a hill comes back.
-fn meet_terrain(terrain: &Heightfield, before: Vec3, now: Vec3, gap: f32) -> Option<Push> {
-    let way = now - before;
-    let across = (way.x * way.x + way.z * way.z).sqrt();
-    let count = max(min((across / (0.5 * terrain.spacing())).ceil(), 1000.0), 1.0) as u32;
-    let places = (1..=count).map(|k| before + way * (k as f32 / count as f32));
-    let first = places.map(|at| Some((at, terrain.above(at)?)));
-    let (struck, (height, out)) = first.flatten().find(|(_, (height, _))| *height < gap)?;
-    let depth = gap - height - (now - struck).dot(out);
+/// Returns the penetration of a particle at a heightfield: below the ground now, or below it
+/// anywhere on its path.
+fn terrain_contact(terrain: &Heightfield, start: Vec3, end: Vec3, gap: f32) -> Option<Penetration> {
+    let path = end - start;
+    let horizontal = (path.x * path.x + path.z * path.z).sqrt();
+    let count = max(min((horizontal / (0.5 * terrain.spacing())).ceil(), 1000.0), 1.0) as u32;
+    let samples = (1..=count).map(|k| start + path * (k as f32 / count as f32));
+    let distances = samples.map(|at| Some((at, terrain.signed_distance(at)?)));
+    let (hit, (distance, outward)) =
+        distances.flatten().find(|(_, (distance, _))| *distance < gap)?;
+    let depth = gap - distance - (end - hit).dot(outward);
     if depth <= 0.0 {
         return None;
     }
-    let mut at = now + out * depth;
-    for _ in 1..PLANES {
-        match terrain.above(at) {
-            Some((height, out)) if height < gap * OPEN => {
-                at += out * (gap - height);
+    let mut at = end + outward * depth;
+    for _ in 1..MAX_PLANES {
+        match terrain.signed_distance(at) {
+            Some((distance, outward)) if distance < gap * CLEAR => {
+                at += outward * (gap - distance);
             }
             _ => break,
         }
     }
-    push_from(now, at)
+    penetration_between(end, at)
 }
 
-/// What keeps a particle on its way from `before` to `now` a `gap` out of a convex body; one that was inside
-/// comes out little by little.
-fn meet_solid(
+/// Returns the penetration of a particle that moved from `start` to `end` at a convex body. One
+/// that started inside comes out step by step.
+fn solid_contact(
     solid: &impl SignedDistance,
-    before: Vec3,
-    now: Vec3,
+    start: Vec3,
+    end: Vec3,
     gap: f32,
-    rise: Rise,
-) -> Option<Push> {
-    let (start, out) = solid.nearest(before);
-    let way = now - before;
-    // What is beyond the plane between them does not touch.
-    if start + way.dot(out) >= min(gap, start + rise.by) {
+    depenetration: Depenetration,
+) -> Option<Penetration> {
+    let (start_distance, outward) = solid.signed_distance(start);
+    let path = end - start;
+    // The plane in front of the body separates them at the end.
+    if start_distance + path.dot(outward) >= min(gap, start_distance + depenetration.max_step) {
         return None;
     }
-    let (height, normal) = solid.nearest(now);
-    if normal.dot(out) >= SAME_SIDE {
-        return rise.push(normal, gap, start, height);
+    let (end_distance, normal) = solid.signed_distance(end);
+    if normal.dot(outward) >= SAME_SIDE {
+        return depenetration.penetration(normal, gap, start_distance, end_distance);
     }
-    if start < -rise.deep {
-        return Some(Push { normal: out, depth: rise.by, is_slick: true });
+    if start_distance < -depenetration.deep {
+        let depth = depenetration.max_step;
+        return Some(Penetration { normal: outward, depth, is_frictionless: true });
     }
-    scatter_transpose(solid, before, now, start, min(gap, start + rise.by))
+    let gap = min(gap, start_distance + depenetration.max_step);
+    continuous_contact(solid, start, end, start_distance, gap)
 }
 
-/// What takes back a particle that went around a body or through it, which its way tells.
+/// Returns the penetration of a particle that went around a body or through it, with the normal
+/// where its path first meets the body.
 #[inline(never)]
-fn scatter_transpose(
+fn continuous_contact(
     solid: &dyn SignedDistance,
-    before: Vec3,
-    now: Vec3,
-    start: f32,
+    start: Vec3,
+    end: Vec3,
+    start_distance: f32,
     gap: f32,
-) -> Option<Push> {
-    let (at, normal) = strike(solid, before, now - before, start, gap)?;
-    let (distance, _) = solid.nearest(at);
-    let depth = gap - distance - (now - at).dot(normal);
-    (depth > 0.0).then_some(Push::new(normal, depth))
+) -> Option<Penetration> {
+    let (at, normal) = first_hit(solid, start, end - start, start_distance, gap)?;
+    let (distance, _) = solid.signed_distance(at);
+    let depth = gap - distance - (end - at).dot(normal);
+    (depth > 0.0).then_some(Penetration::new(normal, depth))
 }
 
-/// Where a way meets a body, and which way is out there.
-///
-/// Up to the plane in front of a convex body one may go on: all of the body is behind it. One that sets out
-/// from the surface is let slide along it.
-fn strike(
+/// Returns the point where a path meets a body, and the normal there, by conservative advancement:
+/// all of a convex body lies behind the plane in front of it, so the path is free up to that plane.
+/// A path that starts at the surface may slide along it.
+fn first_hit(
     solid: &dyn SignedDistance,
-    before: Vec3,
-    way: Vec3,
-    start: f32,
+    start: Vec3,
+    path: Vec3,
+    start_distance: f32,
     gap: f32,
 ) -> Option<(Vec3, Vec3)> {
-    let surface = max(min(start, gap), 0.0) * 0.5;
-    let hair = surface * 0.1 + way.length() * 1.0e-4;
-    let mut share = 0.0;
-    for _ in 0..STEPS {
-        let at = before + way * share;
-        let (distance, normal) = solid.nearest(at);
-        if distance <= surface + hair {
+    let surface = max(min(start_distance, gap), 0.0) * 0.5;
+    let tolerance = surface * 0.1 + path.length() * 1.0e-4;
+    let mut fraction = 0.0;
+    for _ in 0..MAX_STEPS {
+        let at = start + path * fraction;
+        let (distance, normal) = solid.signed_distance(at);
+        if distance <= surface + tolerance {
             return Some((at, normal));
         }
-        let fall = -way.dot(normal);
-        share += (distance - surface) / fall;
-        if fall <= 0.0 || share >= 1.0 {
+        let approach = -path.dot(normal);
+        fraction += (distance - surface) / approach;
+        if approach <= 0.0 || fraction >= 1.0 {
             return None;
         }
     }
-    let (distance, normal) = solid.nearest(before + way);
-    (distance < gap).then_some((before + way, normal))
+    let (distance, normal) = solid.signed_distance(start + path);
+    (distance < gap).then_some((start + path, normal))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::shape::{Cuboid, HalfSpace, Sphere};
+    use crate::geometry::primitives::{Cuboid, HalfSpace, Sphere};
 
     const GAP: f32 = 1.0e-3;
 
-    /// Where a particle ends that goes from one place to another.
+    /// Returns where a particle ends that moves from `before` to `now`.
     fn end(solid: &impl SignedDistance, before: Vec3, now: Vec3) -> Vec3 {
-        meet_solid(solid, before, now, GAP, Rise { by: 9.0, deep: 9.0 })
-            .map_or(now, |push| now + push.normal * push.depth)
+        solid_contact(solid, before, now, GAP, Depenetration { max_step: 9.0, deep: 9.0 })
+            .map_or(now, |one| now + one.normal * one.depth)
     }
 
     #[test]
-    fn what_flies_through_a_thin_plate_ends_where_it_came_from() {
+    fn a_particle_that_passes_a_thin_plate_ends_on_the_side_where_it_started() {
         for half in [0.00005, 0.0025, 0.1] {
-            let plate = Cuboid { half: Vec3::new(1.0, half, 1.0) };
+            let plate = Cuboid { half_extents: Vec3::new(1.0, half, 1.0) };
             for fall in [0.01, 0.1, 1.0, 10.0] {
                 let from = Vec3::new(0.2, half + 0.5 * fall, 0.1);
                 let end = end(&plate, from, from + Vec3::new(0.03, -fall, 0.0));
@@ -239,15 +276,15 @@ mod tests {
     }
 
     #[test]
-    fn what_flies_through_a_ball_ends_where_it_came_from() {
+    fn a_particle_that_passes_a_sphere_ends_on_the_side_where_it_started() {
         let ball = Sphere { radius: 0.05 };
         let end = end(&ball, Vec3::Y * 0.5, Vec3::new(0.01, -0.5, 0.0));
-        assert!(ball.nearest(end).0 > 0.9 * GAP && end.y > 0.0, "{end}");
+        assert!(ball.signed_distance(end).0 > 0.9 * GAP && end.y > 0.0, "{end}");
     }
 
     #[test]
-    fn what_flies_almost_along_a_plate_does_not_get_through() {
-        let plate = Cuboid { half: Vec3::new(9.0, 0.001, 9.0) };
+    fn a_grazing_path_does_not_pass_a_plate() {
+        let plate = Cuboid { half_extents: Vec3::new(9.0, 0.001, 9.0) };
         for slope in [0.01, 0.03, 0.1] {
             let before = Vec3::Y * (0.001 + GAP);
             let end = end(&plate, before, before + Vec3::new(1.0, -slope, 0.3));
@@ -256,18 +293,18 @@ mod tests {
     }
 
     #[test]
-    fn what_passes_by_goes_on() {
+    fn a_path_beside_a_body_is_unchanged() {
         let ball = Sphere { radius: 0.05 };
         let now = Vec3::new(0.06, -0.5, 0.0);
         assert_eq!(end(&ball, Vec3::new(0.06, 0.5, 0.0), now), now);
-        let plate = Cuboid { half: Vec3::new(1.0, 0.01, 1.0) };
+        let plate = Cuboid { half_extents: Vec3::new(1.0, 0.01, 1.0) };
         let now = Vec3::new(1.03, -0.02, 0.0);
         assert_eq!(end(&plate, Vec3::new(1.01, 0.02, 0.0), now), now);
     }
 
     #[test]
-    fn what_slides_over_a_rim_falls() {
-        let plate = Cuboid { half: Vec3::new(1.0, 0.01, 1.0) };
+    fn a_particle_that_slides_over_an_edge_falls() {
+        let plate = Cuboid { half_extents: Vec3::new(1.0, 0.01, 1.0) };
         let now = Vec3::new(1.0 + GAP, 0.009, 0.0);
         let before = Vec3::new(1.0 - GAP, 0.01 + GAP, 0.0);
         let end = end(&plate, before, now);
@@ -275,17 +312,17 @@ mod tests {
     }
 
     #[test]
-    fn what_falls_on_ground_or_flies_into_a_hill_stays_above() {
+    fn a_particle_that_falls_on_terrain_or_flies_into_a_hill_stays_above() {
         let heights = (0..25).map(|i| if i % 5 == 2 { 1.0 } else { 0.0 }).collect();
         let ground = Heightfield::new(5, 5, 0.5, heights);
         let end = |before: Vec3, now: Vec3| {
-            let push = meet_terrain(&ground, before, now, GAP);
-            push.map_or(now, |push| now + push.normal * push.depth)
+            let contact = terrain_contact(&ground, before, now, GAP);
+            contact.map_or(now, |one| now + one.normal * one.depth)
         };
         let valley = Vec3::new(0.1, 0.5, 1.1);
         for fall in [0.01, 0.1, 1.0, 3.0] {
             let end = end(valley, valley - Vec3::Y * fall);
-            let height = ground.above(end).map_or(9.0, |(height, _)| height);
+            let height = ground.signed_distance(end).map_or(9.0, |(height, _)| height);
             assert!(height > 0.9 * GAP, "fell {fall} m to {end}");
         }
         let through = end(valley, Vec3::new(1.9, 0.5, 1.1));
@@ -294,15 +331,16 @@ mod tests {
     }
 
     #[test]
-    fn what_starts_inside_comes_out_little_by_little() {
+    fn a_particle_that_starts_inside_comes_out_step_by_step() {
         let ball = Sphere { radius: 0.5 };
         let inside = Vec3::new(0.1, 0.2, 0.0);
-        assert!((ball.nearest(end(&ball, inside, inside)).0 - GAP).abs() < 1.0e-6);
+        assert!((ball.signed_distance(end(&ball, inside, inside)).0 - GAP).abs() < 1.0e-6);
         let end = end(&HalfSpace, Vec3::Y * -3.0, Vec3::Y * -3.0);
         assert!((end - Vec3::Y * GAP).length() < 1.0e-6, "{end}");
         let depth = |deep| {
-            let rise = Rise { by: 0.25, deep };
-            meet_solid(&HalfSpace, Vec3::Y * -3.0, Vec3::Y * -3.5, GAP, rise).unwrap().depth
+            let depenetration = Depenetration { max_step: 0.25, deep };
+            let (start, end) = (Vec3::Y * -3.0, Vec3::Y * -3.5);
+            solid_contact(&HalfSpace, start, end, GAP, depenetration).unwrap().depth
         };
         assert_eq!((depth(9.0), depth(1.0)), (0.75, 0.25));
     }

@@ -1,94 +1,109 @@
-//! What the corners of touching triangles get: of all that pushes a particle the mean, by what it weighs
-//! there and how deep it is, so that what just begins or ends to touch changes nothing at once.
+//! Accumulates the corrections of triangle contacts and applies their weighted mean to each corner
+//! (Jacobi iteration).
 //!
-//! One push after the other would leave the last right and all before it off, so that a cloth over a ridge
-//! would never lie still.
+//! ```text
+//! p = Σ bₖ xₖ is to move by c:   Δxₖ = c bₖ wₖ / Σ bⱼ² wⱼ     (b: barycentric weight, w: 1/mass)
+//! mean over contacts, weighted by bₖ · depth
+//! ```
+//! The weight makes a contact fade in and out with its depth, so beginning and ending contacts
+//! cause no jump. Applied one after the other (Gauss–Seidel), only the last contact would be exact,
+//! and cloth over an edge would never rest still.
+//!
+//! Reads contacts in the local frame of a collider; writes positions and contacts through
+//! [`LocalParticles`].
+//! Invariant: particles are moved in the order of their first contact.
 
-use crate::solver::collide::{Place, Push};
+use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use glam::Vec3;
 
-/// Pushes of particles, gathered.
+/// The accumulated corrections of one collider in one round.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Lifts {
+pub(super) struct PushAccumulator {
     /// An entry for each particle.
-    sums: Vec<Lift>,
-    /// Those that are pushed, in the order of their first pushes.
+    sums: Vec<AccumulatedPush>,
+    /// The particles with a correction, in the order of their first contacts.
     pushed: Vec<u32>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Lift {
-    moved: Vec3,
+struct AccumulatedPush {
+    /// Weighted sum of corrections [m].
+    correction: Vec3,
+    /// Weighted sum of normals.
     normal: Vec3,
     weight: f32,
-    /// The most that it weighs in one push.
-    most: f32,
+    /// The largest barycentric weight of the particle in a contact.
+    max_barycentric: f32,
 }
 
-impl Lift {
-    const NONE: Self = Self { moved: Vec3::ZERO, normal: Vec3::ZERO, weight: 0.0, most: 0.0 };
+impl AccumulatedPush {
+    const NONE: Self =
+        Self { correction: Vec3::ZERO, normal: Vec3::ZERO, weight: 0.0, max_barycentric: 0.0 };
 }
 
-impl Lifts {
+impl PushAccumulator {
+    /// Allocates for `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
         self.sums.reserve_exact(particles.saturating_sub(self.sums.len()));
         self.pushed.reserve_exact(particles.saturating_sub(self.pushed.len()));
     }
 
-    /// As many particles as there are, none of them pushed.
-    pub fn begin(&mut self, count: usize) {
-        self.sums.resize(count, Lift::NONE);
+    /// Begins a round with `count` particles and no corrections.
+    pub fn reset(&mut self, count: usize) {
+        self.sums.resize(count, AccumulatedPush::NONE);
         self.pushed.clear();
     }
 
-    /// Those that were pushed.
+    /// Returns the particles that were corrected in this round.
     pub fn pushed(&self) -> &[u32] {
         &self.pushed
     }
 
-    /// A point of a triangle moves: its corners get of it what they weigh in it. All as the collider sees it.
+    /// Adds the correction of a point of a triangle, given by its barycentric weights, to the
+    /// corners. `w` are their inverse masses; vectors are in local space.
     pub fn add(
         &mut self,
         corners: [usize; 3],
         weights: [f32; 3],
         w: [f32; 3],
-        moved: Vec3,
-        Push { normal, depth, .. }: Push,
+        correction: Vec3,
+        Penetration { normal, depth, .. }: Penetration,
     ) {
-        let share: f32 = (0..3).map(|k| weights[k] * weights[k] * w[k]).sum();
-        if share <= 0.0 {
+        let denominator: f32 = (0..3).map(|k| weights[k] * weights[k] * w[k]).sum();
+        if denominator <= 0.0 {
             return;
         }
         for k in 0..3 {
-            let lever = weights[k] * w[k];
-            if lever <= 0.0 {
+            let mobility = weights[k] * w[k];
+            if mobility <= 0.0 {
                 continue;
             }
-            let lift = &mut self.sums[corners[k]];
-            if lift.weight == 0.0 {
+            let sum = &mut self.sums[corners[k]];
+            if sum.weight == 0.0 {
                 self.pushed.push(corners[k] as u32);
             }
             let weight = weights[k] * depth;
-            lift.moved += moved * (lever / share * weight);
-            lift.normal += normal * weight;
-            lift.weight += weight;
-            if weights[k] > lift.most {
-                lift.most = weights[k];
+            sum.correction += correction * (mobility / denominator * weight);
+            sum.normal += normal * weight;
+            sum.weight += weight;
+            if weights[k] > sum.max_barycentric {
+                sum.max_barycentric = weights[k];
             }
         }
     }
 
-    /// Moves all that were pushed.
-    pub fn apply(&mut self, place: &mut Place<'_>) {
+    /// Moves all particles that have corrections, and sets their sums back to zero.
+    pub fn apply(&mut self, particles: &mut LocalParticles<'_>) {
         for i in &self.pushed {
             let i = *i as usize;
-            let lift = core::mem::replace(&mut self.sums[i], Lift::NONE);
-            let length = lift.normal.length();
+            let sum = core::mem::replace(&mut self.sums[i], AccumulatedPush::NONE);
+            let length = sum.normal.length();
             if length > 0.0 {
-                let frame = place.frames[1];
-                let normal = frame.vector_to_world(lift.normal * (1.0 / length));
-                let moved = frame.vector_to_world(lift.moved * (1.0 / lift.weight));
-                place.shift(i, place.now(i), normal, moved, lift.most);
+                let frame = particles.frames[1];
+                let normal = frame.vector_to_world(sum.normal * (1.0 / length));
+                let correction = frame.vector_to_world(sum.correction * (1.0 / sum.weight));
+                let at = particles.end(i);
+                particles.apply_correction(i, at, normal, correction, sum.max_barycentric);
             }
         }
     }

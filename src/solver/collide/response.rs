@@ -1,8 +1,18 @@
-//! What touching does to motion: Newton's law of restitution along the normal, what friction left along
-//! the surface; and what the collider gets of it.
+//! Velocity pass of collider contacts: restitution, sliding, and the impulses on colliders.
 //!
-//! A hit begins a new history, for the second-order scheme must not look back across it; resting
-//! and sliding keep theirs along the surface.
+//! ```text
+//! impact (approach faster than gravity alone explains):   vₙ⁺ = −e vₙ⁻
+//! resting or sliding:                                     vₙ⁺ = 0
+//! tangential, both:                                       vₜ⁺ = tangential_restitution · vₜ
+//! ```
+//! Newton's law of restitution along the normal n, relative to the surface. Coulomb friction has
+//! already acted on positions. An impact resets the history of the second-order scheme (BDF2),
+//! which must not look back across it; resting and sliding particles keep their history along the
+//! surface.
+//!
+//! Reads the contacts of the substep, positions, predicted positions and displacements; writes
+//! velocities, history and `scratch.contacts.impulses`.
+//! Invariant: positions stay as they are.
 
 use crate::math::min;
 use crate::solver::collide::collider_contact::ColliderContact;
@@ -10,62 +20,74 @@ use crate::solver::world::World;
 use crate::state::particles::Particles;
 use glam::Vec3;
 
-/// What all touches of a substep have in common.
+/// What all contacts of a substep have in common.
 #[derive(Clone, Copy)]
-struct Law {
+struct ResponseParameters {
+    /// The length of the substep [s].
     h: f32,
     gravity: Vec3,
-    /// What is slower rests or slides [m/s].
-    rest_speed: f32,
-    keep: f32,
-    /// What a push of a kilogram by a metre gives in a substep: the momentum that it takes to stay where it
-    /// was pushed to, and the velocity that it got.
-    force: f32,
-    gain: f32,
+    /// Slower approaches are resting or sliding contacts [m/s].
+    resting_speed: f32,
+    /// The factor that damping applies to velocities and history in this substep.
+    decay: f32,
+    /// The momentum per kilogram and metre of correction that holds a particle where it was pushed
+    /// to [1/s].
+    momentum_per_correction: f32,
+    /// The velocity that a particle got per metre of correction [1/s].
+    velocity_per_correction: f32,
 }
 
-/// Goes over all touches, after velocities were derived.
-pub(crate) fn resolve_velocities(world: &mut World, keep: f32) {
+/// Resolves the velocities of all contacts, after the velocity update. `decay` is the factor that
+/// damping applied to velocities in this substep.
+pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     let (scheme, gravity) = (world.settings.scheme(), world.settings.gravity);
-    let law = Law {
+    let parameters = ResponseParameters {
         h: scheme.h,
         gravity,
-        rest_speed: 2.0 * scheme.h * gravity.length(),
-        keep,
-        force: scheme.h / (scheme.velocity_step * scheme.velocity_step),
-        gain: scheme.new_weight / scheme.h,
+        resting_speed: 2.0 * scheme.h * gravity.length(),
+        decay,
+        momentum_per_correction: scheme.h / (scheme.velocity_step * scheme.velocity_step),
+        velocity_per_correction: scheme.new_weight / scheme.h,
     };
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    for touch in &scratch.contacts.collider_contacts {
-        let i = touch.particle as usize;
+    for contact in &scratch.contacts.collider_contacts {
+        let i = contact.particle as usize;
         let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
-        let given = bounce(p, touch, i, step, law);
-        let impulse = &mut scratch.contacts.impulses[touch.body as usize];
-        impulse.linear -= given;
-        // About the world's origin; `arrive` knows where the collider's is.
-        impulse.angular -= p.x.at(i).cross(given);
+        let momentum = resolve_contact(p, contact, i, step, parameters);
+        let impulse = &mut scratch.contacts.impulses[contact.body as usize];
+        impulse.linear -= momentum;
+        // About the world origin; `finish_tick` moves it to the position of the collider.
+        impulse.angular -= p.x.at(i).cross(momentum);
     }
 }
 
-/// Says how much momentum the particle got.
-fn bounce(p: &mut Particles, touch: &ColliderContact, i: usize, step: Vec3, law: Law) -> Vec3 {
-    let (n, surface, h) = (touch.normal, touch.surface_velocity, law.h);
-    let along = |v: Vec3| (v - n * v.dot(n)) * touch.tangential_restitution;
+/// Resolves the velocity of one contact and returns the momentum that the particle got [kg m/s].
+/// `step` is the displacement of the particle in this substep [m].
+fn resolve_contact(
+    p: &mut Particles,
+    contact: &ColliderContact,
+    i: usize,
+    step: Vec3,
+    parameters: ResponseParameters,
+) -> Vec3 {
+    let (n, surface, h) = (contact.normal, contact.surface_velocity, parameters.h);
+    let tangential = |v: Vec3| (v - n * v.dot(n)) * contact.tangential_restitution;
     let step = step - surface * h;
-    let approach = min((touch.approach - surface).dot(n), 0.0);
-    let shared = |old: Vec3, new: Vec3| {
-        if touch.share < 1.0 { old + (new - old) * touch.share } else { new }
+    let approach = min((contact.approach_velocity - surface).dot(n), 0.0);
+    let weighted = |old: Vec3, new: Vec3| {
+        if contact.weight < 1.0 { old + (new - old) * contact.weight } else { new }
     };
-    if -approach > law.rest_speed {
-        let v = surface + along(step * (1.0 / h)) - n * (approach * touch.restitution);
-        let v = shared(p.v.at(i), v);
+    if -approach > parameters.resting_speed {
+        let v = surface + tangential(step * (1.0 / h)) - n * (approach * contact.restitution);
+        let v = weighted(p.v.at(i), v);
         let change = v - p.v.at(i);
-        p.set_motion(i, p.x.at(i), v, law.gravity, h);
-        return (change + touch.push * law.gain) * p.mass[i];
+        p.set_motion(i, p.x.at(i), v, parameters.gravity, h);
+        return (change + contact.correction * parameters.velocity_per_correction) * p.mass[i];
     }
-    let kept = |v: Vec3| shared(v, surface + along(v - surface));
-    p.v.set(i, kept(p.v.at(i)));
-    p.v_extrapolated.set(i, kept(p.v_extrapolated.at(i)));
-    p.displacement.set(i, shared(p.displacement.at(i), surface * h + along(step * law.keep)));
-    touch.push * (law.force * p.mass[i])
+    let sliding = |v: Vec3| weighted(v, surface + tangential(v - surface));
+    p.v.set(i, sliding(p.v.at(i)));
+    p.v_extrapolated.set(i, sliding(p.v_extrapolated.at(i)));
+    let displacement = surface * h + tangential(step * parameters.decay);
+    p.displacement.set(i, weighted(p.displacement.at(i), displacement));
+    contact.correction * (parameters.momentum_per_correction * p.mass[i])
 }

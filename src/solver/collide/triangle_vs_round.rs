@@ -1,182 +1,216 @@
-//! Triangles against round shapes that are too small to meet a particle.
+//! Narrow phase: cloth triangles against spheres and capsules that are small enough to slip between
+//! particles.
+//!
+//! ```text
+//!        c            The contact is at the point of the triangle closest to the sphere, with its
+//!       ╱ ╲           barycentric weights. If the center of an end sphere passed through the
+//!      ╱ ● ╲          triangle in this substep, the contact is where it passed.
+//!     a─────b
+//! ```
+//! A capsule is a family of spheres; alternating between the closest point of the triangle and the
+//! closest sphere finds the nearest pair. Continuous detection of a point and a triangle searches
+//! for the root of the signed volume by bisection.
+//!
+//! Reads local particles, blocks of triangles and clearances; writes positions through
+//! [`PushAccumulator`].
+//! Invariant: only triangles with a corner within reach of the shape are tested, so no others move.
 
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
-use crate::geometry::shape::{CollisionShape, PlacedSphere, SignedDistance};
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::primitives::PlacedSphere;
+use crate::geometry::signed_distance::SignedDistance;
 use crate::math::{TINY, max, min};
-use crate::solver::collide::broad_phase::{BLOCK, Found};
-use crate::solver::collide::push_accumulator::Lifts;
-use crate::solver::collide::{Place, Push};
+use crate::solver::collide::contact_distance::TRIANGLE_GAP;
+use crate::solver::collide::local_particles::{LocalParticles, Penetration};
+use crate::solver::collide::nearby_blocks::{BLOCK, Neighbours};
+use crate::solver::collide::push_accumulator::PushAccumulator;
 use glam::Vec3;
 
-/// The share of the gap that is kept from what lies between particles. Where a shape is smooth, what a
-/// triangle sinks in by is less, so that its corners alone bear it and it lies still.
-pub(super) const GAP: f32 = 0.5;
+/// The most alternations between the closest point of a triangle and the closest sphere of a
+/// capsule.
+const MAX_STEPS: u32 = 8;
 
-/// Steps towards the ball of a capsule that a triangle is closest to.
-const STEPS: u32 = 8;
+/// Bisections of the substep that find when a triangle passed a point.
+const BISECTIONS: u32 = 20;
 
-/// How often the time in which a triangle went through a point is halved to find the moment.
-const HALVINGS: u32 = 20;
-
-/// A point of a triangle that touches.
+/// A contact at a point of a triangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
-    /// What each corner weighs in it.
+pub(super) struct TriangleContact {
+    /// The barycentric weights of the point.
     pub weights: [f32; 3],
-    pub push: Push,
+    pub penetration: Penetration,
 }
 
-/// A triangle as it was when the substep started and as it is.
+/// The local positions of a triangle at the start of the substep and now [m].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
-    pub before: [Vec3; 3],
-    pub now: [Vec3; 3],
+struct TriangleMotion {
+    start: [Vec3; 3],
+    end: [Vec3; 3],
 }
 
-/// Pushes the triangles of some blocks out of a shape; says how far the one that was pushed
-/// the most, or 0 if there was none.
+/// Pushes the triangles of the nearby blocks out of a shape once, with contact distance `gap` [m]
+/// of particles. Returns the depth of the deepest penetration [m], 0 if there was none.
 pub(super) fn solve(
-    collision_shape: &CollisionShape,
-    place: &mut Place<'_>,
+    shape: &CollisionShape,
+    particles: &mut LocalParticles<'_>,
     triangles: &[[u32; 3]],
-    found: &Found<'_>,
+    neighbours: &Neighbours<'_>,
     gap: f32,
-    clear: &[f32],
-    lifts: &mut Lifts,
+    clearance: &[f32],
+    pushes: &mut PushAccumulator,
 ) -> f32 {
-    let (gap, mut deepest) = (gap * GAP, 0.0);
-    lifts.begin(place.w.len());
-    // No point of a triangle is farther from its nearest corner than this share of its longest edge.
-    let reach = gap + 0.58 * found.longest;
-    for block in found.faces {
+    let (gap, mut deepest) = (gap * TRIANGLE_GAP, 0.0);
+    pushes.reset(particles.w.len());
+    // No point of a triangle is farther from its nearest corner than this fraction of its longest
+    // edge.
+    let reach = gap + 0.58 * neighbours.longest_edge;
+    for block in neighbours.triangle_blocks {
         let first = *block as usize * BLOCK;
         for corners in &triangles[first..(first + BLOCK).min(triangles.len())] {
-            let each = corners.map(|i| i as usize);
-            if each.iter().all(|i| clear[*i] > reach) {
+            let corners = corners.map(|i| i as usize);
+            if corners.iter().all(|i| clearance[*i] > reach) {
                 continue;
             }
-            let before = each.map(|i| place.before(i));
-            let face = Face { before, now: each.map(|i| place.now(i)) };
-            let Some(Spot { weights, push }) = meet(collision_shape, &face, gap) else { continue };
-            let (from, to) = (interpolate(before, weights), interpolate(face.now, weights));
-            // What was inside comes out little by little.
-            let start = outside(collision_shape, from);
-            let push = place.rise.push(push.normal, gap, start, gap - push.depth);
-            let Some(push) = push else { continue };
-            let moved = place.moved(from, to, push);
-            deepest = max(push.depth, deepest);
-            lifts.add(each, weights, each.map(|i| place.w[i]), moved, push);
+            let start = corners.map(|i| particles.start(i));
+            let motion = TriangleMotion { start, end: corners.map(|i| particles.end(i)) };
+            let Some(contact) = find_contact(shape, &motion, gap) else { continue };
+            let TriangleContact { weights, penetration } = contact;
+            let from = interpolate(start, weights);
+            let to = interpolate(motion.end, weights);
+            // A point that started inside comes out step by step.
+            let start_distance = round_distance(shape, from);
+            let end_distance = gap - penetration.depth;
+            let normal = penetration.normal;
+            let penetration =
+                particles.depenetration.penetration(normal, gap, start_distance, end_distance);
+            let Some(penetration) = penetration else { continue };
+            let correction = particles.correction(from, to, penetration);
+            deepest = max(penetration.depth, deepest);
+            let w = corners.map(|i| particles.w[i]);
+            pushes.add(corners, weights, w, correction, penetration);
         }
     }
-    lifts.apply(place);
+    pushes.apply(particles);
     deepest
 }
 
-/// How far a point is outside of a round shape.
-fn outside(collision_shape: &CollisionShape, p: Vec3) -> f32 {
-    match collision_shape {
-        CollisionShape::Sphere(solid) => solid.nearest(p).0,
-        CollisionShape::Capsule(solid) => solid.nearest(p).0,
+/// Returns the signed distance of a point from a round shape [m]; infinity for other shapes.
+fn round_distance(shape: &CollisionShape, p: Vec3) -> f32 {
+    match shape {
+        CollisionShape::Sphere(solid) => solid.signed_distance(p).0,
+        CollisionShape::Capsule(solid) => solid.signed_distance(p).0,
         _ => f32::INFINITY,
     }
 }
 
-/// Where a triangle touches a shape.
-fn meet(collision_shape: &CollisionShape, face: &Face, gap: f32) -> Option<Spot> {
-    match collision_shape {
-        CollisionShape::Sphere(ball) => {
-            let knob = PlacedSphere { center: Vec3::ZERO, radius: ball.radius };
-            meet_round([knob; 2], |_| knob, face, gap)
+/// Returns the contact of a triangle with a round shape, if they are nearer than `gap` [m].
+fn find_contact(
+    shape: &CollisionShape,
+    motion: &TriangleMotion,
+    gap: f32,
+) -> Option<TriangleContact> {
+    match shape {
+        CollisionShape::Sphere(sphere) => {
+            let sphere = PlacedSphere { center: Vec3::ZERO, radius: sphere.radius };
+            round_contact([sphere; 2], |_| sphere, motion, gap)
         }
         CollisionShape::Capsule(capsule) => {
-            meet_round(capsule.ends(), |p| capsule.ball_at(p), face, gap)
+            round_contact(capsule.ends(), |p| capsule.closest_sphere(p), motion, gap)
         }
         _ => None,
     }
 }
 
-/// Two balls and what is between them; `ball_at` is the one that a point is closest to.
-fn meet_round(
+/// Returns the contact of a triangle with the convex hull of two spheres; `closest_sphere` gives
+/// the sphere of the family that is closest to a point.
+fn round_contact(
     ends: [PlacedSphere; 2],
-    ball_at: impl Fn(Vec3) -> PlacedSphere,
-    face: &Face,
+    closest_sphere: impl Fn(Vec3) -> PlacedSphere,
+    motion: &TriangleMotion,
     gap: f32,
-) -> Option<Spot> {
-    let middle = (face.now[0] + face.now[1] + face.now[2]) * (1.0 / 3.0);
-    let mut knob = ball_at(middle);
-    let out = middle - knob.center;
-    // In front of a plane there is nothing to touch.
+) -> Option<TriangleContact> {
+    let centroid = (motion.end[0] + motion.end[1] + motion.end[2]) * (1.0 / 3.0);
+    let mut sphere = closest_sphere(centroid);
+    let out = centroid - sphere.center;
+    // A plane in front of the shape separates them.
     let normal = out * (1.0 / out.length());
-    let front = |knob: &PlacedSphere| knob.center.dot(normal) + knob.radius;
+    let front = |sphere: &PlacedSphere| sphere.center.dot(normal) + sphere.radius;
     let front = -min(-front(&ends[0]), -front(&ends[1]));
-    let is_before = |x: &Vec3, gap: f32| x.dot(normal) >= front + gap;
-    if face.now.iter().all(|x| is_before(x, gap)) && face.before.iter().all(|x| is_before(x, 0.0)) {
+    let is_in_front = |x: &Vec3, gap: f32| x.dot(normal) >= front + gap;
+    if motion.end.iter().all(|x| is_in_front(x, gap))
+        && motion.start.iter().all(|x| is_in_front(x, 0.0))
+    {
         return None;
     }
-    let through = ends.into_iter().filter_map(|knob| {
-        let (weights, out, beyond) = cross(knob.center, face.before, face.now)?;
-        Some(Spot { weights, push: Push::new(out, knob.radius + gap + beyond) })
+    let crossings = ends.into_iter().filter_map(|sphere| {
+        let (weights, out, beyond) = point_crossing(sphere.center, motion.start, motion.end)?;
+        let penetration = Penetration::new(out, sphere.radius + gap + beyond);
+        Some(TriangleContact { weights, penetration })
     });
-    if let Some(spot) = through.reduce(deeper) {
-        return Some(spot);
+    if let Some(contact) = crossings.reduce(deeper) {
+        return Some(contact);
     }
     let mut weights = [1.0, 0.0, 0.0];
-    for _ in 0..STEPS {
-        weights = triangle_to_origin(face.now.map(|x| x - knob.center));
-        let next = ball_at(interpolate(face.now, weights));
-        let is_found = next.center == knob.center;
-        knob = next;
-        if is_found {
+    for _ in 0..MAX_STEPS {
+        weights = triangle_to_origin(motion.end.map(|x| x - sphere.center));
+        let next = closest_sphere(interpolate(motion.end, weights));
+        let has_converged = next.center == sphere.center;
+        sphere = next;
+        if has_converged {
             break;
         }
     }
-    let out = interpolate(face.now, weights) - knob.center;
+    let out = interpolate(motion.end, weights) - sphere.center;
     let length = out.length();
-    let depth = knob.radius + gap - length;
-    (depth > 0.0 && length > TINY)
-        .then(|| Spot { weights, push: Push::new(out * (1.0 / length), depth) })
+    let depth = sphere.radius + gap - length;
+    (depth > 0.0 && length > TINY).then(|| {
+        let penetration = Penetration::new(out * (1.0 / length), depth);
+        TriangleContact { weights, penetration }
+    })
 }
 
-/// The deeper of two spots; the first of equals.
-fn deeper(one: Spot, other: Spot) -> Spot {
-    if other.push.depth > one.push.depth { other } else { one }
+/// Returns the deeper of two contacts; the first if they are equal.
+fn deeper(one: TriangleContact, other: TriangleContact) -> TriangleContact {
+    if other.penetration.depth > one.penetration.depth { other } else { one }
 }
 
-/// The normal of a triangle, of length one, and twice its area.
-fn normal_of([a, b, c]: [Vec3; 3]) -> Option<(Vec3, f32)> {
+/// Returns the unit normal of a triangle and twice its area [m²]; `None` without an area.
+fn normal_and_area2([a, b, c]: [Vec3; 3]) -> Option<(Vec3, f32)> {
     let normal = (b - a).cross(c - a);
     let length = normal.length();
     (length > TINY).then(|| (normal * (1.0 / length), length))
 }
 
-/// Whether a triangle went through a point: what its corners weigh there, the way back, and how far it is
-/// beyond the point.
-pub(super) fn cross(
+/// Returns whether a moving triangle passed a point in this substep: the barycentric weights of the
+/// point, the normal back to the side of the start, and how far the triangle is beyond the point
+/// now [m].
+pub(super) fn point_crossing(
     point: Vec3,
-    before: [Vec3; 3],
-    now: [Vec3; 3],
+    start: [Vec3; 3],
+    end: [Vec3; 3],
 ) -> Option<([f32; 3], Vec3, f32)> {
-    let (before, now) = (before.map(|x| x - point), now.map(|x| x - point));
-    let ((out, _), (normal, area2)) = (normal_of(before)?, normal_of(now)?);
-    let (start, end) = (before[0].dot(out), now[0].dot(normal));
-    if start * end >= 0.0 {
+    let (start, end) = (start.map(|x| x - point), end.map(|x| x - point));
+    let (start_normal, _) = normal_and_area2(start)?;
+    let (end_normal, area2) = normal_and_area2(end)?;
+    let (start_side, end_side) = (start[0].dot(start_normal), end[0].dot(end_normal));
+    if start_side * end_side >= 0.0 {
         return None;
     }
-    let at = |share: f32| [0, 1, 2].map(|k| before[k] + (now[k] - before[k]) * share);
-    // It turns on its way, so that the moment has to be searched for.
+    let at = |time: f32| [0, 1, 2].map(|k| start[k] + (end[k] - start[k]) * time);
+    // The triangle rotates on its path, so the time is the root of a cubic.
     let (mut from, mut to) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = (from + to) * 0.5;
         let [a, b, c] = at(middle);
         let side = a.dot((b - a).cross(c - a));
-        (from, to) = if side * start > 0.0 { (middle, to) } else { (from, middle) };
+        (from, to) = if side * start_side > 0.0 { (middle, to) } else { (from, middle) };
     }
-    let then = at(to);
-    let weights = triangle_to_origin(then);
-    // A hundredth of an edge beside it is still on it.
-    if interpolate(then, weights).length_squared() > 1.0e-4 * area2 {
+    let crossing = at(to);
+    let weights = triangle_to_origin(crossing);
+    // A point up to a hundredth of an edge beside the triangle counts as on it.
+    if interpolate(crossing, weights).length_squared() > 1.0e-4 * area2 {
         return None;
     }
-    let back = if start > 0.0 { normal } else { -normal };
-    Some((weights, back, end.abs()))
+    let back = if start_side > 0.0 { end_normal } else { -end_normal };
+    Some((weights, back, end_side.abs()))
 }

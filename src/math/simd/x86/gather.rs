@@ -1,10 +1,11 @@
 //! [`GatherPairs`] for SSE2 and AVX2: the two ends of 4 or 8 links at a time.
 //!
-//! Each point is one 128-bit load; four of them are transposed to columns by two rounds of shuffles.
-//! The points stay in registers until [`GatherPairs::scatter_pairs`] writes them back.
+//! Each point is one 128-bit load; four of them are transposed to columns by two rounds of
+//! shuffles. The points stay in registers until [`GatherPairs::scatter_pairs`] writes them back.
 //!
 //! Reads and writes the interleaved points at the given indices, 16 bytes each.
-//! Invariant: no point occurs in two lanes (links of one colour), so the order of stores is irrelevant.
+//! Invariant: no point occurs in two lanes (links of one colour), so the order of stores is
+//! irrelevant.
 
 use super::{Avx2, F32x4, F32x8, Sse2};
 use crate::math::shared_points::SharedPoints;
@@ -66,7 +67,8 @@ impl GatherPairs for Sse2 {
 }
 
 impl GatherPairs for Avx2 {
-    /// Vector `i` holds the point of lane `i` in its lower half and that of lane `i + 4` in its upper.
+    /// Vector `i` holds the point of lane `i` in its lower half and that of lane `i + 4` in its
+    /// upper.
     type Pairs = [[__m256; 4]; 2];
 
     #[inline(always)]

@@ -1,13 +1,13 @@
 //! The instruction sets of x86-64: SSE2 with 4, AVX2 with 8 and AVX-512 with 16 lanes.
 //!
-//! One vector type per register width (`F32x4`, `F32x8`, `F32x16`) and one token per instruction set.
-//! Each operation is one intrinsic; `_mm_max_ps` and `_mm_min_ps` return their second operand for NaN,
-//! as [`Float`] demands. Shuffles of 256 and 512 bits work within each 128-bit part, hence the
-//! shuffled order of [`Simd::to_shuffled_order`].
+//! One vector type per register width (`F32x4`, `F32x8`, `F32x16`) and one token per instruction
+//! set. Each operation is one intrinsic; `_mm_max_ps` and `_mm_min_ps` return their second operand
+//! for NaN, as [`Float`] demands. Shuffles of 256 and 512 bits work within each 128-bit part, hence
+//! the shuffled order of [`Simd::to_shuffled_order`].
 //!
 //! Reads and writes only through `load_from` and `store_to`.
-//! Invariant: a token exists only where the CPU has its instructions: `Avx2::new` and `Avx512::new` can
-//! be called only from a function that enables them.
+//! Invariant: a token exists only where the CPU has its instructions: `Avx2::new` and `Avx512::new`
+//! can be called only from a function that enables them.
 
 mod gather;
 
@@ -52,7 +52,8 @@ impl Avx512 {
 
 /// Defines a vector type and its arithmetic, one instruction for each operation.
 ///
-/// A vector can be made only with a token, and a token exists only where the CPU has the instructions.
+/// A vector can be made only with a token, and a token exists only where the CPU has the
+/// instructions.
 macro_rules! vector {
     (
         $vector:ident($raw:ty), $add:ident, $sub:ident, $mul:ident,
@@ -402,8 +403,8 @@ impl Simd for Avx512 {
 
     #[inline(always)]
     fn to_shuffled_order(self, v: F32x16) -> F32x16 {
-        // SAFETY: see above. AVX-512 shuffles within quarters, so pairs of numbers come from the two
-        // halves alternately.
+        // SAFETY: see above. AVX-512 shuffles within quarters, so pairs of numbers come from the
+        // two halves alternately.
         unsafe {
             let order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
             let pairs = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));

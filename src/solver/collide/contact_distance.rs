@@ -1,0 +1,87 @@
+//! The distances that cloth keeps from colliders: the gap, and the margin that smooth shapes get on
+//! top.
+//!
+//! ```text
+//!             surface
+//!          ___________
+//!       ╱       ↕ sagitta ╲          a chord between two particles on a round surface lies inside
+//!    ●─────────── L ─────────●       it, by up to the sagitta L² / (8 R)
+//!                                    (L: diagonal of a cell, √2 of its side)
+//! ```
+//! If particles stay that much farther out, the triangles between them stay outside too: then
+//! particles alone carry the cloth, and it rests still. Where the sagitta would be too large,
+//! triangles and edges are tested themselves.
+//!
+//! Reads shapes, descriptors and mean lengths; writes nothing.
+//! Invariant: the margin depends only on the shape and on lengths at rest, so it is constant over
+//! time.
+
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::features::SurfaceBend;
+use crate::state::colliders::ColliderBody;
+
+/// The fraction of the gap that edges and triangles keep between particles. Where a shape is
+/// smooth, a triangle sinks in by less than the rest, so that its corners alone carry it and it
+/// rests still.
+pub(super) const TRIANGLE_GAP: f32 = 0.5;
+
+/// A factor for cells that are stretched.
+const STRETCH_ALLOWANCE: f32 = 1.25;
+
+/// The diagonal of a cell, stretched, in mean edge lengths.
+const DIAGONAL: f32 = 1.5;
+
+/// The largest margin at shapes with flat faces, in mean edge lengths.
+const MAX_MARGIN: f32 = 0.1;
+
+/// Round shapes with a smaller radius than this, in mean edge lengths, are tested against
+/// triangles.
+const MIN_RADIUS: f32 = 1.5;
+
+/// Returns the gap between a collider and the cloth [m]: its own thickness, or else that of the
+/// material.
+pub(super) fn contact_gap(body: &ColliderBody, thickness: f32) -> f32 {
+    if body.desc.thickness < 0.0 { thickness } else { body.desc.thickness }
+}
+
+/// Returns up to which bend the features of a shape count as smooth and are not tested, and the
+/// margin on top of the gap that particles keep for that [m]. `spacing` is the mean edge length
+/// [m].
+pub(super) fn smoothing(shape: &CollisionShape, spacing: f32) -> (SurfaceBend, f32) {
+    let sagitta = |radius: f32| {
+        if radius >= MIN_RADIUS * spacing {
+            spacing * spacing * (0.25 * STRETCH_ALLOWANCE) / radius
+        } else {
+            0.0
+        }
+    };
+    let margin = match shape {
+        CollisionShape::Sphere(sphere) => sagitta(sphere.radius),
+        CollisionShape::Capsule(capsule) => sagitta(capsule.min_radius()),
+        _ => {
+            let diagonal = spacing * DIAGONAL;
+            let smooth =
+                shape.bends().map(|bends| bends.largest_within(diagonal, spacing * MAX_MARGIN));
+            let smooth = smooth.unwrap_or_default();
+            return (smooth, smooth.sagitta(diagonal));
+        }
+    };
+    (SurfaceBend::default(), margin)
+}
+
+/// Returns whether triangles can touch a round shape where no particle does: the sagitta of the
+/// longest edge is more than the gap of triangles and the margin allow.
+pub(super) fn needs_triangle_tests(
+    shape: &CollisionShape,
+    longest_edge: f32,
+    gap: f32,
+    margin: f32,
+) -> bool {
+    let sagitta = |radius: f32| longest_edge * longest_edge * 0.125 / radius;
+    let allowed = gap * TRIANGLE_GAP + margin;
+    match shape {
+        CollisionShape::Sphere(sphere) => sagitta(sphere.radius) > allowed,
+        CollisionShape::Capsule(capsule) => sagitta(capsule.min_radius()) > allowed,
+        _ => false,
+    }
+}

@@ -1,0 +1,49 @@
+//! The data of collider contacts during a tick.
+//!
+//! Part of the cache of a cloth: everything here can be rebuilt, and none of it is saved or hashed.
+//! Stage functions in `collide` fill and read it.
+//!
+//! Invariant: after [`ContactScratch::reserve`] no stage allocates, except lists of candidate pairs
+//! when more pairs come together than ever before.
+
+use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::collide::nearby_blocks::NearbyBlocks;
+use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::state::colliders::Impulse;
+use glam::Vec3;
+
+/// Buffers for collider contacts. They are empty until the first collider is added.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ContactScratch {
+    pub nearby: NearbyBlocks,
+    /// The contacts of this substep, by collider, then in the order of detection. Contacts beyond
+    /// its capacity are dropped: their particles neither bounce nor push the collider.
+    pub collider_contacts: Vec<ColliderContact>,
+    /// The impulse on each live collider in this tick, about the world origin.
+    pub impulses: Vec<Impulse>,
+    /// A lower bound of the distance of each particle from one collider, over its path in this
+    /// substep [m].
+    pub(super) clearance: Vec<f32>,
+    pub(super) pushes: PushAccumulator,
+    /// The candidate pairs that are close in this substep.
+    pub(super) close_pairs: Vec<u32>,
+    /// The positions of all particles in the local frame of one collider [m].
+    pub(super) local_positions: Vec<Vec3>,
+    /// For each particle the index of its last contact in `collider_contacts`.
+    pub(super) contact_slots: Vec<u32>,
+}
+
+impl ContactScratch {
+    /// Allocates for `bodies` colliders and a cloth of at most so many particles and triangles.
+    pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
+        self.nearby.reserve(bodies, particles, triangles);
+        let contacts = particles.saturating_sub(self.collider_contacts.len());
+        self.collider_contacts.reserve_exact(contacts);
+        self.impulses.reserve_exact(bodies.saturating_sub(self.impulses.len()));
+        self.clearance.reserve_exact(particles.saturating_sub(self.clearance.len()));
+        self.pushes.reserve(particles);
+        self.close_pairs.reserve(triangles);
+        self.local_positions.reserve_exact(particles.saturating_sub(self.local_positions.len()));
+        self.contact_slots.resize(particles, 0);
+    }
+}

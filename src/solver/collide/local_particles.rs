@@ -1,0 +1,204 @@
+//! Particles in the local frame of one collider during one substep: narrow phases read positions
+//! here and apply their corrections here.
+//!
+//! ```text
+//! start = R₀ᵀ (x₀ − o₀)     x₀, R₀, o₀: position and frame at the start of the substep
+//! end   = R₁ᵀ (x  − o₁)     x, R₁, o₁:  position now, frame at the end of the substep
+//! ```
+//! In this frame the collider rests, so the path from `start` to `end` is the motion relative to
+//! it, and continuous detection works the same for moving and for resting colliders.
+//!
+//! Friction is Coulomb friction on positions: of the tangential motion relative to the surface, a
+//! correction of depth d takes back up to μ d (Macklin, Müller, Chentanez, Kim, "Unified particle
+//! physics for real-time applications", SIGGRAPH 2014, sec. 6.1).
+//!
+//! Reads predicted positions, displacements, velocities and inverse masses; writes positions and
+//! the list of contacts.
+//! Invariant: a pair of particle and collider has at most one contact in the list.
+
+use crate::geometry::transform::Transform;
+use crate::math::columns::Columns;
+use crate::math::{max, min};
+use crate::solver::collide::collider_contact::ColliderContact;
+use crate::state::colliders::ColliderBody;
+use crate::state::settings::BdfScheme;
+use glam::Vec3;
+
+/// The coefficients of a contact, from the collider or else from the cloth material.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactMaterial {
+    friction: f32,
+    restitution: f32,
+    tangential_restitution: f32,
+}
+
+impl ContactMaterial {
+    /// Without friction and without bounce.
+    pub const FRICTIONLESS: Self =
+        Self { friction: 0.0, restitution: 0.0, tangential_restitution: 1.0 };
+
+    /// Returns the coefficients of `body`; those of the material where the collider has none of its
+    /// own.
+    pub fn of(body: &ColliderBody, friction: f32, restitution: f32) -> Self {
+        let own = |value: f32, default: f32| if value < 0.0 { default } else { value };
+        Self {
+            friction: own(body.desc.friction, friction),
+            restitution: own(body.desc.restitution, restitution),
+            tangential_restitution: body.desc.tangential_restitution,
+        }
+    }
+
+    /// Returns the fraction of a tangential motion of length `slide` [m] that friction cancels at a
+    /// correction of `depth` [m].
+    fn friction_fraction(&self, slide: f32, depth: f32) -> f32 {
+        let most = self.friction * depth;
+        if slide <= most { 1.0 } else { most / slide }
+    }
+}
+
+/// A penetration to resolve: direction and depth.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Penetration {
+    /// Outward, of length one.
+    pub normal: Vec3,
+    /// [m]
+    pub depth: f32,
+    /// Whether friction does not act on it.
+    pub is_frictionless: bool,
+}
+
+impl Penetration {
+    /// A penetration with friction.
+    pub fn new(normal: Vec3, depth: f32) -> Self {
+        Self { normal, depth, is_frictionless: false }
+    }
+}
+
+/// Limits how fast a point that started the substep inside a collider comes out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Depenetration {
+    /// The most that such a point rises in the substep [m].
+    pub max_step: f32,
+    /// A point deeper than this [m] rises by `max_step` at most, whatever drags it in, and slides
+    /// freely. Cloth that begins inside a shape thus leaves it on the side where most of it is
+    /// pushed to, and is not torn.
+    pub deep: f32,
+}
+
+impl Depenetration {
+    /// Returns the penetration of a point at a signed distance of `start` [m] at the start of the
+    /// substep and `end` [m] now, with contact distance `gap` [m]; `None` if it needs no
+    /// correction.
+    pub fn penetration(&self, normal: Vec3, gap: f32, start: f32, end: f32) -> Option<Penetration> {
+        let depth = min(gap, start + self.max_step) - end;
+        let is_frictionless = start < -self.deep;
+        let depth = if is_frictionless { min(depth, self.max_step) } else { depth };
+        (depth > 0.0).then_some(Penetration { normal, depth, is_frictionless })
+    }
+}
+
+/// The particles of a cloth as one collider sees them in one substep.
+pub(super) struct LocalParticles<'a> {
+    pub x: &'a mut Columns,
+    pub v: &'a Columns,
+    /// Inverse masses [1/kg].
+    pub w: &'a [f32],
+    /// The displacements that prediction gave in this substep [m].
+    pub displacement: &'a Columns,
+    /// The predicted positions [m].
+    pub predicted: &'a Columns,
+    /// The frames of the collider at the start and at the end of the substep.
+    pub frames: [Transform; 2],
+    pub material: ContactMaterial,
+    /// The distance that particles keep from the shape [m].
+    pub gap: f32,
+    pub depenetration: Depenetration,
+    pub scheme: BdfScheme,
+    /// The index of the collider among the live ones.
+    pub body: u32,
+    pub contacts: &'a mut Vec<ColliderContact>,
+    /// For each particle the index of its last contact in `contacts`.
+    pub contact_slots: &'a mut [u32],
+}
+
+impl LocalParticles<'_> {
+    /// Returns the local position of a particle at the start of the substep [m].
+    #[inline(always)]
+    pub fn start(&self, i: usize) -> Vec3 {
+        self.frames[0].point_to_local(self.predicted.at(i) - self.displacement.at(i))
+    }
+
+    /// Returns the local position of a particle now [m].
+    #[inline(always)]
+    pub fn end(&self, i: usize) -> Vec3 {
+        self.frames[1].point_to_local(self.x.at(i))
+    }
+
+    /// Returns the correction of a point that moved from `start` to `end` [m]: out of the
+    /// penetration, and back along the surface by friction.
+    pub fn correction(&self, start: Vec3, end: Vec3, penetration: Penetration) -> Vec3 {
+        let out = penetration.normal * penetration.depth;
+        if penetration.is_frictionless {
+            return out;
+        }
+        let slide = end + out - start;
+        let tangential = slide - penetration.normal * slide.dot(penetration.normal);
+        let length = tangential.length();
+        out - tangential * self.material.friction_fraction(length, penetration.depth)
+    }
+
+    /// Returns the velocity of the collider at a local point, in world space [m/s].
+    fn surface_velocity(&self, at: Vec3) -> Vec3 {
+        if self.frames[0] == self.frames[1] {
+            return Vec3::ZERO;
+        }
+        let travel = self.frames[1].point_to_world(at) - self.frames[0].point_to_world(at);
+        travel * (1.0 / self.scheme.h)
+    }
+
+    /// Moves particle `i`, which itself touches the collider at the local point `at`, by a
+    /// correction in local space [m], and records the contact.
+    pub fn apply_local_correction(&mut self, i: usize, at: Vec3, normal: Vec3, correction: Vec3) {
+        let normal = self.frames[1].vector_to_world(normal);
+        let correction = self.frames[1].vector_to_world(correction);
+        self.apply_correction(i, at, normal, correction, 1.0);
+    }
+
+    /// Moves particle `i` by a correction in world space [m] and records the contact, merged with
+    /// an earlier one of the same pair. `weight` is the barycentric weight of the particle in the
+    /// contact point. If the list of contacts is full, the particle is moved but neither bounces
+    /// nor pushes the collider.
+    pub fn apply_correction(
+        &mut self,
+        i: usize,
+        at: Vec3,
+        normal: Vec3,
+        correction: Vec3,
+        weight: f32,
+    ) {
+        self.x.add(i, correction);
+        let slot = self.contact_slots[i] as usize;
+        let earlier = self.contacts.get_mut(slot).filter(|one| one.is_between(i, self.body));
+        if let Some(contact) = earlier {
+            // The larger correction gives the normal.
+            if correction.length_squared() > contact.correction.length_squared() {
+                contact.normal = normal;
+            }
+            contact.correction += correction;
+            contact.weight = max(weight, contact.weight);
+        } else if self.contacts.len() < self.contacts.capacity() {
+            self.contact_slots[i] = self.contacts.len() as u32;
+            self.contacts.push(ColliderContact {
+                particle: i as u32,
+                body: self.body,
+                weight,
+                normal,
+                surface_velocity: self.surface_velocity(at),
+                approach_velocity: self.v.at(i),
+                correction,
+                restitution: self.material.restitution,
+                tangential_restitution: self.material.tangential_restitution,
+            });
+        }
+    }
+}

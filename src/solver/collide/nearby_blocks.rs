@@ -1,0 +1,192 @@
+//! The result of the broad phase: for each collider, the blocks of particles and triangles near it,
+//! and the candidate pairs of the mid phase.
+//!
+//! A block is 64 consecutive particles or triangles, which on a grid are mostly neighbours. A block
+//! is near a collider if its AABB, extended by `margin`, overlaps the swept bounds of the collider:
+//! its bounds over the whole tick, or the half spaces of a plane at both ends of the tick.
+//!
+//! Reads colliders, positions and rest lengths through `broad_phase`, which fills it; narrow phases
+//! read it.
+//! Invariant: until a particle has moved by `margin` or a collider leaves its searched bounds,
+//! nothing outside the listed blocks can touch that collider.
+
+use crate::geometry::aabb::Aabb;
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::features::SurfaceBend;
+use crate::math::columns::Columns;
+use crate::math::max;
+use crate::solver::collide::mid_phase::{CandidatePairs, CandidateRange, Candidates};
+use crate::state::colliders::ColliderBody;
+use crate::state::pose::Pose;
+use glam::Vec3;
+
+/// Particles or triangles in a block.
+pub(super) const BLOCK: usize = 64;
+
+/// The blocks near each collider.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NearbyBlocks {
+    pub(super) entries: Vec<ColliderEntry>,
+    /// The ranges of all entries, one after the other.
+    pub(super) blocks: Vec<u32>,
+    /// The positions of all particles at the last rebuild [m].
+    pub(super) positions_at_rebuild: Columns,
+    pub(super) particle_bounds: Vec<Aabb>,
+    pub(super) triangle_bounds: Vec<Aabb>,
+    /// The longest edge at rest [m], and the number of triangles when it was measured.
+    pub(super) longest_rest_edge: (f32, usize),
+    /// No edge is longer until the next rebuild [m]; 0 while it is not needed.
+    pub(super) longest_edge: f32,
+    /// Whether the next refresh must rebuild.
+    pub(super) is_stale: bool,
+    pub(super) candidates: CandidatePairs,
+}
+
+/// What is near one collider.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ColliderEntry {
+    /// The swept bounds of this tick, and those of the last rebuild.
+    pub now: SweptBounds,
+    pub searched: SweptBounds,
+    /// Features that bend no more than this count as smooth, and the margin that particles keep for
+    /// that [m].
+    pub smooth: SurfaceBend,
+    pub sagitta_margin: f32,
+    pub candidates: CandidateRange,
+    /// Its entries of `blocks`: particle blocks from `first_particles` to `first_triangles`,
+    /// triangle blocks from there to `end`.
+    pub first_particles: u32,
+    pub first_triangles: u32,
+    pub end: u32,
+}
+
+/// The space that a collider passes through in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum SweptBounds {
+    Box(Aabb),
+    /// Below at least one of two planes, each a point and a normal: a half space at both ends of
+    /// the tick.
+    HalfSpaces([(Vec3, Vec3); 2]),
+}
+
+/// What is near one collider, for the narrow phases.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Neighbours<'a> {
+    pub particle_blocks: &'a [u32],
+    pub triangle_blocks: &'a [u32],
+    /// No edge is longer [m].
+    pub longest_edge: f32,
+    /// The margin on top of the gap that particles keep [m].
+    pub sagitta_margin: f32,
+    pub candidates: Candidates<'a>,
+}
+
+impl NearbyBlocks {
+    /// Allocates for `bodies` colliders and so many particles and triangles, and invalidates what
+    /// is there.
+    pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
+        let particle_blocks = particles.div_ceil(BLOCK);
+        let triangle_blocks = triangles.div_ceil(BLOCK);
+        let all = bodies * (particle_blocks + triangle_blocks);
+        self.entries.reserve_exact(bodies.saturating_sub(self.entries.len()));
+        self.blocks.reserve_exact(all.saturating_sub(self.blocks.len()));
+        self.positions_at_rebuild.reserve(particles);
+        let reserve = |list: &mut Vec<Aabb>, count: usize| {
+            list.reserve_exact(count.saturating_sub(list.len()));
+        };
+        reserve(&mut self.particle_bounds, particle_blocks);
+        reserve(&mut self.triangle_bounds, triangle_blocks);
+        self.candidates.reserve(bodies, particles, triangles);
+        self.is_stale = true;
+    }
+
+    /// Makes the next refresh rebuild everything: for colliders that were added, removed or
+    /// teleported.
+    pub fn invalidate(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Returns what is near the live collider with this index.
+    pub(super) fn of_collider(&self, body: usize) -> Neighbours<'_> {
+        let ColliderEntry { first_particles, first_triangles, end, sagitta_margin, .. } =
+            self.entries[body];
+        let range = |from: u32, end: u32| &self.blocks[from as usize..end as usize];
+        Neighbours {
+            particle_blocks: range(first_particles, first_triangles),
+            triangle_blocks: range(first_triangles, end),
+            longest_edge: self.longest_edge,
+            sagitta_margin,
+            candidates: self.candidates.of_range(&self.entries[body].candidates),
+        }
+    }
+}
+
+impl SweptBounds {
+    /// The empty box.
+    pub const EMPTY: Self = Self::Box(Aabb::EMPTY);
+
+    /// Returns the bounds of a collider over this tick, extended by `gap` [m].
+    pub fn of_body(body: &ColliderBody, shape: &CollisionShape, gap: f32) -> Self {
+        let poses = [&body.last, &body.next];
+        if let CollisionShape::HalfSpace(_) = shape {
+            let plane = |pose: &Pose| (pose.position, pose.to_transform().axes[1]);
+            return Self::HalfSpaces(poses.map(plane));
+        }
+        let local = shape.bounds();
+        let mut bounds = Aabb::EMPTY;
+        poses.into_iter().for_each(|pose| bounds.merge(&world_bounds(&local, pose, body)));
+        Self::Box(bounds.expanded(gap))
+    }
+
+    /// Returns a box extended by `margin` [m]; half spaces stay as they are.
+    pub fn expanded(self, margin: f32) -> Self {
+        match self {
+            Self::Box(bounds) => Self::Box(bounds.expanded(margin)),
+            Self::HalfSpaces(_) => self,
+        }
+    }
+
+    /// Returns whether the whole of `other` lies in these bounds.
+    pub fn contains(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Box(own), Self::Box(other)) => own.contains(other),
+            _ => self == other,
+        }
+    }
+
+    /// Returns whether `bounds` comes within `distance` [m] of these bounds; true if a coordinate
+    /// is NaN. Half spaces that rotate overlap everything.
+    pub fn overlaps(&self, bounds: &Aabb, distance: f32) -> bool {
+        let planes = match self {
+            Self::Box(own) => return own.expanded(distance).overlaps(bounds),
+            Self::HalfSpaces(planes) => planes,
+        };
+        let rotates = planes[0].1 != planes[1].1;
+        rotates
+            || planes.iter().any(|(point, normal)| {
+                let (center, half) = (bounds.center() - *point, bounds.half_extents());
+                let size = Vec3::new(normal.x.abs(), normal.y.abs(), normal.z.abs());
+                // NaN counts as near.
+                let lowest = center.dot(*normal) - half.dot(size);
+                lowest.is_nan() || lowest <= distance
+            })
+    }
+}
+
+/// Returns the world bounds of local bounds in a pose of a body; of all orientations if the body
+/// rotates in this tick.
+fn world_bounds(local: &Aabb, pose: &Pose, body: &ColliderBody) -> Aabb {
+    let frame = pose.to_transform();
+    if body.last.rotation == body.next.rotation {
+        let (center, half) = (frame.point_to_world(local.center()), local.half_extents());
+        let size = |v: Vec3| Vec3::new(v.x.abs(), v.y.abs(), v.z.abs());
+        let [u, v, w] = frame.axes.map(size);
+        let half = u * half.x + v * half.y + w * half.z;
+        return Aabb { low: center - half, high: center + half };
+    }
+    let farthest = |low: f32, high: f32| max(low.abs(), high.abs());
+    let (low, high) = (local.low, local.high);
+    let corner =
+        Vec3::new(farthest(low.x, high.x), farthest(low.y, high.y), farthest(low.z, high.z));
+    Aabb::from_points([pose.position]).expanded(corner.length())
+}
