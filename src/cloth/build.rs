@@ -330,8 +330,8 @@ impl World {
         self.reserve_effective_mass();
         self.reserve_anchor_scratch();
         self.reserve_contacts();
-        self.see_to_crowd();
-        self.see_to_layers();
+        self.rebuild_particle_collision();
+        self.rebuild_surface_collision();
         self.mesh.label_pieces(&mut self.scratch.pieces.label, &mut self.scratch.piece_stack);
     }
 

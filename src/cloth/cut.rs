@@ -8,7 +8,7 @@ use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_finite};
 use crate::geometry::blade::Blade;
 use crate::math::float_env::with_float_env;
-use crate::solver::self_collide::surface::split_separation;
+use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::topology::cut;
 use glam::Vec3;
 
@@ -69,10 +69,10 @@ impl Cloth {
         }
         with_float_env(|| {
             cut::cut(&mut self.world, &plan);
-            self.world.see_to_crowd();
-            self.world.see_to_layers();
+            self.world.rebuild_particle_collision();
+            self.world.rebuild_surface_collision();
             let count = self.world.particles.len() as u32;
-            split_separation::part(&mut self.world, 0..count);
+            surface_stages::separate_splits(&mut self.world, 0..count);
         });
         self.update_topology();
         self.update_state();

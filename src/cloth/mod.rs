@@ -51,7 +51,7 @@ use crate::mesh::report::MeshReport;
 use crate::model::material::Material;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
-use crate::solver::self_collide::surface::split_separation;
+use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::world::World;
 use crate::state::events::Event;
 use crate::state::grabs::{Grab, GrabbedParticle};
@@ -201,8 +201,8 @@ impl Cloth {
         let (mut world, report) = with_float_env(|| desc.build_world())?;
         world.check_self_distance(&world.settings)?;
         with_float_env(|| {
-            world.see_to_crowd();
-            world.see_to_layers();
+            world.rebuild_particle_collision();
+            world.rebuild_surface_collision();
         });
         let mut outputs = Outputs::new(&world);
         outputs.set_uvs(&desc);
@@ -252,8 +252,8 @@ impl Cloth {
             self.world.constraints.update_compliances(&self.world.material);
             self.world.rebuild_tethers();
             self.world.reset_history();
-            self.world.see_to_crowd();
-            self.world.see_to_layers();
+            self.world.rebuild_particle_collision();
+            self.world.rebuild_surface_collision();
         });
         self.backlog = 0.0;
         self.pins_changed = false;
@@ -293,12 +293,12 @@ impl Cloth {
         }
         if changes_self_collision {
             with_float_env(|| {
-                world.see_to_crowd();
-                world.see_to_layers();
+                world.rebuild_particle_collision();
+                world.rebuild_surface_collision();
                 if had_no_surface_collision {
                     world.is_tangled = true;
                     let count = world.particles.len() as u32;
-                    split_separation::part(world, 0..count);
+                    surface_stages::separate_splits(world, 0..count);
                 }
             });
         }

@@ -275,7 +275,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(saved.anchors.are_valid(count))?;
     world.anchors = saved.anchors.into_owned();
     world.reserve_anchor_scratch();
-    require(saved.warm_start.are_sound(count))?;
+    require(saved.warm_start.is_valid(count))?;
     world.warm_start = saved.warm_start.into_owned();
     world.warm_start.reserve(count);
     world.is_tangled = saved.is_tangled;

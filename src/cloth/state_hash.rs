@@ -76,9 +76,9 @@ impl Cloth {
         }
         for contact in world.warm_start.iter() {
             hasher.write_u32s(&contact.ids);
-            hasher.write_u32(contact.first);
-            hasher.write_f32s(&[contact.push]);
-            hasher.write_f32s(&contact.rub.to_array());
+            hasher.write_u32(contact.kind);
+            hasher.write_f32s(&[contact.normal]);
+            hasher.write_f32s(&contact.tangent.to_array());
         }
         if world.surface_collision.is_some() && world.is_tangled {
             hasher.write_u32(1);

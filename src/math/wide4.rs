@@ -1,11 +1,24 @@
-//! Four numbers side by side, as particles have them: in one vector where there are any.
+//! A four-number vector (x, y, z, w) held in SIMD registers.
+//!
+//! One particle of the interleaved layout is one [`Float4`]: its position and its inverse mass.
+//! [`Wide4`] loads it into one register of four lanes where the target has such registers, else
+//! into four scalars:
+//!
+//! ```text
+//! Baseline::LANES = 4 (SSE2, NEON, simd128)  [ x y z w ]          one vector
+//! Baseline::LANES = 1 (scalar)               [x] [y] [z] [w]      four vectors of one lane
+//! ```
+//! Reads and writes `Float4` values only.
+//!
+//! Invariant: every operation works on each number alone, and [`Wide4::dot3`] adds in a fixed
+//! order, so the result has the same bits for both widths.
 
 use crate::math::simd::{Baseline, Float, Simd};
 use core::array;
 use core::ops::{Add, Mul, Sub};
 use glam::Vec3;
 
-/// x, y, z of a particle and a fourth number, often its inverse mass.
+/// x, y and z of a particle, and a fourth number: often its inverse mass.
 pub(crate) type Float4 = [f32; 4];
 
 /// The first three numbers as a vector.
@@ -14,70 +27,70 @@ pub(crate) fn xyz(v: &Float4) -> Vec3 {
     Vec3::new(v[0], v[1], v[2])
 }
 
-/// How many vectors that takes.
-const COUNT: usize = 4 / Baseline::LANES;
+/// Vectors of the base width that hold four numbers.
+const VECTORS: usize = 4 / Baseline::LANES;
 
-/// Bits of `positives` for x, y and z.
-pub(crate) const WAYS: u32 = 0b111;
+/// The bits of [`Wide4::positive_mask`] that stand for x, y and z.
+pub(crate) const XYZ_MASK: u32 = 0b111;
 
-/// Four numbers.
+/// Four numbers in registers of the base width.
 #[derive(Clone, Copy)]
-pub(crate) struct Four([<Baseline as Simd>::F; COUNT]);
+pub(crate) struct Wide4([<Baseline as Simd>::F; VECTORS]);
 
-impl Four {
+impl Wide4 {
     #[inline(always)]
-    pub fn of(spot: &Float4) -> Self {
-        Self(array::from_fn(|k| Baseline::new().load(spot, k * Baseline::LANES)))
+    pub fn load(v: &Float4) -> Self {
+        Self(array::from_fn(|k| Baseline::new().load(v, k * Baseline::LANES)))
     }
 
-    /// A vector, and 0.
+    /// (x, y, z, 0).
     #[inline(always)]
-    pub fn way(v: Vec3) -> Self {
-        Self::of(&[v.x, v.y, v.z, 0.0])
-    }
-
-    #[inline(always)]
-    pub fn all(value: f32) -> Self {
-        Self([Baseline::new().splat(value); COUNT])
+    pub fn from_vec3(v: Vec3) -> Self {
+        Self::load(&[v.x, v.y, v.z, 0.0])
     }
 
     #[inline(always)]
-    pub fn spot(self) -> Float4 {
-        let mut spot = [0.0; 4];
-        self.put(&mut spot);
-        spot
+    pub fn splat(value: f32) -> Self {
+        Self([Baseline::new().splat(value); VECTORS])
     }
 
     #[inline(always)]
-    pub fn put(self, spot: &mut Float4) {
+    pub fn to_array(self) -> Float4 {
+        let mut v = [0.0; 4];
+        self.store(&mut v);
+        v
+    }
+
+    #[inline(always)]
+    pub fn store(self, v: &mut Float4) {
         for (k, part) in self.0.into_iter().enumerate() {
-            Baseline::new().store(spot, k * Baseline::LANES, part);
+            Baseline::new().store(v, k * Baseline::LANES, part);
         }
     }
 
-    /// Without the last.
+    /// Sets the fourth number to 0.
     #[inline(always)]
-    pub fn ways(self) -> Self {
-        let are_ways = Self::of(&[1.0, 1.0, 1.0, 0.0]);
-        Self(array::from_fn(|k| Baseline::new().select_or_zero(are_ways.0[k], self.0[k])))
+    pub fn xyz0(self) -> Self {
+        let is_axis = Self::load(&[1.0, 1.0, 1.0, 0.0]);
+        Self(array::from_fn(|k| Baseline::new().select_or_zero(is_axis.0[k], self.0[k])))
     }
 
-    /// Without the last, as a vector.
+    /// The first three numbers as a vector.
     #[inline(always)]
-    pub fn vector(self) -> Vec3 {
-        xyz(&self.spot())
+    pub fn xyz(self) -> Vec3 {
+        xyz(&self.to_array())
     }
 
-    /// The sum of the first three products, in order.
+    /// The dot product of the first three numbers, added in the order x, y, z.
     #[inline(always)]
-    pub fn dot(self, other: Self) -> f32 {
-        let [x, y, z, _] = (self * other).spot();
+    pub fn dot3(self, other: Self) -> f32 {
+        let [x, y, z, _] = (self * other).to_array();
         x + y + z
     }
 
     #[inline(always)]
-    pub fn times(self, value: f32) -> Self {
-        self * Self::all(value)
+    pub fn scale(self, factor: f32) -> Self {
+        self * Self::splat(factor)
     }
 
     #[inline(always)]
@@ -85,15 +98,15 @@ impl Four {
         Self(array::from_fn(|k| Float::min(self.0[k], other.0[k])))
     }
 
-    /// Which are above 0: a bit for each.
+    /// A bit for each number, the lowest for x: set if the number is above 0.
     #[inline(always)]
-    pub fn positives(self) -> u32 {
+    pub fn positive_mask(self) -> u32 {
         let bits = |(k, part)| Baseline::new().positive_mask(part) << (k * Baseline::LANES);
         self.0.into_iter().enumerate().map(bits).fold(0, |all, bits| all | bits)
     }
 }
 
-impl Add for Four {
+impl Add for Wide4 {
     type Output = Self;
 
     #[inline(always)]
@@ -102,7 +115,7 @@ impl Add for Four {
     }
 }
 
-impl Sub for Four {
+impl Sub for Wide4 {
     type Output = Self;
 
     #[inline(always)]
@@ -111,7 +124,7 @@ impl Sub for Four {
     }
 }
 
-impl Mul for Four {
+impl Mul for Wide4 {
     type Output = Self;
 
     #[inline(always)]

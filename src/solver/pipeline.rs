@@ -38,7 +38,8 @@
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};
 use crate::solver::kinematic::{anchors, targets};
-use crate::solver::self_collide::{particle_pairs, surface};
+use crate::solver::self_collide::particle_contacts;
+use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{damping, distance, line_solver, mesh_kernel, strain_limit, tethers};
@@ -77,7 +78,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         timed!(world, Limit, strain_limit::store_initial_velocities(world));
     }
     timed!(world, Colliders, collide::begin_tick(world));
-    timed!(world, Pairs, surface::begin(world));
+    timed!(world, Pairs, surface_stages::begin_tick(world));
     timed!(world, Forces, forces::compute_acceleration(world));
     if world.settings.tethers {
         timed!(world, Tethers, tethers::update_slack(world));
@@ -98,12 +99,12 @@ pub(crate) fn tick(world: &mut World) -> bool {
     }
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
-        timed!(world, Pairs, surface::begin(world));
+        timed!(world, Pairs, surface_stages::begin_tick(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::enforce(world));
         }
         timed!(world, Hold, anchors::project_at_end(world));
-        timed!(world, SelfContacts, surface::hold_at_last(world));
+        timed!(world, SelfContacts, surface_stages::enforce_non_crossing_at_tick_end(world));
         // Corrections of particles near the largest f32 overflow, so check once more.
         timed!(world, Guard, recover::restore_invalid(world));
     }
@@ -137,17 +138,17 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Limit, strain_limit::project_once(world));
     }
     timed!(world, Bend, mesh_kernel::scatter(world));
-    timed!(world, Pairs, particle_pairs::pair(world));
-    timed!(world, SelfContacts, particle_pairs::solve(world));
-    timed!(world, SelfContacts, momentum::keep(world));
+    timed!(world, Pairs, particle_contacts::refresh_pairs(world));
+    timed!(world, SelfContacts, particle_contacts::solve(world));
+    timed!(world, SelfContacts, momentum::remove_rigid_motion(world));
     timed!(world, Pairs, collide::broad_phase::refresh(world));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::project(world, number));
-    timed!(world, Pairs, surface::pair(world));
-    timed!(world, SelfContacts, surface::solve(world));
-    timed!(world, SelfContacts, surface::hold(world));
+    timed!(world, Pairs, surface_stages::detect_contacts(world));
+    timed!(world, SelfContacts, surface_stages::solve_contacts(world));
+    timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world));
     timed!(world, Velocities, velocities::update(world));
-    timed!(world, SelfContacts, surface::calm(world));
+    timed!(world, SelfContacts, surface_stages::damp_velocities(world));
 }
 
 /// Runs solver sweep `iteration` of a substep: forward if even, backward if odd.

@@ -129,15 +129,17 @@ pub(crate) struct World {
     pub profile: Profile,
     pub scratch: TickScratch,
     pub sleep: SleepTimer,
-    /// The particles that keep apart, while settings say so.
+    /// Data of particle collision, while `self_collision` is `Particles`.
     pub particle_collision:
         Option<Box<crate::solver::self_collide::particle_pairs::ParticleCollision>>,
-    /// What layers bore on each other with in the last substep, while they keep apart.
+    /// Contact forces of the last substep, which warm-start the next; empty without surface
+    /// collision.
     pub warm_start: crate::solver::self_collide::surface::warm_start::WarmStart,
-    /// Whether its surface may go through itself, as far as is known.
+    /// Whether the surface may intersect itself: each substep then tests all of it.
     pub is_tangled: bool,
-    /// The layers that keep apart, while settings say so.
-    pub surface_collision: Option<Box<crate::solver::self_collide::surface::SurfaceCollision>>,
+    /// Data of surface collision, while `self_collision` is `Surface`.
+    pub surface_collision:
+        Option<Box<crate::solver::self_collide::surface::surface_collision::SurfaceCollision>>,
 }
 
 /// Scratch buffers, allocated once so that no tick allocates.

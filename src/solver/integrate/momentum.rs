@@ -1,63 +1,132 @@
-//! A cloth of one piece that nothing holds gets no spin from keeping apart.
+//! Removes the net rigid motion that internal stages add to a cloth of one piece that nothing
+//! holds.
 //!
 //! ```text
-//! Δ = x - predicted        Σ m (r - c) × Δ = 0        r: where velocities count from, c: the middle of all r
+//! Δ = x − x before the stage        Σ m Δ = 0,   Σ m (r − c) × Δ = 0
+//! r: the position that velocities count from          c: the centre of mass of all r
 //! ```
-//! What solves a substep moves particles along the lines between them as those are then, and velocities count
-//! from where particles were: so each move has a little torque. Mostly all of these cancel, but of what presses
-//! and pulls at itself, as crumpled paper does, something is left that would turn it for ever. By `Scheme` the
-//! sum above is what the spin grew by, so it is turned back by that.
+//! Internal forces change neither linear nor angular momentum. Position-based stages do a little:
+//! they move particles along lines of the current positions, while velocities count from earlier
+//! positions r (see `Scheme`), so each move has a small torque about r. Mostly these cancel; in
+//! cloth that presses against itself, as crumpled paper does, the rest would turn it for ever. So
+//! the rigid motion with the momenta of Δ is subtracted from all positions.
+//!
+//! Two stages use it: bending and particle collision ([`remove_rigid_motion`]), and contacts of
+//! surface collision ([`remove_rigid_motion_since`]). There, a cloth that lies on a floor is
+//! treated as free along the floor: contacts count supported particles as heavy, which acts like an
+//! external force along it, as no friction would. What contacts push against the floor stays.
+//!
+//! Reads predicted positions and the displacement history; writes positions, and the scratch lists
+//! `relative_wind` and `tether_pins`, which are free at that time.
+//!
+//! Invariant: nothing changes for a cloth of several pieces, or one that pins, grabs or contacts
+//! with several directions hold.
 
+use crate::math::wide4::Float4;
 use crate::solver::bend;
+use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
-
+use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
+use glam::Vec3;
 
-/// Turns the cloth back by what its own stages turned it.
-pub(crate) fn keep(world: &mut World) {
-    let may_turn = world.particle_collision.is_some() || bend::may_add_spin(world);
-    if !may_turn || world.pieces != 1 || is_held(world) {
+/// Least cosine between contact normals of one floor.
+const MIN_FLOOR_COSINE: f32 = 0.999;
+
+/// What a free cloth lies on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Support {
+    /// It touches no collider.
+    None,
+    /// All its collider contacts have this normal.
+    Floor(Vec3),
+}
+
+/// Removes the rigid motion that bending and particle collision added since prediction.
+pub(crate) fn remove_rigid_motion(world: &mut World) {
+    let may_add_spin = world.particle_collision.is_some() || bend::may_add_spin(world);
+    if !may_add_spin || world.pieces != 1 || is_held(world) {
         return;
     }
-    list_starts(world);
+    compute_velocity_origins(world);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let moves = &mut scratch.tether_pins;
-    moves.resize(p.len());
-    let all = p.x.all().into_iter().zip(scratch.predicted.all()).zip(moves.all_mut());
-    for ((x, predicted), moves) in all {
-        for ((x, predicted), by) in x.iter().zip(predicted).zip(moves) {
-            *by = x - predicted;
+    let displacements = &mut scratch.tether_pins;
+    displacements.resize(p.len());
+    let all = p.x.all().into_iter().zip(scratch.predicted.all()).zip(displacements.all_mut());
+    for ((x, predicted), displacements) in all {
+        for ((x, predicted), displacement) in x.iter().zip(predicted).zip(displacements) {
+            *displacement = x - predicted;
         }
     }
     let free = FreeParticles {
         x: scratch.relative_wind.all(),
-        displacement: moves.all(),
+        displacement: displacements.all(),
         mass: &p.mass,
         w: &p.w,
     };
-    let whole = RigidMotion::of_free(world.level, free);
+    let rigid = RigidMotion::of_free(world.level, free);
     for i in 0..p.len() {
-        p.x.add(i, -whole.displacement_at(p.x.at(i)));
+        p.x.add(i, -rigid.displacement_at(p.x.at(i)));
     }
 }
 
-/// Whether anything else than itself may have moved it so far in this substep.
-pub(crate) fn is_held(world: &World) -> bool {
+/// Removes the rigid motion between the positions `before` and `now` from `now`; on a floor, only
+/// what turns about its normal or slides along it. `before` is scratch afterwards.
+pub(crate) fn remove_rigid_motion_since(
+    world: &mut World,
+    support: Support,
+    before: &mut Vec<Float4>,
+    now: &mut Vec<Float4>,
+) {
+    compute_velocity_origins(world);
+    let (p, scratch) = (&world.particles, &mut world.scratch);
+    interleaved::compute_displacements(before, now, &mut scratch.tether_pins);
+    let free = FreeParticles {
+        x: scratch.relative_wind.all(),
+        displacement: scratch.tether_pins.all(),
+        mass: &p.mass,
+        w: &p.w,
+    };
+    let rigid = RigidMotion::of_free(world.level, free);
+    let rigid = match support {
+        Support::None => rigid,
+        Support::Floor(normal) => rigid.project_on_floor(normal),
+    };
+    interleaved::subtract_rigid_motion(now, &rigid, before);
+    core::mem::swap(now, before);
+}
+
+/// The support of a cloth of one piece that pins and grabs do not hold; `None` for other cloth, and
+/// for cloth whose collider contacts have several directions.
+pub(crate) fn find_support(world: &World) -> Option<Support> {
+    if world.pieces != 1 || is_held(world) {
+        return None;
+    }
+    let contacts = &world.scratch.contacts.collider_contacts;
+    let Some(first) = contacts.first() else { return Some(Support::None) };
+    let is_on_floor =
+        |contact: &ColliderContact| contact.normal.dot(first.normal) > MIN_FLOOR_COSINE;
+    contacts.iter().all(is_on_floor).then_some(Support::Floor(first.normal))
+}
+
+/// Whether a pin or a grab holds a particle.
+fn is_held(world: &World) -> bool {
     world.pins.has_soft() || world.particles.w.iter().any(|w| *w <= 0.0)
 }
 
-/// Lists where velocities count from. Air counts once in a tick, and what nothing holds has no anchors: so
-/// starts are in the one and moves in the other.
-pub(crate) fn list_starts(world: &mut World) {
+/// Fills `relative_wind` with the positions that velocities count from: predicted − displacement +
+/// last displacement · (old weight / new weight) [m].
+fn compute_velocity_origins(world: &mut World) {
     let scheme = world.settings.scheme();
-    let back = scheme.old_weight / scheme.new_weight;
+    let ratio = scheme.old_weight / scheme.new_weight;
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    let ways = scratch.displacement.all().into_iter().zip(p.displacement.all());
-    let read = scratch.predicted.all().into_iter().zip(ways);
-    for ((predicted, (way, moved)), from) in read.zip(scratch.relative_wind.all_mut()) {
-        let read = predicted.iter().zip(way).zip(moved);
-        for (((predicted, way), moved), from) in read.zip(from.iter_mut()) {
-            *from = predicted - way + moved * back;
+    let displacements = scratch.displacement.all().into_iter().zip(p.displacement.all());
+    let columns = scratch.predicted.all().into_iter().zip(displacements);
+    for ((predicted, (displacement, last)), origin) in columns.zip(scratch.relative_wind.all_mut())
+    {
+        let read = predicted.iter().zip(displacement).zip(last);
+        for (((predicted, displacement), last), origin) in read.zip(origin.iter_mut()) {
+            *origin = predicted - displacement + last * ratio;
         }
     }
 }

@@ -1,153 +1,179 @@
-//! Particles one after the other, x, y, z and inverse mass of each together: what pairs of anything want.
+//! Interleaved particle layout: x, y, z and inverse mass of a particle side by side.
+//!
+//! ```text
+//! columns (SoA)      x x x x …   y y y y …   z z z z …   w w w w …
+//! interleaved        x y z w | x y z w | x y z w | …                  one `Float4` per particle
+//! ```
+//! Kernels that access particles by index (pairs of vertices, edges and triangles) read one cache
+//! line per particle from this layout, not four. Conversions transpose blocks of `Baseline::LANES`
+//! particles.
+//!
+//! Reads and writes the lists that the caller passes in; the lists never shrink their capacity.
+//!
+//! Invariant: each particle is computed on its own, so its result does not depend on which block it
+//! is in.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Baseline, Float, Scalar, Simd, transpose_4x4};
-use crate::math::wide4::{Float4, Four, xyz};
+use crate::math::wide4::{Float4, Wide4, xyz};
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use core::array;
 use glam::Vec3;
 
-/// Moves a particle.
+/// Adds a displacement to the position of a particle.
 #[inline(always)]
-pub(crate) fn shift(spot: &mut Float4, by: Vec3) {
-    spot[0] += by.x;
-    spot[1] += by.y;
-    spot[2] += by.z;
+pub(crate) fn translate(particle: &mut Float4, by: Vec3) {
+    particle[0] += by.x;
+    particle[1] += by.y;
+    particle[2] += by.z;
 }
 
-/// Moves a particle, and leaves its mass.
+/// Adds the first three numbers of `by` to the position of a particle; its inverse mass stays.
 #[inline(always)]
-pub(crate) fn push(spot: &mut Float4, by: Four) {
-    (Four::of(spot) + by.ways()).put(spot);
+pub(crate) fn translate_wide(particle: &mut Float4, by: Wide4) {
+    (Wide4::load(particle) + by.xyz0()).store(particle);
 }
 
-/// Does something for each of so many particles, some side by side: as many from a place on as there are lanes. For
-/// some it is done twice.
-macro_rules! each {
-    ($count:expr, |$simd:ident, $at:ident| $work:expr) => {
+/// Runs `$work` for blocks of `$simd.LANES` particles from index `$i` on, until all `$count` are
+/// done.
+///
+/// The last block may overlap the one before it, so `$work` must give the same result when it runs
+/// twice.
+macro_rules! for_blocks {
+    ($count:expr, |$simd:ident, $i:ident| $work:expr) => {
         if $count < Baseline::LANES {
             let $simd = Scalar;
-            for $at in 0..$count {
+            for $i in 0..$count {
                 $work;
             }
         } else {
             let ($simd, last) = (Baseline::new(), $count - Baseline::LANES);
-            let mut $at = 0;
+            let mut $i = 0;
             loop {
                 $work;
-                if $at == last {
+                if $i == last {
                     break;
                 }
-                $at = last.min($at + Baseline::LANES);
+                $i = last.min($i + Baseline::LANES);
             }
         }
     };
 }
 
-/// Particles from a place on, turned so that each number has its lanes, of which there are four or one.
+/// Loads a block of particles from index `i` on as four columns: x, y, z, w. A block has four lanes
+/// or one.
 #[inline(always)]
-fn fetch<S: Simd>(s: S, spots: &[Float4], at: usize) -> [S::F; 4] {
-    let spots = &spots[at..at + S::LANES];
+fn load_columns<S: Simd>(s: S, particles: &[Float4], i: usize) -> [S::F; 4] {
+    let particles = &particles[i..i + S::LANES];
     if S::LANES == 1 {
-        return array::from_fn(|k| s.load(&spots[0], k));
+        return array::from_fn(|k| s.load(&particles[0], k));
     }
-    transpose_4x4(s, array::from_fn(|k| s.load(&spots[k], 0)))
+    transpose_4x4(s, array::from_fn(|k| s.load(&particles[k], 0)))
 }
 
-/// Puts them back.
+/// Stores four columns as a block of particles from index `i` on.
 #[inline(always)]
-fn put<S: Simd>(s: S, spots: &mut [Float4], at: usize, numbers: [S::F; 4]) {
-    let spots = &mut spots[at..at + S::LANES];
+fn store_columns<S: Simd>(s: S, particles: &mut [Float4], i: usize, columns: [S::F; 4]) {
+    let particles = &mut particles[i..i + S::LANES];
     if S::LANES == 1 {
-        numbers.into_iter().enumerate().for_each(|(k, number)| s.store(&mut spots[0], k, number));
+        columns
+            .into_iter()
+            .enumerate()
+            .for_each(|(k, number)| s.store(&mut particles[0], k, number));
         return;
     }
-    for (spot, row) in spots.iter_mut().zip(transpose_4x4(s, numbers)) {
-        s.store(spot, 0, row);
+    for (particle, row) in particles.iter_mut().zip(transpose_4x4(s, columns)) {
+        s.store(particle, 0, row);
     }
 }
 
-/// Makes it the list of these particles.
-pub(crate) fn gather(spots: &mut Vec<Float4>, x: &Columns, w: &[f32]) {
-    spots.resize(w.len(), [0.0; 4]);
+/// Fills `particles` with positions and inverse masses.
+pub(crate) fn gather(particles: &mut Vec<Float4>, x: &Columns, w: &[f32]) {
+    particles.resize(w.len(), [0.0; 4]);
     let [x, y, z] = x.all();
-    each!(w.len(), |s, at| {
-        put(s, spots, at, [s.load(x, at), s.load(y, at), s.load(z, at), s.load(w, at)]);
+    for_blocks!(w.len(), |s, i| {
+        let columns = [s.load(x, i), s.load(y, i), s.load(z, i), s.load(w, i)];
+        store_columns(s, particles, i, columns);
     });
 }
 
-/// Puts particles back.
-pub(crate) fn scatter(spots: &[Float4], x: &mut Columns) {
+/// Writes the positions of `particles` back to columns.
+pub(crate) fn scatter(particles: &[Float4], x: &mut Columns) {
     let [x, y, z] = x.all_mut();
-    each!(spots.len(), |s, at| {
-        let [new_x, new_y, new_z, _] = fetch(s, spots, at);
-        s.store(x, at, new_x);
-        s.store(y, at, new_y);
-        s.store(z, at, new_z);
+    for_blocks!(particles.len(), |s, i| {
+        let [new_x, new_y, new_z, _] = load_columns(s, particles, i);
+        s.store(x, i, new_x);
+        s.store(y, i, new_y);
+        s.store(z, i, new_z);
     });
 }
 
-/// The ways from one state to another.
-pub(crate) fn list_ways(from: &[Float4], to: &[Float4], ways: &mut Columns) {
-    ways.resize(to.len());
-    let [x, y, z] = ways.all_mut();
-    each!(to.len(), |s, at| {
-        let (from, to) = (fetch(s, from, at), fetch(s, to, at));
-        s.store(x, at, to[0] - from[0]);
-        s.store(y, at, to[1] - from[1]);
-        s.store(z, at, to[2] - from[2]);
+/// Writes `to - from` of each particle to `displacements` [m].
+pub(crate) fn compute_displacements(from: &[Float4], to: &[Float4], displacements: &mut Columns) {
+    displacements.resize(to.len());
+    let [x, y, z] = displacements.all_mut();
+    for_blocks!(to.len(), |s, i| {
+        let (from, to) = (load_columns(s, from, i), load_columns(s, to, i));
+        s.store(x, i, to[0] - from[0]);
+        s.store(y, i, to[1] - from[1]);
+        s.store(z, i, to[2] - from[2]);
     });
 }
 
-/// Where all are without how they move with the whole.
-pub(crate) fn take_back(spots: &[Float4], whole: &RigidMotion, to: &mut [Float4]) {
-    each!(spots.len(), |s, at| {
-        let [x, y, z, w] = fetch(s, spots, at);
-        let by = whole.displacement_lanes(s, [x, y, z]);
-        put(s, to, at, [x - by[0], y - by[1], z - by[2], w]);
+/// Writes each particle, moved back by its displacement under a rigid motion, to `out`.
+pub(crate) fn subtract_rigid_motion(
+    particles: &[Float4],
+    motion: &RigidMotion,
+    out: &mut [Float4],
+) {
+    for_blocks!(particles.len(), |s, i| {
+        let [x, y, z, w] = load_columns(s, particles, i);
+        let by = motion.displacement_lanes(s, [x, y, z]);
+        store_columns(s, out, i, [x - by[0], y - by[1], z - by[2], w]);
     });
 }
 
-/// Lists how particles at `x` move against the whole.
-pub(crate) fn gather_against(
-    whole: &RigidMotion,
+/// Fills `vectors` with a vector per particle (a velocity or a displacement), less the one that a
+/// rigid motion has at its position `x`. The fourth number is 0.
+pub(crate) fn gather_relative(
+    motion: &RigidMotion,
     x: &Columns,
-    motion: &Columns,
-    ways: &mut Vec<Float4>,
+    columns: &Columns,
+    vectors: &mut Vec<Float4>,
 ) {
     let [x, y, z] = x.all();
-    let motion = motion.all();
-    ways.resize(x.len(), [0.0; 4]);
-    each!(x.len(), |s, at| {
-        let by = whole.displacement_lanes(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
-        let mut way = [s.splat(0.0); 4];
+    let columns = columns.all();
+    vectors.resize(x.len(), [0.0; 4]);
+    for_blocks!(x.len(), |s, i| {
+        let by = motion.displacement_lanes(s, [s.load(x, i), s.load(y, i), s.load(z, i)]);
+        let mut relative = [s.splat(0.0); 4];
         for axis in 0..3 {
-            way[axis] = s.load(motion[axis], at) - by[axis];
+            relative[axis] = s.load(columns[axis], i) - by[axis];
         }
-        put(s, ways, at, way);
+        store_columns(s, vectors, i, relative);
     });
 }
 
-/// Takes back what that did, after `ways` changed.
-pub(crate) fn scatter_along(
-    whole: &RigidMotion,
+/// Writes what [`gather_relative`] filled back to columns: adds the rigid motion again.
+pub(crate) fn scatter_relative(
+    motion: &RigidMotion,
     x: &Columns,
-    ways: &[Float4],
-    motion: &mut Columns,
+    vectors: &[Float4],
+    columns: &mut Columns,
 ) {
     let [x, y, z] = x.all();
-    let motion = motion.all_mut();
-    each!(x.len(), |s, at| {
-        let by = whole.displacement_lanes(s, [s.load(x, at), s.load(y, at), s.load(z, at)]);
-        let way = fetch(s, ways, at);
+    let columns = columns.all_mut();
+    for_blocks!(x.len(), |s, i| {
+        let by = motion.displacement_lanes(s, [s.load(x, i), s.load(y, i), s.load(z, i)]);
+        let relative = load_columns(s, vectors, i);
         for axis in 0..3 {
-            s.store(motion[axis], at, way[axis] + by[axis]);
+            s.store(columns[axis], i, relative[axis] + by[axis]);
         }
     });
 }
 
-/// How all moved from one state to another, in the mean.
-pub(crate) fn drift(from: &[Float4], to: &[Float4]) -> Vec3 {
+/// The mean displacement of all particles [m].
+pub(crate) fn mean_displacement(from: &[Float4], to: &[Float4]) -> Vec3 {
     let mut sums = [[0.0_f32; 4]; 4];
     let (from4, to4) = (from.chunks_exact(4), to.chunks_exact(4));
     let rest = from4.remainder().iter().zip(to4.remainder());
@@ -159,46 +185,49 @@ pub(crate) fn drift(from: &[Float4], to: &[Float4]) -> Vec3 {
         }
     }
     let rest = rest.fold(Vec3::ZERO, |sum, (from, to)| sum + (xyz(to) - xyz(from)));
-    let all = sums.iter().fold(rest, |sum, part| sum + xyz(part));
-    all * (1.0 / from.len() as f32)
+    let total = sums.iter().fold(rest, |sum, part| sum + xyz(part));
+    total * (1.0 / from.len() as f32)
 }
 
-/// Gives each room around the way that it made from one state to another: `share` of how far it got against the drift,
-/// and `spare` more. The ways that it may make so are from, to.
-pub(crate) fn give_room(
+/// Computes the motion bound of each particle: a box around its displacement from `start` to `now`
+/// [m].
+///
+/// Half the size of the box is `share` times the length of the displacement relative to `mean`,
+/// plus `slack`. The lower corner goes to `low`, the upper one to `high`.
+pub(crate) fn compute_motion_bounds(
     [start, now]: [&[Float4]; 2],
-    [from, to]: [&mut [Float4]; 2],
-    drift: Vec3,
-    [share, spare]: [f32; 2],
+    [low, high]: [&mut [Float4]; 2],
+    mean: Vec3,
+    [share, slack]: [f32; 2],
 ) {
-    each!(now.len(), |s, at| {
-        let (before, after) = (fetch(s, start, at), fetch(s, now, at));
-        let way = [0, 1, 2].map(|axis| after[axis] - before[axis]);
-        let [x, y, z] = [0, 1, 2].map(|axis| way[axis] - s.splat(drift[axis]));
-        let against = Float::sqrt(x * x + y * y + z * z);
-        let room = against * s.splat(share) + s.splat(spare);
-        let [x, y, z] = way;
-        put(s, from, at, [x - room, y - room, z - room, s.splat(0.0)]);
-        put(s, to, at, [x + room, y + room, z + room, s.splat(0.0)]);
+    for_blocks!(now.len(), |s, i| {
+        let (before, after) = (load_columns(s, start, i), load_columns(s, now, i));
+        let displacement = [0, 1, 2].map(|axis| after[axis] - before[axis]);
+        let [x, y, z] = [0, 1, 2].map(|axis| displacement[axis] - s.splat(mean[axis]));
+        let relative = Float::sqrt(x * x + y * y + z * z);
+        let half = relative * s.splat(share) + s.splat(slack);
+        let [x, y, z] = displacement;
+        store_columns(s, low, i, [x - half, y - half, z - half, s.splat(0.0)]);
+        store_columns(s, high, i, [x + half, y + half, z + half, s.splat(0.0)]);
     });
 }
 
-/// Whether any is held.
-pub(crate) fn is_any_held(spots: &[Float4]) -> bool {
-    spots.iter().any(|spot| spot[3] <= 0.0)
+/// Whether any particle has no inverse mass.
+pub(crate) fn has_fixed_particle(particles: &[Float4]) -> bool {
+    particles.iter().any(|particle| particle[3] <= 0.0)
 }
 
-/// The middle of all mass, of places and inverse masses.
-pub(crate) fn middle(spots: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
-    let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
-    for (x, w) in spots {
+/// The centre of mass of particles, given as positions and inverse masses; none may be fixed.
+pub(crate) fn center_of_mass(particles: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
+    let (mut sum, mut total) = ([0.0_f64; 3], 0.0_f64);
+    for (x, w) in particles {
         let mass = 1.0 / f64::from(w);
-        all += mass;
+        total += mass;
         for (sum, x) in sum.iter_mut().zip(x.to_array()) {
             *sum += mass * f64::from(x);
         }
     }
-    Vec3::from_array(sum.map(|sum| (sum / all) as f32))
+    Vec3::from_array(sum.map(|sum| (sum / total) as f32))
 }
 
 #[cfg(test)]
@@ -206,37 +235,38 @@ mod tests {
     use super::*;
 
     #[test]
-    fn passes_by_fours_do_as_each_alone_however_many_there_are() {
+    fn block_passes_equal_one_particle_at_a_time_for_any_count() {
         for count in 0..10 {
             let number = |i: usize, k: usize| ((i * 7 + k * 13) % 31) as f32 / 7.0 - 2.0;
             let vector = |i: usize, k: usize| Vec3::new(number(i, k), number(i, k + 1), -0.0);
-            let [mut x, mut motion, mut ways] = [(); 3].map(|()| Columns::zeros(count));
+            let [mut x, mut velocities, mut out] = [(); 3].map(|()| Columns::zeros(count));
             let w: Vec<f32> = (0..count).map(|i| number(i, 5)).collect();
             for i in 0..count {
                 x.set(i, vector(i, 0));
-                motion.set(i, vector(i, 3));
+                velocities.set(i, vector(i, 3));
             }
             let points = || (0..count).map(|i| (vector(i, 0), vector(i, 3), 1.0));
-            let whole = RigidMotion::of_points(points);
-            let [mut spots, mut turned] = [(); 2].map(|()| Vec::new());
-            gather(&mut spots, &x, &w);
-            gather_against(&whole, &x, &motion, &mut turned);
-            list_ways(&spots, &turned, &mut ways);
+            let motion = RigidMotion::of_points(points);
+            let [mut particles, mut relative] = [(); 2].map(|()| Vec::new());
+            gather(&mut particles, &x, &w);
+            gather_relative(&motion, &x, &velocities, &mut relative);
+            compute_displacements(&particles, &relative, &mut out);
             for i in 0..count {
-                let against = vector(i, 3) - whole.displacement_at(vector(i, 0));
-                assert_eq!(spots[i].map(f32::to_bits), with(vector(i, 0), w[i]), "{i} of {count}");
-                assert_eq!(turned[i].map(f32::to_bits), with(against, 0.0), "{i} of {count}");
-                assert_eq!(bits(ways.at(i)), bits(against - vector(i, 0)), "{i} of {count}");
+                let v = vector(i, 3) - motion.displacement_at(vector(i, 0));
+                let expected = with(vector(i, 0), w[i]);
+                assert_eq!(particles[i].map(f32::to_bits), expected, "{i} of {count}");
+                assert_eq!(relative[i].map(f32::to_bits), with(v, 0.0), "{i} of {count}");
+                assert_eq!(bits(out.at(i)), bits(v - vector(i, 0)), "{i} of {count}");
             }
-            scatter_along(&whole, &x, &turned, &mut motion);
-            take_back(&spots, &whole, &mut turned);
-            scatter(&turned, &mut ways);
+            scatter_relative(&motion, &x, &relative, &mut velocities);
+            subtract_rigid_motion(&particles, &motion, &mut relative);
+            scatter(&relative, &mut out);
             for i in 0..count {
-                let at = whole.displacement_at(vector(i, 0));
-                let along = (vector(i, 3) - at) + at;
-                assert_eq!(bits(motion.at(i)), bits(along), "{i} of {count}");
-                assert_eq!(bits(ways.at(i)), bits(vector(i, 0) - at), "{i} of {count}");
-                assert_eq!(turned[i][3].to_bits(), w[i].to_bits(), "{i} of {count}");
+                let rigid = motion.displacement_at(vector(i, 0));
+                let v = (vector(i, 3) - rigid) + rigid;
+                assert_eq!(bits(velocities.at(i)), bits(v), "{i} of {count}");
+                assert_eq!(bits(out.at(i)), bits(vector(i, 0) - rigid), "{i} of {count}");
+                assert_eq!(relative[i][3].to_bits(), w[i].to_bits(), "{i} of {count}");
             }
         }
     }

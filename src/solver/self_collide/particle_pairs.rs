@@ -1,99 +1,106 @@
-//! Stage `SelfContacts`: particles of different parts of the cloth keep apart as if they were balls.
+//! Pair list of particle collision: pairs of particles that may come nearer than the collision
+//! distance.
 //!
 //! ```text
-//! i ◀── 0.4 o ── ●   ● ── 0.4 o ──▶ j        o = distance - |j - i|
+//!   ●  ← distance + 2 · margin →  ●      listed once; valid until a particle has moved by `margin` relative to
+//!                                        the mean displacement
 //! ```
-//! Of unequal masses the lighter one moves farther, in proportion, so that nothing drives itself along.
-//! The plain scheme of many demos, once a substep: what is held does not count, nor do neighbours in the
-//! weave, and triangles may still cross. Only pairs that are too near when the pass begins are moved, so
-//! that it makes no difference to the bits when the list of those that may be was made.
+//! A Verlet list over a hash grid (Verlet, Phys. Rev. 159, 1967). If particles move too fast for a
+//! list to last four passes, each pass makes a list without margin.
+//!
+//! Reads mesh, rest positions and particle positions; writes its own lists.
+//!
+//! Invariant: the list holds every pair that is too near, sorted by both particles. It may hold
+//! others, which the solver filters out before it moves anything, so the time at which it was made
+//! does not change the result.
 
-use crate::solver::self_collide::surface;
-
-use crate::error::{Result, check};
 use crate::geometry::hash_grid::HashGrid;
-use crate::math::TINY;
+use crate::math::simd::Level;
 use crate::mesh::Mesh;
-use crate::solver::world::World;
+use crate::solver::self_collide::connected_pieces::piece_of_sites;
 use crate::state::particles::Particles;
-use crate::state::settings::{SelfCollision, Settings};
 use glam::Vec3;
 
-/// What `self_distance` 0 is, in mean rest lengths.
-const DISTANCE: f32 = 2.0 / 3.0;
+/// Particles of one piece that are nearer than this at rest are neighbours and do not collide [mean
+/// rest lengths]: the diagonal of a grid cell is.
+const NEIGHBOUR_DISTANCE: f32 = 1.5;
 
-/// The most that it may be, in mean rest lengths: who is near whom would be too many.
-const MOST: f32 = 2.0;
-
-/// How far neighbours are woven from each other at most, in mean rest lengths: a diagonal of a grid.
-const WOVEN: f32 = 1.5;
-
-/// How far particles may move before pairs are listed anew, in mean rest lengths.
+/// Margin of a list [mean rest lengths].
 const MARGIN: f32 = 0.25;
 
-/// For fewer passes than this no list is worth a margin: then each pass makes one of its own.
-const PASSES: f32 = 4.0;
+/// A margin pays off only if the list lasts for this many passes.
+const MIN_PASSES: f32 = 4.0;
 
-/// How much longer cells are than what is looked for, which covers rounding.
-const CELL: f32 = 1.02;
+/// Factor by which grid cells are longer than the search distance, which covers rounding.
+const CELL_FACTOR: f32 = 1.02;
 
-/// Listing anew begins a little before it must, which covers rounding, …
-const HASTE: f32 = 0.95;
+/// A list is rebuilt at this share of its margin, which covers rounding.
+const REBUILD_SHARE: f32 = 0.95;
 
-/// … so long as all did not move together by more than so many margins.
-const FAR: f32 = 1000.0;
+/// A list is rebuilt after a mean displacement of this many margins, because rounding grows with
+/// it.
+const MAX_DRIFT: f32 = 1000.0;
 
-/// What two particles that are too near move by together, as a share of what is missing.
-const SHARE: f32 = 0.8;
-
-/// The particles of a cloth that keep apart.
+/// Data of particle collision.
 #[derive(Clone, Debug)]
 pub(crate) struct ParticleCollision {
     grid: HashGrid,
-    /// The pairs that may come too near until a particle moved by `margin`, …
-    pairs: Vec<[u32; 2]>,
-    /// … where particles were when they were listed, …
+    /// Pairs that may come too near before a particle moves by `margin`.
+    pub pairs: Vec<[u32; 2]>,
+    /// Scratch: pairs that are too near now, or pairs during sorting.
+    pub touching: Vec<[u32; 2]>,
+    /// Positions when the list was made.
     listed_at: Vec<Vec3>,
-    /// … and which of the pairs are too near; room to sort them in before.
-    touching: Vec<[u32; 2]>,
-    /// Where the pairs of each particle begin, while they are sorted.
+    /// Scratch of the counting sort: first pair of each particle.
     firsts: Vec<u32>,
-    /// The piece that each site was part of before anything tore.
+    /// Connected piece of each site in the mesh as created.
     pieces: Vec<u32>,
-    distance: f32,
-    /// What lies no farther apart at rest in one piece does not count [m].
-    woven: f32,
-    /// The margin of the list as it is, 0 for one that does for a single pass, and of those that do for more [m].
-    margin: f32,
-    wide: f32,
-    /// Passes that the list has been asked for.
+    /// Distance that particles keep [m].
+    pub distance: f32,
+    /// Rest distance up to which particles of one piece do not collide [m].
+    neighbour_distance: f32,
+    /// Margin of the current list, 0 if it serves one pass only; and that of lists that last [m].
+    pub margin: f32,
+    full_margin: f32,
+    /// Passes since the list was made.
     passes: u32,
 }
 
+/// What the pair list is made from.
+#[derive(Clone, Copy)]
+pub(crate) struct PairListInput<'a> {
+    pub level: Level,
+    pub mesh: &'a Mesh,
+    /// Rest position of each site [m].
+    pub rest: &'a [Vec3],
+    pub particles: &'a Particles,
+}
+
 impl ParticleCollision {
-    fn new(world: &World) -> Self {
-        let distance = distance(world);
-        let wider = |a: f32, b: f32| if a > b { a } else { b };
-        let woven = wider(WOVEN * world.mean_edge, distance);
-        let wide = MARGIN * world.mean_edge;
-        let (capacity, count) = (world.capacity(), world.particles.len());
+    /// Allocates for a cloth that may grow to `capacity` particles. `distance` is the distance that
+    /// particles keep, `mean_edge` the mean rest length [m].
+    pub fn new(input: PairListInput<'_>, distance: f32, mean_edge: f32, capacity: usize) -> Self {
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let neighbour_distance = larger(NEIGHBOUR_DISTANCE * mean_edge, distance);
+        let full_margin = MARGIN * mean_edge;
+        let count = input.particles.len();
         Self {
             grid: HashGrid::new(capacity),
-            // As many as balls that lie close have around them; of more, lists grow.
+            // As many neighbours as densely packed balls have; with more, the lists grow.
             pairs: Vec::with_capacity(16 * count),
-            listed_at: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(16 * count),
+            listed_at: Vec::with_capacity(capacity),
             firsts: Vec::with_capacity(capacity + 1),
-            pieces: pieces(&world.mesh, world.rest.len()),
+            pieces: piece_of_sites(input.mesh, input.rest.len()),
             distance,
-            woven,
-            margin: wide,
-            wide,
+            neighbour_distance,
+            margin: full_margin,
+            full_margin,
             passes: 0,
         }
     }
 
-    /// Bytes that it holds.
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
         let pairs = self.pairs.capacity() + self.touching.capacity();
         self.grid.bytes()
@@ -102,51 +109,56 @@ impl ParticleCollision {
             + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())
     }
 
-    /// Sees to it that the list holds: that no particle moved farther than the margin since, but for what all did.
-    fn see_to_list(&mut self, world: &World) {
-        let x = &world.particles.x;
-        if self.listed_at.len() != world.particles.len() {
-            self.list(world, self.wide);
+    /// Rebuilds the list if a particle has moved by more than the margin, relative to the mean
+    /// displacement.
+    pub fn refresh_pairs(&mut self, input: PairListInput<'_>) {
+        let x = &input.particles.x;
+        if self.listed_at.len() != input.particles.len() {
+            self.rebuild_pairs(input, self.full_margin);
             return;
         }
-        let ways = || x.iter().zip(&self.listed_at).map(|(x, at)| x - *at);
-        let drift = ways().fold(Vec3::ZERO, |sum, way| sum + way) * (1.0 / x.x.len() as f32);
-        let (most, far) = (HASTE * self.margin, FAR * self.wide);
-        let is_near = drift.length_squared() <= far * far;
-        let (mut holds, mut farthest) = (is_near && self.margin > 0.0, 0.0);
-        for way in ways() {
-            let moved = (way - drift).length_squared();
-            holds &= moved <= most * most;
+        let displacements = || x.iter().zip(&self.listed_at).map(|(x, at)| x - *at);
+        let mean =
+            displacements().fold(Vec3::ZERO, |sum, moved| sum + moved) * (1.0 / x.x.len() as f32);
+        let (limit, max_drift) = (REBUILD_SHARE * self.margin, MAX_DRIFT * self.full_margin);
+        let is_near = mean.length_squared() <= max_drift * max_drift;
+        let (mut is_valid, mut farthest) = (is_near && self.margin > 0.0, 0.0);
+        for displacement in displacements() {
+            let moved = (displacement - mean).length_squared();
+            is_valid &= moved <= limit * limit;
             farthest = if moved > farthest { moved } else { farthest };
         }
         self.passes += 1;
-        if holds {
+        if is_valid {
             return;
         }
-        let lasts = HASTE * self.wide * self.passes as f32;
-        let is_calm = farthest * (PASSES * PASSES) <= lasts * lasts;
-        self.list(world, if is_calm { self.wide } else { 0.0 });
+        let lasts = REBUILD_SHARE * self.full_margin * self.passes as f32;
+        let is_slow = farthest * (MIN_PASSES * MIN_PASSES) <= lasts * lasts;
+        self.rebuild_pairs(input, if is_slow { self.full_margin } else { 0.0 });
     }
 
-    fn list(&mut self, world: &World, margin: f32) {
+    /// Rebuilds the list with a margin [m].
+    fn rebuild_pairs(&mut self, input: PairListInput<'_>, margin: f32) {
         (self.margin, self.passes) = (margin, 0);
+        let PairListInput { level, mesh, rest, particles } = input;
         let Self { grid, pairs, listed_at, touching, firsts, pieces, .. } = self;
         listed_at.clear();
-        listed_at.extend(world.particles.x.iter());
-        let most = self.distance + 2.0 * margin;
-        grid.rebuild(listed_at, CELL * most);
+        listed_at.extend(particles.x.iter());
+        let search_distance = self.distance + 2.0 * margin;
+        grid.rebuild(listed_at, CELL_FACTOR * search_distance);
         pairs.clear();
-        grid.push_close_pairs(world.level, most * most, pairs);
+        grid.push_close_pairs(level, search_distance * search_distance, pairs);
+        let neighbour_distance = self.neighbour_distance;
         let mut count = 0;
-        for at in 0..pairs.len() {
-            let pair = pairs[at];
-            let [site, other] = pair.map(|particle| world.mesh.source[particle as usize] as usize);
-            let apart = (world.rest[other] - world.rest[site]).length_squared();
-            let is_woven = (pieces[site] == pieces[other]) & (apart <= self.woven * self.woven);
-            // Who is woven to whom follows no rule that a processor could learn: so each is written down, and the
-            // next one over it if it is.
+        for i in 0..pairs.len() {
+            let pair = pairs[i];
+            let [site, other] = pair.map(|particle| mesh.source[particle as usize] as usize);
+            let distance = (rest[other] - rest[site]).length_squared();
+            let is_neighbour = (pieces[site] == pieces[other])
+                & (distance <= neighbour_distance * neighbour_distance);
+            // Compaction without a branch: the processor cannot predict which pairs are neighbours.
             pairs[count] = pair;
-            count += usize::from(!is_woven);
+            count += usize::from(!is_neighbour);
         }
         pairs.truncate(count);
         for end in [1, 0] {
@@ -156,7 +168,7 @@ impl ParticleCollision {
     }
 }
 
-/// Copies pairs into `sorted`, by one of their ends; those that have the same one there stay in order.
+/// Counting sort: copies pairs into `sorted`, by the particle at one of their ends. Stable.
 fn sort_by_end(
     end: usize,
     pairs: &[[u32; 2]],
@@ -169,8 +181,8 @@ fn sort_by_end(
     for pair in pairs {
         firsts[pair[end] as usize + 1] += 1;
     }
-    for at in 1..firsts.len() {
-        firsts[at] += firsts[at - 1];
+    for i in 1..firsts.len() {
+        firsts[i] += firsts[i - 1];
     }
     sorted.resize(pairs.len(), [0; 2]);
     for pair in pairs {
@@ -178,109 +190,4 @@ fn sort_by_end(
         sorted[*next as usize] = *pair;
         *next += 1;
     }
-}
-
-impl World {
-    /// Refuses a distance between parts of the cloth that is too long for one like this.
-    pub fn check_self_distance(&self, settings: &Settings) -> Result<()> {
-        let own = settings.self_distance;
-        let (most, must) = match settings.self_collision {
-            SelfCollision::None => return Ok(()),
-            SelfCollision::Surface => {
-                (surface::THICK, "be at most half of the mean rest length of the edges")
-            }
-            SelfCollision::Particles => {
-                (MOST, "be at most twice the mean rest length of the edges")
-            }
-        };
-        check(own <= most * self.mean_edge, "settings.self_distance", must)
-    }
-
-    /// Makes what particles need that keep apart, or drops it, as settings say.
-    pub fn see_to_crowd(&mut self) {
-        let is_wanted = self.settings.self_collision == SelfCollision::Particles;
-        self.particle_collision = is_wanted.then(|| Box::new(ParticleCollision::new(self)));
-    }
-}
-
-/// Distance that particles keep [m].
-fn distance(world: &World) -> f32 {
-    let own = world.settings.self_distance;
-    if own > 0.0 { own } else { DISTANCE * world.mean_edge }
-}
-
-/// The piece of each site: the lowest site that triangles join it to. Vertices that tore apart are one site.
-pub(crate) fn pieces(mesh: &Mesh, sites: usize) -> Vec<u32> {
-    let mut parents: Vec<u32> = (0..sites as u32).collect();
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|vertex| mesh.source[vertex as usize]);
-        for (p, q) in [(a, b), (b, c)] {
-            let (p, q) = (root(&mut parents, p), root(&mut parents, q));
-            parents[p.max(q) as usize] = p.min(q);
-        }
-    }
-    (0..sites as u32).map(|site| root(&mut parents, site)).collect()
-}
-
-/// The lowest site that `site` is known to be joined to; the way there is halved for the next time.
-fn root(parents: &mut [u32], mut site: u32) -> u32 {
-    while parents[site as usize] != site {
-        parents[site as usize] = parents[parents[site as usize] as usize];
-        site = parents[site as usize];
-    }
-    site
-}
-
-/// Lists pairs anew, if something moved too far since.
-pub(crate) fn pair(world: &mut World) {
-    let Some(mut crowd) = world.particle_collision.take() else {
-        return;
-    };
-    crowd.see_to_list(world);
-    world.particle_collision = Some(crowd);
-}
-
-/// Moves particles apart, once and in a fixed order.
-pub(crate) fn solve(world: &mut World) {
-    let Some(crowd) = &mut world.particle_collision else {
-        return;
-    };
-    let (p, distance) = (&mut world.particles, crowd.distance);
-    let (pairs, touching) = (&crowd.pairs, &mut crowd.touching);
-    // A list without a margin holds no others.
-    let touching =
-        if crowd.margin > 0.0 { find_touching(pairs, touching, p, distance) } else { pairs };
-    for pair in touching {
-        let [i, j] = pair.map(|particle| particle as usize);
-        let span = p.x.at(j) - p.x.at(i);
-        let length = span.length();
-        let is_held = p.w[i] <= 0.0 || p.w[j] <= 0.0;
-        if is_held || length <= TINY || length >= distance {
-            continue;
-        }
-        let by = span * (SHARE * (distance - length) / length);
-        let lightness = p.w[j] / (p.w[i] + p.w[j]);
-        p.x.add(i, by * (lightness - 1.0));
-        p.x.add(j, by * lightness);
-    }
-}
-
-/// Finds out which pairs are too near.
-fn find_touching<'a>(
-    pairs: &[[u32; 2]],
-    touching: &'a mut Vec<[u32; 2]>,
-    p: &Particles,
-    distance: f32,
-) -> &'a [[u32; 2]] {
-    if touching.len() < pairs.len() {
-        touching.resize(pairs.len(), [0; 2]);
-    }
-    let mut count = 0;
-    // As in `list`, each is written down.
-    for pair in pairs {
-        let [i, j] = pair.map(|particle| particle as usize);
-        touching[count] = *pair;
-        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
-    }
-    &touching[..count]
 }

@@ -21,7 +21,7 @@ use crate::mesh::split_vertex::{FanArc, OpenedEdge, best_arc};
 use crate::mesh::{Fan, NONE, triangle_of};
 use crate::model::crack_tips;
 use crate::model::links::{LinkKind, Links};
-use crate::solver::self_collide::surface::split_separation;
+use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::topology::piece_labels::PieceLabels;
 use crate::solver::topology::tear_scratch::{TearCandidate, TearScratch};
 use crate::solver::world::World;
@@ -78,7 +78,7 @@ pub(crate) fn tear_edge(world: &mut World, a: u32, b: u32) -> bool {
 
 /// Separates the two sides of fresh tears, and updates piece labels and tethers.
 fn update_after_tears(world: &mut World, touched: &[u32]) {
-    split_separation::part(world, touched.iter().copied());
+    surface_stages::separate_splits(world, touched.iter().copied());
     update_pieces(world);
     world.update_tethers(touched);
 }

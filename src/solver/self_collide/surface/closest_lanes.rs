@@ -1,12 +1,31 @@
-//! Where a vertex and a triangle are closest, or two edges: a pair in each lane.
+//! SIMD kernels for closest points: vertex–triangle and edge–edge, one pair in each lane.
+//!
+//! ```text
+//!      v ●              weights (1, −wa, −wb, −wc)       p ●──────●──── q      weights (1−t, t, u−1, −u)
+//!        │ d                                                      │ d
+//!   ─────●───── a b c   d = Σ weight · x                 r ●──────●──── s      d = Σ weight · x
+//! ```
+//! Both return the vector d from the closest point of the second side to the closest point of the
+//! first, and the weights of the four particles. Vertex–triangle follows Ericson, "Real-Time
+//! Collision Detection", 5.1.5 (Voronoi regions), edge–edge 5.1.9, both without branches. The
+//! scalar versions are `closest_points::triangle_to_origin` and
+//! `closest_points::segment_to_segment`.
+//!
+//! Reads positions; writes nothing.
+//!
+//! Invariant: a lane never reads another lane, so the result has the same bits for any vector
+//! width.
 
 use crate::math::simd::{Float, Simd};
-use crate::solver::self_collide::surface::contact::{Kind, VERTEX};
+use crate::solver::self_collide::surface::contact::{ContactKind, VERTEX_TRIANGLE};
 
-/// From the closest point of a triangle to a vertex (as `geom::closest::triangle_to_origin`), and what each particle counts
-/// for.
+/// The vector from the closest point of triangle `x[1..4]` to vertex `x[0]`, and the weight of each
+/// particle.
 #[inline(always)]
-pub(crate) fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) {
+pub(crate) fn closest_vertex_triangle<S: Simd>(
+    s: S,
+    x: [Vec3Lanes<S::F>; 4],
+) -> (Vec3Lanes<S::F>, [S::F; 4]) {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     let [a, b, c] = [x[1].minus(x[0]), x[2].minus(x[0]), x[3].minus(x[0])];
     let (ab, ac) = (b.minus(a), c.minus(a));
@@ -16,85 +35,90 @@ pub(crate) fn from_triangle<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 
     let (from_b, from_c) = (b2 - b1, c1 - c2);
     let scale = one / (over_bc + over_ac + over_ab);
     let mut weights = [over_ac * scale, over_ab * scale];
-    // Each place in the order of the least to say: what is above 0 says that it is not there.
-    let share = from_b / (from_b + from_c);
-    let off = beyond(over_bc, zero - from_b, zero - from_c);
-    weights = choose(s, off, weights, [one - share, share]);
-    let off = beyond(over_ac, zero - a2, c2);
-    weights = choose(s, off, weights, [zero, a2 / (a2 - c2)]);
-    let off = beyond(over_ab, zero - a1, b1);
-    weights = choose(s, off, weights, [a1 / (a1 - b1), zero]);
-    let off = Float::max(zero - c2, c1 - c2);
-    weights = choose(s, off, weights, [zero, one]);
-    let off = Float::max(zero - b1, b2 - b1);
-    weights = choose(s, off, weights, [one, zero]);
-    let off = Float::max(a1, a2);
-    let [v, w] = choose(s, off, weights, [zero; 2]);
+    // From the face to edges to corners; each region replaces the weights before it. `outside`
+    // above 0 says that the closest point is not in that region.
+    let t = from_b / (from_b + from_c);
+    let outside = max3(over_bc, zero - from_b, zero - from_c);
+    weights = select2(s, outside, weights, [one - t, t]);
+    let outside = max3(over_ac, zero - a2, c2);
+    weights = select2(s, outside, weights, [zero, a2 / (a2 - c2)]);
+    let outside = max3(over_ab, zero - a1, b1);
+    weights = select2(s, outside, weights, [a1 / (a1 - b1), zero]);
+    let outside = Float::max(zero - c2, c1 - c2);
+    weights = select2(s, outside, weights, [zero, one]);
+    let outside = Float::max(zero - b1, b2 - b1);
+    weights = select2(s, outside, weights, [one, zero]);
+    let outside = Float::max(a1, a2);
+    let [v, w] = select2(s, outside, weights, [zero; 2]);
     let to = a.plus(ab.times(v)).plus(ac.times(w));
     (to.times(zero - one), [one, v + w - one, zero - v, zero - w])
 }
 
-/// From the closest point of the second edge to that of the first (as `geom::closest::segment_to_segment`), and what each
-/// particle counts for.
+/// The vector from the closest point of edge `x[2..4]` to the closest point of edge `x[0..2]`, and
+/// the weight of each particle.
 #[inline(always)]
-pub(crate) fn from_edge<S: Simd>(s: S, x: [V<S::F>; 4]) -> (V<S::F>, [S::F; 4]) {
+pub(crate) fn closest_edge_edge<S: Simd>(
+    s: S,
+    x: [Vec3Lanes<S::F>; 4],
+) -> (Vec3Lanes<S::F>, [S::F; 4]) {
     let (u, v, r) = (x[1].minus(x[0]), x[3].minus(x[2]), x[0].minus(x[2]));
     let (uu, vv, uv) = (u.dot(u), v.dot(v), u.dot(v));
     let (ur, vr) = (u.dot(r), v.dot(r));
-    let across = uu * vv - uv * uv;
-    let amid = share(s, (uv * vr - ur * vv) / across);
-    let amid = s.select(across - s.splat(1.0e-6) * uu * vv, amid, s.splat(0.5));
-    let t = (uv * amid + vr) / vv;
+    let determinant = uu * vv - uv * uv;
+    let inner = clamp01(s, (uv * vr - ur * vv) / determinant);
+    let inner = s.select(determinant - s.splat(1.0e-6) * uu * vv, inner, s.splat(0.5));
+    let t = (uv * inner + vr) / vv;
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
-    let low = s.select(zero - t, share(s, (zero - ur) / uu), amid);
-    let along = s.select(t - one, share(s, (uv - ur) / uu), low);
-    let across = share(s, t);
-    let way = r.plus(u.times(along)).minus(v.times(across));
-    (way, [one - along, along, across - one, zero - across])
+    let low = s.select(zero - t, clamp01(s, (zero - ur) / uu), inner);
+    let along_first = s.select(t - one, clamp01(s, (uv - ur) / uu), low);
+    let along_second = clamp01(s, t);
+    let d = r.plus(u.times(along_first)).minus(v.times(along_second));
+    (d, [one - along_first, along_first, along_second - one, zero - along_second])
 }
 
-/// How far one side is from the other along a direction, at least; `x` is how far each particle is along it.
+/// The separation of both sides along a direction, from the coordinates of the four particles along
+/// it: the lowest of the first side minus the highest of the second.
 #[inline(always)]
-pub(crate) fn between<F: Float, const FIRST: Kind>([a, b, c, d]: [F; 4]) -> F {
-    if FIRST == VERTEX {
+pub(crate) fn separation<F: Float, const KIND: ContactKind>([a, b, c, d]: [F; 4]) -> F {
+    if KIND == VERTEX_TRIANGLE {
         a - Float::max(b, Float::max(c, d))
     } else {
         Float::min(a, b) - Float::max(c, d)
     }
 }
 
+/// `old` where `keep` is above 0, else `new`.
 #[inline(always)]
-fn choose<S: Simd>(s: S, keep: S::F, old: [S::F; 2], new: [S::F; 2]) -> [S::F; 2] {
+fn select2<S: Simd>(s: S, keep: S::F, old: [S::F; 2], new: [S::F; 2]) -> [S::F; 2] {
     [s.select(keep, old[0], new[0]), s.select(keep, old[1], new[1])]
 }
 
 #[inline(always)]
-fn beyond<F: Float>(p: F, q: F, r: F) -> F {
+fn max3<F: Float>(p: F, q: F, r: F) -> F {
     Float::max(Float::max(p, q), r)
 }
 
-/// Between 0 and 1.
 #[inline(always)]
-fn share<S: Simd>(s: S, t: S::F) -> S::F {
+fn clamp01<S: Simd>(s: S, t: S::F) -> S::F {
     Float::min(Float::max(t, s.splat(0.0)), s.splat(1.0))
 }
 
-/// A vector in each lane.
+/// A 3D vector in each lane.
 #[derive(Clone, Copy)]
-pub(crate) struct V<F> {
+pub(crate) struct Vec3Lanes<F> {
     pub x: F,
     pub y: F,
     pub z: F,
 }
 
-impl<F: Float> V<F> {
+impl<F: Float> Vec3Lanes<F> {
     #[inline(always)]
     pub fn new([x, y, z, _]: [F; 4]) -> Self {
         Self { x, y, z }
     }
 
     #[inline(always)]
-    pub fn along(&self, axis: usize) -> F {
+    pub fn axis(&self, axis: usize) -> F {
         [self.x, self.y, self.z][axis]
     }
 
@@ -109,8 +133,8 @@ impl<F: Float> V<F> {
     }
 
     #[inline(always)]
-    pub fn times(self, by: F) -> Self {
-        Self { x: self.x * by, y: self.y * by, z: self.z * by }
+    pub fn times(self, factor: F) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 
     #[inline(always)]

@@ -1,54 +1,68 @@
-//! Which patches may meet: in a tick by the tree, and of those in a substep.
+//! Broad phase: cluster pairs that may meet in the tick, and those of them that may meet in a
+//! substep.
+//!
+//! ```text
+//! once per tick        BVH against itself, swept AABBs from tick bounds     → tick pairs
+//! in each substep      tick pairs: normal cones, swept AABBs from motion    → substep pairs
+//! ```
+//! The traversal descends both nodes of a pair, the one with more clusters first. Substeps of a
+//! tick filter the list of tick pairs; the tree is traversed again only if a particle leaves its
+//! tick bound.
+//!
+//! Reads [`TickBounds`] and what [`ClusterBvh::refit`] computed; writes `tick_pairs`,
+//! `tick_pair_neighbours` and the caller's list.
+//!
+//! Invariant: pairs come out in the same order for the same mesh, the lower cluster first.
 
 use crate::math::max;
 use crate::mesh::NONE;
-use crate::solver::self_collide::surface::cluster_bvh::Patches;
-use crate::solver::self_collide::surface::swept_aabb::Sweep;
-use crate::solver::self_collide::surface::tick_bounds::Reach;
+use crate::solver::self_collide::surface::cluster_bvh::ClusterBvh;
+use crate::solver::self_collide::surface::swept_aabb::SweptAabb;
+use crate::solver::self_collide::surface::tick_bounds::TickBounds;
 
-/// What covers rounding in ways.
+/// Factor that covers the rounding of relative displacements.
 const ROUNDING: f32 = 1.001;
 
-impl Patches {
-    /// Lists the pairs of patches that may come nearer than `gap` in this tick, the lower first: always in the same
-    /// order. Patches are listed with themselves as well.
-    pub fn list(&mut self, reach: &Reach, gap: f32) {
-        for at in (0..self.nodes.len()).rev() {
-            let node = self.nodes[at];
+impl ClusterBvh {
+    /// Rebuilds `tick_pairs`: pairs of clusters that may come nearer than `gap` [m] in the rest of
+    /// the tick. Each cluster is paired with itself as well.
+    pub fn rebuild_tick_pairs(&mut self, bounds: &TickBounds, gap: f32) {
+        for i in (0..self.nodes.len()).rev() {
+            let node = self.nodes[i];
             let mut all;
-            if node.patch == NONE {
-                all = self.reaches[at + 1];
-                all.join(&self.reaches[node.second as usize]);
+            if node.cluster == NONE {
+                all = self.tick_aabbs[i + 1];
+                all.merge(&self.tick_aabbs[node.second as usize]);
             } else {
-                let patch = &self.patches[node.patch as usize];
-                let own = patch.vertices[0] as usize..patch.vertices[2] as usize;
-                all = Sweep::around(&self.vertices[own], reach.rooms());
+                let cluster = &self.clusters[node.cluster as usize];
+                let own = cluster.vertices[0] as usize..cluster.vertices[2] as usize;
+                all = SweptAabb::of_particles(&self.vertices[own], bounds.base_and_bounds());
             }
-            self.reaches[at] = all;
+            self.tick_aabbs[i] = all;
         }
-        let mut listed = core::mem::take(&mut self.listed);
-        let mut places = core::mem::take(&mut self.places);
-        places.clear();
-        self.quads.begin_list(&mut listed);
+        let mut pairs = core::mem::take(&mut self.tick_pairs);
+        let mut neighbours = core::mem::take(&mut self.tick_pair_neighbours);
+        neighbours.clear();
+        self.pair_cache.swap_tick_pairs(&mut pairs);
         let mut stack = core::mem::take(&mut self.stack);
         stack.clear();
         stack.push([0, 0]);
         while let Some([a, b]) = stack.pop() {
             let (one, other) = (self.nodes[a as usize], self.nodes[b as usize]);
             if a == b {
-                if one.patch == NONE {
+                if one.cluster == NONE {
                     stack.push([one.second, one.second]);
                     stack.push([a + 1, one.second]);
                     stack.push([a + 1, a + 1]);
                 } else {
-                    listed.push([one.patch; 2]);
-                    places.push(NONE);
+                    pairs.push([one.cluster; 2]);
+                    neighbours.push(NONE);
                 }
-            } else if self.reaches[a as usize].meets(&self.reaches[b as usize], gap) {
-                if one.patch != NONE && other.patch != NONE {
-                    listed.push([one.patch, other.patch]);
-                    places.push(self.place_beside([one.patch, other.patch]));
-                } else if one.patch == NONE && one.count >= other.count {
+            } else if self.tick_aabbs[a as usize].overlaps(&self.tick_aabbs[b as usize], gap) {
+                if one.cluster != NONE && other.cluster != NONE {
+                    pairs.push([one.cluster, other.cluster]);
+                    neighbours.push(self.neighbour_index([one.cluster, other.cluster]));
+                } else if one.cluster == NONE && one.count >= other.count {
                     stack.push([one.second, b]);
                     stack.push([a + 1, b]);
                 } else {
@@ -57,69 +71,83 @@ impl Patches {
                 }
             }
         }
-        self.quads.end_list(&listed, self.patches.len());
-        (self.stack, self.listed, self.places) = (stack, listed, places);
+        self.pair_cache.restore_known_pairs(&pairs, self.clusters.len());
+        (self.stack, self.tick_pairs, self.tick_pair_neighbours) = (stack, pairs, neighbours);
     }
 
-    /// Takes those of the listed pairs that may come nearer than `gap` in this substep; of `strays` only those that
-    /// have some. `pairs` gets their places in the list.
-    pub fn pair(&self, gap: f32, strays: bool, pairs: &mut Vec<u32>) {
-        pairs.clear();
-        for (at, ([one, other], place)) in self.listed.iter().zip(&self.places).enumerate() {
-            let is_quiet = if one == other {
-                self.leans.is_flat(*one)
-            } else if strays {
+    /// Fills `substep_pairs` with the indices of tick pairs that may come nearer than `gap` [m] in
+    /// this substep; with `only_escaped`, those with an escaped vertex. Pairs that the normal cones
+    /// cull are left out.
+    pub fn collect_substep_pairs(
+        &self,
+        gap: f32,
+        only_escaped: bool,
+        substep_pairs: &mut Vec<u32>,
+    ) {
+        substep_pairs.clear();
+        let pairs = self.tick_pairs.iter().zip(&self.tick_pair_neighbours);
+        for (i, ([one, other], neighbour)) in pairs.enumerate() {
+            let is_culled = if one == other {
+                self.normal_cones.is_flat(*one)
+            } else if only_escaped {
                 false
             } else {
-                *place != NONE && self.leans.is_quiet(*place)
+                *neighbour != NONE && self.normal_cones.is_culled(*neighbour)
             };
-            if is_quiet {
+            if is_culled {
                 continue;
             }
             let [a, b] = [*one as usize, *other as usize];
-            if strays && !self.patches[a].has_strays && !self.patches[b].has_strays {
+            if only_escaped && !self.clusters[a].has_escaped && !self.clusters[b].has_escaped {
                 continue;
             }
-            if a != b && !self.sweeps[a].meets(&self.sweeps[b], gap) {
+            if a != b && !self.swept_aabbs[a].overlaps(&self.swept_aabbs[b], gap) {
                 continue;
             }
-            if !strays || *place == NONE || !self.leans.is_quiet_again(*place) {
-                pairs.push(at as u32);
+            if !only_escaped
+                || *neighbour == NONE
+                || !self.normal_cones.is_culled_after_update(*neighbour)
+            {
+                substep_pairs.push(i as u32);
             }
         }
     }
 
-    /// The most that what is in a listed pair goes against each other in this substep, together with `more` [m].
+    /// An upper bound of the relative displacement in a tick pair in this substep, plus `margin`
+    /// [m].
     #[inline(always)]
-    pub fn ways_of(&self, at: u32, more: f32) -> f32 {
-        let [one, other] = self.listed_pair(at).map(|at| at as usize);
-        let ways = self.sweeps[one].way_against(&self.sweeps[other]) * ROUNDING + more;
-        if ways < f32::INFINITY { ways } else { f32::INFINITY }
+    pub fn max_relative_displacement(&self, tick_pair: u32, margin: f32) -> f32 {
+        let [one, other] = self.tick_pair(tick_pair).map(|cluster| cluster as usize);
+        let relative = self.swept_aabbs[one].max_relative_displacement(&self.swept_aabbs[other]);
+        let bound = relative * ROUNDING + margin;
+        if bound < f32::INFINITY { bound } else { f32::INFINITY }
     }
 
-    /// The most that what is in a listed pair went against each other since patches were fitted before [m].
+    /// An upper bound of the relative displacement in a tick pair since the last refit [m].
     #[inline(always)]
-    pub fn step_of(&self, at: u32) -> f32 {
-        let [one, other] = self.listed_pair(at).map(|at| at as usize);
-        let ([from, to], [least, most]) = (&self.steps[one], &self.steps[other]);
+    pub fn relative_step(&self, tick_pair: u32) -> f32 {
+        let [one, other] = self.tick_pair(tick_pair).map(|cluster| cluster as usize);
+        let (first, second) = (&self.step_displacements[one], &self.step_displacements[other]);
+        let ([low, high], [other_low, other_high]) = (first, second);
         let mut sum = 0.0;
         for k in 0..3 {
-            let way = max(to[k] - least[k], most[k] - from[k]);
-            sum += way * way;
+            let relative = max(high[k] - other_low[k], other_high[k] - low[k]);
+            sum += relative * relative;
         }
         sum.sqrt() * ROUNDING
     }
 
-    /// The patches of listed pair `at`.
+    /// The clusters of a tick pair.
     #[inline(always)]
-    pub fn listed_pair(&self, at: u32) -> [u32; 2] {
-        self.listed[at as usize]
+    pub fn tick_pair(&self, tick_pair: u32) -> [u32; 2] {
+        self.tick_pairs[tick_pair as usize]
     }
 
-    /// The place of a pair among those beside each other, or `NONE`.
-    fn place_beside(&self, [one, other]: [u32; 2]) -> u32 {
-        let [from, to] = self.patches[one as usize].beside;
-        let beside = &self.beside[from as usize..to as usize];
-        beside.iter().find(|[patch, _]| *patch == other).map_or(NONE, |[_, place]| *place)
+    /// The index of a pair in the normal cones if both clusters are neighbours, else `NONE`.
+    fn neighbour_index(&self, [one, other]: [u32; 2]) -> u32 {
+        let [from, to] = self.clusters[one as usize].neighbours;
+        let neighbours = &self.neighbours[from as usize..to as usize];
+        let found = neighbours.iter().find(|[cluster, _]| *cluster == other);
+        found.map_or(NONE, |[_, index]| *index)
     }
 }

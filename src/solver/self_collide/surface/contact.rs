@@ -1,183 +1,202 @@
-//! The pairs that may meet in a substep, each with a direction that tells its sides apart.
+//! Contacts: vertex–triangle and edge–edge pairs with a contact normal and a minimum separation.
 //!
 //! ```text
-//!        A ●            ▲ n        Where a pair is closest, what leads from one side to the other
-//! ──────────┼───────────┼───       is normal to a plane with the sides wholly on either side of it.
-//!      B ───●────●      │          While they stay so along n they cannot have crossed, wherever
-//!                                  the plane went meanwhile.
+//!        A ●            ▲ n        The closest points of a pair span the normal n of a plane that
+//! ──────────┼───────────┼───       separates both sides at the start of the substep. While the
+//!      B ───●────●      │          separation along n stays positive, the sides have not crossed,
+//!                                  whatever the plane did meanwhile.
+//!
+//! separation(n) = min over A of n·x − max over B of n·x
+//! distance(n)   = n · Σ weightₖ xₖ                           (closest points; weights as in `closest_lanes`)
 //! ```
+//! Two separations of a contact matter to the non-crossing pass: it restores `min_separation`, and
+//! it accepts `tolerated_separation` when it cannot.
+//!
+//! Reads [`SweptParticles`]; writes [`Contact`] values.
+//!
+//! Invariant: a contact with `min_separation >= 0` was separated along some direction at the start
+//! of the substep, so an exact solution of all contacts exists: the start positions.
 
 use crate::geometry::closest_points;
-use crate::math::wide4::Four;
-use crate::math::wide4::{Float4, xyz};
+use crate::math::wide4::{Float4, Wide4, xyz};
 use crate::math::{TINY, max, min};
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use glam::Vec3;
 
-/// A fence leaves a share of their gap between two sides; if there was less, what there was.
-pub(crate) const SLIT: f32 = 0.25;
+/// Minimum separation that the non-crossing pass restores, as a share of the gap; less if the sides
+/// were nearer at the start.
+pub(crate) const SEPARATION_SHARE: f32 = 0.25;
 
-/// What is let be: so much of that, or of what there was.
-pub(crate) const ENOUGH: f32 = 0.2;
-const LEAST: f32 = 0.998;
+/// Separation that the non-crossing pass tolerates: a share of the former, or of the separation at
+/// the start if that was less.
+pub(crate) const TOLERATED_SHARE: f32 = 0.2;
+const TOLERATED_SHARE_OF_START: f32 = 0.998;
 
-/// Sides that are nearer than what is let be come apart by this much of how far they are in a substep.
-const MORE: f32 = 1.1;
+/// Sides that start nearer than the tolerated separation are moved apart by this factor in a
+/// substep.
+const GROWTH: f32 = 1.1;
 
-/// Another direction that would let sides come nearer than this share of what they may is not taken.
-pub(crate) const WORSE: f32 = 0.5;
+/// A new normal is rejected if it lowers the separation at the start below this share of the old
+/// one.
+pub(crate) const MIN_KEPT_SHARE: f32 = 0.5;
 
-/// Nearer than this no direction tells sides apart [m].
-pub(crate) const NOTHING: f32 = 1.0e-7;
+/// Sides nearer than this have no separating direction [m].
+pub(crate) const MIN_DISTANCE: f32 = 1.0e-7;
 
-/// The share of their distance that a direction tells two edges apart by, unless they are too nearly parallel.
-pub(crate) const CLEAR: f32 = 0.9;
+/// A direction is clear if the separation of two edges along it is at least this share of their
+/// distance. For nearly parallel edges it is not.
+pub(crate) const CLEAR_SHARE: f32 = 0.9;
 
-/// How well a way must lead along a normal that it is taken for it (the square of a cosine).
-pub(crate) const SAME: f32 = 0.98;
+/// The vector between the closest points is replaced by the face normal if the square of the cosine
+/// between both is at least this.
+pub(crate) const ALIGNED_COS2: f32 = 0.98;
 
-/// What meets, by how many particles the first side has: a vertex and a triangle, or two edges.
-pub(crate) type Kind = u32;
-pub(crate) const VERTEX: Kind = 1;
-pub(crate) const EDGES: Kind = 2;
+/// The kind of a pair, and the number of particles on its first side: 1 vertex against a triangle,
+/// or 2 vertices (an edge) against an edge.
+pub(crate) type ContactKind = u32;
+pub(crate) const VERTEX_TRIANGLE: ContactKind = 1;
+pub(crate) const EDGE_EDGE: ContactKind = 2;
 
-/// Two sides that may meet.
+/// A pair of sides that may touch in a substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
+    /// The particles: first the `kind` ones of the first side, then those of the second.
     pub ids: [u32; 4],
-    /// How many of them are the first side.
-    pub first: u32,
-    /// What each counts for in the closest points: above 0 on the first side, below 0 on the second.
-    pub share: [f32; 4],
-    /// From the second side to the first.
+    pub kind: ContactKind,
+    /// Weights of the particles in the closest points: they sum to 1 on the first side, to −1 on
+    /// the second.
+    pub weights: [f32; 4],
+    /// The contact normal, from the second side to the first.
     pub n: Vec3,
-    /// How far they keep apart [m].
+    /// Distance that the contact solver keeps between both sides [m].
     pub gap: f32,
-    /// All particles of the first side stay so far from all of the second along `n`; negative if
-    /// nothing keeps them [m].
-    pub slit: f32,
-    /// The least of it that is let be [m].
-    pub least: f32,
+    /// Separation along `n` that the non-crossing pass restores [m]; negative: the pass ignores the
+    /// contact.
+    pub min_separation: f32,
+    /// Separation along `n` that the non-crossing pass accepts [m].
+    pub tolerated_separation: f32,
 }
 
-/// A pair as it is closest: what each particle counts for, from where to where.
+/// Closest points of a pair: the weights of the particles, the unit direction between the points,
+/// and their distance [m].
 #[derive(Clone, Copy)]
-struct Closest {
-    share: [f32; 4],
+struct ClosestPoints {
+    weights: [f32; 4],
     n: Vec3,
     distance: f32,
 }
 
-/// A vertex and a triangle.
 #[inline(always)]
-fn vertex_closest([v, a, b, c]: [Vec3; 4]) -> Closest {
+fn closest_vertex_triangle([v, a, b, c]: [Vec3; 4]) -> ClosestPoints {
     let corners = [a - v, b - v, c - v];
     let weights = closest_points::triangle_to_origin(corners);
-    let way = -closest_points::interpolate(corners, weights);
-    let distance = way.length();
+    let d = -closest_points::interpolate(corners, weights);
+    let distance = d.length();
     let [wa, wb, wc] = weights;
     let is_inside = wa > 0.0 && wb > 0.0 && wc > 0.0;
     let normal = if is_inside { (b - a).cross(c - a) } else { Vec3::ZERO };
-    Closest { share: [1.0, -wa, -wb, -wc], n: direction(way, distance, normal), distance }
+    let n = contact_normal(d, distance, normal);
+    ClosestPoints { weights: [1.0, -wa, -wb, -wc], n, distance }
 }
 
-/// Two edges.
 #[inline(always)]
-fn edge_closest([p, q, r, s]: [Vec3; 4]) -> Closest {
+fn closest_edge_edge([p, q, r, s]: [Vec3; 4]) -> ClosestPoints {
     let (t, u) = closest_points::segment_to_segment([p, q], [r, s]);
-    let (along, across) = (q - p, s - r);
-    let way = p - r + along * t - across * u;
-    let distance = way.length();
+    let (first, second) = (q - p, s - r);
+    let d = p - r + first * t - second * u;
+    let distance = d.length();
     let is_inside = t > 0.0 && t < 1.0 && u > 0.0 && u < 1.0;
-    let normal = if is_inside { along.cross(across) } else { Vec3::ZERO };
-    let share = [1.0 - t, t, u - 1.0, -u];
-    Closest { share, n: direction(way, distance, normal), distance }
+    let normal = if is_inside { first.cross(second) } else { Vec3::ZERO };
+    let weights = [1.0 - t, t, u - 1.0, -u];
+    ClosestPoints { weights, n: contact_normal(d, distance, normal), distance }
 }
 
-/// Two edges that are nearly parallel, so that where they are closest is not well known: what else tells them
-/// apart better, which is what both are square to, or leads from an end to the other edge.
-fn told_apart(x: [Vec3; 4], closest: Closest) -> Closest {
+/// For two nearly parallel edges, whose closest points are ill-conditioned: the direction with the
+/// largest separation among `closest`, both common normals, and the vectors from each end to the
+/// other edge.
+fn best_separating_direction(x: [Vec3; 4], closest: ClosestPoints) -> ClosestPoints {
     let [p, q, r, s] = x;
-    let mut best = (between(x, 2, closest.n), closest);
-    let mut look = |share: [f32; 4], way: Vec3| {
-        let length = way.length();
+    let mut best = (separation(x, EDGE_EDGE, closest.n), closest);
+    let mut test = |weights: [f32; 4], d: Vec3| {
+        let length = d.length();
         if length > TINY {
-            let n = way * (1.0 / length);
-            let distance = between(x, 2, n);
+            let n = d * (1.0 / length);
+            let distance = separation(x, EDGE_EDGE, n);
             if distance > best.0 {
-                best = (distance, Closest { share, n, distance });
+                best = (distance, ClosestPoints { weights, n, distance });
             }
         }
     };
     let normal = (q - p).cross(s - r);
-    look(closest.share, normal);
-    look(closest.share, -normal);
+    test(closest.weights, normal);
+    test(closest.weights, -normal);
     let ends = [
         ([p; 2], [r, s], Some(0.0), None),
         ([q; 2], [r, s], Some(1.0), None),
         ([p, q], [r; 2], None, Some(0.0)),
         ([p, q], [s; 2], None, Some(1.0)),
     ];
-    for (one, other, at_one, at_other) in ends {
+    for (one, other, fixed_t, fixed_u) in ends {
         let (t, u) = closest_points::segment_to_segment(one, other);
-        let (t, u) = (at_one.unwrap_or(t), at_other.unwrap_or(u));
-        look([1.0 - t, t, u - 1.0, -u], p - r + (q - p) * t - (s - r) * u);
+        let (t, u) = (fixed_t.unwrap_or(t), fixed_u.unwrap_or(u));
+        test([1.0 - t, t, u - 1.0, -u], p - r + (q - p) * t - (s - r) * u);
     }
     best.1
 }
 
-/// The direction of a way, by the normal that it is along if there is one: of a short way that is more exact.
+/// The unit direction of `d`, a vector of length `distance` between closest points. If `d` is
+/// nearly parallel to `normal`, the result is the unit normal, which is more exact for a short `d`.
 #[inline(always)]
-fn direction(way: Vec3, distance: f32, normal: Vec3) -> Vec3 {
-    let along = way.dot(normal);
+fn contact_normal(d: Vec3, distance: f32, normal: Vec3) -> Vec3 {
+    let along = d.dot(normal);
     let length = normal.length();
-    if along * along > SAME * distance * distance * length * length {
+    if along * along > ALIGNED_COS2 * distance * distance * length * length {
         normal * (if along > 0.0 { 1.0 } else { -1.0 } / length)
     } else {
-        way * (1.0 / distance)
+        d * (1.0 / distance)
     }
 }
 
-/// How far one side is from the other along a direction, at least.
+/// The separation of both sides along `n` [m]: negative if they overlap along it.
 #[inline(always)]
-pub(crate) fn between(x: [Vec3; 4], first: u32, n: Vec3) -> f32 {
+pub(crate) fn separation(x: [Vec3; 4], kind: ContactKind, n: Vec3) -> f32 {
     let [a, b, c, d] = [n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])];
-    if first == 1 { a - max(b, max(c, d)) } else { min(a, b) - max(c, d) }
+    if kind == VERTEX_TRIANGLE { a - max(b, max(c, d)) } else { min(a, b) - max(c, d) }
 }
 
-/// Where the particles of a pair are.
+/// The positions of the four particles of a pair.
 #[inline(always)]
-pub(crate) fn places(x: &[Float4], ids: [u32; 4]) -> [Vec3; 4] {
+pub(crate) fn positions(x: &[Float4], ids: [u32; 4]) -> [Vec3; 4] {
     let [a, b, c, d] = ids;
     [xyz(&x[a as usize]), xyz(&x[b as usize]), xyz(&x[c as usize]), xyz(&x[d as usize])]
 }
 
-/// How far the closest points are from each other along `n`.
+/// The distance of the closest points along the contact normal [m].
 #[inline(always)]
-pub(crate) fn along(x: &[Float4], contact: &Contact) -> f32 {
-    let [a, b, c, d] = contact.ids.map(|id| Four::of(&x[id as usize]));
-    let [p, q, r, s] = contact.share;
-    Four::way(contact.n).dot(a.times(p) + b.times(q) + c.times(r) + d.times(s))
+pub(crate) fn distance_along_normal(x: &[Float4], contact: &Contact) -> f32 {
+    let [a, b, c, d] = contact.ids.map(|id| Wide4::load(&x[id as usize]));
+    let [p, q, r, s] = contact.weights;
+    Wide4::from_vec3(contact.n).dot3(a.scale(p) + b.scale(q) + c.scale(r) + d.scale(s))
 }
 
-/// Where a pair is closest.
 #[inline(always)]
-fn closest<const FIRST: Kind>(x: [Vec3; 4]) -> Closest {
-    if FIRST == VERTEX { vertex_closest(x) } else { edge_closest(x) }
+fn closest<const KIND: ContactKind>(x: [Vec3; 4]) -> ClosestPoints {
+    if KIND == VERTEX_TRIANGLE { closest_vertex_triangle(x) } else { closest_edge_edge(x) }
 }
 
-/// The same for the few pairs that were looked at before, so that it is not woven in for each of them.
+/// As [`closest`], not inlined: few pairs need it, and each inlined copy would cost code size.
 #[inline(never)]
-fn closest_again<const FIRST: Kind>(x: [Vec3; 4]) -> Closest {
-    closest::<FIRST>(x)
+fn closest_outlined<const KIND: ContactKind>(x: [Vec3; 4]) -> ClosestPoints {
+    closest::<KIND>(x)
 }
 
-/// How far one side is from the other along a direction in the end, at least.
+/// The least separation along `n` that both sides may have at the end of the substep, by their
+/// motion bounds [m].
 #[inline(always)]
-fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) -> f32 {
-    let [a, b] = [motion.ends_along(ids[0], n), motion.ends_along(ids[1], n)];
-    let [c, d] = [motion.ends_along(ids[2], n), motion.ends_along(ids[3], n)];
-    if FIRST == VERTEX {
+fn end_separation<const KIND: ContactKind>(motion: &SweptParticles, ids: [u32; 4], n: Vec3) -> f32 {
+    let [a, b] = [motion.end_range_along(ids[0], n), motion.end_range_along(ids[1], n)];
+    let [c, d] = [motion.end_range_along(ids[2], n), motion.end_range_along(ids[3], n)];
+    if KIND == VERTEX_TRIANGLE {
         a[0] - max(b[1], max(c[1], d[1]))
     } else {
         min(a[0], b[0]) - max(c[1], d[1])
@@ -185,102 +204,123 @@ fn between_at_end<const FIRST: Kind>(motion: &Motion, ids: [u32; 4], n: Vec3) ->
 }
 
 impl Contact {
-    /// Sides of which nothing is known.
-    pub fn of(ids: [u32; 4], first: Kind) -> Self {
-        Self { ids, first, share: [0.0; 4], n: Vec3::ZERO, gap: 0.0, slit: -1.0, least: -1.0 }
+    /// A contact that the contact solver and the non-crossing pass ignore until it is filled in.
+    pub fn inactive(ids: [u32; 4], kind: ContactKind) -> Self {
+        Self {
+            ids,
+            kind,
+            weights: [0.0; 4],
+            n: Vec3::ZERO,
+            gap: 0.0,
+            min_separation: -1.0,
+            tolerated_separation: -1.0,
+        }
     }
 
-    /// The distance of two sides.
-    pub fn distance<const FIRST: Kind>(x: [Vec3; 4]) -> f32 {
-        closest_again::<FIRST>(x).distance
+    /// The distance of both sides [m].
+    pub fn distance<const KIND: ContactKind>(x: [Vec3; 4]) -> f32 {
+        closest_outlined::<KIND>(x).distance
     }
 
-    /// The contact of two sides, if they may come nearer than `gap`; `own_gap` is what they keep, and no larger.
+    /// Narrow phase of one pair: the contact of both sides, or `None` if they cannot come nearer
+    /// than `gap` [m] in this substep or touch already at its start. `own_gap` is the gap of this
+    /// pair, at most `gap`.
     #[inline(never)]
-    pub fn find<const FIRST: Kind>(
+    pub fn detect<const KIND: ContactKind>(
         ids: [u32; 4],
-        motion: &Motion,
+        motion: &SweptParticles,
         gap: f32,
         own_gap: f32,
     ) -> Option<Self> {
-        let start = places(&motion.start, ids);
-        let mut then = closest_again::<FIRST>(start);
+        let start = positions(&motion.start, ids);
+        let mut then = closest_outlined::<KIND>(start);
         let [a, b, c, d] = ids;
-        let way = if FIRST == VERTEX {
-            motion.one(a).way_against(&motion.of([b, c, d]))
+        let relative = if KIND == VERTEX_TRIANGLE {
+            motion.swept_point(a).max_relative_displacement(&motion.swept_aabb([b, c, d]))
         } else {
-            motion.of([a, b]).way_against(&motion.of([c, d]))
+            motion.swept_aabb([a, b]).max_relative_displacement(&motion.swept_aabb([c, d]))
         };
-        if then.distance > gap + way || then.distance <= NOTHING {
+        if then.distance > gap + relative || then.distance <= MIN_DISTANCE {
             return None;
         }
-        if FIRST == EDGES && between(start, 2, then.n) < CLEAR * then.distance {
-            then = told_apart(start, then);
+        if KIND == EDGE_EDGE && separation(start, EDGE_EDGE, then.n) < CLEAR_SHARE * then.distance {
+            then = best_separating_direction(start, then);
         }
-        // What a direction tells apart before and after did not cross, whatever went on.
+        // Sides that one direction separates at the start and at the end have not crossed.
         let gap = own_gap;
-        let is_told_apart = |n: Vec3| between_at_end::<FIRST>(motion, ids, n) > gap;
-        if is_told_apart(then.n) && between(start, FIRST, then.n) > NOTHING {
+        let ends_separated = |n: Vec3| end_separation::<KIND>(motion, ids, n) > gap;
+        if ends_separated(then.n) && separation(start, KIND, then.n) > MIN_DISTANCE {
             return None;
         }
-        let mut contact = Self { share: then.share, n: then.n, gap, ..Self::of(ids, FIRST) };
-        let now = places(&motion.now, ids);
-        if along(&motion.now, &contact) < gap {
-            contact.turn(closest_again::<FIRST>(now), start);
-            if is_told_apart(contact.n) && between(start, FIRST, contact.n) > NOTHING {
+        let mut contact =
+            Self { weights: then.weights, n: then.n, gap, ..Self::inactive(ids, KIND) };
+        let now = positions(&motion.now, ids);
+        if distance_along_normal(&motion.now, &contact) < gap {
+            contact.update_normal(closest_outlined::<KIND>(now), start);
+            if ends_separated(contact.n) && separation(start, KIND, contact.n) > MIN_DISTANCE {
                 return None;
             }
         }
-        contact.prepare(start);
+        contact.set_separation_from(start);
         Some(contact)
     }
 
-    /// Takes the direction of where sides are closest now, if it told them apart before, and not much less.
+    /// Replaces normal and weights by the current closest points `now`, if their direction
+    /// separated both sides at the start, and not by much less than the old normal.
     #[inline(always)]
-    fn turn(&mut self, now: Closest, start: [Vec3; 4]) {
-        let enough = self.gap * (SLIT * ENOUGH);
-        let before = min(between(start, self.first, self.n), enough);
-        let then = between(start, self.first, now.n);
-        if now.distance > NOTHING && then > NOTHING && min(then, enough) > WORSE * before {
-            (self.share, self.n) = (now.share, now.n);
+    fn update_normal(&mut self, now: ClosestPoints, start: [Vec3; 4]) {
+        let enough = self.gap * (SEPARATION_SHARE * TOLERATED_SHARE);
+        let before = min(separation(start, self.kind, self.n), enough);
+        let then = separation(start, self.kind, now.n);
+        if now.distance > MIN_DISTANCE
+            && then > MIN_DISTANCE
+            && min(then, enough) > MIN_KEPT_SHARE * before
+        {
+            (self.weights, self.n) = (now.weights, now.n);
         }
     }
 
-    /// Finds another direction that tells sides apart, at the start and now.
+    /// Computes the normal anew from the current positions `x`. The contact is unchanged if that
+    /// would lower the tolerated separation by much.
     #[inline(never)]
-    pub(crate) fn turn_to(&mut self, start: [Vec3; 4], x: &[Float4]) {
-        let now = places(x, self.ids);
-        let is_vertex = self.first == VERTEX;
-        let now =
-            if is_vertex { closest_again::<VERTEX>(now) } else { closest_again::<EDGES>(now) };
+    pub(crate) fn refresh_normal(&mut self, start: [Vec3; 4], x: &[Float4]) {
+        let now = positions(x, self.ids);
+        let now = if self.kind == VERTEX_TRIANGLE {
+            closest_outlined::<VERTEX_TRIANGLE>(now)
+        } else {
+            closest_outlined::<EDGE_EDGE>(now)
+        };
         let before = *self;
-        self.turn(now, start);
-        self.prepare(start);
-        if self.least < before.least * WORSE {
+        self.update_normal(now, start);
+        self.set_separation_from(start);
+        if self.tolerated_separation < before.tolerated_separation * MIN_KEPT_SHARE {
             *self = before;
         }
     }
 
     #[inline(always)]
-    fn prepare(&mut self, start: [Vec3; 4]) {
-        self.leave(between(start, self.first, self.n));
+    fn set_separation_from(&mut self, start: [Vec3; 4]) {
+        self.set_separation(separation(start, self.kind, self.n));
     }
 
-    /// Finds what the fence leaves between sides that were so far apart along the direction.
+    /// Sets both separations for the non-crossing pass from the separation at the start of the
+    /// substep [m].
     #[inline(always)]
-    pub(crate) fn leave(&mut self, apart: f32) {
-        let most = self.gap * SLIT;
-        (self.slit, self.least) = if apart > NOTHING {
-            // What is hardly apart gets a little more, or rounding would take it all.
-            let more = if apart < most * ENOUGH { MORE } else { 1.0 };
-            (min(apart * more, most), min(apart * LEAST, most * ENOUGH))
+    pub(crate) fn set_separation(&mut self, at_start: f32) {
+        let most = self.gap * SEPARATION_SHARE;
+        (self.min_separation, self.tolerated_separation) = if at_start > MIN_DISTANCE {
+            // A small separation must grow, or rounding would use it up.
+            let factor = if at_start < most * TOLERATED_SHARE { GROWTH } else { 1.0 };
+            let tolerated = min(at_start * TOLERATED_SHARE_OF_START, most * TOLERATED_SHARE);
+            (min(at_start * factor, most), tolerated)
         } else {
             (-1.0, -1.0)
         };
     }
 
-    /// Neither pushes nor holds anything back.
-    pub(crate) fn let_be(&mut self) {
-        (self.gap, self.slit, self.least) = (f32::NEG_INFINITY, -1.0, -1.0);
+    /// Makes the contact solver and the non-crossing pass ignore the contact.
+    pub(crate) fn disable(&mut self) {
+        self.gap = f32::NEG_INFINITY;
+        (self.min_separation, self.tolerated_separation) = (-1.0, -1.0);
     }
 }

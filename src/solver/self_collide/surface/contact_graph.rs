@@ -1,68 +1,81 @@
-//! Which contacts each particle is part of, so that after some moved only theirs are looked at again.
+//! Contact graph: the contacts of each particle, and a work list of contacts to check.
+//!
+//! ```text
+//! particle 0: contacts 0 3 7         A particle that moves becomes dirty. Scheduling the dirty particles
+//! particle 1: contacts 1 3           sets the pending bits of their contacts, so the non-crossing pass
+//! particle 2: contacts 7 …           checks only contacts that may have changed.
+//! ```
+//! Adjacency lists in compressed rows (counting sort by particle), a bit set for pending contacts.
+//!
+//! Reads contacts; writes its own lists.
+//!
+//! Invariant: pending contacts come out in ascending order, so the result follows from the contacts
+//! alone.
 
 use crate::solver::self_collide::surface::contact::Contact;
 
-/// Contacts by particle, and those of them that are due for a look.
+/// Contacts by particle, and the pending contacts.
 #[derive(Clone, Debug)]
-pub(crate) struct Around {
-    /// Where the contacts of each particle begin in `contacts`; one more at the end.
+pub(crate) struct ContactGraph {
+    /// Index of each particle's first contact in `contacts`, and one more entry for the end.
     starts: Vec<u32>,
     contacts: Vec<u32>,
-    /// How many contacts were sorted in.
+    /// Float of contacts in the adjacency lists.
     count: usize,
-    /// A bit for each contact that is due, in order.
-    due: Vec<u64>,
-    /// Particles that moved since contacts were last called for it, those that did since all were last at rest, and
-    /// which of both each is among.
+    /// A bit for each contact: set if it has to be checked.
+    pending: Vec<u64>,
+    /// Particles that moved since their contacts were scheduled last.
+    dirty: Vec<u32>,
+    /// Particles that moved since [`ContactGraph::clear_moved`].
     moved: Vec<u32>,
-    stirred: Vec<u32>,
-    states: Vec<u8>,
-    /// Whether any moved since all began.
-    pub was_stirred: bool,
+    /// `DIRTY` and `MOVED` bits of each particle.
+    flags: Vec<u8>,
+    /// Whether any particle moved since [`ContactGraph::reset`].
+    pub any_moved: bool,
 }
 
-/// Bits in a word.
-pub(crate) const BITS: usize = 64;
+/// Bits in a word of the bit set.
+pub(crate) const WORD_BITS: usize = 64;
 
-/// What a particle is.
-const MOVED: u8 = 1;
-const STIRRED: u8 = 2;
+/// The particle is in `dirty`, in `moved`.
+const DIRTY: u8 = 1;
+const MOVED: u8 = 2;
 
-impl Around {
-    /// Of so many particles there may be; contacts that there is room for.
+impl ContactGraph {
+    /// Allocates lists for `capacity` particles and `contacts` contacts.
     pub fn new(capacity: usize, contacts: usize) -> Self {
         Self {
             starts: Vec::with_capacity(capacity + 1),
             contacts: Vec::with_capacity(4 * contacts),
             count: 0,
-            due: Vec::with_capacity(contacts.div_ceil(64)),
+            pending: Vec::with_capacity(contacts.div_ceil(64)),
+            dirty: Vec::with_capacity(capacity),
             moved: Vec::with_capacity(capacity),
-            stirred: Vec::with_capacity(capacity),
-            states: Vec::with_capacity(capacity),
-            was_stirred: false,
+            flags: Vec::with_capacity(capacity),
+            any_moved: false,
         }
     }
 
-    /// Bytes that it holds.
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        let lists = [&self.starts, &self.contacts, &self.moved, &self.stirred];
+        let lists = [&self.starts, &self.contacts, &self.dirty, &self.moved];
         let words: usize = lists.iter().map(|list| list.capacity()).sum();
-        4 * words + 8 * self.due.capacity() + self.states.capacity()
+        4 * words + 8 * self.pending.capacity() + self.flags.capacity()
     }
 
-    /// Nothing moved among so many particles, and contacts are to be sorted in anew.
-    pub fn begin(&mut self, particles: usize) {
+    /// Clears all lists, for a cloth of `particles` particles.
+    pub fn reset(&mut self, particles: usize) {
         self.count = 0;
         self.starts.resize(particles + 1, 0);
-        self.rest();
-        self.moved.drain(..).for_each(|at| self.states[at as usize] = 0);
-        self.states.resize(particles, 0);
-        self.due.clear();
-        self.was_stirred = false;
+        self.clear_moved();
+        self.dirty.drain(..).for_each(|i| self.flags[i as usize] = 0);
+        self.flags.resize(particles, 0);
+        self.pending.clear();
+        self.any_moved = false;
     }
 
-    /// Sorts contacts in by their particles, unless that was done.
-    fn sort(&mut self, contacts: &[Contact]) {
+    /// Rebuilds the adjacency lists if contacts were added.
+    fn rebuild_adjacency(&mut self, contacts: &[Contact]) {
         if self.count == contacts.len() {
             return;
         }
@@ -79,98 +92,97 @@ impl Around {
         }
         self.contacts.clear();
         self.contacts.resize(4 * contacts.len(), 0);
-        for (at, contact) in contacts.iter().enumerate().rev() {
+        for (i, contact) in contacts.iter().enumerate().rev() {
             for id in contact.ids {
-                let place = &mut starts[id as usize];
-                *place -= 1;
-                self.contacts[*place as usize] = at as u32;
+                let slot = &mut starts[id as usize];
+                *slot -= 1;
+                self.contacts[*slot as usize] = i as u32;
             }
         }
     }
 
-    /// Notes that a particle moved.
+    /// Marks a particle as moved and dirty.
     #[inline(always)]
-    pub fn moves(&mut self, particle: u32) {
-        let state = core::mem::replace(&mut self.states[particle as usize], MOVED | STIRRED);
-        if state & MOVED == 0 {
+    pub fn mark_moved(&mut self, particle: u32) {
+        let flags = core::mem::replace(&mut self.flags[particle as usize], DIRTY | MOVED);
+        if flags & DIRTY == 0 {
+            self.dirty.push(particle);
+        }
+        if flags & MOVED == 0 {
             self.moved.push(particle);
-        }
-        if state & STIRRED == 0 {
-            self.stirred.push(particle);
-            self.was_stirred = true;
+            self.any_moved = true;
         }
     }
 
-    /// All are at rest.
-    pub fn rest(&mut self) {
-        self.stirred.drain(..).for_each(|at| self.states[at as usize] &= !STIRRED);
+    /// Clears the list of moved particles. Dirty particles stay dirty.
+    pub fn clear_moved(&mut self) {
+        self.moved.drain(..).for_each(|i| self.flags[i as usize] &= !MOVED);
     }
 
-    /// Those that moved since.
-    pub fn stirred(&self) -> &[u32] {
-        &self.stirred
+    /// Particles that moved since [`Self::clear_moved`].
+    pub fn moved(&self) -> &[u32] {
+        &self.moved
     }
 
-    /// Whether any of these did.
+    /// Whether any of four particles moved since [`Self::clear_moved`].
     #[inline(always)]
-    pub fn are_stirred(&self, particles: [u32; 4]) -> bool {
-        let states = particles.map(|at| self.states[at as usize]);
-        states.into_iter().fold(0, |all, state| all | state) & STIRRED != 0
+    pub fn has_moved(&self, particles: [u32; 4]) -> bool {
+        let flags = particles.map(|i| self.flags[i as usize]);
+        flags.into_iter().fold(0, |all, flags| all | flags) & MOVED != 0
     }
 
-    /// Whether any particle moved.
-    pub fn has_moved(&self) -> bool {
-        !self.moved.is_empty()
+    pub fn has_dirty(&self) -> bool {
+        !self.dirty.is_empty()
     }
 
-    /// All from one on are due.
-    pub fn call_from(&mut self, first: usize, contacts: &[Contact]) {
-        self.due.resize(contacts.len().div_ceil(64), 0);
-        (first..contacts.len()).for_each(|at| self.due[at / 64] |= 1 << (at % 64));
+    /// Schedules all contacts from index `first` on.
+    pub fn schedule_from(&mut self, first: usize, contacts: &[Contact]) {
+        self.pending.resize(contacts.len().div_ceil(64), 0);
+        (first..contacts.len()).for_each(|i| self.pending[i / 64] |= 1 << (i % 64));
     }
 
-    /// Those of a word are due no more that have a bit.
-    pub fn let_go(&mut self, word: usize, bits: u64) {
-        self.due[word] &= !bits;
+    /// Removes the contacts whose bits are set in `bits` from word `word` of the pending set.
+    pub fn unschedule(&mut self, word: usize, bits: u64) {
+        self.pending[word] &= !bits;
     }
 
-    /// Those are due whose particles moved.
-    pub fn call_moved(&mut self, contacts: &[Contact]) {
-        self.due.resize(contacts.len().div_ceil(64), 0);
-        if self.moved.is_empty() {
+    /// Schedules the contacts of all dirty particles, which are clean afterwards.
+    pub fn schedule_dirty(&mut self, contacts: &[Contact]) {
+        self.pending.resize(contacts.len().div_ceil(64), 0);
+        if self.dirty.is_empty() {
             return;
         }
-        self.sort(contacts);
-        while let Some(particle) = self.moved.pop() {
-            self.states[particle as usize] &= !MOVED;
-            self.call(particle);
+        self.rebuild_adjacency(contacts);
+        while let Some(particle) = self.dirty.pop() {
+            self.flags[particle as usize] &= !DIRTY;
+            self.schedule_contacts_of(particle);
         }
     }
 
-    /// One is due.
-    pub fn call_one(&mut self, contact: u32) {
-        self.due[contact as usize / 64] |= 1 << (contact % 64);
+    /// Schedules one contact.
+    pub fn schedule(&mut self, contact: u32) {
+        self.pending[contact as usize / 64] |= 1 << (contact % 64);
     }
 
     #[inline(always)]
-    fn call(&mut self, particle: u32) {
-        let at = particle as usize;
-        for contact in &self.contacts[self.starts[at] as usize..self.starts[at + 1] as usize] {
-            self.due[*contact as usize / 64] |= 1 << (contact % 64);
+    fn schedule_contacts_of(&mut self, particle: u32) {
+        let i = particle as usize;
+        for contact in &self.contacts[self.starts[i] as usize..self.starts[i + 1] as usize] {
+            self.pending[*contact as usize / 64] |= 1 << (contact % 64);
         }
     }
 
-    /// The next that is due from a place on, which it is no more.
+    /// Removes and returns the first pending contact with an index of at least `from`.
     #[inline(always)]
-    pub fn next_due(&mut self, from: usize) -> Option<usize> {
+    pub fn pop_pending(&mut self, from: usize) -> Option<usize> {
         let mut word = from / 64;
-        let mut bits = *self.due.get(word)? & (u64::MAX << (from % 64));
+        let mut bits = *self.pending.get(word)? & (u64::MAX << (from % 64));
         while bits == 0 {
             word += 1;
-            bits = *self.due.get(word)?;
+            bits = *self.pending.get(word)?;
         }
-        let at = 64 * word + bits.trailing_zeros() as usize;
-        self.due[word] &= !(1 << (at % 64));
-        Some(at)
+        let i = 64 * word + bits.trailing_zeros() as usize;
+        self.pending[word] &= !(1 << (i % 64));
+        Some(i)
     }
 }

@@ -1,320 +1,385 @@
-//! Layers push each other apart and rub on each other.
+//! Contact solver: non-penetration, friction and damping of self-contacts.
+//!
+//! ```text
+//! sweep 1 ─▶ contact 0 1 2 … n        normal:   C = target − n·Σ weightₖ xₖ,  Δλ = C / Σ wₖ weightₖ²,  λ ≥ 0
+//! sweep 2 ◀─ contact n … 2 1 0        friction: |λt| ≤ friction · λ           (Coulomb cone)
+//! …
+//! ```
+//! Sequential impulses on positions (projected Gauss–Seidel; Catto, "Iterative Dynamics with
+//! Temporal Coherence", GDC 2005), warm-started, with accumulated impulses. Normals and weights are
+//! constant in the substep. Impulses have the unit kg·m: an impulse of 1 displaces 1 kg by 1 m in
+//! the substep.
+//!
+//! The target of a contact is the smaller of its distance at the start and its gap. So the solver
+//! only stops the approach of both sides; [`correct_penetration`] moves sides that are nearer than
+//! the gap apart, slowly and without velocity. After velocities were derived,
+//! [`remove_impact_velocities`] makes impacts inelastic and [`damp_contacts`] damps relative motion
+//! at contacts.
+//!
+//! Reads contacts and masses; writes positions, velocities and contact forces.
+//!
+//! Invariant: each impulse acts on both sides with opposite sign, weighted by the same weights, so
+//! linear momentum is conserved up to rounding where no particle touches a collider.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
-use crate::math::wide4::Float4;
-use crate::math::wide4::Four;
+use crate::math::wide4::{Float4, Wide4};
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::push;
-use crate::solver::self_collide::surface::contact::{Contact, along};
-use crate::solver::self_collide::surface::warm_start::{Finder, WarmStart};
+use crate::solver::particle_stage::interleaved::translate_wide;
+use crate::solver::self_collide::surface::contact::{Contact, distance_along_normal};
+use crate::solver::self_collide::surface::warm_start::{ContactForce, WarmStart, WarmStartIndex};
 use glam::Vec3;
 
-/// How often contacts are gone over in a substep, to and fro in turn.
+/// Gauss–Seidel sweeps per substep, in alternating directions.
 const SWEEPS: usize = 6;
 
-/// How much of its inverse mass counts of what touches a collider, which bears what lies on it.
-pub(crate) const BORNE: f32 = 0.02;
+/// Share of its inverse mass with which a particle counts that touches a collider: the collider
+/// supports it, and it supports what lies on it.
+pub(crate) const SUPPORTED_SHARE: f32 = 0.02;
 
-/// Sides that did not push before and come faster than what falls so long hit each other, and begin a new history
-/// [substeps].
-const HIT: f32 = 2.0;
+/// A new contact is an impact if its sides approach faster than a body after this many substeps of
+/// free fall.
+const IMPACT_SUBSTEPS: f32 = 2.0;
 
-/// What is farther apart than this, in gaps, as a substep begins and before pushes, does not push: of vertices and
-/// triangles, and of edges, which have little to do where surfaces lie on each other.
-pub(crate) const NEAR: [f32; 2] = [1.1, 1.02];
+/// Pairs farther apart than this, at the start and now, do not enter the solver [gaps]:
+/// vertex–triangle, and edge–edge, which have little to do between flat layers.
+pub(crate) const ACTIVE_DISTANCE: [f32; 2] = [1.1, 1.02];
 
-/// The share of what sides are too near that they come apart by in a substep, which is no motion; at most
-/// so fast [m/s].
-const PART: f32 = 0.05;
-const RISE: f32 = 0.25;
+/// Share of the penetration (gap minus distance) that is corrected per substep, and the largest
+/// speed of the correction [m/s].
+const CORRECTION_SHARE: f32 = 0.05;
+const MAX_CORRECTION_SPEED: f32 = 0.25;
 
-/// How long it takes about until sides that push each other move as one [s].
-const REST: f32 = 0.01;
+/// Time constant of the damping at contacts [s].
+const DAMPING_TIME: f32 = 0.01;
 
-/// Where only such particles give way that count for next to nothing beside what is held, they are taken to make
-/// this share of an inverse mass, so that none is flung away.
-const SLIGHT: f32 = 0.005;
+/// Lower bound of the inverse effective mass, as a share of the largest inverse mass in the
+/// contact. It limits the displacement of particles with small weights beside fixed ones.
+const MIN_INVERSE_MASS_SHARE: f32 = 0.005;
 
-/// The inverse mass of a particle [1/kg], and how much of it counts against the other side of a contact.
+/// Inverse mass of a particle in contacts [1/kg], and its mobility: the share of the inverse mass
+/// that counts against the other side, below 1 where a collider supports the particle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Weight {
+pub(crate) struct ContactMass {
     pub w: f32,
-    pub yields: f32,
+    pub mobility: f32,
 }
 
-/// How a contact pushes in a substep.
+/// A contact that the solver works on in this substep.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Push {
+pub(crate) struct ActiveContact {
+    /// Index of the contact.
     pub contact: u32,
-    /// How far its sides are at least in the end, by their own motion [m].
-    aim: f32,
-    /// How far a push of 1 takes each particle, against the direction on the second side [1/kg].
-    weights: [f32; 4],
-    /// 1 over what all of that makes; 0 if nothing gives way.
-    give: f32,
-    /// How sides were pushed apart, per inverse mass, and along the surface.
-    pub push: f32,
-    pub rub: Vec3,
-    /// Whether they did not push each other in the substep before.
+    /// Distance of the closest points along the normal that the solver keeps [m].
+    target: f32,
+    /// Displacement of each particle per unit of impulse, negative on the second side [1/kg].
+    response: [f32; 4],
+    /// Effective mass [kg]; 0 if all particles are fixed.
+    effective_mass: f32,
+    /// Accumulated impulses along the normal and along the surface [kg·m].
+    pub normal_impulse: f32,
+    pub tangent_impulse: Vec3,
+    /// Whether the contact had no force in the last substep.
     is_new: bool,
-    /// Whether they stick to each other.
+    /// Whether static friction holds both sides.
     sticks: bool,
 }
 
-impl Push {
-    /// Finds out how a contact gives way, which changes with what touches a collider.
+impl ActiveContact {
+    /// Computes response and effective mass. The side that colliders support more gets the smaller
+    /// inverse masses.
     #[inline(always)]
-    fn new(at: u32, contact: &Contact, aim: f32, weights: &[Weight]) -> Self {
-        let all = contact.ids.map(|id| weights[id as usize]);
-        let mut sides = [0.0; 2];
-        for (k, (share, weight)) in contact.share.iter().zip(all).enumerate() {
-            sides[usize::from(k >= contact.first as usize)] += share.abs() * weight.yields;
+    fn new(index: u32, contact: &Contact, target: f32, masses: &[ContactMass]) -> Self {
+        let all = contact.ids.map(|id| masses[id as usize]);
+        let mut mobility = [0.0; 2];
+        for (k, (weight, mass)) in contact.weights.iter().zip(all).enumerate() {
+            mobility[usize::from(k >= contact.kind as usize)] += weight.abs() * mass.mobility;
         }
-        let most = max(sides[0], sides[1]);
-        let (mut sum, mut heaviest, mut weights) = (0.0, 0.0, [0.0; 4]);
+        let most = max(mobility[0], mobility[1]);
+        let (mut sum, mut largest, mut response) = (0.0, 0.0, [0.0; 4]);
         for k in 0..4 {
-            let (side, share) = (sides[usize::from(k >= contact.first as usize)], contact.share[k]);
+            let side = mobility[usize::from(k >= contact.kind as usize)];
+            let weight = contact.weights[k];
             let w = all[k].w * (side / most);
-            weights[k] = share * w;
-            sum += w * share * share;
-            heaviest = max(heaviest, w);
+            response[k] = weight * w;
+            sum += w * weight * weight;
+            largest = max(largest, w);
         }
-        let give = if sum > 0.0 { 1.0 / max(sum, heaviest * SLIGHT) } else { 0.0 };
-        let (push, rub) = (0.0, Vec3::ZERO);
-        Self { contact: at, aim, weights, give, push, rub, is_new: true, sticks: false }
+        let effective_mass =
+            if sum > 0.0 { 1.0 / max(sum, largest * MIN_INVERSE_MASS_SHARE) } else { 0.0 };
+        Self {
+            contact: index,
+            target,
+            response,
+            effective_mass,
+            normal_impulse: 0.0,
+            tangent_impulse: Vec3::ZERO,
+            is_new: true,
+            sticks: false,
+        }
     }
 
-    /// Moves the particles of its contact along `by`, by how they count.
+    /// Displaces the particles of the contact by an impulse.
     #[inline(always)]
-    fn press(&self, contact: &Contact, x: &mut [Float4], by: Four) {
-        for (id, weight) in contact.ids.into_iter().zip(self.weights) {
-            push(&mut x[id as usize], by.times(weight));
+    fn apply_impulse(&self, contact: &Contact, x: &mut [Float4], impulse: Wide4) {
+        for (id, response) in contact.ids.into_iter().zip(self.response) {
+            translate_wide(&mut x[id as usize], impulse.scale(response));
         }
     }
 }
 
-/// Lists what may push.
-pub(crate) fn list(
+/// Fills `active` with the contacts that are near enough to need the solver.
+pub(crate) fn collect_active(
     contacts: &[Contact],
-    active: &mut Vec<Push>,
-    weights: &[Weight],
+    active: &mut Vec<ActiveContact>,
+    masses: &[ContactMass],
     start: &[Float4],
     x: &[Float4],
 ) {
     active.clear();
-    for (at, contact) in contacts.iter().enumerate() {
-        let near = contact.gap * NEAR[contact.first as usize - 1];
-        let before = along(start, contact);
-        if min(before, along(x, contact)) < near {
-            active.push(Push::new(at as u32, contact, min(before, contact.gap), weights));
+    for (i, contact) in contacts.iter().enumerate() {
+        let near = contact.gap * ACTIVE_DISTANCE[contact.kind as usize - 1];
+        let before = distance_along_normal(start, contact);
+        if min(before, distance_along_normal(x, contact)) < near {
+            active.push(ActiveContact::new(i as u32, contact, min(before, contact.gap), masses));
         }
     }
 }
 
-/// Ends approach, and rubs, from what bore on what in the substep before. `force` is what a push of a kilogram by a
-/// metre takes in a substep [1/s²].
+/// Solves all active contacts: warm start, normal impulses, then friction. Replaces the contact
+/// forces.
+///
+/// `force_scale` turns an impulse into a force [1/s²].
 pub(crate) fn solve(
     level: Level,
     contacts: &[Contact],
-    active: &mut [Push],
-    (loads, finder): (&mut WarmStart, &mut Finder),
+    active: &mut [ActiveContact],
+    (forces, index): (&mut WarmStart, &mut WarmStartIndex),
     start: &[Float4],
     x: &mut [Float4],
     friction: f32,
-    force: f32,
+    force_scale: f32,
 ) {
-    finder.sort(loads);
-    for push in &mut *active {
-        let contact = &contacts[push.contact as usize];
-        if let Some(load) = finder.find(contact, loads) {
-            let rub = load.rub - contact.n * load.rub.dot(contact.n);
-            (push.push, push.rub) = (load.push / force, rub * (1.0 / force));
-            push.is_new = false;
-            push.press(contact, x, Four::way(contact.n * push.push + push.rub));
+    index.rebuild(forces);
+    for state in &mut *active {
+        let contact = &contacts[state.contact as usize];
+        if let Some(force) = index.find_force(contact, forces) {
+            let tangent = force.tangent - contact.n * force.tangent.dot(contact.n);
+            state.normal_impulse = force.normal / force_scale;
+            state.tangent_impulse = tangent * (1.0 / force_scale);
+            state.is_new = false;
+            let impulse = contact.n * state.normal_impulse + state.tangent_impulse;
+            state.apply_impulse(contact, x, Wide4::from_vec3(impulse));
         }
     }
-    part_all(level, contacts, active, x);
-    for push in &mut *active {
-        rub(&contacts[push.contact as usize], push, start, x, friction);
+    solve_normals(level, contacts, active, x);
+    for state in &mut *active {
+        solve_friction(&contacts[state.contact as usize], state, start, x, friction);
     }
-    loads.keep(contacts, active, force);
+    forces.replace(active.iter().map(|state| {
+        let Contact { ids, kind, .. } = contacts[state.contact as usize];
+        ContactForce {
+            ids,
+            kind,
+            normal: state.normal_impulse * force_scale,
+            tangent: state.tangent_impulse * force_scale,
+        }
+    }));
 }
 
 leveled! {
-    /// Ends approach.
-    fn part_all(contacts: &[Contact], active: &mut [Push], x: &mut [Float4]) = part_each
+    /// Solves the normal impulses of all active contacts.
+    fn solve_normals(contacts: &[Contact], active: &mut [ActiveContact], x: &mut [Float4])
+        = sweep_normals
 }
 
 #[inline(always)]
-fn part_each(contacts: &[Contact], active: &mut [Push], x: &mut [Float4]) {
+fn sweep_normals(contacts: &[Contact], active: &mut [ActiveContact], x: &mut [Float4]) {
     for _ in 0..SWEEPS / 2 {
-        for push in &mut *active {
-            part(&contacts[push.contact as usize], push, x);
+        for state in &mut *active {
+            solve_normal(&contacts[state.contact as usize], state, x);
         }
-        for push in active.iter_mut().rev() {
-            part(&contacts[push.contact as usize], push, x);
+        for state in active.iter_mut().rev() {
+            solve_normal(&contacts[state.contact as usize], state, x);
         }
     }
 }
 
 #[inline(always)]
-fn part(contact: &Contact, push: &mut Push, x: &mut [Float4]) {
-    let missing = push.aim - along(x, contact);
-    let new = max(push.push + missing * push.give, 0.0);
-    let by = new - push.push;
-    if by != 0.0 {
-        push.push = new;
-        push.press(contact, x, Four::way(contact.n).times(by));
+fn solve_normal(contact: &Contact, state: &mut ActiveContact, x: &mut [Float4]) {
+    let missing = state.target - distance_along_normal(x, contact);
+    let new = max(state.normal_impulse + missing * state.effective_mass, 0.0);
+    let change = new - state.normal_impulse;
+    if change != 0.0 {
+        state.normal_impulse = new;
+        state.apply_impulse(contact, x, Wide4::from_vec3(contact.n).scale(change));
     }
 }
 
-/// What slid along the other side slides less, by what friction can hold.
+/// Coulomb friction: cancels the slip of the substep, up to `friction` times the normal impulse.
 #[inline(always)]
-fn rub(contact: &Contact, push: &mut Push, start: &[Float4], x: &mut [Float4], friction: f32) {
-    if push.push <= 0.0 && push.rub == Vec3::ZERO {
+fn solve_friction(
+    contact: &Contact,
+    state: &mut ActiveContact,
+    start: &[Float4],
+    x: &mut [Float4],
+    friction: f32,
+) {
+    if state.normal_impulse <= 0.0 && state.tangent_impulse == Vec3::ZERO {
         return;
     }
-    let wanted = push.rub - slid(contact, start, x) * push.give;
-    let (length, most) = (wanted.length(), friction * push.push);
-    push.sticks = length <= most;
-    let rub = if push.sticks { wanted } else { wanted * (most / length) };
-    let by = rub - push.rub;
-    push.rub = rub;
-    push.press(contact, x, Four::way(by));
+    let wanted = state.tangent_impulse - slip(contact, start, x) * state.effective_mass;
+    let (length, most) = (wanted.length(), friction * state.normal_impulse);
+    state.sticks = length <= most;
+    let new = if state.sticks { wanted } else { wanted * (most / length) };
+    let change = new - state.tangent_impulse;
+    state.tangent_impulse = new;
+    state.apply_impulse(contact, x, Wide4::from_vec3(change));
 }
 
-/// How the closest points moved against each other along the surface.
+/// The relative displacement of the closest points along the surface since the start [m].
 #[inline(always)]
-fn slid(contact: &Contact, start: &[Float4], x: &[Float4]) -> Vec3 {
-    let mut way = Four::all(0.0);
-    for (id, share) in contact.ids.iter().zip(contact.share) {
-        let [x, start] = [x, start].map(|all| Four::of(&all[*id as usize]));
-        way = way + (x - start).times(share);
+fn slip(contact: &Contact, start: &[Float4], x: &[Float4]) -> Vec3 {
+    let mut relative = Wide4::splat(0.0);
+    for (id, weight) in contact.ids.iter().zip(contact.weights) {
+        let [x, start] = [x, start].map(|all| Wide4::load(&all[*id as usize]));
+        relative = relative + (x - start).scale(weight);
     }
-    let way = way.vector();
-    way - contact.n * way.dot(contact.n)
+    let relative = relative.xyz();
+    relative - contact.n * relative.dot(contact.n)
 }
 
-/// What is too near comes apart, without getting velocity from it.
-pub(crate) fn spread(
+/// Moves sides that are nearer than their gap apart. Predicted positions move along, so no velocity
+/// results.
+///
+/// `h` is the length of the substep [s].
+pub(crate) fn correct_penetration(
     contacts: &[Contact],
-    active: &[Push],
+    active: &[ActiveContact],
     x: &mut [Float4],
     predicted: &mut Columns,
     h: f32,
 ) {
-    for Push { contact, weights, give, .. } in active {
+    for ActiveContact { contact, response, effective_mass, .. } in active {
         let contact = &contacts[*contact as usize];
-        let missing = contact.gap - along(x, contact);
+        let missing = contact.gap - distance_along_normal(x, contact);
         if missing <= 0.0 {
             continue;
         }
-        let by = min(missing * PART, RISE * h) * give;
-        for (id, weight) in contact.ids.iter().zip(weights) {
-            let by = contact.n * (by * weight);
-            push(&mut x[*id as usize], Four::way(by));
+        let impulse = min(missing * CORRECTION_SHARE, MAX_CORRECTION_SPEED * h) * effective_mass;
+        for (id, response) in contact.ids.iter().zip(response) {
+            let by = contact.n * (impulse * response);
+            translate_wide(&mut x[*id as usize], Wide4::from_vec3(by));
             predicted.add(*id as usize, by);
         }
     }
 }
 
-/// Finds the contacts whose sides hit each other, with the velocities that they have; what falls for a substep
-/// gets a `speed`.
-pub(crate) fn find_hits(
+/// Fills `impacts` with the indices of active contacts that are impacts: new contacts whose sides
+/// have a large relative velocity. `fall_speed` is the speed that gravity adds in a substep [m/s].
+pub(crate) fn detect_impacts(
     contacts: &[Contact],
-    active: &[Push],
+    active: &[ActiveContact],
     v: &Columns,
-    speed: f32,
-    hits: &mut Vec<u32>,
+    fall_speed: f32,
+    impacts: &mut Vec<u32>,
 ) {
-    let fast = (HIT * speed) * (HIT * speed);
-    let is_hit = |push: &Push| {
-        let speed = || against(&contacts[push.contact as usize], v);
-        push.push > 0.0 && push.is_new && speed().length_squared() > fast
+    let fast = (IMPACT_SUBSTEPS * fall_speed) * (IMPACT_SUBSTEPS * fall_speed);
+    let is_impact = |state: &ActiveContact| {
+        let relative = || relative_velocity(&contacts[state.contact as usize], v);
+        state.normal_impulse > 0.0 && state.is_new && relative().length_squared() > fast
     };
-    hits.clear();
-    hits.extend((0..).zip(active).filter(|(_, push)| is_hit(push)).map(|(at, _)| at));
+    impacts.clear();
+    impacts.extend((0..).zip(active).filter(|(_, state)| is_impact(state)).map(|(i, _)| i));
 }
 
-/// How sides move against each other.
+/// The relative velocity of the closest points.
 #[inline(always)]
-fn against(contact: &Contact, motion: &Columns) -> Vec3 {
+fn relative_velocity(contact: &Contact, velocities: &Columns) -> Vec3 {
     let mut v = Vec3::ZERO;
-    for (id, share) in contact.ids.iter().zip(contact.share) {
-        v += motion.at(*id as usize) * share;
+    for (id, weight) in contact.ids.iter().zip(contact.weights) {
+        v += velocities.at(*id as usize) * weight;
     }
     v
 }
 
-/// Sides that hit each other have no velocity against each other but along the surface, and none at all where they
-/// stick.
-pub(crate) fn calm(contacts: &[Contact], active: &[Push], hits: &[u32], motion: &mut Columns) {
-    for push in hits.iter().map(|at| &active[*at as usize]) {
-        let contact = &contacts[push.contact as usize];
-        let v = against(contact, motion);
-        let v = if push.sticks { v } else { contact.n * v.dot(contact.n) };
-        let by = v * -push.give;
-        for (id, weight) in contact.ids.iter().zip(push.weights) {
-            motion.add(*id as usize, by * weight);
+/// Makes impacts inelastic: removes the relative velocity along the normal, and all of it where
+/// friction sticks. `velocities` may be velocities or displacements.
+pub(crate) fn remove_impact_velocities(
+    contacts: &[Contact],
+    active: &[ActiveContact],
+    impacts: &[u32],
+    velocities: &mut Columns,
+) {
+    for state in impacts.iter().map(|i| &active[*i as usize]) {
+        let contact = &contacts[state.contact as usize];
+        let v = relative_velocity(contact, velocities);
+        let v = if state.sticks { v } else { contact.n * v.dot(contact.n) };
+        let impulse = v * -state.effective_mass;
+        for (id, response) in contact.ids.iter().zip(state.response) {
+            velocities.add(*id as usize, impulse * response);
         }
     }
 }
 
-/// Sides that push each other come to rest against each other, as cloth does that is full of air and of fibres that
-/// rub: they come no nearer nor part, and where they stick move as one. With `turns` they do not turn by themselves
-/// either, which gives their spin to what holds or bears the cloth. `v` is how particles move against the whole cloth,
-/// in some unit, `h` the length of the substep [s].
-pub(crate) fn soothe(
+/// Damps relative motion at contacts that push: along the normal, and in all directions where
+/// friction sticks. Cloth dissipates energy at contacts, by the air between layers and by the
+/// friction of fibres.
+///
+/// With `damp_spin`, each side loses spin as well; that conserves no angular momentum, so it is for
+/// cloth that is held or supported. `v` has the velocity (or displacement) of each particle
+/// relative to the rigid motion of the cloth, `h` is the length of the substep [s].
+pub(crate) fn damp_contacts(
     contacts: &[Contact],
-    active: &[Push],
-    weights: &[Weight],
+    active: &[ActiveContact],
+    masses: &[ContactMass],
     v: &mut [Float4],
     h: f32,
-    turns: bool,
+    damp_spin: bool,
 ) {
-    let share = h / (h + REST);
-    for push in active {
-        if push.push <= 0.0 {
+    let share = h / (h + DAMPING_TIME);
+    for state in active {
+        if state.normal_impulse <= 0.0 {
             continue;
         }
-        let contact = &contacts[push.contact as usize];
-        if turns {
-            let (one, other) = contact.ids.split_at(contact.first as usize);
-            [one, other].into_iter().for_each(|side| join(side, weights, v, share));
+        let contact = &contacts[state.contact as usize];
+        if damp_spin {
+            let (one, other) = contact.ids.split_at(contact.kind as usize);
+            [one, other].into_iter().for_each(|side| blend_to_mean(side, masses, v, share));
         }
-        let way = way_against(contact, v);
-        let n = Four::way(contact.n);
-        let way = if push.sticks { way } else { n.times(way.dot(n)) };
-        push.press(contact, v, way.times(-push.give * share));
+        let relative = relative_velocity_wide(contact, v);
+        let n = Wide4::from_vec3(contact.n);
+        let relative = if state.sticks { relative } else { n.scale(relative.dot3(n)) };
+        state.apply_impulse(contact, v, relative.scale(-state.effective_mass * share));
     }
 }
 
-/// How some particles move comes nearer to how their middle does.
+/// Moves the velocities of a side towards that of its centre of mass by `share`. Does nothing if a
+/// particle is fixed.
 #[inline(always)]
-fn join(side: &[u32], weights: &[Weight], v: &mut [Float4], share: f32) {
-    let (mut sum, mut mass) = (Four::all(0.0), 0.0);
+fn blend_to_mean(side: &[u32], masses: &[ContactMass], v: &mut [Float4], share: f32) {
+    let (mut sum, mut mass) = (Wide4::splat(0.0), 0.0);
     for id in side {
-        let w = weights[*id as usize].w;
+        let w = masses[*id as usize].w;
         if w <= 0.0 {
             return;
         }
-        sum = sum + Four::of(&v[*id as usize]).times(1.0 / w);
+        sum = sum + Wide4::load(&v[*id as usize]).scale(1.0 / w);
         mass += 1.0 / w;
     }
-    let mean = sum.times(1.0 / mass);
+    let mean = sum.scale(1.0 / mass);
     for id in side {
-        let spot = &mut v[*id as usize];
-        push(spot, (mean - Four::of(spot)).times(share));
+        let v = &mut v[*id as usize];
+        translate_wide(v, (mean - Wide4::load(v)).scale(share));
     }
 }
 
-/// How the closest points move against each other.
+/// As [`relative_velocity`], from the interleaved layout.
 #[inline(always)]
-fn way_against(contact: &Contact, v: &[Float4]) -> Four {
-    let mut way = Four::all(0.0);
-    for (id, share) in contact.ids.iter().zip(contact.share) {
-        way = way + Four::of(&v[*id as usize]).times(share);
+fn relative_velocity_wide(contact: &Contact, v: &[Float4]) -> Wide4 {
+    let mut relative = Wide4::splat(0.0);
+    for (id, weight) in contact.ids.iter().zip(contact.weights) {
+        relative = relative + Wide4::load(&v[*id as usize]).scale(weight);
     }
-    way
+    relative
 }

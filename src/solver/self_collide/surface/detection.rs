@@ -1,164 +1,185 @@
-//! The vertices, triangles and edges that may meet in a substep.
+//! Contact detection of a substep: from cluster pairs to contacts and speculative contacts.
 //!
-//! Patches that may meet come from a tree (`patches`), the pairs in them are found as they come near (`quads`), those
-//! picked that may have gone far enough since (`stock`), and told apart many at once (`candidates`). Of what is left, what is near enough to push is found closely
-//! (`near`), and the rest is left to the fence (`distant`). All goes by where particles are, in the order of the
-//! mesh; when something was listed makes no difference.
+//! ```text
+//! refit clusters ─▶ substep pairs ─▶ refresh pair cache ─▶ candidate pairs ─▶ separation test
+//!                                                                                  │
+//!                       contacts ◀── narrow phase ◀── near ◀───────────────────────┤
+//!                       speculative contacts ◀── far, but may meet ◀───────────────┘
+//! ```
+//! Runs once per substep for all pairs ([`Detector::detect`]), and again for the pairs of particles
+//! that escaped from their motion bounds ([`Detector::detect_escaped`]).
+//!
+//! Reads [`SweptParticles`] and [`RestGap`]; writes the BVH and the lists of the caller.
+//!
+//! Invariant: contacts and speculative contacts depend on positions and mesh alone, in the order of
+//! cluster pairs. The time at which a pair was cached makes no difference.
 
-use crate::solver::self_collide::surface::cluster_bvh::Patches;
-use crate::solver::self_collide::surface::contact::{Contact, EDGES, Kind, VERTEX};
-use crate::solver::self_collide::surface::contact_solver::NEAR;
-use crate::solver::self_collide::surface::narrow_phase::Near;
+use crate::math::simd::Level;
+use crate::solver::self_collide::surface::cluster_bvh::ClusterBvh;
+use crate::solver::self_collide::surface::contact::{
+    Contact, ContactKind, EDGE_EDGE, VERTEX_TRIANGLE,
+};
+use crate::solver::self_collide::surface::contact_solver::ACTIVE_DISTANCE;
+use crate::solver::self_collide::surface::narrow_phase::NarrowPhase;
 use crate::solver::self_collide::surface::rest_gap::RestGap;
-use crate::solver::self_collide::surface::separation_test::{Candidate, Candidates};
-use crate::solver::self_collide::surface::speculative::Distant;
+use crate::solver::self_collide::surface::separation_test::{CandidatePair, CandidatePairs};
+use crate::solver::self_collide::surface::speculative::SpeculativeContact;
 use crate::solver::self_collide::surface::swept_aabb::LANES;
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 
-/// So many strays are judged together; two patches make at most `MANY` more.
-const TOGETHER: usize = 1024;
-const MANY: usize = (3 * LANES) * (3 * LANES);
+/// Candidate pairs of escaped particles are tested in batches of more than this many. One cluster
+/// pair adds at most `MAX_PER_CLUSTER_PAIR`.
+const BATCH: usize = 1024;
+const MAX_PER_CLUSTER_PAIR: usize = (3 * LANES) * (3 * LANES);
 
-/// What is farther apart than it can go, by this much, is not looked at, which covers rounding [mean rest lengths].
-const HAIR: f32 = 1.0e-4;
+/// Part of the margin that covers rounding [mean rest lengths].
+const ROUNDING: f32 = 1.0e-4;
 
-/// Room for strays.
-pub(crate) fn room_for_strays() -> Candidates {
-    Candidates::new(TOGETHER + MANY)
+/// Allocates the batch of [`Detector::detect_escaped`].
+pub(crate) fn new_escaped_batch() -> CandidatePairs {
+    CandidatePairs::new(BATCH + MAX_PER_CLUSTER_PAIR)
 }
 
-/// A look at where particles are.
-pub(crate) struct Sift<'a> {
+/// Borrows what detection works on.
+pub(crate) struct Detector<'a> {
+    pub level: Level,
     pub rest_gap: RestGap<'a>,
-    pub patches: &'a mut Patches,
-    pub motion: &'a Motion,
+    pub bvh: &'a mut ClusterBvh,
+    pub motion: &'a SweptParticles,
 }
 
-/// Pairs that may meet in a substep, by their kind.
+/// Candidate pairs of a substep, vertex–triangle and edge–edge.
 #[derive(Clone, Debug)]
-pub(crate) struct Picked {
-    kinds: [Candidates; 2],
-    /// How many of each kind come before those of each pair of patches.
-    before: Vec<[u32; 2]>,
+pub(crate) struct CandidateLists {
+    kinds: [CandidatePairs; 2],
+    /// Length of both lists before the candidates of each cluster pair, and at the end.
+    offsets: Vec<[u32; 2]>,
 }
 
-impl Picked {
-    /// For so many particles.
+impl CandidateLists {
+    /// Allocates for a cloth of `count` particles.
     pub fn new(count: usize) -> Self {
-        let kinds = [4, 12].map(|each| Candidates::new(each * count));
-        Self { kinds, before: Vec::with_capacity(8 * count) }
+        let kinds = [4, 12].map(|each| CandidatePairs::new(each * count));
+        Self { kinds, offsets: Vec::with_capacity(8 * count) }
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        let kinds: usize = self.kinds.iter().map(Candidates::bytes).sum();
-        kinds + size_of::<[u32; 2]>() * self.before.capacity()
+        let kinds: usize = self.kinds.iter().map(CandidatePairs::bytes).sum();
+        kinds + size_of::<[u32; 2]>() * self.offsets.capacity()
     }
 }
 
-/// What may meet: what is near enough to push, and what is not.
-pub(crate) struct Found<'a> {
+/// Output of detection.
+pub(crate) struct DetectedContacts<'a> {
     pub contacts: &'a mut Vec<Contact>,
-    pub distant: &'a mut Vec<Distant>,
+    pub speculative: &'a mut Vec<SpeculativeContact>,
 }
 
-impl Sift<'_> {
-    /// Finds all that may meet. `pairs`, `picked` and `near` are room to work in.
-    pub fn find(
+impl Detector<'_> {
+    /// Detects all contacts and speculative contacts of the substep. `pairs`, `candidates` and
+    /// `narrow` are scratch; `pairs` holds the substep pairs afterwards.
+    pub fn detect(
         &mut self,
         pairs: &mut Vec<u32>,
-        picked: &mut Picked,
-        near: &mut [Near; 2],
-        found: &mut Found<'_>,
+        candidates: &mut CandidateLists,
+        narrow: &mut [NarrowPhase; 2],
+        detected: &mut DetectedContacts<'_>,
     ) {
-        found.contacts.clear();
-        found.distant.clear();
-        let RestGap { world, gap, .. } = self.rest_gap;
-        self.patches.fit(world.level, self.motion, world.mean_edge);
-        self.patches.spend();
-        self.patches.pair(gap, false, pairs);
-        self.find_runs(pairs);
-        let (Picked { kinds: [vertices, edges], before }, more) = (picked, self.more());
-        [&mut *vertices, edges].into_iter().for_each(Candidates::clear);
-        before.clear();
-        for at in &*pairs {
-            before.push([vertices.len() as u32, edges.len() as u32]);
-            self.patches.pick::<VERTEX>(*at, more, vertices, |_| true);
-            self.patches.pick::<EDGES>(*at, more, edges, |_| true);
+        detected.contacts.clear();
+        detected.speculative.clear();
+        let (level, RestGap { mean_edge, gap, .. }) = (self.level, self.rest_gap);
+        self.bvh.refit(level, self.motion, mean_edge);
+        self.bvh.age_pair_cache();
+        self.bvh.collect_substep_pairs(gap, false, pairs);
+        self.refresh_pairs(pairs);
+        let (CandidateLists { kinds: [vertices, edges], offsets }, margin) =
+            (candidates, self.margin());
+        [&mut *vertices, edges].into_iter().for_each(CandidatePairs::clear);
+        offsets.clear();
+        for pair in &*pairs {
+            offsets.push([vertices.len() as u32, edges.len() as u32]);
+            self.bvh.push_candidates::<VERTEX_TRIANGLE>(*pair, margin, vertices, |_| true);
+            self.bvh.push_candidates::<EDGE_EDGE>(*pair, margin, edges, |_| true);
         }
-        before.push([vertices.len() as u32, edges.len() as u32]);
-        vertices.judge::<VERTEX>(world.level, self.motion, gap);
-        edges.judge::<EDGES>(world.level, self.motion, gap);
-        for own in before.windows(2) {
-            let ([from, first], [to, end]) = (own[0], own[1]);
-            sort_out::<VERTEX>(vertices.meeting(from, to), &mut near[0], found);
-            sort_out::<EDGES>(edges.meeting(first, end), &mut near[1], found);
+        offsets.push([vertices.len() as u32, edges.len() as u32]);
+        vertices.test_separation::<VERTEX_TRIANGLE>(level, self.motion, gap);
+        edges.test_separation::<EDGE_EDGE>(level, self.motion, gap);
+        for range in offsets.windows(2) {
+            let ([from, first], [to, end]) = (range[0], range[1]);
+            let remaining = vertices.remaining(from, to);
+            classify::<VERTEX_TRIANGLE>(remaining, &mut narrow[0], detected);
+            classify::<EDGE_EDGE>(edges.remaining(first, end), &mut narrow[1], detected);
         }
-        near[0].finish::<VERTEX>(world.level, self.motion, found.contacts);
-        near[1].finish::<EDGES>(world.level, self.motion, found.contacts);
+        narrow[0].fill_contacts::<VERTEX_TRIANGLE>(level, self.motion, detected.contacts);
+        narrow[1].fill_contacts::<EDGE_EDGE>(level, self.motion, detected.contacts);
     }
 
-    /// Adds to the distant what those may meet that strayed. `pairs` and `strays` are room to work in.
-    pub fn find_strays(
+    /// Appends the pairs of escaped particles that may meet to `speculative`. `pairs` and
+    /// `candidates` are scratch.
+    pub fn detect_escaped(
         &mut self,
         pairs: &mut Vec<u32>,
-        strays: &mut Candidates,
-        distant: &mut Vec<Distant>,
+        candidates: &mut CandidatePairs,
+        speculative: &mut Vec<SpeculativeContact>,
     ) {
-        self.patches.follow_strays(self.rest_gap.world.level, self.motion);
-        self.patches.pair(self.rest_gap.gap, true, pairs);
-        self.find_runs(pairs);
-        // One kind after the other, so that lots make no difference to the order.
-        self.judge_strays::<VERTEX>(pairs, strays, distant);
-        self.judge_strays::<EDGES>(pairs, strays, distant);
+        self.bvh.refit_escaped(self.level, self.motion);
+        self.bvh.collect_substep_pairs(self.rest_gap.gap, true, pairs);
+        self.refresh_pairs(pairs);
+        // One kind after the other, so that the batch size makes no difference to the order.
+        self.test_escaped::<VERTEX_TRIANGLE>(pairs, candidates, speculative);
+        self.test_escaped::<EDGE_EDGE>(pairs, candidates, speculative);
     }
 
-    fn judge_strays<const FIRST: Kind>(
+    fn test_escaped<const KIND: ContactKind>(
         &mut self,
         pairs: &[u32],
-        strays: &mut Candidates,
-        distant: &mut Vec<Distant>,
+        candidates: &mut CandidatePairs,
+        speculative: &mut Vec<SpeculativeContact>,
     ) {
-        let RestGap { world, gap, .. } = self.rest_gap;
-        for (number, at) in pairs.iter().enumerate() {
-            let has_strayed = |ids: &[u32; 4]| ids.iter().any(|id| self.motion.strays(*id));
-            self.patches.pick::<FIRST>(*at, self.more(), strays, has_strayed);
-            if strays.len() > TOGETHER || number + 1 == pairs.len() {
-                let count = strays.len() as u32;
-                strays.judge::<FIRST>(world.level, self.motion, gap);
-                distant.extend(strays.meeting(0, count).map(|stray| stray.as_distant(FIRST)));
-                strays.clear();
+        let (level, gap) = (self.level, self.rest_gap.gap);
+        for (number, pair) in pairs.iter().enumerate() {
+            let has_escaped = |ids: &[u32; 4]| ids.iter().any(|id| self.motion.has_escaped(*id));
+            self.bvh.push_candidates::<KIND>(*pair, self.margin(), candidates, has_escaped);
+            if candidates.len() > BATCH || number + 1 == pairs.len() {
+                let count = candidates.len() as u32;
+                candidates.test_separation::<KIND>(level, self.motion, gap);
+                let remaining = candidates.remaining(0, count);
+                speculative.extend(remaining.map(|pair| pair.to_speculative(KIND)));
+                candidates.clear();
             }
         }
     }
 
-    /// Finds what may meet of listed pairs of patches.
-    fn find_runs(&mut self, pairs: &[u32]) {
-        let more = self.more();
-        for at in pairs {
-            self.patches.find_run(*at, &self.rest_gap, self.motion, more);
+    /// Refreshes the cached pairs of tick pairs where needed.
+    fn refresh_pairs(&mut self, tick_pairs: &[u32]) {
+        let margin = self.margin();
+        for pair in tick_pairs {
+            self.bvh.refresh_pairs(*pair, &self.rest_gap, self.motion, margin);
         }
-        self.patches.quads.measure(self.rest_gap.world.level, &self.motion.start);
+        self.bvh.pair_cache.measure(self.level, &self.motion.start);
     }
 
-    /// What pairs may be apart beyond all ways that they can have gone, and may meet still [m].
-    fn more(&self) -> f32 {
-        let RestGap { world, gap, .. } = self.rest_gap;
-        NEAR[0] * gap + world.mean_edge * HAIR
+    /// Distance that may be left between both sides of a pair after they moved, for the pair to
+    /// count [m].
+    fn margin(&self) -> f32 {
+        let RestGap { mean_edge, gap, .. } = self.rest_gap;
+        ACTIVE_DISTANCE[0] * gap + mean_edge * ROUNDING
     }
 }
 
-/// Tells the near from the distant.
+/// Pushes near pairs to the narrow phase, and far ones to the speculative contacts.
 #[inline(always)]
-fn sort_out<const FIRST: Kind>(
-    candidates: impl Iterator<Item = Candidate>,
-    near: &mut Near,
-    found: &mut Found<'_>,
+fn classify<const KIND: ContactKind>(
+    candidates: impl Iterator<Item = CandidatePair>,
+    narrow: &mut NarrowPhase,
+    detected: &mut DetectedContacts<'_>,
 ) {
     for candidate in candidates {
-        if candidate.distance >= candidate.gap * NEAR[FIRST as usize - 1] {
-            found.distant.push(candidate.as_distant(FIRST));
+        if candidate.distance >= candidate.gap * ACTIVE_DISTANCE[KIND as usize - 1] {
+            detected.speculative.push(candidate.to_speculative(KIND));
         } else {
-            near.push(candidate.ids, FIRST, candidate.gap, found.contacts);
+            narrow.push(candidate.ids, KIND, candidate.gap, detected.contacts);
         }
     }
 }

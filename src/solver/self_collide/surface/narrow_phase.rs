@@ -1,110 +1,134 @@
-//! Pairs that are near enough to push: where each is closest, many at once.
+//! Narrow phase: closest points, normals and separations of the pairs that the contact solver works
+//! on.
 //!
-//! As `Contact::find` does it one by one for what no direction tells apart well.
+//! ```text
+//! at the start: closest points ─▶ weights, normal n, separation along n
+//! now:          nearer than the gap along n?  then the closest points of now, if their normal
+//!                                             separated both sides at the start
+//! ```
+//! SIMD version of [`Contact::detect`], a pair in each lane. Pairs whose start normal is ambiguous
+//! (touching sides, nearly parallel edges) go to [`Contact::detect`] one by one.
+//!
+//! Reads [`SweptParticles`]; writes the contacts that [`NarrowPhase::push`] reserved.
+//!
+//! Invariant: contacts keep the order in which their pairs were pushed, whatever the batch size.
 
 use crate::math::simd::{Float, Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
-use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
-use crate::solver::self_collide::surface::contact::{
-    CLEAR, Contact, EDGES, ENOUGH, Kind, NOTHING, SAME, SLIT, VERTEX, WORSE,
+use crate::solver::self_collide::surface::closest_lanes::{
+    self, Vec3Lanes, closest_edge_edge, closest_vertex_triangle,
 };
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::self_collide::surface::contact::{
+    ALIGNED_COS2, CLEAR_SHARE, Contact, ContactKind, EDGE_EDGE, MIN_DISTANCE, MIN_KEPT_SHARE,
+    SEPARATION_SHARE, TOLERATED_SHARE, VERTEX_TRIANGLE,
+};
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use glam::Vec3;
 
-/// Lanes that lists are filled up to.
+/// Lists are padded to a multiple of this many pairs.
 const LANES: usize = 8;
 
-/// What says that a pair must be looked at by itself.
-const UNSURE: f32 = f32::NEG_INFINITY;
+/// The separation of a pair that needs [`Contact::detect`].
+const AMBIGUOUS: f32 = f32::NEG_INFINITY;
 
-/// Pairs of one kind.
+/// A batch of pairs of one kind.
 #[derive(Clone, Debug)]
-pub(crate) struct Near {
+pub(crate) struct NarrowPhase {
     ids: [Vec<u32>; 4],
-    /// How far each keeps apart [m].
+    /// Distance that each pair keeps [m].
     gaps: Vec<f32>,
-    /// The contact that each is.
+    /// The index of each pair's contact.
     contacts: Vec<u32>,
-    found: Lanes<Vec<f32>>,
+    results: ContactLanes<Vec<f32>>,
 }
 
-/// Where pairs are closest: what each particle counts for, the direction from the second side to the first, and how
-/// far sides were apart along it.
+/// Weights, normals and separations at the start, in columns.
 #[derive(Clone, Debug)]
-struct Lanes<T> {
-    share: [T; 4],
+struct ContactLanes<T> {
+    weights: [T; 4],
     n: [T; 3],
-    apart: T,
+    separation: T,
 }
 
-impl Near {
+impl NarrowPhase {
     pub fn new(capacity: usize) -> Self {
         let list = || Vec::with_capacity(capacity + LANES);
         Self {
             ids: [(); 4].map(|()| Vec::with_capacity(capacity + LANES)),
             gaps: list(),
             contacts: Vec::with_capacity(capacity),
-            found: Lanes {
-                share: [(); 4].map(|()| list()),
+            results: ContactLanes {
+                weights: [(); 4].map(|()| list()),
                 n: [(); 3].map(|()| list()),
-                apart: list(),
+                separation: list(),
             },
         }
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * (13 * self.found.apart.capacity() + self.contacts.capacity())
+        size_of::<u32>() * (13 * self.results.separation.capacity() + self.contacts.capacity())
     }
 
-    /// Takes a pair, and has a contact made for it that does nothing until it is finished.
+    /// Pushes a pair, and an inactive contact for it that [`Self::fill_contacts`] fills in.
     #[inline(always)]
-    pub fn push(&mut self, ids: [u32; 4], first: Kind, gap: f32, contacts: &mut Vec<Contact>) {
+    pub fn push(
+        &mut self,
+        ids: [u32; 4],
+        kind: ContactKind,
+        gap: f32,
+        contacts: &mut Vec<Contact>,
+    ) {
         for (list, id) in self.ids.iter_mut().zip(ids) {
             list.push(id);
         }
         self.gaps.push(gap);
         self.contacts.push(contacts.len() as u32);
-        contacts.push(Contact::of(ids, first));
+        contacts.push(Contact::inactive(ids, kind));
     }
 
-    /// Finishes the contacts of all pairs.
-    pub fn finish<const FIRST: Kind>(
+    /// Fills in the contacts of all pairs and clears the batch. A contact that [`Contact::detect`]
+    /// rejects stays inactive.
+    pub fn fill_contacts<const KIND: ContactKind>(
         &mut self,
         level: Level,
-        motion: &Motion,
+        motion: &SweptParticles,
         contacts: &mut [Contact],
     ) {
         let count = self.contacts.len().next_multiple_of(LANES);
         self.ids.iter_mut().for_each(|list| list.resize(count, 0));
         self.gaps.resize(count, 0.0);
-        let Lanes { share, n, apart } = &mut self.found;
-        let lists = share.iter_mut().chain(n.iter_mut()).chain([&mut *apart]);
+        let ContactLanes { weights, n, separation } = &mut self.results;
+        let lists = weights.iter_mut().chain(n.iter_mut()).chain([&mut *separation]);
         lists.for_each(|list| list.resize(count, 0.0));
         let [a, b, c, d] = &self.ids;
-        let ([e, f, g, h], [x, y, z]) = (share, n);
-        let lanes =
-            Lanes { share: [&mut e[..], f, g, h], n: [&mut x[..], y, z], apart: &mut apart[..] };
-        let (gaps, Motion { start, now, .. }) = (&self.gaps[..], motion);
-        let pairs = Pairs { ids: [a, b, c, d], gaps, start, now, lanes };
-        if FIRST == VERTEX {
-            find_vertices(level, pairs);
+        let ([e, f, g, h], [x, y, z]) = (weights, n);
+        let lanes = ContactLanes {
+            weights: [&mut e[..], f, g, h],
+            n: [&mut x[..], y, z],
+            separation: &mut separation[..],
+        };
+        let (gaps, SweptParticles { start, now, .. }) = (&self.gaps[..], motion);
+        let batch = NarrowPhaseBatch { ids: [a, b, c, d], gaps, start, now, lanes };
+        if KIND == VERTEX_TRIANGLE {
+            compute_vertex_triangle(level, batch);
         } else {
-            find_edges(level, pairs);
+            compute_edge_edge(level, batch);
         }
-        let Lanes { share, n, apart } = &self.found;
-        for (at, contact) in self.contacts.iter().enumerate() {
+        let ContactLanes { weights, n, separation } = &self.results;
+        for (i, contact) in self.contacts.iter().enumerate() {
             let contact = &mut contacts[*contact as usize];
-            if apart[at] == UNSURE {
-                let gap = self.gaps[at];
-                if let Some(found) = Contact::find::<FIRST>(contact.ids, motion, gap, gap) {
+            if separation[i] == AMBIGUOUS {
+                let gap = self.gaps[i];
+                if let Some(found) = Contact::detect::<KIND>(contact.ids, motion, gap, gap) {
                     *contact = found;
                 }
                 continue;
             }
-            contact.share = [share[0][at], share[1][at], share[2][at], share[3][at]];
-            contact.n = Vec3::new(n[0][at], n[1][at], n[2][at]);
-            contact.gap = self.gaps[at];
-            contact.leave(apart[at]);
+            contact.weights = [weights[0][i], weights[1][i], weights[2][i], weights[3][i]];
+            contact.n = Vec3::new(n[0][i], n[1][i], n[2][i]);
+            contact.gap = self.gaps[i];
+            contact.set_separation(separation[i]);
         }
         self.gaps.clear();
         self.contacts.clear();
@@ -112,113 +136,126 @@ impl Near {
     }
 }
 
-/// Pairs with where their particles were as the substep began and are now.
-struct Pairs<'a> {
+/// Input and output of the kernels.
+struct NarrowPhaseBatch<'a> {
     ids: [&'a [u32]; 4],
     start: &'a [Float4],
     now: &'a [Float4],
     gaps: &'a [f32],
-    lanes: Lanes<&'a mut [f32]>,
+    lanes: ContactLanes<&'a mut [f32]>,
 }
 
 vectored! {
-    fn find_vertices(pairs: Pairs<'_>) = find::<_, VERTEX>, Avx2, find_vertices_apart
+    fn compute_vertex_triangle(batch: NarrowPhaseBatch<'_>)
+        = compute_lanes::<_, VERTEX_TRIANGLE>, Avx2, compute_vertex_triangle_scalar
 }
 
 vectored! {
-    fn find_edges(pairs: Pairs<'_>) = find::<_, EDGES>, Avx2, find_edges_apart
+    fn compute_edge_edge(batch: NarrowPhaseBatch<'_>)
+        = compute_lanes::<_, EDGE_EDGE>, Avx2, compute_edge_edge_scalar
 }
 
-fn find_vertices_apart(pairs: Pairs<'_>) {
-    find::<_, VERTEX>(Scalar, pairs);
+fn compute_vertex_triangle_scalar(batch: NarrowPhaseBatch<'_>) {
+    compute_lanes::<_, VERTEX_TRIANGLE>(Scalar, batch);
 }
 
-fn find_edges_apart(pairs: Pairs<'_>) {
-    find::<_, EDGES>(Scalar, pairs);
+fn compute_edge_edge_scalar(batch: NarrowPhaseBatch<'_>) {
+    compute_lanes::<_, EDGE_EDGE>(Scalar, batch);
 }
 
 #[inline(always)]
-fn find<S: Simd, const FIRST: Kind>(s: S, pairs: Pairs<'_>) {
-    let Pairs { ids, start, now, gaps, lanes } = pairs;
-    let Lanes { share: mut shares, n: mut normals, apart: aparts } = lanes;
-    for at in (0..aparts.len()).step_by(S::LANES) {
-        let own = at..at + S::LANES;
-        let nothing = V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) };
-        let [mut then, mut x] = [[nothing; 4]; 2];
+fn compute_lanes<S: Simd, const KIND: ContactKind>(s: S, batch: NarrowPhaseBatch<'_>) {
+    let NarrowPhaseBatch { ids, start, now, gaps, lanes } = batch;
+    let ContactLanes { weights: mut weight_lists, n: mut normals, separation: separations } = lanes;
+    for i in (0..separations.len()).step_by(S::LANES) {
+        let own = i..i + S::LANES;
+        let zero3 = Vec3Lanes { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) };
+        let [mut then, mut x] = [[zero3; 4]; 2];
         for k in 0..4 {
-            then[k] = V::new(gather_transpose(s, start, &ids[k][own.clone()]));
-            x[k] = V::new(gather_transpose(s, now, &ids[k][own.clone()]));
+            then[k] = Vec3Lanes::new(gather_transpose(s, start, &ids[k][own.clone()]));
+            x[k] = Vec3Lanes::new(gather_transpose(s, now, &ids[k][own.clone()]));
         }
-        let before = closest::<S, FIRST>(s, then);
-        let after = closest::<S, FIRST>(s, x);
-        let mut apart = along::<_, FIRST>(then, before.n);
-        let turned = along::<_, FIRST>(then, after.n);
-        let mut is_sure = before.distance - s.splat(NOTHING);
-        if FIRST == EDGES {
-            is_sure = Float::min(is_sure, apart - s.splat(CLEAR) * before.distance);
+        let before = closest::<S, KIND>(s, then);
+        let after = closest::<S, KIND>(s, x);
+        let mut separation = separation_along::<_, KIND>(then, before.n);
+        let separation_after = separation_along::<_, KIND>(then, after.n);
+        let mut is_clear = before.distance - s.splat(MIN_DISTANCE);
+        if KIND == EDGE_EDGE {
+            let clear_separation = s.splat(CLEAR_SHARE) * before.distance;
+            is_clear = Float::min(is_clear, separation - clear_separation);
         }
-        // What came nearer than the gap takes the direction that it has now, if that told sides apart before, and not
-        // much less.
+        // A pair nearer than the gap takes its current normal, if that separated both sides at the
+        // start, and not by much less. See `Contact::update_normal`.
         let mut distance = s.splat(0.0);
         for k in 0..4 {
-            distance = distance + before.share[k] * before.n.dot(x[k]);
+            distance = distance + before.weights[k] * before.n.dot(x[k]);
         }
-        let is_near = Float::min(turned, after.distance) - s.splat(NOTHING);
-        let gap = s.load(gaps, at);
-        let enough = gap * s.splat(SLIT * ENOUGH);
-        let is_better = Float::min(turned, enough) - s.splat(WORSE) * Float::min(apart, enough);
-        let turns = Float::min(Float::min(gap - distance, is_near), is_better);
-        apart = s.select(turns, turned, apart);
+        let is_valid = Float::min(separation_after, after.distance) - s.splat(MIN_DISTANCE);
+        let gap = s.load(gaps, i);
+        let enough = gap * s.splat(SEPARATION_SHARE * TOLERATED_SHARE);
+        let is_better = Float::min(separation_after, enough)
+            - s.splat(MIN_KEPT_SHARE) * Float::min(separation, enough);
+        let replaces = Float::min(Float::min(gap - distance, is_valid), is_better);
+        separation = s.select(replaces, separation_after, separation);
         let n = [before.n.x, before.n.y, before.n.z].into_iter();
         let new = [after.n.x, after.n.y, after.n.z];
         for ((list, old), new) in normals.iter_mut().zip(n).zip(new) {
-            s.store(list, at, s.select(turns, new, old));
+            s.store(list, i, s.select(replaces, new, old));
         }
-        for (list, (old, new)) in shares.iter_mut().zip(before.share.into_iter().zip(after.share)) {
-            s.store(list, at, s.select(turns, new, old));
+        for (list, (old, new)) in
+            weight_lists.iter_mut().zip(before.weights.into_iter().zip(after.weights))
+        {
+            s.store(list, i, s.select(replaces, new, old));
         }
-        s.store(aparts, at, s.select(is_sure, apart, s.splat(UNSURE)));
+        s.store(separations, i, s.select(is_clear, separation, s.splat(AMBIGUOUS)));
     }
 }
 
-/// A pair as it is closest.
-struct Closest<F> {
-    share: [F; 4],
-    n: V<F>,
+/// Closest points of a pair: weights, unit normal from the second side to the first, and distance
+/// [m].
+struct ClosestLanes<F> {
+    weights: [F; 4],
+    n: Vec3Lanes<F>,
     distance: F,
 }
 
 #[inline(always)]
-fn closest<S: Simd, const FIRST: Kind>(s: S, x: [V<S::F>; 4]) -> Closest<S::F> {
+fn closest<S: Simd, const KIND: ContactKind>(s: S, x: [Vec3Lanes<S::F>; 4]) -> ClosestLanes<S::F> {
     let zero = s.splat(0.0);
-    let (way, share) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
-    let distance = way.dot(way).sqrt();
-    // Inside of a triangle or of both edges the way is along the normal, which is more exact where it is short.
-    let (normal, inside) = if FIRST == VERTEX {
-        let most = Float::max(share[1], Float::max(share[2], share[3]));
+    let (d, weights) = if KIND == VERTEX_TRIANGLE {
+        closest_vertex_triangle(s, x)
+    } else {
+        closest_edge_edge(s, x)
+    };
+    let distance = d.dot(d).sqrt();
+    // Where the closest points are inside the triangle or inside both edges, d is along the face
+    // normal, which is more exact for a short d.
+    let (normal, inside) = if KIND == VERTEX_TRIANGLE {
+        let most = Float::max(weights[1], Float::max(weights[2], weights[3]));
         (x[2].minus(x[1]).cross(x[3].minus(x[1])), zero - most)
     } else {
-        let first = Float::min(share[0], share[1]);
-        let second = Float::max(share[2], share[3]);
+        let first = Float::min(weights[0], weights[1]);
+        let second = Float::max(weights[2], weights[3]);
         (x[1].minus(x[0]).cross(x[3].minus(x[2])), Float::min(first, zero - second))
     };
-    let (along, length) = (way.dot(normal), normal.dot(normal).sqrt());
-    let least = s.splat(SAME) * distance * distance * length * length;
+    let (along, length) = (d.dot(normal), normal.dot(normal).sqrt());
+    let least = s.splat(ALIGNED_COS2) * distance * distance * length * length;
     let is_normal = Float::min(inside, along * along - least);
     let one = s.splat(1.0);
-    let side = s.select(along, one, zero - one);
-    let by_normal = normal.times(side / length);
-    let by_way = way.times(one / distance);
-    let n = V {
-        x: s.select(is_normal, by_normal.x, by_way.x),
-        y: s.select(is_normal, by_normal.y, by_way.y),
-        z: s.select(is_normal, by_normal.z, by_way.z),
+    let sign = s.select(along, one, zero - one);
+    let by_normal = normal.times(sign / length);
+    let by_d = d.times(one / distance);
+    let n = Vec3Lanes {
+        x: s.select(is_normal, by_normal.x, by_d.x),
+        y: s.select(is_normal, by_normal.y, by_d.y),
+        z: s.select(is_normal, by_normal.z, by_d.z),
     };
-    Closest { share, n, distance }
+    ClosestLanes { weights, n, distance }
 }
 
-/// How far one side is from the other along a direction, at least.
+/// The separation of both sides along `n` [m].
 #[inline(always)]
-fn along<F: Float, const FIRST: Kind>(x: [V<F>; 4], n: V<F>) -> F {
-    between::<_, FIRST>([n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])])
+fn separation_along<F: Float, const KIND: ContactKind>(x: [Vec3Lanes<F>; 4], n: Vec3Lanes<F>) -> F {
+    let along = [n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])];
+    closest_lanes::separation::<_, KIND>(along)
 }

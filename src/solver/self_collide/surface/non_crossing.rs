@@ -1,60 +1,81 @@
-//! The last word: no side of a pair gets through the other.
+//! Non-crossing pass: the last guarantee that no surface passes through another.
 //!
-//! As a substep began, each pair was apart along its direction, all of them at once. Particles are moved, each
-//! as little as it takes, until all are so again; and where that does not end, some go back to where
-//! they were, but for how all moved, and with them whom that gets in the way of. What is held does not: it takes
-//! along what it would cross.
+//! ```text
+//! pending contacts ─▶ separated along their normal?  yes ─▶ done
+//!        ▲                      │ no
+//!        │               new normal, else push the sides apart by inverse masses
+//!        └── contacts of particles that moved
+//! after MAX_ROUNDS rounds: roll back particles to where they started, until all are separated
+//! ```
+//! All contacts were separated at the start of the substep, all at once, so rolling back always
+//! succeeds. It keeps the mean displacement of the cloth, so that a falling cloth does not stop. A
+//! fixed particle does not roll back: it takes the particles that it would cross along. Roll-back
+//! as in Bridson, Fedkiw, Anderson, "Robust Treatment of Collisions, Contact and Friction for Cloth
+//! Animation", SIGGRAPH 2002 (rigid impact zones as the last resort), with separating planes in
+//! place of continuous collision tests.
+//!
+//! Reads contacts; writes `SweptParticles::now`, contact normals and the contact graph.
+//!
+//! Invariant: only particles move, and each move is marked in the contact graph, so no contact
+//! stays unchecked.
 
 use crate::math::simd::Level;
 use crate::math::wide4::{Float4, xyz};
-use crate::solver::particle_stage::interleaved::shift;
-use crate::solver::self_collide::surface::contact::{Contact, SLIT, VERTEX, between, places};
-use crate::solver::self_collide::surface::contact_graph::{Around, BITS};
-use crate::solver::self_collide::surface::speculative::{Distant, look};
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::particle_stage::interleaved::translate;
+use crate::solver::self_collide::surface::contact::{
+    Contact, SEPARATION_SHARE, VERTEX_TRIANGLE, positions, separation,
+};
+use crate::solver::self_collide::surface::contact_graph::{ContactGraph, WORD_BITS};
+use crate::solver::self_collide::surface::speculative::{SpeculativeContact, test_separated};
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 
-/// How often those that would cross are moved before some go back.
-const ROUNDS: u32 = 48;
+/// Rounds of pushing before particles roll back.
+const MAX_ROUNDS: u32 = 48;
 
-/// Rounds that come nearer to all that is to be left between sides than to what is let be.
-const FULL: u32 = 8;
+/// Rounds that demand the minimum separation; later rounds accept the tolerated one.
+const STRICT_ROUNDS: u32 = 8;
 
-/// Every so many rounds sides that still would cross are told apart anew.
-const TURN: u32 = 4;
+/// A contact that stays open gets a new normal every so many rounds.
+const NORMAL_ROUNDS: u32 = 4;
 
-/// A slit this much smaller than it should be is let be.
-const HAIR: f32 = 0.99;
+/// Share of the minimum separation that counts as reached.
+const REACHED_SHARE: f32 = 0.99;
 
-/// What goes nowhere by now, and what goes back; what else is along with that particle.
+/// Leader of a particle that may move freely, and of one that rolled back. Other values are fixed
+/// particles whose displacement the particle takes.
 const FREE: u32 = u32::MAX;
-const BACK: u32 = u32::MAX - 1;
+const ROLLED_BACK: u32 = u32::MAX - 1;
 
-/// Moves what would cross of those that are due, and what gets in the way of that; says whether nothing crosses
-/// any more, or else leaves due what does. `open` is room to work in.
-pub(crate) fn draw_apart(
+/// Pushes the sides of pending contacts apart until all are separated. Returns true on success;
+/// else the contacts that are not separated, or not checked, are pending. `open` is scratch.
+pub(crate) fn push_apart(
     contacts: &mut [Contact],
-    motion: &mut Motion,
-    around: &mut Around,
+    motion: &mut SweptParticles,
+    graph: &mut ContactGraph,
     open: &mut Vec<u32>,
 ) -> bool {
-    let Motion { start, now, .. } = motion;
+    let SweptParticles { start, now, .. } = motion;
     let least = |contact: &Contact, round| {
-        if round < FULL { contact.slit * HAIR } else { contact.least }
+        if round < STRICT_ROUNDS {
+            contact.min_separation * REACHED_SHARE
+        } else {
+            contact.tolerated_separation
+        }
     };
     let mut round = 0;
     loop {
         open.clear();
-        around.call_moved(contacts);
+        graph.schedule_dirty(contacts);
         let mut next = 0;
-        while let Some(at) = around.next_due(next) {
-            next = at;
-            let contact = &mut contacts[at];
-            if is_apart(contact, now, least(contact, round)) {
+        while let Some(i) = graph.pop_pending(next) {
+            next = i;
+            let contact = &mut contacts[i];
+            if is_separated(contact, now, least(contact, round)) {
                 continue;
             }
-            contact.turn_to(places(start, contact.ids), now);
-            if !is_apart(contact, now, least(contact, round)) {
-                open.push(at as u32);
+            contact.refresh_normal(positions(start, contact.ids), now);
+            if !is_separated(contact, now, least(contact, round)) {
+                open.push(i as u32);
             }
         }
         if open.is_empty() {
@@ -62,117 +83,127 @@ pub(crate) fn draw_apart(
         }
         let mut is_done = false;
         while !is_done {
-            if round == ROUNDS {
-                around.call_moved(contacts);
-                open.iter().for_each(|at| around.call_one(*at));
+            if round == MAX_ROUNDS {
+                graph.schedule_dirty(contacts);
+                open.iter().for_each(|i| graph.schedule(*i));
                 return false;
             }
             round += 1;
             is_done = true;
-            for at in &*open {
-                let contact = &mut contacts[*at as usize];
-                if is_apart(contact, now, least(contact, round)) {
+            for i in &*open {
+                let contact = &mut contacts[*i as usize];
+                if is_separated(contact, now, least(contact, round)) {
                     continue;
                 }
-                if round.is_multiple_of(TURN) {
-                    contact.turn_to(places(start, contact.ids), now);
+                if round.is_multiple_of(NORMAL_ROUNDS) {
+                    contact.refresh_normal(positions(start, contact.ids), now);
                 }
                 is_done = false;
-                draw(contact, now, around);
+                push_sides(contact, now, graph);
             }
         }
     }
 }
 
-/// Those are due no more that surely are apart already.
-pub(crate) fn let_go(
+/// Unschedules the contacts from index `first` on that are separated, 64 at a time.
+pub(crate) fn unschedule_separated(
     level: Level,
     contacts: &[Contact],
     first: usize,
     now: &[Float4],
-    around: &mut Around,
+    graph: &mut ContactGraph,
 ) {
-    let pair = |contact: &Contact| {
-        let Contact { ids, first, n, slit, .. } = *contact;
-        // As if it were a pair with a slit so wide.
-        let gap = if slit < 0.0 { f32::NEG_INFINITY } else { slit * HAIR / SLIT };
-        Distant { ids, first, gap, n }
+    let to_pair = |contact: &Contact| {
+        let Contact { ids, kind, n, min_separation, .. } = *contact;
+        // The gap for which the test demands this minimum separation.
+        let gap = if min_separation < 0.0 {
+            f32::NEG_INFINITY
+        } else {
+            min_separation * REACHED_SHARE / SEPARATION_SHARE
+        };
+        SpeculativeContact { ids, kind, gap, n }
     };
-    let mut pairs = [pair(&Contact::of([0; 4], VERTEX)); BITS];
-    for (word, contacts) in contacts.chunks(BITS).enumerate().skip(first / BITS) {
-        pairs.iter_mut().zip(contacts).for_each(|(own, contact)| *own = pair(contact));
-        let mut apart = [0; BITS / 8];
-        look(level, &pairs[..contacts.len()], now, &mut apart);
-        around.let_go(word, u64::from_le_bytes(apart));
+    let mut pairs = [to_pair(&Contact::inactive([0; 4], VERTEX_TRIANGLE)); WORD_BITS];
+    for (word, contacts) in contacts.chunks(WORD_BITS).enumerate().skip(first / WORD_BITS) {
+        pairs.iter_mut().zip(contacts).for_each(|(pair, contact)| *pair = to_pair(contact));
+        let mut separated = [0; WORD_BITS / 8];
+        test_separated(level, &pairs[..contacts.len()], now, &mut separated);
+        graph.unschedule(word, u64::from_le_bytes(separated));
     }
 }
 
 #[inline(always)]
-fn is_apart(contact: &Contact, x: &[Float4], least: f32) -> bool {
-    least < 0.0 || between(places(x, contact.ids), contact.first, contact.n) >= least
+fn is_separated(contact: &Contact, x: &[Float4], least: f32) -> bool {
+    least < 0.0 || separation(positions(x, contact.ids), contact.kind, contact.n) >= least
 }
 
-/// Moves each particle of one side and each of the other apart.
-fn draw(contact: &Contact, x: &mut [Float4], around: &mut Around) {
-    let (one, other) = contact.ids.split_at(contact.first as usize);
+/// Pushes each particle of the first side and each of the second apart to the minimum separation,
+/// by inverse masses.
+fn push_sides(contact: &Contact, x: &mut [Float4], graph: &mut ContactGraph) {
+    let (one, other) = contact.ids.split_at(contact.kind as usize);
     for a in one {
         for b in other {
-            let (spot_a, spot_b) = (x[*a as usize], x[*b as usize]);
-            let missing = contact.slit - contact.n.dot(xyz(&spot_a) - xyz(&spot_b));
-            let sum = spot_a[3] + spot_b[3];
+            let (particle_a, particle_b) = (x[*a as usize], x[*b as usize]);
+            let distance = contact.n.dot(xyz(&particle_a) - xyz(&particle_b));
+            let missing = contact.min_separation - distance;
+            let sum = particle_a[3] + particle_b[3];
             if missing <= 0.0 || sum <= 0.0 {
                 continue;
             }
-            let by = contact.n * (missing / sum);
-            shift(&mut x[*a as usize], by * spot_a[3]);
-            shift(&mut x[*b as usize], by * -spot_b[3]);
-            around.moves(*a);
-            around.moves(*b);
+            let impulse = contact.n * (missing / sum);
+            translate(&mut x[*a as usize], impulse * particle_a[3]);
+            translate(&mut x[*b as usize], impulse * -particle_b[3]);
+            graph.mark_moved(*a);
+            graph.mark_moved(*b);
         }
     }
 }
 
-/// What would cross of those that are due goes back, and what that gets in the way of; or along with what is held,
-/// if that is in the way.
-pub(crate) fn go_back(
+/// Rolls back the particles of pending contacts that are not separated, and of the contacts that
+/// this breaks, until all are separated.
+///
+/// A particle rolls back to its start plus the mean displacement, or plus the displacement of a
+/// fixed particle that is in the contact. `leaders` is scratch.
+pub(crate) fn roll_back(
     contacts: &[Contact],
-    motion: &mut Motion,
-    around: &mut Around,
-    frozen: &mut Vec<u32>,
+    motion: &mut SweptParticles,
+    graph: &mut ContactGraph,
+    leaders: &mut Vec<u32>,
 ) {
-    let Motion { start, now: x, drift, .. } = motion;
-    frozen.clear();
-    frozen.resize(x.len(), FREE);
-    for (at, (frozen, x)) in frozen.iter_mut().zip(x.iter()).enumerate() {
-        *frozen = if x[3] > 0.0 { FREE } else { at as u32 };
+    let SweptParticles { start, now: x, mean_displacement, .. } = motion;
+    leaders.clear();
+    leaders.resize(x.len(), FREE);
+    for (i, (leader, x)) in leaders.iter_mut().zip(x.iter()).enumerate() {
+        *leader = if x[3] > 0.0 { FREE } else { i as u32 };
     }
     loop {
-        around.call_moved(contacts);
+        graph.schedule_dirty(contacts);
         let mut next = 0;
-        while let Some(at) = around.next_due(next) {
-            next = at;
-            let contact = &contacts[at];
-            if is_apart(contact, x, contact.least) {
+        while let Some(i) = graph.pop_pending(next) {
+            next = i;
+            let contact = &contacts[i];
+            if is_separated(contact, x, contact.tolerated_separation) {
                 continue;
             }
-            let leads = contact.ids.map(|id| frozen[id as usize]);
-            let leader = leads.into_iter().find(|lead| *lead < BACK).unwrap_or(BACK);
+            let of_contact = contact.ids.map(|id| leaders[id as usize]);
+            let fixed = of_contact.into_iter().find(|leader| *leader < ROLLED_BACK);
+            let leader = fixed.unwrap_or(ROLLED_BACK);
             for id in contact.ids {
-                let at = id as usize;
-                if frozen[at] <= leader || frozen[at] < BACK {
+                let i = id as usize;
+                if leaders[i] <= leader || leaders[i] < ROLLED_BACK {
                     continue;
                 }
-                frozen[at] = leader;
-                around.moves(id);
-                let way = if leader == BACK {
-                    *drift
+                leaders[i] = leader;
+                graph.mark_moved(id);
+                let displacement = if leader == ROLLED_BACK {
+                    *mean_displacement
                 } else {
                     xyz(&x[leader as usize]) - xyz(&start[leader as usize])
                 };
-                [x[at][0], x[at][1], x[at][2]] = (xyz(&start[at]) + way).to_array();
+                [x[i][0], x[i][1], x[i][2]] = (xyz(&start[i]) + displacement).to_array();
             }
         }
-        if !around.has_moved() {
+        if !graph.has_dirty() {
             return;
         }
     }

@@ -1,102 +1,135 @@
-//! How the triangles of patches lean: of those that lean much alike none can meet, in a patch or in two beside each
-//! other. Eight patches go side by side, and so do eight pairs of them.
+//! Normal cones of triangle clusters, used to cull self-collision pairs.
+//!
+//! ```text
+//!        ▲ mean normal m          cone of a cluster: m, and c = min over triangles of cos(n, m)
+//!      ╲ │ ╱  half angle
+//!   ────╲│╱──── cluster           A patch whose normals all lie within 60° of one direction is a height
+//!                                 field over the plane square to it, so it cannot touch itself.
+//! ```
+//! Curvature culling after Volino and Magnenat-Thalmann, "Efficient self-collision detection on
+//! smoothly discretized surface animations using geometrical shape regularity", 1994, and Provot,
+//! "Collision and self-collision handling in cloth model dedicated to design garments", 1997 (cones
+//! of normals). It culls a cluster against itself, and against its neighbours: the combined cone is
+//! taken around the bisector of both means, with cosine √((1 + m₁·m₂) / 2), widened by the larger
+//! of both half angles.
+//!
+//! Eight clusters are processed at once, and eight pairs. Cones are computed at the start of a
+//! substep and at its end; a pair must be culled at both. Clusters that hardly deform keep the cone
+//! of the start.
+//!
+//! Reads positions; writes its own lists.
+//!
+//! Invariant: a cluster or pair is culled only if its cones are known. A degenerate triangle, a
+//! torn cluster or NaN gives the cosine −1, which is never culled.
 
 use crate::math::min;
 use crate::math::simd::{
     Float, Level, Scalar, Simd, gather_transpose, scatter_transpose, vectored,
 };
 use crate::math::wide4::Float4;
-use crate::solver::self_collide::surface::closest_lanes::V;
-use crate::solver::self_collide::surface::cluster_bvh::PATCH;
+use crate::solver::self_collide::surface::closest_lanes::Vec3Lanes;
+use crate::solver::self_collide::surface::cluster::CLUSTER_SIZE;
 
-/// Patches, or pairs of them, that are looked at together.
+/// Clusters, or pairs of them, that are processed together.
 const LANES: usize = 8;
 
-/// What leans no farther than this from one direction lies beside each other as seen from there, and cannot meet
-/// (cosine of 60°).
-const STEEP: f32 = 0.5;
+/// Least cosine between a normal and the common direction of a culled patch: 60°.
+const MIN_COSINE: f32 = 0.5;
 
-/// The mean normal of a patch's triangles, and the least cosine that one makes with it; -1 where nothing is known.
-type Lean = Float4;
+/// The unit mean normal of a cluster's triangles, and the least cosine of a normal with it; −1 if
+/// unknown.
+type NormalCone = Float4;
 
-/// Eight patches.
+/// A pair of neighbouring clusters, the cluster between them if they share only a vertex, and the
+/// index that [`NormalCones::new`] gives the pair.
+pub(crate) type NeighbourPair = ([u32; 2], Option<u32>, u32);
+
+/// Eight clusters in columns.
 #[derive(Clone, Copy, Debug)]
-struct Block {
-    /// The corners of their triangles, the first of each patch, then the second. Who has fewer repeats one.
-    corners: [[[u32; LANES]; 3]; PATCH],
-    /// How many each has; 0 if its triangles may meet however they lean.
+struct ConeBlock {
+    /// Corners of the first triangle of each cluster, then of the second, … Clusters with fewer
+    /// triangles repeat their last one.
+    corners: [[[u32; LANES]; 3]; CLUSTER_SIZE],
+    /// Float of triangles; 0 if the cone of the cluster is to be unknown.
     counts: [f32; LANES],
-    /// Above 0 for those whose triangles turn within a substep.
+    /// Above 0 if the cone changes within the substep.
     turning: [f32; LANES],
 }
 
-/// Eight pairs of patches beside each other, and which is between those that share no more than a vertex.
-type Pairs = [[u32; LANES]; 3];
+/// Eight pairs of neighbours in columns: the first clusters, the second ones, and those between
+/// them.
+type ConePairBlock = [[u32; LANES]; 3];
 
-/// How all patches lean.
+/// Normal cones of all clusters, and which pairs of neighbours they cull.
 #[derive(Clone, Debug)]
-pub(crate) struct Leans {
-    blocks: Vec<Block>,
-    /// How patches lean as a substep begins, and as it ends.
-    ends: [Vec<Lean>; 2],
-    /// Pairs that share edges, then those with one between them, from a block on.
-    pairs: Vec<Pairs>,
-    first_parted: usize,
-    /// Which pairs lean so little that they cannot meet: a bit for each.
-    quiet: Vec<u8>,
+pub(crate) struct NormalCones {
+    blocks: Vec<ConeBlock>,
+    /// Cones at the start of the substep, and at its end.
+    cones: [Vec<NormalCone>; 2],
+    /// Pairs that share an edge; from block `first_vertex_block` on, pairs that share only a
+    /// vertex.
+    pairs: Vec<ConePairBlock>,
+    first_vertex_block: usize,
+    /// A bit for each pair: set if its triangles cannot meet.
+    culled: Vec<u8>,
 }
 
-impl Leans {
-    /// For so many patches. `beside` are pairs of them, and which one is between, if there is one; each gets the
-    /// place that it has here.
-    pub fn new(patches: usize, beside: &mut [([u32; 2], Option<u32>, u32)]) -> Self {
-        let block = Block {
-            corners: [[[0; LANES]; 3]; PATCH],
+impl NormalCones {
+    /// Allocates cones for `clusters` clusters and stores all neighbour pairs; writes the index of
+    /// each pair to its third entry.
+    pub fn new(clusters: usize, neighbours: &mut [NeighbourPair]) -> Self {
+        let block = ConeBlock {
+            corners: [[[0; LANES]; 3]; CLUSTER_SIZE],
             counts: [0.0; LANES],
             turning: [0.0; LANES],
         };
-        let (mut pairs, mut first_parted) = (Vec::new(), 0);
-        for is_parted in [false, true] {
-            first_parted = pairs.len();
-            let own = beside.iter_mut().filter(|(_, between, _)| between.is_some() == is_parted);
-            for (at, ([one, other], between, place)) in own.enumerate() {
-                if at % LANES == 0 {
+        let (mut pairs, mut first_vertex_block) = (Vec::new(), 0);
+        for has_between in [false, true] {
+            first_vertex_block = pairs.len();
+            let own =
+                neighbours.iter_mut().filter(|(_, between, _)| between.is_some() == has_between);
+            for (i, ([one, other], between, index)) in own.enumerate() {
+                if i % LANES == 0 {
                     pairs.push([[0; LANES]; 3]);
                 }
-                let (lane, last) = (at % LANES, pairs.len() - 1);
-                for (list, patch) in
+                let (lane, last) = (i % LANES, pairs.len() - 1);
+                for (list, cluster) in
                     pairs[last].iter_mut().zip([*one, *other, between.unwrap_or(0)])
                 {
-                    list[lane] = patch;
+                    list[lane] = cluster;
                 }
-                *place = (last * LANES + lane) as u32;
+                *index = (last * LANES + lane) as u32;
             }
         }
-        let blocks = patches.div_ceil(LANES);
+        let blocks = clusters.div_ceil(LANES);
         Self {
             blocks: vec![block; blocks],
-            ends: [(); 2].map(|()| vec![[0.0, 0.0, 0.0, -1.0]; blocks * LANES]),
-            quiet: vec![0; pairs.len()],
+            cones: [(); 2].map(|()| vec![[0.0, 0.0, 0.0, -1.0]; blocks * LANES]),
+            culled: vec![0; pairs.len()],
             pairs,
-            first_parted,
+            first_vertex_block,
         }
     }
 
-    /// Bytes that it holds.
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        let patches = size_of::<Block>() + 2 * LANES * size_of::<Lean>();
-        patches * self.blocks.len() + (size_of::<Pairs>() + 1) * self.pairs.len()
+        let per_block = size_of::<ConeBlock>() + 2 * LANES * size_of::<NormalCone>();
+        per_block * self.blocks.len() + (size_of::<ConePairBlock>() + 1) * self.pairs.len()
     }
 
-    /// Takes the corners of a patch's triangles; none if these may meet however they lean.
-    pub fn set(&mut self, patch: usize, triangles: impl ExactSizeIterator<Item = [u32; 3]>) {
-        let (block, lane) = (&mut self.blocks[patch / LANES], patch % LANES);
+    /// Sets the corners of a cluster's triangles. With no triangles its cone is unknown.
+    pub fn set_triangles(
+        &mut self,
+        cluster: usize,
+        triangles: impl ExactSizeIterator<Item = [u32; 3]>,
+    ) {
+        let (block, lane) = (&mut self.blocks[cluster / LANES], cluster % LANES);
         let count = triangles.len();
         block.counts[lane] = count as f32;
-        for (at, corners) in triangles.enumerate() {
-            // The last one again in all places behind.
-            let places = at..if at + 1 == count { PATCH } else { at + 1 };
-            for triangle in &mut block.corners[places] {
+        for (i, corners) in triangles.enumerate() {
+            // The last triangle fills all slots behind it.
+            let slots = i..if i + 1 == count { CLUSTER_SIZE } else { i + 1 };
+            for triangle in &mut block.corners[slots] {
                 for (list, corner) in triangle.iter_mut().zip(corners) {
                     list[lane] = corner;
                 }
@@ -104,174 +137,202 @@ impl Leans {
         }
     }
 
-    /// Whether the triangles of a patch turn within a substep.
-    pub fn set_turning(&mut self, patch: usize, turns: bool) {
-        self.blocks[patch / LANES].turning[patch % LANES] = if turns { 1.0 } else { 0.0 };
+    /// Sets whether the cone of a cluster changes within the substep.
+    pub fn set_turning(&mut self, cluster: usize, is_turning: bool) {
+        self.blocks[cluster / LANES].turning[cluster % LANES] = if is_turning { 1.0 } else { 0.0 };
     }
 
-    /// Finds how all patches lean, with particles as the substep begins and now.
-    pub fn find(&mut self, level: Level, start: &[Float4], now: &[Float4]) {
-        let [first, last] = &mut self.ends;
-        find_leans(level, &self.blocks, start, first, false);
+    /// Computes all cones from the positions at the start and now, and which pairs they cull.
+    pub fn update(&mut self, level: Level, start: &[Float4], now: &[Float4]) {
+        let [first, last] = &mut self.cones;
+        compute_cones(level, &self.blocks, start, first, false);
         last.clone_from(first);
         let mut blocks = self.blocks.iter();
-        let are_turning = blocks.any(|block| block.turning.iter().any(|turns| *turns > 0.0));
-        if are_turning {
-            find_leans(level, &self.blocks, now, last, true);
+        let any_turning = blocks.any(|block| block.turning.iter().any(|turning| *turning > 0.0));
+        if any_turning {
+            compute_cones(level, &self.blocks, now, last, true);
         }
-        let ends = [&self.ends[0][..], &self.ends[1]];
-        let ends = if are_turning { &ends[..] } else { &ends[..1] };
-        find_quiet(level, &self.pairs, self.first_parted, ends, &mut self.quiet);
+        let cones = [&self.cones[0][..], &self.cones[1]];
+        let cones = if any_turning { &cones[..] } else { &cones[..1] };
+        cull_pairs(level, &self.pairs, self.first_vertex_block, cones, &mut self.culled);
     }
 
-    /// Finds anew how those lean that are set to turn, with particles as they are now.
-    pub fn find_again(&mut self, level: Level, now: &[Float4]) {
-        find_leans(level, &self.blocks, now, &mut self.ends[1], true);
+    /// Computes the end cones of turning clusters anew. [`Self::is_culled`] keeps its results;
+    /// [`Self::is_culled_after_update`] uses the new cones.
+    pub fn update_turning(&mut self, level: Level, now: &[Float4]) {
+        compute_cones(level, &self.blocks, now, &mut self.cones[1], true);
     }
 
-    /// Whether triangles of a patch cannot meet each other.
+    /// Whether triangles of a cluster cannot meet each other.
     #[inline(always)]
-    pub fn is_flat(&self, patch: u32) -> bool {
-        let [start, end] = &self.ends;
-        min(start[patch as usize][3], end[patch as usize][3]) > STEEP
+    pub fn is_flat(&self, cluster: u32) -> bool {
+        let [start, end] = &self.cones;
+        min(start[cluster as usize][3], end[cluster as usize][3]) > MIN_COSINE
     }
 
-    /// Whether triangles of a pair cannot meet, as it was found.
+    /// Whether triangles of a pair cannot meet, by the last [`Self::update`].
     #[inline(always)]
-    pub fn is_quiet(&self, pair: u32) -> bool {
-        self.quiet[pair as usize / LANES] & (1 << (pair as usize % LANES)) != 0
+    pub fn is_culled(&self, pair: u32) -> bool {
+        self.culled[pair as usize / LANES] & (1 << (pair as usize % LANES)) != 0
     }
 
-    /// Whether triangles of a pair cannot meet, as patches lean since they were found anew.
-    pub fn is_quiet_again(&self, pair: u32) -> bool {
+    /// Whether triangles of a pair cannot meet, by the current cones.
+    pub fn is_culled_after_update(&self, pair: u32) -> bool {
         let (block, lane) = (pair as usize / LANES, pair as usize % LANES);
         let own = self.pairs[block].map(|list| {
             let mut own = [0; LANES];
             own[0] = list[lane];
             own
         });
-        let mut quiet = [0];
-        let first_parted = usize::from(block < self.first_parted);
-        look(Scalar, &[own], first_parted, &[&self.ends[0], &self.ends[1]], &mut quiet);
-        quiet[0] & 1 != 0
+        let mut culled = [0];
+        let first_vertex_block = usize::from(block < self.first_vertex_block);
+        let cones = [&self.cones[0][..], &self.cones[1]];
+        cull_pairs_lanes(Scalar, &[own], first_vertex_block, &cones, &mut culled);
+        culled[0] & 1 != 0
     }
 }
 
 vectored! {
-    fn find_leans(blocks: &[Block], x: &[Float4], leans: &mut [Lean], turning: bool)
-        = lean, Avx2, find_leans_apart
+    fn compute_cones(
+        blocks: &[ConeBlock], x: &[Float4], cones: &mut [NormalCone], only_turning: bool,
+    ) = compute_cones_lanes, Avx2, compute_cones_scalar
 }
 
 vectored! {
-    fn find_quiet(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8])
-        = look, Avx2, find_quiet_apart
+    fn cull_pairs(
+        pairs: &[ConePairBlock], first_vertex_block: usize, cones: &[&[NormalCone]],
+        culled: &mut [u8],
+    ) = cull_pairs_lanes, Avx2, cull_pairs_scalar
 }
 
-fn find_leans_apart(blocks: &[Block], x: &[Float4], leans: &mut [Lean], turning: bool) {
-    lean(Scalar, blocks, x, leans, turning);
+fn compute_cones_scalar(
+    blocks: &[ConeBlock],
+    x: &[Float4],
+    cones: &mut [NormalCone],
+    only_turning: bool,
+) {
+    compute_cones_lanes(Scalar, blocks, x, cones, only_turning);
 }
 
-fn find_quiet_apart(pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8]) {
-    look(Scalar, pairs, first_parted, ends, quiet);
+fn cull_pairs_scalar(
+    pairs: &[ConePairBlock],
+    first_vertex_block: usize,
+    cones: &[&[NormalCone]],
+    culled: &mut [u8],
+) {
+    cull_pairs_lanes(Scalar, pairs, first_vertex_block, cones, culled);
 }
 
-/// Finds how patches lean, or only those that turn.
+/// Computes the cones of all clusters, or only of those that turn.
 #[inline(always)]
-fn lean<S: Simd>(s: S, blocks: &[Block], x: &[Float4], leans: &mut [Lean], only_turning: bool) {
+fn compute_cones_lanes<S: Simd>(
+    s: S,
+    blocks: &[ConeBlock],
+    x: &[Float4],
+    cones: &mut [NormalCone],
+    only_turning: bool,
+) {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
     for (number, block) in blocks.iter().enumerate() {
-        for at in (0..LANES).step_by(S::LANES) {
-            let turning = s.load(&block.turning, at);
+        for lane in (0..LANES).step_by(S::LANES) {
+            let turning = s.load(&block.turning, lane);
             if only_turning && !s.any_positive(turning) {
                 continue;
             }
-            let counts = s.load(&block.counts, at);
-            let nothing = V { x: zero, y: zero, z: zero };
-            let (mut normals, mut sum) = ([nothing; PATCH], nothing);
+            let counts = s.load(&block.counts, lane);
+            let zero3 = Vec3Lanes { x: zero, y: zero, z: zero };
+            let (mut normals, mut sum) = ([zero3; CLUSTER_SIZE], zero3);
             for (k, normal) in normals.iter_mut().enumerate() {
-                let [a, b, c] = [0, 1, 2]
-                    .map(|corner| V::new(gather_transpose(s, x, &block.corners[k][corner][at..])));
+                let [a, b, c] = [0, 1, 2].map(|corner| {
+                    Vec3Lanes::new(gather_transpose(s, x, &block.corners[k][corner][lane..]))
+                });
                 let doubled = b.minus(a).cross(c.minus(a));
                 *normal = doubled.times(one / doubled.dot(doubled).sqrt());
                 let (more, is_own) = (sum.plus(*normal), counts - s.splat(k as f32));
-                sum = V {
+                sum = Vec3Lanes {
                     x: s.select(is_own, more.x, sum.x),
                     y: s.select(is_own, more.y, sum.y),
                     z: s.select(is_own, more.z, sum.z),
                 };
             }
             let mean = sum.times(one / sum.dot(sum).sqrt());
-            let mut cone = one;
+            let mut cosine = one;
             for normal in normals {
-                cone = Float::min(normal.dot(mean), cone);
+                cosine = Float::min(normal.dot(mean), cosine);
             }
-            // Where there is no mean, nothing is known.
+            // Without triangles or without a mean normal the cone is unknown.
             let is_known = Float::min(counts, mean.dot(mean));
-            let cone = s.select(is_known, cone, zero - one);
-            let ids: [u32; LANES] =
-                core::array::from_fn(|lane| (number * LANES + at + lane) as u32);
-            let mut found = [mean.x, mean.y, mean.z, cone];
+            let cosine = s.select(is_known, cosine, zero - one);
+            let ids: [u32; LANES] = core::array::from_fn(|i| (number * LANES + lane + i) as u32);
+            let mut cone = [mean.x, mean.y, mean.z, cosine];
             if only_turning {
-                let before = gather_transpose(s, leans, &ids);
-                for (found, before) in found.iter_mut().zip(before) {
-                    *found = s.select(turning, *found, before);
+                let before = gather_transpose(s, cones, &ids);
+                for (new, before) in cone.iter_mut().zip(before) {
+                    *new = s.select(turning, *new, before);
                 }
             }
-            scatter_transpose(s, leans, &ids, found);
+            scatter_transpose(s, cones, &ids, cone);
         }
     }
 }
 
-/// Finds which pairs cannot meet: all normals lean little as seen from amid the means of both.
+/// Sets a bit for each pair whose triangles cannot meet, by the cones at all times in `cones`.
 #[inline(always)]
-fn look<S: Simd>(s: S, pairs: &[Pairs], first_parted: usize, ends: &[&[Lean]], quiet: &mut [u8]) {
+fn cull_pairs_lanes<S: Simd>(
+    s: S,
+    pairs: &[ConePairBlock],
+    first_vertex_block: usize,
+    cones: &[&[NormalCone]],
+    culled: &mut [u8],
+) {
     let all = (1 << S::LANES) - 1;
-    for (number, ([one, other, between], quiet)) in pairs.iter().zip(quiet).enumerate() {
+    for (number, ([one, other, between], culled)) in pairs.iter().zip(culled).enumerate() {
         let mut bits = 0;
-        for at in (0..LANES).step_by(S::LANES) {
-            let mut are_quiet = all;
-            for leans in ends {
-                if are_quiet == 0 {
+        for lane in (0..LANES).step_by(S::LANES) {
+            let mut are_culled = all;
+            for cones in cones {
+                if are_culled == 0 {
                     break;
                 }
                 let (one, other) = (
-                    gather_transpose(s, leans, &one[at..]),
-                    gather_transpose(s, leans, &other[at..]),
+                    gather_transpose(s, cones, &one[lane..]),
+                    gather_transpose(s, cones, &other[lane..]),
                 );
-                let (a, b) = (V::new(one), V::new(other));
-                are_quiet &= are_alike(s, [a, b], Float::min(one[3], other[3]));
-                if number >= first_parted {
-                    // Around a common vertex all may lean alike that lie on each other, if what is between them is
-                    // turned over.
-                    let between = gather_transpose(s, leans, &between[at..]);
-                    are_quiet &= faces(s, V::new(between), between[3], a.plus(b));
+                let (a, b) = (Vec3Lanes::new(one), Vec3Lanes::new(other));
+                are_culled &= is_height_field(s, [a, b], Float::min(one[3], other[3]));
+                if number >= first_vertex_block {
+                    // Two clusters that share only a vertex may have similar normals and still
+                    // overlap, if the cluster between them is folded over. So that one must face
+                    // the same way.
+                    let between = gather_transpose(s, cones, &between[lane..]);
+                    are_culled &= faces(s, Vec3Lanes::new(between), between[3], a.plus(b));
                 }
             }
-            bits |= are_quiet << at;
+            bits |= are_culled << lane;
         }
-        *quiet = bits as u8;
+        *culled = bits as u8;
     }
 }
 
-/// Which pairs have all normals lean little, seen from amid two means: by the half of what those are apart, and what
-/// normals lean from them.
+/// A bit for each lane: set if all normals lie within the limit of the bisector of two mean
+/// normals. `cosine` is that of the larger half angle of both cones.
 #[inline(always)]
-fn are_alike<S: Simd>(s: S, [a, b]: [V<S::F>; 2], cone: S::F) -> u32 {
+fn is_height_field<S: Simd>(s: S, [a, b]: [Vec3Lanes<S::F>; 2], cosine: S::F) -> u32 {
     let (half, one) = (s.splat(0.5), s.splat(1.0));
-    let amid = Float::min((one + a.dot(b)) * half, one).sqrt();
-    let steep = s.splat(STEEP);
-    s.positive_mask(cone - steep) & s.positive_mask(cosine_of_sum(s, amid, cone) - steep)
+    let bisector = Float::min((one + a.dot(b)) * half, one).sqrt();
+    let least = s.splat(MIN_COSINE);
+    s.positive_mask(cosine - least) & s.positive_mask(cosine_of_sum(s, bisector, cosine) - least)
 }
 
-/// Which have all normals on the side that a way leads to.
+/// A bit for each lane: set if all normals of a cone point to the side of `direction`.
 #[inline(always)]
-fn faces<S: Simd>(s: S, normal: V<S::F>, cone: S::F, way: V<S::F>) -> u32 {
-    let cosine = normal.dot(way) / way.dot(way).sqrt();
-    let sum = cosine_of_sum(s, Float::min(cosine, s.splat(1.0)), cone);
-    s.positive_mask(cosine) & s.positive_mask(cone) & s.positive_mask(sum)
+fn faces<S: Simd>(s: S, mean: Vec3Lanes<S::F>, cosine: S::F, direction: Vec3Lanes<S::F>) -> u32 {
+    let to_mean = mean.dot(direction) / direction.dot(direction).sqrt();
+    let sum = cosine_of_sum(s, Float::min(to_mean, s.splat(1.0)), cosine);
+    s.positive_mask(to_mean) & s.positive_mask(cosine) & s.positive_mask(sum)
 }
 
-/// The cosine of the sum of two angles up to a right one, of their cosines.
+/// cos(α + β) = cos α cos β − √((1 − cos² α) (1 − cos² β)), for angles up to 90°.
 #[inline(always)]
 fn cosine_of_sum<S: Simd>(s: S, a: S::F, b: S::F) -> S::F {
     let one = s.splat(1.0);
@@ -282,69 +343,72 @@ fn cosine_of_sum<S: Simd>(s: S, a: S::F, b: S::F) -> S::F {
 mod tests {
     use super::*;
 
-    /// Patches side by side along a strip, a square of two triangles each, the square after each turned by an
-    /// angle [rad] against it; each pair of neighbours is beside each other.
-    fn strip(turns: &[f32]) -> (Leans, Vec<Float4>) {
+    /// A strip of clusters: each is a unit square of two triangles, turned by an angle [rad]
+    /// against the square before it. Pair i joins squares i and i + 1.
+    fn strip(angles: &[f32]) -> (NormalCones, Vec<Float4>) {
         let (mut x, mut angle, mut at) = (Vec::new(), 0.0_f32, [0.0, 0.0]);
-        for turn in [0.0].iter().chain(turns) {
+        for turn in [0.0].iter().chain(angles) {
             x.extend([[at[0], at[1], 0.0, 1.0], [at[0], at[1], 1.0, 1.0]]);
             angle += turn;
             at = [at[0] + angle.cos(), at[1] + angle.sin()];
         }
         x.extend([[at[0], at[1], 0.0, 1.0], [at[0], at[1], 1.0, 1.0]]);
-        let count = turns.len() + 1;
-        let mut beside: Vec<_> = (1..count as u32).map(|i| ([i - 1, i], None, u32::MAX)).collect();
-        let mut leans = Leans::new(count, &mut beside);
-        assert!(beside.iter().enumerate().all(|(at, (.., place))| *place == at as u32));
-        for patch in 0..count {
-            let a = 2 * patch as u32;
-            leans.set(patch, [[a, a + 1, a + 2], [a + 3, a + 2, a + 1]].into_iter());
+        let count = angles.len() + 1;
+        let mut pairs: Vec<_> = (1..count as u32).map(|i| ([i - 1, i], None, u32::MAX)).collect();
+        let mut cones = NormalCones::new(count, &mut pairs);
+        assert!(pairs.iter().enumerate().all(|(i, (.., index))| *index == i as u32));
+        for cluster in 0..count {
+            let a = 2 * cluster as u32;
+            let triangles = [[a, a + 1, a + 2], [a + 3, a + 2, a + 1]];
+            cones.set_triangles(cluster, triangles.into_iter());
         }
-        (leans, x)
+        (cones, x)
     }
 
     #[test]
-    fn what_leans_alike_is_quiet_and_what_is_bent_is_not() {
+    fn flat_neighbours_are_culled_and_folded_neighbours_are_not() {
         for level in Level::all() {
-            let (mut leans, x) = strip(&[0.0, 0.5, 1.5, 2.5, 0.1, 0.0, 0.0, 2.0, 0.0, 0.0]);
-            leans.find(level, &x, &x);
-            let quiet: Vec<bool> = (0..10).map(|pair| leans.is_quiet(pair)).collect();
-            let expected = [0.0, 0.5, 1.5, 2.5, 0.1, 0.0, 0.0, 2.0, 0.0, 0.0]
-                .map(|angle: f32| angle < 2.0 * STEEP.acos());
-            assert_eq!(quiet, expected, "{level:?}");
-            assert!((0..10).all(|pair| leans.is_quiet_again(pair) == quiet[pair as usize]));
-            assert!((0..11).all(|patch| leans.is_flat(patch)), "{level:?}");
+            let angles = [0.0, 0.5, 1.5, 2.5, 0.1, 0.0, 0.0, 2.0, 0.0, 0.0];
+            let (mut cones, x) = strip(&angles);
+            cones.update(level, &x, &x);
+            let culled: Vec<bool> = (0..10).map(|pair| cones.is_culled(pair)).collect();
+            let expected = angles.map(|angle: f32| angle < 2.0 * MIN_COSINE.acos());
+            assert_eq!(culled, expected, "{level:?}");
+            assert!(
+                (0..10).all(|pair| cones.is_culled_after_update(pair) == culled[pair as usize])
+            );
+            assert!((0..11).all(|cluster| cones.is_flat(cluster)), "{level:?}");
         }
     }
 
     #[test]
-    fn a_patch_that_turns_within_a_substep_is_seen_as_it_ends() {
+    fn a_turning_cluster_is_tested_at_its_end_position_too() {
         for level in Level::all() {
-            let (mut leans, start) = strip(&[0.0, 0.0]);
+            let (mut cones, start) = strip(&[0.0, 0.0]);
             let (_, end) = strip(&[3.0, 0.0]);
-            leans.find(level, &start, &end);
-            assert!(leans.is_quiet(0), "none is said to turn at {level:?}");
-            leans.set_turning(1, true);
-            leans.find(level, &start, &end);
-            assert!(!leans.is_quiet(0) && !leans.is_quiet_again(0), "{level:?}");
-            leans.find(level, &start, &start);
-            leans.find_again(level, &end);
-            assert!(leans.is_quiet(0) && !leans.is_quiet_again(0), "{level:?}");
+            cones.update(level, &start, &end);
+            assert!(cones.is_culled(0), "no cluster is set to turn at {level:?}");
+            cones.set_turning(1, true);
+            cones.update(level, &start, &end);
+            assert!(!cones.is_culled(0) && !cones.is_culled_after_update(0), "{level:?}");
+            cones.update(level, &start, &start);
+            cones.update_turning(level, &end);
+            assert!(cones.is_culled(0) && !cones.is_culled_after_update(0), "{level:?}");
         }
     }
 
     #[test]
-    fn of_triangles_without_an_area_nothing_is_known() {
+    fn a_degenerate_triangle_prevents_culling() {
         for level in Level::all() {
-            let (mut leans, mut x) = strip(&[0.0, 0.0, 0.0]);
+            let (mut cones, mut x) = strip(&[0.0, 0.0, 0.0]);
             x[2] = x[0];
-            leans.find(level, &x, &x);
-            assert!(!leans.is_flat(0) && !leans.is_quiet(0), "{level:?}");
-            assert!(leans.is_flat(2) && leans.is_quiet(2), "{level:?}");
-            let (mut leans, x) = strip(&[0.0]);
-            leans.set(0, [].into_iter());
-            leans.find(level, &x, &x);
-            assert!(!leans.is_flat(0) && !leans.is_quiet(0) && leans.is_flat(1), "{level:?}");
+            cones.update(level, &x, &x);
+            assert!(!cones.is_flat(0) && !cones.is_culled(0), "{level:?}");
+            assert!(cones.is_flat(2) && cones.is_culled(2), "{level:?}");
+            let (mut cones, x) = strip(&[0.0]);
+            cones.set_triangles(0, [].into_iter());
+            cones.update(level, &x, &x);
+            assert!(!cones.is_flat(0) && !cones.is_culled(0) && cones.is_flat(1), "{level:?}");
         }
     }
 }

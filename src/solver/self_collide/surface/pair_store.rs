@@ -1,33 +1,49 @@
-//! Pairs of one kind that may meet for as long as particles stay in their reach, each with how far apart its sides
-//! were where particles were based: what has not gone that far since needs no look.
+//! Pair lists of the pair cache: ids, gap and start separation of each pair, in columns.
+//!
+//! ```text
+//! ids         [a b c d] [a b c d] …      1 + 3 or 2 + 2 particles
+//! gaps            0.01      0.01  …      [m]
+//! separations     0.13      0.02  …      when the pair was added [m]
+//! ```
+//! A pair that was `separation` apart cannot touch before both sides have moved that far relative
+//! to each other, as in conservative advancement (Mirtich, "Impulse-based Dynamic Simulation",
+//! 1996). So most pairs of a substep are rejected with one comparison.
+//!
+//! Reads positions; writes its own lists and the caller's candidate pairs.
+//!
+//! Invariant: the separation of a pair is at most the distance of its sides at that time; −∞ for
+//! NaN. All pairs but those pushed since the last [`PairStore::measure`] have one.
 
 use crate::math::simd::{Float, Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
-use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
-use crate::solver::self_collide::surface::contact::{EDGES, Kind, VERTEX};
-use crate::solver::self_collide::surface::separation_test::{Candidates, turned};
+use crate::solver::self_collide::surface::closest_lanes::{
+    Vec3Lanes, closest_edge_edge, closest_vertex_triangle, separation,
+};
+use crate::solver::self_collide::surface::contact::{ContactKind, EDGE_EDGE, VERTEX_TRIANGLE};
+use crate::solver::self_collide::surface::separation_test::{CandidatePairs, transpose_ids};
 
-/// Lanes that lists are filled up to.
+/// Lists are padded to a multiple of this many pairs.
 const LANES: usize = 8;
 
-/// Pairs.
+/// Pairs of one kind.
 #[derive(Clone, Debug)]
-pub(crate) struct Stock {
+pub(crate) struct PairStore {
     ids: Vec<[u32; 4]>,
-    /// How far each keeps apart [m].
+    /// Distance that each pair keeps [m].
     gaps: Vec<f32>,
-    /// How far apart sides were along a direction, of those that were measured [m].
-    apart: Vec<f32>,
+    /// Separation of each measured pair when it was added [m].
+    separations: Vec<f32>,
 }
 
-impl Stock {
+impl PairStore {
     pub fn new(capacity: usize) -> Self {
         let list = || Vec::with_capacity(capacity + LANES);
-        Self { ids: Vec::with_capacity(capacity + LANES), gaps: list(), apart: list() }
+        Self { ids: Vec::with_capacity(capacity + LANES), gaps: list(), separations: list() }
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * 6 * self.apart.capacity()
+        size_of::<u32>() * 6 * self.separations.capacity()
     }
 
     pub fn len(&self) -> usize {
@@ -37,7 +53,7 @@ impl Stock {
     pub fn clear(&mut self) {
         self.ids.clear();
         self.gaps.clear();
-        self.apart.clear();
+        self.separations.clear();
     }
 
     #[inline(always)]
@@ -46,93 +62,106 @@ impl Stock {
         self.gaps.push(gap);
     }
 
-    /// Moves measured pairs to a place before theirs, and says which those are then.
-    pub fn take_back(&mut self, [from, to]: [u32; 2], place: u32) -> [u32; 2] {
-        let (own, place) = (from as usize..to as usize, place as usize);
-        self.ids.copy_within(own.clone(), place);
-        self.gaps.copy_within(own.clone(), place);
-        self.apart.copy_within(own.clone(), place);
-        [place as u32, (place + own.len()) as u32]
+    /// Moves a range of measured pairs forward to index `to_index`, and returns its new range.
+    pub fn move_range(&mut self, [from, to]: [u32; 2], to_index: u32) -> [u32; 2] {
+        let (own, to_index) = (from as usize..to as usize, to_index as usize);
+        self.ids.copy_within(own.clone(), to_index);
+        self.gaps.copy_within(own.clone(), to_index);
+        self.separations.copy_within(own.clone(), to_index);
+        [to_index as u32, (to_index + own.len()) as u32]
     }
 
-    /// Leaves so many, all of them measured.
+    /// Drops all pairs from index `count` on. All pairs must be measured.
     pub fn truncate(&mut self, count: u32) {
         let count = count as usize;
         self.ids.truncate(count);
         self.gaps.truncate(count);
-        self.apart.truncate(count);
+        self.separations.truncate(count);
     }
 
-    /// Measures what was pushed since the last time, with particles at their base.
-    pub fn measure<const FIRST: Kind>(&mut self, level: Level, base: &[Float4]) {
-        let (from, count) = (self.apart.len(), self.len());
+    /// Measures the separations of the pairs that were pushed since the last time, at positions
+    /// `x`.
+    pub fn measure<const KIND: ContactKind>(&mut self, level: Level, x: &[Float4]) {
+        let (from, count) = (self.separations.len(), self.len());
         if from == count {
             return;
         }
-        let full = from + (count - from).next_multiple_of(LANES);
-        self.ids.resize(full, [0; 4]);
-        self.apart.resize(full, 0.0);
-        let (ids, apart) = (&self.ids[from..], &mut self.apart[from..]);
-        if FIRST == VERTEX {
-            measure_vertices(level, ids, base, apart);
+        let padded = from + (count - from).next_multiple_of(LANES);
+        self.ids.resize(padded, [0; 4]);
+        self.separations.resize(padded, 0.0);
+        let (ids, separations) = (&self.ids[from..], &mut self.separations[from..]);
+        if KIND == VERTEX_TRIANGLE {
+            measure_vertex_triangle(level, ids, x, separations);
         } else {
-            measure_edges(level, ids, base, apart);
+            measure_edge_edge(level, ids, x, separations);
         }
         self.ids.truncate(count);
-        self.apart.truncate(count);
+        self.separations.truncate(count);
     }
 
-    /// Adds those of some to candidates that may have come together by ways of so much [m], and are `wanted`.
+    /// Pushes the pairs of a range whose separation is below `max_relative` [m], so that they may
+    /// touch after that much relative displacement, and for which `filter` returns true.
     #[inline(always)]
-    pub fn pick(
+    pub fn push_candidates(
         &self,
         [from, to]: [u32; 2],
-        ways: f32,
-        candidates: &mut Candidates,
-        is_wanted: impl Fn(&[u32; 4]) -> bool,
+        max_relative: f32,
+        candidates: &mut CandidatePairs,
+        filter: impl Fn(&[u32; 4]) -> bool,
     ) {
-        let (first, to) = (from as usize, to as usize);
-        let (ids, gaps) = (&self.ids[first..to], &self.gaps[first..to]);
-        for (at, apart) in self.apart[first..to].iter().enumerate() {
-            if *apart < ways && is_wanted(&ids[at]) {
-                candidates.push(ids[at], gaps[at]);
+        let (from, to) = (from as usize, to as usize);
+        let (ids, gaps) = (&self.ids[from..to], &self.gaps[from..to]);
+        for (i, separation) in self.separations[from..to].iter().enumerate() {
+            if *separation < max_relative && filter(&ids[i]) {
+                candidates.push(ids[i], gaps[i]);
             }
         }
     }
 }
 
 vectored! {
-    fn measure_vertices(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32])
-        = measure::<_, VERTEX>, Avx2, measure_vertices_apart
+    fn measure_vertex_triangle(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32])
+        = measure_lanes::<_, VERTEX_TRIANGLE>, Avx2, measure_vertex_triangle_scalar
 }
 
 vectored! {
-    fn measure_edges(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32])
-        = measure::<_, EDGES>, Avx2, measure_edges_apart
+    fn measure_edge_edge(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32])
+        = measure_lanes::<_, EDGE_EDGE>, Avx2, measure_edge_edge_scalar
 }
 
-fn measure_vertices_apart(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32]) {
-    measure::<_, VERTEX>(Scalar, ids, base, apart);
+fn measure_vertex_triangle_scalar(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32]) {
+    measure_lanes::<_, VERTEX_TRIANGLE>(Scalar, ids, x, separations);
 }
 
-fn measure_edges_apart(ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32]) {
-    measure::<_, EDGES>(Scalar, ids, base, apart);
+fn measure_edge_edge_scalar(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32]) {
+    measure_lanes::<_, EDGE_EDGE>(Scalar, ids, x, separations);
 }
 
-/// What leads from one side to the other where they are closest tells them apart by all of their distance; that is
-/// asked of the direction that was found, so that it holds however exact that is. What is not a number is not apart.
+/// Measures separations along the direction between the closest points. The separation along any
+/// direction is a lower bound of the distance, so rounding in the closest points does no harm.
 #[inline(always)]
-fn measure<S: Simd, const FIRST: Kind>(s: S, ids: &[[u32; 4]], base: &[Float4], apart: &mut [f32]) {
-    for at in (0..apart.len()).step_by(S::LANES) {
-        let ids = turned::<S>(&ids[at..]);
-        let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
+fn measure_lanes<S: Simd, const KIND: ContactKind>(
+    s: S,
+    ids: &[[u32; 4]],
+    positions: &[Float4],
+    separations: &mut [f32],
+) {
+    for i in (0..separations.len()).step_by(S::LANES) {
+        let ids = transpose_ids::<S>(&ids[i..]);
+        let mut x = [Vec3Lanes { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
         for k in 0..4 {
-            x[k] = V::new(gather_transpose(s, base, &ids[k]));
+            x[k] = Vec3Lanes::new(gather_transpose(s, positions, &ids[k]));
         }
-        let (way, _) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
-        let n = way.times(s.splat(1.0) / way.dot(way).sqrt());
-        let distance = between::<_, FIRST>([n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])]);
-        s.store(apart, at, Float::max(distance, s.splat(f32::NEG_INFINITY)));
+        let (d, _) = if KIND == VERTEX_TRIANGLE {
+            closest_vertex_triangle(s, x)
+        } else {
+            closest_edge_edge(s, x)
+        };
+        let n = d.times(s.splat(1.0) / d.dot(d).sqrt());
+        let along = [n.dot(x[0]), n.dot(x[1]), n.dot(x[2]), n.dot(x[3])];
+        let separation = separation::<_, KIND>(along);
+        // This turns NaN into −∞.
+        s.store(separations, i, Float::max(separation, s.splat(f32::NEG_INFINITY)));
     }
 }
 
@@ -140,33 +169,34 @@ fn measure<S: Simd, const FIRST: Kind>(s: S, ids: &[[u32; 4]], base: &[Float4], 
 mod tests {
     use super::*;
 
-    /// Sheets over each other, so far apart as their numbers say, and the pairs of a vertex and a triangle in them.
-    fn sheets(level: Level) -> Stock {
-        let mut base = Vec::new();
-        let mut stock = Stock::new(20);
+    /// Twenty pairs of a vertex and a triangle; in pair i the vertex is i [m] above the triangle.
+    /// Pair 7 has a NaN.
+    fn stacked_pairs(level: Level) -> PairStore {
+        let mut x = Vec::new();
+        let mut store = PairStore::new(20);
         for i in 0..20_u32 {
             let corners = [[0.2, i as f32, 0.2], [0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-            base.extend(corners.map(|[x, y, z]| [x, y, z, 1.0]));
+            x.extend(corners.map(|[x, y, z]| [x, y, z, 1.0]));
         }
-        base[4 * 7][0] = f32::NAN;
-        // In two lots, neither of them whole blocks of lanes.
-        for lot in [0..13, 13..20] {
-            lot.for_each(|i| stock.push([4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3], 0.1));
-            stock.measure::<VERTEX>(level, &base);
+        x[4 * 7][0] = f32::NAN;
+        // Two batches, neither a multiple of the lanes.
+        for batch in [0..13, 13..20] {
+            batch.for_each(|i| store.push([4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3], 0.1));
+            store.measure::<VERTEX_TRIANGLE>(level, &x);
         }
-        stock
+        store
     }
 
     #[test]
-    fn what_is_too_far_away_is_not_picked_and_what_is_nowhere_is() {
+    fn only_pairs_within_the_displacement_and_nan_become_candidates() {
         for level in Level::all() {
-            let mut stock = sheets(level);
-            assert_eq!(stock.take_back([2, 19], 0), [0, 17]);
-            stock.truncate(17);
-            for (ways, count) in [(0.5, 1), (2.5, 2), (4.5, 4), (f32::INFINITY, 17)] {
-                let mut picked = Candidates::new(20);
-                stock.pick([0, 17], ways, &mut picked, |_| true);
-                assert_eq!(picked.len(), count, "{ways} at {level:?}");
+            let mut store = stacked_pairs(level);
+            assert_eq!(store.move_range([2, 19], 0), [0, 17]);
+            store.truncate(17);
+            for (moved, count) in [(0.5, 1), (2.5, 2), (4.5, 4), (f32::INFINITY, 17)] {
+                let mut candidates = CandidatePairs::new(20);
+                store.push_candidates([0, 17], moved, &mut candidates, |_| true);
+                assert_eq!(candidates.len(), count, "{moved} at {level:?}");
             }
         }
     }

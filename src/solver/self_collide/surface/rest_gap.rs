@@ -1,48 +1,64 @@
-//! How far pairs keep apart: as far as layers do, unless they are nearer at rest.
+//! Gap of each pair: that of the material, less for pairs that are nearer at rest.
+//!
+//! ```text
+//! gap(pair) = min(gap, max(½ · rest distance, ½ · split distance))      if both sides are of one piece
+//! gap(pair) = gap                                                       otherwise
+//! ```
+//! Without this rule, neighbours in a fine mesh, whose rest distance is below the gap, would push
+//! each other all the time.
+//!
+//! Reads the mesh and its rest positions; writes nothing.
+//!
+//! Invariant: the gap of a pair depends on the rest shape only, so it can be cached.
 
 use crate::geometry::aabb::Aabb;
 use crate::math::{max, min};
-use crate::solver::self_collide::surface::contact::{Contact, Kind};
-use crate::solver::self_collide::surface::split_separation::HAIR;
-use crate::solver::world::World;
+use crate::mesh::Mesh;
+use crate::solver::self_collide::surface::contact::{Contact, ContactKind};
+use crate::solver::self_collide::surface::split_separation::SPLIT_DISTANCE;
 use glam::Vec3;
 
-/// Pairs of one piece keep no farther apart than this share of their distance at rest.
-const WOVEN: f32 = 0.5;
+/// Gap of a pair of one piece, as a share of its rest distance.
+const REST_DISTANCE_SHARE: f32 = 0.5;
 
-/// A cloth at rest.
+/// The rest shape of a cloth, and the gap between its layers.
 #[derive(Clone, Copy)]
 pub(crate) struct RestGap<'a> {
-    pub world: &'a World,
-    /// The piece that each site was part of before anything tore.
+    pub mesh: &'a Mesh,
+    /// Rest position of each site [m].
+    pub rest: &'a [Vec3],
+    /// Connected piece of each site in the mesh as created.
     pub pieces: &'a [u32],
-    /// How far layers keep apart [m].
+    /// Mean rest length of the edges [m].
+    pub mean_edge: f32,
+    /// Gap between layers [m].
     pub gap: f32,
 }
 
 impl RestGap<'_> {
-    /// What is farther apart at rest keeps all of the gap [m].
-    pub fn near(&self) -> f32 {
-        self.gap / WOVEN
+    /// Rest distance from which on a pair keeps the full gap [m].
+    pub fn full_gap_distance(&self) -> f32 {
+        self.gap / REST_DISTANCE_SHARE
     }
 
-    /// How far a pair keeps apart [m].
-    pub fn gap_of<const FIRST: Kind>(&self, ids: [u32; 4]) -> f32 {
+    /// The gap of a pair [m].
+    pub fn gap_of<const KIND: ContactKind>(&self, ids: [u32; 4]) -> f32 {
         let [a, b, c, d] = ids;
-        let site = |id: u32| self.world.mesh.source[id as usize] as usize;
+        let site = |id: u32| self.mesh.source[id as usize] as usize;
         let sites = [site(a), site(b), site(c), site(d)];
         if self.pieces[sites[0]] != self.pieces[sites[3]] {
             return self.gap;
         }
-        let rest = |at: usize| self.world.rest[sites[at]];
+        let rest = |k: usize| self.rest[sites[k]];
         let x = [rest(0), rest(1), rest(2), rest(3)];
-        let (one, other) = x.split_at(FIRST as usize);
+        let (one, other) = x.split_at(KIND as usize);
         let sides = [one, other].map(|side: &[Vec3]| Aabb::from_points(side.iter().copied()));
-        if !sides[0].expanded(self.near()).overlaps(&sides[1]) {
+        if !sides[0].expanded(self.full_gap_distance()).overlaps(&sides[1]) {
             return self.gap;
         }
-        // The sides of a slit are at the same place at rest, and a hair apart as they part.
-        let least = self.world.mean_edge * (WOVEN * HAIR);
-        min(self.gap, max(WOVEN * Contact::distance::<FIRST>(x), least))
+        // Both sides of a split are at the same place at rest; `split_separation` moves them apart
+        // this far.
+        let least = self.mean_edge * (REST_DISTANCE_SHARE * SPLIT_DISTANCE);
+        min(self.gap, max(REST_DISTANCE_SHARE * Contact::distance::<KIND>(x), least))
     }
 }

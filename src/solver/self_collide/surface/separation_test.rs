@@ -1,72 +1,94 @@
-//! Pairs that boxes do not tell apart, and which of them a direction does, many at once.
+//! Separation test: rejects candidate pairs that a box or a direction separates for the whole
+//! substep.
 //!
-//! What leads from one side to the other where they are closest as the substep begins tells most pairs apart then
-//! and, wherever they may get, in the end. What it does not is looked at one by one (`contacts`).
+//! ```text
+//!      A ●──────▶ ┊         1. AABBs: the boxes of both sides stay apart by more than the gap
+//!                 ┊         2. direction n between the closest points at the start:
+//!          ◀──● B ┊            separation(n) > 0 at the start, and > gap at the end for all
+//!                 ┊            positions within the motion bounds
+//! ```
+//! A conservative continuous test: both sides are on their own sides of a plane at the start and at
+//! the end, so they did not cross it (see `contact`). It rejects most pairs; the rest goes to the
+//! narrow phase, or becomes speculative contacts.
+//!
+//! Reads [`SweptParticles`]; writes its own lists.
+//!
+//! Invariant: a rejected pair cannot come nearer than the gap while its particles stay within their
+//! motion bounds. A pair with NaN is never rejected.
 
 use crate::math::simd::{Float, Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
-use crate::solver::self_collide::surface::closest_lanes::{V, between, from_edge, from_triangle};
-use crate::solver::self_collide::surface::contact::{CLEAR, EDGES, Kind, NOTHING, VERTEX};
-use crate::solver::self_collide::surface::speculative::Distant;
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::self_collide::surface::closest_lanes::{
+    Vec3Lanes, closest_edge_edge, closest_vertex_triangle, separation,
+};
+use crate::solver::self_collide::surface::contact::{
+    CLEAR_SHARE, ContactKind, EDGE_EDGE, MIN_DISTANCE, VERTEX_TRIANGLE,
+};
+use crate::solver::self_collide::surface::speculative::SpeculativeContact;
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use glam::Vec3;
 
-/// Lanes that lists are filled up to.
+/// Lists are padded to a multiple of this many pairs.
 const LANES: usize = 8;
 
-/// Bits in a word.
-const BITS: usize = 64;
+/// Bits in a word of the bit set.
+const WORD_BITS: usize = 64;
 
-/// Pairs of one kind.
+/// Candidate pairs of one kind, and the results of their separation test.
 #[derive(Clone, Debug)]
-pub(crate) struct Candidates {
+pub(crate) struct CandidatePairs {
     ids: Vec<[u32; 4]>,
-    /// How far each keeps apart [m].
+    /// Distance that each pair keeps [m].
     gaps: Vec<f32>,
-    /// Which of them may meet: a bit for each.
+    /// A bit for each pair: set if the test did not reject it.
     may_meet: Vec<u64>,
-    judged: Lanes<Vec<f32>>,
+    results: SeparationLanes<Vec<f32>>,
 }
 
-/// What was found of each pair.
+/// Results of the test, in columns.
 #[derive(Clone, Debug)]
-struct Lanes<T> {
-    /// The direction from the second side to the first where they were closest, and how far they are apart along it.
+struct SeparationLanes<T> {
+    /// Direction from the second side to the first between the closest points at the start.
     n: [T; 3],
+    /// See [`CandidatePair::distance`].
     distance: T,
 }
 
-/// A pair that may meet: how far it keeps apart, the direction that it was apart along, and how near it is
-/// then or now, whichever is less.
-pub(crate) struct Candidate {
+/// A pair that the test did not reject.
+pub(crate) struct CandidatePair {
     pub ids: [u32; 4],
+    /// Distance that the pair keeps [m].
     pub gap: f32,
+    /// Direction from the second side to the first between the closest points at the start.
     pub n: Vec3,
+    /// The smaller of the distances at the start and now [m]. Infinite for nearly parallel edges,
+    /// which the contact solver ignores.
     pub distance: f32,
 }
 
-impl Candidate {
+impl CandidatePair {
     #[inline(always)]
-    pub fn as_distant(&self, first: Kind) -> Distant {
+    pub fn to_speculative(&self, kind: ContactKind) -> SpeculativeContact {
         let Self { ids, gap, n, .. } = *self;
-        Distant { ids, first, gap, n }
+        SpeculativeContact { ids, kind, gap, n }
     }
 }
 
-impl Candidates {
+impl CandidatePairs {
     pub fn new(capacity: usize) -> Self {
         let ids = Vec::with_capacity(capacity + LANES);
         let list = || Vec::with_capacity(capacity + LANES);
         Self {
             ids,
             gaps: list(),
-            may_meet: Vec::with_capacity(capacity / BITS + 1),
-            judged: Lanes { n: [list(), list(), list()], distance: list() },
+            may_meet: Vec::with_capacity(capacity / WORD_BITS + 1),
+            results: SeparationLanes { n: [list(), list(), list()], distance: list() },
         }
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        size_of::<u32>() * 9 * self.judged.distance.capacity() + 8 * self.may_meet.capacity()
+        size_of::<u32>() * 9 * self.results.distance.capacity() + 8 * self.may_meet.capacity()
     }
 
     pub fn clear(&mut self) {
@@ -84,177 +106,208 @@ impl Candidates {
         self.gaps.push(gap);
     }
 
-    /// Finds which are told apart by more than `gap` in the end; lists are filled up for that.
-    pub fn judge<const FIRST: Kind>(&mut self, level: Level, motion: &Motion, gap: f32) {
+    /// Tests all pairs. `gap` is the largest gap of any pair [m]. Pads the lists to whole blocks of
+    /// lanes.
+    pub fn test_separation<const KIND: ContactKind>(
+        &mut self,
+        level: Level,
+        motion: &SweptParticles,
+        gap: f32,
+    ) {
         let count = self.len().next_multiple_of(LANES);
         self.ids.resize(count, [0; 4]);
         self.gaps.resize(count, gap);
         self.may_meet.clear();
-        self.may_meet.resize(count.div_ceil(BITS), 0);
-        let Lanes { n: [x, y, z], distance } = &mut self.judged;
+        self.may_meet.resize(count.div_ceil(WORD_BITS), 0);
+        let SeparationLanes { n: [x, y, z], distance } = &mut self.results;
         [&mut *x, y, z, distance].into_iter().for_each(|list| list.resize(count, 0.0));
-        let (ids, rooms, may_meet) = (&self.ids[..], motion.rooms(), &mut self.may_meet[..]);
-        let lanes = Lanes { n: [&mut x[..], y, z], distance: &mut distance[..] };
-        let judged = Judged { ids, rooms, gap, may_meet, lanes };
-        if FIRST == VERTEX { judge_vertices(level, judged) } else { judge_edges(level, judged) }
+        let lanes = SeparationLanes { n: [&mut x[..], y, z], distance: &mut distance[..] };
+        let batch = SeparationBatch {
+            ids: &self.ids[..],
+            start_and_bounds: motion.start_and_bounds(),
+            gap,
+            may_meet: &mut self.may_meet[..],
+            lanes,
+        };
+        if KIND == VERTEX_TRIANGLE {
+            test_vertex_triangle(level, batch);
+        } else {
+            test_edge_edge(level, batch);
+        }
     }
 
-    /// Those of some that may meet, in order.
-    pub fn meeting(&self, from: u32, to: u32) -> impl Iterator<Item = Candidate> {
+    /// The pairs of the range `from..to` that the test did not reject, in order.
+    pub fn remaining(&self, from: u32, to: u32) -> impl Iterator<Item = CandidatePair> {
         let (from, to) = (from as usize, to as usize);
-        let words = from / BITS..to.div_ceil(BITS);
-        let meeting = words.flat_map(move |word| {
-            let first = word * BITS;
-            let after = u64::MAX << from.saturating_sub(first);
-            let before = u64::MAX >> (first + BITS).saturating_sub(to);
-            let mut bits = self.may_meet[word] & after & before;
+        let words = from / WORD_BITS..to.div_ceil(WORD_BITS);
+        let indices = words.flat_map(move |word| {
+            let first = word * WORD_BITS;
+            let from_mask = u64::MAX << from.saturating_sub(first);
+            let to_mask = u64::MAX >> (first + WORD_BITS).saturating_sub(to);
+            let mut bits = self.may_meet[word] & from_mask & to_mask;
             core::iter::from_fn(move || {
-                let place = bits.trailing_zeros() as usize;
+                let bit = bits.trailing_zeros() as usize;
                 (bits != 0).then(|| {
                     bits &= bits - 1;
-                    first + place
+                    first + bit
                 })
             })
         });
-        meeting.map(|at| self.candidate(at))
+        indices.map(|i| self.candidate(i))
     }
 
     #[inline(always)]
-    fn candidate(&self, at: usize) -> Candidate {
-        let Lanes { n: [x, y, z], distance } = &self.judged;
-        let (ids, gap) = (self.ids[at], self.gaps[at]);
-        Candidate { ids, gap, n: Vec3::new(x[at], y[at], z[at]), distance: distance[at] }
+    fn candidate(&self, i: usize) -> CandidatePair {
+        let SeparationLanes { n: [x, y, z], distance } = &self.results;
+        let (ids, gap) = (self.ids[i], self.gaps[i]);
+        CandidatePair { ids, gap, n: Vec3::new(x[i], y[i], z[i]), distance: distance[i] }
     }
 }
 
-/// Pairs with where their particles are at the start, and from where to where they get.
-struct Judged<'a> {
+/// Input and output of the kernels.
+struct SeparationBatch<'a> {
     ids: &'a [[u32; 4]],
-    rooms: [&'a [Float4]; 3],
+    /// Start positions, and lower and upper corners of the motion bounds.
+    start_and_bounds: [&'a [Float4]; 3],
     gap: f32,
     may_meet: &'a mut [u64],
-    lanes: Lanes<&'a mut [f32]>,
+    lanes: SeparationLanes<&'a mut [f32]>,
 }
 
 vectored! {
-    fn judge_vertices(judged: Judged<'_>) = judge::<_, VERTEX>, Avx2, judge_vertices_apart
+    fn test_vertex_triangle(batch: SeparationBatch<'_>)
+        = test_lanes::<_, VERTEX_TRIANGLE>, Avx2, test_vertex_triangle_scalar
 }
 
 vectored! {
-    fn judge_edges(judged: Judged<'_>) = judge::<_, EDGES>, Avx2, judge_edges_apart
+    fn test_edge_edge(batch: SeparationBatch<'_>)
+        = test_lanes::<_, EDGE_EDGE>, Avx2, test_edge_edge_scalar
 }
 
-fn judge_vertices_apart(judged: Judged<'_>) {
-    judge::<_, VERTEX>(Scalar, judged);
+fn test_vertex_triangle_scalar(batch: SeparationBatch<'_>) {
+    test_lanes::<_, VERTEX_TRIANGLE>(Scalar, batch);
 }
 
-fn judge_edges_apart(judged: Judged<'_>) {
-    judge::<_, EDGES>(Scalar, judged);
+fn test_edge_edge_scalar(batch: SeparationBatch<'_>) {
+    test_lanes::<_, EDGE_EDGE>(Scalar, batch);
 }
 
 #[inline(always)]
-fn judge<S: Simd, const FIRST: Kind>(s: S, judged: Judged<'_>) {
-    let Judged { ids, rooms: [start, from, to], gap, may_meet, mut lanes } = judged;
-    for at in (0..lanes.distance.len()).step_by(S::LANES) {
-        let ids = turned::<S>(&ids[at..]);
-        let mut x = [V { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
-        let mut rooms = [[x[0]; 2]; 4];
+fn test_lanes<S: Simd, const KIND: ContactKind>(s: S, batch: SeparationBatch<'_>) {
+    let SeparationBatch {
+        ids,
+        start_and_bounds: [start, bound_low, bound_high],
+        gap,
+        may_meet,
+        mut lanes,
+    } = batch;
+    for i in (0..lanes.distance.len()).step_by(S::LANES) {
+        let ids = transpose_ids::<S>(&ids[i..]);
+        let mut x = [Vec3Lanes { x: s.splat(0.0), y: s.splat(0.0), z: s.splat(0.0) }; 4];
+        let mut bounds = [[x[0]; 2]; 4];
         for k in 0..4 {
-            x[k] = V::new(gather_transpose(s, start, &ids[k]));
-            rooms[k] = [
-                V::new(gather_transpose(s, from, &ids[k])),
-                V::new(gather_transpose(s, to, &ids[k])),
+            x[k] = Vec3Lanes::new(gather_transpose(s, start, &ids[k]));
+            bounds[k] = [
+                Vec3Lanes::new(gather_transpose(s, bound_low, &ids[k])),
+                Vec3Lanes::new(gather_transpose(s, bound_high, &ids[k])),
             ];
         }
-        let boxed = between_boxes::<S, FIRST>(s, x, rooms, gap);
-        if s.positive_mask(boxed) == (1 << S::LANES) - 1 {
+        let beyond_gap = aabb_separation::<S, KIND>(s, x, bounds, gap);
+        if s.positive_mask(beyond_gap) == (1 << S::LANES) - 1 {
             continue;
         }
-        let (way, share) = if FIRST == VERTEX { from_triangle(s, x) } else { from_edge(s, x) };
-        let length = way.dot(way).sqrt();
-        let n = way.times(s.splat(1.0) / length);
-        let mut before = [s.splat(0.0); 4];
-        let mut ends = [[s.splat(0.0); 2]; 4];
-        let mut now = s.splat(0.0);
-        for k in 0..4 {
-            before[k] = n.dot(x[k]);
-            let [least, most] = ends_along(n, rooms[k]);
-            now = now + share[k] * (least + most);
-            ends[k] = [before[k] + least, before[k] + most];
-        }
-        let [p, q, r, t] = ends;
-        let after = if FIRST == VERTEX {
-            p[0] - Float::max(q[1], Float::max(r[1], t[1]))
+        let (d, weights) = if KIND == VERTEX_TRIANGLE {
+            closest_vertex_triangle(s, x)
         } else {
-            Float::min(p[0], q[0]) - Float::max(r[1], t[1])
+            closest_edge_edge(s, x)
         };
-        let then = between::<_, FIRST>(before);
-        let is_clear = Float::min(then - s.splat(NOTHING), after - s.splat(gap));
-        let is_clear = s.positive_mask(Float::max(is_clear, boxed));
-        may_meet[at / BITS] |= u64::from(is_clear ^ ((1 << S::LANES) - 1)) << (at % BITS);
-        for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
-            s.store(list, at, n);
+        let length = d.dot(d).sqrt();
+        let n = d.times(s.splat(1.0) / length);
+        let mut at_start = [s.splat(0.0); 4];
+        let mut at_end = [[s.splat(0.0); 2]; 4];
+        let mut moved = s.splat(0.0);
+        for k in 0..4 {
+            at_start[k] = n.dot(x[k]);
+            let [least, most] = range_along(n, bounds[k]);
+            moved = moved + weights[k] * (least + most);
+            at_end[k] = [at_start[k] + least, at_start[k] + most];
         }
-        // Rooms are as large on all sides, so that particles are in the middle. What others push back to where it came
-        // from is as near as it was.
-        let mut distance = Float::min(length, length + s.splat(0.5) * now);
-        if FIRST == EDGES {
-            let is_clear = then - s.splat(CLEAR) * length;
+        let [a, b, c, d] = at_end;
+        let after = if KIND == VERTEX_TRIANGLE {
+            a[0] - Float::max(b[1], Float::max(c[1], d[1]))
+        } else {
+            Float::min(a[0], b[0]) - Float::max(c[1], d[1])
+        };
+        let before = separation::<_, KIND>(at_start);
+        let is_separated = Float::min(before - s.splat(MIN_DISTANCE), after - s.splat(gap));
+        let is_separated = s.positive_mask(Float::max(is_separated, beyond_gap));
+        may_meet[i / WORD_BITS] |=
+            u64::from(is_separated ^ ((1 << S::LANES) - 1)) << (i % WORD_BITS);
+        for (list, n) in lanes.n.iter_mut().zip([n.x, n.y, n.z]) {
+            s.store(list, i, n);
+        }
+        // A motion bound is symmetric around the current displacement, so half of `least + most` is
+        // the current displacement along n. The distance at the start counts as well, because other
+        // contacts may push a pair back to where it came from.
+        let mut distance = Float::min(length, length + s.splat(0.5) * moved);
+        if KIND == EDGE_EDGE {
+            let is_clear = before - s.splat(CLEAR_SHARE) * length;
             distance = s.select(is_clear, distance, s.splat(f32::INFINITY));
         }
-        s.store(lanes.distance, at, distance);
+        s.store(lanes.distance, i, distance);
     }
 }
 
-/// The particles of the first pairs, a list for each of the four.
+/// Transposes the ids of `S::LANES` pairs: a list of lanes for each of the four particles.
 #[inline(always)]
-pub(crate) fn turned<S: Simd>(pairs: &[[u32; 4]]) -> [[u32; LANES]; 4] {
+pub(crate) fn transpose_ids<S: Simd>(pairs: &[[u32; 4]]) -> [[u32; LANES]; 4] {
     let pairs = &pairs[..S::LANES];
-    let mut all = [[0; LANES]; 4];
+    let mut columns = [[0; LANES]; 4];
     for (lane, ids) in pairs.iter().enumerate() {
         for k in 0..4 {
-            all[k][lane] = ids[k];
+            columns[k][lane] = ids[k];
         }
     }
-    all
+    columns
 }
 
-/// How much farther apart than `gap` boxes around two sides stay, which go on together: above 0, so they cannot meet.
-/// What is not a number is everywhere.
+/// Separation of the swept AABBs of both sides minus `gap` [m], along the best axis: above 0 if the
+/// sides cannot meet. −∞ for NaN.
 #[inline(always)]
-fn between_boxes<S: Simd, const FIRST: Kind>(
+fn aabb_separation<S: Simd, const KIND: ContactKind>(
     s: S,
-    x: [V<S::F>; 4],
-    rooms: [[V<S::F>; 2]; 4],
+    x: [Vec3Lanes<S::F>; 4],
+    bounds: [[Vec3Lanes<S::F>; 2]; 4],
     gap: f32,
 ) -> S::F {
     let (zero, gap) = (s.splat(0.0), s.splat(gap));
-    let mut clear = s.splat(f32::NEG_INFINITY);
+    let mut separation = s.splat(f32::NEG_INFINITY);
     for axis in 0..3 {
-        let mut low = [x[0].along(axis), x[2].along(axis)];
+        // Particles 0 and 2 are the first of their sides; 3 is of the second side, 1 of either.
+        let mut low = [x[0].axis(axis), x[2].axis(axis)];
         let mut high = low;
         let [mut least, mut most] =
-            [0, 1].map(|end: usize| [rooms[0][end].along(axis), rooms[2][end].along(axis)]);
-        for (side, k) in [(1, 3), (2 - FIRST as usize, 1)] {
-            let (place, [from, to]) = (x[k].along(axis), rooms[k]);
-            low[side] = Float::min(low[side], place);
-            high[side] = Float::max(high[side], place);
-            least[side] = Float::min(least[side], from.along(axis));
-            most[side] = Float::max(most[side], to.along(axis));
+            [0, 1].map(|end: usize| [bounds[0][end].axis(axis), bounds[2][end].axis(axis)]);
+        for (side, k) in [(1, 3), (2 - KIND as usize, 1)] {
+            let (position, [bound_low, bound_high]) = (x[k].axis(axis), bounds[k]);
+            low[side] = Float::min(low[side], position);
+            high[side] = Float::max(high[side], position);
+            least[side] = Float::min(least[side], bound_low.axis(axis));
+            most[side] = Float::max(most[side], bound_high.axis(axis));
         }
         let (back, ahead) = (most[1] - least[0], most[0] - least[1]);
         let above = (low[0] - gap) - high[1] - Float::max(zero, back);
         let below = low[1] - (high[0] + gap) - Float::max(zero, ahead);
-        clear = Float::max(Float::max(above, below), clear);
+        separation = Float::max(Float::max(above, below), separation);
     }
-    clear
+    separation
 }
 
-/// The least and the most that something gets along `n`.
+/// The least and the greatest displacement along `n` within a motion bound [m].
 #[inline(always)]
-fn ends_along<F: Float>(n: V<F>, [from, to]: [V<F>; 2]) -> [F; 2] {
-    let (ax, ay, az) = (n.x * from.x, n.y * from.y, n.z * from.z);
-    let (bx, by, bz) = (n.x * to.x, n.y * to.y, n.z * to.z);
+fn range_along<F: Float>(n: Vec3Lanes<F>, [low, high]: [Vec3Lanes<F>; 2]) -> [F; 2] {
+    let (ax, ay, az) = (n.x * low.x, n.y * low.y, n.z * low.z);
+    let (bx, by, bz) = (n.x * high.x, n.y * high.y, n.z * high.z);
     let least = Float::min(ax, bx) + Float::min(ay, by) + Float::min(az, bz);
     [least, Float::max(ax, bx) + Float::max(ay, by) + Float::max(az, bz)]
 }
@@ -263,60 +316,60 @@ fn ends_along<F: Float>(n: V<F>, [from, to]: [V<F>; 2]) -> [F; 2] {
 mod tests {
     use super::*;
 
-    /// A triangle that lies still, and a vertex a tenth over it that goes down by so much.
-    fn above(down: f32) -> Motion {
-        let mut motion = Motion::new(4);
+    /// A triangle at rest, and a vertex 0.1 m above it that moves down by `down` [m].
+    fn vertex_above_triangle(down: f32) -> SweptParticles {
+        let mut motion = SweptParticles::new(4);
         let start = [[0.2, 0.1, 0.2], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         motion.start.extend(start.map(|[x, y, z]: [f32; 3]| [x, y, z, 1.0]));
         motion.now.clone_from(&motion.start);
         motion.now[0][1] -= down;
-        motion.look_ahead(0.01, 0.01);
+        motion.reset_bounds(0.01, 0.01);
         motion
     }
 
     #[test]
-    fn what_stays_above_is_told_apart_and_what_falls_through_is_not() {
+    fn a_vertex_that_falls_through_a_triangle_is_not_rejected() {
         for level in Level::all() {
             for (down, may_meet) in [(0.0, false), (0.05, false), (0.15, true), (f32::NAN, true)] {
-                let motion = above(down);
-                let mut candidates = Candidates::new(1);
+                let motion = vertex_above_triangle(down);
+                let mut candidates = CandidatePairs::new(1);
                 candidates.push([0, 1, 2, 3], 0.001);
-                candidates.judge::<VERTEX>(level, &motion, 0.001);
-                let found = candidates.meeting(0, 1).map(|candidate| candidate.ids).next();
+                candidates.test_separation::<VERTEX_TRIANGLE>(level, &motion, 0.001);
+                let found = candidates.remaining(0, 1).map(|candidate| candidate.ids).next();
                 assert_eq!(found, may_meet.then_some([0, 1, 2, 3]), "{down} at {level:?}");
             }
         }
     }
 
     #[test]
-    fn lanes_judge_as_each_alone() {
-        let mut motion = Motion::new(64);
+    fn all_simd_levels_give_the_bits_of_the_scalar_test() {
+        let mut motion = SweptParticles::new(64);
         let number = |i: usize| (i * 7919 % 97) as f32 / 97.0;
-        let spot = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2), 1.0];
-        motion.start.extend((0..64).map(spot));
+        let particle = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2), 1.0];
+        motion.start.extend((0..64).map(particle));
         motion.now.extend(motion.start.iter().map(|[x, y, z, w]| [*x, y - z, z + x, *w]));
-        motion.look_ahead(0.1, 0.01);
-        let judged = |level| {
-            let mut all = [(); 2].map(|()| Candidates::new(60));
-            for (k, candidates) in all.iter_mut().enumerate() {
+        motion.reset_bounds(0.1, 0.01);
+        let test = |level| {
+            let mut kinds = [(); 2].map(|()| CandidatePairs::new(60));
+            for (k, candidates) in kinds.iter_mut().enumerate() {
                 (0..60).for_each(|i| candidates.push([i, i + 1, i + 2, i + 3], 0.01));
                 if k == 0 {
-                    candidates.judge::<VERTEX>(level, &motion, 0.01);
+                    candidates.test_separation::<VERTEX_TRIANGLE>(level, &motion, 0.01);
                 } else {
-                    candidates.judge::<EDGES>(level, &motion, 0.01);
+                    candidates.test_separation::<EDGE_EDGE>(level, &motion, 0.01);
                 }
             }
-            all.map(|all| {
-                let bits = |candidate: Candidate| {
-                    let Candidate { ids, n, distance, .. } = candidate;
+            kinds.map(|candidates| {
+                let bits = |candidate: CandidatePair| {
+                    let CandidatePair { ids, n, distance, .. } = candidate;
                     (ids, n.to_array().map(f32::to_bits), distance.to_bits())
                 };
-                all.meeting(0, 60).map(bits).collect::<Vec<_>>()
+                candidates.remaining(0, 60).map(bits).collect::<Vec<_>>()
             })
         };
-        let alone = judged(Level::Scalar);
-        let found = alone.each_ref().map(Vec::len);
-        assert!(found.iter().all(|count| (1..60).contains(count)), "{found:?} of 60 may meet");
-        Level::all().into_iter().for_each(|level| assert_eq!(judged(level), alone, "{level:?}"));
+        let scalar = test(Level::Scalar);
+        let counts = scalar.each_ref().map(Vec::len);
+        assert!(counts.iter().all(|count| (1..60).contains(count)), "{counts:?} of 60 remain");
+        Level::all().into_iter().for_each(|level| assert_eq!(test(level), scalar, "{level:?}"));
     }
 }

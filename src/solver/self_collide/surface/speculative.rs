@@ -1,129 +1,167 @@
-//! Pairs that may meet in a substep but are too far from each other to push: a direction told them apart as it
-//! began, and the fence asks whether it still does.
+//! Speculative contacts: pairs that may meet in the substep but are too far apart for the contact
+//! solver.
+//!
+//! ```text
+//! contact solver     distance < ACTIVE_DISTANCE · gap     contacts, solved with impulses
+//! ───────────────────────────────────────────────────
+//! non-crossing pass  farther, but may meet                speculative contacts: only the separation
+//!                                                         along the start normal is tested
+//! ```
+//! A speculative contact becomes a contact when its start normal does not separate both sides any
+//! more by the minimum separation. Eight pairs are tested at once.
+//!
+//! Reads current positions and the contact graph; writes bit masks and appends to the list of
+//! contacts.
+//!
+//! Invariant: promotion keeps the order of the remaining pairs and appends contacts in list order.
 
 use crate::math::simd::{Level, Scalar, Simd, gather_transpose, vectored};
 use crate::math::wide4::Float4;
-use crate::solver::self_collide::surface::closest_lanes::{V, between};
-use crate::solver::self_collide::surface::contact::{Contact, EDGES, Kind, SLIT, VERTEX};
-use crate::solver::self_collide::surface::contact_graph::Around;
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::self_collide::surface::closest_lanes::{Vec3Lanes, separation};
+use crate::solver::self_collide::surface::contact::{
+    Contact, ContactKind, EDGE_EDGE, SEPARATION_SHARE, VERTEX_TRIANGLE,
+};
+use crate::solver::self_collide::surface::contact_graph::ContactGraph;
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use glam::Vec3;
 
-/// Pairs that are looked at together.
+/// Pairs that are tested together.
 const LANES: usize = 8;
 
-/// A pair that is left to the fence.
+/// A pair that only the non-crossing pass watches.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Distant {
+pub(crate) struct SpeculativeContact {
     pub ids: [u32; 4],
-    /// How many of them are the first side.
-    pub first: Kind,
-    /// How far they keep apart [m].
+    pub kind: ContactKind,
+    /// Distance that the pair keeps [m].
     pub gap: f32,
-    /// From the second side to the first.
+    /// Direction that separates both sides at the start of the substep, from the second side to the
+    /// first.
     pub n: Vec3,
 }
 
-/// Finds which pairs are apart by more than a fence leaves between them: a bit for each.
-fn find_apart(level: Level, distant: &[Distant], now: &[Float4], apart: &mut Vec<u8>) {
-    apart.clear();
-    apart.resize(distant.len().div_ceil(LANES), 0);
-    look(level, distant, now, apart);
+/// Fills `separated` with a bit for each pair: set if both sides are farther apart than the minimum
+/// separation.
+fn compute_separated(
+    level: Level,
+    pairs: &[SpeculativeContact],
+    now: &[Float4],
+    separated: &mut Vec<u8>,
+) {
+    separated.clear();
+    separated.resize(pairs.len().div_ceil(LANES), 0);
+    test_separated(level, pairs, now, separated);
 }
 
-/// Whether all pairs are apart by more than a fence leaves between them, as they were before some particles were
-/// stirred.
-pub(crate) fn are_apart(
+/// Whether all pairs with a moved particle are still separated by more than the minimum separation.
+/// Pairs without one were tested before.
+pub(crate) fn are_separated(
     level: Level,
-    distant: &[Distant],
+    pairs: &[SpeculativeContact],
     now: &[Float4],
-    around: &Around,
+    graph: &ContactGraph,
 ) -> bool {
-    let Some(first) = distant.first() else { return true };
-    let (mut some, mut count) = ([*first; LANES], 0);
-    let are_apart = |some: &[Distant]| {
-        let mut apart = [0];
-        look(level, some, now, &mut apart);
-        apart[0].count_ones() as usize == some.len()
+    let Some(first) = pairs.first() else { return true };
+    let (mut batch, mut count) = ([*first; LANES], 0);
+    let are_separated = |batch: &[SpeculativeContact]| {
+        let mut separated = [0];
+        test_separated(level, batch, now, &mut separated);
+        separated[0].count_ones() as usize == batch.len()
     };
-    let is_stirred = |pair: &&Distant| around.are_stirred(pair.ids);
-    for pair in distant.iter().filter(is_stirred) {
-        some[count] = *pair;
+    let has_moved = |pair: &&SpeculativeContact| graph.has_moved(pair.ids);
+    for pair in pairs.iter().filter(has_moved) {
+        batch[count] = *pair;
         count += 1;
         if count == LANES {
-            if !are_apart(&some) {
+            if !are_separated(&batch) {
                 return false;
             }
             count = 0;
         }
     }
-    are_apart(&some[..count])
+    are_separated(&batch[..count])
 }
 
-fn count(apart: &[u8]) -> usize {
-    apart.iter().map(|bits| bits.count_ones() as usize).sum()
+fn count_bits(bytes: &[u8]) -> usize {
+    bytes.iter().map(|bits| bits.count_ones() as usize).sum()
 }
 
 vectored! {
-    /// Sets a bit for each pair that is apart.
-    pub(crate) fn look(distant: &[Distant], now: &[Float4], apart: &mut [u8]) = look_at, Avx2, look_alone
+    /// Sets a bit for each pair that is separated along its normal by more than the minimum
+    /// separation.
+    pub(crate) fn test_separated(
+        pairs: &[SpeculativeContact], now: &[Float4], separated: &mut [u8],
+    ) = test_separated_lanes, Avx2, test_separated_scalar
 }
 
-fn look_alone(distant: &[Distant], now: &[Float4], apart: &mut [u8]) {
-    look_at(Scalar, distant, now, apart);
+fn test_separated_scalar(pairs: &[SpeculativeContact], now: &[Float4], separated: &mut [u8]) {
+    test_separated_lanes(Scalar, pairs, now, separated);
 }
 
 #[inline(always)]
-fn look_at<S: Simd>(s: S, distant: &[Distant], now: &[Float4], apart: &mut [u8]) {
-    for (pairs, bits) in distant.chunks(LANES).zip(apart) {
+fn test_separated_lanes<S: Simd>(
+    s: S,
+    pairs: &[SpeculativeContact],
+    now: &[Float4],
+    separated: &mut [u8],
+) {
+    for (pairs, bits) in pairs.chunks(LANES).zip(separated) {
         let mut ids = [[0; LANES]; 4];
         let mut n = [[0.0; LANES]; 3];
-        let (mut slits, mut edges) = ([f32::INFINITY; LANES], [0.0; LANES]);
+        let (mut least, mut is_edge) = ([f32::INFINITY; LANES], [0.0; LANES]);
         for (lane, pair) in pairs.iter().enumerate() {
             for k in 0..4 {
                 ids[k][lane] = pair.ids[k];
             }
             [n[0][lane], n[1][lane], n[2][lane]] = pair.n.to_array();
-            slits[lane] = pair.gap * SLIT;
-            edges[lane] = if pair.first == VERTEX { 0.0 } else { 1.0 };
+            least[lane] = pair.gap * SEPARATION_SHARE;
+            is_edge[lane] = if pair.kind == VERTEX_TRIANGLE { 0.0 } else { 1.0 };
         }
-        for at in (0..LANES).step_by(S::LANES) {
-            let n = V { x: s.load(&n[0], at), y: s.load(&n[1], at), z: s.load(&n[2], at) };
+        for lane in (0..LANES).step_by(S::LANES) {
+            let n = Vec3Lanes {
+                x: s.load(&n[0], lane),
+                y: s.load(&n[1], lane),
+                z: s.load(&n[2], lane),
+            };
             let mut along = [s.splat(0.0); 4];
             for k in 0..4 {
-                along[k] = n.dot(V::new(gather_transpose(s, now, &ids[k][at..])));
+                along[k] = n.dot(Vec3Lanes::new(gather_transpose(s, now, &ids[k][lane..])));
             }
-            let vertices = between::<_, VERTEX>(along);
-            let distance = s.select(s.load(&edges, at), between::<_, EDGES>(along), vertices);
-            *bits |= (s.positive_mask(distance - s.load(&slits, at)) << at) as u8;
+            let vertex_triangle = separation::<_, VERTEX_TRIANGLE>(along);
+            let edge_edge = separation::<_, EDGE_EDGE>(along);
+            let distance = s.select(s.load(&is_edge, lane), edge_edge, vertex_triangle);
+            *bits |= (s.positive_mask(distance - s.load(&least, lane)) << lane) as u8;
         }
     }
 }
 
-/// Makes contacts of what is apart no more, or of all. `apart` is room to work in. None keep more than `most` [m].
-pub(crate) fn call(
+/// Promotes speculative contacts to contacts: those whose sides are not separated any more, or all
+/// with `all`.
+///
+/// `separated` is scratch. `max_gap` is the largest gap of any pair [m].
+pub(crate) fn promote(
     level: Level,
-    distant: &mut Vec<Distant>,
-    apart: &mut Vec<u8>,
+    pairs: &mut Vec<SpeculativeContact>,
+    separated: &mut Vec<u8>,
     all: bool,
-    motion: &Motion,
-    most: f32,
+    motion: &SweptParticles,
+    max_gap: f32,
     contacts: &mut Vec<Contact>,
 ) {
-    find_apart(level, distant, &motion.now, apart);
-    if !all && count(apart) == distant.len() {
+    compute_separated(level, pairs, &motion.now, separated);
+    if !all && count_bits(separated) == pairs.len() {
         return;
     }
-    let mut at = 0;
-    distant.retain(|pair| {
-        let stays = !all && apart[at / LANES] & (1 << (at % LANES)) != 0;
-        at += 1;
+    let mut i = 0;
+    pairs.retain(|pair| {
+        let stays = !all && separated[i / LANES] & (1 << (i % LANES)) != 0;
+        i += 1;
         if !stays {
-            let Distant { ids, gap, .. } = *pair;
-            contacts.extend(if pair.first == VERTEX {
-                Contact::find::<VERTEX>(ids, motion, most, gap)
+            let SpeculativeContact { ids, gap, .. } = *pair;
+            contacts.extend(if pair.kind == VERTEX_TRIANGLE {
+                Contact::detect::<VERTEX_TRIANGLE>(ids, motion, max_gap, gap)
             } else {
-                Contact::find::<EDGES>(ids, motion, most, gap)
+                Contact::detect::<EDGE_EDGE>(ids, motion, max_gap, gap)
             });
         }
         stays

@@ -1,107 +1,152 @@
-//! The two sides of a fresh slit part by a hair.
+//! Split separation: moves the copies of freshly split vertices apart by a hair.
 //!
 //! ```text
-//!      ╲   │   ╱                ╲   │   ╱       The copies of a vertex that was split begin at the same
-//!       ╲  │  ╱                  ╲  │  ╱        place, where no direction tells the sides apart. Each
-//!   ──── ●=●=● ────    ─▶    ──── ● ● ● ────    goes a hair towards what it has left, along directions
-//!       ╱  │  ╲              ──── ● ● ● ────    that tell each of its triangles apart from each of the
-//!      ╱   │   ╲                 ╱  │  ╲        others', however the cloth is folded.
+//!      ╲   │   ╱                ╲   │   ╱       The copies of a split vertex start at the same place, where
+//!       ╲  │  ╱                  ╲  │  ╱        no direction separates their triangles, so no contact has
+//!   ──── ●=●=● ────    ─▶    ──── ● ● ● ────    a normal. Each copy moves towards its own triangles, along
+//!       ╱  │  ╲              ──── ● ● ● ────    directions that separate them from those of the other
+//!      ╱   │   ╲                 ╱  │  ╲        copies, also where the cloth is folded.
 //! ```
+//! For each pair of corner wedges of two copies, candidate directions are the normals of separating
+//! planes through the vertex (separating axis test of two cones). Displacements follow by
+//! Gauss–Seidel over all pairs: the relative displacement along one direction of each pair must
+//! reach the split distance.
+//!
+//! Reads mesh, positions and inverse masses; writes its own lists. `surface_stages` moves the
+//! particles.
+//!
+//! Invariant: momentum is conserved: each step is weighted by inverse masses, and the final limit
+//! scales all displacements of a place by the same factor.
 
 use crate::math::sort::sort_by;
 use crate::math::{TINY, min};
-use crate::mesh::{Fan, next_corner, prev_corner};
-use crate::solver::world::World;
+use crate::mesh::{Fan, Mesh, next_corner, prev_corner};
+use crate::state::particles::Particles;
 use glam::Vec3;
 
-/// How far sides part, in mean rest lengths, and at most in lengths of the shortest edge that they have.
-pub(crate) const HAIR: f32 = 0.001;
-const SHORT: f32 = 0.02;
+/// Distance by which two sides move apart: in mean rest lengths, and at most in lengths of their
+/// shortest edge.
+pub(crate) const SPLIT_DISTANCE: f32 = 0.001;
+const MAX_EDGE_SHARE: f32 = 0.02;
 
-/// How often ways are gone over until all triangles part, how much of a hair may be missing then, and how many
-/// hairs a vertex goes at most.
-const ROUNDS: u32 = 16;
-const MISSING: f32 = 0.05;
-const FAR: f32 = 4.0;
+/// Largest number of Gauss–Seidel rounds, the share of the split distance that may be missing at
+/// the end, and the largest displacement of a vertex in split distances.
+const MAX_ROUNDS: u32 = 16;
+const MISSING_SHARE: f32 = 0.05;
+const MAX_DISPLACEMENT: f32 = 4.0;
 
-/// A direction tells triangles apart if no edge leads to the other side of it by more than this (a sine), which
-/// covers rounding; one that is shorter than this is too inexact.
-const HARDLY: f32 = 1.0e-5;
-const SHORTEST: f32 = 1.0e-4;
+/// A direction separates two wedges if no edge points to the wrong side by more than this sine,
+/// which covers rounding. A candidate vector shorter than the second limit is too inexact.
+const ROUNDING_SINE: f32 = 1.0e-5;
+const MIN_LENGTH: f32 = 1.0e-4;
 
-/// The most directions that are looked at for two triangles.
-const LOOKS: usize = 13;
+/// Largest number of separating directions of two wedges.
+const MAX_DIRECTIONS: usize = 13;
 
-/// Room to work in.
+/// Scratch buffers.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Slits {
-    /// The copies of split vertices by the place that they were split from, and how far each goes [m].
-    copies: Vec<u32>,
-    ways: Vec<Vec3>,
-    /// Of the copies at one place, the triangles, and what parts them.
-    wedges: Vec<Wedge>,
-    partings: Vec<Parting>,
+pub(crate) struct SplitSeparation {
+    /// Vertices, sorted by source vertex and position, and the displacement of each [m].
+    pub copies: Vec<u32>,
+    pub displacements: Vec<Vec3>,
+    /// Wedges of the copies at one place, and the separating directions of their pairs.
+    wedges: Vec<CornerWedge>,
+    pairs: Vec<WedgePair>,
     fan: Fan,
 }
 
-/// A corner of a triangle: which copy's it is, and where its two edges lead, a unit long each.
+/// A triangle corner at the split place: the index of its copy, and the unit directions of its two
+/// edges.
 #[derive(Clone, Copy, Debug)]
-struct Wedge {
+struct CornerWedge {
     copy: usize,
     edges: [Vec3; 2],
 }
 
-/// Directions that each tell a triangle of one copy apart from a triangle of another one. The copies are to part
-/// along any one of them.
+/// Two wedges of different copies, and the directions that separate them: any one of them will do.
 #[derive(Clone, Copy, Debug)]
-struct Parting {
+struct WedgePair {
     copies: [usize; 2],
-    /// How far edges lead away from the other side at least (a sine), and the direction.
-    along: [(f32, Vec3); LOOKS],
+    /// Least sine between an edge and the separating plane, and the unit normal of the plane.
+    directions: [(f32, Vec3); MAX_DIRECTIONS],
     count: usize,
 }
 
-impl Slits {
+impl SplitSeparation {
     pub fn new(capacity: usize) -> Self {
-        let (corners, spokes) = (Vec::with_capacity(64), Vec::with_capacity(65));
+        let (corners, ring) = (Vec::with_capacity(64), Vec::with_capacity(65));
         Self {
             copies: Vec::with_capacity(capacity),
-            ways: Vec::with_capacity(capacity),
+            displacements: Vec::with_capacity(capacity),
             wedges: Vec::with_capacity(64),
-            partings: Vec::with_capacity(64),
-            fan: Fan { corners, ring: spokes, is_closed: false },
+            pairs: Vec::with_capacity(64),
+            fan: Fan { corners, ring, is_closed: false },
         }
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
         let fan = self.fan.corners.capacity() + self.fan.ring.capacity();
-        size_of::<Vec3>() * self.ways.capacity()
-            + size_of::<Wedge>() * self.wedges.capacity()
-            + size_of::<Parting>() * self.partings.capacity()
+        size_of::<Vec3>() * self.displacements.capacity()
+            + size_of::<CornerWedge>() * self.wedges.capacity()
+            + size_of::<WedgePair>() * self.pairs.capacity()
             + 4 * (self.copies.capacity() + fan)
     }
 
-    /// Finds which way each of the vertices at one place goes; what is held does not.
-    fn find_ways(&mut self, world: &World, vertices: &[u32]) {
-        let first = self.ways.len();
-        self.ways.extend(vertices.iter().map(|_| Vec3::ZERO));
+    /// Computes the displacements of those of `vertices` that share their source vertex and their
+    /// position with another one; all others get zero. Fills `copies` and `displacements`.
+    /// `mean_edge` is the mean rest length [m].
+    pub fn compute(
+        &mut self,
+        mesh: &Mesh,
+        particles: &Particles,
+        mean_edge: f32,
+        vertices: impl Iterator<Item = u32>,
+    ) {
+        let mut copies = core::mem::take(&mut self.copies);
+        copies.clear();
+        copies.extend(vertices);
+        let place = |vertex: u32| {
+            let bits = particles.x.at(vertex as usize).to_array().map(f32::to_bits);
+            (mesh.source[vertex as usize], bits)
+        };
+        sort_by(&mut copies, |a, b| (place(*a), *a).cmp(&(place(*b), *b)));
+        copies.dedup();
+        self.displacements.clear();
+        for vertices in copies.chunk_by(|a, b| place(*a) == place(*b)) {
+            self.push_displacements(mesh, particles, mean_edge, vertices);
+        }
+        self.copies = copies;
+    }
+
+    /// Appends the displacements of the vertices at one place [m]. Fixed vertices get zero.
+    fn push_displacements(
+        &mut self,
+        mesh: &Mesh,
+        particles: &Particles,
+        mean_edge: f32,
+        vertices: &[u32],
+    ) {
+        let first = self.displacements.len();
+        self.displacements.extend(vertices.iter().map(|_| Vec3::ZERO));
         if vertices.len() < 2 {
             return;
         }
-        let hair = self.find_wedges(world, vertices);
-        self.find_partings();
-        let w = |copy: usize| world.particles.w[vertices[copy] as usize];
-        let ways = &mut self.ways[first..];
-        for round in 0..ROUNDS {
+        let distance = self.collect_wedges(mesh, particles, mean_edge, vertices);
+        self.collect_pairs();
+        let w = |copy: usize| particles.w[vertices[copy] as usize];
+        let displacements = &mut self.displacements[first..];
+        for round in 0..MAX_ROUNDS {
             let mut is_done = true;
-            for parting in &self.partings {
-                let [one, other] = parting.copies;
-                let (way, sum) = (ways[one] - ways[other], w(one) + w(other));
-                let n = if round == 0 { parting.clearest() } else { parting.farthest(way) };
-                let missing = hair - n.dot(way);
-                if missing > MISSING * hair && sum > 0.0 {
-                    ways[one] += n * (missing * w(one) / sum);
-                    ways[other] -= n * (missing * w(other) / sum);
+            for pair in &self.pairs {
+                let [one, other] = pair.copies;
+                let relative = displacements[one] - displacements[other];
+                let sum = w(one) + w(other);
+                let n = if round == 0 { pair.clearest() } else { pair.farthest_along(relative) };
+                let missing = distance - n.dot(relative);
+                if missing > MISSING_SHARE * distance && sum > 0.0 {
+                    displacements[one] += n * (missing * w(one) / sum);
+                    displacements[other] -= n * (missing * w(other) / sum);
                     is_done = false;
                 }
             }
@@ -109,142 +154,114 @@ impl Slits {
                 break;
             }
         }
-        // All by the same share, so that nothing gets momentum.
-        let farthest = ways.iter().map(|way| way.length()).fold(0.0, crate::math::max);
-        let share = min(1.0, FAR * hair / (farthest + TINY));
-        ways.iter_mut().for_each(|way| *way *= share);
+        // One factor for all, so that momentum is conserved.
+        let lengths = displacements.iter().map(|displacement| displacement.length());
+        let largest = lengths.fold(0.0, crate::math::max);
+        let share = min(1.0, MAX_DISPLACEMENT * distance / (largest + TINY));
+        displacements.iter_mut().for_each(|displacement| *displacement *= share);
     }
 
-    /// Finds the triangles of vertices at one place, and how far they are to part [m].
-    fn find_wedges(&mut self, world: &World, vertices: &[u32]) -> f32 {
-        let (mesh, x) = (&world.mesh, &world.particles.x);
-        let mut hair = world.mean_edge * HAIR;
+    /// Collects the wedges of vertices at one place, and returns the distance that they are to move
+    /// apart [m].
+    fn collect_wedges(
+        &mut self,
+        mesh: &Mesh,
+        particles: &Particles,
+        mean_edge: f32,
+        vertices: &[u32],
+    ) -> f32 {
+        let x = &particles.x;
+        let mut distance = mean_edge * SPLIT_DISTANCE;
         self.wedges.clear();
         for (copy, vertex) in vertices.iter().enumerate() {
             mesh.gather_fan(mesh.corner_of[*vertex as usize], &mut self.fan);
-            let at = x.at(*vertex as usize);
+            let center = x.at(*vertex as usize);
             for corner in &self.fan.corners {
                 let edges = [next_corner(*corner), prev_corner(*corner)].map(|end| {
-                    let edge = x.at(mesh.vertex(end) as usize) - at;
+                    let edge = x.at(mesh.vertex(end) as usize) - center;
                     let length = edge.length();
-                    hair = min(hair, length * SHORT);
+                    distance = min(distance, length * MAX_EDGE_SHARE);
                     edge * (1.0 / (length + TINY))
                 });
-                self.wedges.push(Wedge { copy, edges });
+                self.wedges.push(CornerWedge { copy, edges });
             }
         }
-        hair
+        distance
     }
 
-    /// Finds what parts each triangle from each of the other copies.
-    fn find_partings(&mut self) {
-        self.partings.clear();
-        for (at, one) in self.wedges.iter().enumerate() {
-            for other in self.wedges[at + 1..].iter().filter(|other| other.copy != one.copy) {
-                let parting = Parting::new(one, other);
-                if parting.count > 0 {
-                    self.partings.push(parting);
+    /// Collects the separating directions of each pair of wedges of different copies.
+    fn collect_pairs(&mut self) {
+        self.pairs.clear();
+        for (i, one) in self.wedges.iter().enumerate() {
+            for other in self.wedges[i + 1..].iter().filter(|other| other.copy != one.copy) {
+                let pair = WedgePair::new(one, other);
+                if pair.count > 0 {
+                    self.pairs.push(pair);
                 }
             }
         }
     }
 }
 
-impl Parting {
-    fn new(one: &Wedge, other: &Wedge) -> Self {
+impl WedgePair {
+    fn new(one: &CornerWedge, other: &CornerWedge) -> Self {
         let copies = [one.copy, other.copy];
-        let mut parting = Self { copies, along: [(0.0, Vec3::ZERO); LOOKS], count: 0 };
+        let mut pair = Self { copies, directions: [(0.0, Vec3::ZERO); MAX_DIRECTIONS], count: 0 };
         let ([a, b], [c, d]) = (one.edges, other.edges);
         let sides = [one.edges, other.edges];
-        // Beside an edge that was one, from the one triangle to the other: so at both of its ends.
+        // Wedges that had a common edge move apart across that edge. The copies at its other end do
+        // the same.
         for (edge, inner) in [(a, b), (b, a)] {
-            for (same, beyond) in [(c, d), (d, c)] {
+            for (same, outer) in [(c, d), (d, c)] {
                 if edge == same {
-                    parting.look(sides, across(edge, inner) - across(edge, beyond));
+                    let direction = perpendicular(edge, inner) - perpendicular(edge, outer);
+                    pair.push_if_separating(sides, direction);
                 }
             }
         }
-        if parting.count > 0 {
-            return parting;
+        if pair.count > 0 {
+            return pair;
         }
-        parting.look(sides, a + b - c - d);
+        pair.push_if_separating(sides, a + b - c - d);
         for normal in [a.cross(b), c.cross(d), a.cross(c), a.cross(d), b.cross(c), b.cross(d)] {
-            parting.look(sides, normal);
-            parting.look(sides, -normal);
+            pair.push_if_separating(sides, normal);
+            pair.push_if_separating(sides, -normal);
         }
-        parting
+        pair
     }
 
-    /// Adds a direction if it tells the sides apart.
-    fn look(&mut self, [[a, b], [c, d]]: [[Vec3; 2]; 2], way: Vec3) {
-        let length = way.length();
-        if length < SHORTEST {
+    /// Appends a direction if it separates both wedges.
+    fn push_if_separating(&mut self, [[a, b], [c, d]]: [[Vec3; 2]; 2], direction: Vec3) {
+        let length = direction.length();
+        if length < MIN_LENGTH {
             return;
         }
-        let n = way * (1.0 / length);
-        let clear = min(min(n.dot(a), n.dot(b)), min(-n.dot(c), -n.dot(d)));
-        if clear > -HARDLY {
-            self.along[self.count] = (clear, n);
+        let n = direction * (1.0 / length);
+        let least_sine = min(min(n.dot(a), n.dot(b)), min(-n.dot(c), -n.dot(d)));
+        if least_sine > -ROUNDING_SINE {
+            self.directions[self.count] = (least_sine, n);
             self.count += 1;
         }
     }
 
-    /// The direction that edges lead farthest away from.
+    /// The direction with the largest angle between edges and plane.
     fn clearest(&self) -> Vec3 {
-        first_most(self.along[..self.count].iter().copied())
+        first_max(self.directions[..self.count].iter().copied())
     }
 
-    /// The direction that a way leads farthest along.
-    fn farthest(&self, way: Vec3) -> Vec3 {
-        first_most(self.along[..self.count].iter().map(|(_, n)| (n.dot(way), *n)))
+    /// The direction along which a displacement is largest.
+    fn farthest_along(&self, displacement: Vec3) -> Vec3 {
+        first_max(self.directions[..self.count].iter().map(|(_, n)| (n.dot(displacement), *n)))
     }
 }
 
-/// Where an edge leads away from another one, a unit long.
-fn across(edge: Vec3, other: Vec3) -> Vec3 {
-    let across = other - edge * other.dot(edge);
+/// The unit component of `v` square to `edge`.
+fn perpendicular(edge: Vec3, v: Vec3) -> Vec3 {
+    let across = v - edge * v.dot(edge);
     across * (1.0 / (across.length() + TINY))
 }
 
-/// The vector with the greatest number; of equals the first.
-fn first_most(all: impl Iterator<Item = (f32, Vec3)>) -> Vec3 {
+/// The vector with the greatest key; the first one of equals.
+fn first_max(all: impl Iterator<Item = (f32, Vec3)>) -> Vec3 {
     all.fold((f32::MIN, Vec3::ZERO), |most, next| if next.0 > most.0 { next } else { most }).1
-}
-
-/// Parts those of `vertices` that are at the same place since one of them was split. Momentum stays.
-pub(crate) fn part(world: &mut World, vertices: impl Iterator<Item = u32>) {
-    let Some(mut layers) = world.surface_collision.take() else {
-        return;
-    };
-    let slits = &mut layers.slits;
-    let mut copies = core::mem::take(&mut slits.copies);
-    copies.clear();
-    copies.extend(vertices);
-    let (sources, x) = (&world.mesh.source, &world.particles.x);
-    let place = |vertex: u32| {
-        let bits = x.at(vertex as usize).to_array().map(f32::to_bits);
-        (sources[vertex as usize], bits)
-    };
-    sort_by(&mut copies, |a, b| (place(*a), *a).cmp(&(place(*b), *b)));
-    copies.dedup();
-    // All ways before anything moves.
-    slits.ways.clear();
-    for vertices in copies.chunk_by(|a, b| place(*a) == place(*b)) {
-        slits.find_ways(world, vertices);
-    }
-    let ways = core::mem::take(&mut slits.ways);
-    world.surface_collision = Some(layers);
-    if ways.iter().any(|way| *way != Vec3::ZERO) {
-        // What else is near gives way.
-        crate::solver::self_collide::surface::begin(world);
-        for (vertex, way) in copies.iter().zip(&ways) {
-            world.particles.x.add(*vertex as usize, *way);
-            world.particles.x_prev_tick.add(*vertex as usize, *way);
-        }
-        crate::solver::self_collide::surface::follow(world);
-        crate::solver::self_collide::surface::hold(world);
-    }
-    if let Some(layers) = &mut world.surface_collision {
-        (layers.slits.copies, layers.slits.ways) = (copies, ways);
-    }
 }

@@ -1,124 +1,151 @@
-//! Where particles are in a substep, and how far each may still get.
+//! Positions of all particles at the start of a substep and now, and a motion bound of each
+//! particle.
+//!
+//! ```text
+//!   start ●───────────────▶● now          motion bound: a box around the displacement now − start,
+//!                       ┌─────┐           grown by a slack for what later stages and contacts add
+//!                       │  ●  │
+//!                       └─────┘
+//! ```
+//! The bound is the conservative estimate of where a particle may end the substep. All culling
+//! (swept AABBs, separation test) relies on it. A particle that leaves its bound has *escaped*: its
+//! bound is widened and its pairs are tested again.
+//!
+//! Reads and writes its own lists; [`interleaved::gather`] fills `start` and `now`.
+//!
+//! Invariant: pairs that culling dropped cannot touch while every particle stays within its bound.
+//! Whoever moves particles later widens the bounds of those that escaped and tests their pairs
+//! again.
 
-use crate::math::wide4::{Four, WAYS};
-use crate::solver::particle_stage::interleaved;
-
-use crate::math::wide4::{Float4, xyz};
+use crate::math::wide4::{Float4, Wide4, XYZ_MASK, xyz};
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::drift;
-use crate::solver::self_collide::surface::swept_aabb::Sweep;
+use crate::solver::particle_stage::interleaved::{self, mean_displacement};
+use crate::solver::self_collide::surface::swept_aabb::SweptAabb;
 use glam::Vec3;
 
-/// What particles may be pushed by beyond where they are: a share of the mean rest length, of the gap, and of
-/// how they moved against the mean. Those that were pushed farther are looked at again.
-const SPARE: f32 = 0.03;
-const SPARE_GAP: f32 = 1.5;
-const SPARE_WAY: f32 = 0.25;
+/// Slack of a motion bound: the smaller of a share of the mean rest length and a share of the gap,
+/// plus a share of how far the particle moved relative to the mean displacement.
+const SLACK: f32 = 0.03;
+const SLACK_OF_GAP: f32 = 1.5;
+const SLACK_OF_DISPLACEMENT: f32 = 0.25;
 
-/// The particles of a cloth in a substep.
+/// All particles of a cloth in a substep.
 #[derive(Clone, Debug)]
-pub(crate) struct Motion {
-    /// Where particles were as the substep began, and where they are.
+pub(crate) struct SweptParticles {
+    /// Positions at the start of the substep, and current positions; inverse masses.
     pub start: Vec<Float4>,
     pub now: Vec<Float4>,
-    /// How all moved in the mean.
-    pub drift: Vec3,
-    /// The ways from the start that each may have made in the end.
-    from: Vec<Float4>,
-    to: Vec<Float4>,
-    /// Whether each got out of that.
-    strays: Vec<bool>,
+    /// Mean displacement of all particles in the substep [m].
+    pub mean_displacement: Vec3,
+    /// Motion bounds: the lower and the upper corner of the box of displacements from the start
+    /// [m].
+    bound_low: Vec<Float4>,
+    bound_high: Vec<Float4>,
+    /// Whether each particle has escaped from its motion bound.
+    escaped: Vec<bool>,
 }
 
-impl Motion {
+/// Result of [`SweptParticles::widen_bounds`].
+pub(crate) struct Widened {
+    /// Whether the bound of any particle was widened.
+    pub any: bool,
+    /// Whether all particles are within their bounds now. False only for NaN.
+    pub are_all_within: bool,
+}
+
+impl SweptParticles {
     pub fn new(capacity: usize) -> Self {
-        let [start, now, from, to] = [(); 4].map(|()| Vec::with_capacity(capacity));
-        let strays = Vec::with_capacity(capacity);
-        Self { start, now, drift: Vec3::ZERO, from, to, strays }
+        let [start, now, bound_low, bound_high] = [(); 4].map(|()| Vec::with_capacity(capacity));
+        let escaped = Vec::with_capacity(capacity);
+        Self { start, now, mean_displacement: Vec3::ZERO, bound_low, bound_high, escaped }
     }
 
-    /// Bytes that it holds.
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        let spots = [&self.start, &self.now, &self.from, &self.to];
-        size_of::<Float4>() * spots.iter().map(|spots| spots.capacity()).sum::<usize>()
-            + self.strays.capacity()
+        let lists = [&self.start, &self.now, &self.bound_low, &self.bound_high];
+        size_of::<Float4>() * lists.iter().map(|list| list.capacity()).sum::<usize>()
+            + self.escaped.capacity()
     }
 
-    /// Gives each particle room around where it is.
-    pub fn look_ahead(&mut self, spacing: f32, gap: f32) {
-        let Self { start, now, from, to, .. } = self;
-        self.drift = drift(start, now);
-        from.resize(start.len(), [0.0; 4]);
-        to.resize(start.len(), [0.0; 4]);
-        let spare = min(spacing * SPARE, gap * SPARE_GAP);
-        interleaved::give_room([start, now], [from, to], self.drift, [SPARE_WAY, spare]);
+    /// Resets the motion bound of each particle to a box around its current displacement.
+    ///
+    /// `spacing` is the mean rest length, `gap` the gap between layers [m].
+    pub fn reset_bounds(&mut self, spacing: f32, gap: f32) {
+        let Self { start, now, bound_low, bound_high, .. } = self;
+        self.mean_displacement = mean_displacement(start, now);
+        bound_low.resize(start.len(), [0.0; 4]);
+        bound_high.resize(start.len(), [0.0; 4]);
+        let slack = min(spacing * SLACK, gap * SLACK_OF_GAP);
+        interleaved::compute_motion_bounds(
+            [start, now],
+            [bound_low, bound_high],
+            self.mean_displacement,
+            [SLACK_OF_DISPLACEMENT, slack],
+        );
     }
 
-    /// Gives those room that strayed from what they had, to where they are and, if they may, back to where they
-    /// were; says whether there are any, and whether all are where they are thought to be by that.
-    pub fn look_again(&mut self, spacing: f32, gap: f32, may_go_back: bool) -> [bool; 2] {
-        let spare = min(spacing * SPARE, gap * SPARE_GAP);
-        let drift = Four::way(self.drift);
-        let (mut any, mut are_within) = (false, true);
-        self.strays.clear();
-        self.strays.resize(self.now.len(), false);
-        let rooms = self.from.iter_mut().zip(&mut self.to).zip(&mut self.strays);
-        for ((start, now), ((from, to), strays)) in self.start.iter().zip(&self.now).zip(rooms) {
-            if surely_holds(from, to, Four::of(now) - Four::of(start))
-                && (!may_go_back || surely_holds(from, to, drift))
+    /// Widens the motion bounds of escaped particles to contain their current displacement; with
+    /// `may_roll_back`, every bound is widened to contain the mean displacement as well, which a
+    /// roll-back moves particles to.
+    pub fn widen_bounds(&mut self, spacing: f32, gap: f32, may_roll_back: bool) -> Widened {
+        let slack = min(spacing * SLACK, gap * SLACK_OF_GAP);
+        let mean = Wide4::from_vec3(self.mean_displacement);
+        let (mut any, mut are_all_within) = (false, true);
+        self.escaped.clear();
+        self.escaped.resize(self.now.len(), false);
+        let bounds = self.bound_low.iter_mut().zip(&mut self.bound_high).zip(&mut self.escaped);
+        for ((start, now), ((low, high), escaped)) in self.start.iter().zip(&self.now).zip(bounds) {
+            if surely_contains(low, high, Wide4::load(now) - Wide4::load(start))
+                && (!may_roll_back || surely_contains(low, high, mean))
             {
                 continue;
             }
-            let way = xyz(now) - xyz(start);
-            *strays = !holds(from, to, way);
-            if *strays {
-                extend(from, to, way, way.distance(self.drift) * SPARE_WAY + spare);
+            let displacement = xyz(now) - xyz(start);
+            *escaped = !contains(low, high, displacement);
+            if *escaped {
+                let relative = displacement.distance(self.mean_displacement);
+                widen(low, high, displacement, relative * SLACK_OF_DISPLACEMENT + slack);
             }
-            if may_go_back && !holds(from, to, self.drift) {
-                extend(from, to, self.drift, spare);
-                *strays = true;
+            if may_roll_back && !contains(low, high, self.mean_displacement) {
+                widen(low, high, self.mean_displacement, slack);
+                *escaped = true;
             }
-            any |= *strays;
-            are_within &= holds(from, to, way);
+            any |= *escaped;
+            are_all_within &= contains(low, high, displacement);
         }
-        [any, are_within]
+        Widened { any, are_all_within }
     }
 
-    /// Whether a particle strayed.
+    /// Whether the last [`Self::widen_bounds`] widened the bound of a particle.
     #[inline(always)]
-    pub fn strays(&self, particle: u32) -> bool {
-        self.strays[particle as usize]
+    pub fn has_escaped(&self, particle: u32) -> bool {
+        self.escaped[particle as usize]
     }
 
-    /// Whether some are where they were thought to be in the end.
-    pub fn are_as_thought(&self, mut particles: impl Iterator<Item = u32>) -> bool {
-        particles.all(|at| {
-            let at = at as usize;
-            holds(&self.from[at], &self.to[at], xyz(&self.now[at]) - xyz(&self.start[at]))
+    /// Whether the current displacements of some particles lie within their motion bounds.
+    pub fn are_within_bounds(&self, mut particles: impl Iterator<Item = u32>) -> bool {
+        particles.all(|i| {
+            let i = i as usize;
+            let displacement = xyz(&self.now[i]) - xyz(&self.start[i]);
+            contains(&self.bound_low[i], &self.bound_high[i], displacement)
         })
     }
 
-    /// Where particles were as the substep began, and the ways that each may have made in the end, from and to.
-    pub fn rooms(&self) -> [&[Float4]; 3] {
-        [&self.start, &self.from, &self.to]
+    /// Start positions, and the lower and upper corners of the motion bounds.
+    pub fn start_and_bounds(&self) -> [&[Float4]; 3] {
+        [&self.start, &self.bound_low, &self.bound_high]
     }
 
-    /// The ways that a particle may have made in the end, from and to.
+    /// The motion bound of a particle: lower and upper corner [m].
     #[inline(always)]
-    pub fn ways(&self, at: usize) -> [Vec3; 2] {
-        [xyz(&self.from[at]), xyz(&self.to[at])]
+    pub fn bound_of(&self, i: usize) -> [Vec3; 2] {
+        [xyz(&self.bound_low[i]), xyz(&self.bound_high[i])]
     }
 
-    /// Grows a sweep to hold a particle.
+    /// The AABB of some particles at the start of the substep, without displacement.
     #[inline(always)]
-    pub fn add_to(&self, sweep: &mut Sweep, particle: u32) {
-        sweep.join(&self.one(particle));
-    }
-
-    /// Where particles are together as the substep begins.
-    #[inline(always)]
-    pub fn still<const COUNT: usize>(&self, particles: [u32; COUNT]) -> Sweep {
-        let mut all = Sweep::EMPTY;
+    pub fn start_aabb<const COUNT: usize>(&self, particles: [u32; COUNT]) -> SweptAabb {
+        let mut all = SweptAabb::EMPTY;
         for particle in particles {
             let start = &self.start[particle as usize];
             for k in 0..4 {
@@ -126,34 +153,39 @@ impl Motion {
                 all.high[k] = max(all.high[k], start[k]);
             }
         }
-        Sweep { from: [0.0; 4], to: [0.0; 4], ..all }
+        SweptAabb { displacement_low: [0.0; 4], displacement_high: [0.0; 4], ..all }
     }
 
-    /// How a particle goes.
+    /// The swept AABB of one particle.
     #[inline(always)]
-    pub fn one(&self, particle: u32) -> Sweep {
-        let at = particle as usize;
-        let start = self.start[at];
-        Sweep { low: start, high: start, from: self.from[at], to: self.to[at] }
+    pub fn swept_point(&self, particle: u32) -> SweptAabb {
+        let i = particle as usize;
+        let start = self.start[i];
+        SweptAabb {
+            low: start,
+            high: start,
+            displacement_low: self.bound_low[i],
+            displacement_high: self.bound_high[i],
+        }
     }
 
-    /// How particles go together.
+    /// The swept AABB of some particles.
     #[inline(always)]
-    pub fn of<const COUNT: usize>(&self, particles: [u32; COUNT]) -> Sweep {
-        let mut all = self.one(particles[0]);
+    pub fn swept_aabb<const COUNT: usize>(&self, particles: [u32; COUNT]) -> SweptAabb {
+        let mut all = self.swept_point(particles[0]);
         for particle in &particles[1..] {
-            all.join(&self.one(*particle));
+            all.merge(&self.swept_point(*particle));
         }
         all
     }
 
-    /// The least that a particle gets along `n`, and the most.
+    /// The least and the greatest coordinate along `n` that a particle may end the substep at [m].
     #[inline(always)]
-    pub fn ends_along(&self, particle: u32, n: Vec3) -> [f32; 2] {
-        let at = particle as usize;
-        let (from, to) = (xyz(&self.from[at]), xyz(&self.to[at]));
-        let (a, b) = (n * from, n * to);
-        let start = n.dot(xyz(&self.start[at]));
+    pub fn end_range_along(&self, particle: u32, n: Vec3) -> [f32; 2] {
+        let i = particle as usize;
+        let (low, high) = (xyz(&self.bound_low[i]), xyz(&self.bound_high[i]));
+        let (a, b) = (n * low, n * high);
+        let start = n.dot(xyz(&self.start[i]));
         [
             start + min(a.x, b.x) + min(a.y, b.y) + min(a.z, b.z),
             start + max(a.x, b.x) + max(a.y, b.y) + max(a.z, b.z),
@@ -162,21 +194,23 @@ impl Motion {
 }
 
 #[inline(always)]
-fn holds(from: &Float4, to: &Float4, way: Vec3) -> bool {
-    let way = way.to_array();
-    (0..3).all(|k| way[k] >= from[k] && way[k] <= to[k])
+fn contains(low: &Float4, high: &Float4, displacement: Vec3) -> bool {
+    let displacement = displacement.to_array();
+    (0..3).all(|k| displacement[k] >= low[k] && displacement[k] <= high[k])
 }
 
-/// The same, but it may miss what is just within.
+/// As [`contains`], in fewer instructions; false for a displacement that lies just on the border.
 #[inline(always)]
-fn surely_holds(from: &Float4, to: &Float4, way: Four) -> bool {
-    (way - Four::of(from)).min(Four::of(to) - way).positives() & WAYS == WAYS
+fn surely_contains(low: &Float4, high: &Float4, displacement: Wide4) -> bool {
+    let slack = (displacement - Wide4::load(low)).min(Wide4::load(high) - displacement);
+    slack.positive_mask() & XYZ_MASK == XYZ_MASK
 }
 
+/// Grows a box to contain a cube around `center` with half the size `half` [m].
 #[inline(always)]
-fn extend(from: &mut Float4, to: &mut Float4, way: Vec3, room: f32) {
-    for (k, way) in way.to_array().into_iter().enumerate() {
-        from[k] = min(from[k], way - room);
-        to[k] = max(to[k], way + room);
+fn widen(low: &mut Float4, high: &mut Float4, center: Vec3, half: f32) {
+    for (k, center) in center.to_array().into_iter().enumerate() {
+        low[k] = min(low[k], center - half);
+        high[k] = max(high[k], center + half);
     }
 }

@@ -1,119 +1,136 @@
-//! How far particles may get in all that is left of a tick, so that patches are paired once and not in each
-//! substep.
+//! Tick bounds: where each particle may get to in all substeps that are left of a tick.
 //!
-//! Ways are told against how all move in the mean, so that a cloth that falls as a whole stays where it is.
+//! ```text
+//!   base ●╌╌╌╌▶ now ╌╌╌╌▶ ╌╌╌╌▶ ╌╌╌╌▶ ┌┐      displacement of this substep × substeps left,
+//!        └──────────────────────────────┘      grown by a slack
+//! ```
+//! Cluster pairs are collected from the cluster BVH once with these bounds, not in each substep.
+//! The bounds are relative to the mean displacement, so that a cloth in free fall stays within
+//! them.
+//!
+//! Reads [`SweptParticles`]; writes its own lists, which [`ClusterBvh::rebuild_tick_pairs`] reads.
+//!
+//! Invariant: while [`TickBounds::contain`] returns true, every pair of particles that can come
+//! within the gap is in a cluster pair of the tick.
+//!
+//! [`ClusterBvh::rebuild_tick_pairs`]: super::cluster_bvh::ClusterBvh::rebuild_tick_pairs
 
 use crate::math::simd::{Baseline, Float, Simd};
 use crate::math::wide4::{Float4, xyz};
 use crate::math::{max, min};
-use crate::solver::particle_stage::interleaved::drift;
-use crate::solver::self_collide::surface::swept_particles::Motion;
+use crate::solver::particle_stage::interleaved::mean_displacement;
+use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use glam::Vec3;
 
-/// What particles may be moved by beyond where they go on to: a share of the mean rest length, and of how far they
-/// go on.
-const SPARE_WAY: f32 = 0.25;
+/// Slack per axis, as a share of the length of the predicted displacement.
+const SLACK_OF_DISPLACEMENT: f32 = 0.25;
 
-/// Where particles may get.
+/// Motion bounds of all particles for the rest of a tick.
 #[derive(Clone, Debug)]
-pub(crate) struct Reach {
-    /// Where particles were.
+pub(crate) struct TickBounds {
+    /// Positions when the bounds were built.
     base: Vec<Float4>,
-    /// The ways from there, against the mean, that each may have made.
-    from: Vec<Float4>,
-    to: Vec<Float4>,
-    /// Whether that is of this tick.
-    pub is_known: bool,
-    /// How all moved from the base to the start of the substep, and to where they are.
-    drifts: [Vec3; 2],
+    /// Lower and upper corner of the box of displacements from there, relative to the mean [m].
+    bound_low: Vec<Float4>,
+    bound_high: Vec<Float4>,
+    /// Whether the bounds belong to the current tick, gap and particles.
+    pub is_valid: bool,
+    /// Mean displacement from `base` to the start of the substep, and to the current positions [m].
+    mean_displacements: [Vec3; 2],
 }
 
-impl Reach {
+impl TickBounds {
     pub fn new(capacity: usize) -> Self {
-        let [base, from, to] = [(); 3].map(|()| Vec::with_capacity(capacity));
-        Self { base, from, to, is_known: false, drifts: [Vec3::ZERO; 2] }
+        let [base, bound_low, bound_high] = [(); 3].map(|()| Vec::with_capacity(capacity));
+        let mean_displacements = [Vec3::ZERO; 2];
+        Self { base, bound_low, bound_high, is_valid: false, mean_displacements }
     }
 
-    /// Bytes that it holds.
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        size_of::<Float4>() * (self.base.capacity() + self.from.capacity() + self.to.capacity())
+        let lists = [&self.base, &self.bound_low, &self.bound_high];
+        size_of::<Float4>() * lists.iter().map(|list| list.capacity()).sum::<usize>()
     }
 
-    /// Gives each particle room to go on for so many substeps, this one being the first.
-    pub fn look_ahead(&mut self, motion: &Motion, substeps: u32, spare: f32) {
+    /// Rebuilds all bounds for `substeps` more substeps, this one included, each with the
+    /// displacement of this one. `slack` [m] is added on each side.
+    pub fn rebuild(&mut self, motion: &SweptParticles, substeps: u32, slack: f32) {
+        let mean = motion.mean_displacement;
         self.base.clone_from(&motion.start);
-        self.drifts = [Vec3::ZERO, motion.drift];
-        self.from.clear();
-        self.to.clear();
+        self.mean_displacements = [Vec3::ZERO, mean];
+        self.bound_low.clear();
+        self.bound_high.clear();
         let times = substeps as f32;
-        for (at, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
-            let way = (xyz(now) - xyz(start) - motion.drift) * times;
-            let room = Vec3::splat(way.length() * SPARE_WAY);
-            let (from, to) = (way.min(Vec3::ZERO) - room, way.max(Vec3::ZERO) + room);
-            let [least, most] = motion.ways(at).map(|way| way - motion.drift);
-            self.from.push((from.min(least) - spare).extend(0.0).to_array());
-            self.to.push((to.max(most) + spare).extend(0.0).to_array());
+        for (i, (start, now)) in motion.start.iter().zip(&motion.now).enumerate() {
+            let predicted = (xyz(now) - xyz(start) - mean) * times;
+            let share = Vec3::splat(predicted.length() * SLACK_OF_DISPLACEMENT);
+            let (low, high) =
+                (predicted.min(Vec3::ZERO) - share, predicted.max(Vec3::ZERO) + share);
+            let [substep_low, substep_high] = motion.bound_of(i).map(|bound| bound - mean);
+            self.bound_low.push((low.min(substep_low) - slack).extend(0.0).to_array());
+            self.bound_high.push((high.max(substep_high) + slack).extend(0.0).to_array());
         }
-        self.is_known = true;
+        self.is_valid = true;
     }
 
-    /// Finds how all moved up to this substep.
-    pub fn follow(&mut self, motion: &Motion) {
-        let before = drift(&self.base, &motion.start);
-        self.drifts = [before, before + motion.drift];
+    /// Updates the mean displacements to the current substep.
+    pub fn update_mean_displacements(&mut self, motion: &SweptParticles) {
+        let before = mean_displacement(&self.base, &motion.start);
+        self.mean_displacements = [before, before + motion.mean_displacement];
     }
 
-    /// Whether all particles stay where they were thought to get in this substep.
-    pub fn holds(&self, motion: &Motion) -> bool {
+    /// Whether the motion bounds of this substep lie within these bounds for all particles.
+    pub fn contain(&self, motion: &SweptParticles) -> bool {
         let simd = Baseline::new();
-        let [starts, leasts, mosts] = motion.rooms();
-        let drifts = self.drifts.map(|drift| drift.extend(0.0).to_array());
-        // Inverse masses are no ways.
-        let is_way = [1.0, 1.0, 1.0, 0.0];
+        let [starts, substep_lows, substep_highs] = motion.start_and_bounds();
+        let means = self.mean_displacements.map(|mean| mean.extend(0.0).to_array());
+        // The fourth number is an inverse mass, not a coordinate.
+        let is_axis = [1.0, 1.0, 1.0, 0.0];
         let mut is_within = true;
         for k in (0..4).step_by(Baseline::LANES) {
-            let [before_drift, after_drift] = drifts.map(|drift| simd.load(&drift, k));
-            let is_way = simd.load(&is_way, k);
+            let [mean_before, mean_after] = means.map(|mean| simd.load(&mean, k));
+            let is_axis = simd.load(&is_axis, k);
             let zero = simd.splat(0.0);
-            let (mut room, mut sound) = (simd.splat(f32::INFINITY), zero);
-            let rooms = self.from.iter().zip(&self.to);
-            let ways = starts.iter().zip(leasts).zip(mosts);
-            for (((start, least), most), (base, (from, to))) in
-                ways.zip(self.base.iter().zip(rooms))
+            let (mut slack, mut finite) = (simd.splat(f32::INFINITY), zero);
+            let bounds = self.bound_low.iter().zip(&self.bound_high);
+            let substeps = starts.iter().zip(substep_lows).zip(substep_highs);
+            for (((start, low), high), (base, (bound_low, bound_high))) in
+                substeps.zip(self.base.iter().zip(bounds))
             {
-                let way = (simd.load(start, k) - simd.load(base, k)) * is_way;
-                let before = way - before_drift;
-                let least = Float::min(before, way + simd.load(least, k) - after_drift);
-                let most = Float::max(before, way + simd.load(most, k) - after_drift);
-                let left = Float::min(least - simd.load(from, k), simd.load(to, k) - most);
-                // What is no number leaves none in the second.
-                (room, sound) = (Float::min(room, left), sound + (least + most) * zero);
+                let moved = (simd.load(start, k) - simd.load(base, k)) * is_axis;
+                let before = moved - mean_before;
+                let low = Float::min(before, moved + simd.load(low, k) - mean_after);
+                let high = Float::max(before, moved + simd.load(high, k) - mean_after);
+                let left =
+                    Float::min(low - simd.load(bound_low, k), simd.load(bound_high, k) - high);
+                // `finite` becomes NaN if a bound is NaN or infinite.
+                (slack, finite) = (Float::min(slack, left), finite + (low + high) * zero);
             }
-            let mut ends = [[0.0; 4]; 2];
-            simd.store(&mut ends[0], k, room);
-            simd.store(&mut ends[1], k, sound);
-            let [room, sound] = ends.each_ref().map(|end| &end[k..k + Baseline::LANES]);
-            is_within &= room.iter().all(|room| *room >= 0.0);
-            is_within &= sound.iter().all(|sound| *sound == 0.0);
+            let mut lanes = [[0.0; 4]; 2];
+            simd.store(&mut lanes[0], k, slack);
+            simd.store(&mut lanes[1], k, finite);
+            let [slack, finite] = lanes.each_ref().map(|lane| &lane[k..k + Baseline::LANES]);
+            is_within &= slack.iter().all(|slack| *slack >= 0.0);
+            is_within &= finite.iter().all(|finite| *finite == 0.0);
         }
         is_within
     }
 
-    /// Gives a particle room to where it gets in this substep.
-    pub fn widen(&mut self, motion: &Motion, particle: u32) {
-        let at = particle as usize;
-        let way = xyz(&motion.start[at]) - xyz(&self.base[at]);
-        let ends = motion.ways(at).map(|end| way + end - self.drifts[1]);
-        for way in ends {
-            for (k, way) in way.to_array().into_iter().enumerate() {
-                self.from[at][k] = min(self.from[at][k], way);
-                self.to[at][k] = max(self.to[at][k], way);
+    /// Widens the bound of a particle to contain its motion bound of this substep.
+    pub fn widen(&mut self, motion: &SweptParticles, particle: u32) {
+        let i = particle as usize;
+        let moved = xyz(&motion.start[i]) - xyz(&self.base[i]);
+        let corners = motion.bound_of(i).map(|end| moved + end - self.mean_displacements[1]);
+        for corner in corners {
+            for (k, x) in corner.to_array().into_iter().enumerate() {
+                self.bound_low[i][k] = min(self.bound_low[i][k], x);
+                self.bound_high[i][k] = max(self.bound_high[i][k], x);
             }
         }
     }
 
-    /// Where particles were, and the ways from there that each may have made, from and to.
-    pub fn rooms(&self) -> [&[Float4]; 3] {
-        [&self.base, &self.from, &self.to]
+    /// Baseline positions, and the lower and upper corners of the bounds.
+    pub fn base_and_bounds(&self) -> [&[Float4]; 3] {
+        [&self.base, &self.bound_low, &self.bound_high]
     }
 }

@@ -1,117 +1,130 @@
-//! What sides bear on each other with: where the next substep begins, so that what lies still stays as it is.
+//! Warm start: contact forces of the last substep, used to start the contact solver of the next.
 //!
-//! Contacts that begin at nothing have to find anew in each substep what holds a heap up, and never quite do; those
-//! that begin at what they found last go on finding it (Catto, "Iterative dynamics with temporal coherence", 2005).
+//! Contacts that start at zero have to find the forces that hold up a stack anew in each substep,
+//! and six sweeps never quite do; contacts that start at the last solution converge over many
+//! substeps (Catto, "Iterative Dynamics with Temporal Coherence", GDC 2005).
+//!
+//! Forces are stored, not impulses, so that the step size may change between substeps. They are
+//! part of a saved state and of the state hash.
+//!
+//! Reads and writes its own lists. [`WarmStartIndex`] is a hash table with open addressing, from
+//! the particles of a contact to its force.
+//!
+//! Invariant: forces are stored in the order of their contacts, and each one pushes (`normal > 0`)
+//! and is finite.
 
-use crate::solver::self_collide::surface::contact::{Contact, Kind};
-use crate::solver::self_collide::surface::contact_solver::Push;
+use crate::solver::self_collide::surface::contact::{Contact, ContactKind};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// Room for so many of a particle.
-const EACH: usize = 8;
+/// Forces per particle that memory is reserved for.
+const FORCES_PER_PARTICLE: usize = 8;
 
-/// Two sides, and the forces that the first gets from the second [N].
+/// The force of a contact on its first side [N].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Load {
+pub(crate) struct ContactForce {
     pub ids: [u32; 4],
-    pub first: Kind,
-    pub push: f32,
-    pub rub: Vec3,
+    pub kind: ContactKind,
+    /// Along the contact normal.
+    pub normal: f32,
+    /// Friction.
+    pub tangent: Vec3,
 }
 
-impl Load {
-    /// Whether it is one: what does not push bears nothing.
-    fn is_sound(&self) -> bool {
-        self.push > 0.0 && self.push.is_finite() && self.rub.is_finite()
+impl ContactForce {
+    fn is_valid(&self) -> bool {
+        self.normal > 0.0 && self.normal.is_finite() && self.tangent.is_finite()
     }
 }
 
-/// All that bear on each other, in the order of their contacts.
+/// All contact forces of the last substep, in the order of their contacts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct WarmStart(Vec<Load>);
+pub(crate) struct WarmStart(Vec<ContactForce>);
 
 impl WarmStart {
-    /// Sees to room for those of so many particles.
+    /// Reserves memory for the forces of a cloth of `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
-        let room = EACH * particles;
-        self.0.reserve_exact(room.saturating_sub(self.0.len()));
+        let capacity = FORCES_PER_PARTICLE * particles;
+        self.0.reserve_exact(capacity.saturating_sub(self.0.len()));
     }
 
     pub fn clear(&mut self) {
         self.0.clear();
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Load> {
+    pub fn iter(&self) -> impl Iterator<Item = &ContactForce> {
         self.0.iter()
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
-        size_of::<Load>() * self.0.capacity()
+        size_of::<ContactForce>() * self.0.capacity()
     }
 
-    /// Whether they may be of a cloth of so many particles.
-    pub fn are_sound(&self, particles: usize) -> bool {
-        let is_of = |load: &Load| load.ids.iter().all(|id| (*id as usize) < particles);
-        self.0.iter().all(|load| is_of(load) && load.is_sound())
+    /// Whether all forces are valid for a cloth of `particles` particles.
+    pub fn is_valid(&self, particles: usize) -> bool {
+        let has_ids = |force: &ContactForce| force.ids.iter().all(|id| (*id as usize) < particles);
+        self.0.iter().all(|force| has_ids(force) && force.is_valid())
     }
 
-    /// Keeps what contacts push with; `times` makes forces of it.
-    pub(crate) fn keep(&mut self, contacts: &[Contact], active: &[Push], times: f32) {
+    /// Replaces all forces. Those that do not push or are not finite are dropped.
+    pub(crate) fn replace(&mut self, forces: impl Iterator<Item = ContactForce>) {
         self.0.clear();
-        let load = |push: &Push| {
-            let Contact { ids, first, .. } = contacts[push.contact as usize];
-            Load { ids, first, push: push.push * times, rub: push.rub * times }
-        };
-        self.0.extend(active.iter().map(load).filter(Load::is_sound));
+        self.0.extend(forces.filter(ContactForce::is_valid));
     }
 }
 
-/// Finds loads by their sides.
+/// Hash table from contacts to their forces.
 #[derive(Clone, Debug)]
-pub(crate) struct Finder {
-    /// One more than the place of a load, or 0; a power of two.
+pub(crate) struct WarmStartIndex {
+    /// Index of a force plus 1, or 0 for a free slot. The length is a power of two.
     slots: Vec<u32>,
 }
 
-impl Finder {
-    /// For the loads of so many particles.
+impl WarmStartIndex {
+    /// Reserves memory for the forces of `particles` particles.
     pub fn new(particles: usize) -> Self {
-        Self { slots: Vec::with_capacity((2 * EACH * particles).next_power_of_two()) }
+        let slots = (2 * FORCES_PER_PARTICLE * particles).next_power_of_two();
+        Self { slots: Vec::with_capacity(slots) }
     }
 
+    /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
         size_of::<u32>() * self.slots.capacity()
     }
 
-    /// Sorts all in.
-    pub fn sort(&mut self, loads: &WarmStart) {
+    /// Rebuilds the table from all forces.
+    pub fn rebuild(&mut self, forces: &WarmStart) {
         self.slots.clear();
-        self.slots.resize((2 * loads.0.len()).next_power_of_two(), 0);
-        for (at, load) in loads.0.iter().enumerate() {
-            let mut slot = self.slot(load.ids, load.first);
+        self.slots.resize((2 * forces.0.len()).next_power_of_two(), 0);
+        for (i, force) in forces.0.iter().enumerate() {
+            let mut slot = self.slot(force.ids, force.kind);
             while self.slots[slot] != 0 {
                 slot = (slot + 1) & (self.slots.len() - 1);
             }
-            self.slots[slot] = at as u32 + 1;
+            self.slots[slot] = i as u32 + 1;
         }
     }
 
-    /// The load of a contact.
-    pub fn find<'a>(&self, contact: &Contact, loads: &'a WarmStart) -> Option<&'a Load> {
-        let mut slot = self.slot(contact.ids, contact.first);
+    /// The force of a contact in the last substep, if it had one.
+    pub fn find_force<'a>(
+        &self,
+        contact: &Contact,
+        forces: &'a WarmStart,
+    ) -> Option<&'a ContactForce> {
+        let mut slot = self.slot(contact.ids, contact.kind);
         while self.slots[slot] != 0 {
-            let load = &loads.0[self.slots[slot] as usize - 1];
-            if load.ids == contact.ids && load.first == contact.first {
-                return Some(load);
+            let force = &forces.0[self.slots[slot] as usize - 1];
+            if force.ids == contact.ids && force.kind == contact.kind {
+                return Some(force);
             }
             slot = (slot + 1) & (self.slots.len() - 1);
         }
         None
     }
 
-    fn slot(&self, [a, b, c, d]: [u32; 4], first: Kind) -> usize {
-        let mixed = [b, c, d, first].iter().fold(a, |sum, id| (sum ^ id).wrapping_mul(0x9e37_79b1));
+    fn slot(&self, [a, b, c, d]: [u32; 4], kind: ContactKind) -> usize {
+        let mixed = [b, c, d, kind].iter().fold(a, |sum, id| (sum ^ id).wrapping_mul(0x9e37_79b1));
         (mixed ^ mixed >> 15) as usize & (self.slots.len() - 1)
     }
 }
@@ -120,33 +133,33 @@ impl Finder {
 mod tests {
     use super::*;
 
-    fn load(at: u32, first: Kind) -> Load {
-        let ids = [at, at / 2, at % 7, 3];
-        Load { ids, first, push: at as f32 + 1.0, rub: Vec3::ZERO }
+    fn force(i: u32, kind: ContactKind) -> ContactForce {
+        let ids = [i, i / 2, i % 7, 3];
+        ContactForce { ids, kind, normal: i as f32 + 1.0, tangent: Vec3::ZERO }
     }
 
     #[test]
-    fn each_is_found_by_its_sides_and_no_other() {
-        let mut contact = Contact::of([0; 4], 1);
+    fn the_index_finds_the_force_of_each_contact_and_no_other() {
+        let mut contact = Contact::inactive([0; 4], 1);
         for count in [0, 1, 40] {
-            let loads = WarmStart((0..count).flat_map(|at| [load(at, 1), load(at, 2)]).collect());
-            let mut finder = Finder::new(3);
-            finder.sort(&loads);
-            for wanted in loads.iter() {
-                (contact.ids, contact.first) = (wanted.ids, wanted.first);
-                assert_eq!(finder.find(&contact, &loads), Some(wanted));
+            let forces = WarmStart((0..count).flat_map(|i| [force(i, 1), force(i, 2)]).collect());
+            let mut index = WarmStartIndex::new(3);
+            index.rebuild(&forces);
+            for wanted in forces.iter() {
+                (contact.ids, contact.kind) = (wanted.ids, wanted.kind);
+                assert_eq!(index.find_force(&contact, &forces), Some(wanted));
             }
             contact.ids = [count, count, 1, 1];
-            assert_eq!(finder.find(&contact, &loads), None);
+            assert_eq!(index.find_force(&contact, &forces), None);
         }
     }
 
     #[test]
-    fn what_no_cloth_can_have_is_refused() {
-        let sound = |load: Load| WarmStart(vec![load]).are_sound(10);
-        assert!(sound(load(9, 1)) && !sound(load(10, 1)));
-        assert!(!sound(Load { push: f32::NAN, ..load(1, 1) }));
-        assert!(!sound(Load { push: -1.0, ..load(1, 1) }));
-        assert!(!sound(Load { rub: Vec3::INFINITY, ..load(1, 1) }));
+    fn forces_with_bad_ids_or_values_are_invalid() {
+        let is_valid = |force: ContactForce| WarmStart(vec![force]).is_valid(10);
+        assert!(is_valid(force(9, 1)) && !is_valid(force(10, 1)));
+        assert!(!is_valid(ContactForce { normal: f32::NAN, ..force(1, 1) }));
+        assert!(!is_valid(ContactForce { normal: -1.0, ..force(1, 1) }));
+        assert!(!is_valid(ContactForce { tangent: Vec3::INFINITY, ..force(1, 1) }));
     }
 }

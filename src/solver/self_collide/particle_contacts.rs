@@ -1,0 +1,127 @@
+//! Stages `Pairs` and `SelfContacts` with particle collision: particles keep apart as if they were
+//! balls.
+//!
+//! ```text
+//! i ◀── 0.4 o ── ●   ● ── 0.4 o ──▶ j        o = distance − |j − i|,  for equal masses
+//! ```
+//! One Gauss–Seidel pass per substep over all pairs that are too near when it begins, with
+//! relaxation 0.8. Of unequal masses the lighter one moves farther, so momentum is conserved. Fixed
+//! particles and neighbours in the mesh do not collide, and triangles may still cross.
+//!
+//! Reads `particle_collision` and particles; writes particle positions.
+//!
+//! Invariant: only pairs that are too near at the start of the pass move, in the order of their
+//! particles; so the result does not depend on when the pair list was made.
+
+use crate::error::{Result, check};
+use crate::math::TINY;
+use crate::solver::self_collide::particle_pairs::{PairListInput, ParticleCollision};
+use crate::solver::self_collide::surface::surface_stages::MAX_GAP;
+use crate::solver::world::World;
+use crate::state::particles::Particles;
+use crate::state::settings::{SelfCollision, Settings};
+
+/// Collision distance for `self_distance` 0 [mean rest lengths].
+const DEFAULT_DISTANCE: f32 = 2.0 / 3.0;
+
+/// Largest collision distance [mean rest lengths]. A larger one would make too many pairs.
+const MAX_DISTANCE: f32 = 2.0;
+
+/// Share of the overlap that a pass removes.
+const RELAXATION: f32 = 0.8;
+
+impl World {
+    /// Checks `self_distance` against the mean rest length of this cloth.
+    ///
+    /// # Errors
+    /// `BadValue` if it is larger than half of that for surface collision, or than twice that for
+    /// particle collision.
+    pub fn check_self_distance(&self, settings: &Settings) -> Result<()> {
+        let own = settings.self_distance;
+        let (most, must) = match settings.self_collision {
+            SelfCollision::None => return Ok(()),
+            SelfCollision::Surface => {
+                (MAX_GAP, "be at most half of the mean rest length of the edges")
+            }
+            SelfCollision::Particles => {
+                (MAX_DISTANCE, "be at most twice the mean rest length of the edges")
+            }
+        };
+        check(own <= most * self.mean_edge, "settings.self_distance", must)
+    }
+
+    /// Rebuilds the data of particle collision, or drops it, by `settings.self_collision`.
+    pub fn rebuild_particle_collision(&mut self) {
+        let is_wanted = self.settings.self_collision == SelfCollision::Particles;
+        self.particle_collision = is_wanted.then(|| {
+            let input = pair_list_input(self);
+            let (distance, capacity) = (collision_distance(self), self.capacity());
+            Box::new(ParticleCollision::new(input, distance, self.mean_edge, capacity))
+        });
+    }
+}
+
+fn pair_list_input(world: &World) -> PairListInput<'_> {
+    let World { level, mesh, rest, particles, .. } = world;
+    PairListInput { level: *level, mesh, rest, particles }
+}
+
+/// Distance that particles keep [m].
+fn collision_distance(world: &World) -> f32 {
+    let own = world.settings.self_distance;
+    if own > 0.0 { own } else { DEFAULT_DISTANCE * world.mean_edge }
+}
+
+/// Rebuilds the pair list if particles moved too far since it was made.
+pub(crate) fn refresh_pairs(world: &mut World) {
+    let Some(mut collision) = world.particle_collision.take() else {
+        return;
+    };
+    collision.refresh_pairs(pair_list_input(world));
+    world.particle_collision = Some(collision);
+}
+
+/// Moves particles that are too near apart, in one pass.
+pub(crate) fn solve(world: &mut World) {
+    let Some(collision) = &mut world.particle_collision else {
+        return;
+    };
+    let (p, distance) = (&mut world.particles, collision.distance);
+    let (pairs, touching) = (&collision.pairs, &mut collision.touching);
+    // A list without margin holds touching pairs only.
+    let touching =
+        if collision.margin > 0.0 { collect_touching(pairs, touching, p, distance) } else { pairs };
+    for pair in touching {
+        let [i, j] = pair.map(|particle| particle as usize);
+        let d = p.x.at(j) - p.x.at(i);
+        let length = d.length();
+        let is_fixed = p.w[i] <= 0.0 || p.w[j] <= 0.0;
+        if is_fixed || length <= TINY || length >= distance {
+            continue;
+        }
+        let by = d * (RELAXATION * (distance - length) / length);
+        let share = p.w[j] / (p.w[i] + p.w[j]);
+        p.x.add(i, by * (share - 1.0));
+        p.x.add(j, by * share);
+    }
+}
+
+/// Collects the pairs that are nearer than `distance` [m], in order.
+fn collect_touching<'a>(
+    pairs: &[[u32; 2]],
+    touching: &'a mut Vec<[u32; 2]>,
+    p: &Particles,
+    distance: f32,
+) -> &'a [[u32; 2]] {
+    if touching.len() < pairs.len() {
+        touching.resize(pairs.len(), [0; 2]);
+    }
+    let mut count = 0;
+    // Compaction without a branch, as in `particle_pairs`.
+    for pair in pairs {
+        let [i, j] = pair.map(|particle| particle as usize);
+        touching[count] = *pair;
+        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
+    }
+    &touching[..count]
+}

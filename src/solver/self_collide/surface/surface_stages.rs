@@ -1,0 +1,406 @@
+//! Stages `Pairs` and `SelfContacts` with surface collision: what the tick pipeline calls.
+//!
+//! ```text
+//! tick     begin_tick
+//! substep  detect_contacts ─▶ solve_contacts ─▶ enforce_non_crossing ─▶ (velocities) ─▶ damp_velocities
+//! end      begin_tick ─▶ (strain limit, anchors) ─▶ enforce_non_crossing_at_tick_end
+//! ```
+//! See the module `surface` for the methods.
+//!
+//! Reads and writes `World`: particles, predicted positions, contact forces, and
+//! `surface_collision`. Each stage takes the box out of `World` while it runs.
+//!
+//! Invariant: after [`enforce_non_crossing`] no surface has passed through another since the tick
+//! began, and `motion.start` has the positions that the next substep starts from.
+
+use crate::math::wide4::xyz;
+use crate::math::{max, min};
+use crate::solver::integrate::momentum;
+use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
+use crate::solver::particle_stage::interleaved;
+use crate::solver::self_collide::surface::contact_solver::{self, ContactMass, SUPPORTED_SHARE};
+use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
+use crate::solver::self_collide::surface::rest_gap::RestGap;
+use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
+use crate::solver::self_collide::surface::swept_particles::{SweptParticles, Widened};
+use crate::solver::self_collide::surface::{non_crossing, speculative};
+use crate::solver::world::World;
+use crate::state::settings::SelfCollision;
+use glam::Vec3;
+
+/// Least and largest gap between layers [mean rest lengths].
+const MIN_GAP: f32 = 0.005;
+pub(crate) const MAX_GAP: f32 = 0.5;
+
+/// Slack of the tick bounds [mean rest lengths].
+const TICK_SLACK: f32 = 0.2;
+
+/// Largest number of times that the non-crossing pass looks for escaped particles, after the first.
+const MAX_REPEATS: u32 = 8;
+
+impl World {
+    /// Rebuilds the data of surface collision, or drops it, by `settings.self_collision`.
+    pub fn rebuild_surface_collision(&mut self) {
+        let is_wanted = self.settings.self_collision == SelfCollision::Surface;
+        self.surface_collision = is_wanted.then(|| {
+            let (count, capacity) = (self.particles.len(), self.capacity());
+            Box::new(SurfaceCollision::new(&self.mesh, &self.rest, count, capacity))
+        });
+        if is_wanted {
+            self.warm_start.reserve(self.particles.len());
+        } else {
+            self.warm_start.clear();
+        }
+    }
+
+    /// Gap between layers [m]: `self_distance`, or the thickness of the material if that is 0.
+    fn layer_gap(&self) -> f32 {
+        let own = self.settings.self_distance;
+        let gap = if own > 0.0 { own } else { self.material.thickness };
+        // Not `clamp`: the text of its panic message would add 18 kB to the WebAssembly module.
+        min(max(gap, MIN_GAP * self.mean_edge), MAX_GAP * self.mean_edge)
+    }
+}
+
+/// The rest shape of the cloth, for gaps of pairs.
+fn rest_gap<'a>(world: &'a World, pieces: &'a [u32], gap: f32) -> RestGap<'a> {
+    RestGap { mesh: &world.mesh, rest: &world.rest, pieces, mean_edge: world.mean_edge, gap }
+}
+
+impl SurfaceCollision {
+    /// Detects contacts and intersections from the current positions, with `substeps` left in the
+    /// tick.
+    fn detect(&mut self, world: &World, substeps: u32) {
+        let Self {
+            motion,
+            tick_bounds,
+            bvh,
+            pieces,
+            pairs,
+            candidates,
+            narrow_phase,
+            contacts,
+            speculative,
+            gap,
+            ..
+        } = self;
+        motion.reset_bounds(world.mean_edge, *gap);
+        let is_valid = tick_bounds.is_valid;
+        if is_valid {
+            tick_bounds.update_mean_displacements(motion);
+        }
+        if !is_valid || !tick_bounds.contain(motion) {
+            tick_bounds.rebuild(motion, substeps, world.mean_edge * TICK_SLACK);
+            bvh.rebuild_tick_pairs(tick_bounds, *gap);
+        }
+        if !is_valid {
+            bvh.clear_pair_cache();
+        }
+        let rest_gap = rest_gap(world, pieces, *gap);
+        let mut detected = DetectedContacts { contacts, speculative };
+        Detector { level: world.level, rest_gap, bvh, motion }.detect(
+            pairs,
+            candidates,
+            narrow_phase,
+            &mut detected,
+        );
+        self.has_detected = true;
+        self.detect_intersections(world);
+    }
+
+    /// Detects where the surface intersects itself, and disables the contacts that would keep it
+    /// so.
+    ///
+    /// A cloth that is known to intersect itself is tested whole in each substep, others in parts,
+    /// in the first substep of each tick.
+    fn detect_intersections(&mut self, world: &World) {
+        let Self { motion, bvh, pairs, contacts, speculative, intersections, gap, .. } = self;
+        let (mesh, start) = (&world.mesh, &motion.start);
+        intersections.clear();
+        let scans = core::mem::take(&mut self.is_new_tick);
+        if world.is_tangled || scans && intersections.scan(mesh, bvh, pairs, start, world.tick) {
+            let sizes = [*gap, world.mean_edge, world.settings.scheme().h];
+            intersections.detect(mesh, (bvh, pairs), start, sizes);
+            intersections.disable_contacts(contacts, speculative);
+        }
+    }
+
+    /// Widens the bounds of escaped particles and adds their pairs to the speculative contacts.
+    /// Returns whether all particles are within their bounds now.
+    fn detect_escaped(&mut self, world: &World, may_roll_back: bool) -> bool {
+        let Self {
+            motion,
+            tick_bounds,
+            bvh,
+            pieces,
+            pairs,
+            escaped_candidates,
+            speculative,
+            gap,
+            ..
+        } = self;
+        let Widened { any, are_all_within } =
+            motion.widen_bounds(world.mean_edge, *gap, may_roll_back);
+        if !any {
+            return are_all_within;
+        }
+        let all = 0..motion.now.len() as u32;
+        let escaped = all.filter(|i| motion.has_escaped(*i));
+        if !tick_bounds.contain(motion) {
+            escaped.for_each(|i| tick_bounds.widen(motion, i));
+            bvh.rebuild_tick_pairs(tick_bounds, *gap);
+        }
+        let rest_gap = rest_gap(world, pieces, *gap);
+        let mut detector = Detector { level: world.level, rest_gap, bvh, motion };
+        detector.detect_escaped(pairs, escaped_candidates, speculative);
+        are_all_within
+    }
+
+    /// Runs the non-crossing pass, and returns whether any particle moved. The centre of mass of a
+    /// cloth that nothing holds or touches stays where it is.
+    fn enforce_non_crossing(&mut self, world: &World) -> bool {
+        let has_rolled_back = self.run_non_crossing(world);
+        let now = &mut self.motion.now;
+        if has_rolled_back
+            && world.scratch.contacts.collider_contacts.is_empty()
+            && !interleaved::has_fixed_particle(now)
+        {
+            let w = now.iter().map(|particle| particle[3]);
+            let before = interleaved::center_of_mass(world.particles.x.iter().zip(w));
+            let after = interleaved::center_of_mass(
+                now.iter().map(|particle| (xyz(particle), particle[3])),
+            );
+            now.iter_mut().for_each(|particle| interleaved::translate(particle, before - after));
+        }
+        self.graph.any_moved
+    }
+
+    /// Pushes crossing sides apart, or rolls them back, until no pair crosses and no particle is
+    /// out of its bounds. Returns whether any particle rolled back.
+    fn run_non_crossing(&mut self, world: &World) -> bool {
+        if !self.has_detected {
+            self.detect(world, 1);
+        }
+        let (mut may_roll_back, mut has_rolled_back) = (false, false);
+        self.graph.reset(self.motion.now.len());
+        let mut known = 0;
+        for repeat in 0..=MAX_REPEATS {
+            let is_last = repeat == MAX_REPEATS;
+            let were_within = self.detect_escaped(world, may_roll_back || is_last);
+            let Self {
+                contacts,
+                speculative,
+                separated,
+                motion,
+                leaders,
+                open,
+                graph,
+                intersections,
+                gap,
+                ..
+            } = self;
+            intersections.disable_contacts(&mut [], speculative);
+            let all = may_roll_back || is_last;
+            speculative::promote(world.level, speculative, separated, all, motion, *gap, contacts);
+            graph.schedule_from(known, contacts);
+            graph.clear_moved();
+            if !is_last {
+                let now = &motion.now;
+                non_crossing::unschedule_separated(world.level, contacts, known, now, graph);
+            }
+            known = contacts.len();
+            let is_done = !is_last && non_crossing::push_apart(contacts, motion, graph, open);
+            if !is_done && (may_roll_back || is_last) {
+                non_crossing::roll_back(contacts, motion, graph, leaders);
+                has_rolled_back = true;
+            }
+            let are_within = || {
+                if were_within {
+                    motion.are_within_bounds(graph.moved().iter().copied())
+                } else {
+                    motion.are_within_bounds(0..motion.now.len() as u32)
+                }
+            };
+            let are_separated =
+                || speculative::are_separated(world.level, speculative, &motion.now, graph);
+            if (is_done || may_roll_back) && are_within() && are_separated() {
+                break;
+            }
+            // Roll-back needs wider bounds and all pairs as contacts, so it waits for the next
+            // repeat.
+            may_roll_back |= !is_done;
+        }
+        has_rolled_back
+    }
+}
+
+/// Starts a tick, or the part of it after tears, at the current positions.
+pub(crate) fn begin_tick(world: &mut World) {
+    let Some(mut surface) = world.surface_collision.take() else {
+        return;
+    };
+    let gap = world.layer_gap();
+    surface.tick_bounds.is_valid &= gap == surface.gap;
+    surface.gap = gap;
+    let p = &world.particles;
+    let motion = &mut surface.motion;
+    let is_same_count = motion.start.len() == p.len();
+    if !is_same_count {
+        surface.bvh.update_topology(&world.mesh);
+    }
+    interleaved::gather(&mut motion.start, &p.x, &p.w);
+    surface.has_detected = false;
+    surface.is_new_tick = true;
+    surface.tick_bounds.is_valid &= is_same_count;
+    world.surface_collision = Some(surface);
+}
+
+/// Detects the contacts of a substep, and whether the surface intersects itself.
+pub(crate) fn detect_contacts(world: &mut World) {
+    let Some(mut surface) = world.surface_collision.take() else {
+        return;
+    };
+    interleaved::gather(&mut surface.motion.now, &world.particles.x, &world.particles.w);
+    surface.masses.clear();
+    let masses = world.particles.w.iter().map(|w| ContactMass { w: *w, mobility: 1.0 });
+    surface.masses.extend(masses);
+    for contact in &world.scratch.contacts.collider_contacts {
+        let i = contact.particle as usize;
+        surface.motion.now[i][3] = world.particles.w[i] * SUPPORTED_SHARE;
+        surface.masses[i].mobility = SUPPORTED_SHARE;
+    }
+    surface.detect(world, world.settings.substeps);
+    world.is_tangled = !surface.intersections.is_empty();
+    world.surface_collision = Some(surface);
+}
+
+/// Solves the contacts of a substep: impulses, friction, penetration, untangling.
+pub(crate) fn solve_contacts(world: &mut World) {
+    let (scheme, friction) = (world.settings.scheme(), world.material.friction);
+    let Some(mut surface) = world.surface_collision.take() else {
+        return;
+    };
+    let SurfaceCollision {
+        contacts,
+        active,
+        warm_start_index,
+        motion,
+        masses,
+        vectors,
+        intersections,
+        ..
+    } = &mut *surface;
+    let SweptParticles { start, now, .. } = &mut *motion;
+    contact_solver::collect_active(contacts, active, masses, start, now);
+    let support = if active.is_empty() { None } else { momentum::find_support(world) };
+    if support.is_some() {
+        vectors.clone_from(now);
+    }
+    let force_scale = 1.0 / (scheme.velocity_step * scheme.velocity_step);
+    contact_solver::solve(
+        world.level,
+        contacts,
+        active,
+        (&mut world.warm_start, warm_start_index),
+        start,
+        now,
+        friction,
+        force_scale,
+    );
+    if let Some(support) = support {
+        momentum::remove_rigid_motion_since(world, support, vectors, now);
+    }
+    let predicted = &mut world.scratch.predicted;
+    contact_solver::correct_penetration(contacts, active, now, predicted, scheme.h);
+    intersections.resolve(motion, predicted);
+    interleaved::scatter(&motion.now, &mut world.particles.x);
+    world.surface_collision = Some(surface);
+}
+
+/// Gathers the current positions, which other stages changed.
+fn gather_positions(world: &mut World) {
+    if let Some(surface) = &mut world.surface_collision {
+        let p = &world.particles;
+        interleaved::gather(&mut surface.motion.now, &p.x, &p.w);
+    }
+}
+
+/// Final non-penetration pass of a substep: no surface passes through another.
+pub(crate) fn enforce_non_crossing(world: &mut World) {
+    let Some(mut surface) = world.surface_collision.take() else {
+        return;
+    };
+    if surface.enforce_non_crossing(world) {
+        interleaved::scatter(&surface.motion.now, &mut world.particles.x);
+    }
+    // The next substep starts here; it gathers `now` anew.
+    let SweptParticles { start, now, .. } = &mut surface.motion;
+    core::mem::swap(start, now);
+    world.surface_collision = Some(surface);
+}
+
+/// Runs the non-crossing pass after the strain limit and anchors moved particles at the end of a
+/// tick. Particles that anchors moved count as fixed.
+pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
+    gather_positions(world);
+    let anchor_moved = &world.scratch.anchor_moved;
+    if let Some(surface) = &mut world.surface_collision {
+        anchor_moved.iter().for_each(|i| surface.motion.now[*i as usize][3] = 0.0);
+    }
+    enforce_non_crossing(world);
+}
+
+/// Corrects derived velocities: impacts become inelastic, relative motion at contacts is damped,
+/// and intersections do not deepen.
+pub(crate) fn damp_velocities(world: &mut World) {
+    let h = world.settings.scheme().h;
+    let fall_speed = world.settings.gravity.length() * h;
+    let Some(mut surface) = world.surface_collision.take() else {
+        return;
+    };
+    let SurfaceCollision { contacts, active, open, masses, motion, vectors, intersections, .. } =
+        &mut *surface;
+    let is_free = world.scratch.contacts.collider_contacts.is_empty()
+        && !interleaved::has_fixed_particle(&motion.start);
+    let p = &mut world.particles;
+    contact_solver::detect_impacts(contacts, active, &p.v, fall_speed, open);
+    for columns in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
+        contact_solver::remove_impact_velocities(contacts, active, open, columns);
+        intersections.remove_deepening_velocities(masses, columns);
+        if !active.is_empty() {
+            let particles =
+                FreeParticles { x: p.x.all(), displacement: columns.all(), mass: &p.mass, w: &p.w };
+            let rigid = RigidMotion::of_free(world.level, particles);
+            interleaved::gather_relative(&rigid, &p.x, columns, vectors);
+            contact_solver::damp_contacts(contacts, active, masses, vectors, h, !is_free);
+            interleaved::scatter_relative(&rigid, &p.x, vectors, columns);
+        }
+    }
+    world.surface_collision = Some(surface);
+}
+
+/// Moves those of `vertices` apart that share their position with another copy since a split.
+/// Momentum is conserved; nearby surfaces give way.
+pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = u32>) {
+    let Some(mut surface) = world.surface_collision.take() else {
+        return;
+    };
+    let split = &mut surface.split_separation;
+    split.compute(&world.mesh, &world.particles, world.mean_edge, vertices);
+    let copies = core::mem::take(&mut split.copies);
+    let displacements = core::mem::take(&mut split.displacements);
+    world.surface_collision = Some(surface);
+    if displacements.iter().any(|displacement| *displacement != Vec3::ZERO) {
+        begin_tick(world);
+        for (vertex, displacement) in copies.iter().zip(&displacements) {
+            world.particles.x.add(*vertex as usize, *displacement);
+            world.particles.x_prev_tick.add(*vertex as usize, *displacement);
+        }
+        gather_positions(world);
+        enforce_non_crossing(world);
+    }
+    if let Some(surface) = &mut world.surface_collision {
+        let split = &mut surface.split_separation;
+        (split.copies, split.displacements) = (copies, displacements);
+    }
+}
