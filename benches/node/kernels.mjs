@@ -1,26 +1,28 @@
-// What one projection of one constraint costs.
+// Table `kernels` in wasm: the cost of one projection of one distance constraint.
 
-import { inTurn, seconds } from "./measure.mjs";
-import { grid, hangingSheet, mesh } from "./sheets.mjs";
-import { Table, times } from "./table.mjs";
+import { cpuTime, measureInterleaved } from "./measure.mjs";
+import { createGrid, createMesh, hangingSheet } from "./sheets.mjs";
+import { Table, formatRatio } from "./table.mjs";
 
-/** Sweeps of a tick: many, so that the links are nearly all that is done. */
+/** Sweeps per tick: many, so that nearly all time is spent on links. */
 const SWEEPS = 16;
 
-/** How often ticks are run again that others disturbed, by a greater share than this. */
-const TRIES = 20;
-const CALM = 0.02;
+/** The largest number of repetitions of a measurement that other processes disturbed. */
+const MAX_TRIES = 20;
+/** Share of wall time beyond processor time up to which a measurement counts as undisturbed. */
+const MAX_DISTURBANCE = 0.02;
 
 /**
- * How far links give way [N/m], 0 for not at all; those that do keep a multiplier from sweep to sweep. Links
- * over two cells are rigid, since otherwise sweeps leave bending to a stage of its own.
+ * Name, membrane and shear stiffness of the links [N/m]; 0 is rigid. Soft links keep a Lagrange
+ * multiplier from sweep to sweep. Bend links over two cells are rigid in both: with a lower bending
+ * stiffness another stage would do the bending.
  */
 const LAWS = [
   ["cotton's threads", 2.0e3, 50],
   ["all rigid", 0, 0],
 ];
 
-export async function kernels(cases, makePlain, isTest) {
+export async function printKernels(cases, makePlain, isTest) {
   const numbers = ["by particle", "by kind", "mesh", "grid", "mesh is faster", "grid is faster"];
   const table = new Table(["sheet", "links"], numbers);
   for (const test of cases) {
@@ -29,9 +31,9 @@ export async function kernels(cases, makePlain, isTest) {
     }
   }
   console.log(`
-Kernels in wasm: ns of one thread for a projection of one constraint; the least, and in brackets the median, of rounds in turn.
-by particle, by kind: the plain loop over Vec3, the same Rust in a module without vectors; mesh, grid: the npm package.
-faster: than the plain loop by particle, and by kind; the median of the rounds' ratios.
+Kernels in wasm: ns of one thread for a projection of one constraint; minimum, and in brackets median, of interleaved rounds.
+by particle, by kind: the plain loop over Vec3, the same Rust in a module without SIMD; mesh, grid: the npm package.
+faster: than the plain loop by particle and by kind; median of the ratios of the rounds.
 `);
   console.log(`${table}`);
 }
@@ -39,7 +41,7 @@ faster: than the plain loop by particle, and by kind; the median of the rounds' 
 async function measure({ side, ticks }, [name, membrane, shear], makePlain, rounds) {
   const desc = {
     ...hangingSheet(side, side, "top-edge"),
-    // Tethers are another stage, and with them goes the solving of whole lines.
+    // Without tethers there is no line solver either.
     settings: { substeps: 1, iterations: SWEEPS, tethers: false },
     material: {
       stretchStiffnessWarp: membrane,
@@ -48,48 +50,50 @@ async function measure({ side, ticks }, [name, membrane, shear], makePlain, roun
       bendStiffness: 1,
     },
   };
-  const asGrid = grid(desc, true);
-  const cloths = [mesh(desc, asGrid), asGrid];
+  const asGrid = createGrid(desc, true);
+  const cloths = [createMesh(desc, asGrid), asGrid];
   for (const cloth of cloths) cloth.timing = true;
   const sheets = [false, true].map((isByKind) => makePlain(desc, isByKind));
   const { tick } = asGrid.settings;
-  const figures = await inTurn(rounds, [
+  const all = await measureInterleaved(rounds, [
     ...sheets.map((sheet) => () => plainNs(sheet, tick)),
     ...cloths.map((cloth) => () => sweepNs(cloth, ticks)),
   ]);
   for (const cloth of cloths) cloth.free();
-  const [byParticle, byKind, ...ours] = figures;
-  const faster = (slow) => (one) => times(one.timesBelow(slow));
+  const [byParticle, byKind, ...muslin] = all;
+  const faster = (slow) => (samples) => formatRatio(samples.speedupOver(slow));
   return [
     `${side} x ${side}`,
     name,
-    ...figures.map((one) => `${one.min.toFixed(2)} (${one.median.toFixed(2)})`),
-    ...ours.map((one) => `${faster(byParticle)(one)} ${faster(byKind)(one)}`),
+    ...all.map((samples) => `${samples.min.toFixed(2)} (${samples.median.toFixed(2)})`),
+    ...muslin.map((samples) => `${faster(byParticle)(samples)} ${faster(byKind)(samples)}`),
   ];
 }
 
-/** Runs sweeps of the plain loop over a sheet that moves, and tells what a projection took [ns]. */
+/**
+ * Runs sweeps of the plain loop over a moving sheet, and returns the time of one projection [ns].
+ */
 function plainNs(sheet, h) {
   sheet.predict(h);
-  const spent = seconds(() => {
+  const spent = cpuTime(() => {
     for (let sweep = 0; sweep < SWEEPS; sweep++) sheet.sweep();
   });
   return (1e9 * spent) / (SWEEPS * sheet.link_count());
 }
 
 /**
- * Runs some ticks, and tells what a projection took by the cloth's own clock [ns]. That clock goes on
- * while others have the processor, so of some tries the least disturbed one counts.
+ * Runs ticks, and returns the time of one projection by the clock of the cloth [ns]. That clock
+ * also counts the time of other processes, so the least disturbed of several tries is used.
  */
 function sweepNs(cloth, ticks) {
-  let [least, ns] = [Infinity, NaN];
-  for (let tries = 0; tries < TRIES && least > CALM; tries++) {
+  let [leastDisturbed, ns] = [Infinity, NaN];
+  for (let tries = 0; tries < MAX_TRIES && leastDisturbed > MAX_DISTURBANCE; tries++) {
     const start = performance.now();
-    const spent = seconds(() => cloth.step(ticks));
+    const spent = cpuTime(() => cloth.step(ticks));
     const disturbed = (1e-3 * (performance.now() - start)) / spent - 1;
-    if (disturbed >= least) continue;
+    if (disturbed >= leastDisturbed) continue;
     const { constraints, seconds: stages } = cloth.stats;
-    least = disturbed;
+    leastDisturbed = disturbed;
     ns = (1e9 * (stages.stretch + stages.shear + stages.bend)) / (ticks * SWEEPS * constraints);
   }
   return ns;

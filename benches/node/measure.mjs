@@ -1,10 +1,14 @@
-// Measuring several things so that the noise of a busy machine hits all of them alike.
+// Time measurement: rounds of several contenders are interleaved, so that the noise of a busy
+// machine affects all of them alike.
 
-/** Time that a contender runs before its rounds [ms]: V8 compiles well what it has seen to be hot. */
+/** Time that each contender runs before its rounds, so that V8 optimises its code [ms]. */
 const WARM_UP = 400;
 
-/** Seconds of processor time that `work` takes: of this thread where node can tell, else of node. */
-export function seconds(work) {
+/**
+ * Returns the processor time that `work` takes [s]: of this thread if Node can measure it, else of
+ * the process.
+ */
+export function cpuTime(work) {
   const usage = () => process.threadCpuUsage?.() ?? process.cpuUsage();
   const start = usage();
   work();
@@ -12,11 +16,11 @@ export function seconds(work) {
   return 1e-6 * (end.user - start.user + (end.system - start.system));
 }
 
-/** What was measured of one contender, a figure a round. */
-class Figures {
+/** Measurements of one contender, one per round. */
+class Samples {
   list = [];
 
-  /** The least: what the machine does when nobody disturbs it. */
+  /** The minimum: the time without disturbance by other processes. */
   get min() {
     return Math.min(...this.list);
   }
@@ -25,30 +29,32 @@ class Figures {
     return median(this.list);
   }
 
-  /** How many times less this is than `slow`: the median over the rounds. */
-  timesBelow(slow) {
+  /**
+   * Returns by how many times this is faster than `slow`: the median of the ratios of the rounds.
+   */
+  speedupOver(slow) {
     return median(this.list.map((fast, round) => slow.list[round] / fast));
   }
 }
 
-/** The one in the middle. */
+/** Returns the median. */
 export function median(values) {
   return [...values].sort((a, b) => a - b)[values.length >> 1];
 }
 
-/** Asks each contender for a figure, in turn, `rounds` times; only when they are warm. */
-export async function inTurn(rounds, contenders) {
+/** Measures each contender in turn, `rounds` times, after a warm-up. */
+export async function measureInterleaved(rounds, contenders) {
   const isTimed = rounds > 1;
   for (const contender of contenders) {
     const start = performance.now();
     do {
       contender();
-      await new Promise(setImmediate); // what was compiled meanwhile is taken up
+      await new Promise(setImmediate); // lets V8 install code that it optimised
     } while (isTimed && performance.now() - start < WARM_UP);
   }
-  const figures = contenders.map(() => new Figures());
+  const samples = contenders.map(() => new Samples());
   for (let round = 0; round < rounds; round++) {
-    contenders.forEach((contender, at) => figures[at].list.push(contender()));
+    contenders.forEach((contender, index) => samples[index].list.push(contender()));
   }
-  return figures;
+  return samples;
 }

@@ -1,39 +1,46 @@
-// The sheets that are measured: the hanging sheet of demo/scenes, and the plain one beside it.
+// The sheets that are measured: the hanging sheet of demo/scenes, and the plain reference sheet.
 
 import { readFile } from "node:fs/promises";
 import { Cloth } from "../../dist/js/index.js";
 
+/** Width of the sheet [m]. */
 const SIZE = 2;
 
-/** The descriptor of the scene's sheet with so many particles across. */
+/** Returns the descriptor of the hanging sheet. */
 export function hangingSheet(columns, rows, pinMode) {
   const half = SIZE / 2;
   return { columns, rows, spacing: SIZE / (columns - 1), origin: [-half, half, 0], pinMode };
 }
 
-/** The scene's wind at 2 m/s, to the bit: so the cloth ends up as it does natively. */
+/**
+ * The wind of the scene at 2 m/s with the same bits as in Rust, so that the cloth moves as it does
+ * natively.
+ */
 const WIND = { velocity: [0.29668093, 0, 1.9778727], gust: 0.6, wander: 0.5, turbulence: 0.25, seed: 1 };
 
-/** The sheet as a grid. */
-export function grid(desc, isWindy) {
+/** Creates the sheet as a grid. */
+export function createGrid(desc, isWindy) {
   const cloth = Cloth.grid(desc);
   if (isWindy) cloth.wind = WIND;
   return cloth;
 }
 
-/** The same sheet as a mesh of the same triangles, in the same air. */
-export function mesh({ material, settings }, like) {
-  const { positions, indices, pinned, wind } = like;
-  // In another order, or it would be found to be the grid.
-  const turned = [...indices.subarray(3), ...indices.subarray(0, 3)];
-  const cloth = Cloth.mesh({ positions, indices: turned, pinned, material, settings });
+/** Creates a mesh with the triangles, pins and wind of `grid`. */
+export function createMesh({ material, settings }, grid) {
+  const { positions, indices, pinned, wind } = grid;
+  // In another order: otherwise the mesh would be recognised as the grid.
+  const rotated = [...indices.subarray(3), ...indices.subarray(0, 3)];
+  const cloth = Cloth.mesh({ positions, indices: rotated, pinned, material, settings });
   cloth.wind = wind;
   return cloth;
 }
 
-/** Reads the module of the plain loop; gives what makes sheets, each in an instance of its own. */
-export async function plainSheets(file) {
-  // At once: what awaits node 20's compiler may wait for ever, when V8 must collect garbage just then.
+/**
+ * Loads the module of the plain loop. Returns a function that creates a sheet in a new instance.
+ */
+export async function loadPlainSheets(file) {
+  // Compiled synchronously: in Node 20, WebAssembly.compile() may never settle if V8 collects
+  // garbage meanwhile.
   const module = new WebAssembly.Module(await readFile(file));
   return ({ columns, rows, spacing, pinMode }, isByKind = false) => {
     const sheet = new WebAssembly.Instance(module).exports;

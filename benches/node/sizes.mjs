@@ -1,5 +1,5 @@
-// What a page loads: `node sizes.mjs PACKAGE.tgz` prints the parts of dist/js as they are, and compressed, and what a
-// tick takes with each way to have the core.
+// What a page loads: `node sizes.mjs PACKAGE.tgz` prints the sizes of the parts of dist/js, raw and
+// compressed, and the time of a tick with each build of the core.
 
 import { execFile } from "node:child_process";
 import { readFile, readdir } from "node:fs/promises";
@@ -13,36 +13,36 @@ const read = (name) => readFile(new URL(name, dist));
 const scripts = (await readdir(dist)).filter((name) => name.endsWith(".js"));
 
 /** Scripts that only some pages load. */
-const EXTRA = [
+const OPTIONAL = [
   ...["bytes.js", "inline.js", "no-wasm.js", "heap.js", "code.js"],
   ...["three.js", "three-with.js", "pointers.js"],
 ];
 
-/** Parts, and the build whose ticks are timed for it. */
+/** Name, files, and the arguments of tick.mjs for the build that is timed. */
 const parts = [
-  ["module with vectors", ["raw_bg.wasm"], ["index.js"]],
-  ["module without vectors, in its place", ["plain_bg.wasm"], ["index.js", "no-vectors"]],
+  ["module with SIMD", ["raw_bg.wasm"], ["index.js"]],
+  ["module without SIMD, in its place", ["plain_bg.wasm"], ["index.js", "no-simd"]],
   ["`muslin/inline`, in place of a module", ["inline.js", "bytes.js"], ["inline.js"]],
   ["`muslin/no-wasm`, in place of a module", ["no-wasm.js", "heap.js", "code.js"], ["no-wasm.js"]],
-  ["scripts", scripts.filter((name) => !EXTRA.includes(name))],
+  ["scripts", scripts.filter((name) => !OPTIONAL.includes(name))],
   ["`muslin/three`", ["three.js", "three-with.js", "pointers.js"]],
 ];
 
-/** What a tick of a hanging sheet of 40 x 40 takes in a node of its own [ms]. */
-async function tick(build) {
+/** Returns the time of a tick of a hanging sheet of 40 x 40 in a new Node process [ms]. */
+async function timeTick(build) {
   const script = fileURLToPath(new URL("tick.mjs", import.meta.url));
   const { stdout } = await promisify(execFile)(process.execPath, [script, ...build]);
   return stdout.trim();
 }
 
-const number = (value) => value.toLocaleString("en");
-const table = new Table(["part"], ["bytes", "gzip", "brotli", "ms a tick"]);
+const formatInteger = (value) => value.toLocaleString("en");
+const table = new Table(["part"], ["bytes", "gzip", "brotli", "ms per tick"]);
 for (const [part, names, build] of parts) {
   const all = Buffer.concat(await Promise.all(names.map(read)));
   const small = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: all.length };
   const sizes = [all, gzipSync(all, { level: 9 }), brotliCompressSync(all, { params: small })];
-  table.rows.push([part, ...sizes.map(({ length }) => number(length)), build ? await tick(build) : ""]);
+  table.rows.push([part, ...sizes.map(({ length }) => formatInteger(length)), build ? await timeTick(build) : ""]);
 }
 const [tarball] = process.argv.slice(2);
-table.rows.push(["the file that npm installs", "", number((await readFile(tarball)).length), "", ""]);
-console.log(`\nOf a hanging sheet of 40 x 40, normals included: median of ticks in node ${process.version}.\n\n${table}`);
+table.rows.push(["the file that npm installs", "", formatInteger((await readFile(tarball)).length), "", ""]);
+console.log(`\nms per tick: hanging sheet of 40 x 40, normals included, median, in node ${process.version}.\n\n${table}`);

@@ -1,29 +1,32 @@
-// A table that reads well as it is and as Markdown.
+// A text table that is also valid Markdown.
 
 export class Table {
-  /** Words in the first columns, numbers in the others. */
-  constructor(words, numbers) {
-    this.words = words.length;
-    this.rows = [[...words, ...numbers]];
+  /**
+   * Makes a table with text in the first columns and numbers in the others, from the heads of both.
+   */
+  constructor(texts, numbers) {
+    this.textColumns = texts.length;
+    this.rows = [[...texts, ...numbers]];
   }
 
-  /** Adds a row and says to the terminal that it is there, as the table itself comes late. */
+  /** Appends a row, and prints it to stderr as progress: the table itself is printed at the end. */
   push(row) {
     console.error(`  ${row.join("  ")}`);
     this.rows.push(row);
   }
 
   toString() {
-    const widths = this.rows[0].map((_, at) => Math.max(3, ...this.rows.map((row) => row[at].length)));
-    const pad = (cell, at) => (at < this.words ? cell.padEnd(widths[at]) : cell.padStart(widths[at]));
-    const rule = widths.map((width, at) => "-".repeat(width - 1) + (at < this.words ? "-" : ":"));
+    const widths = this.rows[0].map((_, column) => Math.max(3, ...this.rows.map((row) => row[column].length)));
+    const pad = (cell, column) =>
+      column < this.textColumns ? cell.padEnd(widths[column]) : cell.padStart(widths[column]);
+    const rule = widths.map((width, column) => "-".repeat(width - 1) + (column < this.textColumns ? "-" : ":"));
     const [head, ...rows] = this.rows.map((row) => row.map(pad));
     return [head, rule, ...rows].map((row) => `| ${row.join(" | ")} |\n`).join("");
   }
 }
 
-/** A share as a percentage. */
-export const percent = (share) => `${(100 * share).toFixed(3)} %`;
+/** Formats a share as a percentage. */
+export const formatPercent = (share) => `${(100 * share).toFixed(3)} %`;
 
-/** A ratio. */
-export const times = (ratio) => `${ratio.toFixed(1)} x`;
+/** Formats a ratio. */
+export const formatRatio = (ratio) => `${ratio.toFixed(1)} x`;

@@ -1,11 +1,12 @@
-// What whole ticks cost, normals included, and how the cloth hangs after a while.
+// Table `ticks` in wasm: the cost of whole ticks with normals, and the stretch and speed of the
+// cloth after a while.
 
-import { inTurn, seconds } from "./measure.mjs";
-import { grid, hangingSheet } from "./sheets.mjs";
-import { Table, percent, times } from "./table.mjs";
+import { cpuTime, measureInterleaved } from "./measure.mjs";
+import { createGrid, hangingSheet } from "./sheets.mjs";
+import { Table, formatPercent, formatRatio } from "./table.mjs";
 
-/** Ways to hang: by what, and whether there is wind. */
-const WAYS = [
+/** Variants of each case: name, pin mode, whether there is wind. */
+const VARIANTS = [
   ["top edge", "top-edge", false],
   ["top edge, wind", "top-edge", true],
   ["top corners", "top-corners", false],
@@ -13,91 +14,92 @@ const WAYS = [
 ];
 
 const NUMBERS = [
-  "ms a tick",
+  "ms per tick",
   "median",
-  "ns a projection",
+  "ns per projection",
   "x real time",
   "plain ms",
   "faster",
-  "hung for",
+  "simulated",
   "max stretch",
   "mean",
-  "plain's max",
+  "plain max",
   "rms mm/s",
 ];
 
-export async function ticks(cases, makePlain, isTest) {
-  const table = new Table(["sheet", "tick", "sweeps", "hung by"], NUMBERS);
-  for (const timed of cases) {
-    for (const way of WAYS) {
-      table.push(await measure(timed, way, makePlain, isTest));
+export async function printTicks(cases, makePlain, isTest) {
+  const table = new Table(["sheet", "tick", "sweeps", "pins"], NUMBERS);
+  for (const testCase of cases) {
+    for (const variant of VARIANTS) {
+      table.push(await measure(testCase, variant, makePlain, isTest));
     }
   }
   console.log(`
-Ticks in wasm: ms of one thread for a whole tick with normals through the npm package, after the sheet hung for a while; least and median of rounds in turn.
-plain: Verlet, the natural-order loop by kind (the faster and calmer order) with as many sweeps, normals;
-the same Rust in a module without vectors; no wind, no floor.
-x real time and faster: by medians. Stretch is that of the threads.
+Ticks in wasm: ms per tick on one thread with normals through the npm package, after the simulated time; minimum and median of
+interleaved rounds.
+plain: Verlet with the plain loop by kind (the faster order, which also comes to rest), as many sweeps, normals; the same Rust in
+a module without SIMD; no wind, no floor.
+x real time, faster: from medians. Stretch is that of the stretch links.
 `);
   console.log(`${table}`);
 }
 
-async function measure(timed, [hungBy, pinMode, isWindy], makePlain, isTest) {
-  const desc = { ...hangingSheet(timed.columns, timed.rows, pinMode), settings: timed.settings };
-  desc.spacing = timed.spacing ?? desc.spacing;
-  const cloth = grid(desc, isWindy);
-  if (timed.floor) cloth.addCollider({ shape: "plane", position: below(desc) });
+async function measure(testCase, [pins, pinMode, isWindy], makePlain, isTest) {
+  const desc = { ...hangingSheet(testCase.columns, testCase.rows, pinMode), settings: testCase.settings };
+  desc.spacing = testCase.spacing ?? desc.spacing;
+  const cloth = createGrid(desc, isWindy);
+  if (testCase.floor) cloth.addCollider({ shape: "plane", position: floorPosition(desc) });
   const { tick, substeps, iterations } = cloth.settings;
-  const hangs = isTest ? 2 : Math.round(timed.seconds / tick);
-  const [count, rounds] = isTest ? [1, 1] : [timed.ticks, timed.rounds];
-  cloth.step(hangs);
+  const tickCount = isTest ? 2 : Math.round(testCase.seconds / tick);
+  const [count, rounds] = isTest ? [1, 1] : [testCase.ticks, testCase.rounds];
+  cloth.step(tickCount);
   const { constraints, maxStretch, meanStretch } = cloth.stats;
   const speed = rmsSpeed(cloth);
 
   const run = (work, ticks) => {
     for (let tick = 0; tick < ticks; tick++) work();
   };
-  const ourTick = () => {
+  const muslinTick = () => {
     cloth.step();
     cloth.normals;
   };
-  const ms = (work) => () => (1e3 / count) * seconds(() => run(work, count));
-  let [ours, plain, plainStretch] = [];
+  const ms = (work) => () => (1e3 / count) * cpuTime(() => run(work, count));
+  let [muslin, plain, plainStretch] = [];
   if (isWindy) {
-    [ours] = await inTurn(rounds, [ms(ourTick)]);
+    [muslin] = await measureInterleaved(rounds, [ms(muslinTick)]);
   } else {
     const sheet = makePlain(desc, true);
     const plainTick = () => sheet.tick(tick, substeps, iterations);
-    run(plainTick, hangs);
+    run(plainTick, tickCount);
     plainStretch = sheet.max_stretch();
-    [ours, plain] = await inTurn(rounds, [ms(ourTick), ms(plainTick)]);
+    [muslin, plain] = await measureInterleaved(rounds, [ms(muslinTick), ms(plainTick)]);
   }
   cloth.free();
   return [
-    `${desc.columns} x ${desc.rows}${timed.floor ? ", floor" : ""}`,
+    `${desc.columns} x ${desc.rows}${testCase.floor ? ", floor" : ""}`,
     `1/${Math.round(1 / tick)} s`,
     `${substeps} x ${iterations}`,
-    hungBy,
-    ours.min.toFixed(3),
-    ours.median.toFixed(3),
-    ((1e6 * ours.min) / (substeps * iterations * constraints)).toFixed(2),
-    ((1e3 * tick) / ours.median).toFixed(1),
+    pins,
+    muslin.min.toFixed(3),
+    muslin.median.toFixed(3),
+    ((1e6 * muslin.min) / (substeps * iterations * constraints)).toFixed(2),
+    ((1e3 * tick) / muslin.median).toFixed(1),
     plain?.min.toFixed(3) ?? "-",
-    plain ? times(ours.timesBelow(plain)) : "-",
-    `${(hangs * tick).toFixed(1)} s`,
-    percent(maxStretch),
-    percent(meanStretch),
-    plainStretch === undefined ? "-" : percent(plainStretch),
+    plain ? formatRatio(muslin.speedupOver(plain)) : "-",
+    `${(tickCount * tick).toFixed(1)} s`,
+    formatPercent(maxStretch),
+    formatPercent(meanStretch),
+    plainStretch === undefined ? "-" : formatPercent(plainStretch),
     (1e3 * speed).toFixed(2),
   ];
 }
 
-/** A floor under the sheet, by a twentieth of its length. */
-function below({ origin: [x, y, z], rows, spacing }) {
+/** Returns the position of a floor below the sheet, at a distance of a twentieth of its length. */
+function floorPosition({ origin: [x, y, z], rows, spacing }) {
   return [x, y - 1.05 * spacing * (rows - 1), z];
 }
 
-/** Root of the mean square speed of the particles [m/s]. */
+/** Returns the root mean square speed of the particles [m/s]. */
 function rmsSpeed(cloth) {
   const count = cloth.positions.length / 3;
   let sum = 0;

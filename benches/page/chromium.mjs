@@ -1,14 +1,14 @@
-// Plays a page of benchmarks in Chromium and gives what it leaves in `window.result`.
+// Runs a page of benchmarks in Chromium and returns its `window.result`.
 
 import { chromium } from "../../tests/node_modules/playwright-core/index.mjs";
 
-/** `say` hears of what the page tells its console, and of what goes wrong. */
-export async function played(url, say) {
+/** Opens the page and waits for its result. `log` gets its console messages and errors. */
+export async function runPage(url, log) {
   const browser = await chromium.launch({ executablePath: process.env.MUSLIN_CHROMIUM, headless: true });
   try {
     const page = await browser.newPage();
-    page.on("console", (message) => say(message.text()));
-    page.on("pageerror", (error) => say(`${error.stack}`));
+    page.on("console", (message) => log(message.text()));
+    page.on("pageerror", (error) => log(`${error.stack}`));
     await page.goto(url);
     await page.waitForFunction(() => window.result, null, { timeout: 0 });
     const result = await page.evaluate(() => window.result);

@@ -1,24 +1,26 @@
-// What cloth costs a page, beside a loop by hand: leaves its rows in `window.result`. `?test` runs all of it once and
-// tiny, `?brief` only the receipt, for a second or two.
+// Benchmarks in a page: Muslin and a hand-written loop. Stores the rows of the tables in
+// `window.result`. `?test` runs everything once in a small size, `?brief` only the receipt for a
+// second or two.
 
 import { compare } from "/peers/compare.js";
-import { receipt } from "/peers/receipt.js";
+import { measureReceipt } from "/peers/receipt.js";
 import init, { Cloth, version } from "/js/index.js";
 
+/** Rounds and seconds per round, by the query of the page. */
 const EFFORTS = {
   "": { rounds: 15, slice: 0.25 },
   "?brief": { rounds: 5, slice: 0.1 },
   "?test": { rounds: 1, slice: 0 },
 };
 
-async function play() {
+async function run() {
   const { search } = location;
   await init();
-  const receipts = receipt({ Cloth }, EFFORTS[search]);
+  const receipts = measureReceipt({ Cloth }, EFFORTS[search]);
   if (search === "?brief") return { receipts };
   const sides = [40];
-  const rows = await compare({ Cloth }, { sides, isTest: search === "?test", say: (text) => console.log(text) });
+  const rows = await compare({ Cloth }, { sides, isTest: search === "?test", log: (text) => console.log(text) });
   return { version: version(), rows, receipts };
 }
 
-window.result = await play().catch((error) => ({ error: `${error.stack ?? error}` }));
+window.result = await run().catch((error) => ({ error: `${error.stack ?? error}` }));

@@ -1,7 +1,9 @@
-// The hanging sheet of many a page, written with care: flat typed arrays, Verlet, one list of distance constraints
-// relaxed in order, normals by hand. Structural, shear and bend links, as demos of cloth usually have them.
+// A hand-written hanging sheet as many pages have it, written with care: flat typed arrays, Verlet
+// integration, one list of distance constraints that is relaxed in order, and normals. It has
+// structural, shear and bend links.
 
 const GRAVITY = -9.81;
+/** Share of the velocity that is lost per tick. */
 const DAMPING = 0.012;
 const SWEEPS = 6;
 
@@ -24,14 +26,14 @@ export class HandwrittenSheet {
     }
     this.weights.fill(0, 0, side);
     this.previous.set(this.positions);
-    this.#tie(spacing);
+    this.#addLinks(spacing);
     this.#triangulate();
   }
 
-  #tie(spacing) {
+  #addLinks(spacing) {
     const { side } = this;
     const [ends, rests] = [[], []];
-    const tie = (row, column, down, right) => {
+    const addLink = (row, column, down, right) => {
       const [to, across] = [row + down, column + right];
       if (to >= side || across < 0 || across >= side) return;
       ends.push(row * side + column, to * side + across);
@@ -39,7 +41,7 @@ export class HandwrittenSheet {
     };
     for (let row = 0; row < side; row++) {
       for (let column = 0; column < side; column++) {
-        for (const [down, right] of [[0, 1], [1, 0], [1, 1], [1, -1], [0, 2], [2, 0]]) tie(row, column, down, right);
+        for (const [down, right] of [[0, 1], [1, 0], [1, 1], [1, -1], [0, 2], [2, 0]]) addLink(row, column, down, right);
       }
     }
     this.ends = Uint32Array.from(ends);
@@ -61,27 +63,27 @@ export class HandwrittenSheet {
   tick(h) {
     this.#integrate(h);
     for (let sweep = 0; sweep < SWEEPS; sweep++) this.#relax();
-    shade(this.positions, this.indices, this.normals);
+    computeNormals(this.positions, this.indices, this.normals);
   }
 
   #integrate(h) {
     const { positions, previous, weights, limit } = this;
-    const keep = 1 - DAMPING;
+    const dampingFactor = 1 - DAMPING;
     const fall = GRAVITY * h * h;
     for (let i = 0, at = 0; i < weights.length; i++, at += 3) {
       if (weights[i] === 0) continue;
       const x = positions[at];
       const y = positions[at + 1];
       const z = positions[at + 2];
-      let dx = (x - previous[at]) * keep;
-      let dy = (y - previous[at + 1]) * keep + fall;
-      let dz = (z - previous[at + 2]) * keep;
+      let dx = (x - previous[at]) * dampingFactor;
+      let dy = (y - previous[at + 1]) * dampingFactor + fall;
+      let dz = (z - previous[at + 2]) * dampingFactor;
       const square = dx * dx + dy * dy + dz * dz;
       if (square > limit * limit) {
-        const less = limit / Math.sqrt(square);
-        dx *= less;
-        dy *= less;
-        dz *= less;
+        const scale = limit / Math.sqrt(square);
+        dx *= scale;
+        dy *= scale;
+        dz *= scale;
       }
       previous[at] = x;
       previous[at + 1] = y;
@@ -119,8 +121,8 @@ export class HandwrittenSheet {
   }
 }
 
-/** Normals of vertices, by the area of the triangles about them. */
-export function shade(positions, indices, normals) {
+/** Computes vertex normals as area-weighted means over the triangles around each vertex. */
+export function computeNormals(positions, indices, normals) {
   normals.fill(0);
   for (let at = 0; at < indices.length; at += 3) {
     const a = 3 * indices[at];

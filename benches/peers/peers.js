@@ -1,15 +1,18 @@
-// One sheet, hung by its top edge, in everything that is compared: `frame()` is a tick of 1/60 s and what a page needs
-// to draw it, positions and normals in typed arrays.
+// The same sheet, pinned along its top edge, in every engine that is compared. `frame()` runs a
+// tick of 1/60 s and returns what a page needs to draw it: positions and normals in typed arrays.
 
-import { HandwrittenSheet, shade } from "./handwritten.js";
+import { HandwrittenSheet, computeNormals } from "./handwritten.js";
 
 const SIZE = 2;
 const TICK = 1 / 60;
 const SWEEPS = 6;
 
-/** The contenders, from the modules that are there; each makes a sheet of `side` by `side`. */
+/**
+ * Returns the contenders for the modules that are given; `make(side)` creates a sheet of `side` by
+ * `side` particles.
+ */
 export function contenders({ Cloth, Jolt, RAPIER }) {
-  const ours = [
+  const always = [
     { name: "muslin, 6 sweeps", make: (side) => muslin(Cloth, side, { substeps: 1, iterations: SWEEPS }) },
     { name: "muslin", make: (side) => muslin(Cloth, side, {}) },
     { name: "hand-written JS, 6 sweeps", make: handwritten },
@@ -18,18 +21,18 @@ export function contenders({ Cloth, Jolt, RAPIER }) {
     { name: "Jolt, 6 sweeps", make: (side) => jolt(Jolt, side, false) },
     { name: "Jolt, 6 sweeps, LRA", make: (side) => jolt(Jolt, side, true) },
   ];
-  // At 128 a frame takes it most of a second.
-  const rapiers = [{ name: "Rapier's cloth", make: (side) => rapier(RAPIER, side), most: 64 }];
-  return [...ours, ...(Jolt ? jolts : []), ...(RAPIER ? rapiers : [])];
+  // With 128 particles per side a frame takes most of a second.
+  const rapiers = [{ name: "Rapier cloth", make: (side) => rapier(RAPIER, side), maxSide: 64 }];
+  return [...always, ...(Jolt ? jolts : []), ...(RAPIER ? rapiers : [])];
 }
 
-/** Greatest stretch of the threads of a sheet, from its positions. */
-function stretch(positions, side) {
+/** Returns the largest strain between neighbours of a sheet. */
+function maxStretch(positions, side) {
   const rest = SIZE / (side - 1);
-  let most = 0;
+  let largest = 0;
   const compare = (i, j) => {
     const span = [0, 1, 2].map((axis) => positions[3 * i + axis] - positions[3 * j + axis]);
-    most = Math.max(most, Math.hypot(...span) / rest - 1);
+    largest = Math.max(largest, Math.hypot(...span) / rest - 1);
   };
   for (let row = 0; row < side; row++) {
     for (let column = 0; column < side; column++) {
@@ -38,7 +41,7 @@ function stretch(positions, side) {
       if (row + 1 < side) compare(at, at + side);
     }
   }
-  return most;
+  return largest;
 }
 
 function muslin(Cloth, side, settings) {
@@ -48,9 +51,9 @@ function muslin(Cloth, side, settings) {
       cloth.advance(TICK);
       return [cloth.positions, cloth.normals];
     },
-    // What a frame costs that only reads.
+    // For the time to read both views.
     read: () => cloth.positions.length + cloth.normals.length,
-    stretch: () => stretch(cloth.positions, side),
+    stretch: () => maxStretch(cloth.positions, side),
     free: () => cloth.free(),
   };
 }
@@ -62,16 +65,16 @@ function handwritten(side) {
       sheet.tick(TICK);
       return [sheet.positions, sheet.normals];
     },
-    stretch: () => stretch(sheet.positions, side),
+    stretch: () => maxStretch(sheet.positions, side),
     free() {},
   };
 }
 
-/** Indices and normals, for those that leave them to the page. */
-function shading(side) {
+/** Returns a function that computes normals, for engines that leave that to the page. */
+function normalsFor(side) {
   const { indices, normals } = new HandwrittenSheet(side, SIZE);
   return (positions) => {
-    shade(positions, indices, normals);
+    computeNormals(positions, indices, normals);
     return [positions, normals];
   };
 }
@@ -98,11 +101,11 @@ function jolt(Jolt, side, isTethered) {
   for (let at = 0; at < sheet.indices.length; at += 3) {
     shared.AddFace(new Jolt.SoftBodySharedSettingsFace(...sheet.indices.subarray(at, at + 3), 0));
   }
-  const law = new Jolt.SoftBodySharedSettingsVertexAttributes();
-  law.mCompliance = law.mShearCompliance = law.mBendCompliance = 1e-5; // as in its own samples; stiffer ones leave it unstable
-  law.mLRAType = isTethered ? Jolt.SoftBodySharedSettings_ELRAType_EuclideanDistance : Jolt.SoftBodySharedSettings_ELRAType_None;
-  law.mLRAMaxDistanceMultiplier = 1;
-  shared.CreateConstraints(law, 1, Jolt.SoftBodySharedSettings_EBendType_Distance);
+  const attributes = new Jolt.SoftBodySharedSettingsVertexAttributes();
+  attributes.mCompliance = attributes.mShearCompliance = attributes.mBendCompliance = 1e-5; // as in its own samples; stiffer links are unstable
+  attributes.mLRAType = isTethered ? Jolt.SoftBodySharedSettings_ELRAType_EuclideanDistance : Jolt.SoftBodySharedSettings_ELRAType_None;
+  attributes.mLRAMaxDistanceMultiplier = 1;
+  shared.CreateConstraints(attributes, 1, Jolt.SoftBodySharedSettings_EBendType_Distance);
   shared.Optimize();
   const creation = new Jolt.SoftBodyCreationSettings(shared, new Jolt.RVec3(0, 0, 0), new Jolt.Quat(0, 0, 0, 1), 0);
   creation.mNumIterations = SWEEPS;
@@ -112,11 +115,11 @@ function jolt(Jolt, side, isTethered) {
   bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
 
   const vertices = Jolt.castObject(body.GetMotionProperties(), Jolt.SoftBodyMotionProperties).GetVertices();
-  const at = Jolt.SoftBodyVertexTraits.prototype.mPositionOffset;
-  // As a page that cares reads them: from the memory of the module, without an object for each.
-  const starts = Uint32Array.from({ length: side * side }, (_, i) => (Jolt.getPointer(vertices.at(i)) + at) / 4);
+  const offset = Jolt.SoftBodyVertexTraits.prototype.mPositionOffset;
+  // Reads the memory of the module directly, without an object per vertex, as a careful page does.
+  const starts = Uint32Array.from({ length: side * side }, (_, i) => (Jolt.getPointer(vertices.at(i)) + offset) / 4);
   const positions = new Float32Array(3 * side * side);
-  const shaded = shading(side);
+  const withNormals = normalsFor(side);
   const read = () => {
     const memory = Jolt.HEAPF32;
     for (let i = 0; i < starts.length; i++) {
@@ -129,9 +132,9 @@ function jolt(Jolt, side, isTethered) {
   return {
     frame() {
       world.Step(TICK, 1);
-      return shaded(read());
+      return withNormals(read());
     },
-    stretch: () => stretch(read(), side),
+    stretch: () => maxStretch(read(), side),
     free: () => Jolt.destroy(world),
   };
 }
@@ -141,7 +144,7 @@ function rapier(RAPIER, side) {
   const spacing = SIZE / (side - 1);
   const [origin, right, down] = [{ x: -1, y: 1, z: 0 }, { x: spacing, y: 0, z: 0 }, { x: 0, y: -spacing, z: 0 }];
   const desc = RAPIER.SoftBodyDesc.cloth(origin, right, down, side, side);
-  // Its own order: whatever the first row is, the pinned ones are those at the top.
+  // Rapier orders the particles itself, so the top row is found by position.
   desc.canSleep = false;
   const probe = new RAPIER.World({ x: 0, y: 0, z: 0 });
   const start = probe.createSoftBody(desc).particlePositions();
@@ -152,21 +155,21 @@ function rapier(RAPIER, side) {
   });
   desc.pinnedParticles = Uint32Array.from(order.slice(0, side));
   const body = world.createSoftBody(desc);
-  const shaded = shading(side);
+  const withNormals = normalsFor(side);
   const ordered = new Float32Array(3 * side * side);
   const read = () => {
-    const theirs = body.particlePositions();
+    const unordered = body.particlePositions();
     for (let i = 0; i < order.length; i++) {
-      for (let axis = 0; axis < 3; axis++) ordered[3 * i + axis] = theirs[3 * order[i] + axis];
+      for (let axis = 0; axis < 3; axis++) ordered[3 * i + axis] = unordered[3 * order[i] + axis];
     }
     return ordered;
   };
   return {
     frame() {
       world.step();
-      return shaded(read());
+      return withNormals(read());
     },
-    stretch: () => stretch(read(), side),
+    stretch: () => maxStretch(read(), side),
     free: () => world.free(),
   };
 }

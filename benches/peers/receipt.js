@@ -1,8 +1,9 @@
-// The receipt as its brief has it, with all that it asks for, against real time.
+// The receipt scene with the numbers of its brief: the time of a tick in several situations, and
+// its ratio to real time.
 
-/** Ticks a second. */
+/** Ticks per second. */
 const RATE = 120;
-/** Sheets of 40 x 60 at 120 Hz, 8 substeps of 6 sweeps each, particles that push each other apart, a floor. */
+/** A sheet of 40 x 60 at 120 Hz with 8 substeps of 6 sweeps and particle collision. */
 const DESC = {
   columns: 40,
   rows: 60,
@@ -40,12 +41,15 @@ const FLOOR = {
 
 const { columns: COLUMNS, rows: ROWS } = DESC;
 
-/** What it goes through, one after the other: seconds before it is timed, what is done first, and at each tick. */
-const STATES = [
+/**
+ * The situations, one after the other: seconds before timing, and what is done at the start, at
+ * each tick and at the end.
+ */
+const SITUATIONS = [
   { name: "at rest", seconds: 2 },
   { name: "in wind", seconds: 2, begin: (cloth) => (cloth.wind = { model: "sine-field", velocity: [3, 0, 0] }) },
   {
-    name: "dragged about by its hem",
+    name: "dragged by its hem",
     seconds: 1,
     begin(cloth) {
       cloth.wind = { model: "sine-field", velocity: [0, 0, 0] };
@@ -54,94 +58,104 @@ const STATES = [
     },
     act(tick) {
       const [x, y, z] = this.from;
-      const turned = (2 * Math.PI * tick) / (1.5 * RATE);
-      this.grab.moveTo([x + 1.5 * Math.sin(turned), y + 1.5 - 1.5 * Math.cos(turned), z + Math.sin(2 * turned)]);
+      const angle = (2 * Math.PI * tick) / (1.5 * RATE);
+      this.grab.moveTo([x + 1.5 * Math.sin(angle), y + 1.5 - 1.5 * Math.cos(angle), z + Math.sin(2 * angle)]);
     },
     end() {
       this.grab.release();
     },
   },
   {
-    name: "crumpled in a fist",
+    name: "being crumpled",
     seconds: 1,
     begin(cloth) {
       cloth.unpinAll();
-      this.palms = palms(cloth);
+      this.palms = addPalms(cloth);
     },
     act(tick) {
-      // Closed, they stay where they are.
-      const closed = (tick + 1) / RATE / CLOSING;
-      if (closed >= 1) return;
-      const share = closed * closed * (3 - 2 * closed);
-      for (const { collider, out, from, rotation } of this.palms)
-        collider.moveTo(at(out, from + share * (BALL - from)), rotation);
+      // After closing, they stay where they are.
+      const progress = (tick + 1) / RATE / CLOSING;
+      if (progress >= 1) return;
+      const share = progress * progress * (3 - 2 * progress);
+      for (const { collider, outward, start, rotation } of this.palms) {
+        collider.moveTo(pointAt(outward, start + share * (CLOSED_RADIUS - start)), rotation);
+      }
     },
     end() {
       for (const { collider } of this.palms) collider.remove();
     },
   },
-  { name: "crumpled, let go, on the floor", seconds: 4 },
+  { name: "crumpled, released, on the floor", seconds: 4 },
 ];
 
-/** So many palms close all around a place, so far from it, in so many seconds, as the demo's do the first time. */
-const [PALMS, MIDDLE, BALL, CLOSING] = [32, [0, -1, 0], 1.1, 1];
+/**
+ * Number of plane colliders that close in, their centre and final distance from it [m], and the
+ * duration [s].
+ */
+const [PALMS, CENTRE, CLOSED_RADIUS, CLOSING] = [32, [0, -1, 0], 1.1, 1];
 
-const at = (out, distance) => MIDDLE.map((x, axis) => x + out[axis] * distance);
+/** Returns the point at a distance from the centre. */
+const pointAt = (outward, distance) => CENTRE.map((x, axis) => x + outward[axis] * distance);
 
-/** Planes just outside, in directions each turned on by the golden angle: each with its way out, and how far out it is. */
-function palms(cloth) {
+/**
+ * Adds planes just outside the sheet that face its centre, in directions of a Fibonacci lattice.
+ */
+function addPalms(cloth) {
   const { positions } = cloth;
   return Array.from({ length: PALMS }, (_, palm) => {
     const y = 1 - (2 * palm + 1) / PALMS;
-    const [flat, turned] = [Math.sqrt(1 - y * y), 2.399963 * palm];
-    const out = [flat * Math.cos(turned), y, flat * Math.sin(turned)];
-    let from = BALL;
+    const [horizontal, angle] = [Math.sqrt(1 - y * y), 2.399963 * palm];
+    const outward = [horizontal * Math.cos(angle), y, horizontal * Math.sin(angle)];
+    let start = CLOSED_RADIUS;
     for (let i = 0; i < positions.length; i += 3) {
-      const way = out.reduce((sum, n, axis) => sum + n * (positions[i + axis] - MIDDLE[axis]), 0);
-      from = Math.max(from, way);
+      const distance = outward.reduce((sum, n, axis) => sum + n * (positions[i + axis] - CENTRE[axis]), 0);
+      start = Math.max(start, distance);
     }
-    // The shortest turn from up to inwards.
-    const [x, z, w] = [-out[2], out[0], 1 - y];
+    // The shortest rotation from +y to the inward direction.
+    const [x, z, w] = [-outward[2], outward[0], 1 - y];
     const length = Math.hypot(x, z, w);
     const rotation = [x / length, 0, z / length, w / length];
-    const collider = cloth.addCollider({ shape: "plane", position: at(out, from), rotation, friction: 0.2 });
-    return { collider, out, from, rotation };
+    const collider = cloth.addCollider({ shape: "plane", position: pointAt(outward, start), rotation, friction: 0.2 });
+    return { collider, outward, start, rotation };
   });
 }
 
-export const RECEIPT_HEAD = [["receipt of the brief"], ["ms a tick", "median", "x real time"]];
+export const RECEIPT_HEAD = [["receipt of the brief"], ["ms per tick", "median", "x real time"]];
 
-/** Figures of its states [ms a tick]: the least and the median of some rounds of so many seconds each. */
-export function receipt({ Cloth }, { rounds, slice }) {
+/**
+ * Returns the minimum and median time per tick in each situation [ms], of `rounds` rounds of
+ * `slice` [s] each.
+ */
+export function measureReceipt({ Cloth }, { rounds, slice }) {
   const cloth = Cloth.grid(DESC);
   cloth.addCollider(FLOOR);
   const ticks = Math.max(1, Math.round(slice * RATE));
-  const figures = STATES.map((state) => {
+  const results = SITUATIONS.map((situation) => {
     let tick = 0;
     const run = (count) => {
       for (const end = tick + count; tick < end; tick++) {
-        state.act?.(tick);
+        situation.act?.(tick);
         cloth.step();
         cloth.normals;
       }
     };
-    state.begin?.(cloth);
-    run(Math.max(2, Math.min(1, slice * 4) * state.seconds * RATE));
+    situation.begin?.(cloth);
+    run(Math.max(2, Math.min(1, slice * 4) * situation.seconds * RATE));
     const times = [];
     for (let round = 0; round < rounds; round++) {
       const start = performance.now();
       run(ticks);
       times.push((performance.now() - start) / ticks);
     }
-    state.end?.();
+    situation.end?.();
     times.sort((a, b) => a - b);
-    return { name: state.name, least: times[0], median: times[times.length >> 1] };
+    return { name: situation.name, min: times[0], median: times[times.length >> 1] };
   });
-  if (!cloth.positions.every(Number.isFinite)) throw new Error("the receipt is no sheet any more");
+  if (!cloth.positions.every(Number.isFinite)) throw new Error("the receipt has positions that are not finite");
   cloth.free();
-  return figures;
+  return results;
 }
 
-/** The rows of a table. */
-export const receiptRows = (figures) =>
-  figures.map(({ name, least, median }) => [name, least.toFixed(3), median.toFixed(3), `${(1000 / RATE / median).toFixed(1)} x`]);
+/** Returns the rows of a table. */
+export const receiptRows = (results) =>
+  results.map(({ name, min, median }) => [name, min.toFixed(3), median.toFixed(3), `${(1000 / RATE / median).toFixed(1)} x`]);

@@ -1,30 +1,30 @@
-//! What collision of a cloth with itself, by particles and by its surface, adds to a tick.
+//! Table `layers`: what self-collision, by particles and by surface, adds to a tick.
 
 use crate::Effort;
-use crate::measure::seconds;
-use crate::table::{Table, number, times};
+use crate::measure::cpu_time;
+use crate::table::{Table, format_number, format_ratio};
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, SelfCollision, Settings, Shape};
 use std::hint::black_box;
 
-/// A sheet that falls on a floor, or on a ball on it.
-struct Fall {
+/// A sheet that falls onto a floor, or onto a ball on a floor.
+struct FallCase {
     name: &'static str,
     columns: u32,
     rows: u32,
     spacing: f32,
     down: Vec3,
-    /// The height that it hangs at before it falls [m].
+    /// Initial height of its first particle [m].
     height: f32,
-    /// The radius of a ball under its middle, which stands on the floor [m]; 0 for none.
+    /// Radius of a ball on the floor under its centre [m]; 0 for none.
     ball: f32,
     settings: fn() -> Settings,
-    /// The parts of the fall that are measured, in ticks.
+    /// The measured parts of the fall: name, first tick, last tick.
     parts: [(&'static str, u32, u32); 2],
 }
 
-const FALLS: [Fall; 4] = [
-    Fall {
+const FALLS: [FallCase; 4] = [
+    FallCase {
         name: "64 x 64 on a ball",
         columns: 64,
         rows: 64,
@@ -35,7 +35,7 @@ const FALLS: [Fall; 4] = [
         settings: Settings::default,
         parts: [("falling and draping", 0, 60), ("coming to rest", 60, 300)],
     },
-    Fall {
+    FallCase {
         name: "64 x 64 on its side",
         columns: 64,
         rows: 64,
@@ -46,7 +46,7 @@ const FALLS: [Fall; 4] = [
         settings: Settings::default,
         parts: [("falling and landing", 0, 40), ("lying", 100, 140)],
     },
-    Fall {
+    FallCase {
         name: "64 x 64 on its edge",
         columns: 64,
         rows: 64,
@@ -57,7 +57,7 @@ const FALLS: [Fall; 4] = [
         settings: Settings::default,
         parts: [("crumpling", 0, 40), ("lying", 200, 220)],
     },
-    Fall {
+    FallCase {
         name: "receipt",
         columns: 40,
         rows: 60,
@@ -83,37 +83,37 @@ pub fn print(effort: Effort) {
     for fall in FALLS {
         let [without, particles, surface] =
             [SelfCollision::None, SelfCollision::Particles, SelfCollision::Surface]
-                .map(|way| fall.measure(way, effort));
-        for (at, (part, ..)) in fall.parts.iter().enumerate() {
-            let adds = |with: f64| times((with - without[at]) / without[at]);
+                .map(|self_collision| fall.measure(self_collision, effort));
+        for (index, (part, ..)) in fall.parts.iter().enumerate() {
+            let adds = |with: f64| format_ratio((with - without[index]) / without[index]);
             table.push(vec![
                 fall.name.into(),
                 (*part).into(),
-                number(without[at], 3),
-                number(particles[at], 3),
-                adds(particles[at]),
-                number(surface[at], 3),
-                adds(surface[at]),
+                format_number(without[index], 3),
+                format_number(particles[index], 3),
+                adds(particles[index]),
+                format_number(surface[index], 3),
+                adds(surface[index]),
             ]);
         }
     }
     println!(
-        "\nLayers: ms of one thread for a whole tick, a mean over part of a fall; what collision of the cloth \
-         with itself adds, as a multiple of the tick without.\n"
+        "\nLayers: ms per tick on one thread, mean over a part of a fall; \
+         adds: what self-collision adds, as a multiple of the tick without it.\n"
     );
     println!("{table}");
 }
 
-impl Fall {
-    /// Milliseconds of a tick in each part.
+impl FallCase {
+    /// Returns the time per tick in each part [ms].
     fn measure(&self, self_collision: SelfCollision, effort: Effort) -> [f64; 2] {
         let mut cloth = self.build(self_collision);
         let mut tick = 0;
         self.parts.map(|(_, from, to)| {
-            let (from, to) = if effort == Effort::Once { (tick, tick + 1) } else { (from, to) };
+            let (from, to) = if effort == Effort::Smoke { (tick, tick + 1) } else { (from, to) };
             cloth.step(from - tick);
             tick = to;
-            let spent = seconds(|| {
+            let spent = cpu_time(|| {
                 cloth.step(to - from);
                 black_box(cloth.positions());
             });
@@ -132,22 +132,23 @@ impl Fall {
             settings: Settings { self_collision, ..(self.settings)() },
             ..GridDesc::default()
         })
-        .expect("a grid of the benchmark's own");
-        cloth.add_collider(&ColliderDesc::default()).expect("a floor of the benchmark's own");
+        .expect("a grid is valid");
+        cloth.add_collider(&ColliderDesc::default()).expect("a floor is valid");
         if self.ball > 0.0 {
-            let middle = 0.5 * self.spacing * (self.columns - 1) as f32;
+            let centre = 0.5 * self.spacing * (self.columns - 1) as f32;
             let ball = ColliderDesc {
                 shape: Shape::Sphere,
                 radius: self.ball,
-                position: Vec3::new(middle, self.ball, middle),
+                position: Vec3::new(centre, self.ball, centre),
                 ..ColliderDesc::default()
             };
-            cloth.add_collider(&ball).expect("a ball of the benchmark's own");
+            cloth.add_collider(&ball).expect("a ball is valid");
         }
-        // Nothing is so flat that it crumples in its own plane.
+        // Small velocities out of the plane: a perfectly flat sheet would crumple within its own
+        // plane.
         for i in (0..self.columns * self.rows).step_by(7) {
-            let away = Vec3::Z * (0.05 * ((i % 5) as f32 - 2.0));
-            cloth.set_velocity(i, away).expect("a particle of the cloth");
+            let velocity = Vec3::Z * (0.05 * ((i % 5) as f32 - 2.0));
+            cloth.set_velocity(i, velocity).expect("the particle exists");
         }
         cloth
     }

@@ -1,10 +1,17 @@
-//! The tables of `cargo xtask bench`: Muslin beside the plain loop that most people write, in one run.
+//! The tables of `cargo xtask bench`: Muslin and, in the same run, a plain scalar loop as
+//! reference.
 //!
-//! `kernels` tells what one projection of one constraint costs, `ticks` what whole ticks cost and
-//! how calm and how long the cloth is in the end, `shreds` what tears add to that, `layers` what
-//! collision with itself adds, `scenes` what the demo's scenes cost, `receipt` what its receipt costs
-//! in all that happens to it. Names choose among them. `--test` runs everything once and tiny, and
-//! times nothing that is worth reading. `benches/node` prints the same in wasm.
+//! | table | measures |
+//! | --- | --- |
+//! | `kernels` | the cost of one projection of one constraint |
+//! | `ticks` | the cost of whole ticks, and how still and how stretched the cloth is at the end |
+//! | `shreds` | the cost of a tick of a sheet with thousands of tears |
+//! | `layers` | what self-collision adds to a tick |
+//! | `scenes` | the cost of a tick of the scenes of the demo |
+//! | `receipt` | the cost of a tick of the receipt scene in all its situations |
+//!
+//! Arguments select tables by name. `--test` runs everything once in a small size, to check that it
+//! runs; its times mean nothing. `benches/node` prints the first two tables for wasm.
 
 mod cases;
 mod kernels;
@@ -18,19 +25,19 @@ mod ticks;
 
 use std::process::ExitCode;
 
-/// How much is run.
+/// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Effort {
-    /// What it takes for figures.
-    Timed,
-    /// Everything once, to see that it runs.
-    Once,
+    /// All rounds, for meaningful times.
+    Full,
+    /// Everything once, to check that it runs.
+    Smoke,
 }
 
-/// A table's name, and what prints it.
-type Entry = (&'static str, fn(Effort));
+/// Name of a table, and the function that prints it.
+type TableEntry = (&'static str, fn(Effort));
 
-const TABLES: [Entry; 6] = [
+const TABLES: [TableEntry; 6] = [
     ("kernels", kernels::print),
     ("ticks", ticks::print),
     ("shreds", shreds::print),
@@ -42,13 +49,14 @@ const TABLES: [Entry; 6] = [
 fn main() -> ExitCode {
     let (options, names): (Vec<_>, Vec<_>) =
         std::env::args().skip(1).partition(|arg| arg.starts_with("--"));
-    // As other harnesses do: cargo says `--bench` when it benches, and nothing when it tests.
+    // As in other harnesses: `cargo bench` passes `--bench`, `cargo test` passes nothing.
     let has = |option: &str| options.iter().any(|given| given == option);
-    let effort = if has("--bench") && !has("--test") { Effort::Timed } else { Effort::Once };
+    let effort = if has("--bench") && !has("--test") { Effort::Full } else { Effort::Smoke };
     if let Some(unknown) = names.iter().find(|name| !TABLES.iter().any(|(known, _)| known == name))
     {
         eprintln!(
-            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers, scenes and receipt"
+            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers, scenes \
+             and receipt"
         );
         return ExitCode::FAILURE;
     }
@@ -61,12 +69,12 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The processor's kind and its vector instructions, as far as kernels may use them.
+/// Returns the architecture of the processor and the SIMD instructions that the kernels may use.
 fn machine() -> String {
-    let mut vectors: Vec<&str> = Vec::new();
+    let mut simd: Vec<&str> = Vec::new();
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
-        let offers = [
+        let features = [
             ("SSE2", std::is_x86_feature_detected!("sse2")),
             ("AVX2", std::is_x86_feature_detected!("avx2")),
             (
@@ -74,12 +82,14 @@ fn machine() -> String {
                 std::is_x86_feature_detected!("avx512f") && cfg!(not(muslin_at_most_avx2)),
             ),
         ];
-        vectors.extend(offers.iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name));
+        simd.extend(
+            features.iter().filter(|(_, is_supported)| *is_supported).map(|(name, _)| name),
+        );
     }
     #[cfg(target_arch = "aarch64")]
-    vectors.push("NEON");
-    if vectors.is_empty() {
-        vectors.push("no vectors that are known");
+    simd.push("NEON");
+    if simd.is_empty() {
+        simd.push("no known SIMD");
     }
-    format!("{} with {}", std::env::consts::ARCH, vectors.join(", "))
+    format!("{} with {}", std::env::consts::ARCH, simd.join(", "))
 }

@@ -1,36 +1,38 @@
-//! Measuring several things so that the noise of a busy machine hits all of them alike.
+//! Time measurement: rounds of several contenders are interleaved, so that the noise of a busy
+//! machine affects all of them alike.
 
 use cpu_time::ThreadTime;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// Seconds since the first call: a clock for the stages of a cloth.
-pub fn now() -> f64 {
+/// Returns the seconds since the first call. It is the clock for the stages of a cloth.
+pub fn clock() -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
 
-/// Seconds of this thread's processor time that `work` takes: what others do meanwhile is not in it.
-pub fn seconds(work: impl FnOnce()) -> f64 {
+/// Returns the processor time of this thread that `work` takes [s]; time of other threads is not
+/// counted.
+pub fn cpu_time(work: impl FnOnce()) -> f64 {
     let start = ThreadTime::now();
     work();
     start.elapsed().as_secs_f64()
 }
 
-/// Seconds that `work` takes on whatever threads, with all that others do meanwhile.
+/// Returns the wall time that `work` takes [s], on any number of threads.
 #[cfg(feature = "parallel")]
-pub fn wall_seconds(work: impl FnOnce()) -> f64 {
-    let start = now();
+pub fn wall_time(work: impl FnOnce()) -> f64 {
+    let start = clock();
     work();
-    now() - start
+    clock() - start
 }
 
-/// What was measured of one contender, a figure a round.
+/// Measurements of one contender, one per round.
 #[derive(Clone, Debug, Default)]
-pub struct Figures(Vec<f64>);
+pub struct Samples(Vec<f64>);
 
-impl Figures {
-    /// The least: what the machine does when nobody disturbs it.
+impl Samples {
+    /// Returns the minimum: the time without disturbance by other processes.
     pub fn min(&self) -> f64 {
         self.0.iter().copied().fold(f64::INFINITY, f64::min)
     }
@@ -39,8 +41,9 @@ impl Figures {
         median(self.0.clone())
     }
 
-    /// How many times less this is than `slow`: the median over the rounds.
-    pub fn times_below(&self, slow: &Self) -> f64 {
+    /// Returns by how many times this is faster than `slow`: the median of the ratios of the
+    /// rounds.
+    pub fn speedup_over(&self, slow: &Self) -> f64 {
         median(self.0.iter().zip(&slow.0).map(|(fast, slow)| slow / fast).collect())
     }
 }
@@ -50,19 +53,19 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Asks each contender for a figure, in turn, `rounds` times; a first round only warms up.
-pub fn in_turn<const N: usize>(
+/// Measures each contender in turn, `rounds` times, after one round of warm-up.
+pub fn measure_interleaved<const N: usize>(
     rounds: u32,
     mut contenders: [&mut dyn FnMut() -> f64; N],
-) -> [Figures; N] {
-    let mut figures = [(); N].map(|()| Figures::default());
+) -> [Samples; N] {
+    let mut samples = [(); N].map(|()| Samples::default());
     for contender in &mut contenders {
         contender();
     }
     for _ in 0..rounds {
-        for (contender, figures) in contenders.iter_mut().zip(&mut figures) {
-            figures.0.push(contender());
+        for (contender, samples) in contenders.iter_mut().zip(&mut samples) {
+            samples.0.push(contender());
         }
     }
-    figures
+    samples
 }

@@ -1,21 +1,21 @@
-//! A table that reads well as it is and as Markdown.
+//! A text table that is also valid Markdown.
 
 use std::fmt;
 
-/// Words in the first columns, numbers in the others.
+/// A table with text in the first columns and numbers in the others.
 pub struct Table {
-    /// How many columns hold words.
-    words: usize,
+    /// Number of text columns.
+    text_columns: usize,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    pub fn new(words: &[&str], numbers: &[&str]) -> Self {
-        let head = words.iter().chain(numbers).map(ToString::to_string).collect();
-        Self { words: words.len(), rows: vec![head] }
+    pub fn new(texts: &[&str], numbers: &[&str]) -> Self {
+        let head = texts.iter().chain(numbers).map(ToString::to_string).collect();
+        Self { text_columns: texts.len(), rows: vec![head] }
     }
 
-    /// Adds a row and says to the terminal that it is there, as the table itself comes late.
+    /// Appends a row, and prints it to stderr as progress: the table itself is printed at the end.
     pub fn push(&mut self, row: Vec<String>) {
         eprintln!("  {}", row.join("  "));
         self.rows.push(row);
@@ -32,19 +32,19 @@ impl Table {
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let widths = self.widths();
-        for (at, row) in self.rows.iter().enumerate() {
+        for (index, row) in self.rows.iter().enumerate() {
             for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
-                if column < self.words {
+                if column < self.text_columns {
                     write!(f, "| {cell:width$} ")?;
                 } else {
                     write!(f, "| {cell:>width$} ")?;
                 }
             }
             writeln!(f, "|")?;
-            if at == 0 {
+            if index == 0 {
                 for (column, width) in widths.iter().enumerate() {
-                    let (dashes, end) = ("-".repeat(width - 1), column >= self.words);
-                    write!(f, "| {dashes}{} ", if end { ":" } else { "-" })?;
+                    let (dashes, is_number) = ("-".repeat(width - 1), column >= self.text_columns);
+                    write!(f, "| {dashes}{} ", if is_number { ":" } else { "-" })?;
                 }
                 writeln!(f, "|")?;
             }
@@ -53,22 +53,22 @@ impl fmt::Display for Table {
     }
 }
 
-/// A number with so many digits after the point.
-pub fn number(value: f64, digits: usize) -> String {
+/// Formats a number with `digits` decimal places.
+pub fn format_number(value: f64, digits: usize) -> String {
     format!("{value:.digits$}")
 }
 
-/// A share as a percentage.
-pub fn percent(share: f32) -> String {
+/// Formats a share as a percentage.
+pub fn format_percent(share: f32) -> String {
     format!("{:.3} %", 100.0 * share)
 }
 
-/// A ratio.
-pub fn times(ratio: f64) -> String {
+/// Formats a ratio.
+pub fn format_ratio(ratio: f64) -> String {
     format!("{ratio:.1} x")
 }
 
-/// What there is no figure for.
-pub fn none() -> String {
+/// Returns the text of a cell without a value.
+pub fn no_value() -> String {
     "-".into()
 }

@@ -1,11 +1,12 @@
-//! What whole ticks cost, normals included, and how the cloth hangs after a while.
+//! Table `ticks`: the cost of whole ticks with normals, and the stretch and speed of the cloth
+//! after a while. With feature `parallel` also a table of one and two threads.
 
 use crate::Effort;
-use crate::cases::{Cases, TickCase, rounds};
+use crate::cases::{Cases, TickCase, describe_rounds};
 #[cfg(feature = "parallel")]
-use crate::measure::wall_seconds;
-use crate::measure::{in_turn, seconds};
-use crate::table::{Table, none, number, percent, times};
+use crate::measure::wall_time;
+use crate::measure::{cpu_time, measure_interleaved};
+use crate::table::{Table, format_number, format_percent, format_ratio, no_value};
 #[cfg(feature = "parallel")]
 use muslin::MeshDesc;
 use muslin::glam::Vec3;
@@ -14,8 +15,8 @@ use muslin_plain::{Order, PlainSheet, Size};
 use muslin_scenes::HangingSheet;
 use std::hint::black_box;
 
-/// Ways to hang: by what, and whether there is wind.
-const WAYS: [(&str, PinMode, bool); 4] = [
+/// Variants of each case: name, pins, whether there is wind.
+const VARIANTS: [(&str, PinMode, bool); 4] = [
     ("top edge", PinMode::TopEdge, false),
     ("top edge, wind", PinMode::TopEdge, true),
     ("top corners", PinMode::TopCorners, false),
@@ -25,62 +26,62 @@ const WAYS: [(&str, PinMode, bool); 4] = [
 pub fn print(effort: Effort) {
     let cases = Cases::read().ticks;
     let mut table = Table::new(
-        &["sheet", "tick", "sweeps", "hung by"],
+        &["sheet", "tick", "sweeps", "pins"],
         &[
-            "ms a tick",
+            "ms per tick",
             "median",
-            "ns a projection",
+            "ns per projection",
             "x real time",
             "plain ms",
             "faster",
-            "hung for",
+            "simulated",
             "max stretch",
             "mean",
-            "plain's max",
+            "plain max",
             "rms mm/s",
         ],
     );
-    let said = rounds(cases.iter().map(|case| case.rounds));
+    let rounds = describe_rounds(cases.iter().map(|case| case.rounds));
     for mut case in cases {
-        if effort == Effort::Once {
+        if effort == Effort::Smoke {
             case = TickCase { seconds: 2.0 * case.settings.tick, ticks: 1, rounds: 1, ..case };
         }
-        for (hung_by, pin_mode, is_windy) in WAYS {
-            table.push(measure(&case, hung_by, pin_mode, is_windy));
+        for (pins, pin_mode, is_windy) in VARIANTS {
+            table.push(measure(&case, pins, pin_mode, is_windy));
         }
     }
     println!(
-        "\nTicks: ms of one thread for a whole tick with normals, after the sheet hung for a while; \
-         least and median of {said}.\nplain: Verlet, the natural-order loop by kind (the faster order, \
-         and by particle it does not come to rest) with as many sweeps, normals; no wind, no floor.\n\
-         x real time and faster: by medians. Stretch is that of the threads.\n"
+        "\nTicks: ms per tick on one thread with normals, after the simulated time; \
+         minimum and median of {rounds}.\nplain: Verlet with the plain loop by kind \
+         (the faster order; by particle it does not come to rest), as many sweeps, normals; no wind, no floor.\n\
+         x real time, faster: from medians. Stretch is that of the stretch links.\n"
     );
     println!("{table}");
     #[cfg(feature = "parallel")]
     print_threads(effort);
 }
 
-/// Whole ticks of large sheets on one thread and on two.
+/// Prints the table of whole ticks of large sheets on one and on two threads.
 #[cfg(feature = "parallel")]
 fn print_threads(effort: Effort) {
     let cases = Cases::read().threads;
     let mut table =
-        Table::new(&["sheet", "woven as", "hung by"], &["one thread", "two", "faster", "median"]);
-    let said = rounds(cases.iter().map(|case| case.rounds));
+        Table::new(&["sheet", "as", "pins"], &["one thread", "two", "faster", "median"]);
+    let rounds = describe_rounds(cases.iter().map(|case| case.rounds));
     for mut case in cases {
-        if effort == Effort::Once {
+        if effort == Effort::Smoke {
             case = TickCase { seconds: 2.0 * case.settings.tick, ticks: 1, rounds: 1, ..case };
         }
-        for (hung_by, pin_mode, is_windy) in WAYS {
+        for (pins, pin_mode, is_windy) in VARIANTS {
             for is_grid in [true, false] {
-                table.push(measure_threads(&case, is_grid, hung_by, pin_mode, is_windy));
+                table.push(measure_threads(&case, is_grid, pins, pin_mode, is_windy));
             }
         }
     }
     println!(
-        "\nThreads: ms of wall time for a whole tick with normals, on one thread and on two; least of \
-         {said}.\nfaster: by the least, and by the median of the rounds' ratios. Here a busy machine is \
-         in the figures.\n"
+        "\nThreads: ms of wall time per tick with normals, on one and on two threads; minimum of \
+         {rounds}.\nfaster: from minima, and median of the ratios of the rounds. \
+         Wall time includes other processes.\n"
     );
     println!("{table}");
 }
@@ -89,27 +90,27 @@ fn print_threads(effort: Effort) {
 fn measure_threads(
     case: &TickCase,
     is_grid: bool,
-    hung_by: &str,
+    pins: &str,
     pin_mode: PinMode,
     is_windy: bool,
 ) -> Vec<String> {
     let desc = case.desc(pin_mode);
-    let grid = Cloth::grid(&desc).expect("a grid of the benchmark's own");
+    let grid = Cloth::grid(&desc).expect("a grid is valid");
     let mut cloth = if is_grid { grid } else { as_mesh(&desc, &grid) };
     if is_windy {
-        cloth.set_wind(HangingSheet::wind(2.0)).expect("the scene's own wind");
+        cloth.set_wind(HangingSheet::wind(2.0)).expect("the wind of the scene is valid");
     }
     cloth.step((case.seconds / desc.settings.tick).round() as u32);
     let mut cloths = [1, 2].map(|threads| {
         let mut copy = cloth.clone();
-        copy.set_threads(threads).expect("there is one at least");
+        copy.set_threads(threads).expect("1 and 2 are valid numbers of threads");
         copy
     });
-    let a_tick = 1.0e3 / f64::from(case.ticks);
+    let ms_per_tick = 1.0e3 / f64::from(case.ticks);
     let [one, two] = cloths.each_mut().map(|cloth| {
         move || {
-            a_tick
-                * wall_seconds(|| {
+            ms_per_tick
+                * wall_time(|| {
                     for _ in 0..case.ticks {
                         cloth.step(1);
                         black_box(cloth.view());
@@ -118,24 +119,24 @@ fn measure_threads(
         }
     });
     let (mut one, mut two) = (one, two);
-    let [one, two] = in_turn(case.rounds, [&mut one, &mut two]);
-    let [on_one, on_two] = cloths.map(|cloth| cloth.state_hash());
-    assert_eq!(on_one, on_two, "threads change no bit");
+    let [one, two] = measure_interleaved(case.rounds, [&mut one, &mut two]);
+    let [hash_one, hash_two] = cloths.map(|cloth| cloth.state_hash());
+    assert_eq!(hash_one, hash_two, "the number of threads changed the state");
     vec![
         format!("{} x {}", desc.columns, desc.rows),
         if is_grid { "grid" } else { "mesh" }.into(),
-        hung_by.into(),
-        number(one.min(), 3),
-        number(two.min(), 3),
-        times(one.min() / two.min()),
-        times(two.times_below(&one)),
+        pins.into(),
+        format_number(one.min(), 3),
+        format_number(two.min(), 3),
+        format_ratio(one.min() / two.min()),
+        format_ratio(two.speedup_over(&one)),
     ]
 }
 
-/// The same triangles as any mesh.
+/// Returns the same sheet as a triangle mesh.
 #[cfg(feature = "parallel")]
 fn as_mesh(desc: &GridDesc, grid: &Cloth) -> Cloth {
-    // In another order, or it would be found to be the grid.
+    // In another order: otherwise the mesh would be recognised as the grid.
     let mut indices = grid.indices().to_vec();
     indices.rotate_left(3);
     let mesh = Cloth::mesh(&MeshDesc {
@@ -146,36 +147,36 @@ fn as_mesh(desc: &GridDesc, grid: &Cloth) -> Cloth {
         settings: desc.settings.clone(),
         ..MeshDesc::default()
     });
-    mesh.expect("a mesh of the benchmark's own")
+    mesh.expect("a mesh is valid")
 }
 
-fn measure(case: &TickCase, hung_by: &str, pin_mode: PinMode, is_windy: bool) -> Vec<String> {
+fn measure(case: &TickCase, pins: &str, pin_mode: PinMode, is_windy: bool) -> Vec<String> {
     let desc = case.desc(pin_mode);
-    let mut cloth = Cloth::grid(&desc).expect("a grid of the benchmark's own");
+    let mut cloth = Cloth::grid(&desc).expect("a grid is valid");
     if case.floor {
-        cloth.add_collider(&floor_below(&desc)).expect("a floor of the benchmark's own");
+        cloth.add_collider(&floor_below(&desc)).expect("a floor is valid");
     }
     if is_windy {
-        cloth.set_wind(HangingSheet::wind(2.0)).expect("the scene's own wind");
+        cloth.set_wind(HangingSheet::wind(2.0)).expect("the wind of the scene is valid");
     }
     let settings = &desc.settings;
     let ticks = (case.seconds / settings.tick).round() as u32;
     cloth.step(ticks);
     let (stats, speed) = (cloth.stats(), rms_speed(&cloth));
 
-    let a_tick = 1.0e3 / f64::from(case.ticks);
-    let mut ours = || {
-        a_tick
-            * seconds(|| {
+    let ms_per_tick = 1.0e3 / f64::from(case.ticks);
+    let mut run_muslin = || {
+        ms_per_tick
+            * cpu_time(|| {
                 for _ in 0..case.ticks {
                     cloth.step(1);
                     black_box(cloth.view());
                 }
             })
     };
-    let (ours, beside, plain_stretch) = if is_windy {
-        let [ours] = in_turn(case.rounds, [&mut ours]);
-        (ours, [none(), none()], none())
+    let (muslin, plain_cells, plain_stretch) = if is_windy {
+        let [muslin] = measure_interleaved(case.rounds, [&mut run_muslin]);
+        (muslin, [no_value(), no_value()], no_value())
     } else {
         let mut sheet = PlainSheet::hang(plain_size(&desc), Order::ByKind);
         let run = |sheet: &mut PlainSheet, ticks: u32| {
@@ -184,11 +185,12 @@ fn measure(case: &TickCase, hung_by: &str, pin_mode: PinMode, is_windy: bool) ->
             }
         };
         run(&mut sheet, ticks);
-        let plain_stretch = percent(sheet.max_stretch());
-        let mut plain = || a_tick * seconds(|| run(&mut sheet, case.ticks));
-        let [ours, plain] = in_turn(case.rounds, [&mut ours, &mut plain]);
-        let beside = [number(plain.min(), 3), times(ours.times_below(&plain))];
-        (ours, beside, plain_stretch)
+        let plain_stretch = format_percent(sheet.max_stretch());
+        let mut run_plain = || ms_per_tick * cpu_time(|| run(&mut sheet, case.ticks));
+        let [muslin, plain] = measure_interleaved(case.rounds, [&mut run_muslin, &mut run_plain]);
+        let plain_cells =
+            [format_number(plain.min(), 3), format_ratio(muslin.speedup_over(&plain))];
+        (muslin, plain_cells, plain_stretch)
     };
 
     let projections = f64::from(settings.substeps * settings.iterations * stats.constraints);
@@ -197,19 +199,19 @@ fn measure(case: &TickCase, hung_by: &str, pin_mode: PinMode, is_windy: bool) ->
         format!("{} x {}{floor}", desc.columns, desc.rows),
         format!("1/{:.0} s", 1.0 / settings.tick),
         format!("{} x {}", settings.substeps, settings.iterations),
-        hung_by.into(),
-        number(ours.min(), 3),
-        number(ours.median(), 3),
-        number(1.0e6 * ours.min() / projections, 2),
-        number(1.0e3 * f64::from(settings.tick) / ours.median(), 1),
+        pins.into(),
+        format_number(muslin.min(), 3),
+        format_number(muslin.median(), 3),
+        format_number(1.0e6 * muslin.min() / projections, 2),
+        format_number(1.0e3 * f64::from(settings.tick) / muslin.median(), 1),
     ];
-    row.extend(beside);
+    row.extend(plain_cells);
     row.extend([
         format!("{:.1} s", case.seconds),
-        percent(stats.max_stretch),
-        percent(stats.mean_stretch),
+        format_percent(stats.max_stretch),
+        format_percent(stats.mean_stretch),
         plain_stretch,
-        number(1.0e3 * speed, 2),
+        format_number(1.0e3 * speed, 2),
     ]);
     row
 }
@@ -222,7 +224,7 @@ impl TickCase {
     }
 }
 
-/// A floor under the sheet, by a twentieth of its length.
+/// Returns a floor below the sheet, at a distance of a twentieth of its length.
 fn floor_below(desc: &GridDesc) -> ColliderDesc {
     let length = desc.spacing * (desc.rows - 1) as f32;
     ColliderDesc { position: desc.origin - Vec3::Y * (1.05 * length), ..ColliderDesc::default() }
@@ -233,11 +235,11 @@ fn plain_size(desc: &GridDesc) -> Size {
         columns: desc.columns as usize,
         rows: desc.rows as usize,
         spacing: desc.spacing,
-        by_corners: desc.pin_mode == PinMode::TopCorners,
+        only_corners: desc.pin_mode == PinMode::TopCorners,
     }
 }
 
-/// Root of the mean square speed of the particles [m/s].
+/// Returns the root mean square speed of the particles [m/s].
 fn rms_speed(cloth: &Cloth) -> f64 {
     let count = cloth.positions().len();
     let squares = (0..count as u32).filter_map(|particle| cloth.velocity(particle));

@@ -15,8 +15,8 @@ use glam::{Affine3, Mat3, Vec3};
 use muslin::{Attribute, IndexFormat, MAX_STREAMS, Stream, VertexFormat, WriteDesc};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Alignment of the staging memory [B]. An offset in it is aligned as the same offset in a buffer of
-/// the page.
+/// Alignment of the staging memory [B]. An offset in it is aligned as the same offset in a buffer
+/// of the page.
 const ALIGNMENT: usize = 8;
 
 #[wasm_bindgen]

@@ -1,4 +1,5 @@
-//! Scene: a gathered curtain hangs from the rings of a rod, and a ball rolls back and forth through it.
+//! Scene: a gathered curtain hangs from the rings of a rod, and a ball rolls back and forth through
+//! it.
 
 use crate::instance::{BallMotion, SceneInstance};
 use crate::scene::{FLOOR, Scene, with_self_collision};
@@ -99,9 +100,9 @@ impl Curtain {
     }
 }
 
-/// Returns the point [m] at a share 0 to 1 of the width of the fabric, seen from above. There is one
-/// fold between each two rings, alternately to the front and to the back. The curve is as long as the
-/// fabric is wide, so no thread is stretched.
+/// Returns the point [m] at a share 0 to 1 of the width of the fabric, seen from above. There is
+/// one fold between each two rings, alternately to the front and to the back. The curve is as long
+/// as the fabric is wide, so no thread is stretched.
 ///
 /// ```text
 /// direction(s) = SWING cos(2π folds s),   point(s) = ∫₀ˢ (cos direction, sin direction) SIZE.x ds

@@ -1,6 +1,6 @@
-//! Triangle mesh of a disc: concentric rings of vertices, as far apart as the vertices within a ring,
-//! each rotated against the one inside. The triangles are nearly equilateral and have no preferred
-//! direction, so that a drape test shows the fabric and not the mesh.
+//! Triangle mesh of a disc: concentric rings of vertices, as far apart as the vertices within a
+//! ring, each rotated against the one inside. The triangles are nearly equilateral and have no
+//! preferred direction, so that a drape test shows the fabric and not the mesh.
 
 use glam::{Vec2, Vec3};
 use std::f32::consts::{SQRT_2, TAU};
@@ -25,8 +25,8 @@ impl Disc {
         ((particles_across.max(3) - 1) as f32 / 3.0_f32.sqrt()).round() as u32
     }
 
-    /// Creates a disc of this radius [m] with this many rings around its centre (at least 1), rotated by
-    /// `turn` [rad].
+    /// Creates a disc of this radius [m] with this many rings around its centre (at least 1),
+    /// rotated by `turn` [rad].
     pub fn new(radius: f32, rings: u32, turn: f32) -> Self {
         let rings = rings.max(1);
         let mut disc =
@@ -34,7 +34,8 @@ impl Disc {
         let mut inner = Ring { first: 0, count: 1, turn };
         for ring in 1..=rings {
             let count = (TAU * ring as f32 * (0.75_f32).sqrt()).round() as u32;
-            // Rotated by √2 cells, an irrational number: no straight line of edges leads to the rim.
+            // Rotated by √2 cells, an irrational number: no straight line of edges leads to the
+            // rim.
             let turn = inner.turn + SQRT_2 * TAU / count as f32;
             let outer = Ring { first: disc.positions.len() as u32, count, turn };
             let distance = radius * ring as f32 / rings as f32;
@@ -69,8 +70,8 @@ impl Ring {
         self.first + i % self.count
     }
 
-    /// Appends the triangles between this ring and the next one. Both rings are walked around once; each
-    /// triangle advances the ring whose next vertex has the smaller angle.
+    /// Appends the triangles between this ring and the next one. Both rings are walked around once;
+    /// each triangle advances the ring whose next vertex has the smaller angle.
     fn triangulate(&self, outer: &Self, indices: &mut Vec<u32>) {
         let inner_steps = if self.count == 1 { 0 } else { self.count };
         // The first outer vertex at or after the angle of the first inner one.

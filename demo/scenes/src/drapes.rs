@@ -1,5 +1,5 @@
-//! Scene: the drape test. Discs of three fabrics hang over pedestals side by side, as in a drapemeter
-//! (Cusick 1965, BS 5058, ISO 9073-9): the softer the fabric, the smaller its shadow.
+//! Scene: the drape test. Discs of three fabrics hang over pedestals side by side, as in a
+//! drapemeter (Cusick 1965, BS 5058, ISO 9073-9): the softer the fabric, the smaller its shadow.
 
 use crate::disc::Disc;
 use crate::instance::SceneInstance;
@@ -30,16 +30,17 @@ impl Drapes {
     const SIDES: u32 = 24;
     /// Height of a pedestal [m].
     pub const HEIGHT: f32 = 0.33;
-    /// Length that is drawn as one metre [m]. The discs have the size of a drapemeter, so they are drawn
-    /// enlarged.
+    /// Length that is drawn as one metre [m]. The discs have the size of a drapemeter, so they are
+    /// drawn enlarged.
     pub const UNIT: f32 = 0.4;
     const TOP: f32 = FLOOR * Self::UNIT + Self::HEIGHT;
 
-    /// Returns the descriptor of a flat disc around `centre` [m], with this many rings of particles.
+    /// Returns the descriptor of a flat disc around `centre` [m], with this many rings of
+    /// particles.
     pub fn desc(rings: u32, centre: Vec3, material: Material) -> MeshDesc {
         let disc = Disc::new(Self::RADIUS, rings, 0.0);
-        // Tiny height differences, as in any real fabric: a perfectly even disc has no centre to start
-        // a fold.
+        // Tiny height differences, as in any real fabric: a perfectly even disc has no centre to
+        // start a fold.
         let uneven = |i: usize| 1.0e-4 * ((i as f32 * 2.399).sin() + 1.0);
         let positions = disc.positions.iter().enumerate();
         MeshDesc {
@@ -52,8 +53,8 @@ impl Drapes {
         }
     }
 
-    /// Returns the settings. In a tick such a small cloth falls far relative to its edges, so it has twice
-    /// the usual substeps.
+    /// Returns the settings. In a tick such a small cloth falls far relative to its edges, so it
+    /// has twice the usual substeps.
     fn settings() -> Settings {
         Settings { damping: 1.5, substeps: 8, max_stretch: 0.03, ..Settings::default() }
     }
@@ -88,8 +89,8 @@ impl Drapes {
         cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).map(|_| ())
     }
 
-    /// Returns the drape coefficient: the share of the ring around the pedestal that the disc shades, seen
-    /// from above.
+    /// Returns the drape coefficient: the share of the ring around the pedestal that the disc
+    /// shades, seen from above.
     pub fn drape_coefficient(cloth: &Cloth) -> f32 {
         shadow::drape_coefficient(cloth, Self::PEDESTAL, Self::RADIUS)
     }

@@ -1,8 +1,9 @@
-//! Scene: a receipt, a narrow sheet that hangs from two pins above a floor, to fold, crumple and toss.
+//! Scene: a receipt, a narrow sheet that hangs from two pins above a floor, to fold, crumple and
+//! toss.
 //!
 //! There are two sheets of the same shape. [`Sheet::Brief`] has exactly the numbers of the written
-//! brief for this scene and is about five metres wide. [`Sheet::Paper`] is real paper about as large
-//! as A4, and is drawn as large as the other. Lengths are given in units of the brief;
+//! brief for this scene and is about five metres wide. [`Sheet::Paper`] is real paper about as
+//! large as A4, and is drawn as large as the other. Lengths are given in units of the brief;
 //! [`Sheet::unit`] is the length of a unit in metres.
 
 use crate::instance::SceneInstance;
@@ -60,8 +61,8 @@ impl Sheet {
         if small { SMALL } else { FULL }
     }
 
-    /// Returns the distance between neighbouring particles [units]. On small screens the sheet of the
-    /// brief is smaller; paper keeps its size and has larger cells.
+    /// Returns the distance between neighbouring particles [units]. On small screens the sheet of
+    /// the brief is smaller; paper keeps its size and has larger cells.
     pub fn spacing(self, small: bool) -> f32 {
         match (self, small) {
             (Self::Paper, true) => SPACING * (FULL[0] - 1) as f32 / (SMALL[0] - 1) as f32,
@@ -74,7 +75,8 @@ impl Sheet {
         Vec2::from(self.grid_size(small).map(|n| (n - 1) as f32)) * self.spacing(small)
     }
 
-    /// Returns the descriptor of a sheet that is centred at the origin and pinned at its top corners.
+    /// Returns the descriptor of a sheet that is centred at the origin and pinned at its top
+    /// corners.
     pub fn desc(self, small: bool) -> GridDesc {
         let [columns, rows] = self.grid_size(small);
         let span = self.span(small);
@@ -113,8 +115,8 @@ impl Sheet {
         }
     }
 
-    /// Returns the wind: the sine field of the brief, or a draught across the paper; still air if it is
-    /// off.
+    /// Returns the wind: the sine field of the brief, or a draught across the paper; still air if
+    /// it is off.
     pub fn wind(self, is_on: bool) -> Wind {
         match self {
             Self::Brief => Wind {
@@ -145,8 +147,8 @@ impl Sheet {
         Ok(cloth)
     }
 
-    /// Applies what a descriptor cannot state to a new or reset cloth: equal masses for the sheet of the
-    /// brief, and for paper the curl of the roll that it came from.
+    /// Applies what a descriptor cannot state to a new or reset cloth: equal masses for the sheet
+    /// of the brief, and for paper the curl of the roll that it came from.
     ///
     /// # Errors
     /// As [`Cloth::set_mass_scales`] and [`Cloth::crease`].

@@ -29,8 +29,8 @@ pub trait Scene {
     fn check(instance: &SceneInstance) -> Result<(), String>;
 }
 
-/// Returns `settings` with self-collision for a cloth with this many particles: surface collision, or
-/// particle collision if surface collision would be too slow.
+/// Returns `settings` with self-collision for a cloth with this many particles: surface collision,
+/// or particle collision if surface collision would be too slow.
 pub(crate) fn with_self_collision(settings: Settings, particles: u32) -> Settings {
     if particles <= MAX_SURFACE_PARTICLES {
         Settings {

@@ -7,9 +7,9 @@ use std::f32::consts::TAU;
 /// Cells along each side of the square raster in which the shadow is counted.
 const CELLS: usize = 640;
 
-/// Returns the drape coefficient of Cusick, 0 to 1: the share that the disc shades of the ring between the
-/// supporting disc (radius `support` [m]) and the flat fabric (`radius` [m]). The first vertex of the
-/// cloth is its centre.
+/// Returns the drape coefficient of Cusick, 0 to 1: the share that the disc shades of the ring
+/// between the supporting disc (radius `support` [m]) and the flat fabric (`radius` [m]). The first
+/// vertex of the cloth is its centre.
 ///
 /// ```text
 ///   (shadow − π support²) / (π radius² − π support²)
@@ -19,8 +19,8 @@ pub fn drape_coefficient(cloth: &Cloth, support: f32, radius: f32) -> f32 {
     (shadow_area(cloth, 1.1 * radius) - disc(support)) / (disc(radius) - disc(support))
 }
 
-/// Returns the area that the cloth shades in the square of half-size `half_size` [m] around its first
-/// vertex [m²]: the cells whose centre is inside the projection of a triangle.
+/// Returns the area that the cloth shades in the square of half-size `half_size` [m] around its
+/// first vertex [m²]: the cells whose centre is inside the projection of a triangle.
 fn shadow_area(cloth: &Cloth, half_size: f32) -> f32 {
     let x = cloth.positions();
     let cell = 2.0 * half_size / CELLS as f32;
@@ -79,8 +79,8 @@ impl Outline {
         Self((0..ANGLES).map(|i| distance(TAU * i as f32 / ANGLES as f32)).collect())
     }
 
-    /// Counts the folds: excursions of the rim outwards and back by a quarter of its whole range. A rim
-    /// whose range is below a hundredth of its largest distance has none.
+    /// Counts the folds: excursions of the rim outwards and back by a quarter of its whole range. A
+    /// rim whose range is below a hundredth of its largest distance has none.
     pub fn count_folds(&self) -> usize {
         let low = self.0.iter().copied().fold(f32::MAX, f32::min);
         let high = self.0.iter().copied().fold(0.0, f32::max);
@@ -88,7 +88,8 @@ impl Outline {
             return 0;
         }
         let step = 0.25 * (high - low);
-        // One pass around from the innermost point: each move outwards by a step, after one inwards, is a fold.
+        // One pass around from the innermost point: each move outwards by a step, after one
+        // inwards, is a fold.
         let start = self.0.iter().position(|distance| *distance == low).unwrap_or(0);
         let (mut folds, mut is_out, mut extremum) = (0, false, low);
         for i in 0..self.0.len() {

@@ -37,8 +37,8 @@ impl SheetOnBall {
         }
     }
 
-    /// Adds the ball as a collider. Draw it a little smaller than [`SheetOnBall::RADIUS`]: triangles of
-    /// the cloth are flat, so between their corners they come closer to its centre.
+    /// Adds the ball as a collider. Draw it a little smaller than [`SheetOnBall::RADIUS`]:
+    /// triangles of the cloth are flat, so between their corners they come closer to its centre.
     ///
     /// # Errors
     /// As [`Cloth::add_collider`].

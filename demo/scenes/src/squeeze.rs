@@ -1,14 +1,15 @@
-//! Crumpling: plane colliders ("palms") close around a whole sheet several times, until it is a ball.
+//! Crumpling: plane colliders ("palms") close around a whole sheet several times, until it is a
+//! ball.
 //!
-//! The palms face the centre of the sheet from directions that are spread evenly over a sphere. Each
-//! of the `RADII` is one squeeze:
+//! The palms face the centre of the sheet from directions that are spread evenly over a sphere.
+//! Each of the `RADII` is one squeeze:
 //!
 //! ```text
 //! close to the radius ─▶ hold ─▶ yield a little ─▶ remove the palms ─▶ pause ─▶ next, rotated
 //! ```
 //!
-//! [`Squeeze::tick`] moves the colliders of the cloth before each tick. Meanwhile the yield angle of
-//! the material is lower, because paper that is held folded creeps.
+//! [`Squeeze::tick`] moves the colliders of the cloth before each tick. Meanwhile the yield angle
+//! of the material is lower, because paper that is held folded creeps.
 
 #[cfg(test)]
 mod tests;
@@ -114,8 +115,8 @@ impl Squeeze {
         RADII[self.round] * self.unit
     }
 
-    /// Moves the palms for the next tick of `seconds` [s], and returns whether the sequence continues. At
-    /// the end all palms are removed.
+    /// Moves the palms for the next tick of `seconds` [s], and returns whether the sequence
+    /// continues. At the end all palms are removed.
     ///
     /// # Errors
     /// As [`Cloth::move_collider`] and [`Cloth::add_collider`].
@@ -168,8 +169,8 @@ fn set_yield_angle(cloth: &mut Cloth, yield_angle: f32) -> Result<()> {
     cloth.set_material(Material { yield_angle, ..material })
 }
 
-/// Returns one of [`PALMS`] unit directions that are spread evenly over the sphere: a Fibonacci lattice,
-/// in which each is rotated by the golden angle.
+/// Returns one of [`PALMS`] unit directions that are spread evenly over the sphere: a Fibonacci
+/// lattice, in which each is rotated by the golden angle.
 fn spread_direction(index: u32) -> Vec3 {
     let y = 1.0 - (2 * index + 1) as f32 / PALMS as f32;
     let (sin, cos) = (2.399_963 * index as f32).sin_cos();
