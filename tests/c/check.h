@@ -1,4 +1,4 @@
-/* The least that a test needs: a claim, a line for what was shown, a count of what was not. */
+/* Minimal test macros: a check, a line per test, and a count of failures. */
 #ifndef MUSLIN_CHECK_H
 #define MUSLIN_CHECK_H
 
@@ -8,7 +8,7 @@
 
 static int failures = 0;
 
-/* Claims something; a false claim is told and counted. */
+/* Checks a condition; prints and counts a failure. */
 #define CHECK(claim)                                                                      \
   do {                                                                                    \
     if (!(claim)) {                                                                       \
@@ -18,17 +18,17 @@ static int failures = 0;
     }                                                                                     \
   } while (0)
 
-/* Claims that a call is done. */
+/* Checks that a call succeeds. */
 #define DONE(call) CHECK((call) == MUSLIN_STATUS_OK)
 
-/* Claims that a call is refused with a status, in words that say something. */
+/* Checks that a call returns the status, with a message that contains `words`. */
 #define REFUSED(call, status, words)                        \
   do {                                                      \
     CHECK((call) == (status));                              \
     CHECK(strstr(muslin_last_error(), (words)) != NULL);    \
   } while (0)
 
-/* Runs a test and prints its line. */
+/* Runs a test and prints its name. */
 #define TEST(test)                                                          \
   do {                                                                      \
     int before = failures;                                                  \

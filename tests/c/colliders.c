@@ -1,10 +1,10 @@
-/* Colliders, and sleep on them: bad ones are refused by field and change nothing. */
+/* Colliders: invalid ones are refused by field and change nothing; cloth sleeps on valid ones. */
 #include "check.h"
 #include <math.h>
 
 #define BAD_VALUE MUSLIN_STATUS_BAD_VALUE
 
-static MuslinCloth cloth; /* the cloth that everything is tried on */
+static MuslinCloth cloth; /* the cloth of all tests in this file */
 static const MuslinVec3 zero = {0, 0, 0};
 
 static MuslinVec3 with_nan(void) {
@@ -85,7 +85,7 @@ static void colliders_are_refused_by_field(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void a_cloth_on_a_floor_falls_asleep_and_wakes_as_that_moves(void) {
+static void a_cloth_on_a_floor_falls_asleep_and_wakes_when_the_floor_moves(void) {
   make_cloth(0.01f);
   MuslinColliderDesc desc;
   MuslinCollider floor = {0};
@@ -118,6 +118,6 @@ static void a_cloth_on_a_floor_falls_asleep_and_wakes_as_that_moves(void) {
 
 int main(void) {
   TEST(colliders_are_refused_by_field);
-  TEST(a_cloth_on_a_floor_falls_asleep_and_wakes_as_that_moves);
+  TEST(a_cloth_on_a_floor_falls_asleep_and_wakes_when_the_floor_moves);
   return failures != 0;
 }

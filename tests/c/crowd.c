@@ -1,4 +1,4 @@
-/* Many cloths on two threads for a while, made, stepped and ended there: both threads see the same bits.
+/* Many cloths on two threads for a while, created, stepped and destroyed there: both threads get the same bits.
  *
  *   crowd [CLOTHS SECONDS]
  *
@@ -17,7 +17,7 @@ static double seconds = 0.2;
 typedef struct Player {
   pthread_t thread;
   int rounds, refused;
-  uint64_t *sums; /* of all hashes, one a round */
+  uint64_t *sums; /* sum of all hashes, one per round */
 } Player;
 
 static double now(void) {
@@ -26,7 +26,7 @@ static double now(void) {
   return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-/* A small sheet, no two alike: some tear, some touch themselves, some lie on a ball. */
+/* A small sheet, each with other settings: some tear, some collide with themselves, some lie on a ball. */
 static MuslinCloth make(int which) {
   MuslinGridDesc desc;
   MuslinCloth cloth = {0};
@@ -61,7 +61,7 @@ static void *play(void *with) {
     for (int i = 0; i < cloths; i++) {
       uint64_t hash = 0;
       if (player->rounds % LIVES == 0) own[i] = make(i);
-      /* What is refused is told to its own thread. */
+      /* The error message belongs to the thread of the refused call. */
       player->refused += muslin_cloth_unpin(own[i], 1000) != MUSLIN_STATUS_BAD_INDEX;
       player->refused += muslin_cloth_step(own[i], 1) != MUSLIN_STATUS_OK;
       player->refused += muslin_cloth_state_hash(own[i], &hash) != MUSLIN_STATUS_OK;

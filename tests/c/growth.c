@@ -1,8 +1,8 @@
-/* Programs that were compiled with an older or a newer header than the library's. */
+/* Programs compiled with an older or a newer header than that of the library. */
 #include "check.h"
 #include <stddef.h>
 
-/* Settings as the first header had them: without their last field. */
+/* Settings of the first header: without the last field. */
 enum { OLD_SETTINGS = offsetof(MuslinSettings, max_tears_per_tick) };
 
 static uint64_t hash_after(MuslinCloth cloth, uint32_t ticks) {
@@ -13,7 +13,7 @@ static uint64_t hash_after(MuslinCloth cloth, uint32_t ticks) {
   return hash;
 }
 
-/* What a cloth of today's header comes to. */
+/* The state hash of a cloth made with the current header. */
 static uint64_t expected(void) {
   MuslinGridDesc desc;
   MuslinCloth cloth = {0};
@@ -25,7 +25,7 @@ static uint64_t expected(void) {
   return hash_after(cloth, 30);
 }
 
-static void an_older_program_makes_the_same_cloth(void) {
+static void an_older_program_creates_the_same_cloth(void) {
   struct {
     unsigned char head[offsetof(MuslinGridDesc, settings)];
     unsigned char settings[OLD_SETTINGS];
@@ -44,10 +44,10 @@ static void an_older_program_makes_the_same_cloth(void) {
   CHECK(hash_after(cloth, 30) == expected());
 }
 
-/* Materials as the first header had them, whose folds neither harden nor weaken. */
+/* Materials of the first header: without hardening and weakening of folds. */
 enum { OLD_MATERIAL = offsetof(MuslinMaterial, yield_hardening) };
 
-static void an_older_program_changes_what_it_knows_of_a_material(void) {
+static void an_older_program_changes_the_material_fields_that_it_has(void) {
   struct {
     unsigned char known[OLD_MATERIAL];
     unsigned char beyond[16];
@@ -97,7 +97,7 @@ static MuslinGridDesc *new_desc(NewGridDesc *desc) {
   return seen;
 }
 
-static void a_newer_program_makes_the_same_cloth(void) {
+static void a_newer_program_creates_the_same_cloth(void) {
   NewGridDesc desc;
   MuslinCloth cloth = {0};
   DONE(muslin_cloth_create_grid(new_desc(&desc), &cloth));
@@ -105,7 +105,7 @@ static void a_newer_program_makes_the_same_cloth(void) {
   CHECK(hash_after(cloth, 30) == expected());
 }
 
-static void a_newer_program_is_refused_what_this_version_lacks(void) {
+static void new_fields_of_a_newer_program_are_refused_if_set(void) {
   NewGridDesc desc;
   MuslinCloth cloth = {0};
   MuslinGridDesc *seen = new_desc(&desc);
@@ -120,7 +120,8 @@ static void a_newer_program_is_refused_what_this_version_lacks(void) {
   CHECK(cloth.id == 0);
 }
 
-/* The same for a mesh, which holds pointers and so may end in a gap; as many new fields as leave one. */
+/* The same for a mesh descriptor. It holds pointers, so it may end in padding; the number of new fields is
+ * chosen so that it does. */
 enum {
   MESH_HEAD = offsetof(MuslinMeshDesc, material),
   MESH_END = MESH_HEAD + sizeof(MuslinMaterial) + sizeof(MuslinSettings),
@@ -138,7 +139,7 @@ typedef union NewMeshDesc {
   const void *aligned;
 } NewMeshDesc;
 
-static void a_gap_at_the_end_may_hold_anything(void) {
+static void padding_at_the_end_may_hold_any_bytes(void) {
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const uint32_t indices[] = {0, 1, 2};
   NewMeshDesc desc;
@@ -158,7 +159,7 @@ static void a_gap_at_the_end_may_hold_anything(void) {
   (void)hash_after(cloth, 1);
 }
 
-static void settings_of_an_older_program_keep_what_it_does_not_know(void) {
+static void fields_that_an_older_program_lacks_get_their_defaults(void) {
   MuslinGridDesc desc;
   MuslinCloth cloth = {0};
   muslin_grid_desc_init(&desc);
@@ -179,7 +180,7 @@ static void settings_of_an_older_program_keep_what_it_does_not_know(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void a_newer_program_gets_zeros_for_what_this_version_lacks(void) {
+static void output_fields_that_this_version_lacks_become_zero(void) {
   struct {
     MuslinStats known;
     uint64_t dreams;
@@ -196,7 +197,7 @@ static void a_newer_program_gets_zeros_for_what_this_version_lacks(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void sizes_that_no_version_has_are_refused(void) {
+static void struct_sizes_of_no_version_are_refused(void) {
   MuslinGridDesc desc;
   MuslinSettings settings;
   MuslinView view;
@@ -225,13 +226,13 @@ static void sizes_that_no_version_has_are_refused(void) {
 }
 
 int main(void) {
-  TEST(an_older_program_makes_the_same_cloth);
-  TEST(an_older_program_changes_what_it_knows_of_a_material);
-  TEST(a_newer_program_makes_the_same_cloth);
-  TEST(a_newer_program_is_refused_what_this_version_lacks);
-  TEST(a_gap_at_the_end_may_hold_anything);
-  TEST(settings_of_an_older_program_keep_what_it_does_not_know);
-  TEST(a_newer_program_gets_zeros_for_what_this_version_lacks);
-  TEST(sizes_that_no_version_has_are_refused);
+  TEST(an_older_program_creates_the_same_cloth);
+  TEST(an_older_program_changes_the_material_fields_that_it_has);
+  TEST(a_newer_program_creates_the_same_cloth);
+  TEST(new_fields_of_a_newer_program_are_refused_if_set);
+  TEST(padding_at_the_end_may_hold_any_bytes);
+  TEST(fields_that_an_older_program_lacks_get_their_defaults);
+  TEST(output_fields_that_this_version_lacks_become_zero);
+  TEST(struct_sizes_of_no_version_are_refused);
   return failures != 0;
 }

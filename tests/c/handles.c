@@ -1,4 +1,4 @@
-/* Handles: stale, made-up and foreign ones are refused; none is ever a wild pointer. */
+/* Handles: stale, made-up and foreign handles are refused and never dereferenced. */
 #include "check.h"
 
 static MuslinCloth small_cloth(void) {
@@ -10,7 +10,7 @@ static MuslinCloth small_cloth(void) {
   return cloth;
 }
 
-static void a_destroyed_cloth_leaves_a_stale_handle_behind(void) {
+static void the_handle_of_a_destroyed_cloth_is_refused(void) {
   MuslinCloth old = small_cloth();
   DONE(muslin_cloth_destroy(old));
   REFUSED(muslin_cloth_destroy(old), MUSLIN_STATUS_BAD_HANDLE, "`cloth` must");
@@ -21,7 +21,7 @@ static void a_destroyed_cloth_leaves_a_stale_handle_behind(void) {
   DONE(muslin_cloth_destroy(young));
 }
 
-static void made_up_cloths_are_refused(void) {
+static void made_up_handles_are_refused(void) {
   MuslinCloth cloth = small_cloth();
   uint64_t made_up[] = {0, 1, 2, 0xffffffffu, UINT64_MAX, cloth.id + 1, cloth.id - 1,
                         cloth.id + ((uint64_t)1 << 32), cloth.id ^ ((uint64_t)1 << 63)};
@@ -34,7 +34,7 @@ static void made_up_cloths_are_refused(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void grabs_and_colliders_end_with_release_and_removal(void) {
+static void released_grabs_and_removed_colliders_are_refused(void) {
   MuslinCloth cloth = small_cloth(), other = small_cloth();
   MuslinVec3 here = {0};
   MuslinQuat straight = {0, 0, 0, 1};
@@ -62,7 +62,7 @@ static void grabs_and_colliders_end_with_release_and_removal(void) {
   DONE(muslin_cloth_destroy(other));
 }
 
-static void a_reset_lets_grabs_go_and_keeps_colliders(void) {
+static void a_reset_removes_grabs_and_keeps_colliders(void) {
   MuslinCloth cloth = small_cloth();
   MuslinGrab grab = {0};
   MuslinCollider floor = {0};
@@ -76,7 +76,7 @@ static void a_reset_lets_grabs_go_and_keeps_colliders(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void a_thousand_cloths_come_and_go(void) {
+static void a_thousand_cloths_are_created_and_destroyed(void) {
   enum { AT_ONCE = 10, ROUNDS = 100 };
   MuslinCloth cloths[AT_ONCE];
   MuslinCloth first = {0};
@@ -95,10 +95,10 @@ static void a_thousand_cloths_come_and_go(void) {
 }
 
 int main(void) {
-  TEST(a_destroyed_cloth_leaves_a_stale_handle_behind);
-  TEST(made_up_cloths_are_refused);
-  TEST(grabs_and_colliders_end_with_release_and_removal);
-  TEST(a_reset_lets_grabs_go_and_keeps_colliders);
-  TEST(a_thousand_cloths_come_and_go);
+  TEST(the_handle_of_a_destroyed_cloth_is_refused);
+  TEST(made_up_handles_are_refused);
+  TEST(released_grabs_and_removed_colliders_are_refused);
+  TEST(a_reset_removes_grabs_and_keeps_colliders);
+  TEST(a_thousand_cloths_are_created_and_destroyed);
   return failures != 0;
 }

@@ -1,4 +1,4 @@
-// The header as C++17 sees it, and a short cloth.
+// muslin.h compiles as C++17, and a short simulation runs.
 #include <muslin.h>
 
 #include <cstdio>
@@ -11,7 +11,7 @@ static_assert(sizeof(MuslinStatus) == 4, "a status is as wide as in C");
 
 namespace {
 
-// A cloth that goes when it goes out of scope.
+// Destroys its cloth when it goes out of scope.
 class Cloth {
  public:
   explicit Cloth(const MuslinGridDesc &desc) {

@@ -1,4 +1,4 @@
-/* Meshes with doubled vertices and defects: what is told of them, and which vertex is which particle. */
+/* Meshes with duplicate vertices and defects: the report, and the particle of each vertex. */
 #include "check.h"
 
 enum { COLUMNS = 5, ROWS = 6, HALF = COLUMNS * ROWS, CELLS = (COLUMNS - 1) * (ROWS - 1) };
@@ -25,7 +25,7 @@ static MuslinMeshDesc seamed_sheet(void) {
       n += 6;
     }
   }
-  /* One that is there already, one that is flat, and one that faces the other way. */
+  /* A duplicate triangle, one without an area, and one that faces the other way. */
   uint32_t defects[9] = {1, 0, COLUMNS, 7, 7, 8, 0, 1, 2};
   memcpy(indices + n, defects, sizeof defects);
   uint32_t first = indices[6];
@@ -34,7 +34,7 @@ static MuslinMeshDesc seamed_sheet(void) {
   MuslinMeshDesc desc;
   muslin_mesh_desc_init(&desc);
   desc.positions = positions;
-  desc.vertex_count = 2 * HALF + 1; /* the last one is in no triangle */
+  desc.vertex_count = 2 * HALF + 1; /* no triangle uses the last one */
   desc.indices = indices;
   desc.index_count = sizeof indices / sizeof indices[0];
   desc.uvs = uvs;
@@ -43,7 +43,7 @@ static MuslinMeshDesc seamed_sheet(void) {
   return desc;
 }
 
-static void what_was_repaired_is_told(void) {
+static void the_mesh_report_counts_the_repairs(void) {
   MuslinMeshDesc desc = seamed_sheet();
   MuslinCloth cloth = {0};
   DONE(muslin_cloth_create_mesh(&desc, &cloth));
@@ -64,7 +64,7 @@ static void what_was_repaired_is_told(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void vertices_of_a_seam_share_their_particle_until_it_is_cut(void) {
+static void vertices_of_a_seam_share_a_particle_until_it_is_cut(void) {
   MuslinMeshDesc desc = seamed_sheet();
   uint32_t pinned[2] = {COLUMNS - 1, HALF};
   desc.pinned = pinned;
@@ -84,7 +84,7 @@ static void vertices_of_a_seam_share_their_particle_until_it_is_cut(void) {
   MuslinVec3 from = {0.5f, -0.3f, -1.0f}, to = {0.5f, -9.0f, -1.0f}, sweep = {0.0f, 0.0f, 2.0f};
   uint32_t edges = 0, revision = view.topology_revision;
   DONE(muslin_cloth_cut(cloth, from, to, sweep, &edges));
-  CHECK(edges == 2); /* row 3 is where the slit ends */
+  CHECK(edges == 2); /* the cut ends at row 3 */
   DONE(muslin_cloth_view(cloth, &view));
   CHECK(view.vertex_count == desc.vertex_count);
   CHECK(view.topology_revision != revision);
@@ -130,8 +130,8 @@ static void a_grid_as_a_mesh_gives_the_bits_of_the_grid(void) {
 }
 
 int main(void) {
-  TEST(what_was_repaired_is_told);
-  TEST(vertices_of_a_seam_share_their_particle_until_it_is_cut);
+  TEST(the_mesh_report_counts_the_repairs);
+  TEST(vertices_of_a_seam_share_a_particle_until_it_is_cut);
   TEST(a_grid_as_a_mesh_gives_the_bits_of_the_grid);
   return failures != 0;
 }

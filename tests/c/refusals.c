@@ -1,4 +1,4 @@
-/* Bad input is refused in words that name the field, and changes nothing. */
+/* Invalid input is refused with a message that names the field, and changes nothing. */
 #include "check.h"
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 #define BAD_VALUE MUSLIN_STATUS_BAD_VALUE
 #define BAD_INDEX MUSLIN_STATUS_BAD_INDEX
 
-static MuslinCloth cloth;  /* the cloth that everything is tried on */
+static MuslinCloth cloth;  /* the cloth of all tests in this file */
 static const MuslinVec3 zero = {0, 0, 0}, ahead = {0, 0, -1}, eye = {0.5f, -0.5f, 5};
 
 static MuslinVec3 with_nan(void) {
@@ -28,7 +28,7 @@ static void make_cloth(void) {
   DONE(muslin_cloth_step(cloth, 30));
 }
 
-static void null_is_refused_by_name(void) {
+static void null_pointers_are_refused_by_name(void) {
   MuslinCloth made = {0};
   MuslinGridDesc grid;
   MuslinMeshDesc mesh;
@@ -87,7 +87,7 @@ static void null_is_refused_by_name(void) {
   DONE(muslin_cloth_set_pin_targets(cloth, NULL, NULL, 0, 0));
 }
 
-static void no_function_takes_a_cloth_that_is_not(void) {
+static void every_function_refuses_a_handle_of_no_cloth(void) {
   const MuslinStatus bad = MUSLIN_STATUS_BAD_HANDLE;
   MuslinCloth none = {0};
   MuslinSettings settings;
@@ -154,7 +154,7 @@ static void no_function_takes_a_cloth_that_is_not(void) {
   CHECK(grab.id == 9 && collider.id == 9 && number == 9 && long_number == 9 && size == 9);
 }
 
-/* A grid that is right but for one field. */
+/* A grid that is valid except for one field. */
 #define BAD_GRID(field, value, words)                                            \
   do {                                                                           \
     MuslinGridDesc desc;                                                         \
@@ -201,10 +201,10 @@ static void meshes_are_refused_by_field(void) {
   good.indices = indices;
 
   MuslinMeshDesc desc = good;
-  desc.vertex_count = UINT32_MAX; /* refused unread */
+  desc.vertex_count = UINT32_MAX; /* refused before the list is read */
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`vertex_count`");
   desc = good;
-  desc.index_count = UINT32_MAX; /* refused unread */
+  desc.index_count = UINT32_MAX; /* refused before the list is read */
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`index_count`");
   desc.index_count = 5;
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`index_count`");
@@ -227,14 +227,14 @@ static void meshes_are_refused_by_field(void) {
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`pinned`");
   desc.pinned = pinned;
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_INDEX, "`pinned`");
-  desc.pinned_count = 5; /* refused unread */
+  desc.pinned_count = 5; /* refused before the list is read */
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`pinned_count`");
   desc = good;
   desc.weld_distance = NAN;
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`weld_distance`");
   CHECK(made.id == 0);
 
-  /* Interleaved with something else, and one byte off. */
+  /* Interleaved with other data, and unaligned by one byte. */
   unsigned char odd[4 * 20 + 1];
   memset(odd, 0xee, sizeof odd);
   for (int i = 0; i < 4; i++) memcpy(odd + 1 + 20 * i, positions + 3 * i, 12);
@@ -253,7 +253,7 @@ static void meshes_are_refused_by_field(void) {
   CHECK(memcmp(view.positions, positions, sizeof positions) == 0);
   CHECK(view.uvs[0] == 0 && view.source_vertices[3] == 3 && view.normals[2] == 1);
 
-  /* A cut is a part of the lists, and its borders are frayed. */
+  /* A cut changes a part of the lists, and its borders are frayed. */
   MuslinVec3 from = {-9, 0.5f, -9}, to = {9, 0.5f, -9}, sweep = {0, 0, 18};
   uint32_t edges = 0;
   DONE(muslin_cloth_cut(made, from, to, sweep, &edges));
@@ -270,7 +270,7 @@ static void meshes_are_refused_by_field(void) {
   DONE(muslin_cloth_changes(made, view.topology_revision, &changes));
   CHECK(changes.vertex_count == 0 && changes.index_count == 0);
 
-  /* Indices of 16 bits, turned round and moved up. */
+  /* 16-bit indices with reversed winding and a base vertex. */
   uint16_t written[19];
   memset(written, 0xee, sizeof written);
   DONE(muslin_cloth_write_indices(made, written, sizeof written, 16, 1, 100));
@@ -331,8 +331,8 @@ static void settings_material_and_wind_are_refused_by_field(void) {
   CHECK(kept.substeps == 4 && kept.tearing == 0 && kept.gravity.x == 0);
 }
 
-/* What clothes on a body need: lists by name, poses by rule. */
-static void worn_is_refused_by_argument(void) {
+/* Attachments, anchors and the reference frame: lists and poses. */
+static void attachments_and_anchors_are_refused_by_argument(void) {
   uint32_t last = 399, beyond = 400, some[401] = {0};
   const MuslinVec3 nan = with_nan();
   const MuslinQuat as_it_is = {0, 0, 0, 1}, too_long = {0, 0, 0, 2};
@@ -387,7 +387,7 @@ static void edits_are_refused_by_argument(void) {
   REFUSED(muslin_cloth_set_pin_targets(cloth, &beyond, &zero, 0, 1), BAD_INDEX, "`particles`");
   REFUSED(muslin_cloth_set_pin_targets(cloth, &last, &zero, 10, 1), BAD_VALUE, "`stride`");
   REFUSED(muslin_cloth_set_pin_targets(cloth, some, &zero, 0, 401), BAD_VALUE, "`count`");
-  worn_is_refused_by_argument();
+  attachments_and_anchors_are_refused_by_argument();
   REFUSED(muslin_cloth_set_position(cloth, 400, zero), BAD_INDEX, "`particle`");
   REFUSED(muslin_cloth_set_position(cloth, 0, nan), BAD_VALUE, "`position`");
   REFUSED(muslin_cloth_set_velocity(cloth, 400, zero), BAD_INDEX, "`particle`");
@@ -395,7 +395,7 @@ static void edits_are_refused_by_argument(void) {
   REFUSED(muslin_cloth_tear_edge(cloth, 400, 0), BAD_INDEX, "`particle_a`");
   REFUSED(muslin_cloth_tear_edge(cloth, 0, 400), BAD_INDEX, "`particle_b`");
   REFUSED(muslin_cloth_tear_edge(cloth, 0, 399), BAD_VALUE, "`particle_b`");
-  REFUSED(muslin_cloth_tear_edge(cloth, 0, 1), MUSLIN_STATUS_NOT_TORN, "did not give way");
+  REFUSED(muslin_cloth_tear_edge(cloth, 0, 1), MUSLIN_STATUS_NOT_TORN, "did not tear");
   const MuslinVec3 right = {1, 0, 0}, left = {-1, 0, 0};
   uint32_t edges = 7;
   REFUSED(muslin_cloth_cut(cloth, nan, right, left, &edges), BAD_VALUE, "`from`");
@@ -406,7 +406,7 @@ static void edits_are_refused_by_argument(void) {
   CHECK(edges == 7);
 }
 
-static void pointing_is_refused_by_argument_and_may_meet_nothing(void) {
+static void rays_are_refused_by_argument_and_may_hit_nothing(void) {
   const MuslinVec3 nan = with_nan(), away = {0, 0, 1};
   MuslinHit hit;
   MuslinGrab grab = {7}, grabs[64];
@@ -438,7 +438,7 @@ static void pointing_is_refused_by_argument_and_may_meet_nothing(void) {
   CHECK(hit.normal.z > 0 && hit.particle < 400 && hit.triangle < 2 * 19 * 19);
 }
 
-static void saves_are_refused(void) {
+static void invalid_saves_are_refused(void) {
   size_t needed = 0, written = 7;
   MuslinCloth made = {7};
   DONE(muslin_cloth_save(cloth, NULL, 0, &needed));
@@ -465,15 +465,15 @@ int main(void) {
   CHECK(muslin_last_error()[0] == '\0');
   make_cloth();
   const uint64_t before = hash();
-  TEST(null_is_refused_by_name);
-  TEST(no_function_takes_a_cloth_that_is_not);
+  TEST(null_pointers_are_refused_by_name);
+  TEST(every_function_refuses_a_handle_of_no_cloth);
   TEST(grids_are_refused_by_field);
   TEST(meshes_are_refused_by_field);
   TEST(settings_material_and_wind_are_refused_by_field);
   TEST(edits_are_refused_by_argument);
-  TEST(saves_are_refused);
-  CHECK(hash() == before); /* nothing of all that changed the cloth */
-  TEST(pointing_is_refused_by_argument_and_may_meet_nothing);
+  TEST(invalid_saves_are_refused);
+  CHECK(hash() == before); /* none of the refused calls changed the cloth */
+  TEST(rays_are_refused_by_argument_and_may_hit_nothing);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;
 }

@@ -41,7 +41,7 @@ static MuslinCloth hang_in_the_wind(void) {
   return cloth;
 }
 
-/* Hang in the wind, be grabbed and dragged until it rips, be torn by hand, let go, be cut, fall on the floor,
+/* Hangs in the wind, is grabbed and dragged until it tears, is torn by hand, released, cut, falls on the floor,
  * be picked up by a corner: 630 ticks. */
 static MuslinCloth play_script(void) {
   MuslinCloth cloth = hang_in_the_wind();
@@ -75,7 +75,7 @@ static MuslinCloth play_script(void) {
   return cloth;
 }
 
-static void the_script_ends_in_the_golden_bits(void) {
+static void the_script_ends_in_the_golden_hash(void) {
   MuslinCloth cloth = play_script();
   MuslinEvent event;
   muslin_event_init(&event);
@@ -94,7 +94,7 @@ static void the_script_ends_in_the_golden_bits(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
-static void a_restored_cloth_goes_on_in_the_same_bits(void) {
+static void a_restored_cloth_continues_with_the_same_bits(void) {
   MuslinCloth straight = play_script(), restored = {0};
   size_t needed = 0, written = 0;
   DONE(muslin_cloth_save(straight, NULL, 0, &needed));
@@ -122,7 +122,7 @@ static void a_restored_cloth_goes_on_in_the_same_bits(void) {
 }
 
 int main(void) {
-  TEST(the_script_ends_in_the_golden_bits);
-  TEST(a_restored_cloth_goes_on_in_the_same_bits);
+  TEST(the_script_ends_in_the_golden_hash);
+  TEST(a_restored_cloth_continues_with_the_same_bits);
   return failures != 0;
 }

@@ -1,4 +1,4 @@
-/* Vertices and indices in buffers of one's own: layouts, formats, changed parts, and what is refused. */
+/* Vertices and indices in the caller's buffers: layouts, formats, changed ranges and refusals. */
 #include "check.h"
 #include <math.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ typedef struct Vertex {
   uint32_t mine;
 } Vertex;
 
-static void an_interleaved_buffer_follows_the_cloth(void) {
+static void an_interleaved_buffer_receives_the_vertices(void) {
   MuslinView view = view_of();
   Vertex *vertices = malloc(view.vertex_capacity * sizeof *vertices);
   if (vertices == NULL) {
@@ -63,7 +63,7 @@ static void an_interleaved_buffer_follows_the_cloth(void) {
   free(vertices);
 }
 
-static void blocks_hold_what_was_placed(void) {
+static void separate_blocks_receive_transformed_vertices(void) {
   MuslinView view = view_of();
   const uint32_t count = view.vertex_count;
   float *block = malloc(count * 28), *positions = block, *tangents = block + 3 * count;
@@ -77,7 +77,7 @@ static void blocks_hold_what_was_placed(void) {
   };
   MuslinWriteDesc desc;
   muslin_write_desc_init(&desc);
-  /* y up becomes z up, and two metres to the right. */
+  /* Rotates y up to z up, and moves two metres to the right. */
   const float z_up[12] = {1, 0, 0, 2, 0, 0, -1, 0, 0, 1, 0, 0};
   memcpy(desc.transform, z_up, sizeof z_up);
   DONE(muslin_cloth_write_vertices(cloth, streams, 2, &desc));
@@ -86,13 +86,13 @@ static void blocks_hold_what_was_placed(void) {
     CHECK(p[0] == q[0] + 2 && p[1] == -q[2] && p[2] == q[1]);
     CHECK(fabsf(t[0] * t[0] + t[1] * t[1] + t[2] * t[2] - 1) < 1e-5f && t[3] == 1);
   }
-  /* Only some, to the beginning of the buffer. */
+  /* A part of the vertices goes to the start of the buffer. */
   muslin_write_desc_init(&desc);
   desc.first_vertex = count - 2;
   desc.vertex_count = 1;
   DONE(muslin_cloth_write_vertices(cloth, streams + 1, 1, &desc));
   CHECK(memcmp(positions, view.positions + 3 * (count - 2), 12) == 0 && positions[3] != positions[0]);
-  /* Half a tick ago. */
+  /* Blends halfway to the last tick. */
   muslin_write_desc_init(&desc);
   desc.blend = 0;
   DONE(muslin_cloth_write_vertices(cloth, streams + 1, 1, &desc));
@@ -111,7 +111,7 @@ static void blocks_hold_what_was_placed(void) {
   free(block);
 }
 
-static void a_renderer_uploads_what_changed(void) {
+static void uploading_the_changed_ranges_is_enough(void) {
   MuslinView view = view_of();
   const uint32_t seen = view.topology_revision;
   uint16_t *indices = malloc(2 * (size_t)view.index_capacity);
@@ -143,7 +143,7 @@ static void a_renderer_uploads_what_changed(void) {
   free(uvs);
 }
 
-/* A stream that is right but for one field. */
+/* A stream that is valid except for one field. */
 #define BAD_STREAM(field, value, status, words)                                           \
   do {                                                                                    \
     MuslinStream streams[2];                                                              \
@@ -215,8 +215,8 @@ static void streams_are_refused_by_field_and_nothing_is_written(void) {
 #undef room
 }
 
-/* Streams of another header: longer by a field, which must be 0 for this library. */
-static void streams_of_a_newer_program_are_read_by_their_own_size(void) {
+/* Streams of a newer header: longer by one field, which must be 0 for this library. */
+static void streams_of_a_newer_program_are_read_with_their_own_size(void) {
   struct {
     MuslinStream known;
     uint64_t glitter;
@@ -240,11 +240,11 @@ static void streams_of_a_newer_program_are_read_by_their_own_size(void) {
 
 int main(void) {
   make_cloth();
-  TEST(an_interleaved_buffer_follows_the_cloth);
-  TEST(blocks_hold_what_was_placed);
-  TEST(a_renderer_uploads_what_changed);
+  TEST(an_interleaved_buffer_receives_the_vertices);
+  TEST(separate_blocks_receive_transformed_vertices);
+  TEST(uploading_the_changed_ranges_is_enough);
   TEST(streams_are_refused_by_field_and_nothing_is_written);
-  TEST(streams_of_a_newer_program_are_read_by_their_own_size);
+  TEST(streams_of_a_newer_program_are_read_with_their_own_size);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;
 }

@@ -1,5 +1,5 @@
-/* Every argument of every function: what is wrong with it is refused by its status, in words that name it, and
- * leaves the cloth as it was. `cargo xtask c` compares the rows with muslin.h: none may be missing. */
+/* Every argument of every function: an invalid value is refused with its status and a message that names the
+ * argument, and leaves the cloth unchanged. `cargo xtask c` checks that no argument of muslin.h lacks a row. */
 #include "check.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 static MuslinCloth cloth;
 static const MuslinCloth none = {0};
-static const MuslinVec3 zero = {0, 0, 0}, one = {1, 0, 0}, side = {0, 1, 0}, askew = {0, NAN, 0};
+static const MuslinVec3 zero = {0, 0, 0}, one = {1, 0, 0}, side = {0, 1, 0}, not_finite = {0, NAN, 0};
 static const MuslinQuat straight = {0, 0, 0, 1}, too_long = {0, 0, 0, 2};
 static const uint32_t first = 0, beyond = 400, many[401] = {0};
 static const float number = 1, not_a_number = NAN;
@@ -24,7 +24,7 @@ static uint64_t hash(void) {
   return hash;
 }
 
-/* A call of `function` with its `argument` wrong. */
+/* Calls `function` with an invalid `argument`. */
 #define ROW(function, argument, status, words, given)     \
   do {                                                    \
     const uint64_t before = hash();                       \
@@ -33,13 +33,13 @@ static uint64_t hash(void) {
     rows++;                                               \
   } while (0)
 
-/* Whatever `argument` is, `function` takes it. */
+/* `function` accepts any `argument`. */
 #define ANY(function, argument) (void)(function)
 
-/* Where `cloth` is none. */
+/* Calls `function` with a handle of no cloth. */
 #define OF_NONE(function, given) ROW(function, cloth, HANDLE, "`cloth`", given)
 
-/* A struct that has begun, but for one field. */
+/* An initialised struct with one field changed. */
 #define BEGUN(type, name, field, value) \
   type name;                            \
   BEGIN_##type(&name);                  \
@@ -52,7 +52,7 @@ static uint64_t hash(void) {
 #define BEGIN_MuslinColliderDesc muslin_collider_desc_init
 #define BEGIN_MuslinWriteDesc muslin_write_desc_init
 
-static void what_begins_structs(void) {
+static void init_functions(void) {
   union {
     MuslinGridDesc grid;
     MuslinMeshDesc mesh;
@@ -92,7 +92,7 @@ static void what_begins_structs(void) {
   ANY(muslin_set_log, max_level);
 }
 
-static void what_makes_and_ends_cloths(void) {
+static void creating_destroying_and_saving(void) {
   MuslinCloth made = {7};
   BEGUN(MuslinGridDesc, grid, columns, 1);
   ROW(muslin_cloth_create_grid, desc, VALUE, "`columns`", (&grid, &made));
@@ -117,7 +117,7 @@ static void what_makes_and_ends_cloths(void) {
   CHECK(made.id == 7 && size == 7);
 }
 
-static void what_a_cloth_is_told(void) {
+static void parameters_time_and_particles(void) {
   BEGUN(MuslinSettings, settings, substeps, 0);
   BEGUN(MuslinMaterial, material, density, 0);
   BEGUN(MuslinWind, wind, model, 2);
@@ -141,13 +141,13 @@ static void what_a_cloth_is_told(void) {
   ANY(muslin_cloth_step, ticks);
   OF_NONE(muslin_cloth_pin, (none, 0, NULL));
   ROW(muslin_cloth_pin, particle, INDEX, "`particle`", (cloth, 400, NULL));
-  ROW(muslin_cloth_pin, target, VALUE, "`target`", (cloth, 0, &askew));
+  ROW(muslin_cloth_pin, target, VALUE, "`target`", (cloth, 0, &not_finite));
   OF_NONE(muslin_cloth_unpin, (none, 0));
   ROW(muslin_cloth_unpin, particle, INDEX, "`particle`", (cloth, 400));
   OF_NONE(muslin_cloth_unpin_all, (none));
   OF_NONE(muslin_cloth_set_pin_targets, (none, &first, &zero, 0, 1));
   ROW(muslin_cloth_set_pin_targets, particles, INDEX, "`particles`", (cloth, &beyond, &zero, 0, 1));
-  ROW(muslin_cloth_set_pin_targets, positions, VALUE, "`positions`", (cloth, &first, &askew, 0, 1));
+  ROW(muslin_cloth_set_pin_targets, positions, VALUE, "`positions`", (cloth, &first, &not_finite, 0, 1));
   ROW(muslin_cloth_set_pin_targets, stride, VALUE, "`stride`", (cloth, &first, &zero, 8, 1));
   ROW(muslin_cloth_set_pin_targets, count, VALUE, "`count`", (cloth, many, &zero, 0, 401));
   OF_NONE(muslin_cloth_set_pin_stiffness, (none, &first, 1, 1));
@@ -160,18 +160,18 @@ static void what_a_cloth_is_told(void) {
   ROW(muslin_cloth_set_mass_scales, count, VALUE, "`count`", (cloth, many, (const float *)many, 401));
   OF_NONE(muslin_cloth_set_position, (none, 0, zero));
   ROW(muslin_cloth_set_position, particle, INDEX, "`particle`", (cloth, 400, zero));
-  ROW(muslin_cloth_set_position, position, VALUE, "`position`", (cloth, 0, askew));
+  ROW(muslin_cloth_set_position, position, VALUE, "`position`", (cloth, 0, not_finite));
   OF_NONE(muslin_cloth_set_velocity, (none, 0, zero));
   ROW(muslin_cloth_set_velocity, particle, INDEX, "`particle`", (cloth, 400, zero));
-  ROW(muslin_cloth_set_velocity, velocity, VALUE, "`velocity`", (cloth, 0, askew));
+  ROW(muslin_cloth_set_velocity, velocity, VALUE, "`velocity`", (cloth, 0, not_finite));
 }
 
-static void what_wears_a_cloth(void) {
+static void attachments_anchors_and_frames(void) {
   MuslinAttachment body = {9};
   OF_NONE(muslin_cloth_attach, (none, &first, 1, zero, straight, &body));
   ROW(muslin_cloth_attach, particles, INDEX, "`particles`", (cloth, &beyond, 1, zero, straight, &body));
   ROW(muslin_cloth_attach, count, VALUE, "`count`", (cloth, many, 401, zero, straight, &body));
-  ROW(muslin_cloth_attach, position, VALUE, "`position`", (cloth, &first, 1, askew, straight, &body));
+  ROW(muslin_cloth_attach, position, VALUE, "`position`", (cloth, &first, 1, not_finite, straight, &body));
   ROW(muslin_cloth_attach, rotation, VALUE, "`rotation`", (cloth, &first, 1, zero, too_long, &body));
   ROW(muslin_cloth_attach, out_attachment, VALUE, "`out_attachment`", (cloth, &first, 1, zero, straight, NULL));
   CHECK(body.id == 9);
@@ -180,7 +180,7 @@ static void what_wears_a_cloth(void) {
   ROW(muslin_cloth_move_attachment, attachment, HANDLE, "`attachment`", (cloth, body, zero, straight));
   ROW(muslin_cloth_detach, attachment, HANDLE, "`attachment`", (cloth, body));
   DONE(muslin_cloth_attach(cloth, NULL, 0, zero, straight, &body));
-  ROW(muslin_cloth_move_attachment, position, VALUE, "`position`", (cloth, body, askew, straight));
+  ROW(muslin_cloth_move_attachment, position, VALUE, "`position`", (cloth, body, not_finite, straight));
   ROW(muslin_cloth_move_attachment, rotation, VALUE, "`rotation`", (cloth, body, zero, too_long));
   DONE(muslin_cloth_detach(cloth, body));
   const float *lengths = (const float *)many;
@@ -195,37 +195,37 @@ static void what_wears_a_cloth(void) {
   ROW(muslin_cloth_set_backstops, count, VALUE, "`count`", (cloth, many, lengths, lengths, 401));
   OF_NONE(muslin_cloth_set_anchors, (none, &first, &zero, &one, 0, 1));
   ROW(muslin_cloth_set_anchors, particles, INDEX, "`particles`", (cloth, &beyond, &zero, &one, 0, 1));
-  ROW(muslin_cloth_set_anchors, positions, VALUE, "`positions`", (cloth, &first, &askew, &one, 0, 1));
+  ROW(muslin_cloth_set_anchors, positions, VALUE, "`positions`", (cloth, &first, &not_finite, &one, 0, 1));
   ROW(muslin_cloth_set_anchors, normals, VALUE, "`normals`", (cloth, &first, &zero, &zero, 0, 1));
   ROW(muslin_cloth_set_anchors, stride, VALUE, "`stride`", (cloth, &first, &zero, &one, 13, 1));
   static const MuslinVec3 places[401] = {{0, 0, 0}};
   ROW(muslin_cloth_set_anchors, count, VALUE, "`count`", (cloth, many, places, NULL, 0, 401));
   OF_NONE(muslin_cloth_clear_leashes, (none));
   OF_NONE(muslin_cloth_set_frame, (none, zero, straight));
-  ROW(muslin_cloth_set_frame, position, VALUE, "`position`", (cloth, askew, straight));
+  ROW(muslin_cloth_set_frame, position, VALUE, "`position`", (cloth, not_finite, straight));
   ROW(muslin_cloth_set_frame, rotation, VALUE, "`rotation`", (cloth, zero, too_long));
   OF_NONE(muslin_cloth_move_frame, (none, zero, straight, 1));
-  ROW(muslin_cloth_move_frame, position, VALUE, "`position`", (cloth, askew, straight, 1));
+  ROW(muslin_cloth_move_frame, position, VALUE, "`position`", (cloth, not_finite, straight, 1));
   ROW(muslin_cloth_move_frame, rotation, VALUE, "`rotation`", (cloth, zero, too_long, 1));
   ROW(muslin_cloth_move_frame, inertia, VALUE, "`inertia`", (cloth, zero, straight, 2));
   OF_NONE(muslin_cloth_teleport, (none, zero, straight));
-  ROW(muslin_cloth_teleport, position, VALUE, "`position`", (cloth, askew, straight));
+  ROW(muslin_cloth_teleport, position, VALUE, "`position`", (cloth, not_finite, straight));
   ROW(muslin_cloth_teleport, rotation, VALUE, "`rotation`", (cloth, zero, too_long));
 }
 
-static void what_hands_and_blades_do(void) {
+static void rays_grabs_tears_and_cuts(void) {
   MuslinHit hit;
   muslin_hit_init(&hit);
   MuslinGrab grab = {9};
   MuslinVec3 at = zero;
   OF_NONE(muslin_cloth_raycast, (none, zero, one, 1, &hit));
-  ROW(muslin_cloth_raycast, origin, VALUE, "`origin`", (cloth, askew, one, 1, &hit));
+  ROW(muslin_cloth_raycast, origin, VALUE, "`origin`", (cloth, not_finite, one, 1, &hit));
   ROW(muslin_cloth_raycast, direction, VALUE, "`direction`", (cloth, zero, zero, 1, &hit));
   ROW(muslin_cloth_raycast, max_distance, VALUE, "`max_distance`", (cloth, zero, one, -1, &hit));
   ROW(muslin_cloth_raycast, out_hit, VALUE, "`out_hit`", (cloth, zero, one, 1, NULL));
   OF_NONE(muslin_cloth_grab_ray, (none, zero, one, 1, &grab, &at));
-  ROW(muslin_cloth_grab_ray, origin, VALUE, "`origin`", (cloth, askew, one, 1, &grab, &at));
-  ROW(muslin_cloth_grab_ray, direction, VALUE, "`direction`", (cloth, zero, askew, 1, &grab, &at));
+  ROW(muslin_cloth_grab_ray, origin, VALUE, "`origin`", (cloth, not_finite, one, 1, &grab, &at));
+  ROW(muslin_cloth_grab_ray, direction, VALUE, "`direction`", (cloth, zero, not_finite, 1, &grab, &at));
   ROW(muslin_cloth_grab_ray, radius, VALUE, "`radius`", (cloth, zero, one, INFINITY, &grab, &at));
   ROW(muslin_cloth_grab_ray, out_grab, VALUE, "`out_grab`", (cloth, zero, one, 1, NULL, &at));
   ANY(muslin_cloth_grab_ray, out_at);
@@ -237,18 +237,18 @@ static void what_hands_and_blades_do(void) {
   ROW(muslin_cloth_move_grab, grab, HANDLE, "`grab`", (cloth, grab, zero));
   ROW(muslin_cloth_release, grab, HANDLE, "`grab`", (cloth, grab));
   DONE(muslin_cloth_grab_particle(cloth, 0, &grab));
-  ROW(muslin_cloth_move_grab, target, VALUE, "`target`", (cloth, grab, askew));
+  ROW(muslin_cloth_move_grab, target, VALUE, "`target`", (cloth, grab, not_finite));
   DONE(muslin_cloth_release(cloth, grab));
   OF_NONE(muslin_cloth_tear_edge, (none, 0, 1));
   ROW(muslin_cloth_tear_edge, particle_a, INDEX, "`particle_a`", (cloth, 400, 1));
   ROW(muslin_cloth_tear_edge, particle_b, INDEX, "`particle_b`", (cloth, 0, 400));
   ROW(muslin_cloth_tear_edge, particle_b, VALUE, "`particle_b`", (cloth, 0, 399));
   OF_NONE(muslin_cloth_crease, (none, zero, one, 1));
-  ROW(muslin_cloth_crease, from, VALUE, "`from`", (cloth, askew, one, 1));
+  ROW(muslin_cloth_crease, from, VALUE, "`from`", (cloth, not_finite, one, 1));
   ROW(muslin_cloth_crease, to, VALUE, "`to`", (cloth, zero, zero, 1));
   ROW(muslin_cloth_crease, angle, VALUE, "`angle`", (cloth, zero, one, 4));
   OF_NONE(muslin_cloth_cut, (none, zero, one, side, &word));
-  ROW(muslin_cloth_cut, from, VALUE, "`from`", (cloth, askew, one, side, &word));
+  ROW(muslin_cloth_cut, from, VALUE, "`from`", (cloth, not_finite, one, side, &word));
   ROW(muslin_cloth_cut, to, VALUE, "`to`", (cloth, zero, zero, side, &word));
   ROW(muslin_cloth_cut, sweep, VALUE, "`sweep`", (cloth, zero, one, one, &word));
   ANY(muslin_cloth_cut, out_edges);
@@ -259,7 +259,7 @@ static void what_hands_and_blades_do(void) {
   ROW(muslin_cloth_next_event, out_some, VALUE, "`out_some`", (cloth, &event, NULL));
 }
 
-static void what_a_cloth_lies_on(void) {
+static void colliders(void) {
   BEGUN(MuslinColliderDesc, ball, radius, 0);
   ball.shape = MUSLIN_SHAPE_SPHERE;
   BEGUN(MuslinColliderDesc, ground, friction, 1);
@@ -280,14 +280,14 @@ static void what_a_cloth_lies_on(void) {
   ANY(muslin_cloth_get_collider_impulse, out_linear);
   ANY(muslin_cloth_get_collider_impulse, out_angular);
   DONE(muslin_cloth_add_collider(cloth, &ground, &body));
-  ROW(muslin_cloth_move_collider, position, VALUE, "`collider.position`", (cloth, body, askew, straight));
+  ROW(muslin_cloth_move_collider, position, VALUE, "`collider.position`", (cloth, body, not_finite, straight));
   ROW(muslin_cloth_move_collider, rotation, VALUE, "`collider.rotation`", (cloth, body, zero, too_long));
-  ROW(muslin_cloth_teleport_collider, position, VALUE, "`collider.position`", (cloth, body, askew, straight));
+  ROW(muslin_cloth_teleport_collider, position, VALUE, "`collider.position`", (cloth, body, not_finite, straight));
   ROW(muslin_cloth_teleport_collider, rotation, VALUE, "`collider.rotation`", (cloth, body, zero, too_long));
   DONE(muslin_cloth_remove_collider(cloth, body));
 }
 
-/* A report that has not begun. */
+/* An output struct that is not initialised. */
 #define REPORT(function, type, argument, words)                        \
   do {                                                                 \
     type report;                                                       \
@@ -297,7 +297,7 @@ static void what_a_cloth_lies_on(void) {
     ROW(function, argument, VALUE, "`" words "->struct_size`", (cloth, &report)); \
   } while (0)
 
-static void what_a_cloth_tells(void) {
+static void views_statistics_and_streams(void) {
   MuslinChanges changes;
   muslin_changes_init(&changes);
   REPORT(muslin_cloth_view, MuslinView, out_view, "out_view");
@@ -337,13 +337,13 @@ int main(void) {
   desc.columns = desc.rows = 20;
   DONE(muslin_cloth_create_grid(&desc, &cloth));
   DONE(muslin_cloth_step(cloth, 10));
-  TEST(what_begins_structs);
-  TEST(what_makes_and_ends_cloths);
-  TEST(what_a_cloth_is_told);
-  TEST(what_wears_a_cloth);
-  TEST(what_hands_and_blades_do);
-  TEST(what_a_cloth_lies_on);
-  TEST(what_a_cloth_tells);
+  TEST(init_functions);
+  TEST(creating_destroying_and_saving);
+  TEST(parameters_time_and_particles);
+  TEST(attachments_anchors_and_frames);
+  TEST(rays_grabs_tears_and_cuts);
+  TEST(colliders);
+  TEST(views_statistics_and_streams);
   printf("%d rows\n", rows);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;

@@ -1,4 +1,4 @@
-/* Different cloths on different threads at once; one cloth on two threads is busy, never a crash. */
+/* Different cloths run on different threads at once; a cloth in use on another thread is busy. */
 #define _POSIX_C_SOURCE 200809L
 #include "check.h"
 #include <pthread.h>
@@ -29,7 +29,7 @@ typedef struct Own {
   int sound;
 } Own;
 
-/* Makes, steps and destroys cloths of its own, and reads its own last error between. */
+/* Creates, steps and destroys cloths of its own, and reads the last error of its thread in between. */
 static void *play_alone(void *with) {
   Own *own = with;
   char index[16];
@@ -47,7 +47,7 @@ static void *play_alone(void *with) {
   return NULL;
 }
 
-static void cloths_on_different_threads_do_not_meet(void) {
+static void cloths_on_different_threads_are_independent(void) {
   Own owns[THREADS];
   void *with[THREADS];
   memset(owns, 0, sizeof owns);
@@ -83,7 +83,7 @@ static void *share(void *with) {
   return NULL;
 }
 
-static void one_cloth_on_many_threads_is_busy_and_sound(void) {
+static void one_cloth_on_many_threads_is_busy_and_stays_valid(void) {
   MuslinCloth cloth = cloth_of(20);
   Shared shared[THREADS];
   void *with[THREADS];
@@ -111,14 +111,14 @@ typedef struct Logged {
   MuslinStatus inside;
 } Logged;
 
-/* A listener that uses the very cloth that made the library speak. */
+/* A log function that uses the cloth of the logged call. */
 static void step_from_the_log(uint32_t level, const char *message, void *user) {
   Logged *logged = user;
   (void)message;
   if (level == MUSLIN_LOG_WARN) logged->inside = muslin_cloth_step(logged->cloth, 1);
 }
 
-static void a_listener_may_call_the_library(void) {
+static void a_log_function_may_call_the_library(void) {
   Logged logged;
   logged.cloth = cloth_of(4);
   logged.inside = MUSLIN_STATUS_PANICKED;
@@ -144,7 +144,7 @@ static void *destroy_on_another_thread(void *with) {
   return NULL;
 }
 
-static void a_cloth_is_destroyed_once_whoever_comes_first(void) {
+static void only_one_of_several_threads_destroys_a_cloth(void) {
   for (int round = 0; round < ROUNDS; round++) {
     MuslinCloth cloth = cloth_of(4);
     Shared shared[THREADS];
@@ -165,9 +165,9 @@ static void a_cloth_is_destroyed_once_whoever_comes_first(void) {
 }
 
 int main(void) {
-  TEST(cloths_on_different_threads_do_not_meet);
-  TEST(one_cloth_on_many_threads_is_busy_and_sound);
-  TEST(a_listener_may_call_the_library);
-  TEST(a_cloth_is_destroyed_once_whoever_comes_first);
+  TEST(cloths_on_different_threads_are_independent);
+  TEST(one_cloth_on_many_threads_is_busy_and_stays_valid);
+  TEST(a_log_function_may_call_the_library);
+  TEST(only_one_of_several_threads_destroys_a_cloth);
   return failures != 0;
 }

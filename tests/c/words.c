@@ -1,4 +1,4 @@
-/* What the library tells people: its log, and words for its numbers. */
+/* The log, the version, and names of statuses and stages. */
 #include "check.h"
 
 static int heard[4];
@@ -7,7 +7,7 @@ static void count_messages(uint32_t level, const char *message, void *user) {
   if (level < 4 && message[0] != '\0' && user == heard) heard[level]++;
 }
 
-static void the_log_tells_what_was_refused(void) {
+static void the_log_reports_creation_destruction_and_refusals(void) {
   MuslinGridDesc desc;
   MuslinCloth made = {0};
   const MuslinVec3 eye = {0.5f, -0.5f, 5}, ahead = {0, 0, -1};
@@ -26,7 +26,7 @@ static void the_log_tells_what_was_refused(void) {
   DONE(muslin_set_log(NULL, MUSLIN_LOG_INFO, NULL));
 }
 
-static void words_are_there_for_every_number(void) {
+static void every_status_and_stage_has_a_name(void) {
   MuslinCloth cloth = {0};
   MuslinGridDesc desc;
   muslin_grid_desc_init(&desc);
@@ -55,7 +55,7 @@ static void words_are_there_for_every_number(void) {
 }
 
 int main(void) {
-  TEST(the_log_tells_what_was_refused);
-  TEST(words_are_there_for_every_number);
+  TEST(the_log_reports_creation_destruction_and_refusals);
+  TEST(every_status_and_stage_has_a_name);
   return failures != 0;
 }

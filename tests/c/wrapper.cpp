@@ -1,4 +1,4 @@
-// muslin.hpp: every call, a cloth that goes by itself, refusals as results and as exceptions.
+// muslin.hpp: every function, ownership, and errors as results and as exceptions.
 #include <muslin.hpp>
 
 #include <cmath>
@@ -18,11 +18,11 @@ void check(bool holds, const char *claim) {
 
 #define CHECK(claim) check(static_cast<bool>(claim), #claim)
 
-static_assert(!std::is_copy_constructible<muslin::Cloth>::value, "a cloth is not copied");
-static_assert(std::is_nothrow_move_constructible<muslin::Cloth>::value, "it is moved");
-static_assert(sizeof(muslin::Cloth) == sizeof(MuslinCloth), "it is its handle");
+static_assert(!std::is_copy_constructible<muslin::Cloth>::value, "a cloth must not be copyable");
+static_assert(std::is_nothrow_move_constructible<muslin::Cloth>::value, "a cloth must be movable");
+static_assert(sizeof(muslin::Cloth) == sizeof(MuslinCloth), "a cloth must be as small as its handle");
 
-// All that clothes on a body need: carried exactly, led by anchors, taken along by a jump.
+// Attachments, anchors and teleports.
 void worn(muslin::Cloth &cloth) {
   const MuslinQuat as_it_is{0, 0, 0, 1}, half_round{0, 1, 0, 0};
   const std::uint32_t edge[] = {0, 1}, last[] = {379};

@@ -1,5 +1,5 @@
-# Muslin for CMake: find_package(Muslin), then link Muslin::muslin, or Muslin::muslin_static for the static
-# library. The folder may be moved as a whole.
+# find_package(Muslin), then link Muslin::muslin, or Muslin::muslin_static for the static library. The package
+# folder may be moved as a whole.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 

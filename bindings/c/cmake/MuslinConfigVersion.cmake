@@ -1,4 +1,4 @@
-# Programs of the same major version run with this one, if it is not older than they ask for.
+# Compatible: the same major version, at least the requested version.
 set(PACKAGE_VERSION "@version@")
 if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR NOT PACKAGE_FIND_VERSION_MAJOR EQUAL "@major@")
   set(PACKAGE_VERSION_COMPATIBLE FALSE)

@@ -1,17 +1,17 @@
-/* A sheet hangs by its top edge in a breeze; a hand takes hold of it and pulls until it rips.
+/* A sheet hangs by its top edge in a light wind; a grab pulls it until it tears.
  *
  *   cc -std=c99 -Iinclude bindings/c/examples/hang.c target/release/libmuslin.a -lm -lpthread -ldl
  */
 #include <muslin.h>
 #include <stdio.h>
 
-/* Says why a call was refused. */
+/* Prints why a call was refused. */
 static int refused(const char *what) {
   fprintf(stderr, "%s: %s\n", what, muslin_last_error());
   return 1;
 }
 
-/* Prints what happened, the first few of each second in full. */
+/* Prints the events: the first three torn edges and all detached pieces. */
 static void print_events(MuslinCloth cloth) {
   MuslinEvent event;
   uint32_t some = 0, count = 0;
@@ -71,7 +71,7 @@ int main(void) {
   }
   if (muslin_cloth_destroy(cloth) != MUSLIN_STATUS_OK) return refused("destroy");
   if (stats.particles == 1600) {
-    fprintf(stderr, "the hand pulled, but nothing tore\n");
+    fprintf(stderr, "the grab pulled, but no edge tore\n");
     return 1;
   }
   return 0;

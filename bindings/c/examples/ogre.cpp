@@ -1,21 +1,21 @@
-/* A flag in OGRE 1.12, from muslin.hpp into a vertex buffer of 32 bytes a vertex; a gale pulls at a cut in it.
+/* OGRE 1.12: a flag in strong wind, written by muslin.hpp into a vertex buffer of 32 bytes per vertex, and cut.
  *
  *   c++ -std=c++17 -Iinclude bindings/c/examples/ogre.cpp target/release/libmuslin.a \
  *       -DOGRE_PLUGINS="\"$(pkg-config --variable=plugindir OGRE)\"" $(pkg-config --cflags --libs OGRE)
  *
- * It flies for some seconds; with a file's name at the end of the command, the last picture is kept there. */
+ * It runs for four seconds. A file name as argument saves the last frame. */
 #include <Ogre.h>
 #include <OgreHighLevelGpuProgramManager.h>
 #include <muslin.hpp>
 
-/* The shadow is the flag along the sun's rays, on the floor. */
+/* The shadow is the flag, projected along the sun's rays onto the floor. */
 static const char *const vertex_shader = R"(#version 330
 in vec4 vertex; in vec3 normal; in vec2 uv0; uniform mat4 mvp; uniform float fallen; out vec3 n; out vec2 uv;
 void main() {
   vec4 below = vec4(vertex.x + 0.44 * vertex.y, 0, vertex.z - 0.89 * vertex.y, 1);
   n = normal, uv = uv0, gl_Position = mvp * mix(vertex, below, fallen);
 })";
-/* Both sides are lit, and a little light comes through; a sun between two waves. */
+/* Two-sided lighting with some translucency; the flag shows a sun between two waves. */
 static const char *const fragment_shader = R"(#version 330
 in vec3 n; in vec2 uv; uniform vec4 paint; out vec4 colour;
 const vec3 sun = normalize(vec3(-0.4, 0.9, 0.8));
@@ -30,7 +30,7 @@ void main() {
   colour = vec4(paint.w > 0.0 ? paint.rgb : pow(base * (sky + 1.1 * lit), vec3(1.0 / 2.2)), 1);
 })";
 
-/* A pass of a material: what is painted, or the flag's own colours where `paint` has none. */
+/* Adds a pass to a material: the colour `paint`, or the flag's own colours if its alpha is 0. */
 static void add_pass(const std::string &material, Ogre::Vector4 paint, float fallen) {
   auto [of, is_new] = Ogre::MaterialManager::getSingleton().createOrRetrieve(material, Ogre::RGN_DEFAULT);
   Ogre::Technique *technique = std::static_pointer_cast<Ogre::Material>(of)->getTechnique(0);
@@ -50,7 +50,7 @@ static void add_pass(const std::string &material, Ogre::Vector4 paint, float fal
   pass->setFragmentProgram(fragment->getName());
 }
 
-/* A cloth in a vertex buffer of these. */
+/* The layout of the vertex buffer, and a renderable that owns the cloth. */
 struct Vertex { float position[3], normal[3], uv[2]; };
 class Flag : public Ogre::SimpleRenderable {
  public:
@@ -70,7 +70,7 @@ class Flag : public Ogre::SimpleRenderable {
     setMaterial(Ogre::MaterialManager::getSingleton().getByName("flag"));
     setBoundingBox(Ogre::AxisAlignedBox::BOX_INFINITE);
   }
-  /* Writes what moved right into the mapped buffer, and the indices when they changed. */
+  /* Writes the vertices into the mapped buffer, and the indices if the topology changed. */
   void refresh() {
     const MuslinView view = cloth.view().value();
     auto *at = static_cast<Vertex *>(vertices_->lock(Ogre::HardwareBuffer::HBL_DISCARD));

@@ -1,8 +1,8 @@
-/* A sheet on a rail in the wind, in raylib: the left button pulls, until it tears; the right one draws a cut.
+/* raylib: a sheet on a rail in the wind. The left mouse button pulls it until it tears; the right one cuts it.
  *
  *   cc -std=c99 -Iinclude bindings/c/examples/raylib.c target/release/libmuslin.a -lraylib -lm -lpthread -ldl
  *
- * With `--shot FILE.png` a script pulls, and the picture of it is kept. */
+ * With `--shot FILE.png` a script moves the mouse, and the last frame is saved. */
 #include <muslin.h>
 #include <raylib.h>
 #include <raymath.h>
@@ -13,7 +13,7 @@ static const char *const vertex_shader =
     "#version 330\nin vec3 vertexPosition, vertexNormal; in vec2 vertexTexCoord; uniform mat4 mvp;"
     "out vec3 normal; out vec2 uv; void main() { normal = vertexNormal; uv = vertexTexCoord;"
     "  gl_Position = mvp * vec4(vertexPosition, 1); }";
-/* Both sides are lit, and a little light comes through. */
+/* Two-sided lighting with some translucency. */
 static const char *const fragment_shader =
     "#version 330\nin vec3 normal; in vec2 uv; uniform vec4 colDiffuse; out vec4 colour;"
     "const vec3 sun = normalize(vec3(-0.5, 0.9, 0.7));"
@@ -29,13 +29,13 @@ static MuslinCloth cloth;
 static Mesh mesh;
 static uint32_t seen;
 
-/* Ends with the reason if a call is refused. */
+/* Exits with the message if a call fails. */
 static void must(MuslinStatus status) {
   if (status != MUSLIN_STATUS_OK) TraceLog(LOG_FATAL, "%s", muslin_last_error());
 }
 
 static void hang(void) {
-  /* From nothing... */
+  /* From nothing ... */
   MuslinGridDesc desc;
   muslin_grid_desc_init(&desc);
   desc.columns = 64;
@@ -55,11 +55,11 @@ static void hang(void) {
   memcpy(mesh.texcoords, view.uvs, 8 * (size_t)view.vertex_count);
   must(muslin_cloth_write_indices(cloth, mesh.indices, 2 * (size_t)view.index_capacity, 16, 0, 0));
   UploadMesh(&mesh, true);
-  /* ...to the first frame. */
+  /* ... to the first frame. */
   seen = view.topology_revision;
 }
 
-/* Brings the mesh to where the cloth is, and to what is left of it. */
+/* Uploads positions and normals, and the topology if it changed. */
 static void refresh(void) {
   MuslinView view;
   muslin_view_init(&view);
@@ -79,7 +79,7 @@ static MuslinVec3 at_distance(Ray ray, float distance) {
   return (MuslinVec3){at.x, at.y, at.z};
 }
 
-/* A hand that takes hold of where it points, and pulls that a little nearer. */
+/* Grabs the particle under the mouse and pulls it 0.2 m towards the eye. */
 static void pull(Ray ray, bool is_down) {
   static MuslinGrab held;
   static float distance;
@@ -94,7 +94,7 @@ static void pull(Ray ray, bool is_down) {
   }
 }
 
-/* A blade from the eye through where it points, drawn from where the button went down to where it goes up. */
+/* Cuts with a blade from the eye, swept from where the button was pressed to where it is released. */
 static void cut(Ray ray, bool is_down) {
   static Ray begin;
   static bool was_down;
@@ -115,7 +115,7 @@ int main(int count, char **words) {
   dyed.shader = LoadShaderFromMemory(vertex_shader, fragment_shader);
   dyed.maps[MATERIAL_MAP_DIFFUSE].color = (Color){178, 40, 46, 255};
   shadow.maps[MATERIAL_MAP_DIFFUSE].color = (Color){176, 172, 166, 255};
-  /* Along the sun's rays onto the floor. */
+  /* Projects along the sun's rays onto the floor. */
   const Matrix flat = {1, 0.5f / 0.9f, 0, 0, 0, 0, 0, 0.002f, 0, -0.7f / 0.9f, 1, 0, 0, 0, 0, 1};
   MuslinWind wind;
   muslin_wind_init(&wind);

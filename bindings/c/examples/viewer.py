@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""A cloth is dropped over a ball and drawn, in Python: ctypes reads the header, and nothing else is needed.
+"""Drops a cloth over a ball and draws it. Reads muslin.h with ctypes; needs no other package.
 
     python3 bindings/c/examples/viewer.py include/muslin.h target/release/libmuslin.so picture.png [include/muslin.abi]
 
-With muslin.abi it also compares what it read with what a C compiler saw."""
+With muslin.abi it also compares numbers, offsets and sizes with those of a C compiler."""
 import ctypes
 import math
 import re
@@ -16,7 +16,7 @@ SCALARS = {"float": ctypes.c_float, "uint8_t": ctypes.c_uint8, "uint32_t": ctype
 
 
 class Muslin:
-    """The library as its header has it: its structs, numbers and functions by their names."""
+    """The structs, constants and functions of the header, as attributes by name."""
 
     def __init__(self, header, library):
         text = re.sub(r"/\*.*?\*/|//[^\n]*", "", open(header, encoding="utf-8").read(), flags=re.S)
@@ -44,19 +44,19 @@ class Muslin:
         return name, of * (self.numbers.get(count) or int(count)) if count else of
 
     def call(self, name, *given):
-        """Calls; a refusal is raised in the library's own words."""
+        """Calls a function; raises ValueError with the library's message if it fails."""
         if getattr(self, name)(*given) != self.numbers["MUSLIN_STATUS_OK"]:
             raise ValueError(f"{name}: {self.muslin_last_error().decode()}")
 
     def begin(self, name, init=None, *parts):
-        """A struct that knows its size, and has its defaults if something gives it those."""
+        """A struct with its size set, and with its defaults if `init` is given."""
         it = self.types[name](ctypes.sizeof(self.types[name]))
         if init:
             self.call(init, ctypes.byref(it), *[ctypes.sizeof(self.types[part]) for part in (name, *parts)])
         return it
 
     def compare(self, abi):
-        """Fails where a number, an offset or a size is not what muslin.abi has; says how many there are."""
+        """Asserts that numbers, offsets and sizes equal those of muslin.abi; returns how many there are."""
         lines = open(abi, encoding="utf-8").read()
         for name, value in (numbers := re.findall(r"^(MUSLIN_\w+) = (\d+)$", lines, re.M)):
             assert self.numbers[name] == int(value), f"{name} is {self.numbers[name]}, not {value}"
@@ -67,7 +67,7 @@ class Muslin:
 
 
 def drop(muslin):
-    """The view of a sheet that fell over a ball and onto the floor."""
+    """Simulates a sheet that falls over a ball; returns its view."""
     desc = muslin.begin("MuslinGridDesc", "muslin_grid_desc_init_sized", "MuslinMaterial", "MuslinSettings")
     desc.columns, desc.rows, desc.spacing, desc.pin_mode = 56, 56, 0.036, muslin.numbers["MUSLIN_PIN_NONE"]
     desc.origin, desc.down = (-1.0, 1.0, -0.9), (0, 0, 1)
@@ -81,11 +81,11 @@ def drop(muslin):
     muslin.call("muslin_cloth_step", cloth, 150)
     view = muslin.begin("MuslinView")
     muslin.call("muslin_cloth_view", cloth, ctypes.byref(view))
-    return view  # the cloth's own memory, which stays as it is while the cloth does
+    return view  # borrowed from the cloth, which is not changed any more
 
 
 def draw(view, width=1120, height=840):
-    """A picture of twice the size that it is meant to have, as rows of colours."""
+    """Renders at twice the size; returns rows of colours."""
     paper = [[(205 + y * 24 // height, 208 + y * 16 // height, 212 + y * 6 // height)] * width for y in range(height)]
     depth = [[math.inf] * width for _ in range(height)]
     eye, tilt, sun = (0, 1.7, 3.3), 0.37, (-0.46, 0.76, 0.46)
@@ -127,7 +127,7 @@ def draw(view, width=1120, height=840):
 
 
 def save(path, rows):
-    """A PNG of half the size, each pixel the mean of four."""
+    """Writes a PNG of half the size; each pixel is the mean of four."""
     half = b""
     for above, below in zip(rows[::2], rows[1::2]):
         fours = zip(above[::2], above[1::2], below[::2], below[1::2])

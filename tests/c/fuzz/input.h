@@ -1,4 +1,4 @@
-/* What the fuzzer's bytes mean: numbers, indices, lists and structs, mostly sane, some on purpose not. */
+/* Decodes the fuzzer's bytes into numbers, indices, lists and structs: mostly valid, some deliberately invalid. */
 #ifndef MUSLIN_FUZZ_INPUT_H
 #define MUSLIN_FUZZ_INPUT_H
 
@@ -11,7 +11,7 @@
 
 static const uint8_t *at, *end;
 
-/* The next byte; 0 when there are no more. */
+/* The next byte; 0 at the end. */
 static uint32_t byte(void) { return at < end ? *at++ : 0; }
 
 static uint32_t word(void) {
@@ -21,13 +21,13 @@ static uint32_t word(void) {
   return low | high << 16 | byte() << 24;
 }
 
-/* Whether this argument is a sane one: most are, so that a sequence gets somewhere. */
-static int is_sane(void) { return byte() < 232; }
+/* Whether this argument is valid: most are, so that sequences of calls make progress. */
+static int is_valid(void) { return byte() < 232; }
 
-/* Some number; when sane within -8 to 8. */
+/* A number; from -8 to 8 if valid. */
 static float number(void) {
   const float odd[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 1e-40f, -0.0f, 1e20f, -1, 0};
-  if (is_sane()) return (float)(int8_t)byte() / 16.0f;
+  if (is_valid()) return (float)(int8_t)byte() / 16.0f;
   const uint32_t choice = byte() % 11;
   if (choice < 10) return odd[choice];
   const uint32_t bits = word();
@@ -36,15 +36,15 @@ static float number(void) {
   return raw;
 }
 
-/* Some number; when sane from 0 to 8. */
+/* A number; from 0 to 8 if valid. */
 static float at_least_0(void) {
   const float n = number();
   return n < 0 && n >= -8 ? -n : n;
 }
 
-/* Some whole number; when sane below `limit`. */
+/* An integer; below `limit` if valid. */
 static uint32_t below(uint32_t limit) {
-  if (is_sane()) return (byte() | byte() << 8) % (limit > 0 ? limit : 1);
+  if (is_valid()) return (byte() | byte() << 8) % (limit > 0 ? limit : 1);
   const uint32_t odd[] = {limit, limit + 1, 0, 1, UINT32_MAX, UINT32_MAX - 1, 0x80000000u, 0x10000u};
   const uint32_t choice = byte() % 9;
   return choice < 8 ? odd[choice] : word();
@@ -58,61 +58,61 @@ static MuslinVec3 vector(void) {
   return v;
 }
 
-/* Half of the time a direction that leads to where cloths are made. */
+/* A direction; half of the time it points to where cloths are made. */
 static MuslinVec3 aim(void) {
   const MuslinVec3 ahead = {0, 0, -1}, behind = {0, 0, 1};
   const uint32_t choice = byte() % 4;
   return choice == 0 ? ahead : choice == 1 ? behind : vector();
 }
 
-/* Which of the handles that are kept: mostly the first one. */
+/* Index of a stored handle: mostly the first one. */
 static uint32_t handle(void) {
   const uint32_t choice = byte() % 8;
   return choice < 4 ? choice : 0;
 }
 
-/* A unit quaternion when sane. */
+/* A rotation; a unit quaternion if valid. */
 static MuslinQuat rotation(void) {
   const MuslinQuat turns[] = {{0, 0, 0, 1}, {1, 0, 0, 0}, {0, 0.6f, 0, 0.8f}, {0.5f, 0.5f, 0.5f, 0.5f}};
-  if (is_sane()) return turns[byte() % 4];
+  if (is_valid()) return turns[byte() % 4];
   MuslinQuat q = {number(), number(), 0, 1};
   return q;
 }
 
-/* Memory of this call, exactly as large as it is said to be, sometimes askew: what is touched beyond it, or
- * after the call, the address sanitizer sees. */
-enum { MAX_ROOMS = 64 };
-static void *rooms[MAX_ROOMS];
-static int room_count = 0;
+/* Memory for this call, of exactly the stated size, sometimes unaligned: the address sanitizer detects accesses
+ * beyond it or after the call. */
+enum { MAX_BLOCKS = 64 };
+static void *blocks[MAX_BLOCKS];
+static int block_count = 0;
 
-static void *room(size_t size) {
-  const size_t askew = is_sane() ? 0 : 1 + byte() % 7;
-  uint8_t *memory = malloc(size + askew);
-  if (memory == NULL || room_count == MAX_ROOMS) abort();
-  memset(memory, 0xee, size + askew);
-  rooms[room_count++] = memory;
-  return memory + askew;
+static void *memory_of(size_t size) {
+  const size_t offset = is_valid() ? 0 : 1 + byte() % 7;
+  uint8_t *memory = malloc(size + offset);
+  if (memory == NULL || block_count == MAX_BLOCKS) abort();
+  memset(memory, 0xee, size + offset);
+  blocks[block_count++] = memory;
+  return memory + offset;
 }
 
-/* As malloc aligns it: for buffers that must be. */
-static void *aligned_room(size_t size) {
+/* Memory with the alignment of malloc, for buffers that must be aligned. */
+static void *aligned_memory(size_t size) {
   void *memory = malloc(size);
-  if (memory == NULL || room_count == MAX_ROOMS) abort();
+  if (memory == NULL || block_count == MAX_BLOCKS) abort();
   memset(memory, 0xee, size);
-  return rooms[room_count++] = memory;
+  return blocks[block_count++] = memory;
 }
 
-static void leave_rooms(void) {
-  while (room_count > 0) free(rooms[--room_count]);
+static void free_all_memory(void) {
+  while (block_count > 0) free(blocks[--block_count]);
 }
 
-/* Where a result goes: seldom NULL. */
-static void *out(size_t size) { return is_sane() ? room(size) : NULL; }
+/* Memory for an output parameter; seldom NULL. */
+static void *out(size_t size) { return is_valid() ? memory_of(size) : NULL; }
 
-/* A list of `count` whole numbers below `limit`; seldom NULL. */
+/* A list of `count` integers below `limit`; seldom NULL. */
 static uint32_t *list(uint32_t count, uint32_t limit) {
-  if (!is_sane()) return NULL;
-  uint8_t *bytes = room(4 * (size_t)count);
+  if (!is_valid()) return NULL;
+  uint8_t *bytes = memory_of(4 * (size_t)count);
   for (uint32_t i = 0; i < count; i++) {
     const uint32_t value = below(limit);
     memcpy(bytes + 4 * (size_t)i, &value, 4);
@@ -122,8 +122,8 @@ static uint32_t *list(uint32_t count, uint32_t limit) {
 
 /* A list of `count` numbers; seldom NULL. */
 static float *numbers(uint32_t count, float (*one)(void)) {
-  if (!is_sane()) return NULL;
-  uint8_t *bytes = room(4 * (size_t)count);
+  if (!is_valid()) return NULL;
+  uint8_t *bytes = memory_of(4 * (size_t)count);
   for (uint32_t i = 0; i < count; i++) {
     const float value = one();
     memcpy(bytes + 4 * (size_t)i, &value, 4);
@@ -131,17 +131,17 @@ static float *numbers(uint32_t count, float (*one)(void)) {
   return (float *)(void *)bytes;
 }
 
-/* Distances between points, the last four refused. */
+/* Strides of points; the last four are refused. */
 static uint32_t stride(void) {
   const uint32_t strides[] = {0, 0, 12, 12, 16, 20, 32, 4, 13, 10, UINT32_MAX};
   return strides[byte() % 11];
 }
 
-/* `count` points so far apart; seldom NULL. */
-static float *points(uint32_t count, uint32_t apart) {
-  if (!is_sane()) return NULL;
-  const size_t step = apart < 12 || apart > 64 ? 12 : apart;
-  uint8_t *bytes = room(count > 0 ? step * (count - 1) + 12 : 0);
+/* `count` points with a stride of `step_bytes` bytes; seldom NULL. */
+static float *points(uint32_t count, uint32_t step_bytes) {
+  if (!is_valid()) return NULL;
+  const size_t step = step_bytes < 12 || step_bytes > 64 ? 12 : step_bytes;
+  uint8_t *bytes = memory_of(count > 0 ? step * (count - 1) + 12 : 0);
   for (uint32_t i = 0; i < count; i++) {
     const MuslinVec3 point = vector();
     memcpy(bytes + step * i, &point, 12);
@@ -149,8 +149,8 @@ static float *points(uint32_t count, uint32_t apart) {
   return (float *)(void *)bytes;
 }
 
-/* Overwrites a few of the 4-byte fields of a struct that has begun. */
-static void poke(void *of, size_t size) {
+/* Overwrites a few of the 4-byte fields of an initialised struct. */
+static void corrupt(void *of, size_t size) {
   uint8_t *bytes = of;
   for (uint32_t n = byte() % 4; n > 0; n--) {
     const size_t field = 4 * (byte() % (size / 4));
@@ -165,17 +165,17 @@ static void poke(void *of, size_t size) {
   }
 }
 
-/* The struct in memory of just the size that it says. */
-static void *told(const void *of, size_t size) {
+/* Copies the struct into memory of exactly the size that it states. */
+static void *copy_with_size(const void *of, size_t size) {
   uint32_t says;
   memcpy(&says, of, 4);
   size_t takes = says < 4 ? 4 : says > 4096 ? 4096 : says;
-  if (!is_sane()) {
-    /* A program of another time; none has a struct that ends amid a pointer. */
+  if (!is_valid()) {
+    /* The struct size of another version; no version ends in the middle of a pointer. */
     takes = size - 16 + 8 * (byte() % 5);
     says = (uint32_t)takes;
   }
-  uint8_t *bytes = room(takes);
+  uint8_t *bytes = memory_of(takes);
   if (byte() % 4 != 0) memset(bytes, 0, takes);
   memcpy(bytes, of, takes < size ? takes : size);
   memcpy(bytes, &says, 4);

@@ -1,9 +1,9 @@
-/* A stranger's program: whatever finds the library for it, it hangs a sheet and draws it once. */
+/* A program that uses the installed package: hangs a sheet and writes its vertices once. */
 #include <muslin.h>
 #include <stdio.h>
 
 #ifdef WITH_OTHER
-/* Another Rust library in the same program, with a panic of its own. */
+/* Another Rust library in the same program, which panics on purpose. */
 int other_catches(void);
 #endif
 
@@ -24,6 +24,6 @@ int main(void) {
 #ifdef WITH_OTHER
   if (other_catches() != 7) return 1;
 #endif
-  printf("Muslin %s hangs to %.2f m\n", muslin_version_string(), (double)vertices[1599][1]);
+  printf("Muslin %s: the sheet hangs down to %.2f m\n", muslin_version_string(), (double)vertices[1599][1]);
   return vertices[1599][1] < -1.9f ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 //! Another Rust library, for a program that links two of them statically.
 
-/// Panics and catches it, so that it brings all that a panic needs: 7.
+/// Panics and catches the panic, so that the panic runtime is linked. Returns 7.
 #[unsafe(no_mangle)]
 pub extern "C" fn other_catches() -> i32 {
     std::panic::set_hook(Box::new(|_| {}));
