@@ -115,8 +115,8 @@ impl Seams {
             if self.particles[old as usize] == particle {
                 continue;
             }
-            let moves = |other: &&Corner| self.vertex(**other) == old;
-            let moving = corners[at..].iter().filter(moves).count() as u32;
+            let is_old = |other: &&Corner| self.vertex(**other) == old;
+            let moving = corners[at..].iter().filter(is_old).count() as u32;
             if moving == self.corner_counts[old as usize] {
                 self.particles[old as usize] = particle;
                 lowest = lowest.min(old);
@@ -149,14 +149,14 @@ impl Seams {
             let [near, far, opposite] =
                 [edge, next_corner(edge), prev_corner(edge)].map(|c| self.vertex(c));
             let [near_site, far_site] = [near, far].map(|vertex| self.sites[vertex as usize]);
-            let is_turned = self.particles[near as usize] != ends[0];
-            let ends = if is_turned { [far_site, near_site] } else { [near_site, far_site] };
+            let is_reversed = self.particles[near as usize] != ends[0];
+            let ends = if is_reversed { [far_site, near_site] } else { [near_site, far_site] };
             let cut_site = CutSite { ends, fraction: share };
             // The other side shares the vertex unless the edge is a seam.
-            let is_met =
+            let is_shared =
                 self.particles.len() as u32 > first && self.cut_sites.last() == Some(&cut_site);
-            let new = self.particles.len() as u32 - u32::from(is_met);
-            if !is_met {
+            let new = self.particles.len() as u32 - u32::from(is_shared);
+            if !is_shared {
                 self.particles.push(split.vertex);
                 self.sites.push(self.original_count + self.cut_sites.len() as u32);
                 self.cut_sites.push(cut_site);
@@ -172,10 +172,10 @@ impl Seams {
 
     /// All particles that now belong to the given original vertices.
     pub fn particles_of(&self, vertices: &[u32]) -> Vec<u32> {
-        let mut is_meant = vec![false; self.original_count as usize];
-        vertices.iter().for_each(|vertex| is_meant[*vertex as usize] = true);
-        let meant = self.sites.iter().zip(&self.particles);
-        meant.filter(|(site, _)| is_meant[**site as usize]).map(|(_, at)| *at).collect()
+        let mut is_given = vec![false; self.original_count as usize];
+        vertices.iter().for_each(|vertex| is_given[*vertex as usize] = true);
+        let with_particles = self.sites.iter().zip(&self.particles);
+        with_particles.filter(|(site, _)| is_given[**site as usize]).map(|(_, at)| *at).collect()
     }
 
     fn vertex(&self, corner: Corner) -> u32 {
@@ -188,13 +188,13 @@ impl Seams {
         let count = self.particles.len();
         let original = fresh.original_count as usize;
         let sites = original + self.cut_sites.len();
-        let are_known = self.cut_sites.iter().enumerate().all(|(at, cut_site)| {
+        let are_valid = self.cut_sites.iter().enumerate().all(|(at, cut_site)| {
             cut_site.ends.iter().all(|end| (*end as usize) < original + at)
                 && cut_site.fraction > 0.0
                 && cut_site.fraction < 1.0
         });
         let fits = self.original_count == fresh.original_count
-            && are_known
+            && are_valid
             && self.triangles.len() == mesh.triangles.len()
             && self.sites.len() == count
             && count >= fresh.sites.len()

@@ -135,9 +135,9 @@ impl Mesh {
         self.across.push([NONE; 3]);
         // Both halves of a rest border are rest borders, the moved edge keeps its mark, the new
         // edge has none.
-        let is_hem = |edge: Corner| u8::from(self.is_rest_border(edge));
-        let (divided, kept) = (is_hem(edge), is_hem(prev_corner(edge)));
-        self.rest_borders.push(divided | is_hem(next_corner(edge)) << 1);
+        let border_bit = |edge: Corner| u8::from(self.is_rest_border(edge));
+        let (divided, kept) = (border_bit(edge), border_bit(prev_corner(edge)));
+        self.rest_borders.push(divided | border_bit(next_corner(edge)) << 1);
         self.rest_borders[triangle_of(edge)] =
             divided << (edge % 3) | kept << (prev_corner(edge) % 3);
         self.triangles[triangle_of(edge)][next_corner(edge) as usize % 3] = vertex;

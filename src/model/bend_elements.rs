@@ -43,7 +43,7 @@ struct BendTriangle {
     /// Its hinges, and for each whether the triangle is the first (0) or second (1) of that hinge.
     hinges: [u32; 3],
     sides: [u8; 3],
-    /// √A / |c| of each, and 1 / 2 √A, which the slopes of neighbours give [1/m].
+    /// √A / |c| of each hinge.
     sizes: [f32; 3],
     /// Coefficient of the Oñate–Zárate element, 1 / 2 √A [1/m].
     slope_size: f32,
@@ -104,7 +104,7 @@ impl BendElements {
             let [a, b, c] = corners(own[0].triangle);
             let (right, across) = ((b - a).normalize_or_zero(), (b - a).cross(c - a));
             let up = across.normalize_or_zero().cross(right);
-            let flat = |way: Vec3| Vec2::new(way.dot(right), way.dot(up));
+            let flat = |v: Vec3| Vec2::new(v.dot(right), v.dot(up));
             let mut triangle_element = BendTriangle {
                 hinges: [NONE; 3],
                 sides: [0; 3],
@@ -150,9 +150,9 @@ impl BendElements {
 
     /// The hinges of each element.
     pub fn hinges(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
-        let is_one = |hinge: &u32| *hinge != NONE;
+        let exists = |hinge: &u32| *hinge != NONE;
         self.0.iter().map(move |triangle_element| {
-            triangle_element.hinges.into_iter().filter(is_one).map(|at| at as usize)
+            triangle_element.hinges.into_iter().filter(exists).map(|at| at as usize)
         })
     }
 
@@ -160,26 +160,26 @@ impl BendElements {
     /// 1/m.
     pub fn curvature(&self, at: usize, hinges: &[Hinge], bent: impl Fn(usize) -> f32) -> f32 {
         let triangle_element = &self.0[at];
-        let (mut multipliers, mut shown) = ([0.0; 3], [0.0; 3]);
+        let (mut multipliers, mut bends) = ([0.0; 3], [0.0; 3]);
         for (slot, hinge) in triangle_element.hinges.into_iter().enumerate() {
             if hinge != NONE {
-                (multipliers[slot], shown[slot]) =
+                (multipliers[slot], bends[slot]) =
                     (1.0, bent(hinge as usize) * hinges[hinge as usize].length);
             }
         }
-        if shown == [0.0; 3] {
+        if bends == [0.0; 3] {
             return 0.0;
         }
         let element = triangle_element.element(multipliers);
-        let own = element.own.into_iter().zip(shown).map(|(own, c)| own * (c * c));
+        let own = element.own.into_iter().zip(bends).map(|(own, c)| own * (c * c));
         let pairs = element.between.into_iter().zip(PAIRS);
-        let between = pairs.map(|(between, [p, q])| 2.0 * between * (shown[p] * shown[q]));
+        let between = pairs.map(|(between, [p, q])| 2.0 * between * (bends[p] * bends[q]));
         // `energy` is A |S|², and `slope_size` gives A.
         let energy = own.sum::<f32>() + between.sum::<f32>();
         2.0 * triangle_element.slope_size * max(energy, 0.0).sqrt()
     }
 
-    /// Computes the stiffness of all elements from the active hinges (`holds`) and the held
+    /// Computes the stiffness of all elements from the active hinges (`is_active`) and the held
     /// particles (`is_held`). `stiffness_scale` is the remaining stiffness of a triangle, 0 to 1.
     ///
     /// Where a mesh continues into a clamp, only the half of a hinge outside the clamp bends, and
@@ -187,7 +187,7 @@ impl BendElements {
     pub fn compute_stiffness(
         &self,
         hinges: &[Hinge],
-        holds: impl Fn(usize) -> bool,
+        is_active: impl Fn(usize) -> bool,
         is_held: impl Fn(u32) -> bool,
         stiffness_scale: impl Fn(usize) -> f32,
         elements: &mut Vec<TriangleStiffness>,
@@ -197,7 +197,7 @@ impl BendElements {
             let mut multipliers = [0.0; 3];
             for (slot, multipliers) in multipliers.iter_mut().enumerate() {
                 let hinge = triangle_element.hinges[slot] as usize;
-                if triangle_element.hinges[slot] != NONE && holds(hinge) {
+                if triangle_element.hinges[slot] != NONE && is_active(hinge) {
                     let [p, q, a, b] = hinges[hinge].particles.map(&is_held);
                     let (own, other) =
                         if triangle_element.sides[slot] == 0 { (a, b) } else { (b, a) };
@@ -237,18 +237,20 @@ impl BendTriangle {
         let d = 1.0 + max(MIN_DETERMINANT - determinant, 0.0);
         let minors = [d * d - bc * bc, d * d - ac * ac, d * d - ab * ab];
         let mixed = [ac * bc - ab * d, ab * bc - ac * d, ab * ac - bc * d];
-        let over = 1.0 / (d * minors[0] + (ab * mixed[0] + ac * mixed[1]));
+        let inverse_determinant = 1.0 / (d * minors[0] + (ab * mixed[0] + ac * mixed[1]));
         let slope_size = self.slope_size * self.slope_size;
         let mut element =
             TriangleStiffness { hinges: self.hinges, own: [0.0; 3], between: [0.0; 3] };
         for slot in 0..3 {
             let size = self.sizes[slot] * self.sizes[slot];
-            let mean = 0.5 * (minors[slot] * over * size + slope_size);
+            let mean = 0.5 * (minors[slot] * inverse_determinant * size + slope_size);
             element.own[slot] = mean * (multipliers[slot] * multipliers[slot]);
         }
         for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
             let size = self.sizes[p] * self.sizes[q];
-            let mean = 0.5 * (mixed[pair] * over * size + self.slope_coupling[pair] * slope_size);
+            let mean = 0.5
+                * (mixed[pair] * inverse_determinant * size
+                    + self.slope_coupling[pair] * slope_size);
             if mean.abs() > NEGLIGIBLE * slope_size {
                 element.between[pair] = mean * (multipliers[p] * multipliers[q]);
             }

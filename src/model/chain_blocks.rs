@@ -87,11 +87,11 @@ impl ChainBlocks {
     pub fn new(links: &Links, blocks: &[Vec<&[ChainLink]>], can_break: bool) -> Self {
         let mut result = Self { block_of: vec![NONE; links.len()], ..Self::default() };
         let mut steps = 0;
-        for (at, lines) in blocks.iter().enumerate() {
+        for (at, chains) in blocks.iter().enumerate() {
             let mut chain_starts = [result.links_of_chains.len() as u32; LANES + 1];
-            for (lane, line) in lines.iter().enumerate() {
-                line.iter().for_each(|(link, _)| result.block_of[*link as usize] = at as u32);
-                result.links_of_chains.extend_from_slice(line);
+            for (lane, chain) in chains.iter().enumerate() {
+                chain.iter().for_each(|(link, _)| result.block_of[*link as usize] = at as u32);
+                result.links_of_chains.extend_from_slice(chain);
                 chain_starts[lane + 1..].fill(result.links_of_chains.len() as u32);
             }
             result.chain_starts.push(chain_starts);
@@ -102,7 +102,7 @@ impl ChainBlocks {
                 strided: None,
             });
             // Each segment has a start and at least one link.
-            let longest = lines.iter().map(|line| line.len()).max().unwrap_or(0);
+            let longest = chains.iter().map(|chain| chain.len()).max().unwrap_or(0);
             steps += if can_break { 2 * longest } else { longest + 1 };
         }
         result.steps = vec![NO_STEP; steps];
@@ -151,10 +151,10 @@ impl ChainBlocks {
             let mut next = [0.0; LANES];
             for step in self.steps[block.first_step..][..block.steps].iter_mut().rev() {
                 for lane in 0..LANES {
-                    let (link, starts_piece) = (step.links[lane], step.to[lane] != NO_PARTICLE);
+                    let (link, starts_segment) = (step.links[lane], step.to[lane] != NO_PARTICLE);
                     if link != NONE {
                         step.rest[lane] = links.rest[link as usize];
-                    } else if starts_piece {
+                    } else if starts_segment {
                         step.rest[lane] = -next[lane];
                     }
                 }
@@ -181,8 +181,8 @@ impl ChainBlocks {
     /// Rebuilds the steps of a block.
     fn rebuild_block(&mut self, links: &Links, at: usize) {
         let block = &mut self.blocks[at];
-        let scratch = &mut self.steps[block.first_step..];
-        scratch[..block.steps].fill(NO_STEP);
+        let steps = &mut self.steps[block.first_step..];
+        steps[..block.steps].fill(NO_STEP);
         block.steps = 0;
         for (lane, ends) in self.chain_starts[at].windows(2).enumerate() {
             let (mut count, mut end) = (0, NO_PARTICLE);
@@ -191,11 +191,11 @@ impl ChainBlocks {
                 let rest = links.rest[chain_link.0 as usize];
                 if from != NO_PARTICLE {
                     if from != end {
-                        (scratch[count].to[lane], scratch[count].rest[lane]) = (from, -rest);
+                        (steps[count].to[lane], steps[count].rest[lane]) = (from, -rest);
                         count += 1;
                     }
-                    (scratch[count].to[lane], scratch[count].rest[lane]) = (to, rest);
-                    scratch[count].links[lane] = chain_link.0;
+                    (steps[count].to[lane], steps[count].rest[lane]) = (to, rest);
+                    steps[count].links[lane] = chain_link.0;
                     count += 1;
                 }
                 end = to;
@@ -220,30 +220,32 @@ impl StridedBlock {
         let first = steps.first()?.to;
         // If the first chain has no link left, the block is not strided.
         let before_first = first[0].checked_sub(1)?;
-        let lines = first.iter().take_while(|to| **to != NO_PARTICLE).count();
-        let across = if lines > 1 { first[1].checked_sub(first[0])? } else { 1 };
-        let along = steps.get(3)?.to[0].checked_sub(first[0])? / 3;
+        let chains = first.iter().take_while(|to| **to != NO_PARTICLE).count();
+        let chain_stride = if chains > 1 { first[1].checked_sub(first[0])? } else { 1 };
+        let link_stride = steps.get(3)?.to[0].checked_sub(first[0])? / 3;
         let matches = |(at, step): (usize, &ChainStep)| {
-            let slot = |lane: usize| first[0] + at as u32 * along + lane as u32 * across;
-            let to = |lane: usize| if lane < lines { slot(lane) } else { NO_PARTICLE };
+            let slot =
+                |lane: usize| first[0] + at as u32 * link_stride + lane as u32 * chain_stride;
+            let to = |lane: usize| if lane < chains { slot(lane) } else { NO_PARTICLE };
             (0..LANES).all(|lane| {
-                step.to[lane] == to(lane) && (step.rest[lane] > 0.0) == (lane < lines && at > 0)
+                step.to[lane] == to(lane) && (step.rest[lane] > 0.0) == (lane < chains && at > 0)
             })
         };
-        let is_strip = (along == 1 || across == 1) && steps.iter().enumerate().all(matches);
-        is_strip.then_some(Self {
+        let is_strided =
+            (link_stride == 1 || chain_stride == 1) && steps.iter().enumerate().all(matches);
+        is_strided.then_some(Self {
             first: before_first as usize,
-            link_stride: along as usize,
-            chain_stride: across as usize,
-            chain_count: lines,
+            link_stride: link_stride as usize,
+            chain_stride: chain_stride as usize,
+            chain_count: chains,
         })
     }
 }
 
 /// Slots that a link runs from and to; `NO_PARTICLE` if it is not active.
-fn slots(links: &Links, (link, is_turned): ChainLink) -> (u32, u32) {
+fn slots(links: &Links, (link, is_reversed): ChainLink) -> (u32, u32) {
     let link = link as usize;
-    match (links.active[link], is_turned) {
+    match (links.active[link], is_reversed) {
         (false, _) => (NO_PARTICLE, NO_PARTICLE),
         (true, false) => (links.a[link] + 1, links.b[link] + 1),
         (true, true) => (links.b[link] + 1, links.a[link] + 1),

@@ -44,25 +44,31 @@ impl Chains {
     pub fn new(links: &Links, rest: &[Vec3], can_break: bool) -> Self {
         let next = continuations(links, rest);
         let mut chains = Vec::new();
-        let mut seen = vec![false; links.len()];
+        let mut is_used = vec![false; links.len()];
         let mut visited = vec![NONE; rest.len()];
         for link in stretch_links(links) {
-            if !seen[link as usize] {
-                let start =
-                    find_chain_start(links, &next, link, &seen, chains.len() as u32, &mut visited);
+            if !is_used[link as usize] {
+                let start = find_chain_start(
+                    links,
+                    &next,
+                    link,
+                    &is_used,
+                    chains.len() as u32,
+                    &mut visited,
+                );
                 chains.push(collect_chain(
                     links,
                     &next,
                     start,
-                    &mut seen,
+                    &mut is_used,
                     chains.len() as u32,
                     &mut visited,
                 ));
             }
             // The walk back may have entered a loop that does not contain this link; it becomes a
             // chain of its own.
-            if !seen[link as usize] {
-                seen[link as usize] = true;
+            if !is_used[link as usize] {
+                is_used[link as usize] = true;
                 chains.push(vec![(link, false)]);
             }
         }
@@ -117,8 +123,8 @@ fn continuations(links: &Links, rest: &[Vec3]) -> Vec<[u32; 2]> {
 }
 
 /// The vertex at which a walk leaves a link.
-fn far_end(links: &Links, (link, turned): (u32, bool)) -> u32 {
-    if turned { links.a[link as usize] } else { links.b[link as usize] }
+fn far_end(links: &Links, (link, is_reversed): (u32, bool)) -> u32 {
+    if is_reversed { links.a[link as usize] } else { links.b[link as usize] }
 }
 
 /// The next link of a walk, if it exists, is unused and leads to a vertex that this walk has not
@@ -127,12 +133,12 @@ fn next_link(
     links: &Links,
     next: &[[u32; 2]],
     from: (u32, bool),
-    seen: &[bool],
+    is_used: &[bool],
     (number, visited): (u32, &[u32]),
 ) -> Option<(u32, bool)> {
     let end = far_end(links, from);
     let link = next[from.0 as usize][usize::from(!from.1)];
-    if link == NONE || seen[link as usize] {
+    if link == NONE || is_used[link as usize] {
         return None;
     }
     let to = (link, links.b[link as usize] == end);
@@ -144,7 +150,7 @@ fn find_chain_start(
     links: &Links,
     next: &[[u32; 2]],
     link: u32,
-    seen: &[bool],
+    is_used: &[bool],
     number: u32,
     visited: &mut [u32],
 ) -> (u32, bool) {
@@ -153,7 +159,7 @@ fn find_chain_start(
     let number = number | 1 << 31;
     visited[links.b[link as usize] as usize] = number;
     visited[links.a[link as usize] as usize] = number;
-    while let Some(to) = next_link(links, next, at, seen, (number, visited)) {
+    while let Some(to) = next_link(links, next, at, is_used, (number, visited)) {
         visited[far_end(links, to) as usize] = number;
         at = to;
     }
@@ -165,17 +171,17 @@ fn collect_chain(
     links: &Links,
     next: &[[u32; 2]],
     start: (u32, bool),
-    seen: &mut [bool],
+    is_used: &mut [bool],
     number: u32,
     visited: &mut [u32],
 ) -> Chain {
     let mut chain = vec![start];
-    seen[start.0 as usize] = true;
+    is_used[start.0 as usize] = true;
     visited[links.a[start.0 as usize] as usize] = number;
     visited[links.b[start.0 as usize] as usize] = number;
     let mut at = start;
-    while let Some(to) = next_link(links, next, at, seen, (number, visited)) {
-        seen[to.0 as usize] = true;
+    while let Some(to) = next_link(links, next, at, is_used, (number, visited)) {
+        is_used[to.0 as usize] = true;
         visited[far_end(links, to) as usize] = number;
         chain.push(to);
         at = to;

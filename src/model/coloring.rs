@@ -138,14 +138,14 @@ impl Coloring {
 
     /// Colours one item and returns its group.
     fn assign_one<const ENDS: usize>(&mut self, kind: usize, ends: [u32; ENDS]) -> u8 {
-        let (mut taken, mut twice) = (0, false);
+        let (mut taken, mut is_repeated) = (0, false);
         for (at, end) in ends.iter().enumerate() {
             taken |= self.taken[*end as usize] >> (kind * MAX_COLORS);
-            twice |= ends[..at].contains(end);
+            is_repeated |= ends[..at].contains(end);
         }
         // An item that names a particle twice stays uncoloured.
         let color =
-            if twice { MAX_COLORS } else { (taken.trailing_ones() as usize).min(MAX_COLORS) };
+            if is_repeated { MAX_COLORS } else { (taken.trailing_ones() as usize).min(MAX_COLORS) };
         if color < MAX_COLORS {
             ends.into_iter().for_each(|end| {
                 self.taken[end as usize] |= 1 << (kind * MAX_COLORS + color);
@@ -174,23 +174,28 @@ mod tests {
     fn colored_groups_share_no_particle_and_contain_all_items_once() {
         let (mut coloring, mut groups) = (Coloring::default(), Vec::new());
         let order = coloring.assign(35, 7, over_three, &mut groups).to_vec();
-        let mut met = [0; 35];
+        let mut times_seen = [0; 35];
         for group in &groups {
             let mut taken = [false; 7];
             for item in &order[group.range()] {
                 let (kind, ends) = over_three(*item as usize).expect("item is not left out");
                 assert_eq!(kind, group.kind);
-                met[*item as usize] += 1;
+                times_seen[*item as usize] += 1;
                 for end in ends.iter().filter(|_| group.is_colored) {
                     assert!(!core::mem::replace(&mut taken[*end as usize], true));
                 }
             }
         }
-        assert!(met.iter().enumerate().all(|(item, met)| *met == i32::from(item != 3)));
+        assert!(
+            times_seen
+                .iter()
+                .enumerate()
+                .all(|(item, times_seen)| *times_seen == i32::from(item != 3))
+        );
         // Twelve or thirteen items of a kind contain the middle particle, but there are only ten
         // colours.
-        let apart = groups.iter().filter(|group| !group.is_colored).count();
-        assert_eq!(apart, 2, "{groups:?}");
+        let uncolored = groups.iter().filter(|group| !group.is_colored).count();
+        assert_eq!(uncolored, 2, "{groups:?}");
     }
 
     #[test]

@@ -287,9 +287,9 @@ impl Constraints {
 
     /// Allocated bytes.
     pub fn bytes(&self) -> usize {
-        let for_each_grid_link = size_of::<LinkSpec>() + 5 * size_of::<f32>() + size_of::<bool>();
+        let bytes_per_link = size_of::<LinkSpec>() + 5 * size_of::<f32>() + size_of::<bool>();
         let links = self.links.len() + self.dynamic.rest.capacity();
-        links * for_each_grid_link
+        links * bytes_per_link
             + self.rows.as_ref().map_or(0, GridRows::bytes)
             + self.chains.blocks.bytes()
             + self.sparse.bytes()

@@ -9,7 +9,7 @@
 //! Reads plate elements or hinges; adds to the rest angles of [`Folds`], and to its hardening if the
 //! material uses it.
 //!
-//! Invariant: the angles that one crease adds along a path across it sum up to `angle`.
+//! Invariant: the angles that one crease adds along a path across it sum to about `angle`.
 
 use crate::math::max;
 use crate::model::folds::{ElementLengths, Folds, angle_of};
@@ -32,7 +32,7 @@ impl Folds {
         }
         let (spacing, columns) = (plates.spacing, plates.columns);
         let lengths = ElementLengths::Grid(spacing);
-        let ([nx, ny], width) = (line.normal, spacing * line.widest());
+        let ([nx, ny], width) = (line.normal, spacing * line.max_normal_component());
         for at in 0..plates.count() {
             let (row, column) = ((at / columns) as f32, (at % columns) as f32);
             let share = line.share([column * spacing, row * spacing], width, spacing);
@@ -81,11 +81,11 @@ impl Folds {
                 weight * d * d
             });
             let curve = 0.5 * density * terms.sum::<f32>();
-            let twist_increment = angle_of(curve / hinge.length);
+            let increment = angle_of(curve / hinge.length);
             self.set_angle(
                 0,
                 at,
-                self.angle[0][at] + twist_increment,
+                self.angle[0][at] + increment,
                 &ElementLengths::Hinges(&hinges.all),
             );
         }
@@ -113,7 +113,7 @@ impl CreaseLine {
         Self { from, along, normal: [-along[1], along[0]], length }
     }
 
-    fn widest(&self) -> f32 {
+    fn max_normal_component(&self) -> f32 {
         max(self.normal[0].abs(), self.normal[1].abs())
     }
 

@@ -158,13 +158,13 @@ impl Constraints {
         let (links, at) = self.link(number);
         let (mut spec, was_active) = (links.spec[at], links.active[at]);
         let LinkSupport::AcrossEdge(mut edge) = spec.support else { return };
-        let mut is_met = false;
+        let mut is_affected = false;
         for side in split.sides() {
             for end in &mut spec.ends {
                 if *end / 3 != side.kept() {
                     continue;
                 }
-                is_met = true;
+                is_affected = true;
                 if *end == prev_corner(side.edge) {
                     return self.remove_link(number);
                 }
@@ -174,7 +174,7 @@ impl Constraints {
             }
             edge = if edge == side.moved_edge() { side.new_edge() } else { edge };
         }
-        if !is_met {
+        if !is_affected {
             return;
         }
         self.remove_link(number);
@@ -207,8 +207,8 @@ impl Constraints {
         for (edge, length) in [(side.edge, near), (3 * side.added, far)] {
             let share = length / (near + far);
             let (ends, stiffness_scale) = ([edge, next_corner(edge)], spec.stiffness_scale / share);
-            let split_link = LinkSpec { ends, stiffness_scale, support: LinkSupport::Edge, ..spec };
-            self.add_link(rest_shape, split_link, rest * share, links_of);
+            let half = LinkSpec { ends, stiffness_scale, support: LinkSupport::Edge, ..spec };
+            self.add_link(rest_shape, half, rest * share, links_of);
         }
     }
 

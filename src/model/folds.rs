@@ -155,11 +155,11 @@ impl Folds {
             }
         }
         if any_bent {
-            let mut gives_way = false;
+            let mut yields = false;
             self.twist_increment.fill(0.0);
             for at in 0..count {
                 if bent[at] > TINY_ANGLE {
-                    gives_way |= self.yield_plate(&bent_grid, &yield_rule, &bent, at);
+                    yields |= self.yield_plate(&bent_grid, &yield_rule, &bent, at);
                 }
             }
             for at in 0..count - columns - 1 {
@@ -175,7 +175,7 @@ impl Folds {
                     );
                 }
             }
-            if gives_way && material.tracks_hardening() {
+            if yields && material.tracks_hardening() {
                 self.accumulate_plate_hardening(plates);
             }
         }
@@ -192,13 +192,9 @@ impl Folds {
     /// Adds the change of rest angles of a grid to the hardening.
     pub(super) fn accumulate_plate_hardening(&mut self, plates: &PlateElements) {
         for at in 0..plates.count() {
-            let (is, previous_rest) = (self.tensor(plates, at), self.previous_rest[at]);
-            let by = norm([
-                is[0] - previous_rest[0],
-                is[1] - previous_rest[1],
-                is[2] - previous_rest[2],
-            ]);
-            self.hardening.add(at, by / plates.spacing);
+            let (new, old) = (self.tensor(plates, at), self.previous_rest[at]);
+            let change = norm([new[0] - old[0], new[1] - old[1], new[2] - old[2]]);
+            self.hardening.add(at, change / plates.spacing);
         }
     }
 
@@ -239,29 +235,27 @@ impl Folds {
     /// Updates the rest angles of hinges that are bent beyond their yield limit. `mean` is the mean
     /// edge length [m].
     pub fn yield_hinges(&mut self, hinges: &Hinges, material: &Material, mean: f32, x: &Columns) {
-        let (tracks_hardening, mut gives_way) = (material.tracks_hardening(), false);
+        let (tracks_hardening, mut yields) = (material.tracks_hardening(), false);
         if tracks_hardening {
             self.store_hinge_state(hinges);
         }
         let yield_rule = YieldRule::new(material, mean);
-        let fold_elements = max(material.fold_length, 3.0 * mean);
+        let fold_length = max(material.fold_length, 3.0 * mean);
         for (at, hinge) in hinges.all.iter().enumerate() {
             let corners = hinge.particles.map(|vertex| x.at(vertex as usize));
             let curve = hinge.curvature(corners).dot(hinge_normal(corners)) - hinge.rest;
             let q = angle_of(curve / hinge.length);
-            let hinge_hardening = if tracks_hardening { self.hinge_hardening[at] } else { 0.0 };
-            let limit = yield_rule.hardened_limit(
-                yield_rule.angle * hinge.fold_width() / fold_elements,
-                hinge_hardening,
-            );
+            let plastic_angle = if tracks_hardening { self.hinge_hardening[at] } else { 0.0 };
+            let limit = yield_rule
+                .hardened_limit(yield_rule.angle * hinge.fold_width() / fold_length, plastic_angle);
             let rest = self.angle[0][at];
             if let Some([new, ..]) = yield_rule.yielded_rest([q, 0.0, 0.0], [rest, 0.0, 0.0], limit)
             {
                 self.set_angle(0, at, new, &ElementLengths::Hinges(&hinges.all));
-                gives_way = true;
+                yields = true;
             }
         }
-        if gives_way && tracks_hardening {
+        if yields && tracks_hardening {
             self.accumulate_hinge_hardening(hinges);
         }
     }
@@ -284,10 +278,9 @@ impl Folds {
     /// Adds the change of rest curvature of each triangle to the hardening.
     pub(super) fn accumulate_hinge_hardening(&mut self, hinges: &Hinges) {
         for triangle in 0..hinges.elements.count() {
-            let twist_increment =
-                |hinge: usize| self.angle[0][hinge] - self.previous_rest[hinge][0];
-            let by = hinges.elements.curvature(triangle, &hinges.all, twist_increment);
-            self.hardening.add(triangle, by);
+            let change = |hinge: usize| self.angle[0][hinge] - self.previous_rest[hinge][0];
+            let curvature = hinges.elements.curvature(triangle, &hinges.all, change);
+            self.hardening.add(triangle, curvature);
         }
     }
 }
@@ -321,9 +314,9 @@ impl YieldRule {
         }
     }
 
-    /// The yield limit of an element, after hardening by the plastic angle `hinge_hardening`.
-    fn hardened_limit(&self, limit: f32, hinge_hardening: f32) -> f32 {
-        if hinge_hardening > 0.0 { limit + self.hardening_rate * hinge_hardening } else { limit }
+    /// The yield limit of an element after hardening by `plastic_angle` [rad].
+    fn hardened_limit(&self, limit: f32, plastic_angle: f32) -> f32 {
+        if plastic_angle > 0.0 { limit + self.hardening_rate * plastic_angle } else { limit }
     }
 
     /// The new rest angles, or `None` if the element stays elastic. `q` are the current angles,
@@ -334,18 +327,18 @@ impl YieldRule {
         if strain <= limit {
             return None;
         }
-        let grows = 1.0 + self.creep * self.hardening_rate;
+        let growth = 1.0 + self.creep * self.hardening_rate;
         if dot(by, q) > 0.0 {
             // Folded further: the element keeps a share of all that exceeds the limit, and never
             // less than before.
             if size <= limit {
                 return None;
             }
-            let saved_angles = self.creep * (size - limit) - dot(rest, q) / size;
-            let share = saved_angles / (size * grows);
-            return (saved_angles > 0.0).then(|| core::array::from_fn(|k| rest[k] + q[k] * share));
+            let permanent = self.creep * (size - limit) - dot(rest, q) / size;
+            let share = permanent / (size * growth);
+            return (permanent > 0.0).then(|| core::array::from_fn(|k| rest[k] + q[k] * share));
         }
-        let share = self.creep * (1.0 - limit / strain) / grows;
+        let share = self.creep * (1.0 - limit / strain) / growth;
         Some(core::array::from_fn(|k| rest[k] + by[k] * share))
     }
 }
@@ -381,18 +374,18 @@ impl BentGrid<'_> {
     fn tensor(&self, at: usize) -> [f32; 3] {
         let plates = self.plates;
         let n = self.normal.at(at);
-        let fold_elements = 1.0 / plates.spacing;
+        let inverse_spacing = 1.0 / plates.spacing;
         let along = |kind: usize, step: usize| {
             if plates.area_fraction[kind][at] == 0.0 {
                 return 0.0;
             }
             let curve = self.x.at(at - step) + self.x.at(at + step) - self.x.at(at) * 2.0;
-            angle_of(curve.dot(n) * fold_elements)
+            angle_of(curve.dot(n) * inverse_spacing)
         };
         let twist = mean_twist(plates, at, |cell| {
             let x = |at: usize| self.x.at(at);
             let below = cell + plates.columns;
-            ((x(cell) - x(cell + 1)) - (x(below) - x(below + 1))).dot(n) * fold_elements
+            ((x(cell) - x(cell + 1)) - (x(below) - x(below + 1))).dot(n) * inverse_spacing
         });
         [along(0, 1), along(1, plates.columns), twist]
     }
@@ -427,22 +420,23 @@ fn fold_angle(
     let (row, column) = (at / columns, at % columns);
     let (weft, warp) = (q[0].abs(), q[1].abs());
     let both = weft + warp;
-    let (place, last, step, main) = if weft >= warp {
+    let (position, last, step, main) = if weft >= warp {
         (column, columns - 1, 1, weft)
     } else {
         (row, plates.rows - 1, columns, warp)
     };
-    let squarely = if both > 0.0 { (main / both).sqrt() } else { 1.0 };
-    let (before, behind) = (place.min(fold_elements - 1), (last - place).min(fold_elements - 1));
+    let alignment = if both > 0.0 { (main / both).sqrt() } else { 1.0 };
+    let (before, behind) =
+        (position.min(fold_elements - 1), (last - position).min(fold_elements - 1));
     let first = at - before * step;
     let of = |k: usize| bent[first + k * step];
     let count = before + behind + 1;
     // Maximum over the windows of this length that contain the particle.
     let mut sum: f32 = (0..count.min(fold_elements)).map(of).sum();
-    let mut most = sum;
+    let mut largest_sum = sum;
     for k in fold_elements..count {
         sum += of(k) - of(k - fold_elements);
-        most = max(most, sum);
+        largest_sum = max(largest_sum, sum);
     }
-    most * squarely
+    largest_sum * alignment
 }

@@ -112,14 +112,13 @@ impl GridCells {
         for row in row.saturating_sub(1)..(row + 1).min(self.rows - 1) {
             for column in column.saturating_sub(1)..(column + 1).min(self.columns - 1) {
                 let cell = row * (self.columns - 1) + column;
-                let created = cell_triangles(self.columns as u32, row as u32, column as u32);
+                let original = cell_triangles(self.columns as u32, row as u32, column as u32);
                 let triangles = [2 * cell, 2 * cell + 1].map(|at| mesh.triangles[at]);
-                let corners = triangles.as_flattened().iter().zip(created.as_flattened());
-                self.moved_corners[cell] = corners.rev().fold(0, |moved_corners, (now, then)| {
-                    2 * moved_corners + u8::from(now != then)
-                });
+                let corners = triangles.as_flattened().iter().zip(original.as_flattened());
+                self.moved_corners[cell] =
+                    corners.rev().fold(0, |bits, (now, then)| 2 * bits + u8::from(now != then));
                 let sites = triangles.map(|three| three.map(|v| mesh.source[v as usize]));
-                self.is_cut[cell] = sites != created;
+                self.is_cut[cell] = sites != original;
             }
         }
     }

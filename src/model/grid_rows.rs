@@ -102,14 +102,14 @@ impl GridRows {
     }
 
     /// Updates the row, mask and set of a link after its ends or its activity changed.
-    pub fn update_link(&mut self, link: usize, ends: (u32, u32), holds: bool) {
+    pub fn update_link(&mut self, link: usize, ends: (u32, u32), is_active: bool) {
         let row = &self.rows[self.row_of[link] as usize];
         let is_in_place = row.ends(link as u32 - row.first) == ends;
-        self.mask[link] = if is_in_place && holds { 1.0 } else { 0.0 };
+        self.mask[link] = if is_in_place && is_active { 1.0 } else { 0.0 };
         if self.mask[link] == 0.0 {
             self.mark_torn(self.row_of[link] as usize);
         }
-        self.irregular.set(link, holds && !is_in_place);
+        self.irregular.set(link, is_active && !is_in_place);
     }
 
     /// Marks a row as torn, and shortens the uniform runs that contain it.

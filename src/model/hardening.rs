@@ -58,11 +58,12 @@ impl Hardening {
 
     /// Replaces the entries by saved ones. Returns false if they do not fit.
     pub fn restore(&mut self, curvature: Vec<f32>) -> bool {
-        let is_sound = curvature.iter().all(|curvature| curvature.is_finite() && *curvature >= 0.0);
+        let are_valid =
+            curvature.iter().all(|curvature| curvature.is_finite() && *curvature >= 0.0);
         self.has_any = !curvature.is_empty();
         let fits = !self.has_any || curvature.len() == self.count;
         self.curvature = curvature;
-        is_sound && fits
+        are_valid && fits
     }
 
     /// The entries for a save; empty if there was no plastic bending.
@@ -76,9 +77,9 @@ impl Hardening {
     }
 
     /// Adds plastic curvature at one place [1/m].
-    pub fn add(&mut self, at: usize, factor: f32) {
-        if factor > 0.0 && factor.is_finite() {
-            self.curvature[at] = min(self.curvature[at] + factor, MAX_CURVATURE);
+    pub fn add(&mut self, at: usize, curvature: f32) {
+        if curvature > 0.0 && curvature.is_finite() {
+            self.curvature[at] = min(self.curvature[at] + curvature, MAX_CURVATURE);
             self.has_any = true;
             self.revision = self.revision.wrapping_add(1);
         }

@@ -62,45 +62,45 @@ impl Hinges {
         let is_bend = |link: &usize| links.kind(*link) == LinkKind::Bend;
         let first = (0..links.len()).find(is_bend).unwrap_or(links.len());
         let (mut modelled, mut exact) = (0.0_f64, 0.0_f64);
-        let mut found = Vec::new();
+        let mut candidates = Vec::new();
         for link in (first..links.len()).filter(is_bend) {
             let Some(corners) = corners(links, link) else { continue };
-            if let Some((hinge, [modelled_energy, exact_energy], response)) =
+            if let Some((hinge, [modelled_energy, exact_energy], responses)) =
                 between(mesh, rest, corners)
             {
                 (modelled, exact) =
                     (modelled + f64::from(modelled_energy), exact + f64::from(exact_energy));
                 let [edge, _, _, beyond] = corners;
                 let triangles = [triangle_of(edge), triangle_of(beyond)].map(|at| at as u32);
-                found.push((link as u32, hinge, triangles, response));
+                candidates.push((link as u32, hinge, triangles, responses));
             }
         }
         let scale = if modelled > 0.0 { (exact / modelled) as f32 } else { 1.0 };
-        let color = colors(&found, mesh.vertex_count());
-        let mut order: Vec<usize> = (0..found.len()).collect();
+        let color = colors(&candidates, mesh.vertex_count());
+        let mut order: Vec<usize> = (0..candidates.len()).collect();
         sort_by(&mut order, |p, q| (color[*p], p).cmp(&(color[*q], q)));
         let mut hinge_of = vec![u32::MAX; links.len() - first];
         let (mut all, mut of) = (Vec::new(), Vec::new());
-        let (mut triangles, mut response) = (Vec::new(), Vec::new());
+        let (mut triangles, mut responses) = (Vec::new(), Vec::new());
         for at in order {
-            let (link, hinge, between, own_response) = found[at];
+            let (link, hinge, between, response) = candidates[at];
             hinge_of[link as usize - first] = all.len() as u32;
             all.push(Hinge { shape: hinge.shape * scale, ..hinge });
             of.push(link);
             triangles.push(between);
-            response.push(own_response);
+            responses.push(response);
         }
-        let place = |vertex: u32| rest[mesh.source[vertex as usize] as usize];
-        let corners = |triangle: u32| mesh.triangles[triangle as usize].map(place);
-        let elements = BendElements::new(&all, &triangles, &response, corners, place);
+        let rest_position = |vertex: u32| rest[mesh.source[vertex as usize] as usize];
+        let corners = |triangle: u32| mesh.triangles[triangle as usize].map(rest_position);
+        let elements = BendElements::new(&all, &triangles, &responses, corners, rest_position);
         let are_bent = all.iter().any(|hinge| hinge.rest != 0.0);
         Self { all, links: of, elements, are_bent, revision: 0, scale, first, hinge_of }
     }
 
     /// Updates the particles of the hinge of a link after the mesh changed.
     pub fn update_link(&mut self, mesh: &Mesh, links: &Links, link: usize) {
-        let found = link.checked_sub(self.first).and_then(|at| self.hinge_of.get(at)).copied();
-        let Some(hinge) = found.and_then(|at| self.all.get_mut(at as usize)) else { return };
+        let candidates = link.checked_sub(self.first).and_then(|at| self.hinge_of.get(at)).copied();
+        let Some(hinge) = candidates.and_then(|at| self.all.get_mut(at as usize)) else { return };
         self.revision = self.revision.wrapping_add(1);
         if let Some(corners) = corners(links, link) {
             hinge.particles = corners.map(|corner| mesh.vertex(corner));

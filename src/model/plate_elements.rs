@@ -133,9 +133,8 @@ impl PlateElements {
             for column in column.saturating_sub(1)..(column + 1).min(self.columns - 1) {
                 let at = row * self.columns + column;
                 let first = 2 * (row * (self.columns - 1) + column);
-                let created_fraction =
-                    cell_triangles(self.columns as u32, row as u32, column as u32);
-                let is_torn = mesh.triangles[first..first + 2] != created_fraction;
+                let original = cell_triangles(self.columns as u32, row as u32, column as u32);
+                let is_torn = mesh.triangles[first..first + 2] != original;
                 self.set_fraction(2, at, if is_torn { 0.0 } else { self.created_fraction[2][at] });
             }
         }

@@ -29,13 +29,13 @@ pub(crate) struct SparseLinks {
 impl SparseLinks {
     /// Allocates for `count` links in all.
     pub fn reserve(&mut self, count: usize) {
-        let more = |len: usize| count.saturating_sub(len);
+        let additional = |len: usize| count.saturating_sub(len);
         for list in [&mut self.a, &mut self.b, &mut self.link] {
-            list.reserve_exact(more(list.len()));
+            list.reserve_exact(additional(list.len()));
         }
         let [w_a, w_b] = &mut self.w;
         for list in [&mut self.rest, w_a, w_b] {
-            list.reserve_exact(more(list.len()));
+            list.reserve_exact(additional(list.len()));
         }
         self.groups.reserve_exact(MAX_GROUPS.saturating_sub(self.groups.len()));
     }

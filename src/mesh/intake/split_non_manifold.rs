@@ -43,15 +43,14 @@ pub(super) fn split_non_manifold(
     loop {
         let pairs = edges.pairs(triangles, &is_isolated, &position);
         let (corners, copies) = split_fans(triangles, &pairs, count);
-        let excess_triangles =
-            if split_edges > 0 { excess_triangles(&corners, &pairs) } else { Vec::new() };
-        if excess_triangles.is_empty() {
+        let excess = if split_edges > 0 { excess_triangles(&corners, &pairs) } else { Vec::new() };
+        if excess.is_empty() {
             *triangles = corners;
             return ManifoldSplit { copies, split_edges };
         }
         // A sheet may fold back onto one of its own edges: the excess triangles there become
         // isolated.
-        excess_triangles.into_iter().for_each(|triangle| is_isolated[triangle] = true);
+        excess.into_iter().for_each(|triangle| is_isolated[triangle] = true);
     }
 }
 
@@ -152,10 +151,10 @@ fn split_fans(
     let mut fan: Vec<Corner> = (0..3 * triangles.len() as u32).collect();
     for [one, other] in pairs {
         let ends = [*one, next_corner(*one)];
-        let there = [*other, next_corner(*other)];
-        let turned = usize::from(vertex(ends[0]) != vertex(there[0]));
-        union(&mut fan, ends[0], there[turned]);
-        union(&mut fan, ends[1], there[1 - turned]);
+        let other_ends = [*other, next_corner(*other)];
+        let is_reversed = usize::from(vertex(ends[0]) != vertex(other_ends[0]));
+        join_fans(&mut fan, ends[0], other_ends[is_reversed]);
+        join_fans(&mut fan, ends[1], other_ends[1 - is_reversed]);
     }
     let mut out = triangles.to_vec();
     let mut copies: Vec<SplitParticle> = Vec::new();
@@ -192,7 +191,7 @@ fn find_root(fan: &mut [Corner], mut corner: Corner) -> Corner {
     corner
 }
 
-fn union(fan: &mut [Corner], one: Corner, other: Corner) {
+fn join_fans(fan: &mut [Corner], one: Corner, other: Corner) {
     let (one, other) = (find_root(fan, one), find_root(fan, other));
     fan[one.max(other) as usize] = one.min(other);
 }
@@ -200,16 +199,16 @@ fn union(fan: &mut [Corner], one: Corner, other: Corner) {
 /// Triangles in excess at edges that still have more than two: all but the first joined pair.
 fn excess_triangles(triangles: &[[u32; 3]], pairs: &[[Corner; 2]]) -> Vec<usize> {
     let edges = EdgeSides::new(triangles);
-    let mut excess_triangles = Vec::new();
+    let mut excess = Vec::new();
     for run in edges.runs().filter(|run| run.len() > 2) {
         let sides: Vec<Corner> = run.iter().map(|(_, edge)| *edge).collect();
         let joined = pairs.iter().find(|pair| pair.iter().all(|edge| sides.contains(edge)));
-        let stays = joined.map_or([sides[0], sides[1]], |pair| *pair);
-        excess_triangles.extend(
-            sides.iter().filter(|edge| !stays.contains(edge)).map(|edge| triangle_of(*edge)),
+        let joined_pair = joined.map_or([sides[0], sides[1]], |pair| *pair);
+        excess.extend(
+            sides.iter().filter(|edge| !joined_pair.contains(edge)).map(|edge| triangle_of(*edge)),
         );
     }
-    excess_triangles
+    excess
 }
 
 #[cfg(test)]
