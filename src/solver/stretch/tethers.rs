@@ -18,7 +18,7 @@
 //! slack = max( min(slack, max |x − pin| / d) − 2 s⁻¹ tick,   hold stretch,   1 + ε )
 //! hold stretch   max distance / d between two held particles, at least 1
 //! ε              0 for rigid links; else 0.005 + 4 σ g L / K, at most max_stretch / 2
-//!                σ: density, L: longest d, K: the least stretch stiffness; σ g L / K is the
+//!                σ: largest mass per area, L: longest d, K: least stretch stiffness; σ g L / K is the
 //!                strain at the top of a strip of length L that hangs under its own weight
 //! ```
 //! so that tethers carry the load which the sweeps have not carried yet, and none of what the cloth
