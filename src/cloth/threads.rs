@@ -11,7 +11,7 @@ use crate::math::threads::Threads;
 impl Cloth {
     /// Returns the largest number of threads that ticks and normals may use. Default 1.
     pub fn threads(&self) -> u32 {
-        self.world.threads.most()
+        self.world.threads.max()
     }
 
     /// Sets the largest number of threads that ticks and normals may use.

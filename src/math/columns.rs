@@ -1,10 +1,19 @@
-//! Vectors stored as three columns x, y, z: what straight SIMD loads want.
+//! A list of vectors in structure-of-arrays order: one aligned column for each of x, y, z.
+//!
+//! ```text
+//! x: x₀ x₁ x₂ …     y: y₀ y₁ y₂ …     z: z₀ z₁ z₂ …
+//! ```
+//! This is the layout of all per-particle stages: one SIMD load reads a component of several
+//! particles.
+//!
+//! Reads and writes its own columns.
+//! Invariant: all three columns have the same length.
 
 use crate::math::column::Column;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// A list of vectors, one column a component.
+/// A list of vectors, one column for each component.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Columns {
     pub x: Column,
@@ -13,33 +22,33 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// An empty list that holds `capacity` vectors without allocating again.
+    /// Makes an empty list that holds `capacity` vectors without allocating again.
     pub fn with_capacity(capacity: usize) -> Self {
         let column = || Column::with_capacity(capacity);
         Self { x: column(), y: column(), z: column() }
     }
 
-    /// So many zeros.
+    /// Makes a list of `count` zero vectors.
     pub fn zeros(count: usize) -> Self {
         let column = || Column::zeros(count);
         Self { x: column(), y: column(), z: column() }
     }
 
-    /// Makes room for `capacity` vectors in all.
+    /// Allocates for `capacity` vectors in total.
     pub fn reserve(&mut self, capacity: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {
             column.reserve(capacity);
         }
     }
 
-    /// Makes it so long: by zeros, where it was shorter.
+    /// Truncates the list to `count` vectors, or extends it with zeros.
     pub fn resize(&mut self, count: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {
             column.resize(count);
         }
     }
 
-    /// Bytes that it holds.
+    /// Returns the allocated bytes.
     pub fn bytes(&self) -> usize {
         let columns = [&self.x, &self.y, &self.z];
         columns.iter().map(|column| size_of::<f32>() * column.capacity()).sum()
@@ -57,19 +66,19 @@ impl Columns {
         self.z.fill(v.z);
     }
 
-    /// The three columns.
+    /// Returns the columns x, y, z as slices.
     #[inline(always)]
     pub fn all(&self) -> [&[f32]; 3] {
         [&self.x, &self.y, &self.z]
     }
 
-    /// The three columns.
+    /// Returns the columns x, y, z as mutable slices.
     #[inline(always)]
     pub fn all_mut(&mut self) -> [&mut [f32]; 3] {
         [&mut self.x, &mut self.y, &mut self.z]
     }
 
-    /// Makes it the list of these vectors.
+    /// Replaces the whole list by these vectors.
     pub fn set_all(&mut self, vectors: impl Iterator<Item = Vec3>) {
         [&mut self.x, &mut self.y, &mut self.z].into_iter().for_each(Column::clear);
         vectors.for_each(|v| self.push(v));

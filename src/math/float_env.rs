@@ -1,36 +1,44 @@
-//! The host's floating-point modes, set aside while Muslin computes.
+//! Saves and restores the floating-point environment of the host.
 //!
-//! A host may flush denormals to zero or round another way; both would change bits.
+//! A host may flush denormals to zero or use another rounding mode; both would change results.
+//! Muslin therefore writes the default mode to the control register (MXCSR on x86-64, FPCR on
+//! aarch64) while it computes, and restores the mode of the host afterwards. WebAssembly has only
+//! the default mode.
+//!
+//! Reads and writes the control register of the current thread.
+//! Invariant: all arithmetic of the library runs inside [`with_float_env`]: round to nearest,
+//! denormals kept, no traps.
 
 use core::hint::black_box;
 
-/// Holds the default modes while it lives, then gives the host's back.
+/// A guard: the default mode is set while it lives, and the mode of the host is restored when it is
+/// dropped.
 pub(crate) struct FloatEnv {
     #[cfg(all(any(target_arch = "x86_64", target_arch = "aarch64"), not(miri)))]
-    host: register::Modes,
+    host: register::ControlWord,
 }
 
 #[cfg(all(target_arch = "x86_64", not(miri)))]
 mod register {
     use core::arch::asm;
 
-    pub type Modes = u32;
+    pub type ControlWord = u32;
 
     /// Round to nearest, denormals kept, all exceptions masked.
-    pub const DEFAULT: Modes = 0x1f80;
+    pub const DEFAULT: ControlWord = 0x1f80;
 
-    pub fn read() -> Modes {
-        let mut modes = 0;
-        // SAFETY: `stmxcsr` writes four bytes to the address it is given, which is `modes`.
-        unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut modes, options(nostack, preserves_flags)) };
-        modes
+    pub fn read() -> ControlWord {
+        let mut word = 0;
+        // SAFETY: `stmxcsr` writes four bytes to the given address, which is that of `word`.
+        unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack, preserves_flags)) };
+        word
     }
 
-    pub fn write(modes: Modes) {
-        // SAFETY: `ldmxcsr` reads four bytes from `modes`; the value came from the register itself
+    pub fn write(word: ControlWord) {
+        // SAFETY: `ldmxcsr` reads four bytes from `word`; the value came from the register itself
         // or is `DEFAULT`, so no reserved bit is set.
         unsafe {
-            asm!("ldmxcsr [{}]", in(reg) &raw const modes, options(nostack, preserves_flags));
+            asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack, preserves_flags));
         }
     }
 }
@@ -39,21 +47,21 @@ mod register {
 mod register {
     use core::arch::asm;
 
-    pub type Modes = u64;
+    pub type ControlWord = u64;
 
     /// Round to nearest, denormals kept, no traps.
-    pub const DEFAULT: Modes = 0;
+    pub const DEFAULT: ControlWord = 0;
 
-    pub fn read() -> Modes {
-        let modes: Modes;
-        // SAFETY: reading FPCR has no effect but on `modes`.
-        unsafe { asm!("mrs {}, fpcr", out(reg) modes, options(nomem, nostack, preserves_flags)) };
-        modes
+    pub fn read() -> ControlWord {
+        let word: ControlWord;
+        // SAFETY: reading FPCR has no side effects.
+        unsafe { asm!("mrs {}, fpcr", out(reg) word, options(nomem, nostack, preserves_flags)) };
+        word
     }
 
-    pub fn write(modes: Modes) {
+    pub fn write(word: ControlWord) {
         // SAFETY: the value came from the register itself or is `DEFAULT`.
-        unsafe { asm!("msr fpcr, {}", in(reg) modes, options(nostack, preserves_flags)) };
+        unsafe { asm!("msr fpcr, {}", in(reg) word, options(nostack, preserves_flags)) };
     }
 }
 
@@ -90,16 +98,16 @@ use host::{HOST, HostEnv};
 
 #[cfg(all(feature = "parallel", any(target_arch = "x86_64", target_arch = "aarch64"), not(miri)))]
 mod host {
-    use super::register::{self, DEFAULT, Modes};
+    use super::register::{self, ControlWord, DEFAULT};
     use std::cell::Cell;
 
     thread_local! {
-        /// The host's modes while they are set aside.
-        pub static HOST: Cell<Option<Modes>> = const { Cell::new(None) };
+        /// The mode of the host while the default mode is set on this thread.
+        pub static HOST: Cell<Option<ControlWord>> = const { Cell::new(None) };
     }
 
-    /// Holds the host's modes while it lives, then the default ones again.
-    pub struct HostEnv(Option<Modes>);
+    /// A guard: the mode of the host is set while it lives, and the default mode again afterwards.
+    pub struct HostEnv(Option<ControlWord>);
 
     impl HostEnv {
         pub fn enter() -> Self {
@@ -128,7 +136,7 @@ impl FloatEnv {
     }
 }
 
-/// Where there are no modes to set aside.
+/// Does nothing: this target has no control register, or it is not accessible.
 #[cfg(all(
     feature = "parallel",
     not(all(any(target_arch = "x86_64", target_arch = "aarch64"), not(miri)))
@@ -145,19 +153,19 @@ impl HostEnv {
     }
 }
 
-/// Runs `work` under the modes that were set aside last on this thread, if any were: while it waits
-/// for other threads, this one may do the host's work.
+/// Runs `work` in the floating-point mode of the host, if this thread is in the default mode now.
+/// While a thread waits for others, its pool may run work of the host on it.
 #[cfg(feature = "parallel")]
 pub(crate) fn with_host_float_env<T>(work: impl FnOnce() -> T) -> T {
     let _env = HostEnv::enter();
     black_box(black_box(work)())
 }
 
-/// Runs `work` under the default floating-point modes.
+/// Runs `work` in the default floating-point mode, and restores the mode of the host afterwards.
 pub(crate) fn with_float_env<T>(work: impl FnOnce() -> T) -> T {
     let _env = FloatEnv::enter();
-    // Compilers take arithmetic as free of modes and would move it past their change, unless they
-    // cannot see what goes in and what comes out.
+    // Compilers assume that arithmetic does not depend on the mode and could move it across the
+    // change of mode. `black_box` hides the inputs and outputs from them.
     black_box(black_box(work)())
 }
 
@@ -166,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_hosts_modes_are_set_aside_and_given_back() {
+    fn the_mode_of_the_host_is_restored() {
         let flush_and_round_up = 0x9fc0 | 0x4000;
         register::write(flush_and_round_up);
         let inside = with_float_env(register::read);

@@ -1,4 +1,12 @@
-//! Arithmetic that gives the same bits on every machine: only `+ - * / sqrt` and comparisons.
+//! Deterministic arithmetic: the same bits on every platform.
+//!
+//! Only `+ - * /`, square root and comparisons are used, which IEEE 754 defines to the bit.
+//! Functions of the standard library or libm whose results differ between platforms (sine,
+//! exponential, `f32::min` of NaN) have replacements here.
+//!
+//! Reads and writes only what callers pass in.
+//! Invariant: the order of operations never depends on the platform, the SIMD level or the number
+//! of threads.
 
 pub(crate) mod column;
 pub(crate) mod columns;
@@ -14,11 +22,11 @@ pub(crate) mod wide4;
 
 use glam::Vec3;
 
-/// Below this a length or a sum of inverse masses counts as nothing.
+/// Lengths and sums of inverse masses below this count as zero.
 pub(crate) const TINY: f32 = 1.0e-18;
 
-/// Whether two lists hold the same bits. Some at a time, with no way out between, so that they
-/// become vectors.
+/// Returns whether two lists hold the same bits. Blocks of 64 are compared without an early exit,
+/// so that the compiler vectorises the loop.
 pub(crate) fn same_bits(a: &[f32], b: &[f32]) -> bool {
     let differences = |(a, b): (&[f32], &[f32])| {
         a.iter().zip(b).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()))
@@ -26,27 +34,27 @@ pub(crate) fn same_bits(a: &[f32], b: &[f32]) -> bool {
     a.len() == b.len() && a.chunks(64).zip(b.chunks(64)).all(|pair| differences(pair) == 0)
 }
 
-/// The smaller of two numbers; `b` if either is not a number. One rule on every target.
+/// Returns the smaller of two numbers; `b` if either is NaN, on every platform.
 #[inline(always)]
 pub(crate) fn min(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// The larger of two numbers; `b` if either is not a number. One rule on every target.
+/// Returns the larger of two numbers; `b` if either is NaN, on every platform.
 #[inline(always)]
 pub(crate) fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// What is at a share of the way from one point to another, however far apart they are.
+/// Interpolates linearly from `from` (t = 0) to `to` (t = 1), without overflow for distant points.
 #[inline(always)]
-pub(crate) fn lerp(from: Vec3, to: Vec3, share: f32) -> Vec3 {
-    let v = from + (to - from) * share;
-    if v.is_finite() { v } else { from * (1.0 - share) + to * share }
+pub(crate) fn lerp(from: Vec3, to: Vec3, t: f32) -> Vec3 {
+    let v = from + (to - from) * t;
+    if v.is_finite() { v } else { from * (1.0 - t) + to * t }
 }
 
-/// The same with the largest number there is in place of what none can say, and 0 for what came out
-/// of two such.
+/// Returns a finite vector: infinite components become the largest finite number, and NaN becomes
+/// 0.
 #[inline(always)]
 pub(crate) fn saturate(v: Vec3) -> Vec3 {
     if v.is_finite() { v } else { saturate_cold(v) }

@@ -1,10 +1,15 @@
-//! Points that several threads may move at once, each its own.
+//! Points that several threads move at the same time, each thread its own points.
+//!
+//! Graph colouring makes this sound: no two links of one colour share a particle, so the threads
+//! that work on one colour write disjoint sets of points.
+//!
+//! Reads and writes interleaved points `[x, y, z, w]` through raw pointers.
+//! Invariant: different threads use [`SharedPoints::ptr`] for different points.
 
 use core::cell::UnsafeCell;
 use core::marker::PhantomData;
 
-/// The points of a list, each x, y, z and 0, borrowed for whoever promises to keep apart from
-/// others.
+/// A mutable borrow of interleaved points that can be copied to several threads.
 #[derive(Clone, Copy)]
 pub(crate) struct SharedPoints<'a> {
     first: *mut [f32; 4],
@@ -12,10 +17,10 @@ pub(crate) struct SharedPoints<'a> {
     list: PhantomData<&'a [UnsafeCell<[f32; 4]>]>,
 }
 
-// SAFETY: a point is reached only through `at`, whose callers promise that no other thread reaches
-// it.
+// SAFETY: points are accessed only through `ptr`, whose callers guarantee that no other thread
+// accesses the same point.
 unsafe impl Send for SharedPoints<'_> {}
-// SAFETY: as above.
+// SAFETY: as for `Send`.
 unsafe impl Sync for SharedPoints<'_> {}
 
 impl<'a> SharedPoints<'a> {
@@ -27,13 +32,14 @@ impl<'a> SharedPoints<'a> {
         self.count
     }
 
-    /// Where a point is.
+    /// Returns the address of a point: four consecutive numbers.
     ///
     /// # Safety
-    /// There is such a point, and as long as it is read or written here no other thread does so.
+    /// `point` is below [`SharedPoints::len`], and no other thread accesses that point while the
+    /// pointer is used.
     #[inline(always)]
     pub unsafe fn ptr(self, point: u32) -> *mut f32 {
-        // SAFETY: the caller's promise that it is within the list.
+        // SAFETY: the caller guarantees that the point lies in the list.
         unsafe { self.first.add(point as usize).cast() }
     }
 }
@@ -43,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn threads_move_points_of_their_own() {
+    fn threads_can_move_disjoint_points() {
         let mut list = vec![[1.0, 2.0, 3.0, 0.0]; 9];
         let points = SharedPoints::new(&mut list);
         assert_eq!(points.len(), 9);
@@ -51,7 +57,7 @@ mod tests {
             for thread in 0..3 {
                 scope.spawn(move || {
                     for point in (thread..9).step_by(3) {
-                        // SAFETY: there are nine points, of which each thread has every third.
+                        // SAFETY: there are nine points, and each thread accesses every third.
                         unsafe { *points.ptr(point) += point as f32 };
                     }
                 });

@@ -1,15 +1,18 @@
-//! Sine, cosine and exponential of our own: libm's differ between platforms, these do not.
+//! Deterministic sine, cosine, arcsine and exponential. Those of libm differ between platforms.
 //!
-//! Series in f64 after range reduction (Abramowitz and Stegun, 4.3.65, 4.3.66, 4.2.1), rounded to
-//! f32 at the end: every step is an exact IEEE operation, so every machine gets the same result.
+//! Power series in f64 after range reduction (Abramowitz and Stegun, "Handbook of Mathematical
+//! Functions", 4.3.65, 4.3.66, 4.2.1), rounded to f32 at the end.
+//!
+//! Reads and writes nothing but arguments and results.
+//! Invariant: every step is an IEEE 754 operation, so every platform gets the same bits.
 
 use crate::math::{max, min};
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
-/// Past this many radians the reduced angle has lost its meaning; the angle counts as zero.
+/// Beyond this many radians the reduced angle has no correct digits; the angle counts as zero.
 const FAR: f64 = 1.0e9;
 
-/// Sine of `x` [rad]; zero if `x` is not finite or beyond 1e9.
+/// Returns the sine of `x` [rad]; zero if `x` is not finite or beyond 1e9.
 pub(crate) fn sin(x: f64) -> f32 {
     let (quadrant, r) = reduce(x);
     match quadrant {
@@ -20,7 +23,7 @@ pub(crate) fn sin(x: f64) -> f32 {
     }
 }
 
-/// Cosine of `x` [rad]; one if `x` is not finite or beyond 1e9.
+/// Returns the cosine of `x` [rad]; one if `x` is not finite or beyond 1e9.
 pub(crate) fn cos(x: f64) -> f32 {
     let (quadrant, r) = reduce(x);
     match quadrant {
@@ -31,14 +34,14 @@ pub(crate) fn cos(x: f64) -> f32 {
     }
 }
 
-/// Sine of `x` [rad] to about 1e-6 for |x| up to a few thousand, without a branch: for loops over
-/// lanes. Between -1.1 and 1.1 whatever `x` is.
+/// Returns the sine of `x` [rad] to about 1e-6 for |x| up to a few thousand, without a branch, so
+/// that loops over it vectorise. The result lies in -1.1..=1.1 for any `x`.
 #[inline(always)]
 pub(crate) fn sin_branchless(x: f32) -> f32 {
-    // Adding and taking away 1.5 · 2²³ rounds to the nearest integer.
+    // Adding and subtracting 1.5 · 2²³ rounds to the nearest integer.
     const ROUND: f32 = 12_582_912.0;
     let half_turns = (x * core::f32::consts::FRAC_1_PI + ROUND) - ROUND;
-    // π as a sum of parts, the first of which times a small integer is exact.
+    // π as a sum of three parts; the first times a small integer is exact.
     let r = ((x - half_turns * 3.140_625) - half_turns * 9.675_026e-4) - half_turns * 1.509_958e-7;
     let r = max(min(r, 1.6), -1.6);
     let s = r * r;
@@ -49,7 +52,7 @@ pub(crate) fn sin_branchless(x: f32) -> f32 {
     sine * (1.0 - 2.0 * min(odd * odd, 1.0))
 }
 
-/// Arcsine [rad] to about 1e-7, of `x` from -1 to 1 (Abramowitz and Stegun, 4.4.46).
+/// Returns the arcsine [rad] of `x` in -1..=1, to about 1e-7 (Abramowitz and Stegun, 4.4.46).
 pub(crate) fn asin(x: f32) -> f32 {
     const SERIES: [f64; 8] = [
         1.570_796_305_0,
@@ -67,7 +70,7 @@ pub(crate) fn asin(x: f32) -> f32 {
     if x < 0.0 { -angle } else { angle }
 }
 
-/// e to the power of `x`, for `x` in -80..=0; clamped outside.
+/// Returns e to the power of `x` for `x` in -80..=0; values outside are clamped to that range.
 pub(crate) fn exp_decay(x: f64) -> f32 {
     let x = if x < -80.0 {
         -80.0
@@ -90,7 +93,7 @@ pub(crate) fn exp_decay(x: f64) -> f32 {
     sum as f32
 }
 
-/// The quadrant of `x`, and what is left of it in -π/4..=π/4.
+/// Returns the quadrant of `x` and the rest in -π/4..=π/4.
 fn reduce(x: f64) -> (u8, f64) {
     if !(x > -FAR && x < FAR) {
         return (0, 0.0);
@@ -117,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn arcsine_undoes_sine() {
+    fn arcsine_is_accurate() {
         for i in -200..=200 {
             let x = i as f32 / 200.0;
             let exact = f64::from(x).asin() as f32;
@@ -136,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn waves_are_sines_and_never_leave_their_range() {
+    fn the_branchless_sine_is_accurate_and_bounded() {
         for i in -40_000..40_000 {
             let x = i as f32 * 0.05;
             assert!(

@@ -249,7 +249,7 @@ impl Split for BandSlices<'_> {
         self.x.len()
     }
 
-    fn cut(self, mid: usize) -> (Self, Self) {
+    fn split_at_item(self, mid: usize) -> (Self, Self) {
         let (shared, first_particle) = (self.shared, self.first_particle);
         let behind = first_particle + mid as u32;
         let ((x, x_2), (y, y_2), (z, z_2)) =
