@@ -1,5 +1,4 @@
-//! Removes the net rigid motion that internal stages add to a cloth of one piece that nothing
-//! holds.
+//! Removes the net rigid motion that internal stages add to a free cloth of one piece.
 //!
 //! ```text
 //! Δ = x − x before the stage        Σ m Δ = 0,   Σ m (r − c) × Δ = 0
@@ -12,15 +11,16 @@
 //! the rigid motion with the momenta of Δ is subtracted from all positions.
 //!
 //! Two stages use it: bending and particle collision ([`remove_rigid_motion`]), and contacts of
-//! surface collision ([`remove_rigid_motion_since`]). There, a cloth that lies on a floor is
-//! treated as free along the floor: contacts count supported particles as heavy, which acts like an
-//! external force along it, as no friction would. What contacts push against the floor stays.
+//! surface collision ([`remove_rigid_motion_since`]). The latter counts particles on a collider as
+//! heavy, as if the collider took the impulse. Along a floor no collider does, and crumpled paper
+//! would turn on it for ever. So on a floor the motion along it is removed as well; the motion
+//! against the floor stays.
 //!
 //! Reads predicted positions and the displacement history; writes positions, and the scratch lists
 //! `relative_wind` and `tether_pins`, which are free at that time.
 //!
-//! Invariant: nothing changes for a cloth of several pieces, or one that pins, grabs or contacts
-//! with several directions hold.
+//! Invariant: no particle moves if the cloth has several pieces, if a pin or a grab holds it, or if
+//! its collider contacts have several directions.
 
 use crate::math::wide4::Float4;
 use crate::solver::bend;
@@ -37,7 +37,7 @@ const MIN_FLOOR_COSINE: f32 = 0.999;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Support {
     /// It touches no collider.
-    None,
+    Free,
     /// All its collider contacts have this normal.
     Floor(Vec3),
 }
@@ -70,8 +70,8 @@ pub(crate) fn remove_rigid_motion(world: &mut World) {
     }
 }
 
-/// Removes the rigid motion between the positions `before` and `now` from `now`; on a floor, only
-/// what turns about its normal or slides along it. `before` is scratch afterwards.
+/// Removes the rigid motion between the positions `before` and `now` from `now`. On a floor this is
+/// only the rotation about its normal and the translation along it. `before` is scratch afterwards.
 pub(crate) fn remove_rigid_motion_since(
     world: &mut World,
     support: Support,
@@ -89,7 +89,7 @@ pub(crate) fn remove_rigid_motion_since(
     };
     let rigid = RigidMotion::of_free(world.level, free);
     let rigid = match support {
-        Support::None => rigid,
+        Support::Free => rigid,
         Support::Floor(normal) => rigid.project_on_floor(normal),
     };
     interleaved::subtract_rigid_motion(now, &rigid, before);
@@ -103,7 +103,7 @@ pub(crate) fn find_support(world: &World) -> Option<Support> {
         return None;
     }
     let contacts = &world.scratch.contacts.collider_contacts;
-    let Some(first) = contacts.first() else { return Some(Support::None) };
+    let Some(first) = contacts.first() else { return Some(Support::Free) };
     let is_on_floor =
         |contact: &ColliderContact| contact.normal.dot(first.normal) > MIN_FLOOR_COSINE;
     contacts.iter().all(is_on_floor).then_some(Support::Floor(first.normal))

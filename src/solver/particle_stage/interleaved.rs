@@ -154,7 +154,7 @@ pub(crate) fn gather_relative(
     });
 }
 
-/// Writes what [`gather_relative`] filled back to columns: adds the rigid motion again.
+/// Writes vectors from [`gather_relative`] back to columns: adds the rigid motion again.
 pub(crate) fn scatter_relative(
     motion: &RigidMotion,
     x: &Columns,

@@ -2,9 +2,10 @@
 //! cross).
 //!
 //! ```text
-//! settings.self_collision   None        nothing runs
-//!                           Particles   particle_pairs (pair list) ─▶ particle_contacts (one pass per substep)
-//!                           Surface     surface (see there)
+//! settings.self_collision
+//!     None          nothing runs
+//!     Particles     particle_pairs (pair list) ─▶ particle_contacts (one pass per substep)
+//!     Surface       surface (its module has a diagram)
 //! ```
 //! Particle collision is cheap and approximate: triangles may still cross. Surface collision
 //! guarantees that they do not.

@@ -2,8 +2,9 @@
 //! distance.
 //!
 //! ```text
-//!   ●  ← distance + 2 · margin →  ●      listed once; valid until a particle has moved by `margin` relative to
-//!                                        the mean displacement
+//!   ●  ← distance + 2 · margin →  ●      A list of the pairs nearer than this stays valid until a
+//!                                        particle has moved by `margin` relative to the mean
+//!                                        displacement.
 //! ```
 //! A Verlet list over a hash grid (Verlet, Phys. Rev. 159, 1967). If particles move too fast for a
 //! list to last four passes, each pass makes a list without margin.
@@ -66,7 +67,7 @@ pub(crate) struct ParticleCollision {
     passes: u32,
 }
 
-/// What the pair list is made from.
+/// Input of the pair list.
 #[derive(Clone, Copy)]
 pub(crate) struct PairListInput<'a> {
     pub level: Level,

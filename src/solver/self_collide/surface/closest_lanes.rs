@@ -1,9 +1,13 @@
 //! SIMD kernels for closest points: vertex–triangle and edge–edge, one pair in each lane.
 //!
 //! ```text
-//!      v ●              weights (1, −wa, −wb, −wc)       p ●──────●──── q      weights (1−t, t, u−1, −u)
-//!        │ d                                                      │ d
-//!   ─────●───── a b c   d = Σ weight · x                 r ●──────●──── s      d = Σ weight · x
+//! vertex–triangle                              edge–edge
+//!      v ●                                          p ●──────●──── q
+//!        │ d                                                 │ d
+//!   ─────●───── a b c                               r ●──────●──── s
+//! weights (1, −wa, −wb, −wc)                   weights (1−t, t, u−1, −u)
+//!
+//! d = Σ weightₖ xₖ
 //! ```
 //! Both return the vector d from the closest point of the second side to the closest point of the
 //! first, and the weights of the four particles. Vertex–triangle follows Ericson, "Real-Time
@@ -87,10 +91,10 @@ pub(crate) fn separation<F: Float, const KIND: ContactKind>([a, b, c, d]: [F; 4]
     }
 }
 
-/// `old` where `keep` is above 0, else `new`.
+/// `old` where `keeps_old` is above 0, else `new`.
 #[inline(always)]
-fn select2<S: Simd>(s: S, keep: S::F, old: [S::F; 2], new: [S::F; 2]) -> [S::F; 2] {
-    [s.select(keep, old[0], new[0]), s.select(keep, old[1], new[1])]
+fn select2<S: Simd>(s: S, keeps_old: S::F, old: [S::F; 2], new: [S::F; 2]) -> [S::F; 2] {
+    [s.select(keeps_old, old[0], new[0]), s.select(keeps_old, old[1], new[1])]
 }
 
 #[inline(always)]

@@ -72,6 +72,6 @@ pub(crate) struct ClusterNode {
     pub second: u32,
     /// The cluster of a leaf, else `NONE`.
     pub cluster: u32,
-    /// Float of clusters below.
+    /// Number of clusters below.
     pub count: u32,
 }

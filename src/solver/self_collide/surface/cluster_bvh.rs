@@ -1,9 +1,9 @@
 //! Cluster BVH: a binary tree over clusters of up to eight triangles.
 //!
 //! ```text
-//!             ┌───────── root ─────────┐         built once, top down, by splitting the longest axis of
-//!        ┌─── · ───┐              ┌─── · ───┐    the triangle centres at rest near the median;
-//!     cluster   cluster        cluster   cluster refitted bottom up to where the cloth is
+//!        ┌──────── root ────────┐       Built once, top down: the triangle centres at rest are
+//!    ┌── · ──┐              ┌── · ──┐   split along their longest axis, near the median.
+//! cluster  cluster      cluster  cluster Refitted bottom up to where the cloth is.
 //! ```
 //! Built from the mesh and its rest shape (Wald, Boulos, Shirley, "Ray Tracing Deformable Scenes
 //! Using Dynamic Bounding Volume Hierarchies", ACM TOG 2007: fixed topology, refitted boxes).
@@ -34,7 +34,7 @@ use glam::Vec3;
 /// cone counts as constant [mean rest lengths].
 const TURNING_DISPLACEMENT: f32 = 0.12;
 
-/// All clusters of a cloth, their tree, and what was computed of them in a tick and in a substep.
+/// All clusters of a cloth, their tree, and their data of the current tick and substep.
 #[derive(Clone, Debug)]
 pub(crate) struct ClusterBvh {
     pub nodes: Vec<ClusterNode>,
@@ -57,8 +57,8 @@ pub(crate) struct ClusterBvh {
     pub swept_aabbs: Vec<SweptAabb>,
     /// Box of the displacements of each cluster's vertices since the last refit: low, high.
     pub step_displacements: Vec<[Float4; 2]>,
-    /// AABB of each cluster at the start of the substep, and those of what is in it; fitted on
-    /// demand.
+    /// AABBs at the start of the substep, fitted on demand: of each cluster, and of its triangles,
+    /// vertices and edges.
     pub start_aabbs: Vec<SweptAabb>,
     pub triangle_aabbs: Vec<SweptAabbBlock>,
     pub vertex_aabbs: Vec<[SweptAabbBlock; MAX_BLOCKS]>,

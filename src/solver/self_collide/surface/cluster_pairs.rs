@@ -9,7 +9,7 @@
 //! tick filter the list of tick pairs; the tree is traversed again only if a particle leaves its
 //! tick bound.
 //!
-//! Reads [`TickBounds`] and what [`ClusterBvh::refit`] computed; writes `tick_pairs`,
+//! Reads [`TickBounds`] and the boxes that [`ClusterBvh::refit`] computed; writes `tick_pairs`,
 //! `tick_pair_neighbours` and the caller's list.
 //!
 //! Invariant: pairs come out in the same order for the same mesh, the lower cluster first.

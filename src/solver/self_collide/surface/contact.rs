@@ -7,10 +7,10 @@
 //!                                  whatever the plane did meanwhile.
 //!
 //! separation(n) = min over A of n·x − max over B of n·x
-//! distance(n)   = n · Σ weightₖ xₖ                           (closest points; weights as in `closest_lanes`)
+//! distance(n)   = n · Σ weightₖ xₖ              (closest points; weights as in `closest_lanes`)
 //! ```
-//! Two separations of a contact matter to the non-crossing pass: it restores `min_separation`, and
-//! it accepts `tolerated_separation` when it cannot.
+//! The non-crossing pass uses two separations of a contact: it restores `min_separation`, and it
+//! accepts `tolerated_separation` if it cannot.
 //!
 //! Reads [`SweptParticles`]; writes [`Contact`] values.
 //!

@@ -1,9 +1,9 @@
 //! Contact graph: the contacts of each particle, and a work list of contacts to check.
 //!
 //! ```text
-//! particle 0: contacts 0 3 7         A particle that moves becomes dirty. Scheduling the dirty particles
-//! particle 1: contacts 1 3           sets the pending bits of their contacts, so the non-crossing pass
-//! particle 2: contacts 7 …           checks only contacts that may have changed.
+//! particle 0: contacts 0 3 7         A particle that moves becomes dirty. To schedule the dirty
+//! particle 1: contacts 1 3           particles means to set the pending bits of their contacts. So
+//! particle 2: contacts 7 …           the non-crossing pass checks only the affected contacts.
 //! ```
 //! Adjacency lists in compressed rows (counting sort by particle), a bit set for pending contacts.
 //!
@@ -20,7 +20,7 @@ pub(crate) struct ContactGraph {
     /// Index of each particle's first contact in `contacts`, and one more entry for the end.
     starts: Vec<u32>,
     contacts: Vec<u32>,
-    /// Float of contacts in the adjacency lists.
+    /// Number of contacts in the adjacency lists.
     count: usize,
     /// A bit for each contact: set if it has to be checked.
     pending: Vec<u64>,

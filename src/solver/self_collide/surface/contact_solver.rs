@@ -1,9 +1,9 @@
 //! Contact solver: non-penetration, friction and damping of self-contacts.
 //!
 //! ```text
-//! sweep 1 ─▶ contact 0 1 2 … n        normal:   C = target − n·Σ weightₖ xₖ,  Δλ = C / Σ wₖ weightₖ²,  λ ≥ 0
-//! sweep 2 ◀─ contact n … 2 1 0        friction: |λt| ≤ friction · λ           (Coulomb cone)
-//! …
+//! sweep 1 ─▶ contact 0 1 2 … n       normal     C = target − n·Σ weightₖ xₖ
+//! sweep 2 ◀─ contact n … 2 1 0                  Δλ = C / Σ wₖ weightₖ²,   λ ≥ 0
+//! …                                  friction   |λt| ≤ friction · λ           (Coulomb cone)
 //! ```
 //! Sequential impulses on positions (projected Gauss–Seidel; Catto, "Iterative Dynamics with
 //! Temporal Coherence", GDC 2005), warm-started, with accumulated impulses. Normals and weights are
@@ -33,12 +33,12 @@ use glam::Vec3;
 /// Gauss–Seidel sweeps per substep, in alternating directions.
 const SWEEPS: usize = 6;
 
-/// Share of its inverse mass with which a particle counts that touches a collider: the collider
-/// supports it, and it supports what lies on it.
+/// A particle that touches a collider counts with this share of its inverse mass: the collider
+/// supports it, so it can support the layers on top.
 pub(crate) const SUPPORTED_SHARE: f32 = 0.02;
 
-/// A new contact is an impact if its sides approach faster than a body after this many substeps of
-/// free fall.
+/// A new contact is an impact if the relative speed of its sides exceeds that of a body after this
+/// many substeps of free fall.
 const IMPACT_SUBSTEPS: f32 = 2.0;
 
 /// Pairs farther apart than this, at the start and now, do not enter the solver [gaps]:
@@ -326,9 +326,9 @@ pub(crate) fn remove_impact_velocities(
 /// friction sticks. Cloth dissipates energy at contacts, by the air between layers and by the
 /// friction of fibres.
 ///
-/// With `damp_spin`, each side loses spin as well; that conserves no angular momentum, so it is for
-/// cloth that is held or supported. `v` has the velocity (or displacement) of each particle
-/// relative to the rigid motion of the cloth, `h` is the length of the substep [s].
+/// With `damp_spin`, each side loses spin as well. That does not conserve angular momentum, so it
+/// is for cloth that is held or touches a collider. `v` has the velocity (or displacement) of each
+/// particle relative to the rigid motion of the cloth, `h` is the length of the substep [s].
 pub(crate) fn damp_contacts(
     contacts: &[Contact],
     active: &[ActiveContact],

@@ -40,7 +40,7 @@ pub(crate) fn new_escaped_batch() -> CandidatePairs {
     CandidatePairs::new(BATCH + MAX_PER_CLUSTER_PAIR)
 }
 
-/// Borrows what detection works on.
+/// The data that detection works on, borrowed.
 pub(crate) struct Detector<'a> {
     pub level: Level,
     pub rest_gap: RestGap<'a>,
@@ -160,8 +160,8 @@ impl Detector<'_> {
         self.bvh.pair_cache.measure(self.level, &self.motion.start);
     }
 
-    /// Distance that may be left between both sides of a pair after they moved, for the pair to
-    /// count [m].
+    /// Margin of all distance tests [m]: both sides of a pair may still be this far apart after
+    /// they moved towards each other, and the pair counts as near.
     fn margin(&self) -> f32 {
         let RestGap { mean_edge, gap, .. } = self.rest_gap;
         ACTIVE_DISTANCE[0] * gap + mean_edge * ROUNDING

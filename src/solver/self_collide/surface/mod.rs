@@ -1,51 +1,57 @@
 //! Surface collision: self-collision of the cloth by vertex–triangle and edge–edge contacts.
 //!
 //! ```text
-//!                                  file                    once per
-//!  particles                       swept_particles         substep   motion bounds
-//!      │
-//!      ▼
-//!  tick bounds                     tick_bounds             tick      where may each particle get to?
-//!      │ swept AABBs
-//!      ▼
-//!  cluster BVH ── cluster pairs    cluster_bvh,            tick      clusters of 8 triangles
-//!      │                           cluster_pairs
-//!      │ swept AABBs, normal cones                         substep
-//!      ▼                           normal_cones
-//!  pair cache                      surface_mid_phase,      on demand vertex–triangle, edge–edge
-//!      │                           pair_cache, pair_store
-//!      │ separation > relative displacement: rejected
-//!      ▼
-//!  separation test                 separation_test         substep   conservative, continuous
-//!      │
-//!      ├── near ──▶ narrow phase ──▶ contacts              narrow_phase, contact
-//!      └── far, may meet ─────────▶ speculative contacts   speculative
-//!                                      │
-//!  contact solver   ◀── contacts       │                   contact_solver, warm_start
-//!      │                               │
-//!      ▼                               ▼
-//!  non-crossing pass ◀── all contacts, with escaped        non_crossing, contact_graph
-//!      │                 particles tested again
-//!      ▼
-//!  positions that no surface has crossed                   surface_stages runs all of this
-//!
-//!  untangle: intersections that exist all the same         untangle, in the contact solver stage
+//!                                                      runs per   files
+//! tick bounds: where each particle may get to          tick       tick_bounds
+//!     │
+//!     ▼
+//! cluster BVH: swept AABBs of 8 triangles each         tick       cluster, cluster_bvh
+//!     │
+//!     ▼
+//! cluster pairs ◀── normal cones, swept AABBs          substep    cluster_pairs, normal_cones,
+//!     │             of the motion bounds                          swept_particles, swept_aabb
+//!     ▼
+//! pair cache: vertex–triangle and edge–edge pairs      on demand  surface_mid_phase, pair_cache,
+//!     │       kept until the clusters have moved                  pair_store, rest_gap
+//!     │       too far relative to each other
+//!     ▼ candidate pairs
+//! separation test: AABBs, then one direction           substep    separation_test
+//!     │
+//!     ├─ near ─▶ narrow phase ─▶ contacts              substep    narrow_phase, contact
+//!     │                             │
+//!     └─ far, may meet ─▶ speculative contacts         substep    speculative
+//!                                   │
+//!                                   ▼
+//! contact solver: impulses, friction, warm start       substep    contact_solver, warm_start
+//!     │   └─ untangle: intersections that exist        substep    untangle
+//!     ▼
+//! non-crossing pass ◀── pairs of escaped particles,    substep    non_crossing, contact_graph
+//!     │                 promoted speculative contacts
+//!     ▼
+//! positions at the end of the substep
 //! ```
+//! `detection` runs the steps from cluster pairs to contacts, `surface_stages` runs everything, and
+//! `surface_collision` holds the data. `split_separation` prepares fresh tears.
 //!
 //! Method: conservative continuous collision detection with one separating plane per pair, in place
-//! of the roots of cubic polynomials. A pair has a normal that separates both sides at the start of
-//! a substep; while their separation along it (or along a later normal that also separated them at
-//! the start) stays positive, they have not crossed. All stages up to the narrow phase are culling;
-//! they only have to be conservative. Two stages act: the contact solver (gap, friction, damping;
-//! may fail to converge) and the non-crossing pass (a guarantee, since rolling back to the start
-//! always succeeds).
+//! of the roots of cubic polynomials (Provot 1997; Bridson, Fedkiw, Anderson 2002). Each pair has a
+//! normal that separates both sides at the start of a substep. While the separation along it (or
+//! along a later normal that also separates them at the start) stays positive, they have not
+//! crossed. All steps down to the separation test are culling; they only have to be conservative.
+//! Two steps act on particles: the contact solver keeps the gap, adds friction and damps, and may
+//! fail to converge; the non-crossing pass gives the guarantee, because the start positions satisfy
+//! all contacts at once.
+//!
+//! Terms: *start* is the position at the start of the substep and *now* the current one. The
+//! *motion bound* of a particle is a box that its displacement stays in; a particle that leaves it
+//! has *escaped*. *Separation* is measured along a direction, *distance* between closest points,
+//! and the *gap* is the distance that the contact solver keeps.
 //!
 //! Reads the mesh, its rest shape, particles, collider contacts and settings; writes positions,
 //! velocities, predicted positions and contact forces.
 //!
-//! Invariant: the result depends on positions, velocities and contact forces at the start of a tick
-//! alone, in the order of the mesh. Caches (tick bounds, pair cache, cluster boxes) make it faster,
-//! never different.
+//! Invariant: the result depends only on the state at the start of a tick, in the order of the
+//! mesh. Caches (tick bounds, pair cache, cluster boxes) save time and change no bit.
 
 mod closest_lanes;
 mod cluster;

@@ -7,12 +7,13 @@
 //!        └── contacts of particles that moved
 //! after MAX_ROUNDS rounds: roll back particles to where they started, until all are separated
 //! ```
-//! All contacts were separated at the start of the substep, all at once, so rolling back always
-//! succeeds. It keeps the mean displacement of the cloth, so that a falling cloth does not stop. A
-//! fixed particle does not roll back: it takes the particles that it would cross along. Roll-back
-//! as in Bridson, Fedkiw, Anderson, "Robust Treatment of Collisions, Contact and Friction for Cloth
-//! Animation", SIGGRAPH 2002 (rigid impact zones as the last resort), with separating planes in
-//! place of continuous collision tests.
+//! All contacts are separated at the start of the substep, at once. So rolling back to the start
+//! always succeeds, unless fixed particles that move against each other leave no room. Particles
+//! roll back to their start plus the mean displacement, so that a falling cloth does not stop. A
+//! fixed particle does not roll back; it carries along the particles in its way. This has the role
+//! of the rigid impact zones of Provot, "Collision and self-collision handling in cloth model
+//! dedicated to design garments", 1997, and of Bridson, Fedkiw, Anderson, "Robust Treatment of
+//! Collisions, Contact and Friction for Cloth Animation", SIGGRAPH 2002.
 //!
 //! Reads contacts; writes `SweptParticles::now`, contact normals and the contact graph.
 //!

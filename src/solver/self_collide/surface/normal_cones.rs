@@ -3,8 +3,8 @@
 //! ```text
 //!        ▲ mean normal m          cone of a cluster: m, and c = min over triangles of cos(n, m)
 //!      ╲ │ ╱  half angle
-//!   ────╲│╱──── cluster           A patch whose normals all lie within 60° of one direction is a height
-//!                                 field over the plane square to it, so it cannot touch itself.
+//!   ────╲│╱──── cluster           If all normals of a patch lie within 60° of one direction, it is
+//!                                 a height field along that direction and cannot touch itself.
 //! ```
 //! Curvature culling after Volino and Magnenat-Thalmann, "Efficient self-collision detection on
 //! smoothly discretized surface animations using geometrical shape regularity", 1994, and Provot,
@@ -50,7 +50,7 @@ struct ConeBlock {
     /// Corners of the first triangle of each cluster, then of the second, … Clusters with fewer
     /// triangles repeat their last one.
     corners: [[[u32; LANES]; 3]; CLUSTER_SIZE],
-    /// Float of triangles; 0 if the cone of the cluster is to be unknown.
+    /// Number of triangles; 0 if the cone of the cluster is to be unknown.
     counts: [f32; LANES],
     /// Above 0 if the cone changes within the substep.
     turning: [f32; LANES],

@@ -12,10 +12,10 @@
 //! of the coming substep, reaches `search_distance` (a Verlet list with a skin; Verlet, Phys. Rev.
 //! 159, 1967).
 //!
-//! Reads what `surface_mid_phase` pushes; writes its own lists.
+//! Reads start positions; writes its own lists. `surface_mid_phase` pushes the pairs.
 //!
-//! Invariant: the cache never changes which contacts are found. It may hold pairs that are far
-//! apart, it never lacks a near one.
+//! Invariant: the cache never changes which contacts are found. It may hold far pairs, but it never
+//! lacks a near one.
 
 use crate::math::simd::Level;
 use crate::math::sort::sort_by;
@@ -46,7 +46,7 @@ pub(crate) struct PairCache {
     pub edge_edge: PairStore,
     /// The range of each tick pair, if it has one.
     pub ranges: Vec<Option<PairRange>>,
-    /// Float of pairs in all ranges.
+    /// Number of pairs in all ranges.
     pub live_count: usize,
     /// Whether any tick pair has a range.
     pub has_ranges: bool,
@@ -177,7 +177,7 @@ impl PairCache {
 }
 
 impl PairRange {
-    /// Float of pairs.
+    /// Number of pairs.
     pub fn len(&self) -> usize {
         let [[a, b], [c, d]] = [self.vertex_triangle, self.edge_edge];
         (b - a + d - c) as usize

@@ -1,8 +1,8 @@
 //! Gap of each pair: that of the material, less for pairs that are nearer at rest.
 //!
 //! ```text
-//! gap(pair) = min(gap, max(½ · rest distance, ½ · split distance))      if both sides are of one piece
-//! gap(pair) = gap                                                       otherwise
+//! gap(pair) = min(gap, max(½ · rest distance, ½ · split distance))    both sides of one piece
+//! gap(pair) = gap                                                     otherwise
 //! ```
 //! Without this rule, neighbours in a fine mesh, whose rest distance is below the gap, would push
 //! each other all the time.

@@ -2,10 +2,10 @@
 //! solver.
 //!
 //! ```text
-//! contact solver     distance < ACTIVE_DISTANCE · gap     contacts, solved with impulses
-//! ───────────────────────────────────────────────────
-//! non-crossing pass  farther, but may meet                speculative contacts: only the separation
-//!                                                         along the start normal is tested
+//! distance < ACTIVE_DISTANCE · gap     contacts: the contact solver works on them
+//! farther, but may meet                speculative contacts: the non-crossing pass tests only
+//!                                      their separation along the normal of the start
+//! farther than both can move           rejected
 //! ```
 //! A speculative contact becomes a contact when its start normal does not separate both sides any
 //! more by the minimum separation. Eight pairs are tested at once.

@@ -1,11 +1,11 @@
 //! Split separation: moves the copies of freshly split vertices apart by a hair.
 //!
 //! ```text
-//!      ╲   │   ╱                ╲   │   ╱       The copies of a split vertex start at the same place, where
-//!       ╲  │  ╱                  ╲  │  ╱        no direction separates their triangles, so no contact has
-//!   ──── ●=●=● ────    ─▶    ──── ● ● ● ────    a normal. Each copy moves towards its own triangles, along
-//!       ╱  │  ╲              ──── ● ● ● ────    directions that separate them from those of the other
-//!      ╱   │   ╲                 ╱  │  ╲        copies, also where the cloth is folded.
+//!      ╲   │   ╱                ╲   │   ╱       The copies of a split vertex start at one place,
+//!       ╲  │  ╱                  ╲  │  ╱        where no direction separates their triangles. So
+//!   ──── ●=●=● ────    ─▶    ──── ● ● ● ────    no contact has a normal. Each copy moves towards
+//!       ╱  │  ╲              ──── ● ● ● ────    its own triangles, along directions that separate
+//!      ╱   │   ╲                 ╱  │  ╲        them from the others, also in folded cloth.
 //! ```
 //! For each pair of corner wedges of two copies, candidate directions are the normals of separating
 //! planes through the vertex (separating axis test of two cones). Displacements follow by

@@ -2,13 +2,13 @@
 //! the pair cache.
 //!
 //! ```text
-//! cluster pair ─▶ features of A near the box of B   (bit masks, 8 lanes a test)
-//!              ─▶ features of B near the box of A
-//!              ─▶ each feature of A against the features of B: AABBs nearer than `search_distance` ─▶ pair cache
+//! clusters A, B ─▶ features of A near the box of B, and of B near the box of A (bit masks)
+//!               ─▶ each such feature of A against those of B: AABBs, 8 lanes per test
+//!               ─▶ pairs nearer than `search_distance` ─▶ pair cache
 //! ```
-//! A range is complete while relative displacement since its refresh plus that of the coming
-//! substep stays below `search_distance` (see `pair_cache`). `search_distance` is that of the
-//! coming substep plus a skin, so the work is spread over several substeps.
+//! A cached range is complete while the relative displacement since its refresh, plus that of the
+//! coming substep, stays below `search_distance` (see `pair_cache`). The search distance is the
+//! relative displacement of the coming substep plus a skin, so a range lasts for several substeps.
 //!
 //! Reads [`SweptParticles`] and [`RestGap`]; writes the pair cache and AABBs of features.
 //!

@@ -1,17 +1,19 @@
-//! Stages `Pairs` and `SelfContacts` with surface collision: what the tick pipeline calls.
+//! Stages `Pairs` and `SelfContacts` with surface collision: the entry points for the tick
+//! pipeline.
 //!
 //! ```text
-//! tick     begin_tick
-//! substep  detect_contacts ─▶ solve_contacts ─▶ enforce_non_crossing ─▶ (velocities) ─▶ damp_velocities
-//! end      begin_tick ─▶ (strain limit, anchors) ─▶ enforce_non_crossing_at_tick_end
+//! tick       begin_tick
+//! substep    detect_contacts ─▶ solve_contacts ─▶ enforce_non_crossing
+//!            ─▶ (stage `Velocities`) ─▶ damp_velocities
+//! tick end   begin_tick ─▶ (strain limit, anchors) ─▶ enforce_non_crossing_at_tick_end
 //! ```
 //! See the module `surface` for the methods.
 //!
 //! Reads and writes `World`: particles, predicted positions, contact forces, and
 //! `surface_collision`. Each stage takes the box out of `World` while it runs.
 //!
-//! Invariant: after [`enforce_non_crossing`] no surface has passed through another since the tick
-//! began, and `motion.start` has the positions that the next substep starts from.
+//! Invariant: after [`enforce_non_crossing`] no surface has passed through another in the substep,
+//! and `motion.start` holds the positions that the next substep starts from.
 
 use crate::math::wide4::xyz;
 use crate::math::{max, min};
@@ -35,7 +37,7 @@ pub(crate) const MAX_GAP: f32 = 0.5;
 /// Slack of the tick bounds [mean rest lengths].
 const TICK_SLACK: f32 = 0.2;
 
-/// Largest number of times that the non-crossing pass looks for escaped particles, after the first.
+/// Largest number of repeats of the non-crossing pass, each with the pairs of escaped particles.
 const MAX_REPEATS: u32 = 8;
 
 impl World {
@@ -108,8 +110,8 @@ impl SurfaceCollision {
         self.detect_intersections(world);
     }
 
-    /// Detects where the surface intersects itself, and disables the contacts that would keep it
-    /// so.
+    /// Detects intersections of the surface with itself, and disables the contacts that would
+    /// block untangling.
     ///
     /// A cloth that is known to intersect itself is tested whole in each substep, others in parts,
     /// in the first substep of each tick.
@@ -157,7 +159,7 @@ impl SurfaceCollision {
     }
 
     /// Runs the non-crossing pass, and returns whether any particle moved. The centre of mass of a
-    /// cloth that nothing holds or touches stays where it is.
+    /// free cloth does not move: one without fixed particles and collider contacts.
     fn enforce_non_crossing(&mut self, world: &World) -> bool {
         let has_rolled_back = self.run_non_crossing(world);
         let now = &mut self.motion.now;

@@ -7,8 +7,8 @@
 //!                └────┘
 //! ```
 //! Both boxes move over the same time, so the test uses the relative displacement: layers that
-//! travel together at any speed do not overlap (conservative test; see Ericson, "Real-Time
-//! Collision Detection", 5.5.7, "Intersecting Moving AABB Against AABB").
+//! travel together do not overlap, however fast they are (conservative test; see Ericson,
+//! "Real-Time Collision Detection", 5.5.8, "Intersecting Moving AABB Against AABB").
 //!
 //! Reads start positions and motion bounds of particles; writes the boxes and bit masks of
 //! overlaps.

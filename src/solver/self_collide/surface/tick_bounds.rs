@@ -1,4 +1,4 @@
-//! Tick bounds: where each particle may get to in all substeps that are left of a tick.
+//! Tick bounds: a box for each particle that contains its motion in the rest of a tick.
 //!
 //! ```text
 //!   base ●╌╌╌╌▶ now ╌╌╌╌▶ ╌╌╌╌▶ ╌╌╌╌▶ ┌┐      displacement of this substep × substeps left,
@@ -129,7 +129,7 @@ impl TickBounds {
         }
     }
 
-    /// Baseline positions, and the lower and upper corners of the bounds.
+    /// Base positions, and the lower and upper corners of the bounds.
     pub fn base_and_bounds(&self) -> [&[Float4]; 3] {
         [&self.base, &self.bound_low, &self.bound_high]
     }

@@ -2,10 +2,11 @@
 //!
 //! ```text
 //!          q ●                    Edge p q intersects triangle T. Without the edges that intersect
-//!            │    ▲ n             something, p is in a smaller connected component than q, so p has
-//!   T ───────┼────┴──             penetrated: it moves along T's normal n to q's side.
-//!          p ●                    If both are in one component, the edge moves along the intersection
-//!                                 line of its triangles and T, so that the line becomes shorter.
+//!            │    ▲ n             something, p is in a smaller connected component than q. So p
+//!   T ───────┼────┴──             has penetrated: it moves along T's normal n to q's side.
+//!          p ●                    If both are in one component, the edge moves along the line
+//!                                 where its triangles intersect T, so that the line becomes
+//!                                 shorter.
 //! ```
 //! The first rule is global intersection analysis (Baraff, Witkin, Kass, "Untangling Cloth",
 //! SIGGRAPH 2003), the second one contour minimization (Volino, Magnenat-Thalmann, "Resolving
@@ -16,7 +17,7 @@
 //! Reads the mesh, cluster pairs and start positions; writes `SweptParticles::now`, predicted
 //! positions (no velocity results), velocities, and disables contacts.
 //!
-//! Invariant: without intersections nothing changes. Intersections are listed in the order of
+//! Invariant: without intersections no data changes. Intersections are listed in the order of
 //! cluster pairs.
 
 use crate::geometry::aabb::Aabb;
