@@ -42,7 +42,9 @@ use crate::solver::self_collide::particle_contacts;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
-use crate::solver::stretch::{damping, distance, line_solver, mesh_kernel, strain_limit, tethers};
+use crate::solver::stretch::{
+    damping, distance, line_solver, mesh_kernel, strain_limit, tether_slack, tethers,
+};
 use crate::solver::topology::tear;
 use crate::solver::world::World;
 use crate::solver::{bend, collide};
@@ -81,7 +83,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     timed!(world, Pairs, surface_stages::begin_tick(world));
     timed!(world, Forces, forces::compute_acceleration(world));
     if world.settings.tethers {
-        timed!(world, Tethers, tethers::update_slack(world));
+        timed!(world, Tethers, tether_slack::update(world));
     } else {
         world.tether_slack = f32::INFINITY;
     }

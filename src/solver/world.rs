@@ -69,7 +69,7 @@ pub(crate) struct World {
     pub tethers: Tethers,
     /// Links sorted by distance from the pins; valid only while `max_stretch > 0`.
     pub pin_order: PinOrder,
-    /// Factor by which tethers may exceed their rest length, see `tethers::update_slack`; infinite before the
+    /// Factor by which tethers may exceed their rest length, see `tether_slack::update`; infinite before the
     /// first tick and after pins or positions changed.
     pub tether_slack: f32,
     /// Largest ratio of the distance between two pins to their distance along the rest cloth; at

@@ -9,7 +9,8 @@
 //!           tethers                   after each sweep
 //!           damping::remove
 //!           strain_limit              one sweep
-//! tick      strain_limit              sweeps, then rollback
+//! tick      tether_slack, at its start
+//!           strain_limit              sweeps, then rollback
 //! ```
 //! `link_projection` has the arithmetic of one link. The files `*_scratch`, `rollback_state`,
 //! `end_weights` and `line_step` hold data only: `solver::world` imports them, so they do not
@@ -34,6 +35,7 @@ pub(crate) mod rollback_state;
 pub(crate) mod sparse;
 pub(crate) mod strain_limit;
 pub(crate) mod sweep_order;
+pub(crate) mod tether_slack;
 pub(crate) mod tethers;
 #[cfg(feature = "parallel")]
 pub(crate) mod tiling;
