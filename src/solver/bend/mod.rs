@@ -18,6 +18,7 @@
 //! Invariant: bending conserves linear momentum. The stage works on columns or on the interleaved
 //! layout, whichever is current. With `bend_stiffness` 0 it does nothing.
 
+pub(crate) mod adi_factors;
 pub(crate) mod banded;
 pub(crate) mod bend_scratch;
 pub(crate) mod chebyshev;

@@ -21,7 +21,8 @@ use crate::math::same_bits;
 use crate::math::simd::{Level, leveled};
 use crate::model::hardening::Softening;
 use crate::model::plate_elements::{PerKind, PlateElements};
-use crate::solver::bend::banded::{GridLine, PentadiagonalFactor, VectorColumns};
+use crate::solver::bend::adi_factors::AdiFactors;
+use crate::solver::bend::banded::VectorColumns;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::spectral_bound;
 use crate::solver::bend::twist::{Twist, TwistOffset};
@@ -55,15 +56,6 @@ pub(crate) struct PlateScratch {
     revision: u32,
     /// Key of the plastic softening for which the weights were computed.
     softening_key: Option<(u32, f32)>,
-}
-
-/// Factors of both directions for one shift µ.
-#[derive(Clone, Debug, Default)]
-struct AdiFactors {
-    stiffness: f32,
-    shift: f32,
-    weft: PentadiagonalFactor,
-    warp: PentadiagonalFactor,
 }
 
 /// Parameters of one solve.
@@ -232,7 +224,7 @@ fn solve_chebyshev(
 
 /// Stiffness factor of an element with a held middle particle: 2 where the cloth enters a clamp,
 /// because only the half outside the clamp bends.
-pub(crate) fn clamped(wa: f32, wb: f32) -> f32 {
+fn clamped(wa: f32, wb: f32) -> f32 {
     if (wa == 0.0) == (wb == 0.0) { 1.0 } else { 2.0 }
 }
 
@@ -246,11 +238,8 @@ pub(crate) fn solve(
     mass: &[f32],
 ) {
     let (count, columns) = (plates.count(), plates.columns);
-    let stiffness = if step.stiffness < MAX_STIFFNESS_OVER_MASS * step.mass {
-        step.stiffness
-    } else {
-        MAX_STIFFNESS_OVER_MASS * step.mass
-    };
+    let max_stiffness = MAX_STIFFNESS_OVER_MASS * step.mass;
+    let stiffness = if step.stiffness < max_stiffness { step.stiffness } else { max_stiffness };
     let has_changed = step.is_first && scratch.refresh(plates, step.softening, w, mass);
     if let Some(chebyshev) = ChebyshevSteps::new(scratch.bound * stiffness) {
         if step.is_first {
@@ -312,38 +301,6 @@ pub(crate) fn solve(
     }
     if step.is_first {
         twist.solve(step.level, columns, x, w, from, true);
-    }
-}
-
-impl AdiFactors {
-    fn new(count: usize) -> Self {
-        let (weft, warp) = (PentadiagonalFactor::new(count), PentadiagonalFactor::new(count));
-        Self { stiffness: -1.0, shift: 0.0, weft, warp }
-    }
-
-    /// Factors all rows and columns for the current stiffness and shift.
-    fn factor(
-        &mut self,
-        plates: &PlateElements,
-        weight: &PerKind<Vec<f32>>,
-        w: &[f32],
-        mass: &[f32],
-    ) {
-        let (columns, rows) = (plates.columns, plates.rows);
-        let (stiffness, shift) = (self.stiffness, self.shift);
-        for row in 0..rows {
-            let line = GridLine { first: row * columns, step: 1, count: columns };
-            self.weft.factor(line, &weight[0], w, mass, stiffness, shift);
-        }
-        for column in 0..columns {
-            let line = GridLine { first: column, step: columns, count: rows };
-            self.warp.factor(line, &weight[1], w, mass, stiffness, shift);
-        }
-    }
-
-    /// Multiplies by µ M, between the two directions.
-    fn scale_by_shifted_mass(&self, level: Level, mass: &[f32], force: &mut VectorColumns) {
-        force.iter_mut().for_each(|force| scale_by_mass(level, force, mass, self.shift));
     }
 }
 
@@ -519,18 +476,6 @@ fn next_step_lanes(
         *force += force_change - mass * *displacement;
         *displacement = *displacement * keep + *force * w * gain;
         *x += *displacement;
-    }
-}
-
-leveled! {
-    /// Multiplies forces by mass and shift.
-    fn scale_by_mass(force: &mut [f32], mass: &[f32], shift: f32) = scale_by_mass_lanes
-}
-
-#[inline(always)]
-fn scale_by_mass_lanes(force: &mut [f32], mass: &[f32], shift: f32) {
-    for (force, mass) in force.iter_mut().zip(mass) {
-        *force *= mass * shift;
     }
 }
 
