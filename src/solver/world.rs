@@ -37,6 +37,9 @@ use crate::solver::collide::contact_scratch::ContactScratch;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::profile::Profile;
+use crate::solver::self_collide::particle_pairs::ParticleCollision;
+use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
+use crate::solver::self_collide::surface::warm_start::WarmStart;
 use crate::solver::stretch::damping_scratch::DampingScratch;
 use crate::solver::stretch::end_weights::EndWeights;
 use crate::solver::stretch::line_scratch::LineScratch;
@@ -130,16 +133,14 @@ pub(crate) struct World {
     pub scratch: TickScratch,
     pub sleep: SleepTimer,
     /// Data of particle collision, while `self_collision` is `Particles`.
-    pub particle_collision:
-        Option<Box<crate::solver::self_collide::particle_pairs::ParticleCollision>>,
+    pub particle_collision: Option<Box<ParticleCollision>>,
     /// Contact forces of the last substep, which warm-start the next; empty without surface
     /// collision.
-    pub warm_start: crate::solver::self_collide::surface::warm_start::WarmStart,
+    pub warm_start: WarmStart,
     /// Whether the surface may intersect itself: each substep then tests all of it.
     pub is_tangled: bool,
     /// Data of surface collision, while `self_collision` is `Surface`.
-    pub surface_collision:
-        Option<Box<crate::solver::self_collide::surface::surface_collision::SurfaceCollision>>,
+    pub surface_collision: Option<Box<SurfaceCollision>>,
 }
 
 /// Scratch buffers, allocated once so that no tick allocates.
