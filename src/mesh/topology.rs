@@ -55,8 +55,9 @@ pub(crate) struct Mesh {
 pub(crate) struct Fan {
     /// The corner of the vertex in each triangle.
     pub corners: Vec<Corner>,
-    /// One-ring: `ring[i]` is the far end of the edge shared by triangles `i - 1` and `i`. It has
-    /// one entry more than `corners` if the fan is open, and as many if it is closed.
+    /// One-ring: `ring[i]` is the far end of the edge between triangles `i - 1` and `i`. The ring
+    /// of an open fan also contains the far ends of its two border edges: one entry more than
+    /// `corners`.
     pub ring: Vec<u32>,
     /// Whether the last triangle is a neighbour of the first (an inner vertex).
     pub is_closed: bool,

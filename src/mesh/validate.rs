@@ -39,6 +39,7 @@ pub(crate) fn validated_mesh(
     Ok(mesh)
 }
 
+/// Refuses an edge with more than two triangles.
 fn check_edges_manifold(triangles: &[[u32; 3]]) -> Result<()> {
     let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
     for (at, [a, b, c]) in triangles.iter().enumerate() {
@@ -55,6 +56,7 @@ fn check_edges_manifold(triangles: &[[u32; 3]]) -> Result<()> {
     }
 }
 
+/// Refuses a vertex whose triangles form more than one fan.
 fn check_vertices_manifold(mesh: &Mesh) -> Result<()> {
     let mut uses = vec![0usize; mesh.vertex_count()];
     mesh.triangles.iter().flatten().for_each(|v| uses[*v as usize] += 1);

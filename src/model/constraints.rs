@@ -232,6 +232,7 @@ impl Constraints {
         Self::from_drafts(mesh, drafts, opening_capacity)
     }
 
+    /// Sorts drafts by colour into batches, and builds the indices over the links.
     fn from_drafts(mesh: &Mesh, drafts: Vec<LinkDraft>, opening_capacity: usize) -> Self {
         // Links of one colour keep the order in which they were created.
         let mut order: Vec<[u32; 2]> =
@@ -368,6 +369,7 @@ fn for_each_grid_link(
     }
 }
 
+/// Definition of a link along an edge, from `ends[0]` to `ends[1]`.
 fn edge_link(
     mesh: &Mesh,
     edge: Corner,
@@ -385,12 +387,14 @@ pub(super) fn edge_of(ends: [Corner; 2]) -> Corner {
     if next_corner(ends[0]) == ends[1] { ends[0] } else { ends[1] }
 }
 
+/// The corner of `vertex` in `triangle`, which must exist.
 fn corner(mesh: &Mesh, triangle: u32, vertex: u32) -> Corner {
     let found = mesh.corner_in(triangle, vertex);
     debug_assert!(found.is_some(), "vertex {vertex} is a corner of triangle {triangle}");
     found.unwrap_or(3 * triangle)
 }
 
+/// The shared edge of two triangles, which must exist.
 fn edge_between_triangles(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
     let found = (3 * triangle..3 * triangle + 3).find(|edge| mesh.across(*edge) == other);
     debug_assert!(found.is_some(), "triangles {triangle} and {other} share an edge");

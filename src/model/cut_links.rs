@@ -313,6 +313,8 @@ impl Constraints {
         register(links_of, number, &spec);
     }
 
+    /// Marks a link as removed. It stays in its list, so that the numbers of the others do not
+    /// change.
     fn remove_link(&mut self, number: u32) {
         let (links, at) = self.link_mut(number);
         let spec = links.spec[at];

@@ -138,6 +138,7 @@ fn corners(links: &Links, link: usize) -> Option<[Corner; 4]> {
     }
 }
 
+/// Creates the hinge with these corners, see [`Hinge::between_triangles`].
 fn between(
     mesh: &Mesh,
     rest: &[Vec3],

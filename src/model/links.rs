@@ -161,6 +161,8 @@ pub(crate) struct LinkBatch {
     pub count: usize,
 }
 
+/// Inverse spring constant [m/N]: 1 / (stiffness of the material · `stiffness_scale`), or 0 for a
+/// stiffness of 0. Bend links are rigid from a bending rigidity of 1 on.
 fn compliance(spec: &LinkSpec, material: &Material) -> f32 {
     let (weft, warp) = (material.stretch_stiffness_weft, material.stretch_stiffness_warp);
     let stiffness = match (spec.kind, spec.direction) {

@@ -38,8 +38,8 @@ pub struct Settings {
     /// Strain limit: maximum relative elongation of any stretch or shear link after a tick; 0.02 =
     /// 2 %, 0 = no limit. Default: 0.
     ///
-    /// Where pins or grabs hold the cloth further apart, it cannot hold;
-    /// [`Stats::over_stretched`](crate::Stats) and an event report this.
+    /// Pins and grabs take precedence: where they hold the cloth further apart, links exceed the
+    /// limit; [`Stats::over_stretched`](crate::Stats) and an event report this.
     pub max_stretch: f32,
     /// Enables long-range attachments, which limit the distance of each particle to the pins.
     /// Default: on.

@@ -191,6 +191,7 @@ fn find_root(fan: &mut [Corner], mut corner: Corner) -> Corner {
     corner
 }
 
+/// Joins the fans of two corners.
 fn join_fans(fan: &mut [Corner], one: Corner, other: Corner) {
     let (one, other) = (find_root(fan, one), find_root(fan, other));
     fan[one.max(other) as usize] = one.min(other);

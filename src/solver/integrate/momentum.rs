@@ -6,7 +6,7 @@
 //! ```
 //! Internal forces change neither linear nor angular momentum. Position-based stages do a little:
 //! they move particles along lines of the current positions, while velocities count from earlier
-//! positions r (see `Scheme`), so each move has a small torque about r. Mostly these cancel; in
+//! positions r (see `BdfScheme`), so each move has a small torque about r. Mostly these cancel; in
 //! cloth that presses against itself, as crumpled paper does, the rest would turn it for ever. So
 //! the rigid motion with the momenta of Δ is subtracted from all positions.
 //!

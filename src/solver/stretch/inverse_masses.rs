@@ -38,7 +38,7 @@ pub(crate) fn refresh(world: &mut World) {
     constraints.sparse.compute_inverse_masses(|kind, ends| weights.of(ends, rigid[kind]));
 }
 
-/// Sets each row's `even` to its longest run of links whose ends have equal weights.
+/// Sets each row's `equal_mass` to its longest run of links whose ends have equal weights.
 fn update_even_ranges(rows: &mut GridRows, is_even: &[bool]) {
     for row in &mut rows.rows {
         row.equal_mass = [row.first; 2];
