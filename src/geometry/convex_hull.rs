@@ -2,7 +2,7 @@
 //!
 //! Start with a tetrahedron of far points. For each further point, remove the triangles that it
 //! sees (those whose plane it lies in front of) and join the horizon, the boundary of the hole, to
-//! the point (O'Rourke, "Computational Geometry in C", 1998, sec. 4.3). In f64, with a tolerance
+//! the point (O'Rourke, "Computational Geometry in C", 1998, ch. 4). In f64, with a tolerance
 //! relative to the size of the point set.
 //!
 //! Reads the points; returns new lists.

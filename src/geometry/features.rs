@@ -11,8 +11,9 @@
 //! ```
 //! The normal cones of all features tile the sphere of directions (the Gauss map of a polyhedron).
 //! Edge and vertex contacts are accepted only inside the cone of their feature, so contact normals
-//! never turn by more than the shape itself does (Ericson, "Real-Time Collision Detection", 2005,
-//! sec. 9.3 on Voronoi regions; Gottschalk, Lin, Manocha, SIGGRAPH 1996, for edge–edge axes).
+//! never turn by more than the shape itself does. Compare Mirtich, "V-Clip: Fast and robust
+//! polyhedral collision detection", ACM TOG 1998, for Voronoi regions, and Gregorius, "The
+//! separating axis test between convex polyhedra", GDC 2013, for the Gauss map.
 //!
 //! Reads triangles once, at construction, or heightfield cells on the fly; writes only its own
 //! lists.
@@ -53,7 +54,7 @@ impl SurfaceBend {
     }
 }
 
-/// On which sides of a feature there is free space.
+/// The sides of a feature that are free space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FeatureSides {
     /// On the side of `outward`; behind it lies a solid.

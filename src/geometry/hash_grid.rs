@@ -1,9 +1,8 @@
 //! A uniform grid with wrapped cell coordinates: all pairs of points within a radius.
 //!
-//! Points are sorted into cubic cells by counting sort (Green, "Particle Simulation using CUDA",
-//! 2010). The grid is a torus of 2ᵃ × 2ᵇ × 2ᶜ cells: coordinates are taken modulo the size, so a
-//! table of fixed size holds points at any position. Cells that share an entry are far from each
-//! other in space.
+//! Points are sorted into cubic cells by counting sort. The grid is a torus of 2ᵃ × 2ᵇ × 2ᶜ cells:
+//! coordinates are taken modulo the size, so a table of fixed size holds points at any position.
+//! Cells that share an entry are far from each other in space.
 //!
 //! ```text
 //! each cell is paired with itself and 13 of its 26 neighbours: every pair of cells meets once

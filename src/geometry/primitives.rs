@@ -177,9 +177,9 @@ mod tests {
     use super::*;
 
     /// Asserts that the normal is the gradient of the distance and leads to the surface.
-    fn assert_is_distance(solid: &impl SignedDistance, reach: f32) {
+    fn assert_is_distance(solid: &impl SignedDistance, extent: f32) {
         for i in 0..300 {
-            let wave = |k: f32| (i as f32 * k).sin() * reach;
+            let wave = |k: f32| (i as f32 * k).sin() * extent;
             let p = Vec3::new(wave(1.13), wave(2.31), wave(0.77));
             let (d, out) = solid.signed_distance(p);
             assert!((out.length() - 1.0).abs() < 1.0e-5, "at {p}: {out}");

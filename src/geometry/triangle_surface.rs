@@ -107,19 +107,20 @@ impl CandidateTriangles<'_> {
             if fall * above >= 0.0 {
                 continue;
             }
-            let share = -above / fall;
-            let is_past = share.is_nan() || share > 1.0;
-            if is_past || first.is_some_and(|(before, _)| before <= share) {
+            let fraction = -above / fall;
+            let is_past = fraction.is_nan() || fraction > 1.0;
+            if is_past || first.is_some_and(|(before, _)| before <= fraction) {
                 continue;
             }
-            let at = triangle.corners.map(|corner| corner - (from + path * share));
+            let at = triangle.corners.map(|corner| corner - (from + path * fraction));
             let miss = interpolate(at, triangle_to_origin(at)).length_squared();
             let size = (at[1] - at[0]).length_squared() + (at[2] - at[0]).length_squared();
             if miss <= HIT_TOLERANCE * HIT_TOLERANCE * size {
-                first = Some((share, if above > 0.0 { triangle.normal } else { -triangle.normal }));
+                let outward = if above > 0.0 { triangle.normal } else { -triangle.normal };
+                first = Some((fraction, outward));
             }
         }
-        first.map(|(share, outward)| (from + path * share, outward))
+        first.map(|(fraction, outward)| (from + path * fraction, outward))
     }
 
     /// Returns the distance of a point from the surface [m] and the direction from the closest

@@ -66,7 +66,8 @@ leveled! {
     /// Converts directions to octahedral coordinates in -1..=1, which replace x and y: the
     /// direction is projected onto the octahedron |x| + |y| + |z| = 1, and its lower half is folded
     /// outward over the diagonals. Zero stays zero.
-    pub(crate) fn to_octahedral(x: &mut FloatBlock, y: &mut FloatBlock, z: &FloatBlock) = octahedral_lanes
+    pub(crate) fn to_octahedral(x: &mut FloatBlock, y: &mut FloatBlock, z: &FloatBlock)
+        = octahedral_lanes
 }
 
 #[inline(always)]

@@ -226,7 +226,7 @@ impl Simd for Scalar {
 /// Mesh links use it: each lane is one link, and its two points lie anywhere in the interleaved
 /// `[x, y, z, w]` buffer.
 pub(crate) trait GatherPairs: Simd {
-    /// What [`GatherPairs::scatter_pairs`] needs to know of the points that were gathered.
+    /// The gathered points, or their addresses, for [`GatherPairs::scatter_pairs`].
     type Pairs: Copy;
 
     /// Gathers the two points of every lane, and returns them with the vectors from the first point

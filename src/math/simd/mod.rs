@@ -1,12 +1,12 @@
-//! SIMD dispatch: each kernel is compiled once per instruction set, and the CPU selects one copy at
-//! run time (function multiversioning).
+//! SIMD dispatch (function multiversioning): each kernel is compiled once per instruction set, and
+//! the copy for the widest instruction set of the CPU is called at run time.
 //!
 //! ```text
-//! Level       x86-64        aarch64   WebAssembly   other
-//! Scalar      tests only    tests     no SIMD       yes
-//! Baseline    SSE2          NEON      simd128       -
-//! Avx2        AVX2          -         -             -
-//! Avx512      AVX-512 F+VL  -         -             -
+//! Level       x86-64          aarch64        WebAssembly             other targets
+//! Scalar      in tests only   in tests only  built without simd128   always
+//! Baseline    SSE2            NEON           simd128                 -
+//! Avx2        AVX2            -              -                       -
+//! Avx512      AVX-512 F + VL  -              -                       -
 //! ```
 //!
 //! [`Level::best`] is asked once, when a cloth is created. Each dispatched function then takes the
@@ -64,7 +64,7 @@ pub(crate) enum Level {
         allow(dead_code)
     )]
     Scalar,
-    /// What every CPU of the target has: SSE2, NEON or simd128, four lanes.
+    /// The instructions that every CPU of the target has: SSE2, NEON or simd128, four lanes.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))]
     Baseline,
     /// AVX2, eight lanes.

@@ -2,11 +2,9 @@
 //! top.
 //!
 //! ```text
-//!             surface
-//!          ___________
-//!       ╱       ↕ sagitta ╲          a chord between two particles on a round surface lies inside
-//!    ●─────────── L ─────────●       it, by up to the sagitta L² / (8 R)
-//!                                    (L: diagonal of a cell, √2 of its side)
+//!        _____________        surface of radius R
+//!     ╱        ↕        ╲     A chord of length L between two particles on the surface lies inside
+//!   ●────────  L  ────────●   by up to the sagitta L² / (8 R).  (L: diagonal of a cell)
 //! ```
 //! If particles stay that much farther out, the triangles between them stay outside too: then
 //! particles alone carry the cloth, and it rests still. Where the sagitta would be too large,

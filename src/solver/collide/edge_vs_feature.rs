@@ -30,12 +30,12 @@ const CONE_TOLERANCE: f32 = 1.0e-3;
 /// Edges at a smaller angle than this to an edge feature (its sine squared) have no contact normal.
 const MIN_SINE2: f32 = 1.0e-4;
 
-/// Pairs farther than so many gaps apart in the first round are left out of the other rounds.
+/// Pairs that are farther apart than this many gaps before the first round are not tested.
 const CLOSE_GAPS: f32 = 4.0;
 
-/// What is the same for all pairs of a collider in a substep.
+/// The data that all pairs of one collider share in a substep.
 #[derive(Clone, Copy)]
-pub(super) struct FeatureContacts<'a> {
+pub(super) struct FeatureQuery<'a> {
     pub shape: &'a CollisionShape,
     pub candidates: Candidates<'a>,
     /// The distance to keep from features [m].
@@ -47,20 +47,20 @@ pub(super) struct FeatureContacts<'a> {
 /// Collects the indices of the pairs that are close enough to touch in this substep: edge pairs
 /// first, then vertex pairs, numbered after all edge pairs. `local_positions` is a buffer.
 pub(super) fn collect_close_pairs(
-    features_of_body: &FeatureContacts<'_>,
+    query: &FeatureQuery<'_>,
     particles: &LocalParticles<'_>,
     local_positions: &mut Vec<Vec3>,
     close_pairs: &mut Vec<u32>,
 ) {
-    let Candidates { edges, vertices, .. } = features_of_body.candidates;
-    let features = features_of_body.candidates.features(features_of_body.shape);
+    let Candidates { edges, vertices, .. } = query.candidates;
+    let features = query.candidates.features(query.shape);
     close_pairs.clear();
     if edges.is_empty() && vertices.is_empty() {
         return;
     }
     local_positions.clear();
     local_positions.extend((0..particles.w.len()).map(|i| particles.end(i)));
-    let distance = features_of_body.gap * CLOSE_GAPS;
+    let distance = query.gap * CLOSE_GAPS;
     // Height and normal both have the length of the unnormalised normal as a factor; NaN counts as
     // close.
     let is_close = |height: f32, normal: Vec3| {
@@ -90,22 +90,22 @@ pub(super) fn collect_close_pairs(
 /// Pushes the close pairs out of the shape once. Returns the depth of the deepest penetration [m],
 /// 0 if there was none.
 pub(super) fn solve(
-    features_of_body: &FeatureContacts<'_>,
+    query: &FeatureQuery<'_>,
     particles: &mut LocalParticles<'_>,
     close_pairs: &[u32],
     pushes: &mut PushAccumulator,
 ) -> f32 {
-    let candidates = features_of_body.candidates;
-    let features = candidates.features(features_of_body.shape);
+    let candidates = query.candidates;
+    let features = candidates.features(query.shape);
     let mut deepest = 0.0;
     pushes.reset(particles.w.len());
     for at in close_pairs {
         let at = *at as usize;
         let contact = match candidates.edges.get(at) {
-            Some(pair) => edge_contact(features_of_body, features, particles, pair),
+            Some(pair) => edge_contact(query, features, particles, pair),
             None => {
                 let pair = &candidates.vertices[at - candidates.edges.len()];
-                vertex_contact(features_of_body, features, particles, pair)
+                vertex_contact(query, features, particles, pair)
             }
         };
         let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
@@ -123,7 +123,7 @@ pub(super) fn solve(
 /// Returns the contact of a cloth edge with an edge feature, as a triangle whose third corner has
 /// no weight.
 fn edge_contact(
-    features_of_body: &FeatureContacts<'_>,
+    query: &FeatureQuery<'_>,
     features: &Features,
     particles: &LocalParticles<'_>,
     pair: &EdgeEdgePair,
@@ -133,11 +133,11 @@ fn edge_contact(
     let end = [particles.end(i), particles.end(j)];
     let start = [particles.start(i), particles.start(j)];
     let (normal, height) = edge_normal(edge, end)?;
-    if height >= features_of_body.gap {
+    if height >= query.gap {
         return None;
     }
-    let center_depth = features_of_body.shape.depth_of_center(edge.ends[0], normal);
-    let most = min(center_depth, features_of_body.max_depth);
+    let center_depth = query.shape.depth_of_center(edge.ends[0], normal);
+    let most = min(center_depth, query.max_depth);
     let (fraction, penetration) = if height > -most {
         let is_two_sided = edge.sides == FeatureSides::TwoSided;
         if is_two_sided && !start.iter().all(|x| edge.is_outside(*x)) {
@@ -150,7 +150,7 @@ fn edge_contact(
             return None;
         }
         let depenetration = particles.depenetration;
-        let gap = features_of_body.gap;
+        let gap = query.gap;
         (fraction, depenetration.penetration(normal, gap, start_height, height)?)
     } else {
         // The edge is beyond the center, so it counts only if it came through the edge feature.
@@ -160,7 +160,7 @@ fn edge_contact(
         }
         let time = start_height / (start_height - height);
         let crossing = [0, 1].map(|k| start[k] + (end[k] - start[k]) * time);
-        let penetration = Penetration::new(normal, features_of_body.gap - height);
+        let penetration = Penetration::new(normal, query.gap - height);
         (edge_crossing(edge, crossing, normal)?, penetration)
     };
     let weights = [1.0 - fraction, fraction, 0.0];
@@ -196,7 +196,7 @@ fn edge_crossing(edge: &EdgeFeature, [a, b]: [Vec3; 2], normal: Vec3) -> Option<
 
 /// Returns the contact of a cloth triangle with a vertex feature.
 fn vertex_contact(
-    features_of_body: &FeatureContacts<'_>,
+    query: &FeatureQuery<'_>,
     features: &Features,
     particles: &LocalParticles<'_>,
     pair: &VertexTrianglePair,
@@ -206,11 +206,11 @@ fn vertex_contact(
     let end = corners.map(|i| particles.end(i));
     let start = corners.map(|i| particles.start(i));
     let (normal, height) = vertex_normal(features, vertex, end, start)?;
-    if height >= features_of_body.gap {
+    if height >= query.gap {
         return None;
     }
-    let center_depth = features_of_body.shape.depth_of_center(vertex.position, normal);
-    let most = min(center_depth, features_of_body.max_depth);
+    let center_depth = query.shape.depth_of_center(vertex.position, normal);
+    let most = min(center_depth, query.max_depth);
     let contact = if height > -most {
         let is_two_sided = vertex.sides == FeatureSides::TwoSided;
         if is_two_sided && !start.iter().all(|x| features.is_outside_vertex(vertex, *x)) {
@@ -219,7 +219,7 @@ fn vertex_contact(
         let weights = projected_weights(end, vertex.position, normal)?;
         let start_height = (interpolate(start, weights) - vertex.position).dot(normal);
         let depenetration = particles.depenetration;
-        let gap = features_of_body.gap;
+        let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
         TriangleContact { weights, penetration }
     } else {
@@ -227,7 +227,7 @@ fn vertex_contact(
         if back.dot(normal) <= 0.0 {
             return None;
         }
-        let penetration = Penetration::new(normal, features_of_body.gap - height);
+        let penetration = Penetration::new(normal, query.gap - height);
         TriangleContact { weights, penetration }
     };
     Some((corners, contact))

@@ -10,7 +10,7 @@
 //!
 //! Friction is Coulomb friction on positions: of the tangential motion relative to the surface, a
 //! correction of depth d takes back up to μ d (Macklin, Müller, Chentanez, Kim, "Unified particle
-//! physics for real-time applications", SIGGRAPH 2014, sec. 6.1).
+//! physics for real-time applications", SIGGRAPH 2014).
 //!
 //! Reads predicted positions, displacements, velocities and inverse masses; writes positions and
 //! the list of contacts.

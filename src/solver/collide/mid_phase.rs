@@ -11,7 +11,7 @@
 //! triangles query the BVH of features; the rest is tested by distance. Features that bend little
 //! count as smooth and are left out: there particles keep a margin instead.
 //!
-//! Reads the mesh and local positions; writes [`CandidatePairs`].
+//! Reads the mesh and local positions; writes [`ColliderPairs`].
 //! Invariant: until a particle moves farther than the search allowed for, every pair that can touch
 //! is listed.
 
@@ -28,10 +28,10 @@ const BLOCK: usize = 32;
 
 /// The candidate pairs of all colliders.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct CandidatePairs {
+pub(crate) struct ColliderPairs {
     edges: Vec<EdgeEdgePair>,
     vertices: Vec<VertexTrianglePair>,
-    /// Where the faces of each particle begin in `faces`.
+    /// For each particle the index of its first entry in `faces`.
     face_starts: Vec<u32>,
     faces: Vec<u32>,
     /// The features of heightfields near the cloth, which are made on the fly.
@@ -59,7 +59,7 @@ pub(crate) struct VertexTrianglePair {
     pub particles: [u32; 3],
 }
 
-/// The part of [`CandidatePairs`] that belongs to one collider.
+/// The part of [`ColliderPairs`] that belongs to one collider.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CandidateRange {
     edges: [u32; 2],
@@ -141,7 +141,7 @@ impl PairSearch {
     }
 }
 
-impl CandidatePairs {
+impl ColliderPairs {
     /// Allocates for the usual number of pairs: up to four colliders with flat faces, each near
     /// much of the cloth. More pairs allocate when they are first found.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {

@@ -34,7 +34,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::transform::Transform;
 use crate::math::saturate;
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
-use crate::solver::collide::edge_vs_feature::FeatureContacts;
+use crate::solver::collide::edge_vs_feature::FeatureQuery;
 use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, LocalParticles};
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
@@ -165,7 +165,7 @@ fn solve_colliders(
             continue;
         }
         if shape.bends().is_some() {
-            let features = FeatureContacts {
+            let features = FeatureQuery {
                 shape,
                 candidates: neighbours.candidates,
                 gap: gap * TRIANGLE_GAP,

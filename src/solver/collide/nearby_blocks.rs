@@ -15,7 +15,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::SurfaceBend;
 use crate::math::columns::Columns;
 use crate::math::max;
-use crate::solver::collide::mid_phase::{CandidatePairs, CandidateRange, Candidates};
+use crate::solver::collide::mid_phase::{CandidateRange, Candidates, ColliderPairs};
 use crate::state::colliders::ColliderBody;
 use crate::state::pose::Pose;
 use glam::Vec3;
@@ -39,10 +39,10 @@ pub(crate) struct NearbyBlocks {
     pub(super) longest_edge: f32,
     /// Whether the next refresh must rebuild.
     pub(super) is_stale: bool,
-    pub(super) candidates: CandidatePairs,
+    pub(super) candidates: ColliderPairs,
 }
 
-/// What is near one collider.
+/// The state of one collider in the broad phase.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ColliderEntry {
     /// The swept bounds of this tick, and those of the last rebuild.
@@ -69,7 +69,7 @@ pub(super) enum SweptBounds {
     HalfSpaces([(Vec3, Vec3); 2]),
 }
 
-/// What is near one collider, for the narrow phases.
+/// The blocks and candidate pairs near one collider, for the narrow phases.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Neighbours<'a> {
     pub particle_blocks: &'a [u32],
@@ -82,8 +82,8 @@ pub(super) struct Neighbours<'a> {
 }
 
 impl NearbyBlocks {
-    /// Allocates for `bodies` colliders and so many particles and triangles, and invalidates what
-    /// is there.
+    /// Allocates for `bodies` colliders, `particles` particles and `triangles` triangles, and
+    /// invalidates the current blocks.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         let particle_blocks = particles.div_ceil(BLOCK);
         let triangle_blocks = triangles.div_ceil(BLOCK);

@@ -7,9 +7,9 @@
 //! heightfield                    samples along the path, half a cell apart
 //! ```
 //! Continuous detection for solids is conservative advancement (Mirtich, "Impulse-based dynamic
-//! simulation", 1996): step along the path to the plane in front of the body, until the surface is
-//! reached or the path ends. Concave places are resolved by projecting onto up to four planes, one
-//! after the other.
+//! simulation of rigid body systems", 1996): step along the path to the plane in front of the body,
+//! until the surface is reached or the path ends. Concave places are resolved by projecting onto up
+//! to four planes, one after the other.
 //!
 //! Reads local particles and candidate faces; writes positions and contacts through
 //! [`LocalParticles`], and lower bounds of distances.

@@ -20,7 +20,7 @@ use crate::solver::world::World;
 use crate::state::particles::Particles;
 use glam::Vec3;
 
-/// What all contacts of a substep have in common.
+/// The parameters that all contacts of a substep share.
 #[derive(Clone, Copy)]
 struct ResponseParameters {
     /// The length of the substep [s].

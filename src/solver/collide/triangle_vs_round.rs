@@ -13,7 +13,7 @@
 //!
 //! Reads local particles, blocks of triangles and clearances; writes positions through
 //! [`PushAccumulator`].
-//! Invariant: only triangles with a corner within reach of the shape are tested, so no others move.
+//! Invariant: only triangles with a corner near the shape are tested, so no others move.
 
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::geometry::collision_shape::CollisionShape;
@@ -63,12 +63,12 @@ pub(super) fn solve(
     pushes.reset(particles.w.len());
     // No point of a triangle is farther from its nearest corner than this fraction of its longest
     // edge.
-    let reach = gap + 0.58 * neighbours.longest_edge;
+    let limit = gap + 0.58 * neighbours.longest_edge;
     for block in neighbours.triangle_blocks {
         let first = *block as usize * BLOCK;
         for corners in &triangles[first..(first + BLOCK).min(triangles.len())] {
             let corners = corners.map(|i| i as usize);
-            if corners.iter().all(|i| clearance[*i] > reach) {
+            if corners.iter().all(|i| clearance[*i] > limit) {
                 continue;
             }
             let start = corners.map(|i| particles.start(i));
