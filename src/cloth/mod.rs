@@ -22,9 +22,11 @@ mod colliders;
 mod crease;
 mod cut;
 pub(crate) mod desc;
+mod grabs;
 mod interpolated_surface;
 mod mass_scales;
 mod outputs;
+mod parameters;
 mod pins;
 mod postcard;
 pub(crate) mod query;
@@ -48,15 +50,10 @@ use crate::cloth::outputs::Outputs;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
-use crate::model::material::Material;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
-use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::world::World;
 use crate::state::events::Event;
-use crate::state::grabs::{Grab, GrabbedParticle};
-use crate::state::settings::Settings;
-use crate::state::wind::Wind;
 use glam::Vec3;
 
 /// A simulated piece of cloth: particles joined by constraints, with the triangle mesh that is
@@ -261,110 +258,6 @@ impl Cloth {
         self.update_state();
     }
 
-    /// Returns the current settings.
-    pub fn settings(&self) -> &Settings {
-        &self.world.settings
-    }
-
-    /// Replaces the settings; they take effect with the next tick. Velocities stay as they are.
-    ///
-    /// A change wakes a sleeping cloth.
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
-    /// unchanged.
-    pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
-        settings.check()?;
-        let world = &mut self.world;
-        world.check_self_distance(&settings)?;
-        let changes_scheme = settings.scheme() != world.settings.scheme();
-        let self_collision =
-            |settings: &Settings| (settings.self_collision, settings.self_distance);
-        let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
-        let had_no_surface_collision = world.surface_collision.is_none();
-        world.scratch.tear.reserve(settings.max_tears(world.triangle_capacity));
-        let was_unlimited = world.settings.max_stretch == 0.0;
-        if settings != world.settings {
-            world.wake();
-        }
-        world.settings = settings;
-        if was_unlimited {
-            world.rebuild_pin_order();
-        }
-        if changes_self_collision {
-            with_float_env(|| {
-                world.rebuild_particle_collision();
-                world.rebuild_surface_collision();
-                if had_no_surface_collision {
-                    world.is_tangled = true;
-                    let count = world.particles.len() as u32;
-                    surface_stages::separate_splits(world, 0..count);
-                }
-            });
-        }
-        if changes_scheme {
-            with_float_env(|| {
-                world.reset_history();
-                world.refresh_soft_pin_masses();
-            });
-        }
-        if had_no_surface_collision && self.world.surface_collision.is_some() {
-            self.update_state();
-        }
-        Ok(())
-    }
-
-    /// Returns the current material.
-    pub fn material(&self) -> &Material {
-        &self.world.material
-    }
-
-    /// Replaces the material; it takes effect with the next tick. Velocities stay as they are.
-    ///
-    /// A change wakes a sleeping cloth. A new density changes the mass of every particle; mass
-    /// scales ([`Cloth::set_mass_scales`]) still apply.
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
-    /// unchanged.
-    pub fn set_material(&mut self, material: Material) -> Result<()> {
-        material.check()?;
-        let world = &mut self.world;
-        if material != world.material {
-            world.wake();
-        }
-        let changes_density = material.density != world.material.density;
-        world.scratch.contacts.nearby.invalidate();
-        world.material = material;
-        world.folds.reserve_hardening(&world.material);
-        with_float_env(|| {
-            world.constraints.update_compliances(&world.material);
-            if changes_density {
-                world.compute_masses();
-            }
-        });
-        Ok(())
-    }
-
-    /// Returns the current wind.
-    pub fn wind(&self) -> &Wind {
-        &self.world.wind
-    }
-
-    /// Replaces the wind; it takes effect with the next tick. A change wakes a sleeping cloth.
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
-    /// unchanged.
-    pub fn set_wind(&mut self, wind: Wind) -> Result<()> {
-        wind.check()?;
-        if wind != self.world.wind {
-            self.world.wake();
-        }
-        self.world.wind = wind;
-        Ok(())
-    }
-
     /// Runs the ticks that are due after `seconds` [s] of frame time, and returns how many ran.
     ///
     /// The remainder, less than one tick, is kept for the next call; [`Cloth::blend`] returns it as
@@ -478,51 +371,6 @@ impl Cloth {
         Ok(())
     }
 
-    /// Grabs a particle at its current position and returns a handle.
-    ///
-    /// The particle then follows the target of [`Cloth::move_grab`] exactly, at most
-    /// `max_displacement` per substep, and pulls the cloth along. Up to 64 grabs may exist at once,
-    /// e.g. one per pointer.
-    ///
-    /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
-    /// [`Error::Full`](crate::Error::Full) if there are 64 grabs already. The cloth is unchanged.
-    pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
-        check_index(particle, self.world.particles.len(), "particle")?;
-        let target = self.world.particles.x.at(particle as usize);
-        let handle =
-            self.world.grabs.insert(GrabbedParticle { particle, target }, "another grab")?;
-        with_float_env(|| self.world.refresh_inverse_mass(particle));
-        Ok(Grab(handle))
-    }
-
-    /// Sets the target of a grab [m].
-    ///
-    /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released;
-    /// [`Error::BadValue`](crate::Error::BadValue) if `target` is not finite. The cloth is
-    /// unchanged.
-    pub fn move_grab(&mut self, grab: Grab, target: Vec3) -> Result<()> {
-        check_finite(target, "target")?;
-        self.world.grabs.get_mut(grab.0, "grab")?.target = target;
-        Ok(())
-    }
-
-    /// Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
-    /// returns to its pin over the next tick.
-    ///
-    /// # Errors
-    /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released before.
-    pub fn release(&mut self, grab: Grab) -> Result<()> {
-        let held = self.world.grabs.remove(grab.0, "grab")?;
-        let (at, world) = (held.particle, &mut self.world);
-        if let Some(pin) = world.pins.get_mut(at) {
-            pin.from = world.particles.x.at(at as usize);
-        }
-        with_float_env(|| world.refresh_inverse_mass(at));
-        Ok(())
-    }
-
     /// Removes and returns the oldest unread event; `None` if there is none. The newest 1024 are
     /// kept.
     ///
@@ -530,7 +378,7 @@ impl Cloth {
     ///
     /// - recoveries ([`EventKind::Recovered`](crate::EventKind));
     /// - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
-    /// - the used-up reserve, if there was no room for another tear;
+    /// - the used-up reserve, if the reserve cannot hold another tear;
     /// - detached pieces, ordered by their first triangle;
     /// - links that pins or grabs hold past `max_stretch`.
     ///

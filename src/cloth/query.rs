@@ -1,7 +1,8 @@
-//! Queries: ray casts, picking a particle with a ray, and the links of the solver.
+//! Queries: ray casts and the links of the solver.
 //!
-//! Ray against triangle: Möller and Trumbore 1997, in `geometry::ray`. Reads `World`; only
-//! `grab_ray` writes (a grab).
+//! Ray against triangle: Möller and Trumbore, JGT 1997, in `geometry::ray`.
+//!
+//! Reads `World`; writes nothing.
 //! Invariant: of equally near hits, the one with the lowest index is returned.
 
 use crate::cloth::Cloth;
@@ -9,7 +10,6 @@ use crate::error::{Result, check, check_finite};
 use crate::geometry::ray::Ray;
 use crate::math::float_env::with_float_env;
 use crate::model::links::LinkKind;
-use crate::state::grabs::Grab;
 use glam::Vec3;
 
 /// Where a ray hits a cloth.
@@ -69,37 +69,8 @@ impl Cloth {
         Ok(with_float_env(|| self.first_hit(&ray, max_distance)))
     }
 
-    /// Grabs the particle that a ray points at, and returns its handle and the particle's position
-    /// [m]; `None` if there is no such particle.
-    ///
-    /// The particle is the nearest corner of the first triangle that the ray hits; if it hits none,
-    /// the particle nearest to the ray within `radius` [m]. See [`Cloth::grab_particle`].
-    ///
-    /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) if `origin` or `direction` is not finite,
-    /// `direction` is zero, or `radius` is negative or not finite;
-    /// [`Error::Full`](crate::Error::Full) if there are 64 grabs already. The cloth is unchanged.
-    pub fn grab_ray(
-        &mut self,
-        origin: Vec3,
-        direction: Vec3,
-        radius: f32,
-    ) -> Result<Option<(Grab, Vec3)>> {
-        check(radius.is_finite() && radius >= 0.0, "radius", "be at least 0 and finite")?;
-        let ray = ray(origin, direction)?;
-        let picked = with_float_env(|| {
-            let hit = self.first_hit(&ray, f32::INFINITY).map(|hit| hit.particle);
-            hit.or_else(|| self.nearest_to(&ray, radius))
-        });
-        let Some(particle) = picked else {
-            return Ok(None);
-        };
-        let grab = self.grab_particle(particle)?;
-        Ok(Some((grab, self.world.particles.x.at(particle as usize))))
-    }
-
     /// Returns the nearest hit within `max_distance`.
-    fn first_hit(&self, ray: &Ray, max_distance: f32) -> Option<Hit> {
+    pub(super) fn first_hit(&self, ray: &Ray, max_distance: f32) -> Option<Hit> {
         let x = &self.world.particles.x;
         let mut first: Option<Hit> = None;
         for (index, vertices) in self.world.mesh.triangles.iter().enumerate() {
@@ -138,7 +109,7 @@ impl Cloth {
     }
 
     /// Returns the particle nearest to the ray, within `radius`.
-    fn nearest_to(&self, ray: &Ray, radius: f32) -> Option<u32> {
+    pub(super) fn nearest_to(&self, ray: &Ray, radius: f32) -> Option<u32> {
         let mut nearest = None;
         let mut least = radius;
         for (particle, x) in self.world.particles.x.iter().enumerate() {
@@ -152,7 +123,7 @@ impl Cloth {
 }
 
 /// Checks the arguments and returns a ray with a unit direction.
-fn ray(origin: Vec3, direction: Vec3) -> Result<Ray> {
+pub(super) fn ray(origin: Vec3, direction: Vec3) -> Result<Ray> {
     check_finite(origin, "origin")?;
     check_finite(direction, "direction")?;
     with_float_env(|| {

@@ -65,14 +65,14 @@ struct SaveData<'a> {
     triangles: CowOf<'a, Vec<[u32; 3]>>,
     sources: CowOf<'a, Vec<u32>>,
     crossings: CowOf<'a, Vec<CutSite>>,
-    hems: CowOf<'a, Vec<u8>>,
+    rest_borders: CowOf<'a, Vec<u8>>,
     seams: CowOf<'a, Option<Seams>>,
     links: LinkChanges,
     /// Tethers as tears left them; empty if measuring gives the same.
     tethers: Vec<TetherSet>,
     folds: PerKind<Vec<f32>>,
     /// Accumulated yield of the folds; empty if nothing has yielded.
-    wear: Vec<f32>,
+    hardening: Vec<f32>,
     particles: CowOf<'a, Particles>,
     mass_scales: CowOf<'a, MassScales>,
     pins: CowOf<'a, Pins>,
@@ -129,12 +129,12 @@ impl Cloth {
             triangles: CowOf::Borrowed(&world.mesh.triangles),
             sources: CowOf::Borrowed(&world.mesh.source),
             crossings: CowOf::Borrowed(&world.cut_sites),
-            hems: CowOf::Borrowed(&world.mesh.rest_borders),
+            rest_borders: CowOf::Borrowed(&world.mesh.rest_borders),
             seams: CowOf::Borrowed(&world.seams),
             links: world.constraints.link_changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.saved_angles(),
-            wear: world.folds.hardening.saved().to_vec(),
+            hardening: world.folds.hardening.saved().to_vec(),
             particles: CowOf::Borrowed(&world.particles),
             mass_scales: CowOf::Borrowed(&world.mass_scales),
             pins: CowOf::Borrowed(&world.pins),
@@ -231,7 +231,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
         world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
     }
     world.cut_sites = saved.crossings.into_owned();
-    require(sources.iter().all(|site| (*site as usize) < world.rest.len()))?;
+    require(sources.iter().all(|rest| (*rest as usize) < world.rest.len()))?;
     require(sources[..world.mesh.vertex_count()].iter().copied().eq(0..world.mesh.original_count))?;
     let particles = saved.particles.into_owned();
     require(particles.is_consistent(count) && is_finite(&particles))?;
@@ -240,15 +240,15 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
             && (saved.backlog.is_finite() && saved.backlog >= 0.0),
     )?;
 
-    let rest: Vec<Vec3> = sources.iter().map(|site| world.rest[*site as usize]).collect();
+    let rest: Vec<Vec3> = sources.iter().map(|rest| world.rest[*rest as usize]).collect();
     let original_count = world.mesh.original_count;
     let mesh = validate::validated_mesh(triangles, &rest, capacity).map_err(|_| bad())?;
     require(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
-    let fresh = core::mem::replace(&mut world.mesh, mesh);
+    let rest_mesh = core::mem::replace(&mut world.mesh, mesh);
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
-    require(saved.hems.len() == world.mesh.triangles.len())?;
-    world.mesh.rest_borders = saved.hems.into_owned();
+    require(saved.rest_borders.len() == world.mesh.triangles.len())?;
+    world.mesh.rest_borders = saved.rest_borders.into_owned();
     require(match (saved.seams.into_owned(), &mut world.seams) {
         (Some(mut seams), Some(fresh)) => {
             let fits = seams.restore_checked(fresh, &world.mesh);
@@ -258,7 +258,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
         (None, None) => true,
         _ => false,
     })?;
-    world.refresh_corner_areas(&fresh);
+    world.refresh_corner_areas(&rest_mesh);
     world.particles = particles;
     require(saved.mass_scales.are_valid(count))?;
     world.mass_scales = saved.mass_scales.into_owned();
@@ -268,8 +268,8 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.reserve(capacity);
     require(world.constraints.apply_changes(&world.mesh, &saved.links, &world.material))?;
     world.constraints.update_compliances(&world.material);
-    (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
-    require(world.restore_folds(saved.folds) && world.restore_hardening(saved.wear))?;
+    (0..world.rest.len() as u32).for_each(|rest| world.refresh_constraints_at(rest));
+    require(world.restore_folds(saved.folds) && world.restore_hardening(saved.hardening))?;
     world.reserve_for_tears();
     world.rebuild_irregular_lists();
     require(saved.anchors.are_valid(count))?;
@@ -356,7 +356,7 @@ fn restore_pins_and_grabs(
         (pin.particle as usize) < count && pin.is_valid() && has_live_carrier(pin.attachment)
     });
     let grabs_fit =
-        grabs.iter().all(|held| (held.particle as usize) < count && held.target.is_finite());
+        grabs.iter().all(|grab| (grab.particle as usize) < count && grab.target.is_finite());
     if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.capacity() == usize::from(MAX_GRABS)) {
         return Err(bad());
     }

@@ -63,9 +63,9 @@ impl Cloth {
                 anchor.backstop_radius,
             ]);
         }
-        for held in world.grabs.iter() {
-            hasher.write_u32(held.particle);
-            hasher.write_f32s(&held.target.to_array());
+        for grab in world.grabs.iter() {
+            hasher.write_u32(grab.particle);
+            hasher.write_f32s(&grab.target.to_array());
         }
         for body in world.colliders.iter() {
             body.desc.hash(&mut hasher);

@@ -2,7 +2,7 @@
 //!
 //! Reads the mesh; `solver::topology::tear` splits the vertex, as it does for an over-stretched
 //! link.
-//! Invariant: an edge that does not give way leaves the cloth unchanged.
+//! Invariant: an edge that does not tear leaves the cloth unchanged.
 
 use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_index};

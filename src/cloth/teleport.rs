@@ -122,7 +122,7 @@ impl World {
         let all = FrameMove::new(self.reference_pose, to);
         self.check_stays_finite(&all, &all)?;
         self.transform_with_frame(&all, &all);
-        self.grabs.iter_mut().for_each(|held| held.target = all.point(held.target));
+        self.grabs.iter_mut().for_each(|grab| grab.target = all.point(grab.target));
         self.reference_pose = to;
         Ok(())
     }
@@ -166,7 +166,7 @@ impl World {
         let mut anchors = self.anchors.iter();
         let are_finite = (0..p.len()).all(is_finite_after)
             && bodies.all(|body| now.pose(&body.last).position.is_finite())
-            && self.grabs.iter().all(|held| now.point(held.target).is_finite())
+            && self.grabs.iter().all(|grab| now.point(grab.target).is_finite())
             && carriers.all(|carrier| {
                 let ends = [now.pose(&carrier.last), then.pose(&carrier.next)];
                 ends.iter().all(|pose| pose.position.is_finite())

@@ -106,16 +106,16 @@ impl Cloth {
         let (needs_normals, needs_tangents) = (has(Attribute::Normal), has(Attribute::Tangent));
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
-        let placing = with_float_env(|| {
+        let transform = with_float_env(|| {
             VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, desc.transform)
         });
-        let is_usable = placing.can_transform_directions() || !(needs_normals || needs_tangents);
+        let is_usable = transform.can_transform_directions() || !(needs_normals || needs_tangents);
         check(
             is_usable,
             "transform",
             "be one that can be inverted when normals or tangents are written",
         )?;
-        if needs_normals || needs_tangents || placing.is_offset() {
+        if needs_normals || needs_tangents || transform.is_offset() {
             world.threads.run_in_pool(world.particles.len(), || {
                 with_float_env(|| outputs.update_surface(world, desc.blend, needs_tangents));
             });
@@ -124,7 +124,7 @@ impl Cloth {
         let particles = world.seams.as_ref().map(|_| self.vertex_particles());
         let writer = VertexWriter {
             level: world.level,
-            placing,
+            transform,
             x: world.particles.x.all(),
             last: world.particles.x_prev_tick.all(),
             surface: &self.outputs.surface,
@@ -146,16 +146,16 @@ fn write_triangles<const SIZE: usize>(
     bytes_of: impl Fn(u32) -> [u8; SIZE],
 ) {
     let (second, third) = if flip { (2, 1) } else { (1, 2) };
-    let places = buffer.as_chunks_mut().0.as_chunks_mut::<3>().0;
-    for (place, corners) in places.iter_mut().zip(indices.as_chunks::<3>().0) {
-        *place = [0, second, third].map(|k| bytes_of(corners[k]));
+    let triangles = buffer.as_chunks_mut().0.as_chunks_mut::<3>().0;
+    for (triangle, corners) in triangles.iter_mut().zip(indices.as_chunks::<3>().0) {
+        *triangle = [0, second, third].map(|k| bytes_of(corners[k]));
     }
 }
 
 /// The data that vertices are written from.
 struct VertexWriter<'a> {
     level: Level,
-    placing: VertexTransform,
+    transform: VertexTransform,
     x: [&'a [f32]; 3],
     last: [&'a [f32]; 3],
     surface: &'a InterpolatedSurface,
@@ -190,7 +190,7 @@ impl VertexWriter<'_> {
             None => load(to, columns),
         };
         let needs_normals = match attribute {
-            Attribute::Position => self.placing.is_offset(),
+            Attribute::Position => self.transform.is_offset(),
             attribute => attribute == Attribute::Tangent,
         };
         if needs_normals {
@@ -199,16 +199,16 @@ impl VertexWriter<'_> {
         match attribute {
             Attribute::Position => {
                 load_of_particles(vector, &self.x);
-                if self.placing.share != 1.0 {
+                if self.transform.share != 1.0 {
                     load_of_particles(last, &self.last);
-                    blend(self.level, vector, last, block.len(), self.placing.share);
+                    blend(self.level, vector, last, block.len(), self.transform.share);
                 }
-                self.placing.transform_positions(self.level, vector, normals);
+                self.transform.transform_positions(self.level, vector, normals);
                 w.fill(1.0);
             }
             Attribute::Normal => {
                 load_of_particles(vector, &self.surface.normals.all());
-                self.placing.transform_normals(self.level, vector);
+                self.transform.transform_normals(self.level, vector);
                 w.fill(0.0);
             }
             Attribute::Tangent => {
@@ -217,7 +217,7 @@ impl VertexWriter<'_> {
                 let (sums, handedness) = tangents.columns();
                 load(vector, &sums);
                 load(core::slice::from_mut(w), &[handedness]);
-                self.placing.transform_tangents(self.level, vector, normals, w);
+                self.transform.transform_tangents(self.level, vector, normals, w);
             }
             Attribute::Uv => {
                 let [u, v, ..] = vector;
@@ -226,19 +226,19 @@ impl VertexWriter<'_> {
                 }
             }
             Attribute::Frayed => {
-                let [frayed, rest, _] = vector;
+                let [frayed, padding, _] = vector;
                 let is_frayed = frayed.iter_mut().zip(&self.frayed[block]);
                 is_frayed.for_each(|(to, is)| *to = f32::from(*is));
-                rest.fill(0.0);
+                padding.fill(0.0);
             }
         }
     }
 }
 
 /// Interpolates from the positions of the last tick to those of the current one.
-fn blend(level: Level, x: &mut VertexBlock, last: &VertexBlock, count: usize, share: f32) {
+fn blend(level: Level, x: &mut VertexBlock, last: &VertexBlock, count: usize, factor: f32) {
     for (x, last) in x.iter_mut().zip(last) {
-        normals::blend(level, &mut x[..count], &last[..count], share);
+        normals::blend(level, &mut x[..count], &last[..count], factor);
     }
 }
 

@@ -54,8 +54,8 @@ impl<'a> ByteReader<'a> {
         for at in (0..bits).step_by(7) {
             let byte = self.byte();
             number |= u64::from(byte & 0x7f) << at;
-            let room = bits - at;
-            if room < 7 && byte >> room != 0 {
+            let remaining_bits = bits - at;
+            if remaining_bits < 7 && byte >> remaining_bits != 0 {
                 break;
             }
             if byte < 0x80 {
