@@ -20,8 +20,7 @@
 //!
 //! Reads hinges and rest positions; writes `TriangleStiffness` per triangle.
 //!
-//! Invariant: an element with all its hinges active has a positive definite energy
-//! (`MIN_DETERMINANT`).
+//! Invariant: M stays invertible, see `MIN_DETERMINANT`.
 
 use crate::math::max;
 use crate::model::hinge::{CurvatureResponse, Hinge};

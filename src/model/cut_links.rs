@@ -85,7 +85,7 @@ impl Constraints {
             match links.spec[at].support {
                 LinkSupport::Edge => self.update_edge_link(split, number, links_of),
                 LinkSupport::AcrossEdge(_) => {
-                    self.replace_across_link(rest_shape, split, number, links_of)
+                    self.replace_across_link(rest_shape, split, number, links_of);
                 }
                 LinkSupport::TwoEdges(_) => self.update_two_edge_link(split, number, links_of),
                 LinkSupport::Removed => {}

@@ -270,7 +270,7 @@ impl Folds {
         for (triangle, own) in hinges.elements.hinges().enumerate() {
             let curve = 0.5 * self.hardening.at(triangle);
             own.for_each(|hinge| {
-                self.hinge_hardening[hinge] += curve * hinges.all[hinge].fold_width()
+                self.hinge_hardening[hinge] += curve * hinges.all[hinge].fold_width();
             });
         }
     }

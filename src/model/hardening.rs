@@ -1,7 +1,8 @@
 //! Hardening and weakening: plastic curvature accumulated by folds, in both directions.
 //!
 //! With A the plastic angle that a fold has accumulated, h and k the material's hardening and
-//! weakening, and ℓ its fold length, the bend by a moment m and the yield angle become
+//! weakening, and ℓ its fold length, the angle by which a moment m bends the fold and the yield
+//! angle become
 //!
 //! ```text
 //! m ℓ / D · (1 + k A),    φ_y (1 + k A) + h A
@@ -12,9 +13,9 @@
 //! 1.2). The term k A keeps the yield moment constant: if a weakened element yielded at a smaller
 //! moment, the whole fold would concentrate in one element and depend on the mesh.
 //!
-//! The stored quantity is curvature, whose sum over the width of a fold is A, however the fold is
-//! spread: at an accumulated curvature κ the stiffness of the sheet is divided by 1 + k ℓ κ, in all
-//! directions.
+//! The stored quantity is curvature, whose integral across the width of a fold is A, however wide
+//! the fold is: at an accumulated curvature κ the stiffness of the sheet is divided by
+//! 1 + k ℓ κ, in all directions.
 //!
 //! Reads `Material` and changes of rest angles (`folds`); writes accumulated curvatures.
 //!
