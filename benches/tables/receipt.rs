@@ -46,8 +46,8 @@ pub fn print(effort: Effort) {
     }
     println!(
         "\nReceipt: ms per tick of 1/{RATE} s on one thread with normals, 40 x 60 particles; \
-         the links of the brief with\nparticle collision, paper with surface collision; minimum and median of \
-         {ROUNDS} rounds of {TICKS} ticks,\none situation after the other.\n"
+         the links of the brief with\nparticle collision, paper with surface collision; minimum and \
+         median of {ROUNDS} rounds of {TICKS} ticks,\none situation after the other.\n"
     );
     println!("{table}");
 }

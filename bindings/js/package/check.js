@@ -50,7 +50,8 @@ export function toVector(value, name, axes = "x, y, z") {
   const size = axes.split(", ").length;
   const isList = Array.isArray(value) || isNumericArray(value);
   if (!isList || value.length !== size) {
-    check(false, name, `be ${size} numbers [${axes}], but is ${isList ? value.length : describe(value)}`);
+    const found = isList ? `has ${value.length}` : `is ${describe(value)}`;
+    check(false, name, `be ${size} numbers [${axes}], but ${found}`);
   }
   return Array.from(value, (component) => toNumber(component, name));
 }
@@ -60,7 +61,8 @@ export function toFloat32Array(value, name, size) {
   const isList = Array.isArray(value) || isNumericArray(value);
   check(isList, name, `be a Float32Array or numbers, but is ${describe(value)}`);
   if (Array.isArray(value)) value.forEach((number) => toNumber(number, name));
-  check(value.length % size === 0, name, `hold ${size} numbers for each of its entries`);
+  const isWhole = value.length % size === 0;
+  if (!isWhole) check(false, name, `hold a multiple of ${size} numbers, but has ${value.length}`);
   return toSafeArray(value, Float32Array);
 }
 

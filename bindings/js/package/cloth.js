@@ -41,7 +41,7 @@ function makeCloth(build) {
     return new Cloth(CONSTRUCTOR_KEY, build());
   } catch (error) {
     if (!isTrap(error)) throw error;
-    throw new Error("no memory is left for such a cloth", { cause: error });
+    throw new Error("there is not enough memory for this cloth", { cause: error });
   }
 }
 

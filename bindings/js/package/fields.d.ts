@@ -374,7 +374,8 @@ export interface MeshDesc extends ClothDesc {
  * - `"box"`: extends by `halfExtents` along each axis, in both directions.
  * - `"convex"`: the convex hull of `positions`.
  * - `"mesh"`: the triangles of `positions` and `indices`. Each part of the cloth stays on the side
- *   where it is, so the mesh need not be closed or consistently oriented. Its gap is at least 0.1 mm.
+ *   where it is, so the mesh need not be closed or consistently oriented. Its gap is at least 0.1
+ *   mm.
  * - `"heightfield"`: everything below the surface over `columns` × `rows` heights, `spacing` apart
  *   along x and z from the local origin on. It is as deep as it is wide and has no sides.
  */

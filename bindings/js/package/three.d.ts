@@ -46,7 +46,7 @@ export class ClothGeometry extends BufferGeometry {
  * pointers can hold the cloth at once.
  *
  * If a press grabs the cloth, other listeners of the element do not get the event, so that
- * `OrbitControls` does not turn the camera meanwhile. Create it in any order with such controls.
+ * `OrbitControls` does not turn the camera meanwhile.
  *
  * It sets `touch-action: none` on the element. The mesh may have any position, rotation and
  * uniform scale in the scene.

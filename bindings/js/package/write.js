@@ -111,7 +111,7 @@ export function writeIndices(live, buffer, options) {
   check(last < 0xffffffff, "options.baseVertex", "leave every index below 4294967295");
   const count = live.index_count();
   const capacity = buffer.length;
-  if (count > capacity) check(false, "buffer", `have room for ${count} indices, but has it for ${capacity}`);
+  if (count > capacity) check(false, "buffer", `have room for ${count} indices, but has room for ${capacity}`);
   const staging = live.reserve_staging(count * buffer.BYTES_PER_ELEMENT);
   live.write_indices(isWide, flip, baseVertex);
   buffer.set(new buffer.constructor(requireMemory().buffer, staging, count));
