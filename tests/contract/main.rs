@@ -1,4 +1,5 @@
-//! The contract of the public interface: refused input, extreme input, pins, anchors, the demo's scenes.
+//! The contract of the public interface: refused input, extreme input, pins, anchors, the demo's
+//! scenes.
 
 #[path = "../common/mod.rs"]
 mod common;

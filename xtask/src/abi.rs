@@ -1,5 +1,6 @@
-//! What old programs rely on: the size of every struct, where its fields are, every value and every function,
-//! as the compiler sees them, against `include/muslin.abi`.
+//! Compares the binary interface of the C library with `include/muslin.abi`: the size of every
+//! struct, the offsets of its fields, every constant and every function, as the C compiler reports
+//! them. Programs that are already compiled rely on them.
 
 use std::path::PathBuf;
 
@@ -8,58 +9,62 @@ use crate::{c, files, shell};
 
 const COMMAND: &str = "MUSLIN_BLESS=1 cargo xtask c";
 
-fn path() -> PathBuf {
+fn abi_file() -> PathBuf {
     files::root().join("include/muslin.abi")
 }
 
-/// Fails where the header says other than the file; with `MUSLIN_BLESS` set, writes the file.
+/// Fails where the header differs from the file. With `MUSLIN_BLESS` set, writes the file.
 pub fn check() -> Result {
     let header = without_comments(&files::read(&files::root().join("include/muslin.h"))?);
-    let source = c::built().join("abi.c");
+    let source = c::program_dir().join("abi.c");
     files::write(&source, &program(&header))?;
-    let program = c::built().join("abi");
+    let program = c::program_dir().join("abi");
     let mut cc = shell::command("cc");
     cc.args(["-std=c99", "-Wall", "-Werror", "-I"]).arg(files::root().join("include"));
     shell::run(cc.arg("-o").arg(&program).arg(&source))?;
-    let laid_out = shell::output(&mut shell::command(&program))?;
-    let seen = format!(
-        "# What programs that are already built rely on, on 64-bit machines: lines may be added, not changed.\n\
-         # Written by {COMMAND}\n\n{laid_out}\n{}\n",
+    let layout = shell::output(&mut shell::command(&program))?;
+    let current = format!(
+        "# What programs that are already built rely on, on 64-bit machines: \
+         lines may be added, not changed.\n\
+         # Written by {COMMAND}\n\n{layout}\n{}\n",
         functions(&header).join("\n")
     );
     if std::env::var_os("MUSLIN_BLESS").is_some() {
-        files::write(&path(), &seen)?;
+        files::write(&abi_file(), &current)?;
     }
-    compare(&files::read(&path())?, &seen)
+    compare(&files::read(&abi_file())?, &current)
 }
 
-fn compare(kept: &str, seen: &str) -> Result {
-    let lost = kept.lines().find(|line| !seen.lines().any(|other| other == *line));
+fn compare(recorded: &str, current: &str) -> Result {
+    let lost = recorded.lines().find(|line| !current.lines().any(|other| other == *line));
     if let Some(line) = lost {
         return Err(Failure::new(format!(
-            "old programs rely on this, and it is so no more: {}; if that must be, see CHANGELOG.md and \
-             run: {COMMAND}",
+            "the header has changed what compiled programs rely on: {}; if that is intended, say \
+             why in CHANGELOG.md and run: {COMMAND}",
             line.trim()
         )));
     }
-    if kept != seen {
-        return Err(Failure::new(format!("include/muslin.abi lacks what is new; run: {COMMAND}")));
+    if recorded != current {
+        return Err(Failure::new(format!(
+            "include/muslin.abi lacks what the header adds; run: {COMMAND}"
+        )));
     }
     Ok(())
 }
 
+/// The text of a C header without its comments.
 pub fn without_comments(text: &str) -> String {
-    let mut kept = String::new();
+    let mut code = String::new();
     let mut rest = text;
     while let Some((before, comment)) = rest.split_once("/*") {
-        kept += before;
+        code += before;
         rest = comment.split_once("*/").map_or("", |(_, after)| after);
     }
-    kept += rest;
-    kept.lines().map(|line| line.split("//").next().unwrap_or_default().to_owned() + "\n").collect()
+    code += rest;
+    code.lines().map(|line| line.split("//").next().unwrap_or_default().to_owned() + "\n").collect()
 }
 
-/// A program that prints how structs are laid out and what constants are worth.
+/// A C program that prints the layout of every struct and the value of every constant.
 fn program(header: &str) -> String {
     let grows = |name: &str| {
         let body = header.split_once(&format!("typedef struct {name} {{"));
@@ -82,7 +87,7 @@ fn program(header: &str) -> String {
             let name = field.rsplit([' ', '*']).next().unwrap_or(field);
             let name = name.split('[').next().unwrap_or(name);
             let size = format!("sizeof((({of} *)0)->{name})");
-            // What grows pushes on what follows it, which the library allows for.
+            // A field that grows moves the fields behind it, which the library allows.
             lines.push(if grows(field.split(' ').next().unwrap_or(field)) {
                 format!("puts(\"  {of}.{name}: grows\");")
             } else {
@@ -90,24 +95,24 @@ fn program(header: &str) -> String {
             });
         } else if let Some(value) = line.strip_prefix("#define MUSLIN_") {
             let name = value.split(' ').next().unwrap_or(value);
-            lines.push(format!("tell(\"MUSLIN_{name}\", MUSLIN_{name});"));
+            lines.push(format!("print_value(\"MUSLIN_{name}\", MUSLIN_{name});"));
         } else if line.starts_with("MUSLIN_") && line.ends_with(',') {
             let name = line.split(' ').next().unwrap_or(line);
-            lines.push(format!("tell(\"{name}\", {name});"));
+            lines.push(format!("print_value(\"{name}\", {name});"));
         }
     }
     format!(
         "#include <muslin.h>\n#include <stdio.h>\n\
          static void print(const char *what, size_t at, size_t size) {{\n\
          printf(\"%s: at %lu, %lu bytes\\n\", what, (unsigned long)at, (unsigned long)size);\n}}\n\
-         static void tell(const char *what, unsigned long value) {{\n\
+         static void print_value(const char *what, unsigned long value) {{\n\
          printf(\"%s = %lu\\n\", what, value);\n}}\n\
          int main(void) {{\n{}\nreturn 0;\n}}\n",
         lines.join("\n")
     )
 }
 
-/// The functions as they are declared, each on a line.
+/// The declarations of all functions, each on one line, sorted.
 pub fn functions(header: &str) -> Vec<String> {
     let flat: Vec<&str> = header.lines().filter(|line| !line.starts_with('#')).collect();
     let mut found: Vec<String> = flat
@@ -144,8 +149,8 @@ mod tests {
             "print(\"  MuslinB.at\", offsetof(MuslinB, at), sizeof(((MuslinB *)0)->at));",
             "print(\"  MuslinB.list\", offsetof(MuslinB, list), sizeof(((MuslinB *)0)->list));",
             "puts(\"struct MuslinG: grows at its end\");",
-            "tell(\"MUSLIN_A\", MUSLIN_A);",
-            "tell(\"MUSLIN_S_OK\", MUSLIN_S_OK);",
+            "print_value(\"MUSLIN_A\", MUSLIN_A);",
+            "print_value(\"MUSLIN_S_OK\", MUSLIN_S_OK);",
         ] {
             assert!(program.contains(line), "{program}");
         }
@@ -155,10 +160,15 @@ mod tests {
     }
 
     #[test]
-    fn what_changes_is_refused_and_what_is_new_wants_to_be_kept() {
+    fn a_change_is_refused_and_an_addition_must_be_recorded() {
         assert!(compare("a\nb\n", "a\nb\n").is_ok());
         let changed = compare("a\n  b: at 4\n", "a\n  b: at 8\n").unwrap_err().to_string();
-        assert!(changed.contains("so no more: b: at 4"), "{changed}");
-        assert!(compare("a\n", "a\nb\n").unwrap_err().to_string().contains("lacks what is new"));
+        assert!(changed.contains("rely on: b: at 4"), "{changed}");
+        assert!(
+            compare("a\n", "a\nb\n")
+                .unwrap_err()
+                .to_string()
+                .contains("lacks what the header adds")
+        );
     }
 }

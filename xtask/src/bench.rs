@@ -1,4 +1,4 @@
-//! The benchmarks: tables of kernels and whole ticks, natively, in node and in a browser.
+//! Runs the benchmarks: tables of kernels and whole ticks, natively, in node and in a browser.
 
 use std::path::PathBuf;
 
@@ -6,77 +6,78 @@ use crate::failure::{Failure, Result};
 use crate::serve::{Mount, Server};
 use crate::{files, js, npm, setup, shell, wasm};
 
-/// The tables that are run natively; in node they go by one name.
+/// The tables of native code; in node all tables have one name.
 const NATIVE: [&str; 6] = ["kernels", "ticks", "shreds", "layers", "scenes", "receipt"];
 const NODE: &str = "node";
-/// What a page pays, in a browser; run only when it is named.
+/// The cost of a page in a browser; runs only by name.
 const PAGE: &str = "page";
-/// Others that have cloth for a page; run only when they are named, as they have to be fetched.
+/// Other cloth libraries for pages; they run only by name, since npm downloads them.
 const PEERS: &str = "peers";
-/// Leaves vectors wider than those of AVX2 unused, as on machines that have no others.
+/// Uses no vectors wider than those of AVX2, as on machines without AVX-512.
 const AVX2: &str = "avx2";
-/// Runs everything once and tiny.
+/// Runs every case once and with small meshes, as a test.
 const TEST: &str = "--test";
 
-/// Prints the tables that are named, or all.
-pub fn run(options: &[String]) -> Result {
-    let words: Vec<_> = options.iter().map(String::as_str).filter(|word| *word != "--").collect();
+/// Prints the tables that are named; without names, all native tables and the one in node.
+pub fn run(arguments: &[String]) -> Result {
+    let words: Vec<_> = arguments.iter().map(String::as_str).filter(|word| *word != "--").collect();
     let is_known =
         |word: &str| [NODE, PAGE, PEERS, AVX2, TEST].contains(&word) || NATIVE.contains(&word);
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
-            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, receipt, node, page, peers, avx2 and --test"
+            "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, \
+             receipt, node, page, peers, avx2 and --test"
         )));
     }
-    let test: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };
+    let options: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };
     let all = words.iter().all(|word| [AVX2, TEST].contains(word));
     let wanted = NATIVE.iter().copied().filter(|name| all || words.contains(name));
     let wanted: Vec<_> = wanted.collect();
     if !wanted.is_empty() {
-        // One thread costs the same with the feature as without.
+        // The feature does not change the cost of a single thread.
         let tables = ["bench", "--package=muslin", "--features=parallel", "--bench=tables", "--"];
         let mut cargo = shell::cargo(&tables);
         if words.contains(&AVX2) {
             cargo.env("RUSTFLAGS", "--cfg muslin_at_most_avx2");
             cargo.env("CARGO_TARGET_DIR", files::root().join("target/avx2"));
         }
-        shell::run(cargo.args(wanted).args(test))?;
+        shell::run(cargo.args(wanted).args(options))?;
     }
     if words.contains(&NODE) || all && !words.contains(&AVX2) {
-        in_node(test)?;
+        run_node(options)?;
     }
     if words.contains(&PAGE) {
-        in_a_page(test)?;
+        run_page(options)?;
     }
     if words.contains(&PEERS) {
-        beside_peers(test)?;
+        run_peers(options)?;
     }
     Ok(())
 }
 
-/// The npm package in a browser, beside a loop by hand.
-fn in_a_page(test: &[&str]) -> Result {
+/// Times the npm package in a browser beside a handwritten loop.
+fn run_page(options: &[&str]) -> Result {
     setup::ensure(&[&setup::NODE, &setup::CHROMIUM])?;
     js::build()?;
-    npm::install()?;
-    in_chromium("page/table.mjs", "page/index.html", test)
+    js::install_for_tests()?;
+    run_in_chromium("page/table.mjs", "page/index.html", options)
 }
 
-/// The npm package beside its peers, in node and in a browser.
-fn beside_peers(test: &[&str]) -> Result {
+/// Times the npm package beside other cloth libraries, in node and in a browser.
+fn run_peers(options: &[&str]) -> Result {
     setup::ensure(&[&setup::NODE, &setup::CHROMIUM])?;
     js::build()?;
-    npm::install()?;
+    js::install_for_tests()?;
     npm::install_in(&dir().join("peers"))?;
-    in_chromium("peers/node.mjs", "peers/index.html", test)
+    run_in_chromium("peers/node.mjs", "peers/index.html", options)
 }
 
-/// Runs a script of the benchmarks that plays one of their pages.
-fn in_chromium(script: &str, page: &str, test: &[&str]) -> Result {
-    let url = Server::open(mounts(), 0)?.run_aside() + page;
+/// Runs a benchmark script that opens a benchmark page in Chromium.
+fn run_in_chromium(script: &str, page: &str, options: &[&str]) -> Result {
+    let url = Server::open(mounts(), 0)?.spawn() + page;
     let chromium = setup::chromium().ok_or_else(|| Failure::new("chromium is missing"))?;
     let mut node = shell::command("node");
-    node.arg(dir().join(script)).args(test);
+    node.arg(dir().join(script)).args(options);
     shell::run(node.env("MUSLIN_URL", url).env("MUSLIN_CHROMIUM", chromium))
 }
 
@@ -84,7 +85,7 @@ fn dir() -> PathBuf {
     files::root().join("benches")
 }
 
-/// Where pages find the npm package, the benchmarks and each other.
+/// The folders that benchmark pages load from: the npm package and the benchmarks.
 pub fn mounts() -> Vec<Mount> {
     vec![
         Mount { at: "/js/", dir: js::dir() },
@@ -93,14 +94,14 @@ pub fn mounts() -> Vec<Mount> {
     ]
 }
 
-/// The npm package beside the plain loop as a wasm module of its own.
-fn in_node(test: &[&str]) -> Result {
+/// Times the npm package in node beside the plain loop, compiled to a wasm module of its own.
+fn run_node(options: &[&str]) -> Result {
     setup::ensure(&[&setup::NODE])?;
     js::build()?;
     let plain = wasm::compile("muslin-plain", wasm::PLAIN)?;
     let mut node = shell::command("node");
     node.arg(dir().join("node/tables.mjs"));
-    shell::run(node.arg(plain).args(test))
+    shell::run(node.arg(plain).args(options))
 }
 
 #[cfg(test)]
@@ -108,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unknown_table_is_named() {
+    fn an_unknown_table_is_refused_by_name() {
         let failure = run(&["kernel".into()]).err().unwrap().to_string();
         assert!(failure.contains("\"kernel\"") && failure.contains("ticks"), "{failure}");
     }

@@ -1,4 +1,4 @@
-//! Tests that need a browser: node scripts that drive Chromium at an address.
+//! Tests in a browser: node scripts that control Chromium.
 
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
@@ -7,7 +7,8 @@ use std::process::{Child, Stdio};
 use crate::failure::{During, Failure, Result};
 use crate::{npm, setup, shell};
 
-/// Runs a test file of node against a page; `paths` are further variables that it reads.
+/// Runs a test file in node against the page at `url`. `paths` are environment variables for it,
+/// each with its value.
 pub fn node_test(file: &str, url: &str, paths: &[(&str, &PathBuf)]) -> Result {
     setup::ensure(&[&setup::CHROMIUM])?;
     npm::install()?;
@@ -18,38 +19,38 @@ pub fn node_test(file: &str, url: &str, paths: &[(&str, &PathBuf)]) -> Result {
     shell::run(node.envs(paths.iter().copied()))
 }
 
-/// Another run of xtask that serves a page, until this is dropped.
-pub struct Served {
+/// Another process of xtask that serves a page until this is dropped.
+pub struct ServerProcess {
     child: Child,
-    /// Where the page is.
+    /// The address of the page.
     pub url: String,
 }
 
-impl Served {
-    /// Starts a chore and waits until it says where it serves.
-    pub fn by(args: &[&str]) -> Result<Self> {
+impl ServerProcess {
+    /// Starts a chore and waits until it prints the address of its page.
+    pub fn start(args: &[&str]) -> Result<Self> {
         let typed = format!("cargo xtask {}", args.join(" "));
         println!("$ {typed}");
         let child = shell::xtask(args)?.stdout(Stdio::piped()).spawn();
-        let mut served =
+        let mut server =
             Self { child: child.during(|| format!("starting `{typed}`"))?, url: String::new() };
-        let output = served.child.stdout.take().ok_or_else(|| Failure::new("no output"))?;
+        let output = server.child.stdout.take().ok_or_else(|| Failure::new("no output"))?;
         for line in BufReader::new(output).lines() {
-            let line = line.during(|| format!("reading what `{typed}` prints"))?;
+            let line = line.during(|| format!("reading the output of `{typed}`"))?;
             println!("{line}");
             let mut words = line.split_whitespace();
             if let Some(url) = words.find(|word| word.starts_with("http://127.0.0.1:")) {
-                served.url = url.into();
-                return Ok(served);
+                server.url = url.into();
+                return Ok(server);
             }
         }
-        Err(Failure::new(format!("`{typed}` ended without serving anything")))
+        Err(Failure::new(format!("`{typed}` ended without serving a page")))
     }
 }
 
-impl Drop for Served {
+impl Drop for ServerProcess {
     fn drop(&mut self) {
-        // If it has ended already there is nothing to end.
+        // Both fail if the process has ended already, which does no harm.
         self.child.kill().ok();
         self.child.wait().ok();
     }

@@ -1,4 +1,4 @@
-//! The demo: in a window, as a picture, as a page.
+//! Builds and runs the demo: in a window, as a picture, as a page.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -7,25 +7,26 @@ use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
 use crate::{files, picture, setup, shell, web};
 
-/// Runs the demo with its options.
+/// `cargo xtask demo`: runs the demo with its options, and ends this process with its status.
 pub fn run(options: &[String]) -> Result {
-    let given = |name: &str| options.iter().any(|option| option.split('=').next() == Some(name));
-    if given("--web") {
+    let has = |name: &str| options.iter().any(|option| option.split('=').next() == Some(name));
+    if has("--web") {
         return serve(options);
     }
-    if !given("--help") && !given("-h") {
-        if !given("--shot") && !setup::has_display() {
+    if !has("--help") && !has("-h") {
+        if !has("--shot") && !setup::has_display() {
             return Err(Failure::new(
-                "there is no display for a window; `cargo xtask demo --web` serves the demo as a page, \
+                "there is no display for a window; `cargo xtask demo --web` serves the demo as \
+                 a page, \
                  `cargo xtask demo --shot FILE.png` draws it without a screen",
             ));
         }
-        setup::ensure(if given("--shot") { &[&setup::EGL] } else { &[&setup::EGL, &setup::X11] })?;
+        setup::ensure(if has("--shot") { &[&setup::EGL] } else { &[&setup::EGL, &setup::X11] })?;
     }
     build()?;
     let mut demo = Command::new(files::target().join("release").join("muslin-demo"));
     let status = demo.args(options).status().during(|| "starting the demo".into())?;
-    // The demo has said why.
+    // The demo has printed its own error.
     std::process::exit(status.code().unwrap_or(1))
 }
 
@@ -60,26 +61,27 @@ fn serve(options: &[String]) -> Result {
     };
     println!("serving {} (Ctrl-C stops)", server.url());
     if open && setup::has_display() {
-        show(&server.url());
+        open_browser(&server.url());
     }
     server.run();
     Ok(())
 }
 
-/// Opens the browser; without one the address that was printed must do.
-fn show(url: &str) {
+/// Opens the page in a browser if there is one.
+fn open_browser(url: &str) {
     let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
     if shell::which(opener).is_some() {
         shell::command(opener).arg(url).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok();
     }
 }
 
-/// Draws a picture as a person would and looks at it; asks for a window where there is none.
+/// Draws pictures with `cargo xtask demo --shot` and checks them; then checks the error without a
+/// display.
 pub fn test_shot() -> Result {
     let shots = files::target().join("shots");
-    files::make(&shots)?;
+    files::create_dir(&shots)?;
     shoot(&shots.join("shot.png"), &[])?;
-    // Film strips: how a sheet rips and is cut, and what hands do with the receipt.
+    // Film strips of gestures: tearing and cutting the sheet, handling the receipt.
     for gesture in ["yank", "cut"] {
         let options = ["--play", gesture, "--strip", "5", "--size", "400x400"];
         shoot(&shots.join(gesture).with_extension("png"), &options)?;
@@ -88,10 +90,10 @@ pub fn test_shot() -> Result {
         let options = ["--scene", "tender", "--play", gesture, "--strip", "5", "--size", "400x400"];
         shoot(&shots.join(format!("tender-{gesture}.png")), &options)?;
     }
-    refuse_without_a_display()
+    check_error_without_display()
 }
 
-/// Runs `demo --shot` and looks at the picture.
+/// Draws a picture with `cargo xtask demo --shot` and checks it.
 pub fn shoot(file: &Path, options: &[&str]) -> Result {
     if file.exists() {
         std::fs::remove_file(file).during(|| format!("removing {}", file.display()))?;
@@ -100,19 +102,20 @@ pub fn shoot(file: &Path, options: &[&str]) -> Result {
     picture::check(file)
 }
 
-fn refuse_without_a_display() -> Result {
+fn check_error_without_display() -> Result {
     let mut demo = shell::xtask(&["demo"])?;
     let demo = demo.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    let told = demo.output().during(|| "starting `cargo xtask demo`".into())?;
-    let line = String::from_utf8_lossy(&told.stderr);
+    let output = demo.output().during(|| "starting `cargo xtask demo`".into())?;
+    let line = String::from_utf8_lossy(&output.stderr);
     let offers =
         line.contains("--web") && line.contains("--shot") && line.trim().lines().count() == 1;
-    if !told.status.success() && offers {
+    if !output.status.success() && offers {
         return Ok(());
     }
     Err(Failure::new(format!(
-        "`cargo xtask demo` without a display must fail with one line that offers --web and --shot, \
+        "`cargo xtask demo` without a display must fail with one line that offers --web and \
+         --shot, \
          not {} and {line:?}",
-        told.status
+        output.status
     )))
 }

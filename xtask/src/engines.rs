@@ -1,4 +1,5 @@
-//! Examples in engines: built as their heads say, run on a screen that nobody sees, their pictures looked at.
+//! Builds the examples in engines with the commands that their first lines show, runs them on a
+//! virtual screen, and checks their pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -6,19 +7,19 @@ use crate::failure::{Failure, Result};
 use crate::setup::{self, Need};
 use crate::{c, files, picture, shell, sources};
 
-/// What building and running them needs.
+/// What building and running the examples needs.
 pub const NEEDS: &[&Need] =
     &[&setup::CXX, &setup::PKG_CONFIG, &setup::XVFB, &setup::RAYLIB, &setup::OGRE, &setup::PYTHON];
 
-/// What the one in Bevy needs beside Rust.
+/// What the example in Bevy needs beside Rust.
 const BEVY_NEEDS: &[&Need] = &[&setup::XVFB, &setup::VULKAN, &setup::X11];
 
-/// No example takes more lines than this, …
-const LINES: usize = 149;
-/// … and no more than this from nothing to a first frame.
-const FIRST_FRAME: usize = 20;
+/// The most lines of an example.
+const MAX_LINES: usize = 149;
+/// The most lines of an example from nothing to its first frame.
+const MAX_FIRST_FRAME_LINES: usize = 20;
 
-/// The parts of raylib that draw.
+/// The source files of raylib that drawing needs.
 const RAYLIB_PARTS: [&str; 6] = ["rcore", "rshapes", "rtextures", "rtext", "rmodels", "rglfw"];
 const RAYLIB_FLAGS: [&str; 6] = [
     "-O1",
@@ -29,25 +30,25 @@ const RAYLIB_FLAGS: [&str; 6] = [
     "-D_GLFW_X11",
 ];
 
-/// Builds the library and all examples, draws their pictures into `target/engines` and looks at them.
+/// Builds the library and all examples, draws their pictures into `target/engines` and checks them.
 pub fn test() -> Result {
     c::build()?;
-    files::make(&dir())?;
+    files::create_dir(&dir())?;
     for name in ["raylib.c", "ogre.cpp", "viewer.py"] {
         check_length(&example(name))?;
     }
     check_length(&bevy_dir().join("src/main.rs"))?;
     check_first_frame("raylib.c")?;
-    viewer()?;
-    raylib()?;
-    ogre()
+    test_viewer()?;
+    test_raylib()?;
+    test_ogre()
 }
 
-/// Builds the example in Bevy, draws its picture and looks at it. Not a part of the tests: it builds hundreds of
-/// crates, which takes as long as all of the tests.
+/// `cargo xtask bevy`: builds the example in Bevy, draws its picture and checks it. It is no step
+/// of the tests, since it compiles hundreds of crates.
 pub fn bevy() -> Result {
     setup::ensure(BEVY_NEEDS)?;
-    files::make(&dir())?;
+    files::create_dir(&dir())?;
     let target = files::target().join("bevy");
     let mut cargo = shell::cargo(&["build", "--release", "--locked"]);
     cargo.current_dir(bevy_dir()).arg("--target-dir").arg(&target);
@@ -71,21 +72,26 @@ fn example(name: &str) -> PathBuf {
 
 fn check_length(file: &Path) -> Result {
     let lines = files::read(file)?.lines().count();
-    if lines > LINES {
+    if lines > MAX_LINES {
         let name = file.display();
-        return Err(Failure::new(format!("{name} takes {lines} lines, {LINES} are meant")));
+        return Err(Failure::new(format!(
+            "{name} has {lines} lines, and at most {MAX_LINES} are allowed"
+        )));
     }
     Ok(())
 }
 
-/// Counts what stands between the two comments that say where a cloth begins and is first drawn.
+/// Counts the lines between the comments that mark where an example starts and where it draws
+/// first.
 fn check_first_frame(name: &str) -> Result {
     let text = files::read(&example(name))?;
     let lines = lines_to_first_frame(&text)
-        .ok_or_else(|| Failure::new(format!("{name} does not say where its first frame is")))?;
+        .ok_or_else(|| Failure::new(format!("{name} has no comments that mark its first frame")))?;
     println!("{name}: {lines} lines from nothing to the first frame");
-    if lines > FIRST_FRAME {
-        return Err(Failure::new(format!("{name}: {FIRST_FRAME} lines are meant")));
+    if lines > MAX_FIRST_FRAME_LINES {
+        return Err(Failure::new(format!(
+            "{name}: at most {MAX_FIRST_FRAME_LINES} lines are allowed to the first frame"
+        )));
     }
     Ok(())
 }
@@ -96,30 +102,33 @@ fn lines_to_first_frame(text: &str) -> Option<usize> {
     Some(lines.lines().filter(|line| !line.trim().is_empty()).count())
 }
 
-/// Runs a program on a screen of its own, and looks at the picture that it draws last.
+/// Runs a program on a virtual screen, and checks the picture that it writes.
 fn draw(program: &Path, options: &[&str], name: &str) -> Result {
     let file = dir().join(name);
     std::fs::remove_file(&file).ok();
     let mut run = shell::command("xvfb-run");
     run.args(["-a", "-s", "-screen 0 1280x800x24"]).arg(program).args(options).arg(&file);
-    // Engines tell much.
+    // Engines print much, which is dropped.
     shell::output(run.current_dir(dir()))?;
     picture::check(&file)
 }
 
-fn viewer() -> Result {
+fn test_viewer() -> Result {
     let (root, file) = (files::root(), dir().join("viewer.png"));
     let mut python = shell::command("python3");
     python.arg(example("viewer.py")).arg(root.join("include/muslin.h"));
-    python.arg(c::release().join("libmuslin.so")).arg(&file).arg(root.join("include/muslin.abi"));
+    python
+        .arg(c::release_dir().join("libmuslin.so"))
+        .arg(&file)
+        .arg(root.join("include/muslin.abi"));
     shell::run(&mut python)?;
     picture::check(&file)
 }
 
-fn raylib() -> Result {
+fn test_raylib() -> Result {
     let sources = sources::RAYLIB.fetch()?;
     let parts = dir().join("raylib");
-    files::make(&parts)?;
+    files::create_dir(&parts)?;
     for part in RAYLIB_PARTS {
         let object = parts.join(part).with_extension("o");
         if !object.exists() {
@@ -130,26 +139,26 @@ fn raylib() -> Result {
         }
     }
     let program = dir().join("raylib-example");
-    let mut cc = c::strict(&example("raylib.c"));
+    let mut cc = c::strict_compiler(&example("raylib.c"));
     cc.arg("-isystem").arg(&sources).arg("-o").arg(&program).arg(example("raylib.c"));
     cc.args(RAYLIB_PARTS.map(|part| parts.join(part).with_extension("o")));
-    cc.arg(c::release().join("libmuslin.a")).args(["-lX11", "-lm", "-lpthread", "-ldl"]);
+    cc.arg(c::release_dir().join("libmuslin.a")).args(["-lX11", "-lm", "-lpthread", "-ldl"]);
     shell::run(&mut cc)?;
     draw(&program, &["--shot"], "raylib.png")
 }
 
-fn ogre() -> Result {
-    let ask =
+fn test_ogre() -> Result {
+    let query =
         |options: &[&str]| shell::output(shell::command("pkg-config").args(options).arg("OGRE"));
-    let plugins = format!("-DOGRE_PLUGINS=\"{}\"", ask(&["--variable=plugindir"])?.trim());
-    let (headers, libraries) = (ask(&["--cflags-only-I"])?, ask(&["--libs"])?);
+    let plugins = format!("-DOGRE_PLUGINS=\"{}\"", query(&["--variable=plugindir"])?.trim());
+    let (headers, libraries) = (query(&["--cflags-only-I"])?, query(&["--libs"])?);
     let program = dir().join("ogre-example");
-    let mut cc = c::strict(&example("ogre.cpp"));
+    let mut cc = c::strict_compiler(&example("ogre.cpp"));
     for folder in headers.split_whitespace() {
         cc.arg(folder.replacen("-I", "-isystem", 1));
     }
     cc.arg(plugins).arg("-o").arg(&program).arg(example("ogre.cpp"));
-    cc.arg(c::release().join("libmuslin.a")).args(libraries.split_whitespace());
+    cc.arg(c::release_dir().join("libmuslin.a")).args(libraries.split_whitespace());
     shell::run(cc.args(["-lm", "-lpthread", "-ldl"]))?;
     draw(&program, &[], "ogre.png")
 }
@@ -159,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_counted_between_the_two_comments() {
+    fn the_lines_between_the_two_comments_are_counted() {
         let text =
             "a;\n  /* From nothing... */\n  b;\n\n  c;\n  /* ...to the first frame. */\nd;\n";
         assert_eq!(lines_to_first_frame(text), Some(2));

@@ -1,4 +1,4 @@
-//! The example pages of the npm package: served beside it and what they draw with, and tried in a browser.
+//! Serves the example pages of the npm package and tests them in a browser.
 
 use std::path::PathBuf;
 
@@ -6,10 +6,10 @@ use crate::failure::Result;
 use crate::serve::{Mount, Server};
 use crate::{browser, files, js, npm, picture, setup};
 
-/// The three.js that the briefs of the example pages name, and the newest one; both by the folder that npm has them in.
+/// The npm folders of three.js: release 160, and the newest one.
 const THREE: [&str; 2] = ["three-160", "three"];
 
-/// The pages, and the package, three.js and Babylon.js beside them.
+/// The folders that pages load from: the pages themselves, the package, three.js and Babylon.js.
 fn mounts(three: &str) -> Vec<Mount> {
     vec![
         Mount { at: "/muslin/", dir: js::dir() },
@@ -22,10 +22,10 @@ fn mounts(three: &str) -> Vec<Mount> {
 fn prepare() -> Result {
     setup::ensure(&[&setup::NODE])?;
     js::build()?;
-    npm::install()
+    js::install_for_tests()
 }
 
-/// Serves the pages until it is stopped.
+/// `cargo xtask examples`: serves the pages until it is stopped.
 pub fn serve() -> Result {
     prepare()?;
     let usual = Server::open(mounts(THREE[0]), 8080);
@@ -35,14 +35,14 @@ pub fn serve() -> Result {
     Ok(())
 }
 
-/// Plays with every page in a browser, with either three.js, and looks at its pictures.
+/// Tests every page in a browser with both releases of three.js, and checks the pictures.
 pub fn test() -> Result {
     prepare()?;
     let shots = files::target().join("shots/examples");
-    files::make_empty(&shots)?;
-    let older = Server::open(mounts(THREE[0]), 0)?.run_aside();
-    let newest = PathBuf::from(Server::open(mounts(THREE[1]), 0)?.run_aside());
+    files::create_empty_dir(&shots)?;
+    let older = Server::open(mounts(THREE[0]), 0)?.spawn();
+    let newest = PathBuf::from(Server::open(mounts(THREE[1]), 0)?.spawn());
     let paths = [("MUSLIN_SHOTS", &shots), ("MUSLIN_NEWEST", &newest)];
     browser::node_test("tests/web/examples.test.mjs", &older, &paths)?;
-    files::ending(&shots, ".png")?.iter().try_for_each(|shot| picture::check(shot))
+    files::with_suffix(&shots, ".png")?.iter().try_for_each(|shot| picture::check(shot))
 }

@@ -1,18 +1,18 @@
-//! Why a chore stopped, in one line.
+//! The error of every chore: one line that says why it stopped.
 
 use std::fmt;
 
-/// What went wrong, and where there is one, what to do about it.
+/// Why a chore stopped, and where there is one, the remedy.
 #[derive(Debug)]
 pub struct Failure(String);
 
-/// What a chore returns.
+/// The result of a chore.
 pub type Result<T = ()> = std::result::Result<T, Failure>;
 
 impl Failure {
-    /// Says `why`.
-    pub fn new(why: impl Into<String>) -> Self {
-        Self(why.into())
+    /// A failure with this message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self(message.into())
     }
 }
 
@@ -22,15 +22,15 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Says what was going on when something failed.
+/// Adds to an error what the program was doing.
 pub trait During<T> {
-    /// `what` becomes the start of the sentence.
-    fn during(self, what: impl FnOnce() -> String) -> Result<T>;
+    /// Puts `activity`, such as "reading a.txt", before the message of an error.
+    fn during(self, activity: impl FnOnce() -> String) -> Result<T>;
 }
 
 impl<T, E: fmt::Display> During<T> for std::result::Result<T, E> {
-    fn during(self, what: impl FnOnce() -> String) -> Result<T> {
-        // `{:#}` is how some errors tell their causes on the same line.
-        self.map_err(|error| Failure::new(format!("{}: {error:#}", what())))
+    fn during(self, activity: impl FnOnce() -> String) -> Result<T> {
+        // With `{:#}` some errors print their causes on the same line.
+        self.map_err(|error| Failure::new(format!("{}: {error:#}", activity())))
     }
 }

@@ -1,4 +1,4 @@
-//! Folders of this repository, and what happens to files in them.
+//! Folders of this repository, and operations on files in them. Errors name the path.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
 
-/// The repository.
+/// The root of the repository.
 pub fn root() -> PathBuf {
     let xtask = std::env::var_os("CARGO_MANIFEST_DIR")
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
     xtask.parent().map_or_else(|| PathBuf::from("."), Path::to_path_buf)
 }
 
-/// Where cargo builds.
+/// The folder that cargo builds in.
 pub fn target() -> PathBuf {
     match std::env::var_os("CARGO_TARGET_DIR") {
         Some(dir) => root().join(dir),
@@ -21,26 +21,26 @@ pub fn target() -> PathBuf {
     }
 }
 
-/// Makes a folder, and those above it.
-pub fn make(dir: &Path) -> Result {
-    fs::create_dir_all(dir).during(|| format!("making {}", dir.display()))
+/// Creates a folder and its parents; does nothing where it exists.
+pub fn create_dir(dir: &Path) -> Result {
+    fs::create_dir_all(dir).during(|| format!("creating {}", dir.display()))
 }
 
-/// Makes a folder that holds nothing.
-pub fn make_empty(dir: &Path) -> Result {
+/// Creates an empty folder, and removes the one that was there.
+pub fn create_empty_dir(dir: &Path) -> Result {
     if dir.symlink_metadata().is_ok() {
         fs::remove_dir_all(dir).during(|| format!("removing {}", dir.display()))?;
     }
-    make(dir)
+    create_dir(dir)
 }
 
-/// Copies what is in one folder into another.
-pub fn copy_all(from: &Path, to: &Path) -> Result {
-    make(to)?;
+/// Copies the content of a folder into another one, folders in it included.
+pub fn copy_dir(from: &Path, to: &Path) -> Result {
+    create_dir(to)?;
     for path in list(from)? {
         let copy = to.join(path.file_name().unwrap_or_default());
         if path.is_dir() {
-            copy_all(&path, &copy)?;
+            copy_dir(&path, &copy)?;
         } else {
             fs::copy(&path, &copy).during(|| format!("copying {}", path.display()))?;
         }
@@ -48,49 +48,52 @@ pub fn copy_all(from: &Path, to: &Path) -> Result {
     Ok(())
 }
 
-/// Makes `at` another name for what lies beside it, in place of what it was.
-pub fn link(target: &str, at: &Path) -> Result {
-    let told = || format!("linking {}", at.display());
+/// Makes `at` a symbolic link to `target`, which lies beside it; replaces a file that was there.
+pub fn symlink(target: &str, at: &Path) -> Result {
+    let during = || format!("linking {}", at.display());
     if at.symlink_metadata().is_ok() {
-        fs::remove_file(at).during(told)?;
+        fs::remove_file(at).during(during)?;
     }
     #[cfg(unix)]
     let done = std::os::unix::fs::symlink(target, at);
     #[cfg(not(unix))]
     let done = at.parent().map_or(Ok(0), |dir| fs::copy(dir.join(target), at)).map(|_| ());
-    done.during(told)
+    done.during(during)
 }
 
-/// What is in a folder, by name.
+/// The paths in a folder, sorted by name.
 pub fn list(dir: &Path) -> Result<Vec<PathBuf>> {
-    let told = || format!("reading {}", dir.display());
-    let entries = fs::read_dir(dir).during(told)?;
+    let during = || format!("reading {}", dir.display());
+    let entries = fs::read_dir(dir).during(during)?;
     let mut paths = entries
         .map(|entry| entry.map(|entry| entry.path()))
         .collect::<std::io::Result<Vec<_>>>()
-        .during(told)?;
+        .during(during)?;
     paths.sort();
     Ok(paths)
 }
 
-/// The files of a folder whose names end like this; at least one.
-pub fn ending(dir: &Path, end: &str) -> Result<Vec<PathBuf>> {
-    let named = |path: &PathBuf| {
-        path.file_name().and_then(OsStr::to_str).is_some_and(|name| name.ends_with(end))
+/// The files of a folder whose names end in `suffix`, sorted by name.
+///
+/// # Errors
+/// Fails if there is none.
+pub fn with_suffix(dir: &Path, suffix: &str) -> Result<Vec<PathBuf>> {
+    let matches = |path: &PathBuf| {
+        path.file_name().and_then(OsStr::to_str).is_some_and(|name| name.ends_with(suffix))
     };
-    let found: Vec<_> = list(dir)?.into_iter().filter(named).collect();
+    let found: Vec<_> = list(dir)?.into_iter().filter(matches).collect();
     if found.is_empty() {
-        return Err(Failure::new(format!("there is no *{end} in {}", dir.display())));
+        return Err(Failure::new(format!("there is no *{suffix} in {}", dir.display())));
     }
     Ok(found)
 }
 
-/// Writes a file.
+/// Writes a text file.
 pub fn write(path: &Path, text: &str) -> Result {
     fs::write(path, text).during(|| format!("writing {}", path.display()))
 }
 
-/// Reads a file.
+/// Reads a text file.
 pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).during(|| format!("reading {}", path.display()))
 }

@@ -1,5 +1,5 @@
-//! Fuzzing of the C library: `tests/c/fuzz` makes calls of whatever bytes libFuzzer comes up with, guided by the
-//! parts of the library that they reach, under the address sanitizer.
+//! Fuzzes the C library: `tests/c/fuzz` turns the bytes that libFuzzer generates into calls.
+//! Coverage of the library guides libFuzzer, and the address sanitizer checks every access.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,24 +8,27 @@ use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
 use crate::{c, files, shell, sources};
 
-/// What it needs.
+/// What fuzzing needs.
 pub const NEEDS: &[&Need] = &[&setup::CXX];
 
-/// The target whose sanitizers come with Rust.
+/// The target that Rust ships sanitizers for.
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 
-/// How many programs of calls a run of the tests tries, the seeds included; by the same chances each time, so that
-/// it ends alike on the same library. `cargo xtask fuzz` tries new ones.
+/// How many sequences of calls step `fuzz` runs, the seeds included.
+const BRIEF_RUNS: &str = "-runs=150";
+/// How many step `fuzz-long` runs.
 const RUNS: &str = "-runs=600";
-const CHANCES: &str = "-seed=1";
-/// A mistake made on purpose is found within so many, …
+/// The seed of the generator: the steps run the same sequences each time, and `cargo xtask fuzz`
+/// new ones.
+const SEED: &str = "-seed=1";
+/// The number of sequences within which the fuzzer must find a planted mistake.
 const PLANTED_RUNS: &str = "-runs=20000";
-/// … and all that takes no longer than this [s].
-const SECONDS: u32 = 600;
-/// What `cargo xtask fuzz` runs if it is not told how long [s].
-const LONG: u32 = 3600;
+/// The longest time that a step fuzzes [s].
+const MAX_SECONDS: u32 = 600;
+/// How long `cargo xtask fuzz` fuzzes by default [s].
+const DEFAULT_SECONDS: u32 = 3600;
 
-/// What LLVM adds to the library, so that libFuzzer sees which parts of it ran.
+/// Compiler options that instrument the library, so that libFuzzer sees its coverage.
 const COVERAGE: [&str; 4] = [
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=3",
@@ -33,26 +36,38 @@ const COVERAGE: [&str; 4] = [
     "-Cllvm-args=-sanitizer-coverage-pc-table",
 ];
 
-/// Tries the seeds, fuzzes on from them for a while, and finds a mistake that is there on purpose.
+/// Step `fuzz`: runs the seeds and some sequences that the fuzzer derives from them.
+pub fn test_briefly() -> Result {
+    fuzz_from_seeds(BRIEF_RUNS)
+}
+
+/// Step `fuzz-long`: runs the seeds and several hundred sequences, and finds a mistake that is
+/// planted in the calls.
 pub fn test() -> Result {
-    let program = build("fuzz", &[])?;
-    let found = dir().join("found");
-    files::make_empty(&found)?;
-    let mut fuzz = fuzzer(&program, SECONDS);
-    shell::run(fuzz.args([RUNS, CHANCES]).arg(&found).arg(seeds()))?;
+    fuzz_from_seeds(RUNS)?;
     find_planted()
 }
 
-/// Fuzzes for so many seconds, an hour if that is not said; what is found is kept in `target/fuzz/corpus`.
+fn fuzz_from_seeds(runs: &str) -> Result {
+    let program = build("fuzz", &[])?;
+    let found = dir().join("found");
+    files::create_empty_dir(&found)?;
+    let mut fuzz = fuzzer(&program, MAX_SECONDS);
+    shell::run(fuzz.args([runs, SEED]).arg(&found).arg(seeds()))
+}
+
+/// `cargo xtask fuzz`: fuzzes for the given seconds, or for an hour. Inputs that reach new code are
+/// kept in
+/// `target/fuzz/corpus`.
 pub fn run(options: &[String]) -> Result {
     let seconds = match options {
-        [] => LONG,
+        [] => DEFAULT_SECONDS,
         [number] => number.parse().during(|| "cargo xtask fuzz takes seconds".into())?,
         _ => return Err(Failure::new("`cargo xtask fuzz` takes seconds and nothing else")),
     };
     let program = build("fuzz", &[])?;
     let corpus = dir().join("corpus");
-    files::make(&corpus)?;
+    files::create_dir(&corpus)?;
     shell::run(fuzzer(&program, seconds).arg(&corpus).arg(seeds()))
 }
 
@@ -82,30 +97,32 @@ fn fuzzer(program: &Path, seconds: u32) -> Command {
     fuzz
 }
 
-/// A buffer that is smaller than it is said to be is found by the fuzzer, or it finds nothing at all.
+/// Builds the calls with a buffer that is smaller than its stated size, and fails unless the fuzzer
+/// finds that.
 fn find_planted() -> Result {
     let program = build("planted", &["-DPLANTED"])?;
     let found = dir().join("found");
-    files::make_empty(&found)?;
-    let mut fuzz = fuzzer(&program, SECONDS);
-    fuzz.args([PLANTED_RUNS, CHANCES]);
-    let told = fuzz.arg(&found).arg(seeds()).output().during(|| "starting the fuzzer".into())?;
-    let told = String::from_utf8_lossy(&told.stderr).into_owned();
-    let seen = told.contains("heap-buffer-overflow") && told.contains("call_write_vertices");
-    if !seen {
-        return Err(Failure::new("the fuzzer does not see a buffer that is too small"));
+    files::create_empty_dir(&found)?;
+    let mut fuzz = fuzzer(&program, MAX_SECONDS);
+    fuzz.args([PLANTED_RUNS, SEED]);
+    let output = fuzz.arg(&found).arg(seeds()).output().during(|| "starting the fuzzer".into())?;
+    let output = String::from_utf8_lossy(&output.stderr).into_owned();
+    let is_found =
+        output.contains("heap-buffer-overflow") && output.contains("call_write_vertices");
+    if !is_found {
+        return Err(Failure::new("the fuzzer did not find the buffer that is too small"));
     }
-    println!("the fuzzer found what was planted");
+    println!("the fuzzer found the planted mistake");
     Ok(())
 }
 
-/// Links the calls with the library and the fuzzer.
+/// Links the calls with the instrumented library and libFuzzer; returns the program.
 fn build(name: &str, flags: &[&str]) -> Result<PathBuf> {
     let library = library("address", &COVERAGE, &[])?;
-    let engine = engine()?;
+    let engine = libfuzzer()?;
     let (object, program) = (dir().join(name).with_extension("o"), dir().join(name));
     let source = files::root().join("tests/c/fuzz/fuzz.c");
-    let mut cc = c::strict(&source);
+    let mut cc = c::strict_compiler(&source);
     shell::run(cc.args(flags).arg("-c").arg(&source).arg("-o").arg(&object))?;
     let mut link = shell::command("c++");
     link.arg("-o").arg(&program).arg(&object).arg(&library).arg(&engine);
@@ -113,43 +130,44 @@ fn build(name: &str, flags: &[&str]) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// The static library with a sanitizer in it, and with checks and assertions; `more` is for cargo.
-pub fn library(sanitizer: &str, flags: &[&str], more: &[&str]) -> Result<PathBuf> {
+/// Builds the static library with a sanitizer, overflow checks and debug assertions; `options` are
+/// for cargo.
+pub fn library(sanitizer: &str, flags: &[&str], options: &[&str]) -> Result<PathBuf> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        return Err(Failure::new("Rust brings its sanitizers for Linux on x86-64 only"));
+        return Err(Failure::new("Rust ships its sanitizers for Linux on x86-64 only"));
     }
     let built = files::target().join(sanitizer);
     let mut cargo = shell::cargo(&["build", "--profile=sanitized", "--package=muslin-c"]);
-    cargo.arg("--target").arg(TARGET).arg("--target-dir").arg(&built).args(more);
+    cargo.arg("--target").arg(TARGET).arg("--target-dir").arg(&built).args(options);
     let flags: Vec<&str> = flags.iter().copied().chain(["-Cforce-frame-pointers=yes"]).collect();
-    // Sanitizers are not a stable part of the compiler; they are there in every one.
+    // Sanitizers are an unstable option, which stable compilers have too.
     cargo.env("RUSTC_BOOTSTRAP", "1").env_remove("CARGO_ENCODED_RUSTFLAGS");
     cargo.env("RUSTFLAGS", format!("-Zsanitizer={sanitizer} {}", flags.join(" ")));
     shell::run(&mut cargo)?;
     Ok(built.join(TARGET).join("sanitized/libmuslin.a"))
 }
 
-/// What the linker needs for a sanitizer's own library.
+/// The options that link the runtime of a sanitizer.
 pub fn runtime(name: &str) -> Result<Vec<String>> {
     let mut rustc = shell::command("rustc");
     let dir = shell::output(rustc.args(["--print", "target-libdir", "--target", TARGET]))?;
-    let found = files::ending(Path::new(dir.trim()), &format!("_rt.{name}.a"))?;
+    let found = files::with_suffix(Path::new(dir.trim()), &format!("_rt.{name}.a"))?;
     let whole = ["-Wl,--whole-archive", "-Wl,--no-whole-archive"].map(String::from);
     let [before, after] = whole;
     Ok(vec![before, found[0].display().to_string(), after])
 }
 
-/// libFuzzer, compiled once.
-fn engine() -> Result<PathBuf> {
+/// Compiles libFuzzer, once, and returns the library.
+fn libfuzzer() -> Result<PathBuf> {
     let (sources, objects) = (sources::LIBFUZZER.fetch()?, dir().join("engine"));
     let library = dir().join("libfuzzer.a");
     if library.exists() {
         return Ok(library);
     }
-    files::make_empty(&objects)?;
+    files::create_empty_dir(&objects)?;
     let mut ar = shell::command("ar");
     ar.arg("rcs").arg(&library);
-    for source in files::ending(&sources, ".cpp")? {
+    for source in files::with_suffix(&sources, ".cpp")? {
         let object = objects.join(source.file_stem().unwrap_or_default()).with_extension("o");
         let mut cc = shell::command("c++");
         cc.args(["-std=c++17", "-O1", "-w", "-c"]).arg(&source).arg("-o").arg(&object);

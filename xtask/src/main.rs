@@ -1,10 +1,16 @@
-//! Every chore of Muslin as one command: `cargo xtask demo`, `cargo xtask test`, and what they are made of.
+//! Every chore of this repository as one command, such as `cargo xtask test`.
+//!
+//! ```text
+//! main -> test, check: lanes -> steps -> one file per step -> setup, shell, files, failure
+//!      -> demo, js, c, package, bench, …: the same files, as chores of their own
+//! ```
 
 mod abi;
 mod bench;
 mod bits;
 mod browser;
 mod c;
+mod c_tests;
 mod clients;
 mod demo;
 mod engines;
@@ -13,6 +19,8 @@ mod failure;
 mod files;
 mod fuzz;
 mod js;
+mod js_tests;
+mod lanes;
 mod miri;
 mod no_wasm;
 mod npm;
@@ -20,10 +28,12 @@ mod package;
 mod picture;
 mod race;
 mod readme;
+mod rust;
 mod serve;
 mod setup;
 mod shell;
 mod sources;
+mod steps;
 mod test;
 mod tools;
 mod wasm;
@@ -39,24 +49,26 @@ cargo xtask demo --shot FILE.png    draw a picture of it without a screen
 cargo xtask demo --web              build the demo as a page and serve it
   --port N                          on this port (8080, or a free one)
   --no-open                         without opening a browser
-cargo xtask test [STEP…]            every test, or the steps that are named
-cargo xtask bits                    play the scenes of tests/golden everywhere, compare the hashes
-  --bless                           write golden.txt anew instead, from this machine
+cargo xtask check                   format, lints of the library, unit tests and closed forms
+cargo xtask test [STEP…]            all tests but engines and fuzz-long, or the steps that are named
+  --all                             all steps, with engines and fuzz-long
+cargo xtask bits                    simulate golden scenes on every platform, compare the hashes
+  --bless                           write golden.txt from this machine instead
 cargo xtask web                     build the demo's page into dist/web
-  --url ADDRESS/                    to be served at this address, which previews of links need
+  --url ADDRESS/                    for this address, which previews of links need
 cargo xtask js                      build the npm package into dist/js
-cargo xtask c                       build the C library, compile and run what is written against it
-cargo xtask package                 pack the C library as others install it, into dist/c
-  --js                              pack the npm package instead, into dist, and say what it weighs
+cargo xtask c                       build the C library, compile and run its tests and examples
+cargo xtask package                 pack the C library as users install it, into dist/c
+  --js                              pack the npm package into dist instead, and print its sizes
 cargo xtask bevy                    build the example in Bevy and draw its picture
 cargo xtask examples                serve the example pages of the npm package
-cargo xtask bench [TABLE…]          time kernels and ticks natively and in node, or the tables that are named:
-                                    kernels, ticks, shreds, layers, scenes, receipt, node, page, peers
-  --test                            once and tiny, to see that it runs
-cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or so many seconds
-cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer, a minute
+cargo xtask bench [TABLE…]          time native code and node, or the tables that are named: kernels,
+                                    ticks, shreds, layers, scenes, receipt, node, page, peers
+  --test                            once and with small meshes, as a test
+cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or for these seconds
+cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer
 cargo xtask miri                    run the tests of the C library's boundary under Miri
-cargo xtask setup [--list]          install whatever the tests need, or only say what is missing";
+cargo xtask setup [--list]          install what the tests need, or only print what is missing";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -76,6 +88,8 @@ fn run(args: &[String]) -> Result {
     match chore.as_str() {
         "demo" => demo::run(rest),
         "test" => test::run(rest),
+        "step" => test::run_step(rest),
+        "check" => test::check(rest),
         "bits" => bits::run(rest),
         "bench" => bench::run(rest),
         "setup" => test::prepare(rest),
@@ -84,7 +98,7 @@ fn run(args: &[String]) -> Result {
         "race" => race::run(rest),
         "miri" => miri::run(rest),
         "fuzz" => fuzz::run(rest),
-        "c" => alone(chore, rest, c::check),
+        "c" => alone(chore, rest, c_tests::check),
         "package" if rest == ["--js"] => clients::pack(),
         "package" => alone(chore, rest, package::build),
         "bevy" => alone(chore, rest, engines::bevy),

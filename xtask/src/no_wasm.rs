@@ -1,26 +1,27 @@
-//! The core of the npm package as JavaScript, for pages that may not use WebAssembly: made of a wasm module by
-//! Binaryen's wasm2js.
+//! Translates the core of the npm package from wasm to JavaScript with Binaryen's wasm2js, for
+//! pages whose content security policy forbids WebAssembly.
 
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
 use crate::{files, tools};
 
-/// What the module may use: all else has no counterpart.
+/// The wasm features that wasm2js can translate.
 const FEATURES: [&str; 3] = ["--mvp-features", "--enable-bulk-memory", "--enable-mutable-globals"];
 
-/// Functions stay apart: engines leave those unoptimised that are very large.
+/// These options limit inlining: JavaScript engines do not optimise very large functions.
 const OPTIMIZED: [&str; 7] = ["-O3", "-aimfs", "2", "-fimfs", "0", "-ocimfs", "0"];
 
-/// What wasm2js writes, and what is to stand there instead: whatever imports and exports is left to no-wasm.js.
-const CHANGES: [(&str, &str, &str); 4] = [
+/// Replacements in the output of wasm2js: the start of a part, its end, and the text that replaces
+/// both and what lies between. `no-wasm.js` does all importing and exporting.
+const REPLACEMENTS: [(&str, &str, &str); 4] = [
     ("import * as $_", "\n", "import { grow, trap } from \"./heap.js\";\n"),
     ("function wasm2js_trap()", "\n", "function wasm2js_trap() { trap(); }\n"),
     (" function __wasm_memory_size()", " return {\n  \"memory\"", MEMORY),
     ("var retasmFunc = ", "", "export { asmFunc as instantiate };\n"),
 ];
 
-/// Memory with room to grow into, and none at all where `grow` finds none.
+/// Memory that `grow` of `heap.js` enlarges; growing returns −1 where `grow` returns nothing.
 const MEMORY: &str = r#" var pages = buffer.byteLength >> 16;
  function __wasm_memory_size() {
   return pages;
@@ -45,39 +46,43 @@ const MEMORY: &str = r#" var pages = buffer.byteLength >> 16;
  }
 "#;
 
-/// Makes `code.js` of a module, in `work`; gives it. What was made of the same module before is taken as it is.
+/// Translates a module in the folder `work` and returns the path of the script.
+///
+/// A script that was made from the same module with the same tools is not made again.
 pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
     let tools = tools::install()?;
-    files::make(work)?;
-    let [made, code, small] = ["made-of", "code.js", "code.min.js"].map(|name| work.join(name));
+    files::create_dir(work)?;
+    let [inputs, code, small] = ["inputs", "code.js", "code.min.js"].map(|name| work.join(name));
     let read = |path: &Path| std::fs::read(path).during(|| format!("reading {}", path.display()));
-    let mut of = read(module)?;
-    of.extend_from_slice(include_bytes!("no_wasm.rs"));
-    of.extend(read(&tools.join(".installed-lock.json"))?);
-    if small.is_file() && std::fs::read(&made).is_ok_and(|bytes| bytes == of) {
+    let mut input = read(module)?;
+    input.extend_from_slice(include_bytes!("no_wasm.rs"));
+    input.extend(read(&tools.join(".installed-lock.json"))?);
+    if small.is_file() && std::fs::read(&inputs).is_ok_and(|bytes| bytes == input) {
         return Ok(small);
     }
-    std::fs::remove_file(&made).ok(); // there may be none
+    std::fs::remove_file(&inputs).ok(); // it may be missing
     tools::to_javascript(module, &code, &[&FEATURES[..], &OPTIMIZED].concat())?;
-    files::write(&code, &changed(&files::read(&code)?)?)?;
+    files::write(&code, &replace_parts(&files::read(&code)?)?)?;
     tools::minify(&code, &small, "--minify")?;
-    std::fs::write(&made, of).during(|| format!("writing {}", made.display()))?;
+    std::fs::write(&inputs, input).during(|| format!("writing {}", inputs.display()))?;
     Ok(small)
 }
 
-/// Puts what we have in place of what wasm2js wrote.
-fn changed(code: &str) -> Result<String> {
+/// Applies all replacements to the output of wasm2js.
+fn replace_parts(code: &str) -> Result<String> {
     let mut code = code.to_owned();
-    for (from, to, ours) in CHANGES {
+    for (from, to, replacement) in REPLACEMENTS {
         let start = code.find(from);
         let end = start.and_then(|start| {
             let rest = start + from.len();
             if to.is_empty() { Some(code.len()) } else { code[rest..].find(to).map(|at| rest + at) }
         });
         let (Some(start), Some(end)) = (start, end) else {
-            return Err(Failure::new(format!("wasm2js wrote no {from:?}: it is another version")));
+            return Err(Failure::new(format!(
+                "the output of wasm2js has no {from:?}; it is of another version"
+            )));
         };
-        code.replace_range(start..end, ours);
+        code.replace_range(start..end, replacement);
     }
     Ok(code)
 }
@@ -92,8 +97,8 @@ mod tests {
         var retasmFunc = asmFunc({});\nexport var memory = retasmFunc.memory;\n";
 
     #[test]
-    fn what_wasm2js_wrote_is_changed_and_the_rest_stays() {
-        let code = changed(WRITTEN).unwrap();
+    fn the_parts_are_replaced_and_the_rest_stays() {
+        let code = replace_parts(WRITTEN).unwrap();
         assert!(
             code.starts_with("import { grow, trap } from \"./heap.js\";\n\nvar view;\n"),
             "{code}"
@@ -109,8 +114,9 @@ mod tests {
     }
 
     #[test]
-    fn another_wasm2js_is_noticed() {
-        let failure = changed(&WRITTEN.replace("wasm2js_trap", "trap")).unwrap_err().to_string();
+    fn output_of_another_version_is_refused() {
+        let failure =
+            replace_parts(&WRITTEN.replace("wasm2js_trap", "trap")).unwrap_err().to_string();
         assert!(failure.contains("wasm2js_trap"), "{failure}");
     }
 }

@@ -1,30 +1,23 @@
-//! The npm packages that tests use: locked in `tests/package-lock.json`.
+//! Installs npm packages as lock files say.
 
 use std::path::{Path, PathBuf};
 
 use crate::failure::Result;
-use crate::{files, js, setup, shell};
+use crate::{files, setup, shell};
 
-/// Where they are.
+/// The folder of the npm packages that tests use.
 pub fn modules() -> PathBuf {
     files::root().join("tests/node_modules")
 }
 
-/// Installs what the lock says unless it is there, and the package `muslin` as it was last built.
+/// Installs the npm packages that tests use, which `tests/package-lock.json` lists.
 pub fn install() -> Result {
-    setup::ensure(&[&setup::NODE])?;
-    install_in(&files::root().join("tests"))?;
-    if js::dir().is_dir() {
-        // A copy, as an installation is: from here it finds the packages that it asks for.
-        let muslin = modules().join("muslin");
-        files::make_empty(&muslin)?;
-        files::copy_all(&js::dir(), &muslin)?;
-    }
-    Ok(())
+    install_in(&files::root().join("tests"))
 }
 
-/// Installs what the lock of a folder says, unless it is there.
+/// Installs the packages that the lock file of a folder lists, unless just these are installed.
 pub fn install_in(dir: &Path) -> Result {
+    setup::ensure(&[&setup::NODE])?;
     let lock = files::read(&dir.join("package-lock.json"))?;
     let installed = dir.join("node_modules/.installed-lock.json");
     if files::read(&installed).ok().as_ref() != Some(&lock) {

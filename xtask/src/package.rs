@@ -1,5 +1,5 @@
-//! The C library as others install it: a folder with header, libraries, what pkg-config and CMake ask for,
-//! licences and checksums.
+//! Packs the C library as users install it: a folder with headers, libraries, files for pkg-config
+//! and CMake, licences and checksums.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,22 +8,22 @@ use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
 use crate::{c, files, shell};
 
-/// What packing and trying the package needs.
+/// What packing and testing the package needs.
 pub const NEEDS: &[&Need] = &[&setup::CXX, &setup::CMAKE, &setup::PKG_CONFIG];
 
-/// The shared library, stripped, is no larger than this [B].
+/// The largest size of the shared library, stripped [bytes].
 const MAX_SHARED: u64 = 1_920_000;
-/// The example `hang.c` with the static library in it, stripped, is no larger than this [B].
+/// The largest size of the example `hang.c` with the static library, stripped [bytes].
 const MAX_STATIC: u64 = 1_580_000;
 
-/// So many multiplications of eight numbers at once are in the shared library at least: what compilers make of plain
-/// loops is no small part of them, and flags that are meant for size can keep them from it unseen.
-const MIN_WIDE: usize = 1_900;
+/// The least number of 8-lane multiplications in the shared library. The compiler makes many of
+/// them from plain loops; options that reduce size can stop that without notice.
+const MIN_WIDE_PRODUCTS: usize = 1_900;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 const MAJOR: &str = env!("CARGO_PKG_VERSION_MAJOR");
 
-/// Where the package is made.
+/// The folder that the package is built in.
 pub fn dir() -> PathBuf {
     files::root().join("dist/c")
 }
@@ -39,10 +39,10 @@ pub fn build() -> Result {
     }
     setup::ensure(NEEDS)?;
     c::build()?;
-    files::make_empty(&dir())?;
+    files::create_empty_dir(&dir())?;
     let copy = |from: &Path, to: &str| -> Result {
         let to = dir().join(to);
-        files::make(to.parent().unwrap_or(&to))?;
+        files::create_dir(to.parent().unwrap_or(&to))?;
         std::fs::copy(from, &to).map(|_| ()).during(|| format!("copying {}", from.display()))
     };
     let root = files::root();
@@ -59,66 +59,66 @@ pub fn build() -> Result {
         fill(&from, &format!("lib/cmake/Muslin/{config}"))?;
     }
     let whole = format!("libmuslin.so.{VERSION}");
-    copy(&c::release().join("libmuslin.so"), &format!("lib/{whole}"))?;
+    copy(&c::release_dir().join("libmuslin.so"), &format!("lib/{whole}"))?;
     shell::run(shell::command("strip").arg(lib().join(&whole)))?;
-    files::link(&whole, &lib().join(format!("libmuslin.so.{MAJOR}")))?;
-    files::link(&format!("libmuslin.so.{MAJOR}"), &lib().join("libmuslin.so"))?;
+    files::symlink(&whole, &lib().join(format!("libmuslin.so.{MAJOR}")))?;
+    files::symlink(&format!("libmuslin.so.{MAJOR}"), &lib().join("libmuslin.so"))?;
     prelink()?;
-    sum_up()?;
+    write_checksums()?;
     println!("the C package is in dist/c");
     Ok(())
 }
 
-/// Copies a text with its blanks filled in.
+/// Copies a text with the version in place of `@version@` and `@major@`.
 fn fill(from: &Path, to: &str) -> Result {
     let to = dir().join(to);
-    files::make(to.parent().unwrap_or(&to))?;
+    files::create_dir(to.parent().unwrap_or(&to))?;
     let text = files::read(from)?.replace("@version@", VERSION).replace("@major@", MAJOR);
     files::write(&to, &text)
 }
 
-/// The static library as one object that shows nothing but its own functions: Rust's standard library in it
-/// meets no other one.
+/// Links the static library into one object that exports the functions of the header only, so that
+/// the copy of Rust's standard library in it cannot clash with another one.
 fn prelink() -> Result {
     let work = files::target().join("package");
-    files::make_empty(&work)?;
+    files::create_empty_dir(&work)?;
     let (whole, object, list) = (work.join("whole.o"), work.join("muslin.o"), work.join("exports"));
-    let names = exported(&c::release().join("libmuslin.a"), &["--defined-only"])?;
+    let names = exported(&c::release_dir().join("libmuslin.a"), &["--defined-only"])?;
     files::write(&list, &(names.join("\n") + "\n"))?;
     let mut ld = shell::command("ld");
     ld.args(["-r", "--gc-sections", "--gc-keep-exported", "--force-group-allocation"]);
     names.iter().for_each(|name| {
         ld.args(["-u", name]);
     });
-    // Typed in full it would fill the screen.
+    // The whole command would fill the screen.
     println!("$ ld -r … -o {} libmuslin.a", whole.display());
-    shell::output(ld.arg("-o").arg(&whole).arg(c::release().join("libmuslin.a")))?;
+    shell::output(ld.arg("-o").arg(&whole).arg(c::release_dir().join("libmuslin.a")))?;
     let mut keep = std::ffi::OsString::from("--keep-global-symbols=");
     keep.push(&list);
-    // Bytecode for the linker's own optimiser, of which there is none in a finished object.
+    // A linked object needs no bytecode for link-time optimisation.
     let drop = ["--strip-debug", "--remove-section=.llvmbc", "--remove-section=.llvmcmd"];
     shell::run(shell::command("objcopy").arg(keep).args(drop).arg(&whole).arg(&object))?;
     shell::run(shell::command("ar").arg("rcsD").arg(lib().join("libmuslin.a")).arg(&object))
 }
 
-/// Names of the functions of ours in a library.
+/// The names of the functions `muslin_*` in a library, sorted.
 fn exported(library: &Path, options: &[&str]) -> Result<Vec<String>> {
     let mut nm = shell::command("nm");
     nm.args(["--extern-only", "--format=posix"]).args(options).arg(library);
-    let told = shell::output(&mut nm)?;
-    let of = |line: &str| {
+    let symbols = shell::output(&mut nm)?;
+    let name = |line: &str| {
         let mut words = line.split(' ');
         let (name, kind) = (words.next()?, words.next()?);
         (kind == "T" && name.starts_with("muslin_")).then(|| name.to_owned())
     };
-    let mut names: Vec<String> = told.lines().filter_map(of).collect();
+    let mut names: Vec<String> = symbols.lines().filter_map(name).collect();
     names.sort();
     names.dedup();
     Ok(names)
 }
 
-/// Writes the checksum of every file, so that `sha256sum --check SHA256SUMS` finds what is damaged.
-fn sum_up() -> Result {
+/// Writes the checksum of every file, so that `sha256sum --check SHA256SUMS` finds damaged ones.
+fn write_checksums() -> Result {
     let mut names = Vec::new();
     list(&dir(), "", &mut names)?;
     let mut sum = Command::new("sha256sum");
@@ -126,10 +126,10 @@ fn sum_up() -> Result {
     files::write(&dir().join("SHA256SUMS"), &sums)
 }
 
-/// Plain files of a folder, by their ways from the top.
-fn list(folder: &Path, way: &str, names: &mut Vec<String>) -> Result {
+/// Collects the plain files of a folder by their paths from the top, which begin with `prefix`.
+fn list(folder: &Path, prefix: &str, names: &mut Vec<String>) -> Result {
     for path in files::list(folder)? {
-        let name = format!("{way}{}", path.file_name().unwrap_or_default().to_string_lossy());
+        let name = format!("{prefix}{}", path.file_name().unwrap_or_default().to_string_lossy());
         if path.is_dir() {
             list(&path, &format!("{name}/"), names)?;
         } else if !path.is_symlink() {
@@ -139,23 +139,23 @@ fn list(folder: &Path, way: &str, names: &mut Vec<String>) -> Result {
     Ok(())
 }
 
-/// Packs the library, and builds and runs what a stranger would with it.
+/// Packs the library, and builds and runs programs with it as users would.
 pub fn test() -> Result {
     build()?;
     check_exports()?;
     check_sizes()?;
     check_vectors()?;
     let work = files::target().join("package/consumers");
-    files::make_empty(&work)?;
+    files::create_empty_dir(&work)?;
     let mut sums = Command::new("sha256sum");
     shell::run(sums.current_dir(dir()).args(["--check", "--quiet", "SHA256SUMS"]))?;
-    plain(&work)?;
-    by_pkg_config(&work)?;
-    by_cmake(&work)?;
-    beside_another(&work)
+    test_plain_compiler(&work)?;
+    test_pkg_config(&work)?;
+    test_cmake(&work)?;
+    test_two_libraries(&work)
 }
 
-/// Both libraries show the functions of the header, and nothing else.
+/// Fails unless both libraries export exactly the functions that the header declares.
 fn check_exports() -> Result {
     let header = files::read(&files::root().join("include/muslin.h"))?;
     let static_inline = |name: &str| header.contains(&format!("static inline void {name}("));
@@ -175,22 +175,24 @@ fn check_exports() -> Result {
     ] {
         let mut nm = shell::command("nm");
         nm.args(["--extern-only", "--format=posix"]).args(options).arg(&library);
-        let told = shell::output(&mut nm)?;
-        let alien = told
+        let symbols = shell::output(&mut nm)?;
+        let foreign = symbols
             .lines()
             .filter_map(|line| line.split_once(' '))
             .find(|(name, _)| !name.starts_with("muslin_"));
-        if let Some((name, _)) = alien {
-            return Err(Failure::new(format!("{} shows {name} too", library.display())));
+        if let Some((name, _)) = foreign {
+            return Err(Failure::new(format!("{} exports {name} too", library.display())));
         }
-        let shown = exported(&library, options)?;
-        if shown != declared {
+        let exported = exported(&library, options)?;
+        if exported != declared {
             let differs = |name: &&String| !declared.contains(&name.as_str());
-            let more: Vec<_> = shown.iter().filter(differs).collect();
-            let less: Vec<_> =
-                declared.iter().filter(|name| !shown.iter().any(|shown| shown == *name)).collect();
+            let more: Vec<_> = exported.iter().filter(differs).collect();
+            let less: Vec<_> = declared
+                .iter()
+                .filter(|name| !exported.iter().any(|other| other == *name))
+                .collect();
             return Err(Failure::new(format!(
-                "{} is not what muslin.h declares: more {more:?}, less {less:?}",
+                "{} does not export what muslin.h declares: it adds {more:?} and lacks {less:?}",
                 library.display()
             )));
         }
@@ -198,7 +200,7 @@ fn check_exports() -> Result {
     Ok(())
 }
 
-/// Neither library grows unnoticed.
+/// Fails if a library is larger than its limit.
 fn check_sizes() -> Result {
     let shared = size(&lib().join(format!("libmuslin.so.{VERSION}")))?;
     let program = files::target().join("package/hang");
@@ -207,29 +209,31 @@ fn check_sizes() -> Result {
     cc.arg(files::root().join("bindings/c/examples/hang.c")).arg(lib().join("libmuslin.a"));
     shell::run(cc.args(["-lm", "-o"]).arg(&program))?;
     let program = size(&program)?;
-    println!("the shared library takes {shared} bytes, an example with the static one {program}");
+    println!("the shared library has {shared} bytes, an example with the static one {program}");
     if shared > MAX_SHARED || program > MAX_STATIC {
-        let most = format!("at most {MAX_SHARED} and {MAX_STATIC}");
-        return Err(Failure::new(format!("the libraries have grown: {most} bytes are meant")));
+        return Err(Failure::new(format!(
+            "the libraries are too large: the limits are {MAX_SHARED} and {MAX_STATIC} bytes"
+        )));
     }
     Ok(())
 }
 
-/// Loops have become vectors.
+/// Fails if the compiler has not vectorised the loops of the library.
 fn check_vectors() -> Result {
     if !cfg!(target_arch = "x86_64") {
-        println!("vectors are counted on x86-64 only");
+        println!("vector instructions are counted on x86-64 only");
         return Ok(());
     }
     let library = lib().join(format!("libmuslin.so.{VERSION}"));
     let mut objdump = shell::command("objdump");
-    let told = shell::output(objdump.args(["-d", "--no-show-raw-insn"]).arg(&library))?;
-    let wide = told.lines().filter(|line| line.contains("vmulps") && line.contains("%ymm")).count();
-    println!("the shared library multiplies eight numbers at once in {wide} places");
-    if wide < MIN_WIDE {
-        let why =
-            format!("only {wide} of at least {MIN_WIDE} products are of eight numbers at once");
-        return Err(Failure::new(format!("the library was not compiled to be fast: {why}")));
+    let code = shell::output(objdump.args(["-d", "--no-show-raw-insn"]).arg(&library))?;
+    let wide = code.lines().filter(|line| line.contains("vmulps") && line.contains("%ymm")).count();
+    println!("the shared library has {wide} multiplications of 8 lanes");
+    if wide < MIN_WIDE_PRODUCTS {
+        return Err(Failure::new(format!(
+            "the compiler did not vectorise the library: it has {wide} multiplications of 8 lanes, \
+             and at least {MIN_WIDE_PRODUCTS} are expected"
+        )));
     }
     Ok(())
 }
@@ -243,12 +247,12 @@ fn consumer() -> PathBuf {
     files::root().join("tests/c/package/consumer.c")
 }
 
-/// Runs a program, which finds the shared library in the package.
+/// Runs a program with the shared library of the package.
 fn run(program: &Path) -> Result {
     shell::run(shell::command(program).env("LD_LIBRARY_PATH", lib()))
 }
 
-fn plain(work: &Path) -> Result {
+fn test_plain_compiler(work: &Path) -> Result {
     for (name, library) in [("plain-static", "libmuslin.a"), ("plain-shared", "libmuslin.so")] {
         let mut cc = shell::command("cc");
         cc.arg("-I").arg(dir().join("include")).arg(consumer()).arg(lib().join(library));
@@ -258,7 +262,7 @@ fn plain(work: &Path) -> Result {
     Ok(())
 }
 
-fn by_pkg_config(work: &Path) -> Result {
+fn test_pkg_config(work: &Path) -> Result {
     let mut ask = shell::command("pkg-config");
     ask.env("PKG_CONFIG_PATH", lib().join("pkgconfig"));
     let flags = shell::output(ask.args(["--cflags", "--libs", &format!("muslin = {VERSION}")]))?;
@@ -269,7 +273,7 @@ fn by_pkg_config(work: &Path) -> Result {
     run(&program)
 }
 
-fn by_cmake(work: &Path) -> Result {
+fn test_cmake(work: &Path) -> Result {
     let built = work.join("cmake");
     let mut cmake = shell::command("cmake");
     cmake.arg("-S").arg(files::root().join("tests/c/package")).arg("-B").arg(&built);
@@ -281,8 +285,8 @@ fn by_cmake(work: &Path) -> Result {
     run(&built.join("with_static"))
 }
 
-/// Two static Rust libraries in one program, each with a standard library of its own.
-fn beside_another(work: &Path) -> Result {
+/// Links two static Rust libraries, each with a standard library of its own, into one program.
+fn test_two_libraries(work: &Path) -> Result {
     let (other, program) = (work.join("libother.a"), work.join("two"));
     let mut rustc = shell::command("rustc");
     rustc.args(["--edition=2024", "--crate-type=staticlib", "-o"]).arg(&other);

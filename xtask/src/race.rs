@@ -1,13 +1,14 @@
-//! The C library on several threads, under the thread sanitizer.
+//! Runs the C library on several threads under the thread sanitizer.
 
 use crate::failure::{During, Failure, Result};
 use crate::{c, files, fuzz, setup, shell};
 
-/// How long cloths are stepped [s], and how many on each of two threads.
+/// How long cloths are stepped by default [s], and how many cloths each of two threads has.
 const SECONDS: u32 = 60;
 const CLOTHS: &str = "1000";
 
-/// Runs the tests with threads, the one with many cloths for a minute or so many seconds.
+/// Runs the tests with threads; the one with many cloths runs for a minute, or for the seconds that
+/// are given.
 pub fn run(options: &[String]) -> Result {
     let seconds = match options {
         [] => SECONDS,
@@ -16,14 +17,15 @@ pub fn run(options: &[String]) -> Result {
     };
     setup::ensure(&[&setup::CXX])?;
     setup::ensure_std_source()?;
-    // Rust's own library too: what a thread sees after it waited for a lock, it sees by what that does.
+    // The standard library is instrumented too: its locks are what orders memory accesses of
+    // threads.
     let library = fuzz::library("thread", &[], &["-Zbuild-std"])?;
     for (name, options) in
         [("threads", vec![]), ("crowd", vec![CLOTHS.into(), seconds.to_string()])]
     {
         let source = files::root().join("tests/c").join(name).with_extension("c");
         let program = files::target().join("thread").join(name);
-        let mut cc = c::strict(&source);
+        let mut cc = c::strict_compiler(&source);
         cc.arg("-o").arg(&program).arg(&source).arg(&library).args(fuzz::runtime("tsan")?);
         shell::run(cc.args(["-lm", "-lpthread", "-ldl", "-lstdc++"]))?;
         let mut run = shell::command(&program);

@@ -1,27 +1,30 @@
-//! README.md shows nothing that is not run: every block of code and every command in it.
+//! Runs every block of code and every command that README.md shows.
 
 use std::path::PathBuf;
 
 use crate::failure::{During, Failure, Result};
-use crate::{bench, c, demo, files, js, npm, setup, shell, test};
+use crate::{bench, c, c_tests, demo, files, js, npm, setup, shell};
 
-/// A fenced block.
+/// A fenced block of code.
 #[derive(Debug, PartialEq)]
 struct Block {
     language: String,
-    /// The line in README.md at which its text starts, from 1.
+    /// The line in README.md that its text starts at, from 1.
     line: usize,
     text: String,
 }
 
+/// Whether a step of the tests has this name.
+pub type IsStep = fn(&str) -> bool;
+
 /// Runs every block. Blocks of Rust are examples of the crate `muslin`, which step `rust` runs.
-pub fn test() -> Result {
+pub fn test(is_step: IsStep) -> Result {
     let blocks = blocks(&files::read(&files::root().join("README.md"))?)?;
     if blocks.is_empty() {
         return Err(Failure::new("README.md shows no code"));
     }
     let has = |language: &str| blocks.iter().any(|block| block.language == language);
-    files::make_empty(&scratch())?;
+    files::create_empty_dir(&scratch())?;
     if has("rust") {
         check_crate_includes_readme()?;
     }
@@ -31,11 +34,11 @@ pub fn test() -> Result {
     }
     if has("js") {
         js::build()?;
-        npm::install()?;
+        js::install_for_tests()?;
     }
     for block in &blocks {
         println!("README.md line {}: {}", block.line, block.language);
-        block.run().during(|| format!("README.md line {}", block.line))?;
+        block.run(is_step).during(|| format!("README.md line {}", block.line))?;
     }
     Ok(())
 }
@@ -49,7 +52,7 @@ fn check_crate_includes_readme() -> Result {
     if crate_page.contains("include_str!(\"../README.md\")") {
         return Ok(());
     }
-    Err(Failure::new("src/lib.rs does not include README.md, so nothing runs its Rust"))
+    Err(Failure::new("src/lib.rs does not include README.md, so that no step runs its Rust code"))
 }
 
 /// The fenced blocks of a page.
@@ -80,33 +83,34 @@ fn blocks(page: &str) -> Result<Vec<Block>> {
 }
 
 impl Block {
-    fn run(&self) -> Result {
+    fn run(&self, is_step: IsStep) -> Result {
         let name = format!("line-{}", self.line);
         match self.language.as_str() {
-            // Step `rust` runs it; that the crate includes it has been seen.
+            // Step `rust` runs it, since the crate includes README.md.
             "rust" | "text" => Ok(()),
             "c" => {
                 let source = scratch().join(name + ".c");
                 files::write(&source, &self.text)?;
-                c::check_program(&source)
+                c_tests::check_program(&source)
             }
             "js" => {
-                let beside = npm::modules().join(".readme");
-                files::make(&beside)?;
-                let source = beside.join(name + ".mjs");
+                let folder = npm::modules().join(".readme");
+                files::create_dir(&folder)?;
+                let source = folder.join(name + ".mjs");
                 files::write(&source, &self.text)?;
                 shell::run(shell::command("node").arg(source))
             }
             "sh" => self.commands().try_for_each(|(line, command)| {
-                run_command(command).during(|| format!("README.md line {line}: `{command}`"))
+                run_command(command, is_step)
+                    .during(|| format!("README.md line {line}: `{command}`"))
             }),
             other => Err(Failure::new(format!(
-                "nothing runs blocks of {other:?}; rust, c, js and sh are run, text is not code"
+                "no test runs blocks of {other:?}; rust, c, js and sh are run, text is not code"
             ))),
         }
     }
 
-    /// The commands of a shell block, without prompts and comments, and their lines.
+    /// The commands of a shell block, without prompts and comments, each with its line.
     fn commands(&self) -> impl Iterator<Item = (usize, &str)> {
         self.text.lines().enumerate().filter_map(|(at, line)| {
             let command = line.split(" #").next().unwrap_or(line).trim();
@@ -116,34 +120,34 @@ impl Block {
     }
 }
 
-/// What is done about a line of a shell block.
+/// How a command of a shell block is run.
 #[derive(Debug, PartialEq)]
 enum Action<'a> {
-    /// This step of the tests runs it.
+    /// Another step of the tests runs it.
     Step(&'static str),
-    /// It is what is running.
-    Itself,
-    /// A picture with these options.
+    /// It is a part of the tests, which are running.
+    Tests,
+    /// The demo draws a picture with these options.
     Shot(Vec<&'a str>),
-    /// A chore of xtask that can be run here.
+    /// A chore of xtask.
     Chore(Vec<&'a str>),
-    /// These tables, or all.
+    /// The benchmark with these tables, or with all, on small meshes.
     Bench(Vec<&'a str>),
-    /// Any other command.
+    /// A command of the shell.
     Shell,
-    /// Nothing can run it.
+    /// No test can run it.
     Unknown,
 }
 
-fn action(command: &str) -> Action<'_> {
+fn action(command: &str, is_step: IsStep) -> Action<'_> {
     let words: Vec<_> = command.split_whitespace().collect();
     let ["cargo", "xtask", rest @ ..] = words.as_slice() else {
         return Action::Shell;
     };
     match rest {
-        ["test"] => Action::Itself,
-        ["test", steps @ ..] if steps.iter().all(|step| test::is_step(step)) => Action::Itself,
-        // Without a display it makes its offer; the step looks at that.
+        ["test" | "check"] | ["test", "--all"] => Action::Tests,
+        ["test", steps @ ..] if steps.iter().all(|step| is_step(step)) => Action::Tests,
+        // Step `shot` tests what it prints without a display.
         ["demo"] => Action::Step("shot"),
         ["demo", "--web"] => Action::Step("web"),
         ["demo", "--shot", _file, options @ ..] => Action::Shot(options.to_vec()),
@@ -157,19 +161,18 @@ fn action(command: &str) -> Action<'_> {
     }
 }
 
-fn run_command(command: &str) -> Result {
-    match action(command) {
+fn run_command(command: &str, is_step: IsStep) -> Result {
+    match action(command, is_step) {
         Action::Step(step) => {
             println!("{command}: step {step} runs it");
             Ok(())
         }
-        Action::Itself => {
-            println!("{command}: is running");
+        Action::Tests => {
+            println!("{command}: the tests are running");
             Ok(())
         }
         Action::Shot(options) => demo::shoot(&scratch().join("shot.png"), &options),
         Action::Chore(words) => shell::run(&mut shell::xtask(&words)?),
-        // Once and tiny.
         Action::Bench(tables) => {
             bench::run(&tables.into_iter().chain(["--test"]).map(String::from).collect::<Vec<_>>())
         }
@@ -184,6 +187,10 @@ mod tests {
 
     const PAGE: &str = "# A page\n\n```sh\n# Look:\n$ cargo xtask test   # all\ncc a.c\n```\ntext\n\n```c\nint x;\n```\n";
 
+    fn is_step(name: &str) -> bool {
+        ["js", "web"].contains(&name)
+    }
+
     #[test]
     fn blocks_know_their_language_and_line() {
         let blocks = blocks(PAGE).unwrap();
@@ -195,25 +202,29 @@ mod tests {
     }
 
     #[test]
-    fn a_block_left_open_is_refused() {
+    fn an_unclosed_block_is_refused() {
         assert!(blocks("```sh\nls\n").is_err());
     }
 
     #[test]
-    fn a_block_that_nothing_runs_is_refused() {
+    fn a_block_in_an_unknown_language_is_refused() {
         let block = Block { language: "cobol".into(), line: 1, text: String::new() };
-        assert!(block.run().unwrap_err().to_string().contains("cobol"));
+        assert!(block.run(is_step).unwrap_err().to_string().contains("cobol"));
     }
 
     #[test]
-    fn every_chore_is_run_by_something_or_refused() {
-        assert_eq!(action("cargo xtask test"), Action::Itself);
-        assert_eq!(action("cargo xtask test js web"), Action::Itself);
-        assert_eq!(action("cargo xtask test rusty"), Action::Unknown);
-        assert_eq!(action("cargo xtask demo --web"), Action::Step("web"));
-        assert_eq!(action("cargo xtask demo --shot a.png --tear"), Action::Shot(vec!["--tear"]));
-        assert_eq!(action("cargo xtask bench node"), Action::Bench(vec!["node"]));
-        assert_eq!(action("cargo xtask fly"), Action::Unknown);
-        assert_eq!(action("cc -Iinclude a.c"), Action::Shell);
+    fn every_command_has_an_action_or_is_unknown() {
+        for command in ["test", "test --all", "test js web", "check"] {
+            assert_eq!(action(&format!("cargo xtask {command}"), is_step), Action::Tests);
+        }
+        assert_eq!(action("cargo xtask test rusty", is_step), Action::Unknown);
+        assert_eq!(action("cargo xtask demo --web", is_step), Action::Step("web"));
+        assert_eq!(
+            action("cargo xtask demo --shot a.png --tear", is_step),
+            Action::Shot(vec!["--tear"])
+        );
+        assert_eq!(action("cargo xtask bench node", is_step), Action::Bench(vec!["node"]));
+        assert_eq!(action("cargo xtask fly", is_step), Action::Unknown);
+        assert_eq!(action("cc -Iinclude a.c", is_step), Action::Shell);
     }
 }

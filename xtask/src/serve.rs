@@ -1,4 +1,4 @@
-//! A server for pages on this machine.
+//! An HTTP server for pages on this machine.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -7,28 +7,29 @@ use std::time::Duration;
 
 use crate::failure::{Failure, Result};
 
-/// What the page may do: run its own scripts and wasm, style itself, draw inline pictures.
+/// The content security policy: a page may run its own scripts and wasm, use inline styles and
+/// inline pictures.
 const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
     style-src 'self' 'unsafe-inline'; img-src 'self' data:; connect-src 'self'";
 
-/// How long a connection may take to ask.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// How long the server waits for a request.
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Bytes that the head of a request may have.
-const MOST_HEAD: u64 = 1 << 16;
+/// The most bytes that the server reads of a request.
+const MAX_HEAD: u64 = 1 << 16;
 
-/// The port that people know.
-const USUAL: u16 = 8080;
+/// The port that is tried first.
+const DEFAULT_PORT: u16 = 8080;
 
-/// A folder and where it appears.
+/// A folder and the addresses that it answers for.
 pub struct Mount {
-    /// The start of its addresses, from slash to slash.
+    /// The start of the addresses, from slash to slash.
     pub at: &'static str,
     /// The folder.
     pub dir: PathBuf,
 }
 
-/// A server that listens, on 127.0.0.1 only.
+/// A server that listens on 127.0.0.1 only.
 pub struct Server {
     listener: TcpListener,
     mounts: Vec<Mount>,
@@ -36,7 +37,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// Listens on `port`, or on one that is free if it is 0. The first mount that fits an address
+    /// Listens on `port`, or on a free one if `port` is 0. The first mount that fits an address
     /// answers for it.
     pub fn open(mounts: Vec<Mount>, port: u16) -> Result<Self> {
         let listener = TcpListener::bind(("127.0.0.1", port)).map_err(|error| {
@@ -45,46 +46,47 @@ impl Server {
         Ok(Self { listener, mounts, policy: POLICY })
     }
 
-    /// Serves under another content security policy.
-    pub fn under(self, policy: &'static str) -> Self {
+    /// Sets another content security policy.
+    pub fn with_policy(self, policy: &'static str) -> Self {
         Self { policy, ..self }
     }
 
-    /// Listens on the usual port, or if it is taken on a free one.
+    /// Listens on the default port, or on a free one if another program has that.
     pub fn open_anywhere(dir: &Path) -> Result<Self> {
         let mounts = || vec![Mount { at: "/", dir: dir.to_path_buf() }];
-        Self::open(mounts(), USUAL).or_else(|_| Self::open(mounts(), 0))
+        Self::open(mounts(), DEFAULT_PORT).or_else(|_| Self::open(mounts(), 0))
     }
 
-    /// Where it listens.
+    /// The address of the server.
     pub fn url(&self) -> String {
         let port = self.listener.local_addr().map_or(0, |address| address.port());
         format!("http://127.0.0.1:{port}/")
     }
 
-    /// Answers until the program ends, each connection on a thread of its own.
+    /// Answers until the process ends, each connection on a thread of its own.
     pub fn run(&self) {
         std::thread::scope(|scope| {
             for connection in self.listener.incoming().flatten() {
-                // A browser that has gone away needs no answer.
+                // An error means that the browser has closed the connection.
                 scope.spawn(|| self.answer(connection).ok());
             }
         });
     }
 
-    /// The same on a thread of its own; returns the address.
-    pub fn run_aside(self) -> String {
+    /// Answers on a thread of its own; returns the address.
+    pub fn spawn(self) -> String {
         let url = self.url();
         std::thread::spawn(move || self.run());
         url
     }
 
-    /// Reads one request and answers it; that ends the connection, so none waits for another.
+    /// Reads one request, answers it and closes the connection, so that no connection waits for
+    /// another.
     fn answer(&self, connection: TcpStream) -> std::io::Result<()> {
-        connection.set_read_timeout(Some(PATIENCE))?;
-        let mut lines = BufReader::new(&connection).take(MOST_HEAD).lines();
+        connection.set_read_timeout(Some(REQUEST_TIMEOUT))?;
+        let mut lines = BufReader::new(&connection).take(MAX_HEAD).lines();
         let request = lines.next().transpose()?.unwrap_or_default();
-        // The rest of the head says nothing that matters here, but must be read before answering.
+        // The rest of the head is not used, but must be read before the answer.
         for line in lines {
             if line?.is_empty() {
                 break;
@@ -122,7 +124,7 @@ impl Server {
     }
 }
 
-/// The file that an address means, if there is one.
+/// The file at an address; none if there is no such file, or if it lies outside its mount.
 fn file(mounts: &[Mount], url: &str) -> Option<PathBuf> {
     let path = url.split(['?', '#']).next()?;
     let mount = mounts.iter().find(|mount| path.starts_with(mount.at))?;
@@ -167,8 +169,8 @@ mod tests {
     }
 
     #[test]
-    fn connections_that_stay_silent_keep_nobody_waiting() {
-        let url = Server::open(mounts(), 0).unwrap().run_aside();
+    fn silent_connections_do_not_delay_others() {
+        let url = Server::open(mounts(), 0).unwrap().spawn();
         let address = url.trim_start_matches("http://").trim_end_matches('/');
         let silent: Vec<_> = (0..20).map(|_| TcpStream::connect(address).unwrap()).collect();
         for (request, status) in [

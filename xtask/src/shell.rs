@@ -1,4 +1,4 @@
-//! Running other programs, and saying so.
+//! Runs other programs, and prints the command lines of those that matter.
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -6,21 +6,21 @@ use std::process::{Command, Stdio};
 use crate::failure::{During, Failure, Result};
 use crate::files;
 
-/// A command that runs in the repository.
+/// A command that runs in the root of the repository, without input.
 pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
     let mut command = Command::new(program);
     command.current_dir(files::root()).stdin(Stdio::null());
     command
 }
 
-/// The cargo that runs this.
+/// The cargo that runs this program.
 pub fn cargo(args: &[&str]) -> Command {
     let mut cargo = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(args);
     cargo
 }
 
-/// This program again, for another chore.
+/// This program with other arguments.
 pub fn xtask(args: &[&str]) -> Result<Command> {
     let me = std::env::current_exe().during(|| "finding xtask itself".into())?;
     let mut command = command(me);
@@ -28,7 +28,7 @@ pub fn xtask(args: &[&str]) -> Result<Command> {
     Ok(command)
 }
 
-/// How a command is typed.
+/// A command as a person types it, with paths below the root of the repository.
 pub fn typed(command: &Command) -> String {
     let root = files::root().display().to_string() + "/";
     let word = |word: &std::ffi::OsStr| {
@@ -40,7 +40,10 @@ pub fn typed(command: &Command) -> String {
     std::iter::once(name).chain(command.get_args()).map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// Shows the command and runs it to its end.
+/// Prints a command and runs it to its end.
+///
+/// # Errors
+/// Fails if the command cannot start or ends with another status than success.
 pub fn run(command: &mut Command) -> Result {
     let typed = typed(command);
     println!("$ {typed}");
@@ -51,7 +54,10 @@ pub fn run(command: &mut Command) -> Result {
     Err(Failure::new(format!("`{typed}` failed ({status})")))
 }
 
-/// What a command prints, if it ends well.
+/// Runs a command and returns its standard output.
+///
+/// # Errors
+/// Fails as [`run`] does, and if the output is no UTF-8.
 pub fn output(command: &mut Command) -> Result<String> {
     let typed = typed(command);
     let done =
@@ -59,16 +65,16 @@ pub fn output(command: &mut Command) -> Result<String> {
     if !done.status.success() {
         return Err(Failure::new(format!("`{typed}` failed ({})", done.status)));
     }
-    String::from_utf8(done.stdout).during(|| format!("reading what `{typed}` printed"))
+    String::from_utf8(done.stdout).during(|| format!("reading the output of `{typed}`"))
 }
 
-/// Whether a command ends well; what it prints is nobody's business.
+/// Whether a command succeeds; its output is dropped.
 pub fn succeeds(program: &str, args: &[&str]) -> bool {
-    let quiet = command(program).args(args).stdout(Stdio::null()).stderr(Stdio::null()).status();
-    quiet.is_ok_and(|status| status.success())
+    let status = command(program).args(args).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status.is_ok_and(|status| status.success())
 }
 
-/// Where a program is.
+/// The path of an installed program; none if `PATH` does not have it.
 pub fn which(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path).map(|dir| dir.join(program)).find(|file| file.is_file())

@@ -1,43 +1,48 @@
-//! C and C++ that crates bring along, for tests to build: cargo fetches them, of one version each.
+//! C and C++ sources that tests build. They come inside crates of fixed versions, which cargo
+//! downloads.
 
 use std::path::PathBuf;
 
 use crate::failure::{Failure, Result};
 use crate::{files, shell};
 
-/// A crate with sources of another language in it.
+/// A crate that holds C or C++ sources.
 pub struct Source {
     name: &'static str,
     version: &'static str,
-    /// Where in it they are.
-    within: &'static str,
+    /// The folder of the sources in the crate.
+    folder: &'static str,
 }
 
-/// The engine that fuzzes.
+/// The fuzzer of LLVM.
 pub const LIBFUZZER: Source =
-    Source { name: "libfuzzer-sys", version: "0.4.13", within: "libfuzzer" };
+    Source { name: "libfuzzer-sys", version: "0.4.13", folder: "libfuzzer" };
 
-/// The game library.
-pub const RAYLIB: Source = Source { name: "raylib-sys", version: "6.0.0", within: "raylib/src" };
+/// The game library raylib.
+pub const RAYLIB: Source = Source { name: "raylib-sys", version: "6.0.0", folder: "raylib/src" };
 
 impl Source {
-    /// The folder of the sources, fetched if they are not there yet.
+    /// Downloads the crate unless it is there, and returns the folder of the sources.
     pub fn fetch(&self) -> Result<PathBuf> {
-        let Self { name, version, within } = self;
-        let asks = files::target().join("sources").join(name);
-        files::make(&asks)?;
-        let manifest = asks.join("Cargo.toml");
-        let package = "[package]\nname = \"sources\"\nedition = \"2021\"\n[workspace]\n[lib]\npath = \"lib.rs\"\n";
-        let wish = format!("{name} = {{ version = \"={version}\", default-features = false }}");
-        files::write(&manifest, &format!("{package}[dependencies]\n{wish}\n"))?;
-        files::write(&asks.join("lib.rs"), "")?;
+        let Self { name, version, folder } = self;
+        let package_dir = files::target().join("sources").join(name);
+        files::create_dir(&package_dir)?;
+        let manifest = package_dir.join("Cargo.toml");
+        let package = "[package]\nname = \"sources\"\nedition = \"2021\"\n[workspace]\n\
+                       [lib]\npath = \"lib.rs\"\n";
+        let dependency =
+            format!("{name} = {{ version = \"={version}\", default-features = false }}");
+        files::write(&manifest, &format!("{package}[dependencies]\n{dependency}\n"))?;
+        files::write(&package_dir.join("lib.rs"), "")?;
         let mut cargo = shell::cargo(&["metadata", "--format-version=1", "--manifest-path"]);
-        let told = shell::output(cargo.arg(&manifest))?;
+        let metadata = shell::output(cargo.arg(&manifest))?;
         let end = format!("{name}-{version}/Cargo.toml");
-        let paths =
-            told.split("\"manifest_path\":\"").skip(1).filter_map(|rest| rest.split('"').next());
+        let paths = metadata
+            .split("\"manifest_path\":\"")
+            .skip(1)
+            .filter_map(|rest| rest.split('"').next());
         let found = paths.map(PathBuf::from).find(|path| path.ends_with(&end));
-        let folder = found.and_then(|path| path.parent().map(|root| root.join(within)));
-        folder.ok_or_else(|| Failure::new(format!("cargo fetched no {name} {version}")))
+        let sources = found.and_then(|path| path.parent().map(|root| root.join(folder)));
+        sources.ok_or_else(|| Failure::new(format!("cargo did not download {name} {version}")))
     }
 }

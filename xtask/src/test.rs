@@ -1,121 +1,66 @@
-//! Every test, in steps that have names.
+//! The commands that run tests: `test`, `check`, and `setup`, which installs what they need.
 
 use std::time::{Duration, Instant};
 
 use crate::failure::{During, Failure, Result};
+use crate::lanes::{self, Outcome};
 use crate::setup::{self, Need};
-use crate::{
-    bits, c, clients, demo, engines, examples, fuzz, js, npm, package, readme, shell, tools, wasm,
-    web,
-};
+use crate::steps::{STEPS, Step};
+use crate::{bits, npm, rust, tools};
 
-/// A part of the tests.
-struct Step {
-    name: &'static str,
-    about: &'static str,
-    needs: &'static [&'static Need],
-    run: fn() -> Result,
-}
+/// The option that adds the steps that take long and rarely find anything.
+const ALL: &str = "--all";
 
-const STEPS: &[Step] = &[
-    Step { name: "fmt", about: "Rust is formatted", needs: &[], run: fmt },
-    Step { name: "clippy", about: "no lint has anything to say", needs: &[], run: clippy },
-    Step {
-        name: "rust",
-        about: "tests and examples in Rust, debug",
-        needs: &[&setup::EGL],
-        run: rust,
-    },
-    Step {
-        name: "bits",
-        about: "the same bits in release, in wasm, on other processors",
-        needs: bits::NEEDS,
-        run: bits::test,
-    },
-    Step {
-        name: "c",
-        about: "header, tests and examples in C and C++",
-        needs: &[&setup::CXX, &setup::VALGRIND],
-        run: c::check,
-    },
-    Step {
-        name: "fuzz",
-        about: "the C library in any order with any arguments",
-        needs: fuzz::NEEDS,
-        run: fuzz::test,
-    },
-    Step {
-        name: "engines",
-        about: "the examples of the C library in engines, and their pictures",
-        needs: engines::NEEDS,
-        run: engines::test,
-    },
-    Step {
-        name: "package",
-        about: "the C library as others install it",
-        needs: package::NEEDS,
-        run: package::test,
-    },
-    Step { name: "js", about: "the npm package in node", needs: &[&setup::NODE], run: js::test },
-    Step {
-        name: "page",
-        about: "the npm package in a browser",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        run: js::test_page,
-    },
-    Step {
-        name: "clients",
-        about: "the npm package as others install it: a page, Vite, webpack, node",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        run: clients::test,
-    },
-    Step {
-        name: "examples",
-        about: "the npm package's example pages in a browser",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        run: examples::test,
-    },
-    Step {
-        name: "web",
-        about: "the demo's page in a browser",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        run: web::test,
-    },
-    Step { name: "shot", about: "the demo's picture", needs: &[&setup::EGL], run: demo::test_shot },
-    Step {
-        name: "readme",
-        about: "what README.md shows",
-        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL],
-        run: readme::test,
-    },
-];
-
-/// Runs all steps, or those that are named, up to the first that fails.
-pub fn run(names: &[String]) -> Result {
-    let steps = chosen(names)?;
+/// `cargo xtask test`: runs the default steps, those that are named, or with `--all` all of them.
+pub fn run(words: &[String]) -> Result {
+    let steps = chosen(words)?;
     setup::ensure(&needs(&steps))?;
     let start = Instant::now();
-    let mut times = Vec::new();
-    for step in &steps {
-        println!("\n== {}: {}", step.name, step.about);
-        let start = Instant::now();
-        let done = (step.run)();
-        times.push((step.name, start.elapsed()));
-        if done.is_err() {
-            let passed = times.len() - 1;
-            println!("{}\n{passed} passed, 1 failed", summary(&times, start.elapsed()));
-            return done.during(|| format!("step {}", step.name));
-        }
-        println!("== {} passed in {:.1} s", step.name, start.elapsed().as_secs_f32());
+    let outcomes = match steps.as_slice() {
+        [step] => vec![run_alone(step)?],
+        steps => lanes::run(steps)?,
+    };
+    println!("{}", summary(&outcomes, start.elapsed()));
+    if let Some(failure) = lanes::failure(&outcomes) {
+        return Err(failure);
     }
-    println!("{}\n{} passed, 0 failed", summary(&times, start.elapsed()), steps.len());
+    if words.is_empty() {
+        let left_out: Vec<_> =
+            STEPS.iter().filter(|step| !step.is_default).map(|step| step.name).collect();
+        println!("not run: {}; `cargo xtask test {ALL}` runs them", left_out.join(", "));
+    }
     Ok(())
 }
 
-/// Installs what the steps need, or with `--list` only says what is missing.
-pub fn prepare(options: &[String]) -> Result {
+/// `cargo xtask step`: runs one step as a part of a run that prints its output later.
+pub fn run_step(words: &[String]) -> Result {
+    match chosen(words)?.as_slice() {
+        [step] => lanes::run_step(step),
+        _ => Err(Failure::new("`cargo xtask step` takes the name of one step")),
+    }
+}
+
+/// `cargo xtask check`: what can be tested in a few minutes while one works on the library.
+pub fn check(words: &[String]) -> Result {
+    if let Some(word) = words.first() {
+        return Err(Failure::new(format!("`cargo xtask check` takes no {word:?}")));
+    }
+    let start = Instant::now();
+    let mut outcomes = Vec::new();
+    for (name, run) in rust::CHECKS {
+        let start = Instant::now();
+        println!("\n== {name}");
+        run().during(|| format!("check {name}"))?;
+        outcomes.push(Outcome { name, time: start.elapsed(), has_passed: true });
+    }
+    println!("{}", summary(&outcomes, start.elapsed()));
+    Ok(())
+}
+
+/// `cargo xtask setup`: installs what the steps need, or with `--list` says what is missing.
+pub fn prepare(words: &[String]) -> Result {
     let needs = needs(&STEPS.iter().collect::<Vec<_>>());
-    match options {
+    match words {
         [] => {
             setup::ensure(&needs)?;
             setup::ensure_component("fmt", "rustfmt")?;
@@ -125,22 +70,34 @@ pub fn prepare(options: &[String]) -> Result {
             npm::install()
         }
         [list] if list == "--list" => {
-            setup::tell(&needs);
+            setup::print_state(&needs);
             Ok(())
         }
         _ => Err(Failure::new("`cargo xtask setup` takes only --list")),
     }
 }
 
-/// The steps of these names, in the order in which they run; all of them for none.
-fn chosen(names: &[String]) -> Result<Vec<&'static Step>> {
-    let known = |name: &&String| !STEPS.iter().any(|step| step.name == name.as_str());
-    if let Some(unknown) = names.iter().find(known) {
-        let all = STEPS.iter().map(|step| step.name).collect::<Vec<_>>().join(", ");
-        return Err(Failure::new(format!("there is no step {unknown:?}; the steps are {all}")));
+/// Runs a step in this process, with its output as it comes.
+fn run_alone(step: &Step) -> Result<Outcome> {
+    println!("\n== {}: {}", step.name, step.about);
+    let start = Instant::now();
+    (step.run)().during(|| format!("step {}", step.name))?;
+    Ok(Outcome { name: step.name, time: start.elapsed(), has_passed: true })
+}
+
+/// The steps that the words ask for, in the order of [`STEPS`].
+fn chosen(words: &[String]) -> Result<Vec<&'static Step>> {
+    let is_all = |word: &str| word == ALL;
+    let is_unknown = |word: &&String| !is_all(word) && !STEPS.iter().any(|s| s.name == **word);
+    if let Some(unknown) = words.iter().find(is_unknown) {
+        let names = STEPS.iter().map(|step| step.name).collect::<Vec<_>>().join(", ");
+        return Err(Failure::new(format!("there is no step {unknown:?}; the steps are {names}")));
     }
-    let wanted = |step: &&Step| names.is_empty() || names.iter().any(|name| name == step.name);
-    Ok(STEPS.iter().filter(wanted).collect())
+    let is_wanted = |step: &&Step| {
+        let is_named = words.iter().any(|word| word == step.name || is_all(word));
+        is_named || words.is_empty() && step.is_default
+    };
+    Ok(STEPS.iter().filter(is_wanted).collect())
 }
 
 /// What the steps need, each once.
@@ -154,41 +111,14 @@ fn needs(steps: &[&Step]) -> Vec<&'static Need> {
     needs
 }
 
-fn summary(times: &[(&str, Duration)], all: Duration) -> String {
-    let steps: Vec<_> =
-        times.iter().map(|(name, time)| format!("{name} {:.0} s", time.as_secs_f32())).collect();
-    format!("\n{} in all: {}", format_args!("{:.0} s", all.as_secs_f32()), steps.join(", "))
-}
-
-fn fmt() -> Result {
-    setup::ensure_component("fmt", "rustfmt")?;
-    shell::run(&mut shell::cargo(&["fmt", "--all", "--check"]))?;
-    // A workspace of its own, so that nobody resolves an engine who wants a cloth.
-    let bevy = "--manifest-path=bindings/bevy/Cargo.toml";
-    shell::run(&mut shell::cargo(&["fmt", bevy, "--check"]))
-}
-
-fn clippy() -> Result {
-    setup::ensure_component("clippy", "clippy")?;
-    setup::ensure_target(wasm::TARGET)?;
-    let deny = ["--", "-D", "warnings"];
-    shell::run(shell::cargo(&["clippy", "--workspace", "--all-targets"]).args(deny))?;
-    let threads = ["clippy", "--all-targets", "--package=muslin", "--package=muslin-golden"];
-    let features = ["--features", "muslin/parallel,muslin-golden/parallel"];
-    shell::run(shell::cargo(&threads).args(features).args(deny))?;
-    let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
-    web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
-    shell::run(web.args(deny))
-}
-
-/// A snapshot that differs is a failure, never a new snapshot.
-fn rust() -> Result {
-    shell::run(shell::cargo(&["test", "--workspace"]).env("INSTA_UPDATE", "no"))
-}
-
-/// What README.md may name as `cargo xtask test …`.
-pub fn is_step(name: &str) -> bool {
-    STEPS.iter().any(|step| step.name == name)
+/// Two lines: the wall time of the whole and of each part, and how many passed and failed.
+fn summary(outcomes: &[Outcome], whole: Duration) -> String {
+    let part = |one: &Outcome| format!("{} {:.0} s", one.name, one.time.as_secs_f32());
+    let parts: Vec<_> = outcomes.iter().map(part).collect();
+    let passed = outcomes.iter().filter(|one| one.has_passed).count();
+    let failed = outcomes.len() - passed;
+    let seconds = whole.as_secs_f32();
+    format!("\n{seconds:.0} s in all: {}\n{passed} passed, {failed} failed", parts.join(", "))
 }
 
 #[cfg(test)]
@@ -196,18 +126,39 @@ mod tests {
     use super::*;
     use crate::files;
 
-    #[test]
-    fn steps_run_in_their_order_whatever_the_names_order() {
-        let names = ["js", "fmt"].map(String::from);
-        let steps: Vec<_> = chosen(&names).unwrap().iter().map(|step| step.name).collect();
-        assert_eq!(steps, ["fmt", "js"]);
-        assert_eq!(chosen(&[]).unwrap().len(), STEPS.len());
+    fn names(words: &[&str]) -> Vec<&'static str> {
+        let words: Vec<_> = words.iter().map(|word| String::from(*word)).collect();
+        chosen(&words).unwrap().iter().map(|step| step.name).collect()
     }
 
     #[test]
-    fn an_unknown_step_is_named() {
+    fn steps_run_in_their_own_order_whatever_the_order_of_their_names() {
+        assert_eq!(names(&["js", "fmt"]), ["fmt", "js"]);
+    }
+
+    #[test]
+    fn long_steps_run_by_name_or_with_all() {
+        assert!(!names(&[]).contains(&"engines") && names(&[]).contains(&"readme"));
+        assert_eq!(names(&["engines"]), ["engines"]);
+        assert_eq!(names(&["--all"]).len(), STEPS.len());
+    }
+
+    #[test]
+    fn an_unknown_step_is_refused_by_name() {
         let failure = chosen(&["rusty".into()]).err().unwrap().to_string();
         assert!(failure.contains("\"rusty\"") && failure.contains("readme"), "{failure}");
+    }
+
+    #[test]
+    fn the_summary_names_each_part_and_counts_failures() {
+        let outcome = |name, seconds, has_passed| Outcome {
+            name,
+            time: Duration::from_secs(seconds),
+            has_passed,
+        };
+        let text =
+            summary(&[outcome("a", 61, true), outcome("b", 5, false)], Duration::from_secs(63));
+        assert_eq!(text, "\n63 s in all: a 61 s, b 5 s\n1 passed, 1 failed");
     }
 
     #[test]

@@ -1,24 +1,24 @@
-//! The demo as a page: built into `dist/web`, and tried in a browser.
+//! Builds the demo as a page into `dist/web`, and tests it in a browser.
 
 use std::path::PathBuf;
 
-use crate::browser::Served;
+use crate::browser::ServerProcess;
 use crate::failure::{Failure, Result};
 use crate::{browser, files, picture, wasm};
 
-/// Where the page is built.
+/// The folder that the page is built in.
 pub fn dir() -> PathBuf {
     files::root().join("dist/web")
 }
 
-/// Builds the page; with `--url` for an address that it will be served at.
+/// `cargo xtask web`: builds the page, with `--url` for the address that it will be served at.
 pub fn run(options: &[String]) -> Result {
     let typed: Vec<_> = options.iter().flat_map(|option| option.splitn(2, '=')).collect();
     match typed[..] {
         [] => build(),
         ["--url", url] if url.starts_with("http") && url.ends_with('/') => {
             build()?;
-            name_address(url)
+            write_address(url)
         }
         _ => Err(Failure::new(
             "`cargo xtask web` takes only --url, such as https://example.org/cloth/ with the slash",
@@ -26,23 +26,23 @@ pub fn run(options: &[String]) -> Result {
     }
 }
 
-/// Says in the pages' own tags where their pictures are: who shows a link to a page wants the whole address.
-fn name_address(url: &str) -> Result {
-    for page in files::ending(&dir(), ".html")? {
-        files::write(&page, &addressed(&files::read(&page)?, url))?;
+/// Writes whole addresses of pictures into the pages: previews of links need them.
+fn write_address(url: &str) -> Result {
+    for page in files::with_suffix(&dir(), ".html")? {
+        files::write(&page, &with_address(&files::read(&page)?, url))?;
     }
     Ok(())
 }
 
-fn addressed(page: &str, url: &str) -> String {
+fn with_address(page: &str, url: &str) -> String {
     page.replace("content=\"./", &format!("content=\"{url}"))
 }
 
-/// Builds the page.
+/// Builds the page into `dist/web`.
 pub fn build() -> Result {
-    files::make_empty(&dir())?;
-    files::copy_all(&files::root().join("demo/web"), &dir())?;
-    // The receipt's font is in the wasm; its licence goes with it.
+    files::create_empty_dir(&dir())?;
+    files::copy_dir(&files::root().join("demo/web"), &dir())?;
+    // The wasm module holds the receipt's font, whose licence must come with it.
     let licence = files::read(&files::root().join("demo/fonts/OFL.txt"))?;
     files::write(&dir().join("OFL.txt"), &licence)?;
     wasm::build("muslin-demo", &dir(), "muslin_demo")?;
@@ -50,18 +50,18 @@ pub fn build() -> Result {
     Ok(())
 }
 
-/// Serves the page as a person would and plays with it in a browser.
+/// Serves the page with `cargo xtask demo --web` and tests it in a browser.
 pub fn test() -> Result {
-    let served = Served::by(&["demo", "--web", "--no-open", "--port", "0"])?;
+    let server = ServerProcess::start(&["demo", "--web", "--no-open", "--port", "0"])?;
     let shots = files::target().join("shots");
-    files::make(&shots)?;
+    files::create_dir(&shots)?;
     let pictures =
         ["web-1280x720.png", "web-390x844.png", "tender-1280x720.png", "tender-390x844.png"];
     let pictures = pictures.map(|name| shots.join(name));
     for stale in pictures.iter().filter(|picture| picture.exists()) {
         std::fs::remove_file(stale).ok();
     }
-    browser::node_test("tests/web/demo.test.mjs", &served.url, &[("MUSLIN_SHOTS", &shots)])?;
+    browser::node_test("tests/web/demo.test.mjs", &server.url, &[("MUSLIN_SHOTS", &shots)])?;
     pictures.iter().try_for_each(|picture| picture::check(picture))
 }
 
@@ -70,13 +70,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_page_at_an_address_names_the_whole_of_it_for_its_picture() {
+    fn a_page_names_the_whole_address_of_its_picture() {
         for (page, picture) in [("index.html", "sheet.png"), ("tender.html", "tender.png")] {
             let dir = files::root().join("demo/web");
             let file = dir.join(picture);
             let size = std::fs::metadata(&file).map_or(0, |file| file.len());
             assert!((1..150_000).contains(&size), "{picture} has {size} bytes");
-            let text = addressed(&files::read(&dir.join(page)).unwrap(), "https://example.org/a/");
+            let text =
+                with_address(&files::read(&dir.join(page)).unwrap(), "https://example.org/a/");
             for name in ["property=\"og:image\"", "name=\"twitter:image\""] {
                 let tag = format!("<meta {name} content=\"https://example.org/a/{picture}\" />");
                 assert!(text.contains(&tag), "{page} has no {tag}");
@@ -85,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_without_its_slash_is_refused() {
+    fn an_address_without_a_final_slash_is_refused() {
         for options in [&["--url"][..], &["--url", "https://example.org/a"], &["--at"]] {
             let options: Vec<_> = options.iter().map(|option| String::from(*option)).collect();
             assert!(run(&options).is_err_and(|failure| failure.to_string().contains("--url")));

@@ -86,8 +86,8 @@ impl Crate {
             .find(|prefix| self.files.contains_key(prefix))
     }
 
-    /// The path from the crate's root, for one that starts with `crate`, `self`, `super` or the name
-    /// of a module below the one that it is written in.
+    /// The path from the crate's root, for one that starts with `crate`, `self`, `super` or the
+    /// name of a module below the one that it is written in.
     fn absolute(&self, module: &[String], path: &ScopedPath) -> Option<Vec<String>> {
         let here = [module, &path.scope].concat();
         let (first, rest) = path.segments.split_first()?;
@@ -105,8 +105,8 @@ impl Crate {
         })
     }
 
-    /// The path from the crate's root, for one that starts with a name that a `use` declaration of the
-    /// same file brings into scope.
+    /// The path from the crate's root, for one that starts with a name that a `use` declaration of
+    /// the same file brings into scope.
     fn through_alias(&self, module: &[String], path: &ScopedPath) -> Option<Vec<String>> {
         let (first, rest) = path.segments.split_first()?;
         let file = self.files.get(module)?;
@@ -150,7 +150,8 @@ pub fn circles(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<BTreeSet<Modul
     circles
 }
 
-/// All modules that `from` uses directly or through others; itself only where it is part of a circle.
+/// All modules that `from` uses directly or through others; itself only where it is part of a
+/// circle.
 pub fn reachable(edges: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeSet<Module> {
     let mut reached = BTreeSet::new();
     let mut open: Vec<&Module> = vec![from];

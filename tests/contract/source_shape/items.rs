@@ -1,6 +1,7 @@
 //! The items of a source file that the rules are about: paths, imports, type names, test modules.
 //!
-//! Reads the tokens of one file; keeps no state between files. Code under `#[cfg(test)]` does not count.
+//! Reads the tokens of one file; keeps no state between files. Code under `#[cfg(test)]` does not
+//! count.
 
 use super::tokens::{Token, tokens};
 
@@ -104,7 +105,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether an item may start here, rather than `impl Trait` as the type of an argument or result.
+    /// Whether an item may start here, rather than `impl Trait` as the type of an argument or
+    /// result.
     fn is_at_item(&self) -> bool {
         self.word(-1) == Some("unsafe")
             || self.at == 0

@@ -120,7 +120,8 @@ fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// How many `#` open the raw string that the text starts with; none if it starts with no raw string.
+/// How many `#` open the raw string that the text starts with; none if it starts with no raw
+/// string.
 fn raw_string_hashes(text: &str) -> Option<usize> {
     let text = text.strip_prefix('b').or(text.strip_prefix('c')).unwrap_or(text);
     let text = text.strip_prefix('r')?;

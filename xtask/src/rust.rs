@@ -1,0 +1,64 @@
+//! The tests of the Rust code: format, lints, tests, and the short checks for work on the library.
+
+use crate::failure::Result;
+use crate::{setup, shell, wasm};
+
+/// The parts of `cargo xtask check`, each with its name.
+pub const CHECKS: [(&str, fn() -> Result); 4] = [
+    ("fmt", check_format),
+    ("clippy", lint_library),
+    ("unit tests", test_units),
+    ("closed forms", test_closed_forms),
+];
+
+/// What turns every warning into an error.
+const DENY_WARNINGS: [&str; 3] = ["--", "-D", "warnings"];
+const PARALLEL: [&str; 2] = ["--features", "muslin/parallel,muslin-golden/parallel"];
+
+/// Fails where a file is formatted otherwise than rustfmt would.
+pub fn check_format() -> Result {
+    setup::ensure_component("fmt", "rustfmt")?;
+    shell::run(&mut shell::cargo(&["fmt", "--all", "--check"]))?;
+    // The example in Bevy is a workspace of its own, so that nobody else resolves an engine's
+    // crates.
+    let bevy = "--manifest-path=bindings/bevy/Cargo.toml";
+    shell::run(&mut shell::cargo(&["fmt", bevy, "--check"]))
+}
+
+/// Fails where clippy warns: in all crates, with threads, and in what is compiled for pages.
+pub fn lint() -> Result {
+    setup::ensure_component("clippy", "clippy")?;
+    setup::ensure_target(wasm::TARGET)?;
+    shell::run(shell::cargo(&["clippy", "--workspace", "--all-targets"]).args(DENY_WARNINGS))?;
+    let threads = ["clippy", "--all-targets", "--package=muslin", "--package=muslin-golden"];
+    shell::run(shell::cargo(&threads).args(PARALLEL).args(DENY_WARNINGS))?;
+    let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
+    web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
+    shell::run(web.args(DENY_WARNINGS))
+}
+
+/// Runs all tests and examples of all crates.
+pub fn test() -> Result {
+    shell::run(&mut cargo_test(&["--workspace"]))
+}
+
+fn lint_library() -> Result {
+    setup::ensure_component("clippy", "clippy")?;
+    shell::run(shell::cargo(&["clippy", "--package=muslin", "--lib"]).args(DENY_WARNINGS))
+}
+
+fn test_units() -> Result {
+    shell::run(&mut cargo_test(&["--package=muslin", "--lib"]))
+}
+
+fn test_closed_forms() -> Result {
+    let words = ["--package=muslin", "--test=physics", "--", "closed_forms"];
+    shell::run(&mut cargo_test(&words))
+}
+
+/// `cargo test`, for which a snapshot that differs is a failure and never a new snapshot.
+fn cargo_test(words: &[&str]) -> std::process::Command {
+    let mut cargo = shell::cargo(&["test"]);
+    cargo.args(words).env("INSTA_UPDATE", "no");
+    cargo
+}

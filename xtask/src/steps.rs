@@ -1,0 +1,186 @@
+//! The steps of the tests: what each is about, what it needs, what it writes and what runs it.
+
+use crate::failure::Result;
+use crate::setup::{self, Need};
+use crate::{
+    bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, readme, rust, web,
+};
+
+/// One part of the tests.
+pub struct Step {
+    /// What a person types to run it alone.
+    pub name: &'static str,
+    /// One line for the output.
+    pub about: &'static str,
+    /// What must be installed.
+    pub needs: &'static [&'static Need],
+    /// What it writes: two steps that write the same do not run side by side.
+    pub writes: &'static [Output],
+    /// Whether `cargo xtask test` runs it, or only `cargo xtask test --all`.
+    pub is_default: bool,
+    /// Runs it to its end.
+    pub run: fn() -> Result,
+}
+
+/// A folder that steps write.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Output {
+    /// `target/debug`, which cargo locks while it builds.
+    DebugBuild,
+    /// `target/release` and the folders of other targets in release, which cargo locks too.
+    ReleaseBuild,
+    /// `dist/js` and the copy of it that tests import.
+    NpmPackage,
+    /// `dist/web`.
+    DemoPage,
+    /// `dist/c`.
+    CPackage,
+    /// `target/fuzz`.
+    Fuzzer,
+}
+
+use Output::{CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, ReleaseBuild};
+
+/// All steps. Those that take longest come early, so that the last ones end together.
+pub const STEPS: &[Step] = &[
+    Step {
+        name: "fmt",
+        about: "the Rust code is formatted",
+        needs: &[],
+        writes: &[],
+        is_default: true,
+        run: rust::check_format,
+    },
+    Step {
+        name: "bits",
+        about: "the same bits in release, in wasm and on other processors",
+        needs: bits::NEEDS,
+        writes: &[],
+        is_default: true,
+        run: bits::test,
+    },
+    Step {
+        name: "rust",
+        about: "tests and examples in Rust, with overflow checks and debug assertions",
+        needs: &[&setup::EGL],
+        writes: &[DebugBuild],
+        is_default: true,
+        run: rust::test,
+    },
+    Step {
+        name: "clippy",
+        about: "no lint reports anything",
+        needs: &[],
+        writes: &[DebugBuild],
+        is_default: true,
+        run: rust::lint,
+    },
+    Step {
+        name: "c",
+        about: "header, tests and examples in C and C++",
+        needs: &[&setup::CXX, &setup::VALGRIND],
+        writes: &[ReleaseBuild],
+        is_default: true,
+        run: c_tests::check,
+    },
+    Step {
+        name: "fuzz",
+        about: "a few calls of the C library in random order with random arguments",
+        needs: fuzz::NEEDS,
+        writes: &[Fuzzer],
+        is_default: true,
+        run: fuzz::test_briefly,
+    },
+    Step {
+        name: "package",
+        about: "the C library as users install it",
+        needs: package::NEEDS,
+        writes: &[ReleaseBuild, CPackage],
+        is_default: true,
+        run: package::test,
+    },
+    Step {
+        name: "js",
+        about: "the npm package in node",
+        needs: &[&setup::NODE],
+        writes: &[NpmPackage],
+        is_default: true,
+        run: js_tests::test_in_node,
+    },
+    Step {
+        name: "page",
+        about: "the npm package in a browser",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[NpmPackage],
+        is_default: true,
+        run: js_tests::test_in_browser,
+    },
+    Step {
+        name: "clients",
+        about: "the npm package as users install it: a page, Vite, webpack, node",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[NpmPackage],
+        is_default: true,
+        run: clients::test,
+    },
+    Step {
+        name: "examples",
+        about: "the npm package's example pages in a browser",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[NpmPackage],
+        is_default: true,
+        run: examples::test,
+    },
+    Step {
+        name: "web",
+        about: "the demo's page in a browser",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[ReleaseBuild, DemoPage],
+        is_default: true,
+        run: web::test,
+    },
+    Step {
+        name: "shot",
+        about: "the demo's pictures, drawn without a screen",
+        needs: &[&setup::EGL],
+        writes: &[ReleaseBuild],
+        is_default: true,
+        run: demo::test_shot,
+    },
+    Step {
+        name: "readme",
+        about: "every block of code and every command in README.md",
+        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL],
+        writes: &[ReleaseBuild, NpmPackage, DemoPage, CPackage],
+        is_default: true,
+        run: || readme::test(is_step),
+    },
+    Step {
+        name: "engines",
+        about: "the C library's examples in engines, and their pictures",
+        needs: engines::NEEDS,
+        writes: &[ReleaseBuild],
+        is_default: false,
+        run: engines::test,
+    },
+    Step {
+        name: "fuzz-long",
+        about: "hundreds of sequences of calls, and a planted mistake that the fuzzer must find",
+        needs: fuzz::NEEDS,
+        writes: &[Fuzzer],
+        is_default: false,
+        run: fuzz::test,
+    },
+];
+
+/// Whether there is a step of this name.
+pub fn is_step(name: &str) -> bool {
+    STEPS.iter().any(|step| step.name == name)
+}
+
+impl Step {
+    /// Whether both write the same, so that they must not run side by side.
+    pub fn conflicts_with(&self, other: &Self) -> bool {
+        self.writes.iter().any(|output| other.writes.contains(output))
+    }
+}
