@@ -17,7 +17,7 @@ const X86_64: &str = "x86_64-unknown-linux-musl";
 const LINK: &str = "-C linker=rust-lld";
 
 /// The profile of the tests and of emulated platforms: optimised as a user's own release build is,
-/// without link-time optimisation. What is shipped is built in profile `release`: the native
+/// without link-time optimisation. Shipped forms are built in profile `release`: the native
 /// program and both wasm modules.
 const TEST_PROFILE: &str = "release-test";
 

@@ -1,4 +1,4 @@
-//! Programs and libraries that chores need: finds what is missing, and installs it where that is
+//! Programs and libraries that chores need: finds missing ones, and installs them where that is
 //! allowed.
 
 use std::path::{Path, PathBuf};
@@ -123,10 +123,11 @@ pub const X11: Need = Need {
     },
 };
 
-/// Installs what is missing of `needs`.
+/// Installs those of `needs` that are missing.
 ///
-/// # Errors Fails with one line that names what is missing and the command that installs it, where
-/// this process may not.
+/// # Errors
+/// Where this process may not install, fails with one line that names the missing programs and the
+/// command that installs them.
 pub fn ensure(needs: &[&Need]) -> Result {
     let missing = missing(needs);
     if missing.is_empty() {
