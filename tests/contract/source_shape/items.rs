@@ -108,9 +108,11 @@ impl Reader<'_> {
     /// Whether an item may start here, rather than `impl Trait` as the type of an argument or
     /// result.
     fn is_at_item(&self) -> bool {
+        let starts_repetition = self.mark(-1) == Some('(') && self.mark(-2) == Some('$');
         self.word(-1) == Some("unsafe")
             || self.at == 0
             || matches!(self.mark(-1), Some('}' | '{' | ';' | ']'))
+            || starts_repetition
     }
 
     fn read_mark(&mut self) {
@@ -326,6 +328,7 @@ mod tests {
     #[test]
     fn associated_types_are_not_types_of_their_own() {
         let text = "trait A { type B; } impl A for C { type B = u8; }\n\
+                    macro_rules! m { ($($a:ty)*) => {$(impl A for $a { type B = u8; })*} }\n\
                     fn f() -> impl Fn() { struct D; D } pub type E<T> = Vec<T>; union F { a: u8 }";
         assert_eq!(items(text).types, ["A", "D", "E", "F"]);
     }
