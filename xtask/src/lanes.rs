@@ -157,7 +157,7 @@ mod tests {
         let left = [step("clippy"), step("c"), step("js")];
         assert_eq!(next(&left, &[]), Some(0));
         assert_eq!(next(&left, &[step("rust")]), Some(1));
-        assert_eq!(next(&left, &[step("rust"), step("bits")]), Some(2));
-        assert_eq!(next(&left[..2], &[step("rust"), step("bits")]), None);
+        assert_eq!(next(&left, &[step("rust"), step("package")]), Some(2));
+        assert_eq!(next(&left[..2], &[step("rust"), step("package")]), None);
     }
 }
