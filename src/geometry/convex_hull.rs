@@ -67,7 +67,7 @@ fn hull_triangle(at: &[DVec3], corners: [u32; 3]) -> Option<HullTriangle> {
     })
 }
 
-/// Returns a tetrahedron of points that are far distance; `None` if all points lie in one plane.
+/// Returns a tetrahedron of points that are far apart; `None` if all points lie in one plane.
 fn initial_tetrahedron(at: &[DVec3], tolerance: f64) -> Option<Vec<HullTriangle>> {
     let farthest = |from: &dyn Fn(DVec3) -> f64| {
         let far = at.iter().map(|x| from(*x)).enumerate();

@@ -49,8 +49,9 @@ const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 /// stretch the cloth around it more than links can bear, and throw it.
 const MAX_DEPENETRATION_SPEED: f32 = 0.05;
 
-/// A penetration deeper than this, in mean edge lengths, did not come about by motion: in a round
-/// shape, and in one with flat faces, whose vertices may stick through the cloth.
+/// A penetration deeper than this, in mean edge lengths, did not come about by motion. The first value
+/// is for round shapes, the second for shapes with flat faces, whose vertices may stick through the
+/// cloth.
 const DEEP: [f32; 2] = [0.25, 0.75];
 
 /// The fraction of the gap that the last round may leave to the next substep.
