@@ -3,7 +3,7 @@
 //! | file | content |
 //! | --- | --- |
 //! | `topology` | corner table: adjacency and vertex fans |
-//! | `intake` | repair of a given mesh: weld, remove degenerate triangles, split non-manifold parts, orient |
+//! | `intake` | repair of a given mesh: weld, drop degenerate, split non-manifold, orient |
 //! | `validate` | check of a mesh that must already be sound (saved cloths) |
 //! | `grid`, `grid_detection` | the regular grid, and detection of one in a given mesh |
 //! | `split_vertex`, `split_edge` | surgery for tears and cuts |

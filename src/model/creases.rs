@@ -6,8 +6,8 @@
 //!                    0 ─ ───╱────╲───
 //!                      −width     +width
 //! ```
-//! Reads plate elements or hinges; adds to the rest angles of [`Folds`], and to its hardening if the
-//! material uses it.
+//! Reads plate elements or hinges; adds to the rest angles of [`Folds`], and to its hardening if
+//! the material uses it.
 //!
 //! Invariant: the angles that one crease adds along a path across it sum to about `angle`.
 

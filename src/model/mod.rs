@@ -4,7 +4,8 @@
 //! | --- | --- |
 //! | `material` | material parameters and presets |
 //! | `folds`, `hardening`, `creases` | plastic bending |
-//! | `links`, `link_ends`, `constraints`, `coloring`, `link_set` | distance constraints in colours |
+//! | `links`, `link_ends`, `constraints` | distance constraints |
+//! | `coloring`, `link_set` | graph colouring, sets of links |
 //! | `dynamic_links`, `cut_links`, `crack_tips` | how they change with tears and cuts |
 //! | `grid_rows`, `grid_cells`, `sparse_links` | layouts for the kernels |
 //! | `chains`, `chain_blocks` | straight runs of links for the line solver |
