@@ -1539,7 +1539,7 @@ MuslinStatus muslin_cloth_cut(MuslinCloth cloth,
  * Events are ordered by tick, and within a tick:
  * - recoveries;
  * - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
- * - the used-up reserve, if there was no room for another tear;
+ * - the exhausted reserve, if it cannot hold another tear;
  * - detached pieces, ordered by their first triangle;
  * - links that pins or grabs hold past `max_stretch`.
  *

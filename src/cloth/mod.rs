@@ -378,7 +378,7 @@ impl Cloth {
     ///
     /// - recoveries ([`EventKind::Recovered`](crate::EventKind));
     /// - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
-    /// - the used-up reserve, if the reserve cannot hold another tear;
+    /// - the exhausted reserve, if it cannot hold another tear;
     /// - detached pieces, ordered by their first triangle;
     /// - links that pins or grabs hold past `max_stretch`.
     ///
