@@ -253,11 +253,11 @@ export class Cloth {
   }
 
   setPosition(particle, position) {
-    this.#live.set_position(toUint32(particle, "particle"), ...vector(position, "position"));
+    this.#live.set_position(toUint32(particle, "particle"), ...toVector(position, "position"));
   }
 
   setVelocity(particle, velocity) {
-    this.#live.set_velocity(toUint32(particle, "particle"), ...vector(velocity, "velocity"));
+    this.#live.set_velocity(toUint32(particle, "particle"), ...toVector(velocity, "velocity"));
   }
 
   // Pins
@@ -270,7 +270,7 @@ export class Cloth {
     const live = this.#live;
     toUint32(particle, "particle");
     if (target === undefined) live.pin_here(particle);
-    else live.pin_at(particle, ...vector(target, "target"));
+    else live.pin_at(particle, ...toVector(target, "target"));
   }
 
   unpin(particle) {
@@ -409,7 +409,7 @@ export class Cloth {
 
 /** Returns origin and direction as a flat list. */
 function packRay(origin, direction) {
-  return Float64Array.of(...vector(origin, "origin"), ...vector(direction, "direction"));
+  return Float64Array.of(...toVector(origin, "origin"), ...toVector(direction, "direction"));
 }
 
 // In engines with `using`.
