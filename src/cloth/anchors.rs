@@ -138,7 +138,7 @@ impl Cloth {
     fn edit_anchors(&mut self, particles: &[u32], change: impl Fn(usize, &mut AnchorConstraint)) {
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
-            let x = world.particles.x.at(*particle as usize);
+            let x = world.particles.x.get(*particle as usize);
             change(at, world.anchors.get_or_insert(*particle, x));
         }
         world.reserve_anchor_scratch();

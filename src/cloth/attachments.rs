@@ -67,7 +67,7 @@ impl Cloth {
             let handle = self.world.attachments.insert(carrier, "another attachment")?;
             let frame = pose.to_transform();
             for particle in particles {
-                let x = self.world.particles.x.at(*particle as usize);
+                let x = self.world.particles.x.get(*particle as usize);
                 let local = saturate(frame.point_to_local(x));
                 self.set_pin(*particle, saturate(frame.point_to_world(local)));
                 if let Some(pin) = self.world.pins.get_mut(*particle) {

@@ -24,7 +24,7 @@ impl Cloth {
     /// [`Error::Full`](crate::Error::Full) if there are 64 grabs already. The cloth is unchanged.
     pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
         check_index(particle, self.world.particles.len(), "particle")?;
-        let target = self.world.particles.x.at(particle as usize);
+        let target = self.world.particles.x.get(particle as usize);
         let handle =
             self.world.grabs.insert(GrabbedParticle { particle, target }, "another grab")?;
         with_float_env(|| self.world.refresh_inverse_mass(particle));
@@ -57,7 +57,7 @@ impl Cloth {
             return Ok(None);
         };
         let grab = self.grab_particle(particle)?;
-        Ok(Some((grab, self.world.particles.x.at(particle as usize))))
+        Ok(Some((grab, self.world.particles.x.get(particle as usize))))
     }
 
     /// Sets the target of a grab [m].
@@ -81,7 +81,7 @@ impl Cloth {
         let grabbed = self.world.grabs.remove(grab.0, "grab")?;
         let (at, world) = (grabbed.particle, &mut self.world);
         if let Some(pin) = world.pins.get_mut(at) {
-            pin.from = world.particles.x.at(at as usize);
+            pin.from = world.particles.x.get(at as usize);
         }
         with_float_env(|| world.refresh_inverse_mass(at));
         Ok(())

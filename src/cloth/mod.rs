@@ -343,7 +343,7 @@ impl Cloth {
         check_finite(position, "position")?;
         let (at, world) = (particle as usize, &mut self.world);
         with_float_env(|| {
-            let v = world.particles.v.at(at);
+            let v = world.particles.v.get(at);
             world.set_particle_state(at, position, v);
             world.particles.x_prev_tick.set(at, position);
             world.move_pin(particle, position);
@@ -364,7 +364,7 @@ impl Cloth {
         check_finite(velocity, "velocity")?;
         let (at, world) = (particle as usize, &mut self.world);
         with_float_env(|| {
-            let x = world.particles.x.at(at);
+            let x = world.particles.x.get(at);
             world.set_particle_state(at, x, velocity);
         });
         self.update_state();

@@ -20,7 +20,7 @@ impl Cloth {
     /// unchanged.
     pub fn pin(&mut self, particle: u32, target: Option<Vec3>) -> Result<()> {
         check_index(particle, self.world.particles.len(), "particle")?;
-        let x = self.world.particles.x.at(particle as usize);
+        let x = self.world.particles.x.get(particle as usize);
         let target = target.unwrap_or(x);
         check_finite(target, "target")?;
         self.set_pin(particle, target);
@@ -71,7 +71,7 @@ impl Cloth {
 
     /// Pins `particle` at `target`, or changes the target of its pin.
     pub(super) fn set_pin(&mut self, particle: u32, target: Vec3) {
-        let x = self.world.particles.x.at(particle as usize);
+        let x = self.world.particles.x.get(particle as usize);
         if self.world.pins.insert(particle, x, target) {
             with_float_env(|| self.world.refresh_inverse_mass(particle));
             self.mark_pins_changed();

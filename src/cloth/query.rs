@@ -74,7 +74,7 @@ impl Cloth {
         let x = &self.world.particles.x;
         let mut first: Option<Hit> = None;
         for (index, vertices) in self.world.mesh.triangles.iter().enumerate() {
-            let corners = vertices.map(|v| x.at(v as usize));
+            let corners = vertices.map(|v| x.get(v as usize));
             let Some(intersection) = ray.intersect_triangle(corners) else {
                 continue;
             };

@@ -47,6 +47,7 @@ use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Signature at the start of a save.
 const MAGIC: &[u8; 8] = b"MUSLINSV";
@@ -55,35 +56,35 @@ const FORMAT: u32 = 9;
 /// Bytes before the body.
 const HEADER: usize = 20;
 
-/// All state that cannot be derived from other state.
+/// All state that cannot be derived from other state: borrowed when saving, owned when restoring.
 #[derive(Serialize, Deserialize)]
 struct SaveData<'a> {
-    desc: CowOf<'a, ClothDesc>,
-    settings: CowOf<'a, Settings>,
-    material: CowOf<'a, Material>,
-    wind: CowOf<'a, Wind>,
-    triangles: CowOf<'a, Vec<[u32; 3]>>,
-    sources: CowOf<'a, Vec<u32>>,
-    crossings: CowOf<'a, Vec<CutSite>>,
-    rest_borders: CowOf<'a, Vec<u8>>,
-    seams: CowOf<'a, Option<Seams>>,
+    desc: Cow<'a, ClothDesc>,
+    settings: Cow<'a, Settings>,
+    material: Cow<'a, Material>,
+    wind: Cow<'a, Wind>,
+    triangles: Cow<'a, Vec<[u32; 3]>>,
+    sources: Cow<'a, Vec<u32>>,
+    crossings: Cow<'a, Vec<CutSite>>,
+    rest_borders: Cow<'a, Vec<u8>>,
+    seams: Cow<'a, Option<Seams>>,
     links: LinkChanges,
     /// Tethers as tears left them; empty if measuring gives the same.
     tethers: Vec<TetherSet>,
     folds: PerKind<Vec<f32>>,
     /// Accumulated yield of the folds; empty if nothing has yielded.
     hardening: Vec<f32>,
-    particles: CowOf<'a, Particles>,
-    mass_scales: CowOf<'a, MassScales>,
-    pins: CowOf<'a, Pins>,
-    attachments: CowOf<'a, Attachments>,
-    grabs: CowOf<'a, Grabs>,
-    anchors: CowOf<'a, AnchorConstraints>,
-    warm_start: CowOf<'a, WarmStart>,
+    particles: Cow<'a, Particles>,
+    mass_scales: Cow<'a, MassScales>,
+    pins: Cow<'a, Pins>,
+    attachments: Cow<'a, Attachments>,
+    grabs: Cow<'a, Grabs>,
+    anchors: Cow<'a, AnchorConstraints>,
+    warm_start: Cow<'a, WarmStart>,
     is_tangled: bool,
     reference_pose: Pose,
-    colliders: CowOf<'a, Colliders>,
-    events: CowOf<'a, Events>,
+    colliders: Cow<'a, Colliders>,
+    events: Cow<'a, Events>,
     time: f64,
     tick: u32,
     reserve_reported: bool,
@@ -95,9 +96,6 @@ struct SaveData<'a> {
     topology_revision: u32,
     state_revision: u32,
 }
-
-/// Borrowed when saving, owned when restoring.
-type CowOf<'a, T> = std::borrow::Cow<'a, T>;
 
 impl Cloth {
     /// Returns the complete state of the cloth as bytes, from which [`Cloth::restore`] makes a
@@ -122,30 +120,30 @@ impl Cloth {
         let world = &self.world;
         let is_torn = world.mesh.vertex_count() > world.mesh.original_count as usize;
         let saved = SaveData {
-            desc: CowOf::Borrowed(&self.desc),
-            settings: CowOf::Borrowed(&world.settings),
-            material: CowOf::Borrowed(&world.material),
-            wind: CowOf::Borrowed(&world.wind),
-            triangles: CowOf::Borrowed(&world.mesh.triangles),
-            sources: CowOf::Borrowed(&world.mesh.source),
-            crossings: CowOf::Borrowed(&world.cut_sites),
-            rest_borders: CowOf::Borrowed(&world.mesh.rest_borders),
-            seams: CowOf::Borrowed(&world.seams),
+            desc: Cow::Borrowed(&self.desc),
+            settings: Cow::Borrowed(&world.settings),
+            material: Cow::Borrowed(&world.material),
+            wind: Cow::Borrowed(&world.wind),
+            triangles: Cow::Borrowed(&world.mesh.triangles),
+            sources: Cow::Borrowed(&world.mesh.source),
+            crossings: Cow::Borrowed(&world.cut_sites),
+            rest_borders: Cow::Borrowed(&world.mesh.rest_borders),
+            seams: Cow::Borrowed(&world.seams),
             links: world.constraints.link_changes(),
             tethers: if is_torn && !self.pins_changed { world.tethers.save() } else { Vec::new() },
             folds: world.folds.saved_angles(),
             hardening: world.folds.hardening.saved().to_vec(),
-            particles: CowOf::Borrowed(&world.particles),
-            mass_scales: CowOf::Borrowed(&world.mass_scales),
-            pins: CowOf::Borrowed(&world.pins),
-            attachments: CowOf::Borrowed(&world.attachments),
-            grabs: CowOf::Borrowed(&world.grabs),
-            anchors: CowOf::Borrowed(&world.anchors),
-            warm_start: CowOf::Borrowed(&world.warm_start),
+            particles: Cow::Borrowed(&world.particles),
+            mass_scales: Cow::Borrowed(&world.mass_scales),
+            pins: Cow::Borrowed(&world.pins),
+            attachments: Cow::Borrowed(&world.attachments),
+            grabs: Cow::Borrowed(&world.grabs),
+            anchors: Cow::Borrowed(&world.anchors),
+            warm_start: Cow::Borrowed(&world.warm_start),
             is_tangled: world.is_tangled,
             reference_pose: world.reference_pose,
-            colliders: CowOf::Borrowed(&world.colliders),
-            events: CowOf::Borrowed(&world.events),
+            colliders: Cow::Borrowed(&world.colliders),
+            events: Cow::Borrowed(&world.events),
             time: world.time,
             tick: world.tick,
             reserve_reported: world.reserve_reported,
@@ -334,8 +332,7 @@ fn is_valid_pose(pose: &Pose) -> bool {
 
 /// Sets the attachments, and returns whether they are valid.
 fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
-    let is_sound =
-        |carrier: &AttachmentPose| is_valid_pose(&carrier.last) && is_valid_pose(&carrier.next);
+    let is_sound = |pose: &AttachmentPose| is_valid_pose(&pose.last) && is_valid_pose(&pose.next);
     let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
     world.attachments = attachments;
@@ -350,10 +347,10 @@ fn restore_pins_and_grabs(
     bad: impl Fn() -> Error,
 ) -> Result<()> {
     let count = world.particles.len();
-    let has_live_carrier =
-        |carrier| carrier == 0 || world.attachments.get(carrier, "attachment").is_ok();
+    let has_live_attachment =
+        |attachment| attachment == 0 || world.attachments.get(attachment, "attachment").is_ok();
     let pins_fit = pins.iter().all(|pin| {
-        (pin.particle as usize) < count && pin.is_valid() && has_live_carrier(pin.attachment)
+        (pin.particle as usize) < count && pin.is_valid() && has_live_attachment(pin.attachment)
     });
     let grabs_fit =
         grabs.iter().all(|grab| (grab.particle as usize) < count && grab.target.is_finite());

@@ -155,9 +155,9 @@ impl World {
     fn check_stays_finite(&self, now: &FrameMove, then: &FrameMove) -> Result<()> {
         let p = &self.particles;
         let is_finite_after = |i: usize| {
-            let points = [&p.x, &p.x_prev_tick].map(|column| now.point(column.at(i)));
+            let points = [&p.x, &p.x_prev_tick].map(|column| now.point(column.get(i)));
             let vectors = [&p.v, &p.v_extrapolated, &p.displacement]
-                .map(|column| now.direction(column.at(i)));
+                .map(|column| now.direction(column.get(i)));
             points.iter().chain(&vectors).all(|v| v.is_finite())
         };
         let mut bodies = self.colliders.iter();
@@ -211,10 +211,10 @@ impl World {
         let p = &mut self.particles;
         for i in 0..p.len() {
             for column in [&mut p.x, &mut p.x_prev_tick] {
-                column.set(i, by.point(column.at(i)));
+                column.set(i, by.point(column.get(i)));
             }
             for column in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
-                column.set(i, by.direction(column.at(i)));
+                column.set(i, by.direction(column.get(i)));
             }
         }
         self.attachments.iter_mut().for_each(|carrier| carrier.last = by.pose(&carrier.last));

@@ -163,13 +163,13 @@ impl Cloth {
     /// Returns the position of a particle [m]; `None` if it does not exist.
     pub fn position(&self, particle: u32) -> Option<Vec3> {
         let at = particle as usize;
-        (at < self.world.particles.len()).then(|| self.world.particles.x.at(at))
+        (at < self.world.particles.len()).then(|| self.world.particles.x.get(at))
     }
 
     /// Returns the velocity of a particle [m/s]; `None` if it does not exist.
     pub fn velocity(&self, particle: u32) -> Option<Vec3> {
         let at = particle as usize;
-        (at < self.world.particles.len()).then(|| self.world.particles.v.at(at))
+        (at < self.world.particles.len()).then(|| self.world.particles.v.get(at))
     }
 
     /// Returns the mass of a particle [kg]; `None` if it does not exist.
@@ -236,7 +236,7 @@ impl Cloth {
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
         world.threads.run_in_pool(world.particles.len(), || {
-            with_float_env(|| outputs.refresh_normals(world))
+            with_float_env(|| outputs.refresh_normals(world));
         });
         self.world.profile.add(Stage::Outputs, start);
     }

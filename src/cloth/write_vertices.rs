@@ -74,7 +74,7 @@ impl Cloth {
         let offset = |index: u32| index + base_vertex;
         match format {
             IndexFormat::U16 => {
-                write_triangles(buffer, indices, flip, |i| (offset(i) as u16).to_ne_bytes())
+                write_triangles(buffer, indices, flip, |i| (offset(i) as u16).to_ne_bytes());
             }
             IndexFormat::U32 => write_triangles(buffer, indices, flip, |i| offset(i).to_ne_bytes()),
         }
@@ -125,8 +125,8 @@ impl Cloth {
         let writer = VertexWriter {
             level: world.level,
             transform,
-            x: world.particles.x.all(),
-            last: world.particles.x_prev_tick.all(),
+            x: world.particles.x.slices(),
+            last: world.particles.x_prev_tick.slices(),
             surface: &self.outputs.surface,
             particles,
             uvs,
@@ -194,7 +194,7 @@ impl VertexWriter<'_> {
             attribute => attribute == Attribute::Tangent,
         };
         if needs_normals {
-            load_of_particles(normals, &self.surface.normals.all());
+            load_of_particles(normals, &self.surface.normals.slices());
         }
         match attribute {
             Attribute::Position => {
@@ -207,7 +207,7 @@ impl VertexWriter<'_> {
                 w.fill(1.0);
             }
             Attribute::Normal => {
-                load_of_particles(vector, &self.surface.normals.all());
+                load_of_particles(vector, &self.surface.normals.slices());
                 self.transform.transform_normals(self.level, vector);
                 w.fill(0.0);
             }

@@ -203,13 +203,13 @@ impl HashGrid {
     #[inline(always)]
     fn gather_neighbourhood<S: Simd>(&mut self, s: S, ranges: &[(u32, u32)]) -> usize {
         let Neighbourhood { points, x } = &mut self.neighbourhood;
-        let from = self.x.all();
+        let from = self.x.slices();
         let mut count = 0;
         for range in ranges {
             let (mut at, mut end) = (range.0 as usize, count);
             count += (range.1 - range.0) as usize;
             while end < count {
-                for (axis, to) in x.all_mut().into_iter().enumerate() {
+                for (axis, to) in x.slices_mut().into_iter().enumerate() {
                     s.store(to, end, s.load(from[axis], at));
                 }
                 points[end..end + S::LANES].copy_from_slice(&self.points[at..at + S::LANES]);
@@ -231,7 +231,7 @@ impl Neighbourhood {
         radius2: f32,
         pairs: &mut Vec<[u32; 2]>,
     ) {
-        let (i, columns) = (self.points[one], self.x.all());
+        let (i, columns) = (self.points[one], self.x.slices());
         let x = columns.map(|column| s.splat(column[one]));
         let (mut at, radius2) = (one + 1, s.splat(radius2));
         while at < all {
@@ -282,7 +282,7 @@ mod tests {
         for shift in [0.0, 1000.0] {
             let moved: Vec<Vec3> = points.iter().map(|p| *p + Vec3::splat(shift)).collect();
             grid.rebuild(&moved, 0.6);
-            for level in Level::all() {
+            for level in Level::available() {
                 let mut pairs = Vec::new();
                 grid.push_close_pairs(level, 0.5 * 0.5, &mut pairs);
                 pairs.sort_unstable();

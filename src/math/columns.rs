@@ -68,13 +68,13 @@ impl Columns {
 
     /// Returns the columns x, y, z as slices.
     #[inline(always)]
-    pub fn all(&self) -> [&[f32]; 3] {
+    pub fn slices(&self) -> [&[f32]; 3] {
         [&self.x, &self.y, &self.z]
     }
 
     /// Returns the columns x, y, z as mutable slices.
     #[inline(always)]
-    pub fn all_mut(&mut self) -> [&mut [f32]; 3] {
+    pub fn slices_mut(&mut self) -> [&mut [f32]; 3] {
         [&mut self.x, &mut self.y, &mut self.z]
     }
 
@@ -84,11 +84,13 @@ impl Columns {
         vectors.for_each(|v| self.push(v));
     }
 
+    /// Returns the vector at index `i`.
     #[inline(always)]
-    pub fn at(&self, i: usize) -> Vec3 {
+    pub fn get(&self, i: usize) -> Vec3 {
         Vec3::new(self.x[i], self.y[i], self.z[i])
     }
 
+    /// Replaces the vector at index `i`.
     #[inline(always)]
     pub fn set(&mut self, i: usize, v: Vec3) {
         self.x[i] = v.x;
@@ -96,6 +98,7 @@ impl Columns {
         self.z[i] = v.z;
     }
 
+    /// Adds `v` to the vector at index `i`.
     #[inline(always)]
     pub fn add(&mut self, i: usize, v: Vec3) {
         self.x[i] += v.x;
@@ -103,6 +106,7 @@ impl Columns {
         self.z[i] += v.z;
     }
 
+    /// Makes this list a copy of `other`, in the memory that it already has if that is enough.
     pub fn copy_from(&mut self, other: &Self) {
         self.x.clone_from(&other.x);
         self.y.clone_from(&other.y);

@@ -39,16 +39,16 @@ pub(crate) struct RestShape<'a> {
 }
 
 impl RestShape<'_> {
-    fn at(&self, corner: Corner) -> Vec3 {
+    fn position(&self, corner: Corner) -> Vec3 {
         self.rest[self.mesh.source[self.mesh.vertex(corner) as usize] as usize]
     }
 
     fn distance(&self, a: Corner, b: Corner) -> f32 {
-        (self.at(b) - self.at(a)).length()
+        (self.position(b) - self.position(a)).length()
     }
 
     fn area(&self, triangle: u32) -> f32 {
-        let [a, b, c] = [0, 1, 2].map(|k| self.at(3 * triangle + k));
+        let [a, b, c] = [0, 1, 2].map(|k| self.position(3 * triangle + k));
         0.5 * (b - a).cross(c - a).length()
     }
 }
@@ -220,7 +220,7 @@ impl Constraints {
         links_of: &mut LinksOfTriangle,
     ) {
         let edge = next_corner(side.edge);
-        let vector = rest_shape.at(next_corner(edge)) - rest_shape.at(edge);
+        let vector = rest_shape.position(next_corner(edge)) - rest_shape.position(edge);
         let length = vector.length();
         let both_areas = rest_shape.area(side.kept()) + rest_shape.area(side.added);
         let (kind, thread) = self.kind_in_direction(vector * (1.0 / length));

@@ -212,7 +212,7 @@ impl Folds {
         let fold = fold_angle(plates, yield_rule.fold_elements, bent, larger, at);
         // The part of the whole fold's limit that falls to this element.
         let limit = yield_rule.angle * bent[at] / max(fold, bent[at]);
-        let limit = yield_rule.hardened_limit(limit, self.hardening.at(at) * plates.spacing);
+        let limit = yield_rule.hardened_limit(limit, self.hardening.get(at) * plates.spacing);
         let Some(new) = yield_rule.yielded_rest(q, rest, limit) else { return false };
         let lengths = ElementLengths::Grid(plates.spacing);
         for kind in 0..2 {
@@ -242,7 +242,7 @@ impl Folds {
         let yield_rule = YieldRule::new(material, mean);
         let fold_length = max(material.fold_length, 3.0 * mean);
         for (at, hinge) in hinges.all.iter().enumerate() {
-            let corners = hinge.particles.map(|vertex| x.at(vertex as usize));
+            let corners = hinge.particles.map(|vertex| x.get(vertex as usize));
             let curve = hinge.curvature(corners).dot(hinge_normal(corners)) - hinge.rest;
             let q = angle_of(curve / hinge.length);
             let plastic_angle = if tracks_hardening { self.hinge_hardening[at] } else { 0.0 };
@@ -268,7 +268,7 @@ impl Folds {
         }
         self.hinge_hardening.fill(0.0);
         for (triangle, own) in hinges.elements.hinges().enumerate() {
-            let curve = 0.5 * self.hardening.at(triangle);
+            let curve = 0.5 * self.hardening.get(triangle);
             own.for_each(|hinge| {
                 self.hinge_hardening[hinge] += curve * hinges.all[hinge].fold_width();
             });
@@ -373,17 +373,17 @@ struct BentGrid<'a> {
 impl BentGrid<'_> {
     fn tensor(&self, at: usize) -> [f32; 3] {
         let plates = self.plates;
-        let n = self.normal.at(at);
+        let n = self.normal.get(at);
         let inverse_spacing = 1.0 / plates.spacing;
         let along = |kind: usize, step: usize| {
             if plates.area_fraction[kind][at] == 0.0 {
                 return 0.0;
             }
-            let curve = self.x.at(at - step) + self.x.at(at + step) - self.x.at(at) * 2.0;
+            let curve = self.x.get(at - step) + self.x.get(at + step) - self.x.get(at) * 2.0;
             angle_of(curve.dot(n) * inverse_spacing)
         };
         let twist = mean_twist(plates, at, |cell| {
-            let x = |at: usize| self.x.at(at);
+            let x = |at: usize| self.x.get(at);
             let below = cell + plates.columns;
             ((x(cell) - x(cell + 1)) - (x(below) - x(below + 1))).dot(n) * inverse_spacing
         });

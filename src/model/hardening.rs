@@ -73,7 +73,7 @@ impl Hardening {
     }
 
     /// The accumulated curvature at one place [1/m].
-    pub fn at(&self, at: usize) -> f32 {
+    pub fn get(&self, at: usize) -> f32 {
         self.curvature.get(at).copied().unwrap_or(0.0)
     }
 

@@ -95,7 +95,7 @@ impl Particles {
     /// Appends a copy of particle `source` and returns its index.
     pub fn push_copy_of(&mut self, source: usize) -> usize {
         for columns in self.all_columns() {
-            columns.push(columns.at(source));
+            columns.push(columns.get(source));
         }
         self.mass.push(self.mass[source]);
         self.w.push(self.w[source]);
@@ -106,7 +106,7 @@ impl Particles {
     /// index. It has no mass yet and is not held.
     pub fn push_between(&mut self, a: usize, b: usize, share: f32) -> usize {
         for columns in self.all_columns() {
-            let (from, to) = (columns.at(a), columns.at(b));
+            let (from, to) = (columns.get(a), columns.get(b));
             columns.push(lerp(from, to, share));
         }
         self.mass.push(0.0);
@@ -127,7 +127,7 @@ impl Particles {
     /// velocities stay.
     pub fn reset_history(&mut self, gravity: Vec3, h: f32) {
         for i in 0..self.len() {
-            self.set_motion(i, self.x.at(i), self.v.at(i), gravity, h);
+            self.set_motion(i, self.x.get(i), self.v.get(i), gravity, h);
         }
     }
 }

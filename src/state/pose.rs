@@ -79,7 +79,7 @@ impl Pose {
     }
 
     /// Converts to a transform with axes, for use on many points.
-    pub fn to_transform(&self) -> Transform {
+    pub fn to_transform(self) -> Transform {
         Transform {
             origin: self.position,
             axes: [Vec3::X, Vec3::Y, Vec3::Z].map(|v| self.rotate(v)),

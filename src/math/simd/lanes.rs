@@ -123,7 +123,7 @@ pub(crate) trait Simd: Copy {
     fn positive_mask(self, v: Self::F) -> u32;
 
     /// Splits `low` and `high`, which are consecutive in memory, into the numbers at even and at
-    /// odd places. Both results are in shuffled order (see [`Simd::to_shuffled_order`]).
+    /// odd places. Both results are in shuffled order (see [`Simd::shuffle`]).
     fn deinterleave(self, low: Self::F, high: Self::F) -> (Self::F, Self::F);
 
     /// The inverse of [`Simd::deinterleave`].
@@ -136,10 +136,10 @@ pub(crate) trait Simd: Copy {
     /// Permutes lanes from memory order to the order that `deinterleave` leaves them in.
     ///
     /// Wide x86 vectors are shuffled within each 128-bit part, so there the two orders differ.
-    fn to_shuffled_order(self, v: Self::F) -> Self::F;
+    fn shuffle(self, v: Self::F) -> Self::F;
 
-    /// The inverse of [`Simd::to_shuffled_order`].
-    fn from_shuffled_order(self, v: Self::F) -> Self::F;
+    /// The inverse of [`Simd::shuffle`].
+    fn unshuffle(self, v: Self::F) -> Self::F;
 }
 
 /// Scalar code: one lane.
@@ -211,12 +211,12 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
-    fn to_shuffled_order(self, v: f32) -> f32 {
+    fn shuffle(self, v: f32) -> f32 {
         v
     }
 
     #[inline(always)]
-    fn from_shuffled_order(self, v: f32) -> f32 {
+    fn unshuffle(self, v: f32) -> f32 {
         v
     }
 }

@@ -108,7 +108,7 @@ impl Level {
 
     /// Returns all levels that this CPU has, narrowest first.
     #[cfg(test)]
-    pub fn all() -> Vec<Self> {
+    pub fn available() -> Vec<Self> {
         let all = [
             Self::Scalar,
             #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]

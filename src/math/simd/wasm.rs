@@ -143,12 +143,12 @@ impl Simd for Simd128 {
     }
 
     #[inline(always)]
-    fn to_shuffled_order(self, v: F32x4) -> F32x4 {
+    fn shuffle(self, v: F32x4) -> F32x4 {
         v
     }
 
     #[inline(always)]
-    fn from_shuffled_order(self, v: F32x4) -> F32x4 {
+    fn unshuffle(self, v: F32x4) -> F32x4 {
         v
     }
 }

@@ -158,7 +158,7 @@ fn subtract_start<S: Simd>(
     for (start, at) in starts.iter_mut().zip(at) {
         for (axis, start) in start.iter_mut().enumerate() {
             let (predicted, displacement) =
-                (step.predicted.all()[axis], step.displacement.all()[axis]);
+                (step.predicted.slices()[axis], step.displacement.slices()[axis]);
             let mut lanes = [0.0; LANES];
             for lane in 0..S::LANES {
                 let particle = at[lane] as usize;

@@ -181,7 +181,7 @@ fn solve_cut_hinges(world: &mut World, step: HingeStep) {
         let hinge = world.constraints.hinges.dynamic_hinge(&world.mesh, links, link, &world.rest);
         if let Some(hinge) = hinge {
             let scratch = &world.scratch;
-            let start = |i: usize| scratch.predicted.at(i) - scratch.displacement.at(i);
+            let start = |i: usize| scratch.predicted.get(i) - scratch.displacement.get(i);
             hinge::project(&hinge, step, start, &mut world.particles);
         }
     }
@@ -202,7 +202,7 @@ fn solve_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
         stiffness_over_mass: step.stiffness / (world.material.density * cell * cell),
         is_first: order == SweepOrder::Forward,
     };
-    let start = |i: usize| predicted.at(i) - displacement.at(i);
+    let start = |i: usize| predicted.get(i) - displacement.get(i);
     let buffers = &mut scratch.bend.mesh;
     if scratch.interleaved.is_current {
         solver.solve(buffers, count, start, &mut scratch.interleaved);

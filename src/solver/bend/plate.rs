@@ -158,8 +158,10 @@ impl PlateScratch {
         let shifted = if step.start_share == 0.0 {
             x
         } else {
-            let start =
-                [&step.predicted.all()[axis][..count], &step.displacement.all()[axis][..count]];
+            let start = [
+                &step.predicted.slices()[axis][..count],
+                &step.displacement.slices()[axis][..count],
+            ];
             subtract_start(step.level, shifted, x, start, step.start_share);
             &shifted[..]
         };
@@ -171,7 +173,7 @@ impl PlateScratch {
             let share = 1.0 - step.start_share;
             for kind in 0..if has_twist { 3 } else { 2 } {
                 let (weight, rest) = (&weight[kind], &rest[kind]);
-                let direction = &directions[kind].all()[axis][..count];
+                let direction = &directions[kind].slices()[axis][..count];
                 subtract_rest(
                     step.level,
                     weight,
@@ -195,7 +197,7 @@ fn solve_chebyshev(
     chebyshev: &ChebyshevSteps,
     x: &mut Columns,
 ) {
-    for (axis, x) in x.all_mut().into_iter().enumerate() {
+    for (axis, x) in x.slices_mut().into_iter().enumerate() {
         scratch.compute_force(step, stiffness, columns, axis, x, true);
         let PlateScratch { weight, curve, shifted: force_change, force, total, w, mass, .. } =
             &mut *scratch;
@@ -276,7 +278,7 @@ pub(crate) fn solve(
         scratch.twist.solve(step.level, columns, x, w, from, false);
     }
     for axis in 0..3 {
-        scratch.compute_force(step, stiffness, columns, axis, x.all()[axis], false);
+        scratch.compute_force(step, stiffness, columns, axis, x.slices()[axis], false);
         if !step.is_first {
             for ((force, total), mass) in
                 scratch.force[axis].iter_mut().zip(&scratch.total[axis]).zip(mass)
@@ -296,7 +298,7 @@ pub(crate) fn solve(
         factors.scale_by_shifted_mass(step.level, &mass[..count], force);
         factors.weft.solve_rows(columns, force);
     }
-    for ((x, displacement), total) in x.all_mut().into_iter().zip(&*force).zip(total) {
+    for ((x, displacement), total) in x.slices_mut().into_iter().zip(&*force).zip(total) {
         apply_displacement(step.level, &mut x[..count], displacement, total, step.is_first);
     }
     if step.is_first {

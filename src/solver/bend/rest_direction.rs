@@ -33,8 +33,8 @@ pub(crate) fn compute_normals(
     let (columns, rows) = (plates.columns, plates.rows);
     for row in 0..rows {
         let (above, below) = (row.saturating_sub(1), (row + 1).min(rows - 1));
-        let of = |row: usize| x.all().map(|x| &x[row * columns..(row + 1) * columns]);
-        let out = normal.all_mut().map(|n| &mut n[row * columns..(row + 1) * columns]);
+        let of = |row: usize| x.slices().map(|x| &x[row * columns..(row + 1) * columns]);
+        let out = normal.slices_mut().map(|n| &mut n[row * columns..(row + 1) * columns]);
         compute_row_normals(level, out, [of(above), of(row), of(below)]);
     }
 }
@@ -87,13 +87,18 @@ pub(crate) fn compute(
 ) {
     let (columns, count) = (plates.columns, plates.count());
     for axis in 0..3 {
-        let x = &x.all()[axis][..count];
-        second_differences(level, &mut weft.all_mut()[axis][1..count - 1], x, 1);
-        second_differences(level, &mut warp.all_mut()[axis][columns..count - columns], x, columns);
-        twist(level, &mut cell.all_mut()[axis][..count - columns - 1], x, columns);
+        let x = &x.slices()[axis][..count];
+        second_differences(level, &mut weft.slices_mut()[axis][1..count - 1], x, 1);
+        second_differences(
+            level,
+            &mut warp.slices_mut()[axis][columns..count - columns],
+            x,
+            columns,
+        );
+        twist(level, &mut cell.slices_mut()[axis][..count - columns - 1], x, columns);
     }
     for (direction, offset) in [weft, warp, cell].into_iter().zip(offset) {
-        select_directions(level, direction.all_mut(), offset, normal.all());
+        select_directions(level, direction.slices_mut(), offset, normal.slices());
     }
 }
 
@@ -168,8 +173,8 @@ mod tests {
         x.set_all((0..columns * rows).map(place));
         let level = Level::best();
         for row in 0..rows {
-            let of = |row: usize| x.all().map(|x| &x[row * columns..(row + 1) * columns]);
-            let out = normal.all_mut().map(|n| &mut n[row * columns..(row + 1) * columns]);
+            let of = |row: usize| x.slices().map(|x| &x[row * columns..(row + 1) * columns]);
+            let out = normal.slices_mut().map(|n| &mut n[row * columns..(row + 1) * columns]);
             compute_row_normals(
                 level,
                 out,
@@ -177,11 +182,11 @@ mod tests {
             );
             for column in 0..columns {
                 let (left, right) = (column.max(1) - 1, (column + 1).min(columns - 1));
-                let across = x.at(row * columns + right) - x.at(row * columns + left);
+                let across = x.get(row * columns + right) - x.get(row * columns + left);
                 let (above, below) = (row.max(1) - 1, (row + 1).min(rows - 1));
-                let down = x.at(below * columns + column) - x.at(above * columns + column);
+                let down = x.get(below * columns + column) - x.get(above * columns + column);
                 let n = down.cross(across).normalize();
-                assert!(n.distance(normal.at(row * columns + column)) < 1.0e-6);
+                assert!(n.distance(normal.get(row * columns + column)) < 1.0e-6);
             }
         }
     }
@@ -200,11 +205,11 @@ mod tests {
         let (mut direction, mut normal) = (Columns::default(), Columns::default());
         direction.set_all(second_differences.into_iter());
         normal.set_all([Vec3::Z; 5].into_iter());
-        select_directions(Level::best(), direction.all_mut(), &rest, normal.all());
-        assert_eq!(direction.at(0), Vec3::ZERO);
-        assert_eq!(direction.at(1), Vec3::Z);
-        assert!(direction.at(2).distance(second_differences[2].normalize()) < 1.0e-6);
-        assert!(direction.at(3).distance(-second_differences[3].normalize()) < 1.0e-6);
-        assert_eq!(direction.at(4), Vec3::Z);
+        select_directions(Level::best(), direction.slices_mut(), &rest, normal.slices());
+        assert_eq!(direction.get(0), Vec3::ZERO);
+        assert_eq!(direction.get(1), Vec3::Z);
+        assert!(direction.get(2).distance(second_differences[2].normalize()) < 1.0e-6);
+        assert!(direction.get(3).distance(-second_differences[3].normalize()) < 1.0e-6);
+        assert_eq!(direction.get(4), Vec3::Z);
     }
 }

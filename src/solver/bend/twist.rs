@@ -141,8 +141,8 @@ impl Twist {
         let cells = count - columns - 1;
         for axis in 0..3 {
             if offset.start_share > 0.0 {
-                let [to, displacement] =
-                    [offset.predicted, offset.displacement].map(|list| &list.all()[axis][..count]);
+                let [to, displacement] = [offset.predicted, offset.displacement]
+                    .map(|list| &list.slices()[axis][..count]);
                 compute_start(level, start, to, displacement);
                 scaled_twist(
                     level,
@@ -163,7 +163,7 @@ impl Twist {
                 across[axis].fill(0.0);
             }
             if let Some((rest_twist, directions)) = offset.rest {
-                let direction = &directions.all()[axis][..cells];
+                let direction = &directions.slices()[axis][..cells];
                 scaled_rest(
                     level,
                     &mut rest[axis][..cells],
@@ -221,7 +221,7 @@ impl Twist {
         for (axis, (change, lambda)) in change.iter_mut().zip(lambda).enumerate() {
             let offsets = [&start_twist[kind][axis][from..to], &rest[axis][from..to]];
             let compliance_term = [&compliance[from..to], &lambda[from..to]];
-            let x = &x.all()[axis][from..to + margin_length];
+            let x = &x.slices()[axis][from..to + margin_length];
             compute_residual(
                 level,
                 &mut change[margin_length + from..margin_length + to],
@@ -236,7 +236,7 @@ impl Twist {
     /// Adds the changes to the multipliers and moves the particles.
     fn apply_change(&mut self, level: Level, strides: [usize; 2], x: &mut Columns, w: &[f32]) {
         let Self { lambda, change, .. } = self;
-        for ((lambda, change), x) in lambda.iter_mut().zip(change).zip(x.all_mut()) {
+        for ((lambda, change), x) in lambda.iter_mut().zip(change).zip(x.slices_mut()) {
             let count = lambda.len();
             apply_lambda(level, lambda, change, &mut x[..count], &w[..count], strides);
         }

@@ -78,8 +78,8 @@ pub(crate) fn refresh(world: &mut World) {
 /// Returns whether a particle is farther than `limit` [m] from where it was at the last rebuild.
 fn has_particle_moved(world: &World, limit: f32) -> bool {
     let mut has_moved = false;
-    let positions_at_rebuild = world.scratch.contacts.nearby.positions_at_rebuild.all();
-    let x = world.particles.x.all();
+    let positions_at_rebuild = world.scratch.contacts.nearby.positions_at_rebuild.slices();
+    let x = world.particles.x.slices();
     any_moved(world.level, x, positions_at_rebuild, limit * limit, &mut has_moved);
     has_moved
 }
@@ -118,7 +118,7 @@ fn rebuild(world: &mut World, margin: f32) {
     nearby.positions_at_rebuild.copy_from(x);
     nearby.is_stale = false;
     // The position now and at the start of the substep: a fast particle is already far from there.
-    let both = |i: usize| [x.at(i), scratch.predicted.at(i) - scratch.displacement.at(i)];
+    let both = |i: usize| [x.get(i), scratch.predicted.get(i) - scratch.displacement.get(i)];
     let count = world.particles.len();
     nearby.particle_bounds.clear();
     nearby.particle_bounds.extend(
@@ -150,7 +150,7 @@ fn rebuild(world: &mut World, margin: f32) {
             needs_triangle_tests(shape, longest_rest_edge, gap, entry.sagitta_margin);
         if (has_features || needs_triangles) && nearby.longest_edge == 0.0 {
             let triangles = world.mesh.triangles.iter();
-            nearby.longest_edge = longest_edge(triangles, |i| x.at(i)) + 2.0 * margin;
+            nearby.longest_edge = longest_edge(triangles, |i| x.get(i)) + 2.0 * margin;
         }
         if has_features {
             let (last, next) = (body.last.to_transform(), body.next.to_transform());

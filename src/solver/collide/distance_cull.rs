@@ -49,7 +49,7 @@ pub(super) fn update_clearance(
 }
 
 fn slices<'a>(columns: &'a Columns, range: &Range<usize>) -> [&'a [f32]; 3] {
-    columns.all().map(|column| &column[range.clone()])
+    columns.slices().map(|column| &column[range.clone()])
 }
 
 leveled! {
@@ -80,7 +80,7 @@ fn compute_clearance_lanes(
             path_clearances(block, frames, clearance, |x, y, z| {
                 let y = max((y - middle).abs() - half, 0.0);
                 (x * x + y * y + z * z).sqrt() - radius
-            })
+            });
         }
         DistanceBound::Box(middle, half) => path_clearances(block, frames, clearance, |x, y, z| {
             let x = max((x - middle.x).abs() - half.x, 0.0);
@@ -156,13 +156,13 @@ mod tests {
             origin: Vec3::new(0.1, -0.4, 0.3),
             axes: [Vec3::new(0.6, -0.8, 0.0), Vec3::new(0.8, 0.6, 0.0), Vec3::Z],
         };
-        for level in Level::all() {
+        for level in Level::available() {
             let mut clearance = [0.0; 37];
-            let columns = x.all();
+            let columns = x.slices();
             let block = BlockColumns { x: columns, predicted: columns, displacement: columns };
             compute_clearance(level, block, &[turned; 2], DistanceBound::HalfSpace, &mut clearance);
             for (i, clearance) in clearance.iter().enumerate() {
-                let height = turned.point_to_local(x.at(i)).y;
+                let height = turned.point_to_local(x.get(i)).y;
                 assert_eq!(clearance.to_bits(), height.to_bits(), "{i} at {level:?}");
             }
         }
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_block_is_culled_only_if_all_of_its_particles_are_far() {
-        for level in Level::all() {
+        for level in Level::available() {
             for (one, may_touch) in [(0.02, false), (0.01, true), (-3.0, true), (f32::NAN, true)] {
                 let mut clearance = [5.0; 37];
                 clearance[23] = one;

@@ -59,7 +59,7 @@ pub(super) fn collect_close_pairs(
         return;
     }
     local_positions.clear();
-    local_positions.extend((0..particles.w.len()).map(|i| particles.end(i)));
+    local_positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
     let distance = query.gap * CLOSE_GAPS;
     // Height and normal both have the length of the unnormalised normal as a factor; NaN counts as
     // close.
@@ -109,8 +109,8 @@ pub(super) fn solve(
             }
         };
         let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
-        let from = interpolate(corners.map(|i| particles.start(i)), weights);
-        let to = interpolate(corners.map(|i| particles.end(i)), weights);
+        let from = interpolate(corners.map(|i| particles.start_position(i)), weights);
+        let to = interpolate(corners.map(|i| particles.end_position(i)), weights);
         let correction = particles.correction(from, to, penetration);
         deepest = max(penetration.depth, deepest);
         let w = corners.map(|i| particles.w[i]);
@@ -130,8 +130,8 @@ fn edge_contact(
 ) -> Option<([usize; 3], TriangleContact)> {
     let edge = &features.edges[pair.edge as usize];
     let [i, j] = pair.particles.map(|i| i as usize);
-    let end = [particles.end(i), particles.end(j)];
-    let start = [particles.start(i), particles.start(j)];
+    let end = [particles.end_position(i), particles.end_position(j)];
+    let start = [particles.start_position(i), particles.start_position(j)];
     let (normal, height) = edge_normal(edge, end)?;
     if height >= query.gap {
         return None;
@@ -203,8 +203,8 @@ fn vertex_contact(
 ) -> Option<([usize; 3], TriangleContact)> {
     let vertex = &features.vertices[pair.vertex as usize];
     let corners = pair.particles.map(|i| i as usize);
-    let end = corners.map(|i| particles.end(i));
-    let start = corners.map(|i| particles.start(i));
+    let end = corners.map(|i| particles.end_position(i));
+    let start = corners.map(|i| particles.start_position(i));
     let (normal, height) = vertex_normal(features, vertex, end, start)?;
     if height >= query.gap {
         return None;

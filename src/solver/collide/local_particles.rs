@@ -124,14 +124,14 @@ pub(super) struct LocalParticles<'a> {
 impl LocalParticles<'_> {
     /// Returns the local position of a particle at the start of the substep [m].
     #[inline(always)]
-    pub fn start(&self, i: usize) -> Vec3 {
-        self.frames[0].point_to_local(self.predicted.at(i) - self.displacement.at(i))
+    pub fn start_position(&self, i: usize) -> Vec3 {
+        self.frames[0].point_to_local(self.predicted.get(i) - self.displacement.get(i))
     }
 
     /// Returns the local position of a particle now [m].
     #[inline(always)]
-    pub fn end(&self, i: usize) -> Vec3 {
-        self.frames[1].point_to_local(self.x.at(i))
+    pub fn end_position(&self, i: usize) -> Vec3 {
+        self.frames[1].point_to_local(self.x.get(i))
     }
 
     /// Returns the correction of a point that moved from `start` to `end` [m]: out of the
@@ -194,7 +194,7 @@ impl LocalParticles<'_> {
                 weight,
                 normal,
                 surface_velocity: self.surface_velocity(at),
-                approach_velocity: self.v.at(i),
+                approach_velocity: self.v.get(i),
                 correction,
                 restitution: self.material.restitution,
                 tangential_restitution: self.material.tangential_restitution,

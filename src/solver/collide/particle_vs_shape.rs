@@ -74,7 +74,7 @@ pub(super) fn solve_particle(
     candidates: &Candidates<'_>,
     i: usize,
 ) {
-    let (start, end, gap) = (particles.start(i), particles.end(i), particles.gap);
+    let (start, end, gap) = (particles.start_position(i), particles.end_position(i), particles.gap);
     let depenetration = particles.depenetration;
     let nearby = |surface| CandidateTriangles { surface, triangles: candidates.faces(i) };
     let penetration = match shape {

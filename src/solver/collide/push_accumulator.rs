@@ -102,7 +102,7 @@ impl PushAccumulator {
                 let frame = particles.frames[1];
                 let normal = frame.vector_to_world(sum.normal * (1.0 / length));
                 let correction = frame.vector_to_world(sum.correction * (1.0 / sum.weight));
-                let at = particles.end(i);
+                let at = particles.end_position(i);
                 particles.apply_correction(i, at, normal, correction, sum.max_barycentric);
             }
         }

@@ -52,12 +52,12 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for contact in &scratch.contacts.collider_contacts {
         let i = contact.particle as usize;
-        let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
+        let step = scratch.displacement.get(i) + (p.x.get(i) - scratch.predicted.get(i));
         let momentum = resolve_contact(p, contact, i, step, parameters);
         let impulse = &mut scratch.contacts.impulses[contact.body as usize];
         impulse.linear -= momentum;
         // About the world origin; `finish_tick` moves it to the position of the collider.
-        impulse.angular -= p.x.at(i).cross(momentum);
+        impulse.angular -= p.x.get(i).cross(momentum);
     }
 }
 
@@ -79,15 +79,15 @@ fn resolve_contact(
     };
     if -approach > parameters.resting_speed {
         let v = surface + tangential(step * (1.0 / h)) - n * (approach * contact.restitution);
-        let v = weighted(p.v.at(i), v);
-        let change = v - p.v.at(i);
-        p.set_motion(i, p.x.at(i), v, parameters.gravity, h);
+        let v = weighted(p.v.get(i), v);
+        let change = v - p.v.get(i);
+        p.set_motion(i, p.x.get(i), v, parameters.gravity, h);
         return (change + contact.correction * parameters.velocity_per_correction) * p.mass[i];
     }
     let sliding = |v: Vec3| weighted(v, surface + tangential(v - surface));
-    p.v.set(i, sliding(p.v.at(i)));
-    p.v_extrapolated.set(i, sliding(p.v_extrapolated.at(i)));
+    p.v.set(i, sliding(p.v.get(i)));
+    p.v_extrapolated.set(i, sliding(p.v_extrapolated.get(i)));
     let displacement = surface * h + tangential(step * parameters.decay);
-    p.displacement.set(i, weighted(p.displacement.at(i), displacement));
+    p.displacement.set(i, weighted(p.displacement.get(i), displacement));
     contact.correction * (parameters.momentum_per_correction * p.mass[i])
 }

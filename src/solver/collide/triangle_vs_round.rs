@@ -71,8 +71,8 @@ pub(super) fn solve(
             if corners.iter().all(|i| clearance[*i] > limit) {
                 continue;
             }
-            let start = corners.map(|i| particles.start(i));
-            let motion = TriangleMotion { start, end: corners.map(|i| particles.end(i)) };
+            let start = corners.map(|i| particles.start_position(i));
+            let motion = TriangleMotion { start, end: corners.map(|i| particles.end_position(i)) };
             let Some(contact) = find_contact(shape, &motion, gap) else { continue };
             let TriangleContact { weights, penetration } = contact;
             let from = interpolate(start, weights);

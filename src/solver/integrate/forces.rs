@@ -15,14 +15,12 @@
 //! `scratch.relative_wind`.
 //! Invariant: forces add up in triangle order, so the bits do not depend on threads or SIMD level.
 
-use crate::solver::vertex_sums::triangles;
-
 use crate::math::simd::{Float, Simd, leveled, vectored};
 use crate::math::{TINY, max};
 use crate::solver::vertex_sums::contribution::{
     LaneVector, RowBand, SumInput, TriangleContribution,
 };
-use crate::solver::vertex_sums::triangles::sum_in_bands;
+use crate::solver::vertex_sums::triangles::{self, sum_in_bands};
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::wind::{WindModel, WindSample};
 use glam::Vec3;
@@ -52,7 +50,7 @@ fn has_aerodynamics(world: &World) -> bool {
 /// Adds a field of sine waves as an acceleration, whatever the orientation of the cloth.
 fn add_sine_wind(world: &mut World, gravity: Vec3) {
     for i in 0..world.particles.len() {
-        let wind = world.wind.sine_field(world.time, world.particles.x.at(i));
+        let wind = world.wind.sine_field(world.time, world.particles.x.get(i));
         world.scratch.acceleration.set(i, gravity + wind);
     }
 }
@@ -60,10 +58,10 @@ fn add_sine_wind(world: &mut World, gravity: Vec3) {
 /// Adds the pressure of the air on each triangle.
 fn add_surface_wind(world: &mut World, gravity: Vec3) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
-    let breeze = world.wind.sample(world.time);
-    let particles = (p.x.all(), p.v.all(), world.scratch.relative_wind.all_mut());
+    let wind = world.wind.sample(world.time);
+    let particles = (p.x.slices(), p.v.slices(), world.scratch.relative_wind.slices_mut());
     threads.parallel_for(particles, MIN_WIND_PARTICLES_PER_THREAD, |(x, v, air)| {
-        subtract_velocity(level, &breeze, x, v, air)
+        subtract_velocity(level, &wind, x, v, air);
     });
     let half_density = 0.5 * world.wind.air_density;
     let pressure = Pressure {
@@ -71,7 +69,7 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
         lift: half_density * world.material.lift,
         max_mass_flux: MAX_DRAG_SHARE * world.material.density / world.settings.tick,
     };
-    let surface = SumInput {
+    let input = SumInput {
         triangles: &world.mesh.triangles,
         areas: &world.corner_area,
         cells: world.grid_cells.as_ref(),
@@ -80,15 +78,15 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
     };
     let force = &mut world.scratch.acceleration;
     force.fill(Vec3::ZERO);
-    sum_in_bands(threads, surface, force, |band, force| {
+    sum_in_bands(threads, input, force, |band, force| {
         if pressure.lift > 0.0 {
-            sum_drag_and_lift(level, surface, DragAndLift(pressure), band, force);
+            sum_drag_and_lift(level, input, DragAndLift(pressure), band, force);
         } else {
-            sum_drag(level, surface, pressure, band, force);
+            sum_drag(level, input, pressure, band, force);
         }
     });
     threads.parallel_for(
-        (force.all_mut(), &p.mass[..]),
+        (force.slices_mut(), &p.mass[..]),
         MIN_PARTICLES_PER_THREAD,
         |(force, mass)| {
             for (force, gravity) in force.into_iter().zip(gravity.to_array()) {
@@ -100,28 +98,28 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
 
 leveled! {
     /// Computes the velocity of the air relative to each particle [m/s].
-    fn subtract_velocity(breeze: &WindSample, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
+    fn subtract_velocity(wind: &WindSample, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
         = subtract_velocity_lanes
 }
 
 #[inline(always)]
 fn subtract_velocity_lanes(
-    breeze: &WindSample,
+    wind: &WindSample,
     x: [&[f32]; 3],
     v: [&[f32]; 3],
     mut air: [&mut [f32]; 3],
 ) {
-    for ((air, mean), v) in air.iter_mut().zip(breeze.mean.to_array()).zip(v) {
+    for ((air, mean), v) in air.iter_mut().zip(wind.mean.to_array()).zip(v) {
         for (air, v) in air.iter_mut().zip(v) {
             *air = mean - v;
         }
     }
-    if breeze.is_turbulent() {
+    if wind.is_turbulent() {
         let ([x, y, z], [ax, ay, az]) = (x, air);
         let particles = x.iter().zip(y).zip(z);
         let air = ax.iter_mut().zip(ay).zip(az);
         for (((x, y), z), ((ax, ay), az)) in particles.zip(air) {
-            let [sx, sy, sz] = breeze.turbulence_at(*x, *y, *z);
+            let [sx, sy, sz] = wind.turbulence_at(*x, *y, *z);
             *ax += sx;
             *ay += sy;
             *az += sz;
@@ -132,7 +130,7 @@ fn subtract_velocity_lanes(
 vectored! {
     /// Adds the drag of each triangle to its corners.
     fn sum_drag(
-        surface: SumInput<'_>,
+        input: SumInput<'_>,
         pressure: Pressure,
         band: RowBand,
         force: [&mut [f32]; 3],
@@ -142,7 +140,7 @@ vectored! {
 vectored! {
     /// Adds the drag and the lift of each triangle to its corners.
     fn sum_drag_and_lift(
-        surface: SumInput<'_>,
+        input: SumInput<'_>,
         pressure: DragAndLift,
         band: RowBand,
         force: [&mut [f32]; 3],

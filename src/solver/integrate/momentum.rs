@@ -52,21 +52,22 @@ pub(crate) fn remove_rigid_motion(world: &mut World) {
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let displacements = &mut scratch.tether_pins;
     displacements.resize(p.len());
-    let all = p.x.all().into_iter().zip(scratch.predicted.all()).zip(displacements.all_mut());
+    let all =
+        p.x.slices().into_iter().zip(scratch.predicted.slices()).zip(displacements.slices_mut());
     for ((x, predicted), displacements) in all {
         for ((x, predicted), displacement) in x.iter().zip(predicted).zip(displacements) {
             *displacement = x - predicted;
         }
     }
     let free = FreeParticles {
-        x: scratch.relative_wind.all(),
-        displacement: displacements.all(),
+        x: scratch.relative_wind.slices(),
+        displacement: displacements.slices(),
         mass: &p.mass,
         w: &p.w,
     };
     let rigid = RigidMotion::of_free(world.level, free);
     for i in 0..p.len() {
-        p.x.add(i, -rigid.displacement_at(p.x.at(i)));
+        p.x.add(i, -rigid.displacement_at(p.x.get(i)));
     }
 }
 
@@ -82,8 +83,8 @@ pub(crate) fn remove_rigid_motion_since(
     let (p, scratch) = (&world.particles, &mut world.scratch);
     interleaved::compute_displacements(before, now, &mut scratch.tether_pins);
     let free = FreeParticles {
-        x: scratch.relative_wind.all(),
-        displacement: scratch.tether_pins.all(),
+        x: scratch.relative_wind.slices(),
+        displacement: scratch.tether_pins.slices(),
         mass: &p.mass,
         w: &p.w,
     };
@@ -120,9 +121,10 @@ fn compute_velocity_origins(world: &mut World) {
     let scheme = world.settings.scheme();
     let ratio = scheme.old_weight / scheme.new_weight;
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    let displacements = scratch.displacement.all().into_iter().zip(p.displacement.all());
-    let columns = scratch.predicted.all().into_iter().zip(displacements);
-    for ((predicted, (displacement, last)), origin) in columns.zip(scratch.relative_wind.all_mut())
+    let displacements = scratch.displacement.slices().into_iter().zip(p.displacement.slices());
+    let columns = scratch.predicted.slices().into_iter().zip(displacements);
+    for ((predicted, (displacement, last)), origin) in
+        columns.zip(scratch.relative_wind.slices_mut())
     {
         let read = predicted.iter().zip(displacement).zip(last);
         for (((predicted, displacement), last), origin) in read.zip(origin.iter_mut()) {

@@ -35,8 +35,13 @@ pub(crate) fn predict_positions(world: &mut World) {
     let (level, threads) = (world.level, world.threads);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let is_long = AtomicBool::new(false);
-    let write = scratch.displacement.all_mut();
-    let read = (p.displacement.all(), p.v_extrapolated.all(), scratch.acceleration.all(), &p.w[..]);
+    let write = scratch.displacement.slices_mut();
+    let read = (
+        p.displacement.slices(),
+        p.v_extrapolated.slices(),
+        scratch.acceleration.slices(),
+        &p.w[..],
+    );
     threads.parallel_for(
         (write, read),
         MIN_PARTICLES_PER_THREAD,
@@ -63,7 +68,7 @@ pub(crate) fn predict_positions(world: &mut World) {
         clamp_displacement(world, max_length);
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let columns = (p.x.all_mut(), scratch.displacement.all(), scratch.predicted.all_mut());
+    let columns = (p.x.slices_mut(), scratch.displacement.slices(), scratch.predicted.slices_mut());
     threads.parallel_for(columns, MIN_PARTICLES_PER_THREAD, |(x, displacement, predicted)| {
         for ((x, displacement), predicted) in x.into_iter().zip(displacement).zip(predicted) {
             apply_displacement(level, x, displacement, predicted);
@@ -124,12 +129,14 @@ fn apply_displacement_column(x: &mut [f32], displacement: &[f32], predicted: &mu
 fn clamp_displacement(world: &mut World, max_length: f32) {
     let (level, p) = (world.level, &world.particles);
     let displacement = &mut world.scratch.displacement;
-    let (x, mass, w) = (p.x.all(), &p.mass[..], &p.w[..]);
-    let rigid =
-        RigidMotion::of_free(level, FreeParticles { x, displacement: displacement.all(), mass, w });
+    let (x, mass, w) = (p.x.slices(), &p.mass[..], &p.w[..]);
+    let rigid = RigidMotion::of_free(
+        level,
+        FreeParticles { x, displacement: displacement.slices(), mass, w },
+    );
     let is_clamped = AtomicBool::new(false);
     world.threads.parallel_for(
-        (displacement.all_mut(), x, w),
+        (displacement.slices_mut(), x, w),
         MIN_PARTICLES_PER_THREAD,
         |(displacement, x, w)| {
             let mut is_one_clamped = false;
@@ -149,10 +156,10 @@ fn clamp_displacement(world: &mut World, max_length: f32) {
     if is_clamped.into_inner() && p.w.iter().all(|w| *w > 0.0) {
         let clamped = RigidMotion::of_free(
             level,
-            FreeParticles { x, displacement: displacement.all(), mass, w },
+            FreeParticles { x, displacement: displacement.slices(), mass, w },
         );
         for i in 0..p.len() {
-            let x = p.x.at(i);
+            let x = p.x.get(i);
             displacement.add(i, rigid.displacement_at(x) - clamped.displacement_at(x));
         }
     }

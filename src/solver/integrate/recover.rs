@@ -26,11 +26,11 @@ pub(crate) fn restore_invalid(world: &mut World) {
     for i in 0..p.len() {
         let is_valid = [&p.x, &p.displacement, &p.v, &p.v_extrapolated]
             .iter()
-            .all(|columns| is_valid_vector(columns.at(i)));
+            .all(|columns| is_valid_vector(columns.get(i)));
         if is_valid {
             continue;
         }
-        let last = p.x_prev_tick.at(i);
+        let last = p.x_prev_tick.get(i);
         if restored == 0 {
             first = last;
         }
@@ -47,7 +47,7 @@ pub(crate) fn restore_invalid(world: &mut World) {
 fn is_all_valid(world: &World) -> bool {
     let (level, p) = (world.level, &world.particles);
     let is_one_invalid = AtomicBool::new(false);
-    let columns = (p.x.all(), p.displacement.all(), p.v.all(), p.v_extrapolated.all());
+    let columns = (p.x.slices(), p.displacement.slices(), p.v.slices(), p.v_extrapolated.slices());
     world.threads.parallel_for(columns, MIN_PARTICLES_PER_THREAD, |(x, moved, v, v_ahead)| {
         let mut all_valid = true;
         for column in [x, moved, v, v_ahead].into_iter().flatten() {

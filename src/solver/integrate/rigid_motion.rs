@@ -34,7 +34,7 @@ impl RigidMotion {
         displacement: impl Fn(usize) -> Vec3,
         mass: &[f32],
     ) -> Self {
-        Self::of_points(|| particles().map(|i| (x.at(i), displacement(i), mass[i])))
+        Self::of_points(|| particles().map(|i| (x.get(i), displacement(i), mass[i])))
     }
 
     /// As `fit`, for points given as position, displacement and mass.
@@ -316,12 +316,16 @@ mod tests {
         let w: Vec<f32> =
             (0..count).map(|i| if i % 9 == 4 { 0.0 } else { 1.0 / mass[i] }).collect();
         let free = || (0..count).filter(|i| w[*i] > 0.0);
-        let one = RigidMotion::fit(free, &x, |i| displacement.at(i), &mass);
-        let free =
-            FreeParticles { x: x.all(), displacement: displacement.all(), mass: &mass, w: &w };
+        let one = RigidMotion::fit(free, &x, |i| displacement.get(i), &mass);
+        let free = FreeParticles {
+            x: x.slices(),
+            displacement: displacement.slices(),
+            mass: &mass,
+            w: &w,
+        };
         let bits = |v: Vec3| v.to_array().map(f32::to_bits);
         let all: Vec<_> =
-            Level::all().into_iter().map(|level| RigidMotion::of_free(level, free)).collect();
+            Level::available().into_iter().map(|level| RigidMotion::of_free(level, free)).collect();
         for other in &all {
             for point in [Vec3::ZERO, Vec3::new(1.0, -2.0, 0.5)] {
                 assert!(

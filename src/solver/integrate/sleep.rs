@@ -42,14 +42,14 @@ impl World {
             || self.anchors.iter().any(AnchorConstraint::is_moving)
             || self.grabs.iter().any(|grab| {
                 self.pins.get(grab.particle).is_none()
-                    && self.particles.x.at(grab.particle as usize) != grab.target
+                    && self.particles.x.get(grab.particle as usize) != grab.target
             })
             || self.colliders.iter().any(|body| body.last != body.next)
     }
 
     fn is_still(&self) -> bool {
         let max_speed2 = self.settings.sleep_speed * self.settings.sleep_speed;
-        let [x, y, z] = self.particles.v.all();
+        let [x, y, z] = self.particles.v.slices();
         let all = x.iter().zip(y).zip(z);
         // A NaN speed fails this comparison, so it does not count as still.
         all.fold(true, |still, ((x, y), z)| still & (x * x + y * y + z * z <= max_speed2))

@@ -26,8 +26,8 @@ pub(crate) fn update(world: &mut World) {
     let p = &mut world.particles;
     let (displacement, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
     let level = world.level;
-    let read = (p.x.all(), predicted.all(), displacement.all());
-    let write = (p.displacement.all_mut(), p.v.all_mut(), p.v_extrapolated.all_mut());
+    let read = (p.x.slices(), predicted.slices(), displacement.slices());
+    let write = (p.displacement.slices_mut(), p.v.slices_mut(), p.v_extrapolated.slices_mut());
     world.threads.parallel_for(
         (read, write),
         MIN_PARTICLES_PER_THREAD,

@@ -35,7 +35,7 @@ fn project_at(world: &mut World, share: f32) {
     moved.clear();
     for anchor in world.anchors.iter() {
         let at = anchor.particle as usize;
-        let x = p.x.at(at);
+        let x = p.x.get(at);
         let valid = anchor.project(x, share);
         if valid != x && p.w[at] > 0.0 {
             p.x.set(at, valid);
@@ -56,7 +56,7 @@ pub(crate) fn reset_history(world: &mut World, decay: f32) {
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in scratch.anchor_moved.iter().map(|i| *i as usize) {
-        let step = scratch.displacement.at(i) + (p.x.at(i) - scratch.predicted.at(i));
+        let step = scratch.displacement.get(i) + (p.x.get(i) - scratch.predicted.get(i));
         let v = step * (decay / h);
         p.v.set(i, v);
         p.v_extrapolated.set(i, v);

@@ -38,7 +38,7 @@ pub(crate) fn apply(world: &mut World, number: u32) {
             carrier.target(pin, share)
         };
         if pin.is_soft() {
-            let from = p.x.at(at);
+            let from = p.x.get(at);
             p.x.set(at, from + (to - from) * (pin.stiffness * step * step * p.w[at]));
         } else {
             p.x.set(at, to);
@@ -47,7 +47,7 @@ pub(crate) fn apply(world: &mut World, number: u32) {
     let max_length = world.settings.max_displacement * world.mean_edge;
     for grab in world.grabs.iter() {
         let at = grab.particle as usize;
-        let from = world.scratch.predicted.at(at);
+        let from = world.scratch.predicted.get(at);
         let displacement = (grab.target - from) * share_of_rest;
         let length = displacement.length();
         let to = if number + 1 == count { grab.target } else { from + displacement };

@@ -37,7 +37,7 @@ pub(crate) fn scatter_to_vertices(world: &World, per_particle: &Columns, out: &m
     out.clear();
     match &world.seams {
         Some(seams) => {
-            out.extend(seams.particles.iter().map(|particle| per_particle.at(*particle as usize)));
+            out.extend(seams.particles.iter().map(|particle| per_particle.get(*particle as usize)));
         }
         None => out.extend(per_particle.iter()),
     }
@@ -48,7 +48,7 @@ pub(crate) fn scatter_to_vertices(world: &World, per_particle: &Columns, out: &m
 pub(crate) fn compute(world: &World, x: &Columns, sums: &mut Columns) {
     sums.resize(x.x.len());
     sums.fill(Vec3::ZERO);
-    let surface = SumInput {
+    let input = SumInput {
         triangles: &world.mesh.triangles,
         areas: &world.corner_area,
         cells: world.grid_cells.as_ref(),
@@ -56,19 +56,19 @@ pub(crate) fn compute(world: &World, x: &Columns, sums: &mut Columns) {
         attribute: x,
     };
     let level = world.level;
-    sum_in_bands(world.threads, surface, sums, |band, sums| {
-        sum_normals(level, surface, AreaNormal, band, sums);
+    sum_in_bands(world.threads, input, sums, |band, sums| {
+        sum_normals(level, input, AreaNormal, band, sums);
     });
     world
         .threads
-        .parallel_for(sums.all_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
+        .parallel_for(sums.slices_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
 }
 
 /// Computes the positions of all particles at `share` between the previous tick (0) and the last
 /// (1).
 pub(crate) fn blend_positions(world: &World, share: f32, out: &mut Columns) {
     out.copy_from(&world.particles.x);
-    let lists = out.all_mut().into_iter().zip(world.particles.x_prev_tick.all());
+    let lists = out.slices_mut().into_iter().zip(world.particles.x_prev_tick.slices());
     lists.for_each(|(x, last)| blend(world.level, x, last, share));
 }
 
@@ -88,7 +88,7 @@ fn blend_lanes(x: &mut [f32], last: &[f32], share: f32) {
 
 vectored! {
     fn sum_normals(
-        surface: SumInput<'_>,
+        input: SumInput<'_>,
         contribution: AreaNormal,
         band: RowBand,
         sums: [&mut [f32]; 3],

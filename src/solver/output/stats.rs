@@ -16,7 +16,7 @@ pub(crate) fn stretch(world: &World) -> (f32, f32) {
     for links in [&world.constraints.links, &world.constraints.dynamic] {
         for link in 0..links.len() {
             if links.active[link] && links.kind(link) == LinkKind::Stretch {
-                let span = x.at(links.b[link] as usize) - x.at(links.a[link] as usize);
+                let span = x.get(links.b[link] as usize) - x.get(links.a[link] as usize);
                 let stretch = span.length() / links.rest[link] - 1.0;
                 largest = if stretch > largest { stretch } else { largest };
                 sum += f64::from(stretch);
@@ -35,6 +35,6 @@ pub(crate) fn max_speed(world: &World) -> f32 {
 /// Kinetic energy [J].
 pub(crate) fn kinetic_energy(world: &World) -> f32 {
     let p = &world.particles;
-    let of = |i: usize| 0.5 * f64::from(p.mass[i]) * f64::from(p.v.at(i).length_squared());
+    let of = |i: usize| 0.5 * f64::from(p.mass[i]) * f64::from(p.v.get(i).length_squared());
     (0..p.len()).map(of).sum::<f64>() as f32
 }

@@ -88,14 +88,14 @@ impl Tangents {
         let (x, cells) = match &world.seams {
             Some(seams) => {
                 self.x.reserve(self.capacity);
-                self.x.set_all(seams.particles.iter().map(|particle| x.at(*particle as usize)));
+                self.x.set_all(seams.particles.iter().map(|particle| x.get(*particle as usize)));
                 (&self.x, None)
             }
             None => (x, world.grid_cells.as_ref()),
         };
         self.sums.copy_from(x);
         self.sums.fill(Vec3::ZERO);
-        let surface = SumInput {
+        let input = SumInput {
             triangles: world.render_triangles(),
             areas: &world.corner_area,
             cells,
@@ -103,8 +103,8 @@ impl Tangents {
             attribute: &self.uvs,
         };
         let level = world.level;
-        sum_in_bands(world.threads, surface, &mut self.sums, |band, sums| {
-            sum_tangents(level, surface, TextureTangent, band, sums);
+        sum_in_bands(world.threads, input, &mut self.sums, |band, sums| {
+            sum_tangents(level, input, TextureTangent, band, sums);
         });
     }
 
@@ -125,13 +125,13 @@ impl Tangents {
 
     /// Columns of the sums, and the handedness.
     pub fn columns(&self) -> ([&[f32]; 3], &[f32]) {
-        (self.sums.all(), &self.handedness)
+        (self.sums.slices(), &self.handedness)
     }
 }
 
 vectored! {
     fn sum_tangents(
-        surface: SumInput<'_>,
+        input: SumInput<'_>,
         contribution: TextureTangent,
         band: RowBand,
         sums: [&mut [f32]; 3],

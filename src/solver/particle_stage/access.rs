@@ -24,7 +24,7 @@ pub(crate) trait ParticleAccess {
 impl ParticleAccess for Particles {
     #[inline(always)]
     fn particle(&self, i: usize) -> (Vec3, f32) {
-        (self.x.at(i), self.w[i])
+        (self.x.get(i), self.w[i])
     }
 
     #[inline(always)]

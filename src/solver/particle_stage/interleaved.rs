@@ -90,7 +90,7 @@ fn store_columns<S: Simd>(s: S, particles: &mut [Float4], i: usize, columns: [S:
 /// Fills `particles` with positions and inverse masses.
 pub(crate) fn gather(particles: &mut Vec<Float4>, x: &Columns, w: &[f32]) {
     particles.resize(w.len(), [0.0; 4]);
-    let [x, y, z] = x.all();
+    let [x, y, z] = x.slices();
     for_blocks!(w.len(), |s, i| {
         let columns = [s.load(x, i), s.load(y, i), s.load(z, i), s.load(w, i)];
         store_columns(s, particles, i, columns);
@@ -99,7 +99,7 @@ pub(crate) fn gather(particles: &mut Vec<Float4>, x: &Columns, w: &[f32]) {
 
 /// Writes the positions of `particles` back to columns.
 pub(crate) fn scatter(particles: &[Float4], x: &mut Columns) {
-    let [x, y, z] = x.all_mut();
+    let [x, y, z] = x.slices_mut();
     for_blocks!(particles.len(), |s, i| {
         let [new_x, new_y, new_z, _] = load_columns(s, particles, i);
         s.store(x, i, new_x);
@@ -111,7 +111,7 @@ pub(crate) fn scatter(particles: &[Float4], x: &mut Columns) {
 /// Writes `to - from` of each particle to `displacements` [m].
 pub(crate) fn compute_displacements(from: &[Float4], to: &[Float4], displacements: &mut Columns) {
     displacements.resize(to.len());
-    let [x, y, z] = displacements.all_mut();
+    let [x, y, z] = displacements.slices_mut();
     for_blocks!(to.len(), |s, i| {
         let (from, to) = (load_columns(s, from, i), load_columns(s, to, i));
         s.store(x, i, to[0] - from[0]);
@@ -141,8 +141,8 @@ pub(crate) fn gather_relative(
     columns: &Columns,
     vectors: &mut Vec<Float4>,
 ) {
-    let [x, y, z] = x.all();
-    let columns = columns.all();
+    let [x, y, z] = x.slices();
+    let columns = columns.slices();
     vectors.resize(x.len(), [0.0; 4]);
     for_blocks!(x.len(), |s, i| {
         let by = motion.displacement_lanes(s, [s.load(x, i), s.load(y, i), s.load(z, i)]);
@@ -161,8 +161,8 @@ pub(crate) fn scatter_relative(
     vectors: &[Float4],
     columns: &mut Columns,
 ) {
-    let [x, y, z] = x.all();
-    let columns = columns.all_mut();
+    let [x, y, z] = x.slices();
+    let columns = columns.slices_mut();
     for_blocks!(x.len(), |s, i| {
         let by = motion.displacement_lanes(s, [s.load(x, i), s.load(y, i), s.load(z, i)]);
         let relative = load_columns(s, vectors, i);
@@ -256,7 +256,7 @@ mod tests {
                 let expected = with(vector(i, 0), w[i]);
                 assert_eq!(particles[i].map(f32::to_bits), expected, "{i} of {count}");
                 assert_eq!(relative[i].map(f32::to_bits), with(v, 0.0), "{i} of {count}");
-                assert_eq!(bits(out.at(i)), bits(v - vector(i, 0)), "{i} of {count}");
+                assert_eq!(bits(out.get(i)), bits(v - vector(i, 0)), "{i} of {count}");
             }
             scatter_relative(&motion, &x, &relative, &mut velocities);
             subtract_rigid_motion(&particles, &motion, &mut relative);
@@ -264,8 +264,8 @@ mod tests {
             for i in 0..count {
                 let rigid = motion.displacement_at(vector(i, 0));
                 let v = (vector(i, 3) - rigid) + rigid;
-                assert_eq!(bits(velocities.at(i)), bits(v), "{i} of {count}");
-                assert_eq!(bits(out.at(i)), bits(vector(i, 0) - rigid), "{i} of {count}");
+                assert_eq!(bits(velocities.get(i)), bits(v), "{i} of {count}");
+                assert_eq!(bits(out.get(i)), bits(vector(i, 0) - rigid), "{i} of {count}");
                 assert_eq!(relative[i][3].to_bits(), w[i].to_bits(), "{i} of {count}");
             }
         }

@@ -93,7 +93,7 @@ pub(crate) fn solve(world: &mut World) {
         if collision.margin > 0.0 { collect_touching(pairs, touching, p, distance) } else { pairs };
     for pair in touching {
         let [i, j] = pair.map(|particle| particle as usize);
-        let d = p.x.at(j) - p.x.at(i);
+        let d = p.x.get(j) - p.x.get(i);
         let length = d.length();
         let is_fixed = p.w[i] <= 0.0 || p.w[j] <= 0.0;
         if is_fixed || length <= TINY || length >= distance {
@@ -121,7 +121,7 @@ fn collect_touching<'a>(
     for pair in pairs {
         let [i, j] = pair.map(|particle| particle as usize);
         touching[count] = *pair;
-        count += usize::from((p.x.at(j) - p.x.at(i)).length_squared() < distance * distance);
+        count += usize::from((p.x.get(j) - p.x.get(i)).length_squared() < distance * distance);
     }
     &touching[..count]
 }

@@ -31,7 +31,7 @@ pub(crate) fn apply(world: &mut World) {
     }
     let ratio = world.material.stretch_damping / world.settings.scheme().h;
     let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
-    let start = |i: u32| predicted.at(i as usize) - displacement.at(i as usize);
+    let start = |i: u32| predicted.get(i as usize) - displacement.get(i as usize);
     let Constraints { links, dynamic, .. } = &mut world.constraints;
     let undamped = &mut world.scratch.damping.undamped;
     for (links, [rest, compliance]) in [links, dynamic].into_iter().zip(undamped) {

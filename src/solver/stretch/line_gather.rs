@@ -40,15 +40,15 @@ pub(crate) fn gather(world: &mut World, is_rigid: bool) {
             *point = [*x, *y, *z, *w];
         }
     } else {
-        interleave(level, p.x.all(), &p.w, &mut s.points[1..]);
+        interleave(level, p.x.slices(), &p.w, &mut s.points[1..]);
     }
     s.start_points.clear();
     if is_rigid {
         s.start_points.resize(p.len() + 1, [0.0; 4]);
         interleave_starts(
             level,
-            scratch.predicted.all(),
-            scratch.displacement.all(),
+            scratch.predicted.slices(),
+            scratch.displacement.slices(),
             &mut s.start_points[1..],
         );
     }
@@ -209,7 +209,7 @@ pub(crate) fn scatter(world: &mut World) {
             *to = [*x, *y, *z, 0.0];
         }
     } else {
-        deinterleave(world.level, points, world.particles.x.all_mut());
+        deinterleave(world.level, points, world.particles.x.slices_mut());
     }
 }
 

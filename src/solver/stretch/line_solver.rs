@@ -114,14 +114,14 @@ fn solve_blocks(world: &mut World, scale: Option<f32>) {
         let gathered = LinePoints { points, start_points };
         match scale {
             None if GATHERS_BLOCK_FIRST => {
-                line_gather::gather_rigid(level, block, gathered, &mut steps[1..])
+                line_gather::gather_rigid(level, block, gathered, &mut steps[1..]);
             }
             Some(_) if GATHERS_BLOCK_FIRST => {
-                line_gather::gather_soft(level, block, gathered, &mut steps[1..])
+                line_gather::gather_soft(level, block, gathered, &mut steps[1..]);
             }
             None => tridiagonal::gather_solve_rigid(level, block, gathered, steps, links, 0.0),
             Some(scale) => {
-                tridiagonal::gather_solve_soft(level, block, gathered, steps, links, scale)
+                tridiagonal::gather_solve_soft(level, block, gathered, steps, links, scale);
             }
         }
         if GATHERS_BLOCK_FIRST {

@@ -41,7 +41,8 @@ pub(crate) fn compute_starts(
     starts: &mut Columns,
 ) {
     starts.resize(predicted.x.len() + 1);
-    let columns = starts.all_mut().into_iter().zip(predicted.all()).zip(displacement.all());
+    let columns =
+        starts.slices_mut().into_iter().zip(predicted.slices()).zip(displacement.slices());
     for ((start, predicted), displacement) in columns {
         subtract(level, predicted, displacement, &mut start[1..]);
     }
@@ -63,7 +64,7 @@ fn subtract_lanes(a: &[f32], b: &[f32], difference: &mut [f32]) {
 
 /// Gathers the positions and inverse masses of a strided block.
 pub(crate) fn gather(strided: StridedBlock, x: &Columns, w: &[f32], steps: &mut [LineStep]) {
-    let [x, y, z] = x.all();
+    let [x, y, z] = x.slices();
     let columns = [x, y, z, w];
     if strided.chain_count < LANES {
         return gather_scalar(strided, columns, steps);
@@ -84,7 +85,7 @@ pub(crate) fn gather(strided: StridedBlock, x: &Columns, w: &[f32], steps: &mut 
 /// The strided block lies within the columns.
 #[inline(never)]
 unsafe fn gather_direct(strided: StridedBlock, columns: [*const f32; 4], steps: &mut [LineStep]) {
-    let (s, mut at) = (Baseline::new(), strided.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strided.index(0, 0));
     for step in steps {
         for (to, column) in step.to.iter_mut().zip(columns) {
             // SAFETY: the caller guarantees it.
@@ -110,7 +111,7 @@ unsafe fn gather_transposed(
     for start in blocks_of_four(steps.len()) {
         let steps = &mut steps[start..start + FOUR];
         for first in [0, FOUR] {
-            let at = strided.at(first, start);
+            let at = strided.index(first, start);
             for (axis, column) in columns.into_iter().enumerate() {
                 // SAFETY: the caller guarantees it.
                 let rows =
@@ -144,8 +145,11 @@ fn gather_scalar(strided: StridedBlock, columns: [&[f32]; 4], steps: &mut [LineS
     for (number, step) in steps.iter_mut().enumerate() {
         for (to, column) in step.to.iter_mut().zip(columns) {
             for lane in 0..LANES {
-                to[lane] =
-                    if lane < strided.chain_count { column[strided.at(lane, number)] } else { 0.0 };
+                to[lane] = if lane < strided.chain_count {
+                    column[strided.index(lane, number)]
+                } else {
+                    0.0
+                };
             }
         }
     }
@@ -158,7 +162,7 @@ pub(crate) fn set_relaxed_targets(
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
-    let starts = starts.all();
+    let starts = starts.slices();
     if strided.chain_count < LANES {
         return set_relaxed_targets_scalar(strided, starts, block, steps);
     }
@@ -184,7 +188,7 @@ unsafe fn set_relaxed_targets_direct(
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
 ) {
-    let (s, mut at) = (Baseline::new(), strided.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strided.index(0, 0));
     // The first step of a chain has no link, so its target is not used.
     let mut last = at;
     for (step, chain_step) in steps.iter_mut().zip(block) {
@@ -228,7 +232,7 @@ unsafe fn set_relaxed_targets_transposed(
     for start in blocks_of_four(steps.len()) {
         let (steps, block) = (&mut steps[start..start + FOUR], &block[start..start + FOUR]);
         for first in [0, FOUR] {
-            let (at, across) = (strided.at(first, start), strided.chain_stride);
+            let (at, across) = (strided.index(first, start), strided.chain_stride);
             let lengths = [
                 start_length(at),
                 start_length(at + across),
@@ -253,7 +257,7 @@ fn set_relaxed_targets_scalar(
     for lane in 0..LANES {
         let mut last = [0.0; 3];
         for (number, (step, chain_step)) in steps.iter_mut().zip(block).enumerate() {
-            let at = strided.at(lane, number) + 1;
+            let at = strided.index(lane, number) + 1;
             let start =
                 if lane < strided.chain_count { starts.map(|column| column[at]) } else { last };
             let start_length = length(Scalar, [0, 1, 2].map(|axis| start[axis] - last[axis]));
@@ -270,7 +274,7 @@ pub(crate) fn scatter(
     steps: &[LineStep],
     x: &mut Columns,
 ) {
-    let columns = &mut x.all_mut();
+    let columns = &mut x.slices_mut();
     let mut is_done = strided.chain_count == LANES;
     if is_done {
         strided.assert_within(steps.len(), columns.each_ref().map(|column| &**column));
@@ -302,7 +306,7 @@ unsafe fn scatter_direct(
     steps: &[LineStep],
     columns: [*mut f32; 3],
 ) -> bool {
-    let (s, mut at) = (Baseline::new(), strided.at(0, 0));
+    let (s, mut at) = (Baseline::new(), strided.index(0, 0));
     let zero = s.splat(0.0);
     let (mut u, mut other_u) = ([zero; 3], [zero; 3]);
     let (mut excess, mut other_excess) = (zero, zero);
@@ -345,7 +349,7 @@ unsafe fn scatter_transposed(
         let (mut displacements, mut done) = ([[zero; FOUR]; 3], 0);
         for start in blocks_of_four(steps.len()) {
             let (steps, block) = (&steps[start..start + FOUR], &block[start..start + FOUR]);
-            let at = strided.at(first, start);
+            let at = strided.index(first, start);
             // The last four steps overlap with steps that are done.
             let before = FOUR - 1 - (done - start);
             done = start + FOUR;
@@ -362,7 +366,7 @@ unsafe fn scatter_transposed(
                 for (chain, row) in transpose_4x4(s, moved).into_iter().enumerate() {
                     // SAFETY: the caller guarantees it.
                     unsafe {
-                        s.store_to(columns[axis].add(at + chain * strided.chain_stride), row)
+                        s.store_to(columns[axis].add(at + chain * strided.chain_stride), row);
                     };
                 }
             }
@@ -387,7 +391,7 @@ fn scatter_chain_clamped(
         u = step.displacement(Scalar, chain, u);
         let moved = step.displaced(Scalar, chain, clamp_length(u, chain_step.rest[chain].abs()));
         for (column, moved) in columns.iter_mut().zip(moved) {
-            column[strided.at(chain, number)] = moved;
+            column[strided.index(chain, number)] = moved;
         }
     }
 }
@@ -401,7 +405,7 @@ fn blocks_of_four(count: usize) -> impl Iterator<Item = usize> {
 impl StridedBlock {
     /// The index of the particle that a step of a chain runs to.
     #[inline(always)]
-    fn at(&self, chain: usize, step: usize) -> usize {
+    fn index(&self, chain: usize, step: usize) -> usize {
         self.first + chain * self.chain_stride + step * self.link_stride
     }
 
@@ -410,7 +414,7 @@ impl StridedBlock {
     /// # Panics
     /// If they do not.
     fn assert_within<const N: usize>(&self, steps: usize, columns: [&[f32]; N]) {
-        let last = self.at(LANES - 1, steps - 1);
+        let last = self.index(LANES - 1, steps - 1);
         assert!(
             columns.iter().all(|column| last < column.len()),
             "every chain runs over existing particles"

@@ -46,14 +46,14 @@ pub(crate) fn compute(world: &mut World) {
             match attachment_frames(world, particles()) {
                 Some([last, next]) => {
                     free.for_each(|i| {
-                        positions
-                            .set(i, next.point_to_world(last.point_to_local(p.x_prev_tick.at(i))))
+                        let local = last.point_to_local(p.x_prev_tick.get(i));
+                        positions.set(i, next.point_to_world(local));
                     });
                 }
-                None => free.for_each(|i| positions.set(i, p.x_prev_tick.at(i) + shift)),
+                None => free.for_each(|i| positions.set(i, p.x_prev_tick.get(i) + shift)),
             }
         } else {
-            let displacement = |i: usize| p.x.at(i) - p.x_prev_tick.at(i);
+            let displacement = |i: usize| p.x.get(i) - p.x_prev_tick.get(i);
             let anchors = || particles().filter_map(|i| world.anchors.get(i as u32));
             let motion = if anchors().next().is_some() {
                 let motion_of =
@@ -62,7 +62,7 @@ pub(crate) fn compute(world: &mut World) {
             } else {
                 RigidMotion::fit(particles, &p.x_prev_tick, displacement, &p.mass)
             };
-            particles().for_each(|i| positions.set(i, motion.transform(p.x_prev_tick.at(i))));
+            particles().for_each(|i| positions.set(i, motion.transform(p.x_prev_tick.get(i))));
         }
     }
     world.scratch.rollback = rollback;
@@ -90,7 +90,7 @@ fn mean_held_displacement(world: &World) -> Vec3 {
     let p = &world.particles;
     let (mut sum, mut count) = (Vec3::ZERO, 0.0);
     for i in (0..p.len()).filter(|i| p.w[*i] <= 0.0) {
-        sum += p.x.at(i) - p.x_prev_tick.at(i);
+        sum += p.x.get(i) - p.x_prev_tick.get(i);
         count += 1.0;
     }
     if count > 0.0 { sum * (1.0 / count) } else { Vec3::ZERO }

@@ -148,7 +148,7 @@ fn project_all(world: &mut World, limit: f32) {
 /// Sets the velocities of all particles to zero that moved since `scratch.predicted` was stored.
 fn stop_moved(world: &mut World) {
     let (p, before) = (&mut world.particles, &world.scratch.predicted);
-    for i in (0..p.len()).filter(|i| p.x.at(*i) != before.at(*i)) {
+    for i in (0..p.len()).filter(|i| p.x.get(*i) != before.get(*i)) {
         p.v.set(i, Vec3::ZERO);
         p.v_extrapolated.set(i, Vec3::ZERO);
         p.displacement.set(i, Vec3::ZERO);
@@ -162,7 +162,7 @@ fn sweep_from_pins(world: &mut World, target: f32) {
     for link in world.pin_order.order() {
         let link = *link as usize;
         let (a, b) = (links.a[link] as usize, links.b[link] as usize);
-        let span = p.x.at(b) - p.x.at(a);
+        let span = p.x.get(b) - p.x.get(a);
         let (length2, longest) = (span.length_squared(), links.rest[link] * target);
         if !links.active[link] || length2 <= longest * longest {
             continue;
@@ -182,7 +182,7 @@ fn is_held_apart(world: &World, limit: f32) -> bool {
     let held = || (0..p.len()).filter(|i| p.w[*i] <= 0.0);
     world.tethers.sets().iter().any(|set| {
         held().any(|i| {
-            let span = p.x.at(i) - p.x.at(set.pin[i] as usize);
+            let span = p.x.get(i) - p.x.get(set.pin[i] as usize);
             span.length() > set.length[i] * limit
         })
     })
@@ -205,8 +205,8 @@ fn roll_back(world: &mut World, limit: f32) {
                 continue;
             }
             for end in [links.a[at] as usize, links.b[at] as usize] {
-                let target = world.scratch.rollback.positions.at(end);
-                if world.particles.x.at(end) != target {
+                let target = world.scratch.rollback.positions.get(end);
+                if world.particles.x.get(end) != target {
                     world.particles.x.set(end, target);
                     has_moved = true;
                 }
@@ -222,12 +222,12 @@ fn update_velocities(world: &mut World) {
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
-        let mean = (p.x.at(i) - p.x_prev_tick.at(i)) * inv_tick;
-        let difference = p.v.at(i) + (p.x.at(i) - scratch.predicted.at(i)) * inv_tick - mean;
+        let mean = (p.x.get(i) - p.x_prev_tick.get(i)) * inv_tick;
+        let difference = p.v.get(i) + (p.x.get(i) - scratch.predicted.get(i)) * inv_tick - mean;
         let (difference2, mean2) = (difference.length_squared(), mean.length_squared());
         // A particle that a tear made in this tick has no initial velocity.
         let was_pulled_back =
-            i < scratch.initial_velocity.x.len() && scratch.initial_velocity.at(i).dot(mean) < 0.0;
+            i < scratch.initial_velocity.x.len() && scratch.initial_velocity.get(i).dot(mean) < 0.0;
         let v = if was_pulled_back {
             Vec3::ZERO
         } else if difference2 > mean2 {
@@ -235,7 +235,7 @@ fn update_velocities(world: &mut World) {
         } else {
             mean + difference
         };
-        let change = v - p.v.at(i);
+        let change = v - p.v.get(i);
         p.v.add(i, change);
         p.v_extrapolated.add(i, change);
         p.displacement.add(i, change * h);
@@ -244,7 +244,7 @@ fn update_velocities(world: &mut World) {
 
 /// Whether an active stretch or shear link is longer than `limit` times its rest length.
 fn is_over_stretched(links: &Links, link: usize, x: &Columns, limit: f32) -> bool {
-    let span = x.at(links.b[link] as usize) - x.at(links.a[link] as usize);
+    let span = x.get(links.b[link] as usize) - x.get(links.a[link] as usize);
     let longest = links.rest[link] * limit;
     links.active[link]
         && links.kind(link) != LinkKind::Bend
@@ -270,7 +270,7 @@ fn push_event(world: &mut World, limit: f32) {
     let Some((a, b)) = find_over_stretched(world, limit) else {
         return;
     };
-    let middle = (world.particles.x.at(a) + world.particles.x.at(b)) * 0.5;
+    let middle = (world.particles.x.get(a) + world.particles.x.get(b)) * 0.5;
     let mut event = Event::new(EventKind::HeldApart, world.tick, middle);
     (event.particle_a, event.particle_b) = (a as u32, b as u32);
     event.count = world.over_stretched;

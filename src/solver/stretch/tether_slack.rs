@@ -50,19 +50,19 @@ pub(crate) fn update(world: &mut World) {
 
 /// The largest distance of a particle from its pin over its geodesic distance.
 fn compute_max_stretch(world: &World) -> f32 {
-    let (level, x) = (world.level, world.particles.x.all());
+    let (level, x) = (world.level, world.particles.x.slices());
     let mut max_ratio2 = 0.0;
     for set in world.tethers.sets() {
         match set.single_pin {
             Some(pin) => {
-                let pin = world.particles.x.at(pin as usize).to_array();
+                let pin = world.particles.x.get(pin as usize).to_array();
                 max_ratio_to_single(level, x, pin, &set.length, &mut max_ratio2);
             }
             None => {
                 max_ratio_to_each(
                     level,
                     x,
-                    world.scratch.tether_pins.all(),
+                    world.scratch.tether_pins.slices(),
                     &set.length,
                     &mut max_ratio2,
                 );
@@ -104,7 +104,7 @@ fn update_hold_stretch(world: &mut World) -> f32 {
     let x = &world.particles.x;
     // A pin that moved reaches its target up to rounding, and exactly one tick later.
     let is_at_rest = |pin: &Pin| {
-        pin.from == pin.target && (pin.is_soft() || x.at(pin.particle as usize) == pin.target)
+        pin.from == pin.target && (pin.is_soft() || x.get(pin.particle as usize) == pin.target)
     };
     world.is_pin_stretch_current = !is_grabbed && world.pins.iter().all(is_at_rest);
     let mut largest = world.pin_stretch;
@@ -112,7 +112,7 @@ fn update_hold_stretch(world: &mut World) -> f32 {
         for held in world.grabs.iter().map(|held| held.particle as usize) {
             let (length, pin) = (set.length[held], set.pin[held]);
             if length > 0.0 && length.is_finite() {
-                largest = max((x.at(held) - x.at(pin as usize)).length() / length, largest);
+                largest = max((x.get(held) - x.get(pin as usize)).length() / length, largest);
             }
         }
     }
@@ -124,7 +124,7 @@ fn compute_pin_stretch(world: &World) -> f32 {
     let x = &world.particles.x;
     let mut largest = 1.0;
     let mut compare = |a: u32, b: u32, geodesic: f32| {
-        let span = x.at(b as usize) - x.at(a as usize);
+        let span = x.get(b as usize) - x.get(a as usize);
         largest = max(span.length() / geodesic, largest);
     };
     for set in world.tethers.sets() {

@@ -33,12 +33,12 @@ use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 /// Copies the positions of the pins to `scratch.tether_pins`, one per particle, if there are many
 /// pins.
 pub(crate) fn refresh_pin_positions(world: &mut World) {
-    let [x, y, z] = world.particles.x.all();
+    let [x, y, z] = world.particles.x.slices();
     let (y, z) = (&y[..x.len()], &z[..x.len()]);
     for set in world.tethers.sets().iter().filter(|set| set.single_pin.is_none()) {
         let positions = &mut world.scratch.tether_pins;
         positions.resize(set.pin.len());
-        let [to_x, to_y, to_z] = positions.all_mut();
+        let [to_x, to_y, to_z] = positions.slices_mut();
         for (((pin, to_x), to_y), to_z) in set.pin.iter().zip(to_x).zip(to_y).zip(to_z) {
             let at = *pin as usize;
             (*to_x, *to_y, *to_z) = (x[at], y[at], z[at]);
@@ -78,11 +78,11 @@ fn project_interleaved(
         Some(pin) => {
             threads.parallel_for(particles, MIN_PARTICLES_PER_THREAD, |(points, w, length)| {
                 interleaved_to_single(points, pin, length, slack, w);
-            })
+            });
         }
         None => {
             threads.parallel_for(
-                (particles, pins.all()),
+                (particles, pins.slices()),
                 MIN_PARTICLES_PER_THREAD,
                 |((points, w, length), pins)| {
                     interleaved_to_each(points, pins, length, slack, w);
@@ -139,9 +139,9 @@ fn project_columns(
     let length = &set.length[..];
     match set.single_pin {
         Some(pin) => {
-            let pin = x.at(pin as usize).to_array();
+            let pin = x.get(pin as usize).to_array();
             threads.parallel_for(
-                (x.all_mut(), length, w),
+                (x.slices_mut(), length, w),
                 MIN_PARTICLES_PER_THREAD,
                 |(x, length, w)| {
                     columns_to_single(level, x, pin, length, slack, w);
@@ -149,7 +149,7 @@ fn project_columns(
             );
         }
         None => {
-            let particles = (x.all_mut(), pins.all(), length, w);
+            let particles = (x.slices_mut(), pins.slices(), length, w);
             threads.parallel_for(particles, MIN_PARTICLES_PER_THREAD, |(x, pins, length, w)| {
                 columns_to_each(level, x, pins, length, slack, w);
             });

@@ -92,7 +92,7 @@ pub(crate) fn solve<const LAW: u8>(
     // first half of the other.
     let gap = |part: usize| if part == 0 { 0 } else { columns * ((row(part) + row(part + 1)) / 2) };
     let zone = |part: usize| SolvedZone { from: band(part) as u32, end: band(part + 1) as u32 };
-    let [x, y, z] = p.x.all_mut().map(|column| &mut column[..rows * columns]);
+    let [x, y, z] = p.x.slices_mut().map(|column| &mut column[..rows * columns]);
     let mut slices = BandSlices { shared: &shared, first_particle: 0, x, y, z, lambda };
     world.threads.parallel_for_parts(parts, slices.reborrow(), band, |at, mut slices| {
         slices.solve_band::<LAW>(zone(at))

@@ -148,7 +148,7 @@ fn split_edge(
     }
     let rest_shape = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
     world.constraints.split_edge(rest_shape, &division, links_of_triangle);
-    let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.at(new));
+    let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.get(new));
     (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);
 }

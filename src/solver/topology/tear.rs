@@ -18,7 +18,7 @@
 use crate::math::hasher::unit;
 use crate::math::sort::sort;
 use crate::mesh::split_vertex::{FanArc, OpenedEdge, best_arc};
-use crate::mesh::{Fan, NONE, triangle_of};
+use crate::mesh::{Fan, NONE, next_corner, triangle_of};
 use crate::model::crack_tips;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::self_collide::surface::surface_stages;
@@ -99,7 +99,7 @@ fn can_tear(world: &mut World, particle: u32) -> bool {
     }
     if !world.reserve_reported {
         world.reserve_reported = true;
-        let place = world.particles.x.at(particle as usize);
+        let place = world.particles.x.get(particle as usize);
         world.events.push(Event::new(EventKind::ReserveUsedUp, world.tick, place));
     }
     false
@@ -113,9 +113,9 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
     let max_count = (world.settings.max_tears_per_tick as usize).min(free_slots);
     let limit = world.material.tear_stretch;
     let variation = world.material.tear_variation;
-    let at_tips =
+    let tip_strain =
         crack_tips::tear_strain(&world.material, world.mean_edge, residual_tip_strain(world));
-    let min_strain = at_tips * (1.0 - 0.5 * variation);
+    let min_strain = tip_strain * (1.0 - 0.5 * variation);
     let p = &world.particles;
     let constraints = &world.constraints;
     let batches = constraints.batches.iter().filter(|batch| batch.kind != LinkKind::Bend);
@@ -123,7 +123,7 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
     for (links, range) in batches.chain([(&constraints.dynamic, 0..constraints.dynamic.len())]) {
         for link in range {
             let (a, b, rest) = (links.a[link], links.b[link], links.rest[link]);
-            let span = p.x.at(b as usize) - p.x.at(a as usize);
+            let span = p.x.get(b as usize) - p.x.get(a as usize);
             // Early out on squared length for links below the strain of the weakest possible link.
             // The factor 1 - 1e-5 covers the different rounding of squares.
             let safe_length = rest * (1.0 + min_strain) * (1.0 - 1.0e-5);
@@ -138,7 +138,7 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
                 continue;
             }
             let is_at_tip = world.crack_tips[a as usize] || world.crack_tips[b as usize];
-            let tear_strain = if is_at_tip { at_tips } else { limit - 1.0 };
+            let tear_strain = if is_at_tip { tip_strain } else { limit - 1.0 };
             let ends = [a, b].map(|end| world.mesh.source[end as usize]);
             let strength = 1.0 + variation * (unit(STRENGTH_SEED, &ends) - 0.5);
             let excess = stretch / (tear_strain * strength);
@@ -188,9 +188,9 @@ fn open_border_edge(world: &mut World, scratch: &mut TearScratch, a: u32, b: u32
         }
         world.mesh.gather_fan(world.mesh.corner_of[end as usize], &mut scratch.fan);
         let fan = &scratch.fan;
-        let spoke = fan.ring.iter().position(|spoke| *spoke == other).unwrap_or(0);
-        if !fan.is_closed && spoke > 0 && spoke < fan.corners.len() {
-            let arc = FanArc { first: spoke, count: fan.corners.len() - spoke };
+        let edge = fan.ring.iter().position(|end| *end == other).unwrap_or(0);
+        if !fan.is_closed && edge > 0 && edge < fan.corners.len() {
+            let arc = FanArc { first: edge, count: fan.corners.len() - edge };
             split_arc(world, scratch, end, arc);
             push_edge_torn_event(world, a, b);
             return true;
@@ -201,7 +201,7 @@ fn open_border_edge(world: &mut World, scratch: &mut TearScratch, a: u32, b: u32
 
 /// Pushes the event that the edge between two particles tore.
 pub(crate) fn push_edge_torn_event(world: &mut World, a: u32, b: u32) {
-    let middle = (world.particles.x.at(a as usize) + world.particles.x.at(b as usize)) * 0.5;
+    let middle = (world.particles.x.get(a as usize) + world.particles.x.get(b as usize)) * 0.5;
     let mut event = Event::new(EventKind::EdgeTorn, world.tick, middle);
     (event.particle_a, event.particle_b) = (a, b);
     world.events.push(event);
@@ -218,7 +218,7 @@ fn load(world: &World, particle: u32) -> f32 {
         if !pulls {
             return 0.0;
         }
-        let stretch = (p.x.at(b as usize) - p.x.at(a as usize)).length() / links.rest[link] - 1.0;
+        let stretch = (p.x.get(b as usize) - p.x.get(a as usize)).length() / links.rest[link] - 1.0;
         if stretch > 0.0 { stretch } else { 0.0 }
     };
     let source = world.mesh.source[particle as usize];
@@ -237,13 +237,13 @@ fn try_split(world: &mut World, scratch: &mut TearScratch, end: u32, other: u32)
         return false;
     }
     let x = &world.particles.x;
-    let direction = x.at(other as usize) - x.at(at);
+    let direction = x.get(other as usize) - x.get(at);
     world.mesh.gather_fan(world.mesh.corner_of[at], &mut scratch.fan);
     scratch.goes_to_new.clear();
     for corner in &scratch.fan.corners {
-        let [a, b, c] = world.mesh.triangles[triangle_of(*corner)].map(|v| x.at(v as usize));
+        let [a, b, c] = world.mesh.triangles[triangle_of(*corner)].map(|v| x.get(v as usize));
         let center = (a + b + c) * (1.0 / 3.0);
-        scratch.goes_to_new.push((center - x.at(at)).dot(direction) > 0.0);
+        scratch.goes_to_new.push((center - x.get(at)).dot(direction) > 0.0);
     }
     let both_sides = scratch.goes_to_new.contains(&true) && scratch.goes_to_new.contains(&false);
     let arc = if both_sides { best_arc(&scratch.fan, &scratch.goes_to_new) } else { None };
@@ -281,13 +281,14 @@ fn split_arc(world: &mut World, scratch: &mut TearScratch, end: u32, arc: FanArc
     world.scratch.opened_edges = opened;
 }
 
-/// Far ends of the edges that a split of `arc` opens: the spokes where the arc starts and ends.
+/// Far ends of the edges that a split of `arc` opens: the inner edges at which the arc starts and
+/// ends. A border edge is open already and gives `None`.
 fn far_ends(scratch: &TearScratch, arc: FanArc) -> [Option<u32>; 2] {
     let fan = &scratch.fan;
     let n = fan.corners.len();
-    let inner = |spoke: usize| {
-        let inside = fan.is_closed || (spoke > 0 && spoke < n);
-        inside.then(|| fan.ring[spoke % fan.ring.len()])
+    let inner = |edge: usize| {
+        let is_inner = fan.is_closed || (edge > 0 && edge < n);
+        is_inner.then(|| fan.ring[edge % fan.ring.len()])
     };
     let first = inner(arc.first);
     let last = inner(arc.first + arc.count);
@@ -315,7 +316,7 @@ pub(crate) fn push_split_vertex(world: &mut World, new: u32, from: u32, fan: &mu
         world.anchors.insert(AnchorConstraint { particle: new, ..anchor });
     }
     [from, new].into_iter().for_each(|vertex| world.refresh_inverse_mass(vertex));
-    let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.at(at));
+    let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.get(at));
     let events = &mut world.events;
     let mut push_event = |vertex, source| {
         (event.vertex, event.source) = (vertex, source);
@@ -358,9 +359,7 @@ fn update_links(world: &mut World, opened: &[OpenedEdge]) {
         world.constraints.open_edge(&world.mesh, *sides, &world.material);
     }
     for [edge, other] in opened {
-        for corner in
-            [*edge, crate::mesh::next_corner(*edge), *other, crate::mesh::next_corner(*other)]
-        {
+        for corner in [*edge, next_corner(*edge), *other, next_corner(*other)] {
             let source = world.mesh.source[world.mesh.vertex(corner) as usize];
             world.refresh_constraints_at(source);
         }
@@ -410,7 +409,7 @@ fn push_detached_events(world: &mut World, pieces: &mut PieceLabels, count: u32)
         if pieces.successor[*old as usize] == *label {
             continue;
         }
-        let place = world.particles.x.at(world.mesh.triangles[at][0] as usize);
+        let place = world.particles.x.get(world.mesh.triangles[at][0] as usize);
         let mut event = Event::new(EventKind::PieceDetached, world.tick, place);
         (event.vertex, event.count) = (world.render_vertex(3 * at as u32), size(*label));
         world.events.push(event);

@@ -46,14 +46,14 @@ pub(crate) fn sum_in_bands(
             };
             return threads.parallel_for_parts(
                 parts,
-                out.all_mut(),
+                out.slices_mut(),
                 |part| columns * row(part),
                 add,
             );
         }
     }
     let _ = (threads, input);
-    sum(RowBand::ALL, out.all_mut());
+    sum(RowBand::ALL, out.slices_mut());
 }
 
 /// Adds the contributions of all triangles to the particles of a band, whose sums are 0 so far.

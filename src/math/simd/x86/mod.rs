@@ -3,7 +3,7 @@
 //! One vector type per register width (`F32x4`, `F32x8`, `F32x16`) and one token per instruction
 //! set. Each operation is one intrinsic; `_mm_max_ps` and `_mm_min_ps` return their second operand
 //! for NaN, as [`Float`] demands. Shuffles of 256 and 512 bits work within each 128-bit part, hence
-//! the shuffled order of [`Simd::to_shuffled_order`].
+//! the shuffled order of [`Simd::shuffle`].
 //!
 //! Reads and writes only through `load_from` and `store_to`.
 //! Invariant: a token exists only where the CPU has its instructions: `Avx2::new` and `Avx512::new`
@@ -216,12 +216,12 @@ impl Simd for Sse2 {
     }
 
     #[inline(always)]
-    fn to_shuffled_order(self, v: F32x4) -> F32x4 {
+    fn shuffle(self, v: F32x4) -> F32x4 {
         v
     }
 
     #[inline(always)]
-    fn from_shuffled_order(self, v: F32x4) -> F32x4 {
+    fn unshuffle(self, v: F32x4) -> F32x4 {
         v
     }
 }
@@ -306,7 +306,7 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    fn to_shuffled_order(self, v: F32x8) -> F32x8 {
+    fn shuffle(self, v: F32x8) -> F32x8 {
         // SAFETY: see above. AVX2 shuffles within halves, so pairs of numbers alternate between the
         // halves. The permutation is its own inverse.
         unsafe {
@@ -316,8 +316,8 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    fn from_shuffled_order(self, v: F32x8) -> F32x8 {
-        self.to_shuffled_order(v)
+    fn unshuffle(self, v: F32x8) -> F32x8 {
+        self.shuffle(v)
     }
 }
 
@@ -402,7 +402,7 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
-    fn to_shuffled_order(self, v: F32x16) -> F32x16 {
+    fn shuffle(self, v: F32x16) -> F32x16 {
         // SAFETY: see above. AVX-512 shuffles within quarters, so pairs of numbers come from the
         // two halves alternately.
         unsafe {
@@ -413,7 +413,7 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
-    fn from_shuffled_order(self, v: F32x16) -> F32x16 {
+    fn unshuffle(self, v: F32x16) -> F32x16 {
         // SAFETY: see above.
         unsafe {
             let order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);

@@ -298,7 +298,7 @@ pub(crate) fn detect_impacts(
 fn relative_velocity(contact: &Contact, velocities: &Columns) -> Vec3 {
     let mut v = Vec3::ZERO;
     for (id, weight) in contact.ids.iter().zip(contact.weights) {
-        v += velocities.at(*id as usize) * weight;
+        v += velocities.get(*id as usize) * weight;
     }
     v
 }

@@ -49,7 +49,7 @@ const ROLLED_BACK: u32 = u32::MAX - 1;
 
 /// Pushes the sides of pending contacts apart until all are separated. Returns true on success;
 /// else the contacts that are not separated, or not checked, are pending. `open` is scratch.
-pub(crate) fn push_apart(
+pub(crate) fn separate(
     contacts: &mut [Contact],
     motion: &mut SweptParticles,
     graph: &mut ContactGraph,

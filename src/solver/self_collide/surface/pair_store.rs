@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn only_pairs_within_the_displacement_and_nan_become_candidates() {
-        for level in Level::all() {
+        for level in Level::available() {
             let mut store = stacked_pairs(level);
             assert_eq!(store.move_range([2, 19], 0), [0, 17]);
             store.truncate(17);

@@ -107,7 +107,7 @@ impl SplitSeparation {
         copies.clear();
         copies.extend(vertices);
         let place = |vertex: u32| {
-            let bits = particles.x.at(vertex as usize).to_array().map(f32::to_bits);
+            let bits = particles.x.get(vertex as usize).to_array().map(f32::to_bits);
             (mesh.source[vertex as usize], bits)
         };
         sort_by(&mut copies, |a, b| (place(*a), *a).cmp(&(place(*b), *b)));
@@ -175,10 +175,10 @@ impl SplitSeparation {
         self.wedges.clear();
         for (copy, vertex) in vertices.iter().enumerate() {
             mesh.gather_fan(mesh.corner_of[*vertex as usize], &mut self.fan);
-            let center = x.at(*vertex as usize);
+            let center = x.get(*vertex as usize);
             for corner in &self.fan.corners {
                 let edges = [next_corner(*corner), prev_corner(*corner)].map(|end| {
-                    let edge = x.at(mesh.vertex(end) as usize) - center;
+                    let edge = x.get(mesh.vertex(end) as usize) - center;
                     let length = edge.length();
                     distance = min(distance, length * MAX_EDGE_SHARE);
                     edge * (1.0 / (length + TINY))

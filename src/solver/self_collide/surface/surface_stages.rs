@@ -211,7 +211,7 @@ impl SurfaceCollision {
                 non_crossing::unschedule_separated(world.level, contacts, known, now, graph);
             }
             known = contacts.len();
-            let is_done = !is_last && non_crossing::push_apart(contacts, motion, graph, open);
+            let is_done = !is_last && non_crossing::separate(contacts, motion, graph, open);
             if !is_done && (may_roll_back || is_last) {
                 non_crossing::roll_back(contacts, motion, graph, leaders);
                 has_rolled_back = true;
@@ -370,8 +370,12 @@ pub(crate) fn damp_velocities(world: &mut World) {
         contact_solver::remove_impact_velocities(contacts, active, open, columns);
         intersections.remove_deepening_velocities(masses, columns);
         if !active.is_empty() {
-            let particles =
-                FreeParticles { x: p.x.all(), displacement: columns.all(), mass: &p.mass, w: &p.w };
+            let particles = FreeParticles {
+                x: p.x.slices(),
+                displacement: columns.slices(),
+                mass: &p.mass,
+                w: &p.w,
+            };
             let rigid = RigidMotion::of_free(world.level, particles);
             interleaved::gather_relative(&rigid, &p.x, columns, vectors);
             contact_solver::damp_contacts(contacts, active, masses, vectors, h, !is_free);

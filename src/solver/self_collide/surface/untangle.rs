@@ -376,7 +376,7 @@ impl SurfaceIntersections {
             let all = ids.map(|id| id as usize).into_iter().zip(*weights);
             let (mut speed, mut sum) = (0.0, 0.0);
             for (id, weight) in all.clone() {
-                speed += weight * direction.dot(velocities.at(id));
+                speed += weight * direction.dot(velocities.get(id));
                 sum += weight * weight * masses[id].w;
             }
             if speed < 0.0 && sum > 0.0 {

@@ -166,8 +166,7 @@ impl<F: Float> LinkChunk<F> {
                 } else {
                     lambda
                 };
-                let lambda =
-                    if PATTERN == STRAIGHT { lambda } else { s.from_shuffled_order(lambda) };
+                let lambda = if PATTERN == STRAIGHT { lambda } else { s.unshuffle(lambda) };
                 s.store_to(at.lambda, lambda);
             }
             let x = corrected::<_, PATTERN, MASKED>(s, x, dx, shares, mask);
@@ -184,7 +183,7 @@ impl<F: Float> LinkChunk<F> {
 /// Permutes one number per link to the order that the ends have after they are deinterleaved.
 #[inline(always)]
 fn to_end_order<S: Simd, const PATTERN: u8>(s: S, v: S::F) -> S::F {
-    if PATTERN == STRAIGHT { v } else { s.to_shuffled_order(v) }
+    if PATTERN == STRAIGHT { v } else { s.shuffle(v) }
 }
 
 /// As many zeros as a vector has lanes at most, as many ones, as many zeros: a vector that is
