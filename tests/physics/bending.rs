@@ -1,20 +1,20 @@
-//! Bending against the heavy elastica: the B, I and P1 cases of the validation list. Every test prints its
-//! rows; what misses its tolerance is named.
+//! Bending compared with the heavy elastica: cases B, I and P1 of the validation list. Each test
+//! prints its rows, and fails with those that miss their tolerance.
 
 use crate::common::elastica;
 use crate::common::strip::Strip;
 use muslin::{Material, Preset};
 
-/// Rows of a table, and those that missed.
+/// A printed table that collects the rows out of tolerance.
 #[derive(Default)]
 struct Table {
     misses: Vec<String>,
 }
 
 impl Table {
-    fn row(&mut self, name: &str, found: f64, exact: f64, most_off: f64, note: &str) {
+    fn row(&mut self, name: &str, found: f64, exact: f64, tolerance: f64, note: &str) {
         let off = found - exact;
-        let missed = if off.abs() > most_off { "  MISSED" } else { "" };
+        let missed = if off.abs() > tolerance { "  MISSED" } else { "" };
         let row = format!("{name}: {found:.4}, reference {exact:.4}, off {off:+.4}{missed} {note}");
         println!("{row}");
         if !missed.is_empty() {
@@ -28,7 +28,7 @@ impl Table {
 }
 
 #[test]
-fn a_cantilever_hangs_as_the_elastica_does() {
+fn a_cantilever_droops_like_the_heavy_elastica() {
     let mut table = Table::default();
     for nodes in [24, 40, 56] {
         for rate in [30, 60, 120, 240] {
@@ -45,7 +45,7 @@ fn a_cantilever_hangs_as_the_elastica_does() {
 }
 
 #[test]
-fn the_bending_length_is_that_of_the_material() {
+fn the_measured_bending_length_is_that_of_the_material() {
     let mut table = Table::default();
     for nodes in [24, 40, 56] {
         for rate in [30, 240] {
@@ -53,9 +53,9 @@ fn the_bending_length_is_that_of_the_material() {
                 let strip = Strip { nodes, rate, is_warp, ..Strip::default() }.with_gamma(8.0042);
                 let hung = strip.hang();
                 let found = elastica::gamma_of((hung.drop / hung.reach).into()).cbrt();
-                let way = if is_warp { "warp" } else { "weft" };
+                let direction = if is_warp { "warp" } else { "weft" };
                 let name =
-                    format!("B2 {nodes} nodes, {rate} Hz, {way}, length over bending length");
+                    format!("B2 {nodes} nodes, {rate} Hz, {direction}, length over bending length");
                 table.row(&name, found, 2.0003, 0.04, &hung.note());
             }
         }
@@ -64,8 +64,8 @@ fn the_bending_length_is_that_of_the_material() {
 }
 
 #[test]
-fn droop_grows_with_the_load() {
-    // Small droops are in proportion to the load; links over two cells would give its cube root.
+fn small_droop_is_proportional_to_the_load() {
+    // Bend links over two cells would give the cube root of the load instead.
     let drop = |gamma: f32| Strip::default().with_gamma(gamma).hang().drop;
     let slope = (drop(0.4) / drop(0.1)).log2() / 2.0;
     let mut table = Table::default();
@@ -74,7 +74,7 @@ fn droop_grows_with_the_load() {
 }
 
 #[test]
-fn odd_sizes_and_ways_hang_alike() {
+fn strips_of_other_sizes_and_orientations_droop_like_the_elastica() {
     let mut table = Table::default();
     for (nodes, turn) in [(33, 0.576), (47, 0.0)] {
         for gamma in [2.0, 8.0, 50.0] {
@@ -90,7 +90,7 @@ fn odd_sizes_and_ways_hang_alike() {
 }
 
 #[test]
-fn the_width_of_a_strip_does_not_matter() {
+fn droop_does_not_depend_on_the_width_of_the_strip() {
     let mut table = Table::default();
     let droop =
         |across: u32| Strip { across, nodes: 24, ..Strip::default() }.with_gamma(1.0).hang();
@@ -105,7 +105,7 @@ fn the_width_of_a_strip_does_not_matter() {
 }
 
 #[test]
-fn sweeps_and_scale_do_not_matter() {
+fn droop_does_not_depend_on_iterations_or_scale() {
     let mut table = Table::default();
     let base = Strip { nodes: 40, ..Strip::default() }.with_gamma(8.0);
     let drop = |strip: &Strip| f64::from(strip.hang().drop);
@@ -126,7 +126,7 @@ fn sweeps_and_scale_do_not_matter() {
 }
 
 #[test]
-fn paper_bends_as_paper_does() {
+fn the_paper_preset_has_the_bending_length_of_paper() {
     let mut table = Table::default();
     let paper = Material { drag: 0.0, ..Material::preset(Preset::Paper) };
     for nodes in [24, 40, 56] {
@@ -148,7 +148,7 @@ fn paper_bends_as_paper_does() {
 }
 
 #[test]
-fn the_elastica_is_that_of_the_tables() {
+fn the_elastica_solver_agrees_with_tabulated_values() {
     for (gamma, drop, reach) in
         [(1.0, 0.1235, 0.9912), (5.0, 0.4959, 0.8467), (50.0, 0.9079, 0.2450)]
     {

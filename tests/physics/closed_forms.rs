@@ -1,4 +1,4 @@
-//! Motion against formulas: the M, S and A cases of the validation list that have closed forms.
+//! Motion compared with closed forms: cases M, S and A of the validation list.
 
 use crate::common::{bare, bare_grid, total_mass};
 use muslin::glam::{Quat, Vec3};
@@ -6,7 +6,7 @@ use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, Wind};
 
 const G: f32 = 9.81;
 
-/// Ticks a second at which the cases are run.
+/// Tick rates of the cases [Hz].
 const RATES: [u32; 4] = [30, 60, 120, 240];
 
 fn momentum(cloth: &Cloth) -> Vec3 {
@@ -33,13 +33,13 @@ fn free_fall_drops_half_g_t_squared() {
             let fallen = -cloth.positions()[0].y;
             let h = desc.settings.tick / desc.settings.substeps as f32;
             let off = (fallen - 0.5 * G).abs();
-            assert!(off <= G * h / 2.0 && off < 5.0e-3, "at {rate} Hz fell {fallen} m");
+            assert!(off <= G * h / 2.0 && off < 5.0e-3, "at {rate} Hz it fell {fallen} m");
         }
     }
 }
 
 #[test]
-fn a_thrown_sheet_flies_a_parabola_in_shape() {
+fn a_thrown_sheet_follows_a_parabola_without_deforming() {
     let thrown = Vec3::new(3.0, 4.0, 1.0);
     let mut cloth = Cloth::grid(&bare_grid(12, 12, 0.05, PinMode::None)).unwrap();
     for i in 0..144 {
@@ -56,7 +56,7 @@ fn a_thrown_sheet_flies_a_parabola_in_shape() {
 }
 
 #[test]
-fn momentum_stays_in_a_cloth_that_is_left_alone() {
+fn a_free_cloth_conserves_linear_momentum() {
     let mut desc = bare_grid(16, 16, 0.05, PinMode::None);
     desc.settings.gravity = Vec3::ZERO;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -74,7 +74,7 @@ fn momentum_stays_in_a_cloth_that_is_left_alone() {
 }
 
 #[test]
-fn a_spinning_sheet_keeps_its_spin() {
+fn a_spinning_sheet_keeps_its_angular_momentum_within_five_percent() {
     let (columns, spacing, rate) = (24_u32, 1.0 / 23.0, 2.0 * core::f32::consts::TAU);
     let mut desc = bare_grid(columns, columns, spacing, PinMode::None);
     desc.settings.gravity = Vec3::ZERO;
@@ -91,11 +91,11 @@ fn a_spinning_sheet_keeps_its_spin() {
     assert!((after / before - 1.0).abs() < 0.05, "{before} became {after} after ten turns");
 }
 
-/// A narrow rigid strip, two triangles, hung by its two upper particles and let go from an angle.
+/// A triangle hung by its pinned base and released at an angle of `degrees` to the vertical.
 fn pendulum(rate: u32, degrees: f32) -> Cloth {
     let (settings, material) = bare();
     let angle = degrees.to_radians();
-    // A swinging triangle hung by its base: all the mass that moves is at the tip.
+    // All moving mass is at the tip, because both base particles are pinned.
     let tip = Vec3::new(angle.sin(), -angle.cos(), 0.0);
     let side = Vec3::new(0.0, 0.0, 0.05);
     let mut cloth = Cloth::mesh(&MeshDesc {
@@ -115,13 +115,13 @@ fn pendulum(rate: u32, degrees: f32) -> Cloth {
 }
 
 #[test]
-fn a_pendulum_swings_at_its_period() {
+fn a_pendulum_swings_at_its_exact_period() {
     let t0 = core::f32::consts::TAU * (1.0 / G).sqrt();
     for rate in RATES {
         for (degrees, ratio) in [(10.0, 1.00191), (30.0, 1.01741), (60.0, 1.07318), (90.0, 1.18034)]
         {
             let mut cloth = pendulum(rate, degrees);
-            // Passages through the lowest point: two a period, the moment found between ticks.
+            // Passages through the lowest point, two per period, interpolated between ticks.
             let (mut last, mut passages, mut tick) = (cloth.positions()[2].x, Vec::new(), 0);
             while passages.len() < 5 {
                 cloth.step(1);
@@ -145,14 +145,14 @@ fn a_pendulum_keeps_its_energy() {
         let mut cloth = pendulum(rate, 90.0);
         cloth.step(5 * rate);
         let (x, v) = (cloth.positions()[2], cloth.velocity(2).unwrap());
-        // It started level with its pins, at rest: all energy is what it has above the lowest point.
+        // It starts at rest at the height of its pins, so its energy is that of a height of 1 m.
         let left = (0.5 * v.length_squared() + G * (x.y + 1.0)) / G;
-        assert!((0.95..1.02).contains(&left), "at {rate} Hz {left} is left after 5 s");
+        assert!((0.95..1.02).contains(&left), "at {rate} Hz a share of {left} remains after 5 s");
     }
 }
 
 #[test]
-fn damping_slows_by_its_exponential_at_any_rate() {
+fn damping_decays_velocity_exponentially_at_any_tick_rate() {
     for rate in RATES {
         let mut desc = bare_grid(4, 4, 0.1, PinMode::None);
         desc.settings.gravity = Vec3::ZERO;
@@ -167,7 +167,7 @@ fn damping_slows_by_its_exponential_at_any_rate() {
 }
 
 #[test]
-fn a_hanging_strip_hardly_stretches() {
+fn a_hanging_strip_keeps_its_length() {
     for rows in [24, 40, 56] {
         let spacing = 1.0 / (rows - 1) as f32;
         for tethers in [true, false] {
@@ -177,7 +177,8 @@ fn a_hanging_strip_hardly_stretches() {
             let mut cloth = Cloth::grid(&desc).unwrap();
             cloth.step(600);
             let length = -cloth.positions()[4 * (rows as usize - 1)].y;
-            // Without tethers and lines what sweeps leave stays; nothing else bears the load along threads.
+            // Without tethers and the line solver, the residual error of the sweeps remains:
+            // nothing else carries the load along the strip.
             let most = if tethers { 1.0e-3 } else { 0.06 };
             println!("S5 {rows} rows, tethers {tethers}: {length:.5} m long, reference 1");
             assert!((length - 1.0).abs() < most, "{rows} rows, tethers {tethers}: {length} m");
@@ -198,7 +199,7 @@ fn a_slack_strip_hangs_in_a_catenary() {
         desc.settings.damping = 3.0;
         desc.settings.substeps = 16;
         let mut cloth = Cloth::grid(&desc).unwrap();
-        // Bring the two ends together, then let it settle.
+        // Move the two ends together, then let the strip come to rest.
         let end = columns - 1;
         let ends: Vec<u32> = (0..3).flat_map(|row| [row * columns, row * columns + end]).collect();
         let from: Vec<Vec3> = ends.iter().map(|i| cloth.positions()[*i as usize]).collect();
@@ -211,7 +212,7 @@ fn a_slack_strip_hangs_in_a_catenary() {
             cloth.step(1);
         }
         cloth.step(900);
-        // Three rows hang as one band: its middle row is the curve.
+        // The three rows hang as one band; the middle row is measured.
         let row: Vec<Vec3> = cloth.positions()[columns as usize..2 * columns as usize].to_vec();
         let lowest = row.iter().map(|x| x.y).fold(0.0, f32::min);
         let found = (row[0].y - lowest) / span;
@@ -237,8 +238,8 @@ fn a_sheet_falling_flat_reaches_its_terminal_speed() {
 }
 
 #[test]
-fn the_wind_pushes_by_the_square_of_its_normal_speed() {
-    // A sheet so heavy that it stays as good as still.
+fn wind_force_grows_with_the_square_of_the_normal_wind_speed() {
+    // The sheet is so heavy that it hardly moves.
     let density = 18.0;
     let push = |speed: f32, degrees: f32, particles: u32| {
         let mut desc = bare_grid(particles, particles, 1.0 / (particles - 1) as f32, PinMode::None);
@@ -263,26 +264,28 @@ fn the_wind_pushes_by_the_square_of_its_normal_speed() {
                 found.z
             );
             assert!((found.z / exact - 1.0).abs() < 0.01, "{speed} m/s at {degrees}°: {found}");
-            assert!(found.x.abs() < 0.01 * exact, "and nothing along the sheet: {found}");
+            assert!(found.x.abs() < 0.01 * exact, "a force acts along the sheet: {found}");
         }
     }
 }
 
 #[test]
-fn still_air_is_no_wind() {
+fn gusts_and_turbulence_of_still_air_change_nothing() {
     let desc = GridDesc::default();
-    let mut told = Cloth::grid(&desc).unwrap();
-    let mut untold = Cloth::grid(&desc).unwrap();
-    told.set_wind(Wind { gust: 1.0, turbulence: 1.0, wander: 1.0, ..Wind::default() }).unwrap();
-    told.step(60);
-    untold.step(60);
-    assert_eq!(told.state_hash(), untold.state_hash());
+    let mut with_wind = Cloth::grid(&desc).unwrap();
+    let mut without_wind = Cloth::grid(&desc).unwrap();
+    with_wind
+        .set_wind(Wind { gust: 1.0, turbulence: 1.0, wander: 1.0, ..Wind::default() })
+        .unwrap();
+    with_wind.step(60);
+    without_wind.step(60);
+    assert_eq!(with_wind.state_hash(), without_wind.state_hash());
 }
 
 #[test]
-fn a_floor_stops_bounces_and_slows() {
-    // The receipt's floor: clamped, a fifth of the speed given back, a fifth of the slide lost each
-    // time it is touched.
+fn a_floor_applies_its_restitution_and_stops_the_slide() {
+    // A floor that stops penetration, returns a fifth of the normal speed, and takes away a fifth
+    // of the tangential speed at each contact.
     let mut desc = bare_grid(3, 3, 0.1, PinMode::None);
     desc.down = Vec3::Z;
     desc.origin = Vec3::new(0.0, 0.5, 0.0);
@@ -304,16 +307,16 @@ fn a_floor_stops_bounces_and_slows() {
         has_hit |= cloth.velocity(4).unwrap().y > 0.0;
         rebound = if has_hit { rebound.max(y) } else { rebound };
     }
-    assert!(lowest >= -1.0e-6, "sank to {lowest}");
+    assert!(lowest >= -1.0e-6, "it sank to {lowest} m");
     let exact = 0.2 * 0.2 * 0.5;
     assert!((rebound - exact).abs() < 0.02 * 0.5, "rebounds {rebound} m, exact {exact} m");
     cloth.step(120);
     let stats = cloth.stats();
-    assert!(stats.kinetic_energy < 1.0e-6, "still moving: {} J", stats.kinetic_energy);
+    assert!(stats.kinetic_energy < 1.0e-6, "it still moves with {} J", stats.kinetic_energy);
 }
 
 #[test]
-fn friction_stops_a_sliding_sheet_where_coulomb_says() {
+fn coulomb_friction_stops_a_sliding_sheet_at_the_exact_distance() {
     for (friction, distance) in [(0.5, 0.408), (0.2, 1.019)] {
         let mut desc = bare_grid(6, 6, 0.05, PinMode::None);
         desc.down = Vec3::Z;
@@ -330,7 +333,7 @@ fn friction_stops_a_sliding_sheet_where_coulomb_says() {
 }
 
 #[test]
-fn a_sheet_slides_down_an_incline_if_it_is_steeper_than_friction() {
+fn a_sheet_slides_on_an_incline_only_above_the_friction_angle() {
     for friction in [0.2_f32, 0.5] {
         let threshold = friction.atan().to_degrees();
         for (degrees, slides) in [(threshold - 1.0, false), (threshold + 1.0, true)] {
@@ -347,7 +350,7 @@ fn a_sheet_slides_down_an_incline_if_it_is_steeper_than_friction() {
             cloth.step(300);
             let slid = (cloth.positions()[14] - start).length();
             assert_eq!(slid > 0.1, slides, "µ {friction} at {degrees}°: {slid} m in 5 s");
-            assert!(slides || slid < 1.0e-3, "creeps {slid} m in 5 s");
+            assert!(slides || slid < 1.0e-3, "it creeps {slid} m in 5 s");
         }
     }
 }

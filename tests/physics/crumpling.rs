@@ -1,4 +1,4 @@
-//! What is crumpled stays so, and flattens only partly: the P7 case of the validation list, and on from there.
+//! Plastic bending of a crumpled sheet: case P7 of the validation list, also with hardening folds.
 
 use crate::common::folding::{SIZE, sheet, spacing};
 use crate::common::strip::speed;
@@ -7,25 +7,27 @@ use muslin::{Cloth, Material, Preset, SelfCollision};
 
 const NODES: u32 = 41;
 
-/// Where hands hold a sheet that they crumple: so many cells apart.
+/// Distance of the particles that are held while a sheet is crumpled, in cells.
 const HOLDS: u32 = 8;
 
-fn place(i: u32) -> Vec3 {
+/// The position of a particle on the flat sheet [m].
+fn flat_position(i: u32) -> Vec3 {
     Vec3::new((i % NODES) as f32, 0.0, (i / NODES) as f32) * spacing(NODES)
 }
 
-/// A number from −1 to 1 for each particle, the same each time.
-fn odd(i: u32) -> f32 {
+/// A pseudo-random number from −1 to 1 for each particle, the same in each run.
+fn noise(i: u32) -> f32 {
     let mixed = (i + 1).wrapping_mul(0x9e37_79b9) >> 16;
     mixed as f32 / 32768.0 - 1.0
 }
 
-fn material(yields: bool) -> Material {
+/// Paper without drag, plastic or elastic.
+fn paper_material(is_plastic: bool) -> Material {
     let paper = Material { drag: 0.0, ..Material::preset(Preset::Paper) };
-    if yields { paper } else { Material { yield_angle: 0.0, ..paper } }
+    if is_plastic { paper } else { Material { yield_angle: 0.0, ..paper } }
 }
 
-fn paper(material: Material) -> Cloth {
+fn paper_sheet(material: Material) -> Cloth {
     let mut desc = sheet(NODES, NODES, 0.0);
     desc.material = material;
     desc.settings.substeps = 8;
@@ -34,19 +36,20 @@ fn paper(material: Material) -> Cloth {
     Cloth::grid(&desc).unwrap()
 }
 
-/// Takes some particles slowly to where they are to be.
-fn lead(cloth: &mut Cloth, held: &[u32], ticks: u32, to: impl Fn(u32) -> Vec3) {
+/// Moves the pinned particles `held` to their targets at constant speed, within `ticks` ticks.
+fn move_pins(cloth: &mut Cloth, held: &[u32], ticks: u32, to: impl Fn(u32) -> Vec3) {
     let from: Vec<Vec3> = held.iter().map(|i| cloth.positions()[*i as usize]).collect();
     for tick in 1..=ticks {
         let share = tick as f32 / ticks as f32;
-        let way = |(i, from): (&u32, &Vec3)| from.lerp(to(*i), share);
-        let targets: Vec<Vec3> = held.iter().zip(&from).map(way).collect();
+        let target = |(i, from): (&u32, &Vec3)| from.lerp(to(*i), share);
+        let targets: Vec<Vec3> = held.iter().zip(&from).map(target).collect();
         cloth.set_pin_targets(held, &targets).unwrap();
         cloth.step(1);
     }
 }
 
-fn let_go(cloth: &mut Cloth) {
+/// Removes all pins and steps until the sheet is at rest, for at most 900 ticks.
+fn unpin_and_rest(cloth: &mut Cloth) {
     cloth.unpin_all();
     let mut ticks = 0;
     while ticks < 120 || (speed(cloth) > 1.0e-3 && ticks < 900) {
@@ -55,30 +58,30 @@ fn let_go(cloth: &mut Cloth) {
     }
 }
 
-/// Draws a sheet in at places all over it, each to its own height, and lets go.
+/// Moves particles all over the sheet inward, each to its own height, then releases them.
 fn crumple(cloth: &mut Cloth) {
     let is_held = |i: &u32| (i % NODES).is_multiple_of(HOLDS) && (i / NODES).is_multiple_of(HOLDS);
     let held: Vec<u32> = (0..NODES * NODES).filter(is_held).collect();
     let middle = Vec3::new(0.5, 0.0, 0.5) * SIZE;
-    lead(cloth, &held, 240, |i| {
-        middle + (place(i) - middle) * 0.6 + Vec3::Y * (0.2 * SIZE * odd(i))
+    move_pins(cloth, &held, 240, |i| {
+        middle + (flat_position(i) - middle) * 0.6 + Vec3::Y * (0.2 * SIZE * noise(i))
     });
-    let_go(cloth);
+    unpin_and_rest(cloth);
 }
 
-/// Pulls a sheet flat by all its border, holds it for a second, and lets go.
+/// Pulls a sheet flat by its whole border, holds it for a second, then releases it.
 fn pull_flat(cloth: &mut Cloth) {
     let is_end = |at: u32| at == 0 || at == NODES - 1;
     let held: Vec<u32> =
         (0..NODES * NODES).filter(|i| is_end(i % NODES) || is_end(i / NODES)).collect();
-    lead(cloth, &held, 240, place);
+    move_pins(cloth, &held, 240, flat_position);
     cloth.step(60);
-    let_go(cloth);
+    unpin_and_rest(cloth);
 }
 
-/// How crumpled a sheet is: the mean angle between the normals of triangles that share an edge [rad], and how wide
-/// it is between the middles of its borders, over how wide it was.
-fn measure(cloth: &Cloth) -> (f32, f32) {
+/// Returns the mean angle between the normals of the two triangles of a cell [rad], and the mean
+/// distance of the midpoints of opposite borders, divided by its flat value.
+fn fold_angle_and_width(cloth: &Cloth) -> (f32, f32) {
     let normals: Vec<Vec3> = crate::common::triangles(cloth)
         .into_iter()
         .map(|triangle| {
@@ -96,26 +99,38 @@ fn measure(cloth: &Cloth) -> (f32, f32) {
 }
 
 #[test]
-fn a_crumple_stays_crumpled_and_flattens_only_partly() {
+fn a_crumpled_sheet_stays_crumpled_and_pulling_flattens_it_only_partly() {
     let (yield_angle, yield_hardening, yield_weakening) = (0.4, 0.25, 1.0);
-    let worn = Material { yield_angle, yield_hardening, yield_weakening, ..material(true) };
-    let found = [material(false), material(true), worn].map(|material| {
-        let mut cloth = paper(material);
+    let hardening =
+        Material { yield_angle, yield_hardening, yield_weakening, ..paper_material(true) };
+    let found = [paper_material(false), paper_material(true), hardening].map(|material| {
+        let mut cloth = paper_sheet(material);
         crumple(&mut cloth);
-        let crumpled = measure(&cloth);
+        let crumpled = fold_angle_and_width(&cloth);
         pull_flat(&mut cloth);
-        (crumpled, measure(&cloth))
+        (crumpled, fold_angle_and_width(&cloth))
     });
     for (crumpled, flattened) in found {
-        println!("P7: bent by, as wide as {crumpled:.3?}, pulled flat and let go {flattened:.3?}");
+        println!(
+            "P7: fold angle and width, crumpled {crumpled:.3?}, pulled flat and released {flattened:.3?}"
+        );
     }
-    let [(springs, _), (crumpled, flattened), (firm, pulled)] = found;
-    assert!(springs.0 < 0.01 && springs.1 > 0.98, "what does not yield is flat again: {springs:?}");
+    let [(elastic, _), (crumpled, flattened), (hardened, pulled)] = found;
+    assert!(
+        elastic.0 < 0.01 && elastic.1 > 0.98,
+        "an elastic sheet becomes flat again: {elastic:?}"
+    );
     assert!(crumpled.0 > 0.2 && crumpled.1 < 0.85, "it does not stay crumpled: {crumpled:?}");
     assert!(flattened.0 < 0.9 * crumpled.0, "it does not flatten: {crumpled:?} {flattened:?}");
     assert!(flattened.1 > crumpled.1 + 0.05, "it does not flatten: {crumpled:?} {flattened:?}");
-    assert!(flattened.0 > 0.5 * crumpled.0 && flattened.1 < 0.95, "it is ironed: {flattened:?}");
-    // What hardened keeps less of each fold, but that it keeps.
-    assert!(firm.0 > 0.05 && firm.0 < crumpled.0, "it does not harden: {firm:?}");
-    assert!((pulled.0 - firm.0).abs() < 0.01, "it gives way too soon: {firm:?} {pulled:?}");
+    assert!(
+        flattened.0 > 0.5 * crumpled.0 && flattened.1 < 0.95,
+        "it flattens completely: {flattened:?}"
+    );
+    // A hardening sheet keeps less of each fold, and pulling it flat does not remove that part.
+    assert!(hardened.0 > 0.05 && hardened.0 < crumpled.0, "it does not harden: {hardened:?}");
+    assert!(
+        (pulled.0 - hardened.0).abs() < 0.01,
+        "its folds yield too early: {hardened:?} {pulled:?}"
+    );
 }

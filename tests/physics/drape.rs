@@ -1,5 +1,5 @@
-//! How discs drape: cases D1 to D3 of the validation list, on a drapemeter (BS 5058, ISO 9073-9). A disc 30 cm
-//! wide is held flat within 9 cm of its middle and hangs beyond.
+//! Drape of discs: cases D1 to D3 of the validation list, on a drapemeter (BS 5058, ISO 9073-9). A
+//! disc of 30 cm diameter is held flat within 9 cm of its centre; the rest hangs.
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, Material, MeshDesc, Preset, Settings};
@@ -7,16 +7,18 @@ use muslin_scenes::disc::Disc;
 use muslin_scenes::shadow::{Outline, drape_coefficient};
 
 const G: f32 = 9.81;
+/// Radius of the disc [m].
 const RADIUS: f32 = 0.15;
-const HELD: f32 = 0.09;
+/// Radius of the support [m].
+const SUPPORT_RADIUS: f32 = 0.09;
 
-/// Ticks until a disc must be at rest.
-const MOST: u32 = 900;
+/// A disc must be at rest after this number of ticks.
+const MAX_TICKS: u32 = 900;
 
-/// A disc at rest, and after how many ticks it was.
-fn draped(material: &Material, rings: u32, turn: f32, settings: Settings) -> (Cloth, u32) {
+/// Returns a disc at rest, and the number of ticks that it took. `turn` [rad] rotates its mesh.
+fn settled_disc(material: &Material, rings: u32, turn: f32, settings: Settings) -> (Cloth, u32) {
     let disc = Disc::new(RADIUS, rings, turn);
-    let held = |x: &Vec3| x.length() < HELD + 1.0e-5;
+    let held = |x: &Vec3| x.length() < SUPPORT_RADIUS + 1.0e-5;
     let pinned = (0..disc.positions.len() as u32).filter(|i| held(&disc.positions[*i as usize]));
     let mut desc = MeshDesc {
         pinned: pinned.collect(),
@@ -27,46 +29,48 @@ fn draped(material: &Material, rings: u32, turn: f32, settings: Settings) -> (Cl
         settings,
         ..MeshDesc::default()
     };
-    // A breath of unevenness, without which nothing could choose where to fold.
+    // A small unevenness; without it, no direction of folding would be preferred.
     for (i, x) in desc.positions.iter_mut().enumerate() {
-        if x.length() > HELD {
+        if x.length() > SUPPORT_RADIUS {
             x.y = 1.0e-4 * (i as f32 * 2.399).sin();
         }
     }
     let mut cloth = Cloth::mesh(&desc).unwrap();
-    let (mut calm, mut ticks) = (0, 0);
-    while ticks < MOST && calm < 60 {
+    let (mut ticks_at_rest, mut ticks) = (0, 0);
+    while ticks < MAX_TICKS && ticks_at_rest < 60 {
         cloth.step(1);
         ticks += 1;
-        calm = if crate::common::shapes::rms_speed(&cloth) < 1.0e-3 { calm + 1 } else { 0 };
+        ticks_at_rest =
+            if crate::common::shapes::rms_speed(&cloth) < 1.0e-3 { ticks_at_rest + 1 } else { 0 };
     }
     (cloth, ticks)
 }
 
-/// Small edges and little weight: it takes so many substeps until the links bear what hangs on them. With the usual
-/// four a disc hangs some 12 points too low.
-fn fine() -> Settings {
+/// Settings for small edges of low mass, which need this number of substeps until the links
+/// converge under the load. With the default 4, a disc hangs about 12 points too low.
+fn fine_settings() -> Settings {
     Settings { damping: 3.0, substeps: 32, ..Settings::default() }
 }
 
-/// Rings of particles in a disc, so that edges are well below half of the shortest bending length: 5.4 mm. With fewer,
-/// of 7.5 mm, folds of silk find no room to bend both ways, and a disc of it shows up to 13 points more.
+/// Rings of particles in a disc. Edges of 5.4 mm are well below half of the shortest bending
+/// length. With edges of 7.5 mm, folds of silk cannot bend in both directions, and a silk disc has
+/// up to 13 points more.
 const RINGS: u32 = 28;
 
-/// What a fabric shows: drape coefficient [%] and folds.
-fn shown(material: &Material, turn: f32) -> (f32, usize) {
-    let (cloth, ticks) = draped(material, RINGS, turn, fine());
-    assert!(ticks < MOST, "it did not settle in {ticks} ticks");
+/// The drape coefficient of a fabric [%], and its number of folds.
+fn drape_and_folds(material: &Material, turn: f32) -> (f32, usize) {
+    let (cloth, ticks) = settled_disc(material, RINGS, turn, fine_settings());
+    assert!(ticks < MAX_TICKS, "it did not settle in {ticks} ticks");
     let folds = Outline::from_cloth(&cloth, RADIUS).count_folds();
-    (100.0 * drape_coefficient(&cloth, HELD, RADIUS), folds)
+    (100.0 * drape_coefficient(&cloth, SUPPORT_RADIUS, RADIUS), folds)
 }
 
-/// The plate's bending length of the reference curve [cm], and what a disc shows there [%].
+/// The reference curve: bending length of a plate [cm], and drape coefficient [%].
 const CURVE: [(f32, f32); 5] = [(1.5, 35.7), (2.0, 55.6), (2.5, 73.1), (3.0, 82.9), (4.0, 93.5)];
 
-/// What the reference curve says of a material [%].
-fn reference(material: &Material) -> f32 {
-    // A strip shows 0.96 of what a plate does, and a material is given by its strip.
+/// The drape coefficient of a material on the reference curve [%].
+fn reference_drape(material: &Material) -> f32 {
+    // A strip has 0.96 of a plate's bending length, and materials are specified by strips.
     let c = (material.bend_stiffness / (material.density * G)).cbrt() * 100.0 / 0.96;
     let next = CURVE.iter().position(|(at, _)| *at >= c).unwrap_or(CURVE.len() - 1).max(1);
     let ((low, a), (high, b)) = (CURVE[next - 1], CURVE[next]);
@@ -74,7 +78,7 @@ fn reference(material: &Material) -> f32 {
 }
 
 #[test]
-fn a_disc_drapes_by_its_bending_length() {
+fn the_drape_coefficient_follows_the_reference_curve_of_bending_length() {
     let found = CURVE.map(|(c, _)| {
         let strip = 0.96e-2 * c;
         let material = Material {
@@ -85,16 +89,16 @@ fn a_disc_drapes_by_its_bending_length() {
             bend_stiffness: 0.15 * G * strip * strip * strip,
             ..Material::default()
         };
-        std::thread::spawn(move || shown(&material, 0.0))
+        std::thread::spawn(move || drape_and_folds(&material, 0.0))
     });
     let mut misses = Vec::new();
     let mut last = 0.0;
-    for ((c, wanted), found) in CURVE.into_iter().zip(found) {
+    for ((c, expected), found) in CURVE.into_iter().zip(found) {
         let (found, folds) = found.join().unwrap();
-        println!("D1 c = {c} cm: {found:.1} %, reference {wanted} %, {folds} folds");
-        // Folds of less than 1.5 cm lie on each other in the reference, too.
-        if (found - wanted).abs() > 6.0 || found <= last {
-            misses.push(format!("c = {c} cm: {found} %, not {wanted} %"));
+        println!("D1 c = {c} cm: {found:.1} %, reference {expected} %, {folds} folds");
+        // In the reference, too, folds of less than 1.5 cm lie on each other.
+        if (found - expected).abs() > 6.0 || found <= last {
+            misses.push(format!("c = {c} cm: {found} %, not {expected} %"));
         }
         last = found;
     }
@@ -102,8 +106,8 @@ fn a_disc_drapes_by_its_bending_length() {
 }
 
 #[test]
-fn fabrics_drape_in_their_order() {
-    // Measured bands, D2.
+fn fabric_presets_drape_in_measured_order_and_bands() {
+    // Measured bands of the drape coefficient [%], D2.
     let bands = [
         (Preset::Silk, [20.0, 40.0]),
         (Preset::Cotton, [60.0, 76.0]),
@@ -111,14 +115,14 @@ fn fabrics_drape_in_their_order() {
     ];
     let found = bands.map(|(preset, _)| {
         let turns = [0.0, 22.5_f32.to_radians()];
-        let shown = move |turn| shown(&Material::preset(preset), turn);
-        turns.map(|turn| std::thread::spawn(move || shown(turn)))
+        let measure = move |turn| drape_and_folds(&Material::preset(preset), turn);
+        turns.map(|turn| std::thread::spawn(move || measure(turn)))
     });
     let mut misses = Vec::new();
     let mut last = 0.0;
     for ((preset, [low, high]), found) in bands.into_iter().zip(found) {
         let [(found, folds), (turned, turned_folds)] = found.map(|found| found.join().unwrap());
-        let curve = reference(&Material::preset(preset));
+        let curve = reference_drape(&Material::preset(preset));
         let verdict = if (low..=high).contains(&found) { "inside" } else { "MISSED" };
         println!(
             "D2 {preset:?}: {found:.1} %, band {low} to {high} % {verdict}, reference curve {curve:.1} %; \

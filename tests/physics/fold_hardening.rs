@@ -1,4 +1,5 @@
-//! Folds that get harder to fold and easier to bend the more they have given way.
+//! Fold hardening and weakening: the more a fold has yielded, the larger is its yield angle and the
+//! smaller its bend stiffness.
 
 use crate::common::folding::{ARC, SIZE, fold, release, sheet, spacing};
 use crate::common::strip::speed;
@@ -8,19 +9,20 @@ use muslin::{Cloth, GridDesc, Material, MeshDesc};
 const YIELD_ANGLE: f32 = 0.5;
 const STIFFNESS: f32 = 4.0e-5;
 
-/// A strip as hands fold it, of a material that changes as it gives way.
-fn worn(nodes: u32, hardening: f32, weakening: f32) -> GridDesc {
+/// The descriptor of a strip for folding, of a material that hardens and weakens as it yields.
+fn hardening_strip(nodes: u32, hardening: f32, weakening: f32) -> GridDesc {
     let mut desc = sheet(nodes, 5, YIELD_ANGLE);
     desc.material.yield_hardening = hardening;
     desc.material.yield_weakening = weakening;
-    // Softer than paper, so that the steps of any mesh are enough for the finest one.
+    // Softer than paper, so that the substeps that suffice for any mesh suffice for the finest one.
     desc.material.bend_stiffness = STIFFNESS;
     desc.settings.damping = 4.0;
     desc
 }
 
-/// The same particles as a mesh with diagonals to the other side, which is no grid.
-fn as_mesh(grid: &GridDesc) -> MeshDesc {
+/// The same particles as a mesh with the opposite diagonals, so that it is not recognised as a
+/// grid.
+fn mesh_desc(grid: &GridDesc) -> MeshDesc {
     let (columns, rows) = (grid.columns, grid.rows);
     let mut desc = MeshDesc {
         material: grid.material.clone(),
@@ -41,23 +43,25 @@ fn as_mesh(grid: &GridDesc) -> MeshDesc {
     desc
 }
 
-fn mesh(grid: &GridDesc) -> Cloth {
-    let cloth = Cloth::mesh(&as_mesh(grid)).unwrap();
+/// The strip as a mesh cloth.
+fn mesh_cloth(grid: &GridDesc) -> Cloth {
+    let cloth = Cloth::mesh(&mesh_desc(grid)).unwrap();
     assert!(!cloth.mesh_report().is_grid);
     cloth
 }
 
-/// Both kinds of a strip.
-fn kinds(grid: &GridDesc) -> [(&'static str, Cloth); 2] {
-    [("grid", Cloth::grid(grid).unwrap()), ("mesh", mesh(grid))]
+/// The strip as a grid and as a mesh.
+fn grid_and_mesh(grid: &GridDesc) -> [(&'static str, Cloth); 2] {
+    [("grid", Cloth::grid(grid).unwrap()), ("mesh", mesh_cloth(grid))]
 }
 
+/// Messages of the values that are out of tolerance.
 struct Misses(Vec<String>);
 
 impl Misses {
-    fn row(&mut self, name: &str, found: f32, exact: f32, most_off: f32) {
+    fn check(&mut self, name: &str, found: f32, exact: f32, tolerance: f32) {
         println!("{name}: {found:.4}, reference {exact:.4}");
-        if (found - exact).abs() > most_off {
+        if (found - exact).abs() > tolerance {
             self.0.push(format!("{name}: {found}, not {exact}"));
         }
     }
@@ -67,34 +71,45 @@ impl Misses {
     }
 }
 
-/// How far off what stays of a fold may be [°]: a mesh sees a fold only as far as each of its hinges does.
-fn most_off(kind: &str) -> f32 {
+/// Tolerance of the remaining fold angle [°]; wider on a mesh, where each hinge has only its own
+/// part of the fold.
+fn tolerance_degrees(kind: &str) -> f32 {
     if kind == "grid" { 2.0 } else { 5.0 }
 }
 
-/// Folds a strip on from what it keeps, back to what it is to keep, and lets go; what it keeps [rad].
-fn fold_on(cloth: &mut Cloth, nodes: u32, [from, to]: [f32; 2], keeps: f32) -> f32 {
+/// Folds a strip from the angle `from` to `to`, back to the angle `keeps` that should remain, and
+/// releases it. Returns the remaining angle [rad].
+fn remaining_angle(cloth: &mut Cloth, nodes: u32, [from, to]: [f32; 2], keeps: f32) -> f32 {
     fold(cloth, nodes, ARC, [from, to]);
     fold(cloth, nodes, ARC, [to, keeps]);
     release(cloth, nodes)
 }
 
 #[test]
-fn of_a_fold_that_hardens_or_weakens_less_stays() {
+fn hardening_and_weakening_reduce_the_remaining_fold_angle() {
     let mut misses = Misses(Vec::new());
     for nodes in [24, 40, 56] {
         for (hardening, weakening) in [(0.0_f32, 0.0_f32), (0.5, 0.0), (1.0, 0.0), (0.0, 2.0)] {
             for angle in [0.4_f32, 1.2, 1.8] {
-                for (kind, mut cloth) in kinds(&worn(nodes, hardening, weakening)) {
-                    // On a mesh a fold that does not harden is drawn to few hinges.
+                for (kind, mut cloth) in
+                    grid_and_mesh(&hardening_strip(nodes, hardening, weakening))
+                {
+                    // On a mesh, a fold without hardening concentrates in a few hinges.
                     if kind == "mesh" && hardening + weakening == 0.0 {
                         continue;
                     }
-                    let grows = 1.0 + hardening + weakening * YIELD_ANGLE;
-                    let exact = ((angle - YIELD_ANGLE) / grows).max(0.0);
-                    let stays = fold_on(&mut cloth, nodes, [0.0, angle], exact);
-                    let name = format!("{kind} of {nodes}, {hardening} {weakening}, by {angle}");
-                    misses.row(&name, stays.to_degrees(), exact.to_degrees(), most_off(kind));
+                    let divisor = 1.0 + hardening + weakening * YIELD_ANGLE;
+                    let exact = ((angle - YIELD_ANGLE) / divisor).max(0.0);
+                    let remains = remaining_angle(&mut cloth, nodes, [0.0, angle], exact);
+                    let name = format!(
+                        "{kind} of {nodes}, hardening {hardening}, weakening {weakening}, by {angle}"
+                    );
+                    misses.check(
+                        &name,
+                        remains.to_degrees(),
+                        exact.to_degrees(),
+                        tolerance_degrees(kind),
+                    );
                 }
             }
         }
@@ -103,37 +118,42 @@ fn of_a_fold_that_hardens_or_weakens_less_stays() {
 }
 
 #[test]
-fn a_fold_that_hardened_takes_more_to_be_bent_on_or_back() {
+fn a_hardened_fold_has_a_larger_yield_angle_in_both_directions() {
     let mut misses = Misses(Vec::new());
     let (hardening, first, second) = (0.5_f32, 1.4_f32, 2.0_f32);
     let keeps = |angle: f32| (angle - YIELD_ANGLE) / (1.0 + hardening);
     for nodes in [24, 40, 56] {
-        for (kind, mut cloth) in kinds(&worn(nodes, hardening, 0.0)) {
-            let mut row = |name: &str, stays: f32, exact: f32| {
+        for (kind, mut cloth) in grid_and_mesh(&hardening_strip(nodes, hardening, 0.0)) {
+            let mut row = |name: &str, remains: f32, exact: f32| {
                 let name = format!("{kind} of {nodes}, {name}");
-                misses.row(&name, stays.to_degrees(), exact.to_degrees(), most_off(kind));
+                misses.check(
+                    &name,
+                    remains.to_degrees(),
+                    exact.to_degrees(),
+                    tolerance_degrees(kind),
+                );
             };
             let kept = keeps(first);
-            let stays = fold_on(&mut cloth, nodes, [0.0, first], kept);
-            row("for the first time", stays, kept);
-            // By more than the yield angle from where it rests, yet not beyond what it was folded by.
+            let remains = remaining_angle(&mut cloth, nodes, [0.0, first], kept);
+            row("first fold", remains, kept);
+            // By more than the initial yield angle from its rest, but within the hardened one.
             let again = kept + YIELD_ANGLE + 0.9 * hardening * kept;
-            let stays = fold_on(&mut cloth, nodes, [kept, again], kept);
-            row("again, not as far", stays, kept);
-            let stays = fold_on(&mut cloth, nodes, [kept, second], keeps(second));
-            row("on", stays, keeps(second));
-            // Pressed flat it gives way by what is beyond its limit to that side, which has grown as well.
+            let remains = remaining_angle(&mut cloth, nodes, [kept, again], kept);
+            row("second fold, within the hardened yield angle", remains, kept);
+            let remains = remaining_angle(&mut cloth, nodes, [kept, second], keeps(second));
+            row("third fold, beyond it", remains, keeps(second));
+            // Pressed flat, it yields by the part beyond its yield angle, which has grown here too.
             let kept = keeps(second);
             let limit = YIELD_ANGLE + hardening * kept;
             let exact = kept - (kept - limit).max(0.0) / (1.0 + hardening);
-            let stays = fold_on(&mut cloth, nodes, [kept, 0.0], exact);
-            row("back", stays, exact);
+            let remains = remaining_angle(&mut cloth, nodes, [kept, 0.0], exact);
+            row("pressed flat", remains, exact);
         }
     }
     misses.finish();
 }
 
-/// How far the end of a level strip sinks that is held where it begins [m].
+/// The droop of the free end of a horizontal strip that is clamped at its start [m].
 fn droop(mut cloth: Cloth, nodes: u32) -> f32 {
     let count = cloth.positions().len() as u32;
     for i in (0..count).filter(|i| i % nodes < 2) {
@@ -150,44 +170,46 @@ fn droop(mut cloth: Cloth, nodes: u32) -> f32 {
 }
 
 #[test]
-fn a_crease_pressed_flat_turns_as_much_more_as_it_is_weaker() {
+fn a_weakened_crease_pressed_flat_turns_in_proportion_to_its_weakening() {
     let mut misses = Misses(Vec::new());
     let (weakening, angle, gravity) = (4.0_f32, 1.2_f32, 0.025);
     for nodes in [24, 40, 56] {
-        let mut grid = worn(nodes, 0.0, weakening);
+        let mut grid = hardening_strip(nodes, 0.0, weakening);
         grid.material.yield_angle = 0.0;
         grid.material.fold_length = 0.01;
         grid.settings.gravity = Vec3::NEG_Y * gravity;
         let load = grid.material.density * gravity;
         let exact = load * (SIZE - spacing(nodes)).powi(4) / (8.0 * STIFFNESS);
-        let plain = kinds(&grid).map(|(kind, cloth)| {
+        let plain = grid_and_mesh(&grid).map(|(kind, cloth)| {
             let name = format!("{kind} of {nodes}, droop of a strip [mm]");
             let droop = droop(cloth, nodes);
-            misses.row(&name, 1e3 * droop, 1e3 * exact, 0.03e3 * exact);
+            misses.check(&name, 1e3 * droop, 1e3 * exact, 0.03e3 * exact);
             droop
         });
-        // Between threads, on one, and askew: what is beyond it of the strip turns about its middle.
-        for (share, lean) in [(0.43, 0.0), (0.5, 0.0), (0.5, 0.5 * SIZE / 8.0)] {
+        // Creases between grid lines, on a grid line, and oblique. The part of the strip beyond a
+        // crease turns about the crease's middle.
+        for (share, skew) in [(0.43, 0.0), (0.5, 0.0), (0.5, 0.5 * SIZE / 8.0)] {
             let place = share * SIZE;
-            for ((kind, mut cloth), plain) in kinds(&grid).into_iter().zip(plain) {
+            for ((kind, mut cloth), plain) in grid_and_mesh(&grid).into_iter().zip(plain) {
                 let middle = Vec3::new(place, 0.0, 2.0 * spacing(nodes));
-                let off = Vec3::new(2.0 * lean, 0.0, SIZE / 4.0);
+                let off = Vec3::new(2.0 * skew, 0.0, SIZE / 4.0);
                 cloth.crease(middle - off, middle + off, 0.5 * angle).unwrap();
                 cloth.crease(middle - off, middle + off, -0.5 * angle).unwrap();
                 let beyond = SIZE - place;
                 let turn = 0.5 * load * beyond * beyond / STIFFNESS
                     * (grid.material.fold_length * weakening * angle);
                 let exact = turn * beyond;
-                // Of what leans a strip has more, of which less can bend, as it does not stretch.
-                let most_off = match (lean == 0.0, kind) {
+                // An oblique crease is longer, but a strip that does not stretch bends less of it.
+                let tolerance = match (skew == 0.0, kind) {
                     (true, _) => 0.05,
                     (false, "grid") => 0.12,
                     (false, _) => 0.2,
                 };
                 let more = droop(cloth, nodes) - plain;
-                let name =
-                    format!("{kind} of {nodes}, more by a crease at {share} leaning {lean} [mm]");
-                misses.row(&name, 1e3 * more, 1e3 * exact, 1e3 * most_off * exact);
+                let name = format!(
+                    "{kind} of {nodes}, extra droop by a crease at {share}, skewed by {skew} [mm]"
+                );
+                misses.check(&name, 1e3 * more, 1e3 * exact, 1e3 * tolerance * exact);
             }
         }
     }
@@ -195,67 +217,68 @@ fn a_crease_pressed_flat_turns_as_much_more_as_it_is_weaker() {
 }
 
 #[test]
-fn a_fold_that_gave_way_opens_the_more_under_a_load() {
+fn a_weakened_fold_opens_more_under_a_load() {
     let mut misses = Misses(Vec::new());
     let (weakening, angle) = (2.0_f32, 1.3_f32);
     let kept = (angle - YIELD_ANGLE) / (1.0 + weakening * YIELD_ANGLE);
     for nodes in [24, 40, 56] {
-        for (kind, mut cloth) in kinds(&worn(nodes, 0.0, weakening)) {
-            let kept = fold_on(&mut cloth, nodes, [0.0, angle], kept);
-            // A small load at the other end, square to the way to it.
+        for (kind, mut cloth) in grid_and_mesh(&hardening_strip(nodes, 0.0, weakening)) {
+            let kept = remaining_angle(&mut cloth, nodes, [0.0, angle], kept);
+            // A small load on the free part, perpendicular to it.
             let middle = SIZE / 2.0;
             let count = cloth.positions().len() as u32;
             for i in (0..count).filter(|i| ((i % nodes) as f32) < 0.3 * nodes as f32) {
                 cloth.pin(i, None).unwrap();
             }
-            let mut way = |weakening: f32, pull: f32| {
+            let mut loaded_arm = |weakening: f32, pull: f32| {
                 let material = Material { yield_weakening: weakening, ..cloth.material().clone() };
                 cloth.set_material(material).unwrap();
                 let along = arm(&cloth, nodes);
                 let mut settings = cloth.settings().clone();
-                settings.gravity = square_to(along) * pull;
+                settings.gravity = perpendicular_to(along) * pull;
                 cloth.set_settings(settings).unwrap();
                 cloth.step(900);
                 arm(&cloth, nodes)
             };
             let pull = 0.08;
-            let [weak, loaded, firm, pressed] =
+            let [weak, weak_loaded, firm, firm_loaded] =
                 [(weakening, 0.0), (weakening, pull), (0.0, 0.0), (0.0, pull)]
-                    .map(|(weakening, pull)| way(weakening, pull));
-            let more = weak.angle_between(loaded) - firm.angle_between(pressed);
+                    .map(|(weakening, pull)| loaded_arm(weakening, pull));
+            let more = weak.angle_between(weak_loaded) - firm.angle_between(firm_loaded);
             let material = cloth.material();
             let moment = 0.5 * material.density * pull * middle * middle;
             let exact =
                 moment / material.bend_stiffness * (material.fold_length * weakening * kept);
-            let name = format!("{kind} of {nodes}, opens by more");
-            misses.row(&name, more.to_degrees(), exact.to_degrees(), 0.08 * exact.to_degrees());
+            let name = format!("{kind} of {nodes}, opens further by");
+            misses.check(&name, more.to_degrees(), exact.to_degrees(), 0.08 * exact.to_degrees());
         }
     }
     misses.finish();
 }
 
-/// The way along the part of a folded strip that is beyond the fold.
+/// A vector along the free part of a folded strip, near its end.
 fn arm(cloth: &Cloth, nodes: u32) -> Vec3 {
     let at = |column: u32| cloth.positions()[(2 * nodes + column) as usize];
     at(nodes - 1) - at(nodes - 1 - nodes / 8)
 }
 
-fn square_to(along: Vec3) -> Vec3 {
+/// The unit vector in the x–y plane perpendicular to `along`.
+fn perpendicular_to(along: Vec3) -> Vec3 {
     Vec3::new(along.y, -along.x, 0.0).normalize()
 }
 
-/// Both hardened and weakened, folded and creased.
-fn used(mut cloth: Cloth, nodes: u32) -> Cloth {
+/// The strip after a crease and a fold, so that its hinges have hardened and weakened.
+fn creased_and_folded(mut cloth: Cloth, nodes: u32) -> Cloth {
     cloth.crease(Vec3::new(0.05, 0.0, -0.1), Vec3::new(0.08, 0.0, 0.3), 0.7).unwrap();
     fold(&mut cloth, nodes, ARC, [0.0, 1.5]);
     cloth
 }
 
 #[test]
-fn a_cloth_with_worn_folds_is_saved_amid_folding_and_goes_on_in_the_same_bits() {
+fn a_cloth_saved_while_its_folds_harden_continues_with_the_same_bits() {
     let nodes = 24;
-    for (kind, cloth) in kinds(&worn(nodes, 0.3, 1.5)) {
-        let mut cloth = used(cloth, nodes);
+    for (kind, cloth) in grid_and_mesh(&hardening_strip(nodes, 0.3, 1.5)) {
+        let mut cloth = creased_and_folded(cloth, nodes);
         let mut restored = Cloth::restore(&cloth.save()).unwrap();
         assert_eq!(restored.state_hash(), cloth.state_hash(), "{kind}");
         for cloth in [&mut cloth, &mut restored] {
@@ -264,7 +287,8 @@ fn a_cloth_with_worn_folds_is_saved_amid_folding_and_goes_on_in_the_same_bits() 
             cloth.step(60);
         }
         assert_eq!(restored.state_hash(), cloth.state_hash(), "{kind}");
-        // What matters is counted in the hash, and stays behind where it no longer does.
+        // Hash and save contain the accumulated yielding only while the material hardens or weakens.
+        // Without both it is dropped.
         let firm =
             Material { yield_weakening: 0.0, yield_hardening: 0.0, ..cloth.material().clone() };
         cloth.set_material(firm).unwrap();
@@ -279,11 +303,11 @@ fn a_cloth_with_worn_folds_is_saved_amid_folding_and_goes_on_in_the_same_bits() 
 }
 
 #[test]
-fn a_reset_takes_what_folds_gave_way_by_away() {
+fn reset_clears_the_accumulated_yielding_of_folds() {
     let nodes = 24;
-    for (kind, cloth) in kinds(&worn(nodes, 0.3, 1.5)) {
+    for (kind, cloth) in grid_and_mesh(&hardening_strip(nodes, 0.3, 1.5)) {
         let mut fresh = cloth.clone();
-        let mut cloth = used(cloth, nodes);
+        let mut cloth = creased_and_folded(cloth, nodes);
         cloth.reset();
         assert_eq!(cloth.state_hash(), fresh.state_hash(), "{kind}");
         for cloth in [&mut cloth, &mut fresh] {
@@ -294,10 +318,10 @@ fn a_reset_takes_what_folds_gave_way_by_away() {
 }
 
 #[test]
-fn worn_folds_may_be_torn_and_cut_and_weaken_as_much_as_numbers_say() {
+fn hardened_folds_can_be_torn_and_cut_and_survive_extreme_coefficients() {
     let nodes = 24;
-    for (kind, cloth) in kinds(&worn(nodes, 0.3, 1.5)) {
-        let mut cloth = used(cloth, nodes);
+    for (kind, cloth) in grid_and_mesh(&hardening_strip(nodes, 0.3, 1.5)) {
+        let mut cloth = creased_and_folded(cloth, nodes);
         cloth.unpin_all();
         let middle = cloth.positions()[(2 * nodes + nodes / 2) as usize];
         cloth.tear_edge(2 * nodes + nodes / 2, 3 * nodes + nodes / 2).unwrap();
@@ -326,16 +350,16 @@ fn worn_folds_may_be_torn_and_cut_and_weaken_as_much_as_numbers_say() {
 }
 
 #[test]
-fn what_hardens_and_weakens_by_nothing_counts_nothing() {
+fn a_material_without_hardening_or_weakening_accumulates_no_yielding() {
     let nodes = 24;
-    for (kind, cloth) in kinds(&worn(nodes, 0.0, 0.0)) {
-        let mut worn = used(cloth, nodes);
-        // What folds gave way by before does not count, so that nothing jumps.
-        let mut later = worn.clone();
-        let material = Material { yield_weakening: 2.0, ..worn.material().clone() };
-        later.set_material(material).unwrap();
-        worn.step(1);
-        later.step(1);
-        assert_eq!(later.positions(), worn.positions(), "{kind}");
+    for (kind, cloth) in grid_and_mesh(&hardening_strip(nodes, 0.0, 0.0)) {
+        let mut unchanged = creased_and_folded(cloth, nodes);
+        // Yielding before the change does not count, so switching weakening on causes no jump.
+        let mut changed = unchanged.clone();
+        let material = Material { yield_weakening: 2.0, ..unchanged.material().clone() };
+        changed.set_material(material).unwrap();
+        unchanged.step(1);
+        changed.step(1);
+        assert_eq!(changed.positions(), unchanged.positions(), "{kind}");
     }
 }

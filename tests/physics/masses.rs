@@ -1,4 +1,4 @@
-//! Particles that are heavier or lighter than their material.
+//! Tests of mass scales: factors on the mass of single particles.
 
 use crate::common::bare_grid;
 use muslin::glam::Vec3;
@@ -6,7 +6,8 @@ use muslin::{Cloth, Error, GridDesc, Material, PinMode, Preset};
 
 const SHEET: (u32, u32) = (12, 16);
 
-fn sheet(change: impl FnOnce(&mut GridDesc)) -> Cloth {
+/// A sheet of cotton hung by its top edge, after `change` of its descriptor.
+fn cotton_sheet(change: impl FnOnce(&mut GridDesc)) -> Cloth {
     let (columns, rows) = SHEET;
     let mut desc = GridDesc { columns, rows, spacing: 0.03, ..GridDesc::default() };
     desc.material = Material::preset(Preset::Cotton);
@@ -14,50 +15,54 @@ fn sheet(change: impl FnOnce(&mut GridDesc)) -> Cloth {
     Cloth::grid(&desc).unwrap()
 }
 
+/// The mass of each particle [kg].
 fn masses(cloth: &Cloth) -> Vec<f32> {
     (0..cloth.stats().particles).map(|i| cloth.mass(i).unwrap()).collect()
 }
 
-fn hem() -> Vec<u32> {
+/// The particles of the last row.
+fn hem_particles() -> Vec<u32> {
     (SHEET.0 * (SHEET.1 - 1)..SHEET.0 * SHEET.1).collect()
 }
 
 #[test]
-fn a_factor_multiplies_the_mass_and_stays_when_the_density_changes() {
-    let mut cloth = sheet(|_| ());
+fn a_mass_scale_multiplies_the_mass_and_stays_when_the_density_changes() {
+    let mut cloth = cotton_sheet(|_| ());
     let plain = masses(&cloth);
-    cloth.set_mass_scales(&hem(), &[5.0; 12]).unwrap();
+    cloth.set_mass_scales(&hem_particles(), &[5.0; 12]).unwrap();
     cloth.set_material(Material { density: 0.36, ..cloth.material().clone() }).unwrap();
     for (at, (now, plain)) in masses(&cloth).iter().zip(&plain).enumerate() {
         let exact = plain * 2.0 * if at >= 180 { 5.0 } else { 1.0 };
         assert!((now / exact - 1.0).abs() < 1e-5, "particle {at} weighs {now} kg, not {exact}");
     }
-    cloth.set_mass_scales(&hem(), &[1.0; 12]).unwrap();
+    cloth.set_mass_scales(&hem_particles(), &[1.0; 12]).unwrap();
     cloth.set_material(Material { density: 0.18, ..cloth.material().clone() }).unwrap();
     assert_eq!(masses(&cloth), plain);
 }
 
 #[test]
-fn what_it_hangs_by_bears_the_weight_of_the_hem() {
+fn soft_pins_sag_by_the_weight_of_the_cloth_and_its_hem() {
     for scale in [0.01, 20.0, 200.0] {
-        let mut cloth = sheet(|desc| desc.settings.damping = 3.0);
+        let mut cloth = cotton_sheet(|desc| desc.settings.damping = 3.0);
         let start = cloth.positions().to_vec();
-        cloth.set_mass_scales(&hem(), &[scale; 12]).unwrap();
+        cloth.set_mass_scales(&hem_particles(), &[scale; 12]).unwrap();
         let pins: Vec<u32> = cloth.pinned().collect();
         cloth.set_pin_stiffness(&pins, 100.0).unwrap();
         cloth.step(2400);
         let below: f32 =
             pins.iter().map(|p| start[*p as usize].y - cloth.positions()[*p as usize].y).sum();
         let exact = masses(&cloth).iter().sum::<f32>() * 9.81 / 100.0;
-        println!("hem times {scale}: {below:.6} m in all, exactly {exact:.6} m");
-        assert!((below / exact - 1.0).abs() < 0.03, "{below} m, not {exact} m");
+        println!(
+            "hem scaled by {scale}: pins sag by {below:.6} m in total, reference {exact:.6} m"
+        );
+        assert!((below / exact - 1.0).abs() < 0.03, "the pins sag by {below} m, not {exact} m");
     }
 }
 
 #[test]
-fn particles_a_hundredfold_apart_hang_side_by_side_in_peace() {
+fn a_cloth_with_mass_ratios_of_one_hundred_hangs_at_rest() {
     for preset in [Preset::Silk, Preset::Leather, Preset::Paper] {
-        let mut cloth = sheet(|desc| desc.material = Material::preset(preset));
+        let mut cloth = cotton_sheet(|desc| desc.material = Material::preset(preset));
         let all: Vec<u32> = (0..192).collect();
         let scales: Vec<f32> = all.iter().map(|i| [0.1, 1.0, 10.0][(i * 7 % 3) as usize]).collect();
         cloth.set_mass_scales(&all, &scales).unwrap();
@@ -68,37 +73,37 @@ fn particles_a_hundredfold_apart_hang_side_by_side_in_peace() {
         }
         let stats = cloth.stats();
         println!("{preset:?}: {fastest} m/s, then {} m/s", stats.max_speed);
-        // It hangs as it was made, so that it has nowhere to go.
+        // The sheet starts in its rest shape, so nothing should move it.
         assert!(fastest < 0.1 && stats.max_speed < 0.005, "{preset:?}: {fastest} m/s");
         assert!(stats.max_stretch < 0.01, "{preset:?}: stretched by {}", stats.max_stretch);
     }
 }
 
 #[test]
-fn all_masses_times_the_same_fall_and_swing_the_same() {
-    // Links of the default material are rigid, and the air is left out: mass does not matter then.
-    let play = |scale: f32| {
+fn scaling_all_masses_by_one_factor_does_not_change_the_motion() {
+    // Links of the default material are rigid and there is no air, so mass does not matter.
+    let positions_at_scale = |scale: f32| {
         let mut cloth = Cloth::grid(&bare_grid(8, 8, 0.05, PinMode::TopCorners)).unwrap();
         cloth.set_mass_scales(&(0..64).collect::<Vec<_>>(), &[scale; 64]).unwrap();
         cloth.step(200);
         cloth.positions().to_vec()
     };
-    let (one, eight) = (play(1.0), play(8.0));
+    let (one, eight) = (positions_at_scale(1.0), positions_at_scale(8.0));
     let off = one.iter().zip(&eight).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
-    println!("off by {off:.1e} m");
-    assert!(off < 0.02, "off by {off} m");
+    println!("the positions differ by {off:.1e} m");
+    assert!(off < 0.02, "the positions differ by {off} m");
 }
 
 #[test]
-fn a_cut_keeps_the_mass_and_saving_and_cloning_the_factors() {
-    let mut cloth = sheet(|_| ());
+fn a_cut_keeps_the_total_mass_and_save_and_clone_keep_the_mass_scales() {
+    let mut cloth = cotton_sheet(|_| ());
     let all: Vec<u32> = (0..192).collect();
     cloth.set_mass_scales(&all, &[3.0; 192]).unwrap();
     let before: f32 = masses(&cloth).iter().sum();
     let from = Vec3::new(0.1, -0.1, -1.0);
     assert!(cloth.cut(from, from - Vec3::new(-0.05, 1.0, 0.0), Vec3::Z * 2.0).unwrap() > 5);
     let after: f32 = masses(&cloth).iter().sum();
-    assert!((after / before - 1.0).abs() < 1e-5, "{before} kg become {after} kg");
+    assert!((after / before - 1.0).abs() < 1e-5, "the cut changed {before} kg to {after} kg");
     let mut others = [Cloth::restore(&cloth.save()).unwrap(), cloth.clone()];
     let denser = Material { density: 0.3, ..cloth.material().clone() };
     cloth.set_material(denser.clone()).unwrap();
@@ -110,13 +115,13 @@ fn a_cut_keeps_the_mass_and_saving_and_cloning_the_factors() {
         assert_eq!(masses(other), masses(&cloth));
     }
     cloth.reset();
-    let plain = masses(&sheet(|desc| desc.material = denser));
+    let plain = masses(&cotton_sheet(|desc| desc.material = denser));
     assert_eq!(masses(&cloth), plain);
 }
 
 #[test]
-fn factors_that_cannot_be_are_refused_and_change_nothing() {
-    let mut cloth = sheet(|_| ());
+fn invalid_mass_scales_are_refused_and_change_nothing() {
+    let mut cloth = cotton_sheet(|_| ());
     let before = cloth.save();
     for scale in [0.0, -1.0, 1e-4, 1e4, f32::NAN, f32::INFINITY] {
         let refused = cloth.set_mass_scales(&[1, 2], &[2.0, scale]);

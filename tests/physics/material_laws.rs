@@ -1,4 +1,5 @@
-//! What materials give: the S, A4 and B4 cases of the validation list, damping, and changes while it moves.
+//! Material parameters compared with closed forms: cases S, A4 and B4 of the validation list,
+//! damping, and changes of the material during motion.
 
 use crate::common::{bare_grid, elastica, strip::speed};
 use muslin::glam::{Vec2, Vec3};
@@ -6,7 +7,8 @@ use muslin::{Cloth, Material, MeshDesc, PinMode, Settings, Wind};
 
 const G: f32 = 9.81;
 
-fn settle(cloth: &mut Cloth, most_ticks: u32) {
+/// Steps at least 60 ticks, until the RMS speed is at most 1 mm/s or `most_ticks` ticks have run.
+fn step_until_rest(cloth: &mut Cloth, most_ticks: u32) {
     let mut ticks = 0;
     while ticks < 60 || (speed(cloth) > 1.0e-3 && ticks < most_ticks) {
         cloth.step(1);
@@ -15,19 +17,19 @@ fn settle(cloth: &mut Cloth, most_ticks: u32) {
 }
 
 #[test]
-fn a_soft_strip_stretches_by_its_weight() {
+fn a_soft_hanging_strip_stretches_by_its_weight_over_its_stiffness() {
     for rows in [24_u32, 40, 56] {
         let (length, stiffness) = (1.0, 60.0);
         let mut desc = bare_grid(4, rows, length / (rows - 1) as f32, PinMode::TopEdge);
         desc.settings.damping = 4.0;
         desc.material.stretch_stiffness_warp = stiffness;
         desc.material.stretch_stiffness_weft = stiffness;
-        // Only what is square to the pull, and not across it, is measured.
+        // Nearly no shear stiffness: only links parallel or perpendicular to the load take part.
         desc.material.shear_stiffness = 0.01;
         desc.material.bend_stiffness = 0.0;
         let load = desc.material.density * G / stiffness;
         let mut cloth = Cloth::grid(&desc).unwrap();
-        settle(&mut cloth, 1200);
+        step_until_rest(&mut cloth, 1200);
         let at = |row: u32| -cloth.positions()[(4 * row + 1) as usize].y;
         let exact = load * length * length / 2.0;
         let found = at(rows - 1) - length;
@@ -35,14 +37,17 @@ fn a_soft_strip_stretches_by_its_weight() {
         assert!((found / exact - 1.0).abs() < 0.02, "S3 {rows} rows: {found} m, exact {exact} m");
         for row in 0..rows {
             let s = length * row as f32 / (rows - 1) as f32;
-            let bent = load * (length * s - s * s / 2.0);
-            assert!((at(row) - s - bent).abs() < 0.02 * exact, "S3 row {row} is off the parabola");
+            let exact_stretch = load * (length * s - s * s / 2.0);
+            assert!(
+                (at(row) - s - exact_stretch).abs() < 0.02 * exact,
+                "S3 row {row} is off the parabola"
+            );
         }
     }
 }
 
 #[test]
-fn a_taut_strip_sags_by_what_it_stretches() {
+fn a_taut_strip_sags_as_its_stretch_stiffness_gives() {
     for (stiffness, sag) in
         [(10.0_f32, 0.1728), (30.0, 0.1178), (100.0, 0.0782), (300.0, 0.0540), (1000.0, 0.0361)]
     {
@@ -60,27 +65,28 @@ fn a_taut_strip_sags_by_what_it_stretches() {
             cloth.pin(row * columns, None).unwrap();
             cloth.pin((row + 1) * columns - 1, None).unwrap();
         }
-        settle(&mut cloth, 1200);
+        step_until_rest(&mut cloth, 1200);
         let found = -cloth.positions()[(columns + columns / 2) as usize].y / span;
-        println!("S2 stiffness {stiffness} of its weight: sag {found:.5}, reference {sag}");
-        // The softest one is a fiftieth off.
+        println!("S2 stiffness {stiffness} times its weight: sag {found:.5}, reference {sag}");
+        // The softest strip is off by 2 %.
         assert!((found / sag - 1.0).abs() < 0.03, "S2 {stiffness}: sag {found}, exact {sag}");
     }
 }
 
 #[test]
-fn a_hanging_strip_leans_with_the_wind() {
+fn wind_tilts_a_hanging_strip_by_the_ratio_of_drag_to_weight() {
     for (k, degrees) in [(0.1_f32, 5.68_f32), (0.5, 24.47), (1.0, 38.17), (2.0, 51.33)] {
         let mut desc = bare_grid(4, 24, 0.5 / 23.0, PinMode::TopEdge);
-        // Limp, but for a hem that would flutter.
+        // Nearly limp: without any bend stiffness the hem would flutter.
         desc.material.bend_stiffness = 1.0e-6;
         desc.material.drag = 1.0;
         desc.settings.damping = 2.0;
         let mut cloth = Cloth::grid(&desc).unwrap();
         let speed2 = k * 2.0 * desc.material.density * G / 1.2;
         cloth.set_wind(Wind { velocity: Vec3::Z * speed2.sqrt(), ..Wind::default() }).unwrap();
-        settle(&mut cloth, 1800);
-        // In the strongest wind its hem goes on fluttering a little, so that it is the mean that counts.
+        step_until_rest(&mut cloth, 1800);
+        // In the strongest wind the hem keeps fluttering a little, so the mean of 240 ticks is
+        // measured.
         let mut sums = vec![Vec3::ZERO; 24];
         for _ in 0..240 {
             cloth.step(1);
@@ -99,30 +105,30 @@ fn a_hanging_strip_leans_with_the_wind() {
     }
 }
 
-/// How the triangles of a strip lie.
+/// The triangulation of a strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Pattern {
-    /// Squares along it, whose diagonals alternate.
+    /// Squares along the strip with alternating diagonals.
     Alternating,
-    /// Squares along it, with all diagonals one way.
-    OneWay,
-    /// The same, the other way.
-    OtherWay,
-    /// Squares at 45° to it, with all diagonals along it.
-    Askew,
-    /// Squares at 45° to it, whose diagonals alternate.
-    AskewAlternating,
+    /// Squares along the strip, all divided by the diagonal from the first corner.
+    FirstDiagonal,
+    /// Squares along the strip, all divided by the other diagonal.
+    SecondDiagonal,
+    /// Squares at 45° to the strip with all diagonals along it.
+    Rotated,
+    /// Squares at 45° to the strip with alternating diagonals.
+    RotatedAlternating,
     Equilateral,
-    /// Squares whose corners are off by up to a third, with diagonals this way and that.
+    /// Squares along the strip, corners displaced by up to a third of a step, with mixed diagonals.
     Uneven,
 }
 
 const PATTERNS: [Pattern; 7] = [
     Pattern::Alternating,
-    Pattern::OneWay,
-    Pattern::OtherWay,
-    Pattern::Askew,
-    Pattern::AskewAlternating,
+    Pattern::FirstDiagonal,
+    Pattern::SecondDiagonal,
+    Pattern::Rotated,
+    Pattern::RotatedAlternating,
     Pattern::Equilateral,
     Pattern::Uneven,
 ];
@@ -130,21 +136,22 @@ const PATTERNS: [Pattern; 7] = [
 /// Rows of particles in a strip.
 const ROWS: u32 = 9;
 
-/// A strip of triangles along x, `length` outside its clamp, and how long it is on average.
+/// Returns a strip of triangles along x, free over `length` [m] beyond its clamp, and its mean free
+/// length [m].
 fn strip_mesh(pattern: Pattern, cells: u32, length: f32) -> (MeshDesc, f32) {
     let step = length / cells as f32;
     let (mut positions, mut pinned) = (Vec::new(), Vec::new());
     let count = cells + 2;
     let height = step
         * match pattern {
-            Pattern::Askew | Pattern::AskewAlternating => 0.5,
+            Pattern::Rotated | Pattern::RotatedAlternating => 0.5,
             Pattern::Equilateral => 0.75_f32.sqrt(),
             _ => 1.0,
         };
-    // Others have every second row shifted by half a step.
+    // The other patterns shift every second row by half a step.
     let is_square = matches!(
         pattern,
-        Pattern::Alternating | Pattern::OneWay | Pattern::OtherWay | Pattern::Uneven
+        Pattern::Alternating | Pattern::FirstDiagonal | Pattern::SecondDiagonal | Pattern::Uneven
     );
     for row in 0..ROWS {
         for k in 0..count {
@@ -160,13 +167,17 @@ fn strip_mesh(pattern: Pattern, cells: u32, length: f32) -> (MeshDesc, f32) {
         }
     }
     let uvs: Vec<Vec2> = positions.iter().map(|x| Vec2::new(x.x, x.z)).collect();
-    // Rows that are shifted begin half a step later.
-    let own = if is_square { length } else { length - 0.25 * step };
+    // Every second row starts half a step later, so the mean length is a quarter step shorter.
+    let mean_length = if is_square { length } else { length - 0.25 * step };
     let material = Material { drag: 0.0, density: 0.15, ..Material::default() };
-    // So many substeps that links bear the load, which with the usual four bends strips of the finer mesh more.
+    // 16 substeps let the links converge under the load; with the default 4, strips of the finer
+    // mesh bend more.
     let settings = Settings { damping: 4.0, substeps: 16, ..Settings::default() };
     let indices = strip_triangles(pattern, count);
-    (MeshDesc { positions, indices, uvs, pinned, material, settings, ..MeshDesc::default() }, own)
+    (
+        MeshDesc { positions, indices, uvs, pinned, material, settings, ..MeshDesc::default() },
+        mean_length,
+    )
 }
 
 fn strip_triangles(pattern: Pattern, count: u32) -> Vec<u32> {
@@ -175,8 +186,8 @@ fn strip_triangles(pattern: Pattern, count: u32) -> Vec<u32> {
     for row in 0..ROWS {
         for k in 0..count - 1 {
             let (a, b) = (at(row, k), at(row, k + 1));
-            if pattern == Pattern::AskewAlternating {
-                // The square that has the way from a to b as a diagonal.
+            if pattern == Pattern::RotatedAlternating {
+                // The square whose diagonal is the edge from a to b.
                 let above = (row + 1 < ROWS).then(|| at(row + 1, k + row % 2));
                 let below = (row > 0).then(|| at(row - 1, k + row % 2));
                 match (above, below) {
@@ -190,22 +201,22 @@ fn strip_triangles(pattern: Pattern, count: u32) -> Vec<u32> {
                 }
             } else if row + 1 < ROWS {
                 let (c, d) = (a + count, b + count);
-                let falls = match pattern {
+                let is_first = match pattern {
                     Pattern::Alternating => (row + k) % 2 == 0,
-                    Pattern::OneWay => true,
-                    Pattern::OtherWay => false,
+                    Pattern::FirstDiagonal => true,
+                    Pattern::SecondDiagonal => false,
                     Pattern::Uneven => (7 * row + 3 * k) % 5 < 2,
                     _ => row % 2 == 1,
                 };
-                if falls {
+                if is_first {
                     indices.extend([a, c, d, a, d, b]);
                 } else {
                     indices.extend([a, c, b, b, c, d]);
                 }
             }
         }
-        if pattern == Pattern::AskewAlternating && row > 0 && row + 1 < ROWS {
-            // What squares leave of the ends.
+        if pattern == Pattern::RotatedAlternating && row > 0 && row + 1 < ROWS {
+            // The triangle at the end of the row, where no square fits.
             let k = if row % 2 == 1 { 0 } else { count - 1 };
             let ends = if k == 0 { [row - 1, row, row + 1] } else { [row - 1, row + 1, row] };
             indices.extend(ends.map(|row| at(row, k)));
@@ -214,12 +225,12 @@ fn strip_triangles(pattern: Pattern, count: u32) -> Vec<u32> {
     indices
 }
 
-/// How far the tip of a strip drops, and how far it reaches, over the strip's length.
-fn hang(pattern: Pattern, cells: u32, gamma: f32) -> (f32, f32) {
+/// Returns the drop and the reach of a strip's tip at rest, divided by the strip's length.
+fn tip_drop_and_reach(pattern: Pattern, cells: u32, gamma: f32) -> (f32, f32) {
     let (mut desc, length) = strip_mesh(pattern, cells, 0.2);
     desc.material.bend_stiffness = desc.material.density * G * length.powi(3) / gamma;
     let mut cloth = Cloth::mesh(&desc).unwrap();
-    settle(&mut cloth, 1200);
+    step_until_rest(&mut cloth, 1200);
     let count = cells as usize + 2;
     let tips = (0..ROWS as usize).map(|row| cloth.positions()[row * count + count - 1]);
     let tip = tips.sum::<Vec3>() / (ROWS as f32 * length);
@@ -227,7 +238,7 @@ fn hang(pattern: Pattern, cells: u32, gamma: f32) -> (f32, f32) {
 }
 
 #[test]
-fn strips_of_any_mesh_hang_as_their_material_says_whichever_way_they_are_cut() {
+fn a_strip_of_any_triangulation_droops_as_its_bend_stiffness_gives() {
     let mut misses = Vec::new();
     let mut check = |row: String, off: f32, most: f32| {
         let verdict = if off.abs() > most { "  MISSED" } else { "" };
@@ -236,7 +247,7 @@ fn strips_of_any_mesh_hang_as_their_material_says_whichever_way_they_are_cut() {
             misses.push(row);
         }
     };
-    // The bending length is told by strips that hang as those of a cantilever test do.
+    // The bending length is measured at gamma 8, where strips hang as in a cantilever test.
     for (gamma, all_cells) in [(8.0_f32, &[16, 24][..]), (30.0, &[16])] {
         let exact = elastica::tip(f64::from(gamma)).drop as f32;
         let mut lengths = Vec::new();
@@ -244,7 +255,7 @@ fn strips_of_any_mesh_hang_as_their_material_says_whichever_way_they_are_cut() {
             std::thread::spawn(move || {
                 all_cells
                     .iter()
-                    .map(|cells| (*cells, hang(pattern, *cells, gamma)))
+                    .map(|cells| (*cells, tip_drop_and_reach(pattern, *cells, gamma)))
                     .collect::<Vec<_>>()
             })
         });
@@ -271,7 +282,7 @@ fn strips_of_any_mesh_hang_as_their_material_says_whichever_way_they_are_cut() {
 }
 
 #[test]
-fn damping_of_bending_and_of_stretch_calm_what_they_damp_alone() {
+fn bend_damping_reduces_bending_and_stretch_damping_reduces_stretching() {
     let energy = |bend_damping: f32, stretch_damping: f32, bends: bool| {
         let mut desc = bare_grid(24, 4, 0.01, PinMode::None);
         desc.down = Vec3::Z;
@@ -296,7 +307,7 @@ fn damping_of_bending_and_of_stretch_calm_what_they_damp_alone() {
         for (i, v) in swing.iter().enumerate() {
             cloth.set_velocity(i as u32, (*v - mean) * 0.2).unwrap();
         }
-        // It swings about four times a second, and was most at rest at some moment.
+        // It swings at about 4 Hz, so 18 ticks contain a peak of the kinetic energy.
         cloth.step(18);
         let energies = (0..18).map(|_| {
             cloth.step(1);
@@ -311,11 +322,11 @@ fn damping_of_bending_and_of_stretch_calm_what_they_damp_alone() {
 }
 
 #[test]
-fn changing_the_material_of_a_hanging_cloth_gives_no_jerk() {
+fn changing_the_bend_stiffness_of_a_hanging_cloth_causes_no_jerk() {
     let mut desc = bare_grid(20, 20, 0.02, PinMode::TopCorners);
     desc.settings.damping = 2.0;
     let mut cloth = Cloth::grid(&desc).unwrap();
-    settle(&mut cloth, 1200);
+    step_until_rest(&mut cloth, 1200);
     for bend_stiffness in [1.0e-6, 1.0e-3, 2.0e-2, 1.0e-5] {
         cloth.set_material(Material { bend_stiffness, ..cloth.material().clone() }).unwrap();
         let mut fastest = 0.0_f32;
@@ -323,6 +334,6 @@ fn changing_the_material_of_a_hanging_cloth_gives_no_jerk() {
             cloth.step(1);
             fastest = fastest.max(speed(&cloth));
         }
-        assert!(fastest < 1.0, "{bend_stiffness} N·m sets it off at {fastest} m/s");
+        assert!(fastest < 1.0, "a change to {bend_stiffness} N·m accelerates it to {fastest} m/s");
     }
 }

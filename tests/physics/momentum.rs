@@ -1,5 +1,5 @@
-//! Momentum and spin of a cloth that is left alone: cases M3 and M4 of the validation list, as exactly
-//! as an excellent solver has them.
+//! Linear and angular momentum of a free cloth: cases M3 and M4 of the validation list, with the
+//! tolerances of an excellent solver.
 
 use crate::common::bare_grid;
 use muslin::glam::{DVec3, Quat, Vec3};
@@ -8,8 +8,8 @@ use muslin::{Cloth, Material, PinMode, Preset};
 /// Particles along a side.
 const SIDES: [u32; 3] = [24, 40, 56];
 
-/// A square of one metre around the origin that nothing pulls at, turned about an odd axis.
-fn afloat(side: u32, rate: u32, substeps: u32) -> Cloth {
+/// A free square of 1 m around the origin, without gravity, turned about an oblique axis.
+fn free_sheet(side: u32, rate: u32, substeps: u32) -> Cloth {
     let mut desc = bare_grid(side, side, 1.0 / (side - 1) as f32, PinMode::None);
     desc.settings.gravity = Vec3::ZERO;
     desc.settings.tick = 1.0 / rate as f32;
@@ -20,7 +20,7 @@ fn afloat(side: u32, rate: u32, substeps: u32) -> Cloth {
     Cloth::grid(&desc).unwrap()
 }
 
-/// Mass, place and velocity of each particle.
+/// Mass, position and velocity of each particle.
 fn particles(cloth: &Cloth) -> impl Iterator<Item = (f64, DVec3, DVec3)> + '_ {
     cloth.positions().iter().enumerate().map(|(i, x)| {
         let (mass, v) = (cloth.mass(i as u32).unwrap(), cloth.velocity(i as u32).unwrap());
@@ -28,19 +28,21 @@ fn particles(cloth: &Cloth) -> impl Iterator<Item = (f64, DVec3, DVec3)> + '_ {
     })
 }
 
+/// Linear momentum [N s].
 fn momentum(cloth: &Cloth) -> DVec3 {
     particles(cloth).map(|(mass, _, v)| v * mass).sum()
 }
 
-fn spin(cloth: &Cloth) -> DVec3 {
+/// Angular momentum about the origin [N m s].
+fn angular_momentum(cloth: &Cloth) -> DVec3 {
     particles(cloth).map(|(mass, x, v)| x.cross(v) * mass).sum()
 }
 
-/// The share of all momentum that is lost in two seconds to a sheet whose particles start every which
-/// way. Positions are f32, so that every correction leaves an error of some 10⁻⁸ m, which counts for the
-/// more the shorter substeps are.
-fn lost_momentum(side: u32, rate: u32) -> f64 {
-    let mut cloth = afloat(side, rate, 4);
+/// Returns the share of momentum that a sheet with mixed start velocities loses in two seconds.
+/// Positions are f32, so each correction has an error of about 10⁻⁸ m, which counts more the
+/// shorter the substeps are.
+fn lost_momentum_share(side: u32, rate: u32) -> f64 {
+    let mut cloth = free_sheet(side, rate, 4);
     for i in 0..side * side {
         let at = i as f32;
         let v = Vec3::new((at * 1.7).sin(), (at * 2.9).cos(), (at * 0.7).sin());
@@ -53,19 +55,20 @@ fn lost_momentum(side: u32, rate: u32) -> f64 {
 }
 
 #[test]
-fn momentum_stays_where_it_is() {
+fn a_free_sheet_conserves_linear_momentum() {
     for (rate, most) in [(30, 1.0e-5), (60, 1.0e-5), (120, 5.0e-5), (240, 2.5e-4)] {
         for side in SIDES {
-            let lost = lost_momentum(side, rate);
+            let lost = lost_momentum_share(side, rate);
             assert!(lost < most, "{side}² at {rate} Hz lost {lost:e} of its momentum");
         }
     }
 }
 
-/// Spins a sheet about its normal for ten turns, two a second. Gives what becomes of its spin, of its
-/// size, and of the time that a turn takes, as shares.
-fn ten_turns(side: u32, rate: u32, substeps: u32) -> [f64; 3] {
-    let mut cloth = afloat(side, rate, substeps);
+/// Spins a sheet about its normal for ten turns, at two turns per second. Returns the relative
+/// change of its angular momentum and of its size, and the relative error of the angle of its last
+/// turn.
+fn changes_after_ten_turns(side: u32, rate: u32, substeps: u32) -> [f64; 3] {
+    let mut cloth = free_sheet(side, rate, substeps);
     let axis = cloth.normals()[0];
     let turns = 2.0 * core::f32::consts::TAU;
     for i in 0..side * side {
@@ -77,7 +80,7 @@ fn ten_turns(side: u32, rate: u32, substeps: u32) -> [f64; 3] {
         let to = cloth.positions()[0];
         f64::from(axis.dot(from.cross(to)).atan2(from.dot(to)))
     };
-    let (spin_before, size_before) = (spin(&cloth), size(&cloth));
+    let (spin_before, size_before) = (angular_momentum(&cloth), size(&cloth));
     let mut last_turn = 0.0;
     for tick in 0..5 * rate {
         let from = cloth.positions()[0];
@@ -87,7 +90,7 @@ fn ten_turns(side: u32, rate: u32, substeps: u32) -> [f64; 3] {
         }
     }
     let exact = core::f64::consts::TAU;
-    let spin_after = spin(&cloth).dot(spin_before.normalize());
+    let spin_after = angular_momentum(&cloth).dot(spin_before.normalize());
     [
         spin_after / spin_before.length() - 1.0,
         size(&cloth) / size_before - 1.0,
@@ -96,25 +99,25 @@ fn ten_turns(side: u32, rate: u32, substeps: u32) -> [f64; 3] {
 }
 
 #[test]
-fn a_spinning_sheet_spins_on() {
-    // The second-order scheme brakes the less the shorter substeps are; at the default rate it misses the
-    // 0.5 % of an excellent solver.
+fn a_spinning_sheet_keeps_its_angular_momentum_turn_rate_and_size() {
+    // The second-order scheme loses less the shorter the substeps are; at the default rate it
+    // misses the 0.5 % of an excellent solver.
     for (rate, substeps, most) in
         [(60, 8, 5.0e-3), (120, 4, 5.0e-3), (240, 4, 5.0e-3), (60, 4, 1.0e-2)]
     {
         for side in SIDES {
-            let [spin, size, turn] = ten_turns(side, rate, substeps);
-            let what = format!("{side}² at {rate} Hz with {substeps} substeps");
-            assert!(spin.abs() < most, "{what}: its spin grew by {spin:e}");
-            assert!(turn.abs() < most, "{what}: it turned farther by {turn:e}");
-            // Threads of this material do not give, so that it stays as wide as it was.
-            assert!(size.abs() < 1.0e-4, "{what}: it got wider by {size:e}");
+            let [spin, size, turn] = changes_after_ten_turns(side, rate, substeps);
+            let case = format!("{side}² at {rate} Hz with {substeps} substeps");
+            assert!(spin.abs() < most, "{case}: its angular momentum changed by {spin:e}");
+            assert!(turn.abs() < most, "{case}: its last turn is off by {turn:e}");
+            // Links of this material are rigid, so the sheet keeps its size.
+            assert!(size.abs() < 1.0e-4, "{case}: its size changed by {size:e}");
         }
     }
 }
 
-/// A quarter of a letter sheet that floats, folded askew, of paper that damps its bending.
-fn folded() -> Cloth {
+/// A free quarter of a letter sheet with oblique creases, of paper with bend damping.
+fn creased_paper() -> Cloth {
     let mut desc = bare_grid(28, 40, 0.0055, PinMode::None);
     desc.settings.gravity = Vec3::ZERO;
     desc.material = Material { drag: 0.0, bend_damping: 0.002, ..Material::preset(Preset::Paper) };
@@ -129,8 +132,8 @@ fn folded() -> Cloth {
     cloth
 }
 
-/// How fast a cloth turns about its center of mass [rad/s], as its spin over what it would have at one.
-fn turning(cloth: &Cloth) -> f64 {
+/// Angular speed about the center of mass [rad/s]: angular momentum over moment of inertia.
+fn angular_speed(cloth: &Cloth) -> f64 {
     let mass: f64 = particles(cloth).map(|(mass, _, _)| mass).sum();
     let center = particles(cloth).map(|(mass, x, _)| x * mass).sum::<DVec3>() / mass;
     let drift = momentum(cloth) / mass;
@@ -141,15 +144,15 @@ fn turning(cloth: &Cloth) -> f64 {
     spin.length() / inertia
 }
 
-/// They did at 3.5 rad/s before bending was kept from turning what nothing holds.
+/// Regression: bending once turned this sheet at 3.5 rad/s, although nothing holds it.
 #[test]
-fn folds_that_open_do_not_turn_the_sheet() {
-    let mut cloth = folded();
+fn opening_folds_do_not_rotate_a_free_sheet() {
+    let mut cloth = creased_paper();
     let mut most = 0.0_f64;
     for _ in 0..240 {
         cloth.step(1);
-        most = most.max(turning(&cloth));
+        most = most.max(angular_speed(&cloth));
     }
     println!("a folded sheet turned by up to {most:e} rad/s");
-    assert!(most < 0.05, "by up to {most} rad/s");
+    assert!(most < 0.05, "it turned by up to {most} rad/s");
 }

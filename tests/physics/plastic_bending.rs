@@ -1,4 +1,4 @@
-//! Folds that stay: the P4 and P6 cases of the validation list.
+//! Plastic bending, folds that remain after release: cases P4 and P6 of the validation list.
 
 use crate::common::folding::{ARC, SIZE, fold_and_release, sheet, spacing};
 use crate::common::strip::speed;
@@ -6,66 +6,69 @@ use muslin::glam::Vec3;
 use muslin::{Cloth, Material, Preset, SelfCollision};
 
 #[test]
-fn a_fold_beyond_the_yield_angle_keeps_the_rest() {
+fn a_fold_keeps_the_angle_beyond_the_yield_angle() {
     let yield_angle = 0.5_f32;
     let mut misses = Vec::new();
     for nodes in [24, 40, 56] {
         let mut last = 0.0;
         for angle in [0.3_f32, 0.8, 1.2, 1.8] {
             let mut cloth = Cloth::grid(&sheet(nodes, 5, yield_angle)).unwrap();
-            let stays = fold_and_release(&mut cloth, nodes, ARC, angle).to_degrees();
+            let remaining = fold_and_release(&mut cloth, nodes, ARC, angle).to_degrees();
             let exact = (angle - yield_angle).max(0.0).to_degrees();
             let again = fold_and_release(&mut cloth, nodes, ARC, angle).to_degrees();
             println!(
-                "P4 {nodes} nodes, folded by {:.1}°: stays {stays:.2}°, reference {exact:.2}°, again {again:.2}°",
+                "P4 {nodes} nodes, folded by {:.1}°: remains {remaining:.2}°, reference {exact:.2}°, again {again:.2}°",
                 angle.to_degrees()
             );
-            let most_off = if exact == 0.0 { 1.0 } else { 2.0 };
-            if (stays - exact).abs() > most_off || (again - stays).abs() > 2.0 || stays < last {
+            let tolerance = if exact == 0.0 { 1.0 } else { 2.0 };
+            if (remaining - exact).abs() > tolerance
+                || (again - remaining).abs() > 2.0
+                || remaining < last
+            {
                 misses.push(format!(
-                    "{nodes} nodes, {angle} rad: {stays}° then {again}°, not {exact}°"
+                    "{nodes} nodes, {angle} rad: {remaining}° then {again}°, not {exact}°"
                 ));
             }
-            last = stays;
+            last = remaining;
         }
     }
     assert!(misses.is_empty(), "P4 missed:\n{}", misses.join("\n"));
 }
 
 #[test]
-fn cloth_that_does_not_yield_opens_again() {
+fn an_elastic_fold_opens_completely() {
     let mut cloth = Cloth::grid(&sheet(40, 5, 0.0)).unwrap();
-    let stays = fold_and_release(&mut cloth, 40, ARC, 1.5).to_degrees();
-    assert!(stays.abs() < 1.0, "{stays}° stay");
+    let remaining = fold_and_release(&mut cloth, 40, ARC, 1.5).to_degrees();
+    assert!(remaining.abs() < 1.0, "{remaining}° remain");
 }
 
-/// The angle between the two sides of a line on a grid of `nodes` by `nodes`, and how far the crease strays
-/// from it, over a cell.
-fn measure_crease(cloth: &Cloth, nodes: u32, from: Vec3, to: Vec3) -> f32 {
+/// Returns the angle between the mean normals of the two sides of a line on a grid of `nodes` by
+/// `nodes` [rad]. Triangles within three cells of the line do not count.
+fn crease_angle(cloth: &Cloth, nodes: u32, from: Vec3, to: Vec3) -> f32 {
     let along = (to - from).normalize();
     let side = Vec3::Y.cross(along);
     let cell = spacing(nodes);
     let (mut sums, mut counts) = ([Vec3::ZERO; 2], [0.0_f32; 2]);
     for triangle in crate::common::triangles(cloth) {
-        let place = |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * cell;
-        let middle = triangle.map(place).iter().sum::<Vec3>() / 3.0;
+        let flat_position = |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * cell;
+        let middle = triangle.map(flat_position).iter().sum::<Vec3>() / 3.0;
         let off = (middle - from).dot(side);
         if off.abs() < 3.0 * cell {
             continue;
         }
         let [a, b, c] = triangle.map(|i| cloth.positions()[i as usize]);
-        let which = usize::from(off > 0.0);
-        sums[which] += (b - a).cross(c - a).normalize();
-        counts[which] += 1.0;
+        let side_index = usize::from(off > 0.0);
+        sums[side_index] += (b - a).cross(c - a).normalize();
+        counts[side_index] += 1.0;
     }
     sums[0].angle_between(sums[1])
 }
 
 #[test]
-fn a_crease_along_any_line_folds_by_its_angle() {
+fn a_crease_along_any_line_folds_the_sheet_by_its_angle() {
     let mut misses = Vec::new();
     for nodes in [24, 40, 56] {
-        // Between the threads, along them, and askew.
+        // Parallel to each grid direction, along the diagonal, and oblique.
         let s = SIZE;
         let lines = [
             (Vec3::new(0.37 * s, 0.0, -0.1 * s), Vec3::new(0.37 * s, 0.0, 1.1 * s)),
@@ -77,7 +80,7 @@ fn a_crease_along_any_line_folds_by_its_angle() {
             let mut cloth = Cloth::grid(&sheet(nodes, nodes, 0.0)).unwrap();
             cloth.crease(from, to, 1.0).unwrap();
             cloth.step(600);
-            let angle = measure_crease(&cloth, nodes, from, to).to_degrees();
+            let angle = crease_angle(&cloth, nodes, from, to).to_degrees();
             println!("P6 {nodes} nodes, {from} to {to}: {angle:.2}°, reference 57.30°");
             if (angle - 57.3).abs() > 5.0 {
                 misses.push(format!("{nodes} nodes, {from} to {to}: {angle}°"));
@@ -88,7 +91,7 @@ fn a_crease_along_any_line_folds_by_its_angle() {
 }
 
 #[test]
-fn a_crease_is_saved_and_taken_away_by_its_opposite() {
+fn a_crease_is_saved_and_invalid_creases_are_refused() {
     let mut cloth = Cloth::grid(&sheet(16, 16, 0.4)).unwrap();
     let (from, to) = (Vec3::new(0.07, 0.0, -0.1), Vec3::new(0.12, 0.0, 0.3));
     let before = cloth.state_hash();
@@ -105,7 +108,7 @@ fn a_crease_is_saved_and_taken_away_by_its_opposite() {
 }
 
 #[test]
-fn folded_paper_stays_folded() {
+fn paper_keeps_the_angle_beyond_its_yield_angle() {
     let fold = |preset: Preset| {
         let mut desc = sheet(57, 5, 0.0);
         desc.material = Material { drag: 0.0, ..Material::preset(preset) };
@@ -116,12 +119,13 @@ fn folded_paper_stays_folded() {
     assert!((paper - (2.0_f32 - 0.8).to_degrees()).abs() < 5.0, "paper keeps {paper}°");
 }
 
-/// Where a sheet of the letter is folded, in shares of its length, and by how much [rad].
+/// The two folds of a letter: the place as a share of the sheet's length, and the angle [rad].
 const LETTER: [(f32, f32); 2] = [(0.3, 2.9), (0.7, 2.4)];
 
-/// Where a place along a strip is when it is bent along an arc of `ARC` to either side of each fold, turned so far
-/// of its angle; the part between the folds stays.
-fn on_letter(x: f32, turned: [f32; 2]) -> Vec3 {
+/// Returns the position of the point at `x` [m] along a letter whose folds are turned by `turned`
+/// [rad]. Each fold is an arc that reaches `LETTER_ARC` to either side; the part between the folds
+/// does not move.
+fn letter_position(x: f32, turned: [f32; 2]) -> Vec3 {
     let (fold, side) = if x < 0.5 * SIZE { (0, -1.0) } else { (1, 1.0) };
     let off = (x - LETTER[fold].0 * SIZE) * side + LETTER_ARC;
     if off <= 0.0 {
@@ -137,13 +141,13 @@ fn on_letter(x: f32, turned: [f32; 2]) -> Vec3 {
     Vec3::new(start + side * reach, lift, 0.0)
 }
 
-/// Half of the length of sheet that a fold of the letter takes [m]: hands press it nearly flat.
+/// Half of the arc length of a fold of the letter [m]; it is so short that folds are nearly flat.
 const LETTER_ARC: f32 = 0.005;
 
 #[test]
-fn a_sheet_of_paper_that_was_folded_twice_and_let_go_keeps_both_creases() {
+fn a_paper_letter_folded_twice_keeps_both_folds_after_release() {
     let mut misses = Vec::new();
-    // Finer sheets of paper take more substeps to be at peace.
+    // Finer sheets of paper need more substeps to come to rest.
     for (nodes, substeps) in [(40_u32, 4), (57, 8)] {
         let mut desc = sheet(nodes, 9, 0.0);
         desc.settings.substeps = substeps;
@@ -151,18 +155,21 @@ fn a_sheet_of_paper_that_was_folded_twice_and_let_go_keeps_both_creases() {
         desc.settings.self_collision = SelfCollision::Particles;
         desc.settings.self_distance = 0.003;
         let mut cloth = Cloth::grid(&desc).unwrap();
-        let place =
+        let flat_position =
             |i: u32| Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * spacing(nodes);
-        let is_held =
-            |i: &u32| LETTER.iter().all(|(at, _)| (place(*i).x - at * SIZE).abs() > LETTER_ARC);
+        let is_held = |i: &u32| {
+            LETTER.iter().all(|(at, _)| (flat_position(*i).x - at * SIZE).abs() > LETTER_ARC)
+        };
         let held: Vec<u32> = (0..nodes * 9).filter(is_held).collect();
-        // One fold, then the other, over it; then all is let go.
+        // Make the first fold, then the second one over it, then release the sheet.
         for tick in 0..=480 {
             let share = |from: i32| ((tick - from) as f32 / 240.0).clamp(0.0, 1.0);
             let turned = [share(0) * LETTER[0].1, share(240) * LETTER[1].1];
             let targets: Vec<Vec3> = held
                 .iter()
-                .map(|i| on_letter(place(*i).x, turned) + Vec3::Z * place(*i).z)
+                .map(|i| {
+                    letter_position(flat_position(*i).x, turned) + Vec3::Z * flat_position(*i).z
+                })
                 .collect();
             cloth.set_pin_targets(&held, &targets).unwrap();
             cloth.step(1);
@@ -183,14 +190,14 @@ fn a_sheet_of_paper_that_was_folded_twice_and_let_go_keeps_both_creases() {
         for ((panel, middle), (share, folded)) in
             panels.into_iter().zip([-middle, middle]).zip(LETTER)
         {
-            let stays = middle.angle_between(panel).to_degrees();
+            let remaining = middle.angle_between(panel).to_degrees();
             let exact = (folded - desc.material.yield_angle).to_degrees();
             println!(
-                "P4 twice, {nodes} nodes, at {share} folded by {:.1}°: stays {stays:.2}°, reference {exact:.2}°",
+                "P4 twice, {nodes} nodes, at {share} folded by {:.1}°: remains {remaining:.2}°, reference {exact:.2}°",
                 folded.to_degrees()
             );
-            if (stays - exact).abs() > 8.0 {
-                misses.push(format!("{nodes} nodes, at {share}: {stays}°, not {exact}°"));
+            if (remaining - exact).abs() > 8.0 {
+                misses.push(format!("{nodes} nodes, at {share}: {remaining}°, not {exact}°"));
             }
         }
         assert_eq!(

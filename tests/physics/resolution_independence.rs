@@ -1,27 +1,28 @@
-//! What a cloth does depends on its size and material, not on how finely it is woven or stepped: the
-//! I cases of the validation list, and M7.
+//! Results depend on the size and the material of a cloth, not on its resolution or step size:
+//! cases I and M7 of the validation list.
 
 use crate::common::bare_grid;
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, PinMode};
 
-/// Ticks a second.
+/// Tick rates [Hz].
 const RATES: [u32; 4] = [30, 60, 120, 240];
 
 /// Particles along the side of a sheet.
 const SIDES: [u32; 4] = [24, 40, 56, 128];
 
-/// Places along a side at which shapes are compared.
+/// Sample points along a side at which shapes are compared.
 const SAMPLES: usize = 24;
 
+/// A square sheet of 1 m with `side` particles along each side.
 fn sheet(side: u32, pin_mode: PinMode) -> GridDesc {
     let mut desc = bare_grid(side, side, 1.0 / (side - 1) as f32, pin_mode);
     desc.settings.damping = 2.0;
     desc
 }
 
-/// The sheet at rest, after a breath that keeps it from balancing in its plane.
-fn settled(desc: &GridDesc) -> Cloth {
+/// The sheet at rest. A small start velocity keeps it from staying in the balance of its plane.
+fn settled_cloth(desc: &GridDesc) -> Cloth {
     let mut cloth = Cloth::grid(desc).unwrap();
     for i in 0..cloth.positions().len() as u32 {
         let x = cloth.positions()[i as usize];
@@ -31,8 +32,8 @@ fn settled(desc: &GridDesc) -> Cloth {
     cloth
 }
 
-/// The shape at the same places of the sheet, however finely it is woven.
-fn samples(cloth: &Cloth, side: u32) -> Vec<Vec3> {
+/// Positions at the same sample points of the sheet at any resolution.
+fn sample_positions(cloth: &Cloth, side: u32) -> Vec<Vec3> {
     let x = cloth.positions();
     let at = |k: usize| k as f32 * (side - 1) as f32 / (SAMPLES - 1) as f32;
     let mut found = Vec::new();
@@ -48,37 +49,43 @@ fn samples(cloth: &Cloth, side: u32) -> Vec<Vec3> {
     found
 }
 
-/// Root mean square distance of two shapes.
-fn rms(a: &[Vec3], b: &[Vec3]) -> f32 {
+/// Root mean square distance of two shapes [m].
+fn rms_distance(a: &[Vec3], b: &[Vec3]) -> f32 {
     let sum: f32 = a.iter().zip(b).map(|(a, b)| a.distance_squared(*b)).sum();
     (sum / a.len() as f32).sqrt()
 }
 
-/// How far a sheet hangs from where the usual one does: 40 × 40, 60 ticks a second, 4 × 2 sweeps.
-fn assert_same_shape(row: &str, desc: &GridDesc, usual: &[Vec3], most: f32) {
-    let cloth = settled(desc);
-    let off = rms(&samples(&cloth, desc.columns), usual);
+/// Checks that the settled sheet is less than `most` [m] off the reference shape, which has 40 × 40
+/// particles, 60 ticks per second, and 4 substeps of 2 iterations.
+fn assert_same_shape(row: &str, desc: &GridDesc, reference: &[Vec3], most: f32) {
+    let cloth = settled_cloth(desc);
+    let off = rms_distance(&sample_positions(&cloth, desc.columns), reference);
     println!("{row}, {:?}: off by {off:.5} m, reference 0", desc.pin_mode);
     assert!(off < most, "{off} m off: {desc:?}");
 }
 
 #[test]
-fn the_settled_shape_depends_on_neither_resolution_nor_tick_nor_sweeps() {
+fn the_settled_shape_does_not_depend_on_resolution_tick_or_sweeps() {
     for pin_mode in [PinMode::TopEdge, PinMode::TopCorners] {
-        let usual = samples(&settled(&sheet(40, pin_mode)), 40);
+        let reference = sample_positions(&settled_cloth(&sheet(40, pin_mode)), 40);
         for side in SIDES {
-            assert_same_shape(&format!("I1 {side} nodes"), &sheet(side, pin_mode), &usual, 0.01);
+            assert_same_shape(
+                &format!("I1 {side} nodes"),
+                &sheet(side, pin_mode),
+                &reference,
+                0.01,
+            );
         }
         for rate in RATES {
             let mut desc = sheet(40, pin_mode);
             desc.settings.tick = 1.0 / rate as f32;
-            assert_same_shape(&format!("I2 {rate} Hz"), &desc, &usual, 0.01);
+            assert_same_shape(&format!("I2 {rate} Hz"), &desc, &reference, 0.01);
         }
         for (substeps, iterations) in [(2, 2), (8, 2), (4, 1), (4, 4), (8, 6)] {
             let mut desc = sheet(40, pin_mode);
             (desc.settings.substeps, desc.settings.iterations) = (substeps, iterations);
             let row = format!("I3 {substeps} substeps of {iterations} iterations");
-            assert_same_shape(&row, &desc, &usual, 0.01);
+            assert_same_shape(&row, &desc, &reference, 0.01);
         }
     }
 }
@@ -89,8 +96,8 @@ fn first_mode(s: f32) -> f32 {
     1.0 - q + q * q / 4.0 - q.powi(3) / 36.0 + q.powi(4) / 576.0
 }
 
-/// The period at which a limp strip of so many rows swings, its tip by 3° to either side [s].
-fn swing(rows: u32, rate: u32) -> f32 {
+/// The period of a limp strip of `rows` rows whose tip swings by 3° to either side [s].
+fn swing_period(rows: u32, rate: u32) -> f32 {
     let mut desc = bare_grid(3, rows, 1.0 / (rows - 1) as f32, PinMode::TopEdge);
     desc.settings.tick = 1.0 / rate as f32;
     desc.material.bend_stiffness = 0.0;
@@ -114,23 +121,23 @@ fn swing(rows: u32, rate: u32) -> f32 {
 }
 
 #[test]
-fn a_hanging_strip_swings_at_its_period() {
+fn a_hanging_strip_swings_at_the_exact_period_of_its_first_mode() {
     let exact = 5.2255 / 9.81_f32.sqrt();
     for rows in SIDES {
         for rate in RATES {
-            let off = swing(rows, rate) / exact - 1.0;
+            let off = swing_period(rows, rate) / exact - 1.0;
             assert!(off.abs() < 0.003, "{rows} rows at {rate} Hz: off by {off}");
         }
     }
 }
 
 #[test]
-fn in_the_plain_mode_more_sweeps_are_stiffer() {
+fn without_tethers_more_sweeps_make_the_cloth_stiffer() {
     let stretch = |substeps: u32, iterations: u32| {
         let mut desc = sheet(40, PinMode::TopEdge);
         (desc.settings.substeps, desc.settings.iterations) = (substeps, iterations);
         desc.settings.tethers = false;
-        settled(&desc).stats().max_stretch
+        settled_cloth(&desc).stats().max_stretch
     };
     let by_iterations = [1, 2, 4, 8, 12].map(|iterations| stretch(1, iterations));
     assert!(by_iterations.is_sorted_by(|a, b| *a > 1.2 * *b), "{by_iterations:?}");

@@ -1,19 +1,21 @@
-//! Sleep: what is still stays just as it is, and wakes by any touch or change.
+//! Tests of sleep: a cloth at rest keeps its state bit for bit, and wakes on every input that
+//! changes something.
 
 use crate::common::bare_grid;
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Settings, Shape, Wind, WindModel};
 
-/// A sheet by its top corners, over a floor that it does not reach.
-fn hanging(sleep_speed: f32) -> GridDesc {
+/// A sheet pinned at its top corners that falls asleep below `sleep_speed` [m/s].
+fn hanging_sheet(sleep_speed: f32) -> GridDesc {
     let mut desc = GridDesc { columns: 12, rows: 10, ..GridDesc::default() };
     desc.pin_mode = PinMode::TopCorners;
     desc.settings = Settings { sleep_speed, damping: 2.0, ..Settings::default() };
     desc
 }
 
-fn asleep() -> Cloth {
-    let mut cloth = Cloth::grid(&hanging(0.005)).unwrap();
+/// A sheet above a floor that it does not touch, stepped until it sleeps.
+fn sleeping_cloth() -> Cloth {
+    let mut cloth = Cloth::grid(&hanging_sheet(0.005)).unwrap();
     cloth
         .add_collider(&ColliderDesc { position: Vec3::Y * -5.0, ..ColliderDesc::default() })
         .unwrap();
@@ -22,19 +24,19 @@ fn asleep() -> Cloth {
         cloth.step(1);
         cloth.stats().asleep
     });
-    assert!(ticks.is_some_and(|ticks| ticks > 60), "it swings before it rests: {ticks:?}");
+    assert!(ticks.is_some_and(|ticks| ticks > 60), "it swings before it sleeps: {ticks:?}");
     cloth
 }
 
 #[test]
-fn a_sleeping_cloth_stays_just_as_it_is() {
-    let mut cloth = asleep();
+fn a_sleeping_cloth_keeps_its_state_while_time_runs() {
+    let mut cloth = sleeping_cloth();
     let (before, normals) = (cloth.positions().to_vec(), cloth.normals().to_vec());
     let (revision, ticks, time) = (cloth.state_revision(), cloth.stats().ticks, cloth.time());
     cloth.step(600);
     assert_eq!(cloth.positions(), before);
     assert_eq!(cloth.normals(), normals);
-    assert_eq!(cloth.state_revision(), revision, "there is nothing to draw anew");
+    assert_eq!(cloth.state_revision(), revision, "a renderer has nothing to redraw");
     assert_eq!(cloth.stats().ticks, ticks + 600);
     assert!((cloth.time() - time - 10.0).abs() < 1e-3);
     let stats = cloth.stats();
@@ -42,8 +44,8 @@ fn a_sleeping_cloth_stays_just_as_it_is() {
 }
 
 #[test]
-fn it_hardly_moves_as_it_falls_asleep_and_as_it_wakes() {
-    let mut cloth = asleep();
+fn waking_up_moves_no_particle_by_three_millimetres() {
+    let mut cloth = sleeping_cloth();
     let before = cloth.positions().to_vec();
     let settings = Settings { sleep_speed: 0.0, ..cloth.settings().clone() };
     cloth.set_settings(settings).unwrap();
@@ -57,30 +59,32 @@ fn it_hardly_moves_as_it_falls_asleep_and_as_it_wakes() {
 }
 
 #[test]
-fn every_touch_and_change_wakes_it() {
-    type Touch = fn(&mut Cloth);
-    let touches: [(&str, Touch); 18] = [
-        ("a pin that moves", |cloth| cloth.pin(0, Some(Vec3::Y * 0.1)).unwrap()),
-        ("a pin that moves, of many", |cloth| cloth.set_pin_targets(&[0], &[Vec3::Y]).unwrap()),
+fn every_input_that_changes_something_wakes_the_cloth() {
+    type Input = fn(&mut Cloth);
+    let inputs: [(&str, Input); 18] = [
+        ("a moved pin", |cloth| cloth.pin(0, Some(Vec3::Y * 0.1)).unwrap()),
+        ("a pin moved by set_pin_targets", |cloth| {
+            cloth.set_pin_targets(&[0], &[Vec3::Y]).unwrap()
+        }),
         ("a new pin", |cloth| cloth.pin(50, None).unwrap()),
-        ("a pin that goes", |cloth| cloth.unpin(0).unwrap()),
-        ("all pins that go", Cloth::unpin_all),
+        ("a removed pin", |cloth| cloth.unpin(0).unwrap()),
+        ("all pins removed", Cloth::unpin_all),
         ("a grab", |cloth| assert!(cloth.grab_particle(60).is_ok())),
-        ("a place", |cloth| cloth.set_position(60, Vec3::X).unwrap()),
-        ("a push", |cloth| cloth.set_velocity(60, Vec3::Z).unwrap()),
+        ("a set position", |cloth| cloth.set_position(60, Vec3::X).unwrap()),
+        ("a set velocity", |cloth| cloth.set_velocity(60, Vec3::Z).unwrap()),
         ("wind", |cloth| {
             cloth.set_wind(Wind { velocity: Vec3::Z * 3.0, ..Wind::default() }).unwrap();
         }),
-        ("other stuff", |cloth| {
+        ("another material", |cloth| {
             let mut material = cloth.material().clone();
             material.density *= 2.0;
             cloth.set_material(material).unwrap();
         }),
-        ("other gravity", |cloth| {
+        ("another gravity", |cloth| {
             let settings = Settings { gravity: Vec3::X, ..cloth.settings().clone() };
             cloth.set_settings(settings).unwrap();
         }),
-        ("a collider that comes", |cloth| {
+        ("a new collider", |cloth| {
             let ball =
                 ColliderDesc { shape: Shape::Sphere, radius: 0.1, ..ColliderDesc::default() };
             cloth.add_collider(&ball).unwrap();
@@ -91,33 +95,33 @@ fn every_touch_and_change_wakes_it() {
         }),
         ("a tear", |cloth| assert!(cloth.tear_edge(64, 76).unwrap())),
         ("a crease", |cloth| cloth.crease(Vec3::ZERO, Vec3::new(0.5, -0.5, 0.0), 1.0).unwrap()),
-        ("a start over", Cloth::reset),
-        ("a grab that is let go", |cloth| {
+        ("a reset", Cloth::reset),
+        ("a released grab", |cloth| {
             let grab = cloth.grab_particle(60).unwrap();
             cloth.step(60);
-            assert!(cloth.stats().asleep, "a hand that does not move");
+            assert!(cloth.stats().asleep, "a grab at rest lets the cloth sleep");
             cloth.release(grab).unwrap();
         }),
-        ("a hand that moves", |cloth| {
+        ("a moved grab", |cloth| {
             let grab = cloth.grab_particle(60).unwrap();
             cloth.step(60);
             let at = cloth.positions()[60];
             cloth.move_grab(grab, at).unwrap();
             cloth.step(1);
-            assert!(cloth.stats().asleep, "a hand that stays");
+            assert!(cloth.stats().asleep, "a grab moved to its own position lets the cloth sleep");
             cloth.move_grab(grab, at + Vec3::Z * 0.1).unwrap();
         }),
     ];
-    for (name, touch) in touches {
-        let mut cloth = asleep();
-        touch(&mut cloth);
+    for (name, input) in inputs {
+        let mut cloth = sleeping_cloth();
+        input(&mut cloth);
         cloth.step(1);
         assert!(!cloth.stats().asleep, "{name}");
     }
 }
 
 #[test]
-fn a_collider_wakes_it_as_it_moves_and_as_it_goes() {
+fn a_collider_wakes_the_cloth_when_it_moves_and_when_it_is_removed() {
     let mut desc = bare_grid(8, 8, 0.05, PinMode::None);
     desc.settings = Settings { sleep_speed: 0.01, damping: 1.0, ..desc.settings };
     desc.down = Vec3::Z;
@@ -129,8 +133,12 @@ fn a_collider_wakes_it_as_it_moves_and_as_it_goes() {
     let weight = cloth.collider_impulse(floor).unwrap();
     cloth.move_collider(floor, Vec3::Y * -0.2, Quat::IDENTITY).unwrap();
     cloth.step(5);
-    assert!(cloth.stats().asleep, "it stays where it is");
-    assert_eq!(cloth.collider_impulse(floor).unwrap(), weight, "it still bears the cloth");
+    assert!(cloth.stats().asleep, "the floor did not move");
+    assert_eq!(
+        cloth.collider_impulse(floor).unwrap(),
+        weight,
+        "the floor still reports the weight"
+    );
     let height = cloth.positions()[20].y;
     cloth.move_collider(floor, Vec3::Y * -0.1, Quat::IDENTITY).unwrap();
     cloth.step(1);
@@ -139,12 +147,12 @@ fn a_collider_wakes_it_as_it_moves_and_as_it_goes() {
     assert!(cloth.stats().asleep);
     cloth.remove_collider(floor).unwrap();
     cloth.step(30);
-    assert!(cloth.positions()[20].y < height - 0.5, "it falls");
+    assert!(cloth.positions()[20].y < height - 0.5, "the cloth falls");
 }
 
 #[test]
-fn what_changes_nothing_does_not_wake_it() {
-    let mut cloth = asleep();
+fn inputs_that_change_nothing_do_not_wake_the_cloth() {
+    let mut cloth = sleeping_cloth();
     let pin = cloth.positions()[0];
     cloth.set_settings(cloth.settings().clone()).unwrap();
     cloth.set_material(cloth.material().clone()).unwrap();
@@ -157,8 +165,8 @@ fn what_changes_nothing_does_not_wake_it() {
 }
 
 #[test]
-fn slow_pins_and_gusty_air_keep_it_awake() {
-    let mut cloth = asleep();
+fn slow_pins_and_changing_wind_keep_the_cloth_awake() {
+    let mut cloth = sleeping_cloth();
     for tick in 1..=90 {
         let drift = Vec3::X * (2.0e-5 * tick as f32);
         let pins: Vec<u32> = cloth.pinned().collect();
@@ -172,7 +180,7 @@ fn slow_pins_and_gusty_air_keep_it_awake() {
         Wind { gust: 0.2, velocity: Vec3::Z * 1.0e-3, ..Wind::default() },
         Wind { model: WindModel::SineField, velocity: Vec3::Z * 1.0e-3, ..Wind::default() },
     ] {
-        let mut cloth = asleep();
+        let mut cloth = sleeping_cloth();
         cloth.set_wind(wind).unwrap();
         for _ in 0..120 {
             cloth.step(1);
@@ -182,30 +190,30 @@ fn slow_pins_and_gusty_air_keep_it_awake() {
 }
 
 #[test]
-fn it_is_saved_asleep_and_goes_on_in_the_same_bits() {
-    let mut cloth = asleep();
-    let mut again = Cloth::restore(&cloth.save()).unwrap();
-    assert!(again.stats().asleep);
-    for cloth in [&mut cloth, &mut again] {
+fn a_restored_sleeping_cloth_continues_with_the_same_bits() {
+    let mut cloth = sleeping_cloth();
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    assert!(restored.stats().asleep);
+    for cloth in [&mut cloth, &mut restored] {
         cloth.step(10);
         cloth.set_velocity(60, Vec3::Z).unwrap();
         cloth.step(30);
     }
-    assert_eq!(cloth.state_hash(), again.state_hash());
-    let mut cloth = Cloth::grid(&hanging(0.005)).unwrap();
+    assert_eq!(cloth.state_hash(), restored.state_hash());
+    let mut cloth = Cloth::grid(&hanging_sheet(0.005)).unwrap();
     while !cloth.stats().asleep {
-        let mut again = Cloth::restore(&cloth.save()).unwrap();
-        for cloth in [&mut cloth, &mut again] {
+        let mut restored = Cloth::restore(&cloth.save()).unwrap();
+        for cloth in [&mut cloth, &mut restored] {
             cloth.step(16);
         }
-        assert_eq!(cloth.stats().asleep, again.stats().asleep);
-        assert_eq!(cloth.state_hash(), again.state_hash());
+        assert_eq!(cloth.stats().asleep, restored.stats().asleep);
+        assert_eq!(cloth.state_hash(), restored.state_hash());
     }
 }
 
 #[test]
-fn by_default_it_never_sleeps() {
-    let mut cloth = Cloth::grid(&hanging(0.0)).unwrap();
+fn a_cloth_with_sleep_speed_zero_never_sleeps() {
+    let mut cloth = Cloth::grid(&hanging_sheet(0.0)).unwrap();
     cloth.step(1200);
     assert!(!cloth.stats().asleep);
 }

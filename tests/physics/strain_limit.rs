@@ -1,10 +1,11 @@
-//! The stretch bound: after every tick, whatever the resolution, tick, material or treatment.
+//! Tests of the strain limit (`max_stretch`): no link exceeds it after any tick, at any resolution,
+//! tick length, density and load.
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, EventKind, GridDesc, Material, PinMode, Preset, Wind};
 
-/// Of all links, the most stretched one, as length over rest length.
-fn longest(cloth: &Cloth, rest: &[Vec3]) -> f32 {
+/// Returns the largest ratio of length to rest length of all links.
+fn max_length_ratio(cloth: &Cloth, rest: &[Vec3]) -> f32 {
     let (x, source) = (cloth.positions(), cloth.source_vertices());
     let at = |v: u32| rest[source[v as usize] as usize];
     let ratio = |(a, b, _)| {
@@ -14,11 +15,18 @@ fn longest(cloth: &Cloth, rest: &[Vec3]) -> f32 {
     cloth.links().map(ratio).fold(0.0, f32::max)
 }
 
-fn storm() -> Wind {
+/// A strong wind with gusts and turbulence.
+fn storm_wind() -> Wind {
     Wind { velocity: Vec3::new(4.0, 1.0, 12.0), gust: 1.0, turbulence: 0.5, ..Wind::default() }
 }
 
-fn bounded(columns: u32, pin_mode: PinMode, material: Material, max_stretch: f32) -> GridDesc {
+/// A square grid of 1 m with a strain limit.
+fn strain_limited_grid(
+    columns: u32,
+    pin_mode: PinMode,
+    material: Material,
+    max_stretch: f32,
+) -> GridDesc {
     let spacing = 1.0 / (columns - 1) as f32;
     let mut desc = GridDesc { columns, rows: columns, spacing, pin_mode, ..GridDesc::default() };
     desc.material = material;
@@ -26,49 +34,57 @@ fn bounded(columns: u32, pin_mode: PinMode, material: Material, max_stretch: f32
     desc
 }
 
-/// Plays 3 s of storm and checks the bound after every tick; the sum of sweeps shows in the time.
-fn assert_bounded(desc: &GridDesc) {
+/// Simulates 3 s of storm and checks the strain limit after every tick.
+fn assert_strain_limit_holds(desc: &GridDesc) {
     let mut cloth = Cloth::grid(desc).unwrap();
     let rest = cloth.positions().to_vec();
-    cloth.set_wind(storm()).unwrap();
+    cloth.set_wind(storm_wind()).unwrap();
     for tick in 0..(3.0 / desc.settings.tick) as u32 {
         cloth.step(1);
-        let (longest, most) = (longest(&cloth, &rest), 1.0 + desc.settings.max_stretch);
-        assert!(longest <= most * 1.00001, "{longest} over {most} in tick {tick} of {desc:?}");
+        let (max_ratio, most) = (max_length_ratio(&cloth, &rest), 1.0 + desc.settings.max_stretch);
+        assert!(
+            max_ratio <= most * 1.00001,
+            "ratio {max_ratio} over {most} in tick {tick} of {desc:?}"
+        );
         assert_eq!(
             cloth.stats().over_stretched,
             0,
-            "{longest} over {most} in tick {tick} {desc:?}"
+            "ratio {max_ratio} over {most} in tick {tick} of {desc:?}"
         );
     }
     assert!(cloth.next_event().is_none());
 }
 
 #[test]
-fn a_storm_stretches_no_link_past_the_bound() {
+fn a_storm_stretches_no_link_past_the_strain_limit() {
     for material in [Material::default(), Material::preset(Preset::Silk)] {
         for (columns, pin_mode) in
             [(24, PinMode::TopEdge), (40, PinMode::TopCorners), (56, PinMode::TopCorners)]
         {
-            assert_bounded(&bounded(columns, pin_mode, material.clone(), 0.02));
+            assert_strain_limit_holds(&strain_limited_grid(
+                columns,
+                pin_mode,
+                material.clone(),
+                0.02,
+            ));
         }
     }
 }
 
 #[test]
-fn the_bound_holds_at_any_tick_and_mass() {
+fn the_strain_limit_holds_at_any_tick_length_and_density() {
     for tick in [1.0 / 30.0, 1.0 / 240.0] {
         for density in [0.02, 3.0] {
             let material = Material { density, ..Material::preset(Preset::Cotton) };
-            let mut desc = bounded(24, PinMode::TopCorners, material, 0.01);
+            let mut desc = strain_limited_grid(24, PinMode::TopCorners, material, 0.01);
             desc.settings.tick = tick;
-            assert_bounded(&desc);
+            assert_strain_limit_holds(&desc);
         }
     }
 }
 
 #[test]
-fn a_breeze_hardly_stretches_a_sheet_without_a_bound() {
+fn a_breeze_stretches_a_sheet_without_strain_limit_by_less_than_two_percent() {
     for (pin_mode, most) in [(PinMode::TopEdge, 0.01), (PinMode::TopCorners, 0.02)] {
         let mut cloth = Cloth::grid(&GridDesc { pin_mode, ..GridDesc::default() }).unwrap();
         cloth.set_wind(Wind { velocity: Vec3::Z * 2.0, ..Wind::default() }).unwrap();
@@ -81,29 +97,29 @@ fn a_breeze_hardly_stretches_a_sheet_without_a_bound() {
 }
 
 #[test]
-fn a_cloth_held_apart_says_so_once_and_recovers() {
-    let desc = bounded(24, PinMode::TopCorners, Material::preset(Preset::Cotton), 0.02);
+fn a_cloth_held_apart_sends_one_event_and_recovers_after_release() {
+    let desc = strain_limited_grid(24, PinMode::TopCorners, Material::preset(Preset::Cotton), 0.02);
     let mut cloth = Cloth::grid(&desc).unwrap();
     let rest = cloth.positions().to_vec();
     let grab = cloth.grab_particle(23 * 24 + 12).unwrap();
     cloth.move_grab(grab, Vec3::new(0.5, -2.0, 0.0)).unwrap();
     cloth.step(120);
     assert!(cloth.stats().over_stretched > 0);
-    let told: Vec<_> = std::iter::from_fn(|| cloth.next_event()).collect();
-    assert_eq!(told.len(), 1);
-    assert_eq!(told[0].kind, EventKind::HeldApart);
+    let events: Vec<_> = std::iter::from_fn(|| cloth.next_event()).collect();
+    assert_eq!(events.len(), 1);
+    assert_eq!(events[0].kind, EventKind::HeldApart);
     cloth.release(grab).unwrap();
     for _ in 0..120 {
         cloth.step(1);
-        assert!(longest(&cloth, &rest) <= 1.0201);
+        assert!(max_length_ratio(&cloth, &rest) <= 1.0201);
     }
     assert_eq!(cloth.stats().over_stretched, 0);
     assert!(cloth.next_event().is_none());
 }
 
 #[test]
-fn pins_that_jerk_the_cloth_about_do_not_stretch_it() {
-    let desc = bounded(40, PinMode::TopEdge, Material::default(), 0.02);
+fn fast_moving_pins_stretch_no_link_past_the_strain_limit() {
+    let desc = strain_limited_grid(40, PinMode::TopEdge, Material::default(), 0.02);
     let mut cloth = Cloth::grid(&desc).unwrap();
     let rest = cloth.positions().to_vec();
     let top: Vec<u32> = (0..40).collect();
@@ -113,52 +129,57 @@ fn pins_that_jerk_the_cloth_about_do_not_stretch_it() {
         let targets: Vec<Vec3> = rest[..40].iter().map(|x| *x + shift).collect();
         cloth.set_pin_targets(&top, &targets).unwrap();
         cloth.step(1);
-        let longest = longest(&cloth, &rest);
-        assert!(longest <= 1.0201, "{longest} in tick {tick}");
+        let max_ratio = max_length_ratio(&cloth, &rest);
+        assert!(max_ratio <= 1.0201, "ratio {max_ratio} in tick {tick}");
     }
 }
 
 #[test]
-fn a_cloth_that_was_held_apart_is_not_flung_when_it_is_let_go() {
+fn a_cloth_released_from_a_large_stretch_does_not_fly_up() {
     for (pin_mode, max_stretch) in
         [(PinMode::TopEdge, 0.0), (PinMode::TopCorners, 0.0), (PinMode::TopCorners, 0.02)]
     {
         let mut cloth =
-            Cloth::grid(&bounded(40, pin_mode, Material::default(), max_stretch)).unwrap();
+            Cloth::grid(&strain_limited_grid(40, pin_mode, Material::default(), max_stretch))
+                .unwrap();
         let top = cloth.positions()[0].y;
-        let hands = [(1380, -1.5), (1420, 1.5)].map(|(particle, way)| {
+        let grabs = [(1380, -1.5), (1420, 1.5)].map(|(particle, dx)| {
             let grab = cloth.grab_particle(particle).unwrap();
-            let to = cloth.positions()[particle as usize] + Vec3::new(way, -0.3, 0.1);
+            let to = cloth.positions()[particle as usize] + Vec3::new(dx, -0.3, 0.1);
             cloth.move_grab(grab, to).unwrap();
             grab
         });
         cloth.step(180);
         assert!(cloth.stats().max_stretch > 0.3, "{}", cloth.stats().max_stretch);
-        hands.into_iter().for_each(|hand| cloth.release(hand).unwrap());
+        grabs.into_iter().for_each(|grab| cloth.release(grab).unwrap());
         for tick in 0..60 {
             cloth.step(1);
             let highest = cloth.positions().iter().map(|x| x.y).fold(top, f32::max);
             assert!(
                 highest < top + 0.25,
-                "{pin_mode:?} {max_stretch}: {} m over the pins in tick {tick}",
+                "{pin_mode:?} {max_stretch}: {} m above the pins in tick {tick}",
                 highest - top
             );
         }
-        assert_eq!(cloth.stats().over_stretched, 0, "{pin_mode:?} {max_stretch}: it stays apart");
+        assert_eq!(
+            cloth.stats().over_stretched,
+            0,
+            "{pin_mode:?} {max_stretch}: links stay over-stretched"
+        );
     }
 }
 
 #[test]
-fn a_particle_that_was_pulled_far_out_comes_back_to_the_cloth() {
-    let desc = bounded(40, PinMode::TopCorners, Material::default(), 0.02);
+fn a_particle_pulled_far_out_returns_within_the_strain_limit_after_release() {
+    let desc = strain_limited_grid(40, PinMode::TopCorners, Material::default(), 0.02);
     let mut cloth = Cloth::grid(&desc).unwrap();
     cloth.step(60);
     let particle = 20 * 40 + 20;
     let grab = cloth.grab_particle(particle).unwrap();
     let start = cloth.positions()[particle as usize];
     for tick in 0..120 {
-        let way = Vec3::new(0.02, -0.02, 0.01) * tick as f32;
-        cloth.move_grab(grab, start + way).unwrap();
+        let displacement = Vec3::new(0.02, -0.02, 0.01) * tick as f32;
+        cloth.move_grab(grab, start + displacement).unwrap();
         cloth.step(1);
     }
     assert!(cloth.stats().over_stretched > 0);
@@ -169,12 +190,14 @@ fn a_particle_that_was_pulled_far_out_comes_back_to_the_cloth() {
     assert!(cloth.stats().max_stretch <= 0.0201, "{}", cloth.stats().max_stretch);
 }
 
-/// Where folds lie on each other no link can have its length and the bound too.
+/// In a heap of folds, some links cannot meet their rest length and the strain limit at once. The
+/// cloth must come to rest nevertheless.
 #[test]
-fn a_heap_on_the_floor_comes_to_rest_within_the_bound() {
+fn a_heap_on_the_floor_comes_to_rest_within_the_strain_limit() {
     for max_stretch in [0.02, 0.05] {
         let mut cloth =
-            Cloth::grid(&bounded(24, PinMode::None, Material::default(), max_stretch)).unwrap();
+            Cloth::grid(&strain_limited_grid(24, PinMode::None, Material::default(), max_stretch))
+                .unwrap();
         let floor = ColliderDesc { position: Vec3::Y * -1.6, ..ColliderDesc::default() };
         cloth.add_collider(&floor).unwrap();
         for (i, x) in cloth.positions().to_vec().into_iter().enumerate() {
@@ -193,12 +216,13 @@ fn a_heap_on_the_floor_comes_to_rest_within_the_bound() {
     }
 }
 
-/// A bound that cannot be had at once takes the cloth back, but not out of its flight.
+/// When the strain limit cannot be met within a tick, the shape of the cloth is rolled back, but
+/// its centre of mass continues on the free-fall parabola.
 #[test]
-fn a_cloth_that_nothing_holds_flies_on_within_the_bound() {
+fn a_free_cloth_falls_at_g_while_the_strain_limit_acts() {
     for (max_stretch, ticks) in [(0.005, 40), (0.02, 60)] {
         let material = Material { drag: 0.0, lift: 0.0, ..Material::preset(Preset::Paper) };
-        let mut desc = bounded(20, PinMode::None, material, max_stretch);
+        let mut desc = strain_limited_grid(20, PinMode::None, material, max_stretch);
         (desc.settings.tethers, desc.settings.damping) = (false, 0.0);
         let mut cloth = Cloth::grid(&desc).unwrap();
         let center = |cloth: &Cloth| {
@@ -210,19 +234,25 @@ fn a_cloth_that_nothing_holds_flies_on_within_the_bound() {
             sum * (1.0 / mass)
         };
         let start = center(&cloth);
-        // Crumpled by a push to and fro, so that links can only have the bound if much goes back.
+        // Alternating velocities crumple the sheet, so that the strain limit rolls back far.
         for (i, x) in cloth.positions().to_vec().into_iter().enumerate() {
             let push = Vec3::new(-4.0 * (x.x - start.x), 0.0, 6.0 * (9.0 * x.x).sin());
             cloth.set_velocity(i as u32, push).unwrap();
         }
-        let thrown = center(&cloth) - start;
-        assert_eq!(thrown, Vec3::ZERO);
+        let moved = center(&cloth) - start;
+        assert_eq!(moved, Vec3::ZERO);
         for tick in 1..=ticks {
             cloth.step(1);
-            assert!(cloth.stats().max_stretch <= max_stretch * 1.0001, "at tick {tick}");
+            assert!(
+                cloth.stats().max_stretch <= max_stretch * 1.0001,
+                "over-stretched at tick {tick}"
+            );
         }
         let time = ticks as f32 / 60.0;
         let fallen = (center(&cloth) - start).y / (-0.5 * 9.81 * time * time);
-        assert!((0.95..1.03).contains(&fallen), "{fallen} of its fall with {max_stretch}");
+        assert!(
+            (0.95..1.03).contains(&fallen),
+            "fell {fallen} of the exact height with limit {max_stretch}"
+        );
     }
 }
