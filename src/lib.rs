@@ -1,4 +1,78 @@
-#![doc = include_str!("../README.md")]
+//! Muslin simulates cloth: it hangs, collides, blows in the wind, is grabbed, tears and is cut.
+//!
+//! A [`Cloth`] is one value. It is made from a grid ([`GridDesc`]) or from any triangle mesh
+//! ([`MeshDesc`]), and it moves in fixed ticks. There is no world to set up and no callback to
+//! write. The same calls give the same bits on every platform. Units are metres, kilograms, seconds
+//! and radians; y is up by default.
+//!
+//! # Hang a sheet
+//!
+//! ```
+//! use muslin::{Cloth, GridDesc, Material, PinMode, Preset};
+//!
+//! let mut cloth = Cloth::grid(&GridDesc {
+//!     columns: 40,
+//!     rows: 40,
+//!     spacing: 0.05, // 1.95 m x 1.95 m
+//!     pin_mode: PinMode::TopEdge,
+//!     material: Material::preset(Preset::Cotton),
+//!     ..GridDesc::default()
+//! })?;
+//! for _frame in 0..60 {
+//!     cloth.advance(1.0 / 60.0)?; // the seconds since the last frame
+//!     let view = cloth.view(); // positions, normals, uvs and indices, without a copy
+//!     assert_eq!(view.positions.len(), 1600);
+//! }
+//! assert!(cloth.stats().max_stretch < 0.01);
+//! # Ok::<(), muslin::Error>(())
+//! ```
+//!
+//! # Tear it
+//!
+//! ```
+//! use muslin::glam::Vec3;
+//! use muslin::{Cloth, EventKind, GridDesc};
+//!
+//! let mut desc = GridDesc::default();
+//! desc.settings.tearing = true;
+//! desc.material.tear_stretch = 1.5;
+//! let mut cloth = Cloth::grid(&desc)?;
+//!
+//! // A pointer grabs the particle that a ray hits, and pulls it 3.6 m towards the viewer.
+//! let (eye, forward) = (Vec3::new(1.0, -1.0, 5.0), Vec3::NEG_Z);
+//! let (grab, start) = cloth.grab_ray(eye, forward, 0.1)?.expect("the ray hits the sheet");
+//! for frame in 0..120 {
+//!     cloth.move_grab(grab, start + Vec3::Z * 0.03 * frame as f32)?;
+//!     cloth.advance(1.0 / 60.0)?;
+//! }
+//! cloth.release(grab)?;
+//!
+//! let events = std::iter::from_fn(|| cloth.next_event());
+//! assert!(events.filter(|event| event.kind == EventKind::EdgeTorn).count() > 0);
+//! # Ok::<(), muslin::Error>(())
+//! ```
+//!
+//! # Map of the types
+//!
+//! | task | types and calls |
+//! | --- | --- |
+//! | make a cloth | [`Cloth::grid`] with [`GridDesc`] and [`PinMode`]; [`Cloth::mesh`] with [`MeshDesc`], [`MeshReport`] |
+//! | choose how it moves | [`Settings`], [`SelfCollision`], [`Material`], [`Preset`], [`Wind`], [`WindModel`] |
+//! | run it | [`Cloth::advance`], [`Cloth::step`], [`Cloth::blend`] |
+//! | hold it | [`Cloth::pin`], [`Grab`], [`Attachment`], [`Cloth::set_max_distances`], [`Cloth::set_backstops`] |
+//! | let it collide | [`ColliderDesc`], [`Shape`], [`Collider`], [`Impulse`] |
+//! | tear, cut and fold it | [`Cloth::tear_edge`], [`Cloth::cut`], [`Cloth::crease`], [`Event`], [`EventKind`] |
+//! | draw it | [`View`], [`Changes`]; [`Cloth::write_vertices`] with [`Stream`], [`Attribute`], [`VertexFormat`], [`WriteDesc`]; [`Cloth::write_indices`] with [`IndexFormat`] |
+//! | pick and measure | [`Hit`], [`Stats`], [`Stage`], [`LinkKind`], [`Clock`] |
+//! | save and compare it | [`Cloth::save`], [`Cloth::restore`], [`Cloth::state_hash`] |
+//! | handle errors | [`Error`], [`Result`] |
+//!
+//! # Features
+//!
+//! - `parallel` (off by default) adds `Cloth::set_threads`: one large cloth uses several threads of
+//!   [rayon](https://docs.rs/rayon), with the same bits.
+//!
+//! Positions and directions are types of [`glam`], which is re-exported.
 
 mod arena;
 mod cloth;
@@ -33,3 +107,28 @@ pub use crate::state::grabs::Grab;
 pub use crate::state::settings::{SelfCollision, Settings};
 pub use crate::state::wind::{Wind, WindModel};
 pub use glam;
+
+/// Runs the Rust examples of the documents as tests: one item for each page that has some.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/manual/concepts.md")]
+    struct Concepts;
+    #[doc = include_str!("../docs/manual/settings.md")]
+    struct Settings;
+    #[doc = include_str!("../docs/manual/materials.md")]
+    struct Materials;
+    #[doc = include_str!("../docs/manual/tearing-and-cutting.md")]
+    struct TearingAndCutting;
+    #[doc = include_str!("../docs/manual/self-collision.md")]
+    struct SelfCollision;
+    #[doc = include_str!("../docs/manual/characters.md")]
+    struct Characters;
+    #[doc = include_str!("../docs/manual/determinism.md")]
+    struct Determinism;
+    #[doc = include_str!("../docs/manual/performance.md")]
+    struct Performance;
+    #[doc = include_str!("../docs/manual/integration.md")]
+    struct Integration;
+}

@@ -1,10 +1,12 @@
 //! The contract of the public interface: refused input, extreme input, pins, anchors, the demo's
-//! scenes.
+//! scenes, the examples; and the shape of sources and documents.
 
 #[path = "../common/mod.rs"]
 mod common;
 
 mod anchors;
+mod architecture;
+mod examples;
 mod extreme_input;
 mod fuzz_regressions;
 mod pins;

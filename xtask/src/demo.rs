@@ -93,6 +93,27 @@ pub fn test_shot() -> Result {
     check_error_without_display()
 }
 
+/// The pictures of the manual: the name of each, and the options of the demo that draw it.
+const MANUAL_PICTURES: [(&str, &str); 6] = [
+    ("hanging-sheet", "--scene sheet --size 480x360"),
+    ("drape", "--scene discs --size 640x270 --zoom 0.68 --frames 400"),
+    ("tear", "--play yank --strip 4 --size 220x220"),
+    ("cut", "--play cut --strip 4 --size 220x220"),
+    ("crumple", "--scene tender --play crumple --strip 4 --size 240x240 --zoom 0.5"),
+    ("folds", "--scene tender --play fold --strip 4 --size 240x240"),
+];
+
+/// `cargo xtask manual-pictures`: draws the pictures of the manual into `docs/manual/pictures`.
+pub fn draw_manual_pictures() -> Result {
+    let dir = files::root().join("docs/manual/pictures");
+    files::create_dir(&dir)?;
+    for (name, options) in MANUAL_PICTURES {
+        let options: Vec<_> = options.split(' ').collect();
+        shoot(&dir.join(name).with_extension("png"), &options)?;
+    }
+    Ok(())
+}
+
 /// Draws a picture with `cargo xtask demo --shot` and checks it.
 pub fn shoot(file: &Path, options: &[&str]) -> Result {
     if file.exists() {

@@ -49,6 +49,7 @@ cargo xtask demo --shot FILE.png    draw a picture of it without a screen
 cargo xtask demo --web              build the demo as a page and serve it
   --port N                          on this port (8080, or a free one)
   --no-open                         without opening a browser
+cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
 cargo xtask test [STEP…]            all tests but engines and fuzz-long, or the steps that are named
   --all                             all steps, with engines and fuzz-long
@@ -87,6 +88,7 @@ fn run(args: &[String]) -> Result {
     };
     match chore.as_str() {
         "demo" => demo::run(rest),
+        "manual-pictures" => alone(chore, rest, demo::draw_manual_pictures),
         "test" => test::run(rest),
         "step" => test::run_step(rest),
         "check" => test::check(rest),

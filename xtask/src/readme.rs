@@ -1,6 +1,17 @@
-//! Runs every block of code and every command that README.md shows.
+//! Runs every block of code and every command in the documents: README.md, CONTRIBUTING.md and all
+//! pages under `docs`.
+//!
+//! | language | how a block is tested |
+//! | --- | --- |
+//! | `rust` | step `rust` runs it as an example of the crate, because `src/lib.rs` includes the page |
+//! | `c`, `cpp` | compiled, linked both ways, run, and run under valgrind |
+//! | `js` | run in node, with the npm package installed |
+//! | `py` | run with Python 3 in the root of the repository |
+//! | `sh` | each command is run, or named as a step that runs it |
+//! | `cmake` | each line is part of the CMake project that step `package` builds |
+//! | `text` | not code |
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
 use crate::{bench, c, c_tests, demo, files, js, npm, setup, shell};
@@ -9,7 +20,9 @@ use crate::{bench, c, c_tests, demo, files, js, npm, setup, shell};
 #[derive(Debug, PartialEq)]
 struct Block {
     language: String,
-    /// The line in README.md that its text starts at, from 1.
+    /// The page that shows it, relative to the root of the repository.
+    page: String,
+    /// The line of the page that its text starts at, from 1.
     line: usize,
     text: String,
 }
@@ -17,55 +30,84 @@ struct Block {
 /// Whether a step of the tests has this name.
 pub type IsStep = fn(&str) -> bool;
 
-/// Runs every block. Blocks of Rust are examples of the crate `muslin`, which step `rust` runs.
+/// Runs every block of every page.
 pub fn test(is_step: IsStep) -> Result {
-    let blocks = blocks(&files::read(&files::root().join("README.md"))?)?;
-    if blocks.is_empty() {
-        return Err(Failure::new("README.md shows no code"));
+    let mut blocks = Vec::new();
+    for page in pages()? {
+        let text = files::read(&files::root().join(&page))?;
+        let found = blocks_of(&page, &text)?;
+        if found.iter().any(|block| block.language == "rust") {
+            check_crate_includes(&page)?;
+        }
+        blocks.extend(found);
     }
-    let has = |language: &str| blocks.iter().any(|block| block.language == language);
+    let has = |languages: &[&str]| {
+        blocks.iter().any(|block| languages.contains(&block.language.as_str()))
+    };
+    if !["README.md", "docs/"].iter().all(|from| blocks.iter().any(|b| b.page.starts_with(from))) {
+        return Err(Failure::new("README.md or docs shows no code"));
+    }
     files::create_empty_dir(&scratch())?;
-    if has("rust") {
-        check_crate_includes_readme()?;
-    }
-    if has("c") {
-        setup::ensure(&[&setup::CXX, &setup::VALGRIND])?;
+    if has(&["c", "cpp", "py"]) {
+        setup::ensure(&[&setup::CXX, &setup::VALGRIND, &setup::PYTHON])?;
         c::build()?;
     }
-    if has("js") {
+    if has(&["js"]) {
         js::build()?;
         js::install_for_tests()?;
     }
     for block in &blocks {
-        println!("README.md line {}: {}", block.line, block.language);
-        block.run(is_step).during(|| format!("README.md line {}", block.line))?;
+        println!("{}: {}", block.place(), block.language);
+        block.run(is_step).during(|| block.place())?;
     }
     Ok(())
+}
+
+/// README.md, CONTRIBUTING.md and all Markdown files under `docs`, relative to the root.
+fn pages() -> Result<Vec<String>> {
+    let mut pages = vec!["README.md".to_string(), "CONTRIBUTING.md".to_string()];
+    let mut folders = vec!["docs".to_string()];
+    while let Some(folder) = folders.pop() {
+        for path in files::list(&files::root().join(&folder))? {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let relative = format!("{folder}/{name}");
+            if path.is_dir() {
+                folders.push(relative);
+            } else if name.ends_with(".md") {
+                pages.push(relative);
+            }
+        }
+    }
+    Ok(pages)
 }
 
 fn scratch() -> PathBuf {
     files::target().join("readme")
 }
 
-fn check_crate_includes_readme() -> Result {
-    let crate_page = files::read(&files::root().join("src/lib.rs"))?;
-    if crate_page.contains("include_str!(\"../README.md\")") {
+fn check_crate_includes(page: &str) -> Result {
+    let root = files::read(&files::root().join("src/lib.rs"))?;
+    if root.contains(&format!("include_str!(\"../{page}\")")) {
         return Ok(());
     }
-    Err(Failure::new("src/lib.rs does not include README.md, so that no step runs its Rust code"))
+    Err(Failure::new(format!("src/lib.rs does not include {page}, so no step runs its Rust code")))
 }
 
 /// The fenced blocks of a page.
-fn blocks(page: &str) -> Result<Vec<Block>> {
+fn blocks_of(page: &str, text: &str) -> Result<Vec<Block>> {
     let mut blocks: Vec<Block> = Vec::new();
     let mut open = false;
-    for (at, line) in page.lines().enumerate() {
+    for (at, line) in text.lines().enumerate() {
         match line.trim_start().strip_prefix("```") {
             Some(_) if open => open = false,
             Some(language) => {
                 open = true;
-                let language = language.trim().to_string();
-                blocks.push(Block { language, line: at + 2, text: String::new() });
+                blocks.push(Block {
+                    language: language.trim().to_string(),
+                    page: page.to_string(),
+                    line: at + 2,
+                    text: String::new(),
+                });
             }
             None if open => {
                 if let Some(block) = blocks.last_mut() {
@@ -77,19 +119,23 @@ fn blocks(page: &str) -> Result<Vec<Block>> {
         }
     }
     if open {
-        return Err(Failure::new("the last block of README.md is not closed"));
+        return Err(Failure::new(format!("the last block of {page} is not closed")));
     }
     Ok(blocks)
 }
 
 impl Block {
+    fn place(&self) -> String {
+        format!("{} line {}", self.page, self.line)
+    }
+
     fn run(&self, is_step: IsStep) -> Result {
-        let name = format!("line-{}", self.line);
+        let page = Path::new(&self.page).file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{page}-line-{}", self.line);
         match self.language.as_str() {
-            // Step `rust` runs it, since the crate includes README.md.
             "rust" | "text" => Ok(()),
-            "c" => {
-                let source = scratch().join(name + ".c");
+            "c" | "cpp" => {
+                let source = scratch().join(format!("{name}.{}", self.language));
                 files::write(&source, &self.text)?;
                 c_tests::check_program(&source)
             }
@@ -100,12 +146,31 @@ impl Block {
                 files::write(&source, &self.text)?;
                 shell::run(shell::command("node").arg(source))
             }
+            "py" => {
+                let source = scratch().join(name + ".py");
+                files::write(&source, &self.text)?;
+                shell::run(shell::command("python3").arg(source))
+            }
+            "cmake" => self.check_cmake(),
             "sh" => self.commands().try_for_each(|(line, command)| {
                 run_command(command, is_step)
-                    .during(|| format!("README.md line {line}: `{command}`"))
+                    .during(|| format!("{} line {line}: `{command}`", self.page))
             }),
             other => Err(Failure::new(format!(
-                "no test runs blocks of {other:?}; rust, c, js and sh are run, text is not code"
+                "no test runs blocks of {other:?}; rust, c, cpp, js, py, cmake and sh are tested, \
+                 text is not code"
+            ))),
+        }
+    }
+
+    /// Fails unless each line is a line of the CMake project that step `package` builds.
+    fn check_cmake(&self) -> Result {
+        let project = files::read(&files::root().join("tests/c/package/CMakeLists.txt"))?;
+        let is_tested = |line: &str| line.is_empty() || project.lines().any(|one| one == line);
+        match self.text.lines().find(|line| !is_tested(line)) {
+            None => Ok(()),
+            Some(line) => Err(Failure::new(format!(
+                "{line:?} is no line of tests/c/package/CMakeLists.txt, so no test runs it"
             ))),
         }
     }
@@ -155,7 +220,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["c"] => Action::Step("c"),
         ["package", "--js"] => Action::Step("clients"),
         ["examples"] => Action::Step("examples"),
-        ["web" | "setup"] => Action::Chore(rest.to_vec()),
+        ["web" | "setup" | "manual-pictures"] => Action::Chore(rest.to_vec()),
         ["bench", tables @ ..] => Action::Bench(tables.to_vec()),
         _ => Action::Unknown,
     }
@@ -193,22 +258,28 @@ mod tests {
 
     #[test]
     fn blocks_know_their_language_and_line() {
-        let blocks = blocks(PAGE).unwrap();
+        let blocks = blocks_of("page.md", PAGE).unwrap();
         assert_eq!(blocks.len(), 2);
         assert_eq!((blocks[0].language.as_str(), blocks[0].line), ("sh", 4));
-        assert_eq!(blocks[1], Block { language: "c".into(), line: 11, text: "int x;\n".into() });
+        assert_eq!(blocks[1].place(), "page.md line 11");
+        assert_eq!((blocks[1].language.as_str(), blocks[1].text.as_str()), ("c", "int x;\n"));
         let commands: Vec<_> = blocks[0].commands().collect();
         assert_eq!(commands, [(5, "cargo xtask test"), (6, "cc a.c")]);
     }
 
     #[test]
     fn an_unclosed_block_is_refused() {
-        assert!(blocks("```sh\nls\n").is_err());
+        assert!(blocks_of("page.md", "```sh\nls\n").is_err());
     }
 
     #[test]
     fn a_block_in_an_unknown_language_is_refused() {
-        let block = Block { language: "cobol".into(), line: 1, text: String::new() };
+        let block = Block {
+            language: "cobol".into(),
+            page: "page.md".into(),
+            line: 1,
+            text: String::new(),
+        };
         assert!(block.run(is_step).unwrap_err().to_string().contains("cobol"));
     }
 

@@ -1,6 +1,6 @@
 //! The tests of the Rust code: format, lints, tests, and the short checks for work on the library.
 
-use crate::failure::Result;
+use crate::failure::{During, Failure, Result};
 use crate::{setup, shell, wasm};
 
 /// The parts of `cargo xtask check`, each with its name.
@@ -25,7 +25,8 @@ pub fn check_format() -> Result {
     shell::run(&mut shell::cargo(&["fmt", bevy, "--check"]))
 }
 
-/// Fails where clippy warns: in all crates, with threads, and in what is compiled for pages.
+/// Fails where clippy warns (in all crates, with threads, and in what is compiled for pages), and
+/// where the documentation has a defect.
 pub fn lint() -> Result {
     setup::ensure_component("clippy", "clippy")?;
     setup::ensure_target(wasm::TARGET)?;
@@ -34,7 +35,32 @@ pub fn lint() -> Result {
     shell::run(shell::cargo(&threads).args(PARALLEL).args(DENY_WARNINGS))?;
     let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
     web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
-    shell::run(web.args(DENY_WARNINGS))
+    shell::run(web.args(DENY_WARNINGS))?;
+    check_docs()
+}
+
+/// What looks like a link in a doc comment and is a unit.
+const UNITS: [&str; 10] = ["m", "m²", "m³", "s", "rad", "kg", "N", "J", "bytes", "spacings"];
+
+/// Fails where the documentation of the library has a broken link or another defect.
+fn check_docs() -> Result {
+    let mut doc = shell::cargo(&["doc", "--no-deps", "--package=muslin", "--all-features"]);
+    doc.arg("--document-private-items");
+    doc.env("RUSTDOCFLAGS", "-W rustdoc::broken_intra_doc_links");
+    let done = doc.output().during(|| "starting cargo doc".into())?;
+    let text = String::from_utf8_lossy(&done.stderr);
+    let is_unit = |line: &str| {
+        let link = line.strip_prefix("warning: unresolved link to `");
+        link.is_some_and(|link| UNITS.contains(&link.trim_end_matches('`')))
+    };
+    let is_defect = |line: &&str| {
+        line.starts_with("warning: ") && !line.contains("generated") && !is_unit(line)
+    };
+    let defects: Vec<_> = text.lines().filter(is_defect).collect();
+    if done.status.success() && defects.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::new(format!("cargo doc reports: {}\n{text}", defects.join("; "))))
 }
 
 /// Runs all tests and examples of all crates.

@@ -69,7 +69,7 @@ pub const STEPS: &[Step] = &[
     },
     Step {
         name: "clippy",
-        about: "no lint reports anything",
+        about: "no lint reports anything, and no link of the documentation is broken",
         needs: &[],
         writes: &[DebugBuild],
         is_default: true,
@@ -149,8 +149,8 @@ pub const STEPS: &[Step] = &[
     },
     Step {
         name: "readme",
-        about: "every block of code and every command in README.md",
-        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL],
+        about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
+        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON],
         writes: &[ReleaseBuild, NpmPackage, DemoPage, CPackage],
         is_default: true,
         run: || readme::test(is_step),
