@@ -5,7 +5,7 @@
 //! `target = pose · local`. The solver interpolates the pose over the tick.
 //!
 //! Reads the caller's poses; writes `World::attachments` and `World::pins`.
-//! Invariant: the target of a carried pin is always `carrier.next` applied to `pin.local`.
+//! Invariant: the target of a carried pin is always `AttachmentPose::next` applied to `pin.local`.
 
 use crate::cloth::Cloth;
 use crate::error::{Result, check_index};
@@ -63,8 +63,8 @@ impl Cloth {
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             let pose = Pose::new(position, rotation);
-            let carrier = AttachmentPose { last: pose, next: pose };
-            let handle = self.world.attachments.insert(carrier, "another attachment")?;
+            let motion = AttachmentPose { last: pose, next: pose };
+            let handle = self.world.attachments.insert(motion, "another attachment")?;
             let frame = pose.to_transform();
             for particle in particles {
                 let x = self.world.particles.x.get(*particle as usize);
@@ -91,11 +91,11 @@ impl Cloth {
         position: Vec3,
         rotation: Quat,
     ) -> Result<()> {
-        let carrier = self.world.attachments.get_mut(attachment.0, "attachment")?;
+        let motion = self.world.attachments.get_mut(attachment.0, "attachment")?;
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
-            carrier.next = Pose::new(position, rotation);
-            let frame = carrier.next.to_transform();
+            motion.next = Pose::new(position, rotation);
+            let frame = motion.next.to_transform();
             for pin in self.world.pins.iter_mut().filter(|pin| pin.attachment == attachment.0) {
                 pin.target = saturate(frame.point_to_world(pin.local));
             }
@@ -138,9 +138,9 @@ impl World {
     pub(super) fn move_pin(&mut self, particle: u32, position: Vec3) {
         let Some(pin) = self.pins.get_mut(particle) else { return };
         (pin.from, pin.target) = (position, position);
-        if let Ok(carrier) = self.attachments.get(pin.attachment, "attachment") {
-            pin.local = saturate(carrier.last.to_transform().point_to_local(position));
-            pin.target = saturate(carrier.next.to_transform().point_to_world(pin.local));
+        if let Ok(motion) = self.attachments.get(pin.attachment, "attachment") {
+            pin.local = saturate(motion.last.to_transform().point_to_local(position));
+            pin.target = saturate(motion.next.to_transform().point_to_world(pin.local));
         }
     }
 }

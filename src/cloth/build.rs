@@ -20,6 +20,12 @@ use crate::geometry::triangle::corner_areas;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid;
+use crate::mesh::grid::GridFrame;
+use crate::mesh::grid_detection::DetectedGrid;
+use crate::mesh::intake;
+use crate::mesh::intake::RepairedMesh;
+use crate::mesh::report::MeshReport;
+use crate::mesh::{Mesh, NONE, next_corner};
 use crate::model::chains::Chains;
 use crate::model::constraints::Constraints;
 use crate::model::folds::Folds;
@@ -29,21 +35,12 @@ use crate::model::material::Material;
 use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
-
-use crate::mesh::grid::GridFrame;
-use crate::mesh::intake;
-
-use crate::mesh::grid_detection::DetectedGrid;
-use crate::mesh::intake::RepairedMesh;
-use crate::mesh::report::MeshReport;
-use crate::mesh::{Mesh, NONE, next_corner};
 use crate::solver::bend;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
 use crate::solver::self_collide::surface::warm_start::WarmStart;
-use crate::solver::world::{TickScratch, World};
-
 use crate::solver::stretch::{damping_scratch, line_scratch};
+use crate::solver::world::{TickScratch, World};
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;

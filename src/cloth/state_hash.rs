@@ -46,8 +46,8 @@ impl Cloth {
                 hasher.write_f32s(&pin.local.to_array());
             }
         }
-        for carrier in world.attachments.iter() {
-            for pose in [&carrier.last, &carrier.next] {
+        for motion in world.attachments.iter() {
+            for pose in [&motion.last, &motion.next] {
                 hasher.write_f32s(&pose.position.to_array());
                 hasher.write_f32s(&pose.rotation.to_array());
             }

@@ -161,21 +161,19 @@ impl World {
             points.iter().chain(&vectors).all(|v| v.is_finite())
         };
         let mut bodies = self.colliders.iter();
-        let mut carriers = self.attachments.iter();
+        let mut motions = self.attachments.iter();
         let mut pins = self.pins.iter();
         let mut anchors = self.anchors.iter();
         let are_finite = (0..p.len()).all(is_finite_after)
             && bodies.all(|body| now.pose(&body.last).position.is_finite())
             && self.grabs.iter().all(|grab| now.point(grab.target).is_finite())
-            && carriers.all(|carrier| {
-                let ends = [now.pose(&carrier.last), then.pose(&carrier.next)];
+            && motions.all(|motion| {
+                let ends = [now.pose(&motion.last), then.pose(&motion.next)];
                 ends.iter().all(|pose| pose.position.is_finite())
             })
             && pins.all(|pin| {
                 let target = match self.attachments.get(pin.attachment, "attachment") {
-                    Ok(carrier) => {
-                        then.pose(&carrier.next).to_transform().point_to_world(pin.local)
-                    }
+                    Ok(motion) => then.pose(&motion.next).to_transform().point_to_world(pin.local),
                     Err(_) => then.point(pin.target),
                 };
                 target.is_finite() && now.point(pin.from).is_finite()
@@ -192,10 +190,10 @@ impl World {
         if now.from != now.to {
             self.transform_tick_start(now);
         }
-        self.attachments.iter_mut().for_each(|carrier| carrier.next = then.pose(&carrier.next));
+        self.attachments.iter_mut().for_each(|motion| motion.next = then.pose(&motion.next));
         for pin in self.pins.iter_mut() {
             pin.target = match self.attachments.get(pin.attachment, "attachment") {
-                Ok(carrier) => carrier.next.to_transform().point_to_world(pin.local),
+                Ok(motion) => motion.next.to_transform().point_to_world(pin.local),
                 Err(_) => then.point(pin.target),
             };
         }
@@ -217,7 +215,7 @@ impl World {
                 column.set(i, by.direction(column.get(i)));
             }
         }
-        self.attachments.iter_mut().for_each(|carrier| carrier.last = by.pose(&carrier.last));
+        self.attachments.iter_mut().for_each(|motion| motion.last = by.pose(&motion.last));
         self.pins.iter_mut().for_each(|pin| pin.from = by.point(pin.from));
         for anchor in self.anchors.iter_mut() {
             anchor.from = by.point(anchor.from);

@@ -14,14 +14,12 @@ use crate::cloth::vertex_stream::{Attribute, Stream, VertexFormat, WriteDesc, ch
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
 use crate::math::pack;
-
 use crate::math::pack::{BLOCK, FloatBlock, HalfBlock};
 use crate::math::simd::Level;
 use crate::solver::output::normals;
 use crate::solver::output::vertex_transform;
-use crate::solver::stage::Stage;
-
 use crate::solver::output::vertex_transform::{VertexBlock, VertexTransform};
+use crate::solver::stage::Stage;
 use core::ops::Range;
 use glam::Vec2;
 

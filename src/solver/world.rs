@@ -63,117 +63,179 @@ use glam::Vec3;
 pub(crate) const MIN_PARTICLES_PER_THREAD: usize = 16_384;
 
 /// The complete data of one cloth.
+///
+/// `cloth::build` makes all fields and `cloth::save` restores them. The doc of a field names its
+/// other writers.
 #[derive(Clone, Debug)]
 pub(crate) struct World {
+    /// Triangles over particles and their adjacency. Written by tears and cuts.
     pub mesh: Mesh,
-    /// Maps render vertices to particles; `None` if each particle is one vertex.
+    /// Maps render vertices to particles; `None` if each particle is one vertex. Written by tears
+    /// and cuts.
     pub seams: Option<Seams>,
+    /// Distance constraints (stretch, shear and bend links), their batches by colour, and their
+    /// chains. Tears and cuts open links, stage `Stretch` updates the multipliers, and a new
+    /// material changes the compliances.
     pub constraints: Constraints,
+    /// Long-range attachments: the geodesic distance [m] of each particle from its pin. Written
+    /// when hard pins change, and by tears and cuts.
     pub tethers: Tethers,
-    /// Links sorted by distance from the pins; valid only while `max_stretch > 0`.
+    /// Links sorted by distance from the pins; valid only while `max_stretch > 0`. Rebuilt with the
+    /// tethers.
     pub pin_order: PinOrder,
-    /// Factor by which tethers may exceed their rest length, see `tether_slack::update`; infinite before the
-    /// first tick and after pins or positions changed.
+    /// Factor by which tethers may exceed their rest length, at least 1; see
+    /// `tether_slack::update`, which writes it once per tick. Infinite before the first tick, after
+    /// pins or positions changed, and while tethers are off.
     pub tether_slack: f32,
     /// Largest ratio of the distance between two pins to their distance along the rest cloth; at
-    /// least 1. Above 1 the pins stretch the cloth by themselves.
+    /// least 1. Above 1 the pins stretch the cloth by themselves. Written by `tether_slack`.
     pub pin_stretch: f32,
-    /// Whether `pin_stretch` is up to date: no pin moves and no grab is held.
+    /// Whether `pin_stretch` is up to date: no pin moves and no grab is held. Set by
+    /// `tether_slack`; cleared when pins or positions change.
     pub is_pin_stretch_current: bool,
-    /// Rest position of each site [m].
+    /// Rest position of each site [m]. Cuts append sites.
     pub rest: Vec<Vec3>,
     /// Edge points where cuts made sites; these sites follow those of the original vertices.
+    /// Written by cuts.
     pub cut_sites: Vec<CutSite>,
-    /// Share of its triangle's rest area that belongs to each corner [m²].
+    /// Share of its triangle's rest area that belongs to each corner [m²]. Written by cuts.
     pub corner_area: Vec<[f32; 3]>,
-    /// Origin, axes and spacing of the rest grid; `None` for other meshes.
+    /// Origin, axes and spacing [m] of the rest grid; `None` for other meshes.
     pub grid_frame: Option<GridFrame>,
     /// Two triangles per grid cell, for sums over triangles in SIMD lanes; `None` for other meshes.
+    /// Written by tears and cuts.
     pub grid_cells: Option<GridCells>,
-    /// Bending elements of a grid; `None` for other meshes, which bend at hinges.
+    /// Bending elements of a grid; `None` for other meshes, which bend at hinges. Written by tears
+    /// and cuts.
     pub plate_elements: Option<PlateElements>,
-    /// Plastic rest angles of the bending elements.
+    /// Plastic rest angles [rad] of the bending elements, and their hardening. Written by
+    /// `bend::update_folds` at the end of the tick, and by creases that the host sets.
     pub folds: Folds,
-    /// Whether each vertex is a crack tip: the end of a tear or of a cut.
+    /// Whether each vertex is a crack tip: the end of a tear or of a cut. Written by tears and
+    /// cuts.
     pub crack_tips: Vec<bool>,
     /// Mean rest length of the edges [m].
     pub mean_edge: f32,
+    /// Position [m], velocity [m/s], history, mass [kg] and inverse mass [1/kg] of each particle.
+    /// Written by most stages.
     pub particles: Particles,
+    /// Factor of the mass of each particle that the host set. Tears and cuts append entries.
     pub mass_scales: MassScales,
+    /// Pinned particles and their targets [m]. Written by the host, at the end of the tick by
+    /// `pipeline`, and by tears and cuts, which copy the pin of a split vertex.
     pub pins: Pins,
+    /// Moving bodies that carry pins: last and next pose [m]. Written by the host and by
+    /// `kinematic::targets`.
     pub attachments: Attachments,
+    /// Particles that the host holds at a target [m]. Written by the host.
     pub grabs: Grabs,
+    /// Animated targets [m] with a max distance and a backstop. Written by the host, by
+    /// `kinematic::targets`, and by tears and cuts.
     pub anchors: AnchorConstraints,
-    /// Pose of the body that the cloth follows when that body teleports.
+    /// Pose [m] of the body that the cloth follows when that body teleports. Written by
+    /// `cloth::teleport`.
     pub reference_pose: Pose,
+    /// Collider bodies: shapes, poses [m] and impulses [N s]. Written by the host and by stage
+    /// `Colliders`.
     pub colliders: Colliders,
+    /// Parameters of the simulation. Written by the host.
     pub settings: Settings,
+    /// Parameters of the fabric. Written by the host.
     pub material: Material,
+    /// Parameters of the air. Written by the host.
     pub wind: Wind,
-    /// Time since creation or reset [s].
+    /// Time since creation or reset [s]. `pipeline` advances it.
     pub time: f64,
-    /// Ticks since creation or reset.
+    /// Ticks since creation or reset. `pipeline` advances it.
     pub tick: u32,
-    /// Number of pieces: connected sets of triangles.
+    /// Number of pieces: connected sets of triangles. Written by tears and cuts.
     pub pieces: u32,
     /// Largest number of triangles that the buffers can hold.
     pub triangle_capacity: usize,
-    /// Whether an event has reported that the vertex reserve for tears is used up.
+    /// Whether an event has reported that the vertex reserve for tears is used up. Set by tears.
     pub reserve_reported: bool,
-    /// Number of links that exceeded `max_stretch` after the last tick.
+    /// Number of links that exceeded `max_stretch` after the last tick. Written by `strain_limit`.
     pub over_stretched: u32,
-    /// Whether an event has reported them.
+    /// Whether an event has reported these links. Written by `strain_limit`.
     pub over_stretch_reported: bool,
+    /// Events since the host last read them. Stages append.
     pub events: Events,
     /// Instruction set that the kernels may use.
     pub level: Level,
-    /// Threads that a tick may use.
+    /// Threads that a tick may use. Written by the host.
     pub threads: Threads,
+    /// Time in each stage [s]. Written by `pipeline`.
     pub profile: Profile,
+    /// Scratch buffers of the stages.
     pub scratch: TickScratch,
+    /// Number of ticks at rest. Written by `integrate::sleep`; a change by the host sets it to zero.
     pub sleep: SleepTimer,
-    /// Data of particle collision, while `self_collision` is `Particles`.
+    /// Data of particle collision, while `self_collision` is `Particles`. Written by
+    /// `particle_contacts`.
     pub particle_collision: Option<Box<ParticleCollision>>,
-    /// Contact forces of the last substep, which warm-start the next; empty without surface
-    /// collision.
+    /// Contact forces [N] of the last substep, which warm-start the next; empty without surface
+    /// collision. Written by `surface_stages`.
     pub warm_start: WarmStart,
-    /// Whether the surface may intersect itself: each substep then tests all of it.
+    /// Whether the surface may intersect itself: each substep then tests all of it. Written by
+    /// `surface_stages`; set when the host moves particles or turns surface collision on.
     pub is_tangled: bool,
-    /// Data of surface collision, while `self_collision` is `Surface`.
+    /// Data of surface collision, while `self_collision` is `Surface`. Written by `surface_stages`.
     pub surface_collision: Option<Box<SurfaceCollision>>,
 }
 
 /// Scratch buffers, allocated once so that no tick allocates.
+///
+/// Columns have one entry per particle, unless their doc says otherwise.
 #[derive(Clone, Debug)]
 pub(crate) struct TickScratch {
-    /// Acceleration of each particle by gravity and air [m/s²].
+    /// Acceleration of each particle by gravity and air [m/s²]. Written by stage `Forces`, once per
+    /// tick.
     pub acceleration: Columns,
-    /// Air velocity minus particle velocity [m/s]. Stage `Forces` uses it once per tick; later
-    /// stages use it as a buffer.
+    /// Air velocity minus particle velocity [m/s]. Stage `Forces` writes and reads it once per
+    /// tick; `momentum` uses it as a buffer for positions [m].
     pub relative_wind: Columns,
-    /// Predicted displacement of each particle in this substep [m].
+    /// Predicted displacement of each particle in this substep [m]. Written by stage `Predict`; the
+    /// strain limit sets it to zero at the end of the tick.
     pub displacement: Columns,
-    /// Predicted position of each particle in this substep [m].
+    /// Predicted position of each particle in this substep [m]. Written by stage `Predict`; at the
+    /// end of the tick the strain limit stores the positions before its corrections here.
     pub predicted: Columns,
-    /// Velocity of each particle at the start of the tick, while there is a strain limit [m/s].
+    /// Velocity of each particle at the start of the tick [m/s]. Written by `strain_limit`; empty
+    /// without a strain limit.
     pub initial_velocity: Columns,
-    /// Position of the pin to which each particle is tethered, if there are several pins [m]. Later
-    /// stages use it as a buffer.
+    /// Position of the pin to which each particle is tethered [m], if there are several pins.
+    /// Written by `tethers`; `momentum` uses it as a buffer for displacements [m].
     pub tether_pins: Columns,
-    /// Mass plus soft-pin term of each particle, in use while there are soft pins [kg].
+    /// Mass plus soft-pin term of each particle [kg]; empty without soft pins. Written by
+    /// `kinematic::targets`, for the bending solve.
     pub effective_mass: Vec<f32>,
-    /// Particles that anchor constraints moved in this substep.
+    /// Indices of the particles that anchors moved in this substep. Written by
+    /// `kinematic::anchors`.
     pub anchor_moved: Vec<u32>,
+    /// Weights of both ends of each link, from inverse masses and compliances. Written by
+    /// `stretch::inverse_masses`.
     pub end_weights: EndWeights,
+    /// Positions [m] and inverse masses [1/kg] as x, y, z, w, for kernels that gather particles.
+    /// Written by `mesh_kernel::gather` and the stages up to `mesh_kernel::scatter`.
     pub interleaved: InterleavedParticles,
+    /// Particles and elimination steps of the line solver. Written by `line_gather` and
+    /// `line_solver`.
     pub lines: LineScratch,
+    /// Normals, rest directions and linear systems of stage `Bend`, which writes them.
     pub bend: BendScratch,
+    /// Rest lengths [m] and compliances [m/N] of the links without damping. Written by
+    /// `stretch::damping`.
     pub damping: DampingScratch,
+    /// Nearby triangles, contacts and impulses of the colliders. Written by the stages in
+    /// `collide`.
     pub contacts: ContactScratch,
+    /// Tear candidates and fans. Written by stage `Tear`.
     pub tear: TearScratch,
+    /// Positions [m] that the strain limit falls back to. Written by `stretch::rollback`.
     pub rollback: RollbackState,
-    /// Edges that the current vertex split opened.
+    /// Edges that the current vertex split opened. Written by `topology::tear`.
     pub opened_edges: Vec<OpenedEdge>,
+    /// Piece of each triangle, now and before the last tear or cut. Written by tears and cuts.
     pub pieces: PieceLabels,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,

@@ -11,11 +11,10 @@
 //! `displacement` (d₋), `v` and `v_extrapolated`.
 //! Invariant: positions stay as they are.
 
-use crate::solver::collide::response::resolve_velocities;
-use crate::solver::kinematic::anchors;
-
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
+use crate::solver::collide::response::resolve_velocities;
+use crate::solver::kinematic::anchors;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::BdfScheme;
 

@@ -27,15 +27,15 @@ pub(crate) fn apply(world: &mut World, number: u32) {
     let share = (number + 1) as f32 / count as f32;
     let share_of_rest = 1.0 / (count - number) as f32;
     let step = world.settings.scheme().velocity_step;
-    let mut carrier = CarrierFrames::default();
+    let mut frames = AttachmentFrames::default();
     let p = &mut world.particles;
     for pin in world.pins.iter() {
         let at = pin.particle as usize;
         let to = if pin.attachment == 0 {
             pin.from + (pin.target - pin.from) * share
         } else {
-            carrier.update(&world.attachments, pin.attachment, number + 1, count);
-            carrier.target(pin, share)
+            frames.update(&world.attachments, pin.attachment, number + 1, count);
+            frames.target(pin, share)
         };
         if pin.is_soft() {
             let from = p.x.get(at);
@@ -59,26 +59,26 @@ pub(crate) fn apply(world: &mut World, number: u32) {
 /// Ends the motion of attachments and anchors: their poses at the end of the tick become those at
 /// the start of the next.
 pub(crate) fn finish_tick(world: &mut World) {
-    world.attachments.iter_mut().for_each(|carrier| carrier.last = carrier.next);
+    world.attachments.iter_mut().for_each(|pose| pose.last = pose.next);
     world.anchors.finish_tick();
 }
 
 /// Transforms of one attachment at the start of the tick and now, cached because consecutive pins
 /// mostly share their attachment.
 #[derive(Default)]
-struct CarrierFrames {
-    carrier: u32,
+struct AttachmentFrames {
+    attachment: u32,
     frames: Option<[Transform; 2]>,
 }
 
-impl CarrierFrames {
-    /// Loads the transforms of `carrier` after substep `moment` of `count`, if it is another one.
-    fn update(&mut self, attachments: &Attachments, carrier: u32, moment: u32, count: u32) {
-        if self.carrier == carrier {
+impl AttachmentFrames {
+    /// Loads the transforms of `attachment` after substep `moment` of `count`, if it is another one.
+    fn update(&mut self, attachments: &Attachments, attachment: u32, moment: u32, count: u32) {
+        if self.attachment == attachment {
             return;
         }
-        let pose = attachments.get(carrier, "attachment").ok();
-        self.carrier = carrier;
+        let pose = attachments.get(attachment, "attachment").ok();
+        self.attachment = attachment;
         self.frames = pose.map(|pose| {
             [
                 pose.last.to_transform(),

@@ -16,13 +16,12 @@
     allow(dead_code)
 )]
 
-use crate::solver::vertex_sums::triangles;
-
 use crate::math::columns::Columns;
 use crate::math::simd::{Float, Scalar, Simd, leveled, vectored};
 use crate::solver::vertex_sums::contribution::{
     LaneVector, RowBand, SumInput, TriangleContribution,
 };
+use crate::solver::vertex_sums::triangles;
 use crate::solver::vertex_sums::triangles::sum_in_bands;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use glam::Vec3;

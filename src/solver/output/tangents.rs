@@ -13,15 +13,14 @@
 //! Invariant: the sums are cached until positions or triangles change. `vertex_transform` makes
 //! them orthogonal to the normals.
 
-use crate::solver::vertex_sums::triangles;
-use crate::solver::world::World;
-
 use crate::math::columns::Columns;
 use crate::math::simd::{Simd, vectored};
 use crate::solver::vertex_sums::contribution::{
     LaneVector, RowBand, SumInput, TriangleContribution,
 };
+use crate::solver::vertex_sums::triangles;
 use crate::solver::vertex_sums::triangles::sum_in_bands;
+use crate::solver::world::World;
 use glam::{Vec2, Vec3};
 
 /// Sums of triangle tangents per render vertex, not yet orthogonal to the vertex normals.

@@ -19,12 +19,11 @@
 //! change the result; the dynamic links of torn edges come after all batches (before them in a
 //! backward sweep).
 
-#[cfg(feature = "parallel")]
-use crate::solver::stretch::tiling;
-
 use crate::model::links::LinkKind;
 use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, is_rigid, project_link};
 use crate::solver::stretch::sweep_order::SweepOrder;
+#[cfg(feature = "parallel")]
+use crate::solver::stretch::tiling;
 use crate::solver::stretch::{grid_links, inverse_masses, mesh_kernel, sparse};
 use crate::solver::world::World;
 

@@ -81,8 +81,8 @@ fn attachment_frames(
         let pin = world.pins.get(i as u32)?;
         (pin.attachment != 0 && !pin.is_soft()).then_some(pin)
     })?;
-    let carrier = world.attachments.get(pin.attachment, "attachment").ok()?;
-    Some([carrier.last.to_transform(), carrier.next.to_transform()])
+    let motion = world.attachments.get(pin.attachment, "attachment").ok()?;
+    Some([motion.last.to_transform(), motion.next.to_transform()])
 }
 
 /// The mean displacement of pinned and grabbed particles in this tick [m]; zero if there are none.
