@@ -1,7 +1,7 @@
 //! Mixed Voronoi areas: the share of a triangle's area that belongs to each of its corners.
 //!
 //! Meyer, Desbrun, Schröder, Barr, "Discrete differential-geometry operators for triangulated
-//! 2-manifolds", 2003, fig. 4:
+//! 2-manifolds", 2003, where they are called `A_mixed`:
 //!
 //! ```text
 //! acute:   area(a) = (|ac|² cot β + |ab|² cot γ) / 8

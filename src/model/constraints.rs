@@ -6,7 +6,8 @@
 //!         bend over two cells
 //!         4 colours per kind                      greedy colours
 //! ```
-//! Spring constants of edges: Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
+//! Spring constants of edges: Van Gelder, "Approximate simulation of elastic membranes by
+//! triangulated spring meshes", JGT 1998.
 //!
 //! Reads `Mesh` and rest positions; writes `Constraints`. `dynamic_links` and `cut_links` update
 //! them after tears and cuts.
@@ -183,7 +184,7 @@ impl Constraints {
             let beyond = mesh.across(*edge);
             let both_areas =
                 area(triangle_of(*edge)) + if beyond == NONE { 0.0 } else { area(beyond as usize) };
-            // Van Gelder, "Approximate simulation of elastic membranes", JGT 1998.
+            // Van Gelder 1998, see the module doc.
             let stiffness_scale = both_areas / (length * length);
             let spec = edge_link(
                 mesh,

@@ -172,7 +172,7 @@ impl Settings {
 ///
 /// BDF2 loses nearly no energy, whereas BDF1, the usual scheme of position-based dynamics, loses
 /// most of it (English and Bridson, "Animating developable surfaces using nonconforming elements",
-/// 2008, sec. 3). BDF2 needs links that are swept symmetrically, in alternating directions: the
+/// SIGGRAPH 2008). BDF2 needs links that are swept symmetrically, in alternating directions: the
 /// phase error of sweeps in one direction would add energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BdfScheme {

@@ -1,4 +1,4 @@
-//! Sweeps over a grid on several threads, with the bits of one thread (time skewing).
+//! Sweeps over a grid on several threads, with the bits of one thread (split tiling).
 //!
 //! Each thread takes a band of the grid's rows through all colours of a kind. It leaves out the
 //! links that join its band to another, and in later colours every link that shares a particle with
@@ -9,7 +9,8 @@
 //!        2  ────────╮  ╭────────      ─      first pass: all bands at once
 //!        3  ──────╮      ╭──────      blank  second pass: all gaps at once
 //! ```
-//! Time skewing: Wonnacott, "Using time skewing to eliminate idle time …", IPDPS 2000.
+//! This is split tiling (Krishnamoorthy et al., "Effective automatic parallelization of stencil
+//! computations", PLDI 2007) with a colour in place of a time step.
 //!
 //! Reads `constraints`, `grid_cells`, weights of the ends; writes positions and λ.
 //! Invariant: every link is solved once, after all links of earlier colours that share a particle
@@ -95,7 +96,7 @@ pub(crate) fn solve<const LAW: u8>(
     let [x, y, z] = p.x.slices_mut().map(|column| &mut column[..rows * columns]);
     let mut slices = BandSlices { shared: &shared, first_particle: 0, x, y, z, lambda };
     world.threads.parallel_for_parts(parts, slices.reborrow(), band, |at, mut slices| {
-        slices.solve_band::<LAW>(zone(at))
+        slices.solve_band::<LAW>(zone(at));
     });
     world.threads.parallel_for_parts(parts - 1, slices, gap, |at, mut slices| {
         slices.solve_gap::<LAW>(zone(at), zone(at + 1));

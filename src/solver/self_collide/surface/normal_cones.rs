@@ -3,7 +3,7 @@
 //! ```text
 //!        ▲ mean normal m          cone of a cluster: m, and c = min over triangles of cos(n, m)
 //!      ╲ │ ╱  half angle
-//!   ────╲│╱──── cluster           If all normals of a patch lie within 60° of one direction, it is
+//!   ────╲│╱──── cluster           If all its normals lie within 60° of one direction, it is
 //!                                 a height field along that direction and cannot touch itself.
 //! ```
 //! Curvature culling after Volino and Magnenat-Thalmann, "Efficient self-collision detection on

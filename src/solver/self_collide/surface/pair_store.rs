@@ -6,8 +6,8 @@
 //! separations     0.13      0.02  …      when the pair was added [m]
 //! ```
 //! A pair that was `separation` apart cannot touch before both sides have moved that far relative
-//! to each other, as in conservative advancement (Mirtich, "Impulse-based Dynamic Simulation",
-//! 1996). So most pairs of a substep are rejected with one comparison.
+//! to each other, as in conservative advancement (Mirtich, "Impulse-based dynamic simulation of
+//! rigid body systems", 1996). So most pairs of a substep are rejected with one comparison.
 //!
 //! Reads positions; writes its own lists and the caller's candidate pairs.
 //!
