@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Only state that cannot be derived is saved. Restoring builds the rest state from the descriptor,
-//! applies tears and cuts, and derives the rest.
+//! applies tears and cuts, and computes everything else from them.
 //!
 //! Reads or writes all of `Cloth`.
 //! Invariant: bytes may come from anywhere, so every value is checked before it is used; bytes that

@@ -7,8 +7,8 @@
 //!   ·───────────·
 //! ```
 //! A segment a–b crosses the blade if a and b lie strictly on different sides of its plane and the
-//! crossing point lies on the parallelogram. All in f64, so that side tests agree for shared
-//! points.
+//! crossing point lies on the parallelogram. All arithmetic is f64, so that the side tests of a
+//! shared point agree.
 //!
 //! Reads only its own fields and the points that it is given, and writes nothing.
 //! Invariant: the parallelogram has an area; [`Blade::new`] refuses any other.

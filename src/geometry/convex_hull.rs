@@ -1,9 +1,9 @@
 //! Convex hulls of points, by incremental construction.
 //!
-//! Start with a tetrahedron of far points. For each further point, remove the triangles that it
-//! sees (those whose plane it lies in front of) and join the horizon, the boundary of the hole, to
-//! the point (O'Rourke, "Computational Geometry in C", 1998, ch. 4). In f64, with a tolerance
-//! relative to the size of the point set.
+//! The hull starts as a tetrahedron of points that are far apart. Each further point removes the
+//! triangles that it sees (it lies in front of their planes), and new triangles join the point to
+//! the horizon, the boundary of the hole (O'Rourke, "Computational Geometry in C", 1998, ch. 4).
+//! The arithmetic is f64, with a tolerance relative to the size of the point set.
 //!
 //! Reads the points; returns new lists.
 //! Invariant: every point lies in the hull up to the tolerance, and triangles wind outward.

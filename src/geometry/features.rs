@@ -7,18 +7,17 @@
 //!       ╲ │ ╱                     - a vertex if it lies in the normal cone of the vertex:
 //!        ╲│╱                        n · direction ≤ 0 for all of its edges.
 //!  ───────●───────
-//!  inward₀  inward₁               The cone is the Voronoi region of the feature, seen from afar.
+//!  inward₀  inward₁               The cone holds the directions of the feature's Voronoi region.
 //! ```
 //! The normal cones of all features tile the sphere of directions (the Gauss map of a polyhedron).
-//! Edge and vertex contacts are accepted only inside the cone of their feature, so contact normals
-//! never turn by more than the shape itself does. Compare Mirtich, "V-Clip: Fast and robust
+//! Edge and vertex contacts are accepted only inside the cone of their feature, so every contact
+//! normal lies between the normals of the adjacent faces. Compare Mirtich, "V-Clip: Fast and robust
 //! polyhedral collision detection", ACM TOG 1998, for Voronoi regions, and Gregorius, "The
 //! separating axis test between convex polyhedra", GDC 2013, for the Gauss map.
 //!
 //! Reads triangles once, at construction, or heightfield cells on the fly; writes only its own
-//! lists.
-//! Invariant: features are numbered edges first, then vertices, in an order that the triangles
-//! decide.
+//! lists. Invariant: features are numbered edges first, then vertices, in an order that depends
+//! only on the triangles.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;

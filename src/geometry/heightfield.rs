@@ -9,8 +9,8 @@
 //! The distance of a point is its distance from the plane of the triangle below it: exact above the
 //! interior of that triangle, and a lower bound above convex ground.
 //!
-//! Reads its heights; writes features to the list of the caller.
-//! Invariant: edges are features only where `outward` points up: ridges, and not valleys.
+//! Reads its heights; writes features to the list of the caller. Invariant: only ridges are edge
+//! features (their `outward` points up); valleys are not.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::features::{BendHistogram, EdgeFeature, FeatureSides, Features};

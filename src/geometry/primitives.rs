@@ -3,12 +3,12 @@
 //! ```text
 //! half space   d = y
 //! sphere       d = |p| − r
-//! capsule      d = |p − c(p)| − r(c)     c(p): center of the sphere of the family closest to p
+//! capsule      d = |p − c(p)| − r(c)     c(p), r(c): center and radius of the closest sphere
 //! box          d = |max(|p| − h, 0)|     outside;  the largest of |p| − h inside
 //! ```
-//! A tapered capsule is the convex hull of two spheres of different radii: the sphere closest to a
-//! point is found by shifting the point along the axis by its distance from the axis times a
-//! constant slope.
+//! A tapered capsule is the convex hull of two spheres of different radii. It is the union of all
+//! spheres between them, with linear center and radius. The sphere closest to a point is found by
+//! shifting the point along the axis by its distance from the axis times a constant slope.
 //!
 //! Reads a point in the local frame and writes nothing.
 //! Invariant: all distances are exact, and all normals have length one.

@@ -3,8 +3,8 @@
 //! ```text
 //! d(p) > 0 outside, d(p) < 0 inside;  n(p) = ∇d(p),  |n| = 1;  p − d n lies on the surface
 //! ```
-//! Reads the shape and a point in the local frame of the shape, and writes nothing.
-//! Invariant: d grows by at most one metre per metre, so a point that moves by less than d(p)
+//! Reads the shape and a point in the local frame of the shape, and writes nothing. Invariant: d
+//! changes by at most the distance that the point moves, so a point that moves by less than d(p)
 //! cannot reach the surface.
 
 use glam::Vec3;

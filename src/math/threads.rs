@@ -1,8 +1,9 @@
 //! Multithreading of one tick: how many threads may work on a cloth, and data-parallel loops.
 //!
-//! One thread, unless Muslin is built with the feature `parallel` and the host allows more. Work is
-//! split recursively in two (fork–join) with rayon's `join`, in the pool of the calling thread or
-//! else in the global pool. `join` keeps its job on the stack, so nothing is allocated.
+//! A tick runs on one thread, unless Muslin is built with the feature `parallel` and the host
+//! allows more. Work is split recursively in two (fork–join) with rayon's `join`, in the pool of
+//! the calling thread or else in the global pool. `join` keeps its job on the stack, so nothing is
+//! allocated.
 //!
 //! Reads and writes the slices that callers pass in; parts of them are disjoint.
 //! Invariant: work is split only where no sum crosses the border of two parts, so results have the

@@ -1,10 +1,10 @@
 //! Bend elements: rotation-free triangle elements that couple the hinges of each triangle of a
 //! mesh.
 //!
-//! On a surface ½ xᵀ S x, a hinge measures C = c · S: one of the three numbers of S, and the
-//! position of its triangles decides which. Independent hinges are therefore stiffer in some
-//! directions than in others. The three hinges of a triangle determine S there, and the energy is
-//! exact in every direction:
+//! On a surface of height ½ xᵀ S x the curvature tensor S has three numbers. A hinge measures one
+//! linear combination of them, C = c · S, where c depends on the shape of its two triangles.
+//! Independent hinges are therefore stiffer in some directions than in others. The three hinges of
+//! a triangle determine S there, and the energy is exact in every direction:
 //!
 //! ```text
 //! ½ D A |S|² = ½ D A Σ Cᵢ Cⱼ (M⁻¹)ᵢⱼ / |cᵢ| |cⱼ|,    Mᵢⱼ = cᵢ · cⱼ / |cᵢ| |cⱼ|
@@ -13,7 +13,7 @@
 //! with these C.
 //!
 //! This element is exact for evenly bent sheets, but on some meshes with alternating diagonals it
-//! has creases of too little energy. The element of Oñate and Zárate ("Rotation-free triangular
+//! gives some creases too little energy. The element of Oñate and Zárate ("Rotation-free triangular
 //! plate and shell elements", IJNME 2000), S = Σ C nnᵀ / 2 A with n across an edge, resists all
 //! creases, but is too stiff in oblique directions on these meshes. On periodic meshes both agree;
 //! elsewhere their errors have opposite signs, so the mean of both is used.

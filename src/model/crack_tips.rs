@@ -1,9 +1,9 @@
 //! Crack tips: where a slit in the cloth ends and its load concentrates.
 //!
 //! The strain ahead of a slit of length a is about √(a / h) times the strain around it, where h is
-//! the mesh size. With a fixed strain limit a cloth would tear the earlier the finer its mesh is.
-//! The energy that a growing slit releases (Griffith 1921) does not depend on the mesh; it follows
-//! if edges at a tip tear at √(z / h) times the usual strain, where z is the length of the process
+//! the mesh size. With a fixed strain limit, a cloth with a finer mesh would tear earlier. The
+//! energy that a growing slit releases (Griffith 1921) does not depend on the mesh; it follows if
+//! edges at a tip tear at √(z / h) times the usual strain, where z is the length of the process
 //! zone of a real tear.
 //!
 //! Unconverged load also appears as strain, most of all at a tip. Edges at tips therefore tear at

@@ -1,10 +1,11 @@
 //! Folds (plastic bending): the rest angle of each plate element or hinge.
 //!
 //! A fold is permanent if it is sharper than the material's yield angle φ_y. Depending on the mesh,
-//! a fold of given angle lies on one element or on several, so no element can decide alone: the
-//! angle within a length of sheet (`fold_length`) counts. A fold by φ that is released keeps φ −
-//! φ_y, and each element its part of it. With hardening, φ_y grows by H per radian of plastic
-//! angle, see `hardening`, so that a first fold keeps (φ − φ_y) / (1 + H).
+//! a fold of given angle lies on one element or on several, so the yield test uses the total angle
+//! within a length of sheet (`fold_length`), not the angle of one element. A fold of angle φ keeps
+//! φ − φ_y after it is released, and each element keeps its part of that. With hardening, φ_y grows
+//! by H per radian of plastic angle, see `hardening`, so that a first fold keeps (φ − φ_y) / (1 +
+//! H).
 //!
 //! Reads positions, normals and `Material`; writes rest angles, offsets and `Hardening`.
 //!

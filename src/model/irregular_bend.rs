@@ -1,5 +1,5 @@
-//! Irregular bends: pairs of consecutive threads that left their plate element where a grid is
-//! torn, packed by colour.
+//! Irregular bends: bending elements of a torn grid that are no longer plate elements, packed by
+//! colour.
 //!
 //! ```text
 //! a ──── middle ──── b        curvature a − 2 · middle + b

@@ -6,7 +6,7 @@
 //! | `folds`, `hardening`, `creases` | plastic bending |
 //! | `links`, `link_ends`, `constraints` | distance constraints |
 //! | `coloring`, `link_set` | graph colouring, sets of links |
-//! | `dynamic_links`, `cut_links`, `crack_tips` | how they change with tears and cuts |
+//! | `dynamic_links`, `cut_links`, `crack_tips` | changes of the links by tears and cuts |
 //! | `grid_rows`, `grid_cells`, `sparse_links` | layouts for the kernels |
 //! | `chains`, `chain_blocks` | straight runs of links for the line solver |
 //! | `tethers`, `pin_order` | distances to the pins |

@@ -1,5 +1,5 @@
 //! Sparse links: the few links of a list outside the regular rows, packed by colour, so that a
-//! sweep reads nothing of the others.
+//! sweep does not read the others.
 //!
 //! Reads `Links`; writes packed columns for gather/scatter kernels.
 //!

@@ -8,7 +8,7 @@
 //! collide         collision with colliders      self_collide                 with itself
 //! topology        tears and cuts                output     normals, tangents, vertices, stats
 //! ```
-//! Start to read at `pipeline`.
+//! Start reading at `pipeline`.
 
 pub(crate) mod bend;
 pub(crate) mod collide;

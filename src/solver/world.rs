@@ -7,13 +7,13 @@
 //! state       particles, pins, grabs, anchors, colliders, settings, wind, folds, time, ...
 //! caches      scratch, particle_collision, surface_collision, pin_order, profile, ...
 //! ```
-//! Method: plain data, plus the updates that keep the derived data in step with the mesh, the pins
-//! and the masses. No stage lives here.
+//! Method: plain data, plus the updates that keep the derived data consistent with the mesh, the
+//! pins and the masses. No stage lives here.
 //!
-//! Reads nothing from outside; the stages, `cloth` and the restore code write it.
-//! Invariant: each list that counts particles has `particles.len()` entries, and no list
-//! reallocates during a tick, because `reserve` sets its capacity beforehand. The files that this
-//! file imports do not import it.
+//! Reads nothing from outside; the stages, `cloth` and the restore code write it. Invariant: each
+//! list with one entry per particle has `particles.len()` entries, and no list reallocates during a
+//! tick, because `reserve` sets its capacity beforehand. The files that this file imports do not
+//! import it.
 
 use crate::geometry::triangle::corner_areas;
 use crate::math::columns::Columns;

@@ -9,8 +9,8 @@
 //!       │     │  backstop: the particle stays outside the sphere behind its anchor
 //!       ╰─────╯  backstop_radius
 //! ```
-//! Projection onto both sets. If they conflict, `max_distance` wins: the particle goes to the
-//! circle where both spheres meet, on its own side.
+//! Both bounds are enforced by projection. If they conflict, `max_distance` wins: the particle goes
+//! to the circle where both spheres meet, on its own side.
 //!
 //! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 

@@ -4,9 +4,10 @@
 //! little-endian; lists are preceded by their length, enum variants by their index; structs have no
 //! framing.
 //!
-//! This is an own implementation for code size: serde generates code per field, and the postcard
-//! crate would make up a twentieth of what a web page loads. So writing cannot fail for the types
-//! of a save, and reading continues with zeros after the first error, which is reported at the end.
+//! Muslin has its own implementation to keep the code small: serde generates code per field, and
+//! the postcard crate would be a twentieth of what a web page loads. For the same reason writing
+//! cannot fail for the types of a save, and reading continues with zeros after the first error and
+//! reports that error at the end.
 //!
 //! Reads and writes only its arguments.
 //! Invariant: output and accepted input are the same as those of the postcard crate (tested).

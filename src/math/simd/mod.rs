@@ -9,7 +9,7 @@
 //! Avx512      AVX-512 F + VL  -              -                       -
 //! ```
 //!
-//! [`Level::best`] is asked once, when a cloth is created. Each dispatched function then takes the
+//! [`Level::best`] runs once, when a cloth is created. Each dispatched function then takes the
 //! level as its first argument and calls the copy that was compiled for it. There are two kinds:
 //! - `leveled!`: the kernel is a plain loop over slices, which the compiler vectorises by itself;
 //! - `vectored!`: the kernel is written over [`Simd`], because compilers find neither the

@@ -5,9 +5,10 @@
 //!    \│/     ─▶     \ ┌┘  /        a non-manifold edge, seen along the edge
 //! ────●────      ────● ● ●────
 //! ```
-//! Of the triangles at such an edge, the two that are most nearly in one plane stay joined, then
-//! the flattest two of the rest, and so on; of equally flat pairs the first. Corners joined through
-//! edges form fans (union-find); every fan but the first of a particle gets a copy of the particle.
+//! At such an edge triangles stay joined in pairs: first the two that are most nearly coplanar,
+//! then the most nearly coplanar two of the others, and so on. Of equally flat pairs the first one
+//! is joined. Corners joined through edges form fans (union-find); every fan but the first of a
+//! particle gets a copy of the particle.
 //!
 //! Reads triangles without degenerates and duplicates; rewrites their particle indices.
 //!

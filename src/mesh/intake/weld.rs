@@ -2,8 +2,9 @@
 //!
 //! Vertices are processed in order. Each one is welded to the nearest kept vertex within the
 //! distance (of equally near ones the lowest), otherwise it is kept. So every welded vertex is near
-//! the vertex it is welded to: chains of small steps do not accumulate. A vertex is not welded to
-//! one with which it, or a vertex welded to that one, shares a triangle that has an area.
+//! the vertex that it is welded to: the distances of a row of near vertices do not add up. A vertex
+//! is not welded to a kept vertex if a triangle with an area joins it to that vertex, or to another
+//! vertex that is welded to that vertex.
 //!
 //! Candidates come from a hash grid of cells twice as wide as the distance: eight cells cover the
 //! ball.

@@ -1,7 +1,7 @@
 //! Scratch buffers and cached factorisations of stage `Bend`.
 //!
-//! Data only. A grid uses the plate buffers, any other mesh the hinge buffers; the rest stays
-//! empty. `bend` and its solvers fill them; nothing in them is state, so a tick gives the same
+//! Data only. A grid uses the plate buffers, any other mesh the hinge buffers; the other buffers
+//! stay empty. `bend` and its solvers fill them; nothing in them is state, so a tick gives the same
 //! result whether or not a cache is still valid.
 
 use crate::math::columns::Columns;

@@ -8,7 +8,7 @@
 //! ```text
 //! 1 − (1 + λ) q(λ) = T(y(λ)) / T(y(−1)),    y maps λ = 0 to the first root of T and the bound to 1
 //! ```
-//! Wide folds have a small λ, so they bend exactly as the material says, however few the steps.
+//! Wide folds have a small λ, so they bend exactly as the material says, with any number of steps.
 //! With one step this is explicit Euler. The number of steps is about the square root of the bound.
 //!
 //! Reads a bound for the stiffness over mass; gives coefficients for `plate` and `mesh_implicit`.

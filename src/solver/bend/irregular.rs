@@ -4,7 +4,7 @@
 //! a ── m ── b     C = a − 2 m + b − rest n,   λ = −C / (w_a + 4 w_m + w_b + α̃),   Δx = w c λ
 //! ```
 //! Method: XPBD per element, as in `hinge`, with the fixed weights (1, −2, 1). Elements of one
-//! colour share no particle and run in lanes; the rest runs one after the other.
+//! colour share no particle and run in lanes; elements without a colour run one after the other.
 //!
 //! Reads the elements, folds and start positions; writes positions.
 //! Invariant: the order of the elements of a colour does not change the result.

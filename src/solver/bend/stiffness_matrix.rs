@@ -9,7 +9,7 @@
 //!
 //! Reads hinges and elements in `assemble`; `add_forces` reads positions and adds to forces.
 //! Invariant: forces depend on differences of positions and come in opposite pairs, so they do not
-//! depend on the place of the mesh and conserve linear momentum.
+//! depend on where the mesh is, and they conserve linear momentum.
 
 use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};

@@ -5,11 +5,11 @@
 //! │  ╲  │     │     two neighbouring cells only, so the multipliers solve a tridiagonal system
 //! c ─── d ─── ·     (Σ w + α̃) λ − (w_b + w_d) λ₊ − … = −(T + α̃ λ₀)
 //! ```
-//! Method: XPBD solved exactly per strip by L D Lᵀ factors. The strips along all rows remove what
-//! is long along rows, those along the columns the rest; so saddle shapes, which neither rows nor
-//! columns of `plate` resist, are implicit too. Every other strip is solved at once, since these
-//! share no particle. Steps that are the same for all cells run over all cells, with zeros in the
-//! other strips, so the compiler vectorises them.
+//! Method: XPBD solved exactly per strip by L D Lᵀ factors. Strips along rows remove the errors
+//! that are long along rows; strips along columns remove the other errors. So saddle shapes, which
+//! the rows and columns of `plate` do not resist, are solved implicitly too. Strips 0, 2, 4 … share
+//! no particle and are solved at once, then strips 1, 3, 5 …. Steps that are the same for all cells
+//! run over all cells, with zeros in the other strips, so the compiler vectorises them.
 //!
 //! Reads element weights, inverse masses, folds and start positions; writes positions and `lambda`.
 //! Invariant: multipliers start at zero in the first solve of a substep, and the second solve

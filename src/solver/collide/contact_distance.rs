@@ -6,9 +6,9 @@
 //!     ╱        ↕        ╲     A chord of length L between two particles on the surface lies inside
 //!   ●────────  L  ────────●   by up to the sagitta L² / (8 R).  (L: diagonal of a cell)
 //! ```
-//! If particles stay that much farther out, the triangles between them stay outside too: then
-//! particles alone carry the cloth, and it rests still. Where the sagitta would be too large,
-//! triangles and edges are tested themselves.
+//! If particles stay that much farther out, the triangles between them stay outside too: then the
+//! contacts of particles are enough, and the cloth comes to rest. Where the sagitta would be too
+//! large, triangles and edges are tested themselves.
 //!
 //! Reads shapes, descriptors and mean lengths; writes nothing.
 //! Invariant: the margin depends only on the shape and on lengths at rest, so it is constant over

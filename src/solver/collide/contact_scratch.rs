@@ -3,8 +3,8 @@
 //! Part of the cache of a cloth: everything here can be rebuilt, and none of it is saved or hashed.
 //! Stage functions in `collide` fill and read it.
 //!
-//! Invariant: after [`ContactScratch::reserve`] no stage allocates, except lists of candidate pairs
-//! when more pairs come together than ever before.
+//! Invariant: after [`ContactScratch::reserve`] no stage allocates, except that a list of candidate
+//! pairs grows when there are more pairs than ever before.
 
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;

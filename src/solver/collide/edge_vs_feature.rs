@@ -6,9 +6,10 @@
 //! triangle – vertex feature   n = normal of the triangle                 height = (a − q) · n
 //! ```
 //! A contact counts only if n lies in the normal cone of the feature: then the whole shape lies
-//! below the contact plane near the feature. Elsewhere another feature or a face is nearer. So
-//! contact normals never turn by more than the shape does. Cloth that is deeper than the center of
-//! the shape counts only if it passed through the feature in this substep.
+//! below the contact plane near the feature. Outside the cone another feature or a face is nearer.
+//! So every contact normal lies between the normals of the adjacent faces. If the cloth is deeper
+//! than the center of the shape, a contact counts only if the cloth passed through the feature in
+//! this substep.
 //!
 //! Reads local particles and candidate pairs; writes positions through [`PushAccumulator`].
 //! Invariant: a pair with a positive height at or above the gap is not moved.

@@ -8,8 +8,8 @@
 //! ```
 //! Each particle is bounded by a ball around its local positions now and at the start of the
 //! substep, in the frames of the collider at both ends of the tick (a motion bound). Blocks of 32
-//! triangles query the BVH of features; the rest is tested by distance. Features that bend little
-//! count as smooth and are left out: there particles keep a margin instead.
+//! triangles query the BVH of features; the rest is tested by distance. Features at which the
+//! surface bends little count as smooth and are left out; particles keep a margin there instead.
 //!
 //! Reads the mesh and local positions; writes [`ColliderPairs`].
 //! Invariant: until a particle moves farther than the search allowed for, every pair that can touch

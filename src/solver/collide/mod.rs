@@ -7,14 +7,15 @@
 //! response      restitution, sliding, impulses                              every substep
 //! ```
 //! Position-based contacts: each penetration is projected out, and friction takes back part of the
-//! tangential motion (`local_particles`). Everything happens in the local frame of the collider,
-//! where it rests, with the start of the substep seen from the frame of then. Continuous detection
-//! therefore works for moving colliders too.
+//! tangential motion (`local_particles`). All tests run in the local frame of the collider:
+//! positions at the start of the substep use its frame at the start, current positions its frame at
+//! the end. In these coordinates the collider is at rest, so continuous detection works for moving
+//! colliders too.
 //!
 //! Reads colliders, positions and predicted positions; writes positions, velocities (in `response`)
-//! and the impulses on colliders.
-//! Invariant: no particle that started a substep outside a collider ends it inside. Particles are
-//! last in each round, so no push of a triangle leaves one inside.
+//! and the impulses on colliders. Invariant: no particle that started a substep outside a collider
+//! ends it inside. Each round tests particles last, so a correction of a triangle does not leave a
+//! particle inside.
 
 pub(crate) mod broad_phase;
 pub(crate) mod collider_contact;

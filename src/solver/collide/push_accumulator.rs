@@ -5,9 +5,9 @@
 //! p = Σ bₖ xₖ is to move by c:   Δxₖ = c bₖ wₖ / Σ bⱼ² wⱼ     (b: barycentric weight, w: 1/mass)
 //! mean over contacts, weighted by bₖ · depth
 //! ```
-//! The weight makes a contact fade in and out with its depth, so beginning and ending contacts
-//! cause no jump. Applied one after the other (Gauss–Seidel), only the last contact would be exact,
-//! and cloth over an edge would never rest still.
+//! The weight makes a contact fade in and out with its depth, so no position jumps when a contact
+//! begins or ends. If contacts were applied one after the other (Gauss–Seidel), only the last one
+//! would be exact, and cloth that lies over an edge would never come to rest.
 //!
 //! Reads contacts in the local frame of a collider; writes positions and contacts through
 //! [`LocalParticles`].

@@ -4,17 +4,18 @@
 //! Δ = x − x before the stage        Σ m Δ = 0,   Σ m (r − c) × Δ = 0
 //! r: the position that velocities count from          c: the centre of mass of all r
 //! ```
-//! Internal forces change neither linear nor angular momentum. Position-based stages do a little:
-//! they move particles along lines of the current positions, while velocities count from earlier
-//! positions r (see `BdfScheme`), so each move has a small torque about r. Mostly these cancel; in
-//! cloth that presses against itself, as crumpled paper does, the rest would turn it for ever. So
-//! the rigid motion with the momenta of Δ is subtracted from all positions.
+//! Internal forces change neither linear nor angular momentum. Position-based stages change angular
+//! momentum slightly: they move particles along lines between current positions, but velocities
+//! count from earlier positions r (see `BdfScheme`). So each move has a small torque about r. Most
+//! of these torques cancel. In cloth that presses against itself, such as crumpled paper, they do
+//! not, and the cloth would turn without end. Therefore the rigid motion with the momenta of Δ is
+//! subtracted from all positions.
 //!
 //! Two stages use it: bending and particle collision ([`remove_rigid_motion`]), and contacts of
-//! surface collision ([`remove_rigid_motion_since`]). The latter counts particles on a collider as
-//! heavy, as if the collider took the impulse. Along a floor no collider does, and crumpled paper
-//! would turn on it for ever. So on a floor the motion along it is removed as well; the motion
-//! against the floor stays.
+//! surface collision ([`remove_rigid_motion_since`]). In the latter, particles on a collider count
+//! as heavy, because the collider takes up their impulse. A floor takes up no impulse along its
+//! surface, and crumpled paper would turn on it without end. So on a floor the motion along the
+//! surface is removed as well; the motion towards the floor stays.
 //!
 //! Reads predicted positions and the displacement history; writes positions, and the scratch lists
 //! `relative_wind` and `tether_pins`, which are free at that time.

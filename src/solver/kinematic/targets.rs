@@ -11,9 +11,9 @@
 //! Later stages see this spring as a larger effective mass, m + k s², and leave it in balance, so
 //! no sweep has to solve the pin again, however stiff it is.
 //!
-//! Reads pins, grabs, attachments and the predicted positions; writes positions.
-//! Invariant: targets move evenly over the substeps and are reached exactly in the last one. A grab
-//! whose target is too far away follows at its largest speed.
+//! Reads pins, grabs, attachments and the predicted positions; writes positions. Invariant: targets
+//! move evenly over the substeps and are reached exactly in the last one. A grabbed particle whose
+//! target is too far away moves at the largest allowed speed.
 
 use crate::geometry::transform::Transform;
 use crate::solver::world::World;

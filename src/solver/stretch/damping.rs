@@ -1,13 +1,13 @@
 //! Stretch damping: a viscous force along compliant links, solved implicitly with the links.
 //!
-//! A Kelvin-Voigt link pulls with k (l − rest) + k τ l'. With l' = (l − l₀) / h over a substep of
-//! length h, where l₀ is the length at its start, that is the pull of an undamped link with
+//! A Kelvin-Voigt link pulls with k (l − rest) + k τ l'. Over a substep of length h, l' = (l − l₀)
+//! / h, where l₀ is the length at its start. So the pull equals that of an undamped link with
 //!
 //! ```text
 //! stiffness  k (1 + τ / h)                       so  compliance / (1 + τ / h)
 //! rest       (rest + l₀ τ / h) / (1 + τ / h)
 //! ```
-//! So a link takes these values while a substep is solved, and its own values again after it. The
+//! A link has these values while a substep is solved, and gets its own values back at the end. The
 //! damping acts along links only: rotation, bending and free fall are not damped.
 //!
 //! Reads `material.stretch_damping` (τ [s]) and the positions at the start of the substep; writes

@@ -1,7 +1,8 @@
 //! Refreshes the weights of the links' ends (see `end_weights`) when an inverse mass changed.
 //!
 //! Pins, grabs, masses and tears change inverse masses, which is rare; comparing the whole column
-//! of inverse masses once a substep costs little against recomputing the weights of all links.
+//! of inverse masses once a substep costs little compared with recomputing the weights of all
+//! links.
 //!
 //! Reads `particles.w`, `material`, `constraints`; writes `scratch.end_weights`, the weights of the
 //! sparse links, and for each row of a grid the range of links with even ends.

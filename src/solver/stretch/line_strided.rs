@@ -1,4 +1,4 @@
-//! Gather and scatter of chains whose particles are at a fixed stride, as those of a grid (strided
+//! Gather and scatter of chains whose particles are at a fixed stride, as on a grid (strided
 //! blocks).
 //!
 //! No index is read: particles come straight from the columns, four chains at a time.

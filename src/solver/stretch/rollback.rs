@@ -10,12 +10,11 @@
 //! free piece with anchors              x = R x_last + t, fitted to the motion of its anchors
 //! free piece                           x = R x_last + t, fitted to its own motion (mass-weighted)
 //! ```
-//! satisfies the limit again. A free piece so keeps flying, falling and spinning.
+//! satisfies the limit again. So a free piece keeps flying, falling and spinning.
 //!
 //! Reads `particles`, pins, grabs, attachments, anchors, the piece of each triangle; writes
-//! `scratch.rollback`.
-//! Invariant: held particles (w = 0) roll back to where they are now, so that the rollback moves
-//! none.
+//! `scratch.rollback`. Invariant: held particles (w = 0) roll back to where they are now, so that
+//! the rollback does not move them.
 
 use crate::geometry::transform::Transform;
 use crate::mesh::{NONE, triangle_of};

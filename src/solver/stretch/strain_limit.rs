@@ -16,13 +16,14 @@
 //! The sweeps are those of Provot, "Deformation constraints in a mass-spring model", Graphics
 //! Interface 1995: the ends of a long link move towards each other by their inverse masses. They
 //! converge fast but guarantee nothing. The rollback does: at the rollback positions (see
-//! `rollback`) the limit held a tick ago, and every pass moves at least one more particle there for
-//! good. The margins 0.996 and e/2 cover rounding and make the sweeps end early.
+//! `rollback`) the limit held a tick ago, and every pass moves at least one more particle there,
+//! where it stays. The margins 0.996 and e/2 cover rounding and make the sweeps end early.
 //!
 //! A cloth that pins, grabs or anchors hold apart cannot satisfy the limit. This is reported once.
-//! When it is free again there is nothing to roll back to: it contracts by tethers and up to 2000
-//! rounds, over a few ticks if it was pulled far, and the particles that move get no velocity from
-//! it.
+//! Once they release it, its last tick is not within the limit, so there is no state to roll back
+//! to. It then contracts by tethers and up to 2000 rounds, over several ticks if it was stretched
+//! far. The particles that move get zero velocity, so that the contraction does not fling the
+//! cloth.
 //!
 //! **Velocities** (4). The corrections x − x₀ of the tick of length T count as velocity, but
 //! bounded: links that contradict each other push a particle out and the limit pulls it back, which
@@ -35,8 +36,8 @@
 //! v ← m + d min(1, |m| / |d|)    otherwise: a body that accelerates evenly from rest has v = 2 m
 //! ```
 //! Reads `constraints`, `pin_order`, `tethers`, pins, grabs, anchors; writes positions, velocities,
-//! `over_stretched` and one event.
-//! Invariant: no link is over the limit that was not over it a tick ago.
+//! `over_stretched` and one event. Invariant: a link that was within the limit a tick ago is within
+//! it now.
 
 use crate::math::columns::Columns;
 use crate::model::links::{LinkKind, Links};

@@ -12,7 +12,7 @@
 //! ```
 //! So tethers carry the load that the sweeps have not carried yet, and none of the load that really
 //! stretches the cloth. A cloth that was held apart contracts at the rate of the first term,
-//! because contracting in one tick would fling it.
+//! because a contraction within one tick would give it a large velocity.
 //!
 //! Reads `tethers`, pins, grabs, positions, `material`; writes `tether_slack` and `pin_stretch`.
 //! Invariant: runs once a tick, before the substeps; the slack is at least 1.

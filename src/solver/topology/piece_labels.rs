@@ -2,7 +2,7 @@
 //!
 //! Method: connected components by flood fill over shared edges (`Mesh::pieces`), numbered in the
 //! order of their first triangle. The labels from before the last tears stay, so that
-//! `tear::update_pieces` can tell which pieces came off.
+//! `tear::update_pieces` can tell which pieces were detached.
 //!
 //! Data only; `topology` and the creation code write it.
 //! Invariant: `label` has one entry per triangle.

@@ -4,7 +4,7 @@
 //!        A ●            ▲ n        The closest points of a pair span the normal n of a plane that
 //! ──────────┼───────────┼───       separates both sides at the start of the substep. While the
 //!      B ───●────●      │          separation along n stays positive, the sides have not crossed,
-//!                                  whatever the plane did meanwhile.
+//!                                  however the plane moved meanwhile.
 //!
 //! separation(n) = min over A of n·x − max over B of n·x
 //! distance(n)   = n · Σ weightₖ xₖ              (closest points; weights as in `closest_lanes`)

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                                                      runs per   files
-//! tick bounds: where each particle may get to          tick       tick_bounds
+//! tick bounds: where each particle may move to         tick       tick_bounds
 //!     │
 //!     ▼
 //! cluster BVH: swept AABBs of 8 triangles each         tick       cluster, cluster_bvh
@@ -50,7 +50,7 @@
 //! Reads the mesh, its rest shape, particles, collider contacts and settings; writes positions,
 //! velocities, predicted positions and contact forces.
 //!
-//! Invariant: the result depends only on the state at the start of a tick, in the order of the
+//! Invariant: the result depends only on the state at the start of a tick and on the order of the
 //! mesh. Caches (tick bounds, pair cache, cluster boxes) save time and change no bit.
 
 mod closest_lanes;

@@ -3,8 +3,8 @@
 //!
 //! ```text
 //! at the start: closest points ─▶ weights, normal n, separation along n
-//! now:          nearer than the gap along n?  then the closest points of now, if their normal
-//!                                             separated both sides at the start
+//! now:          nearer than the gap along n?  then the current closest points, if their normal
+//!                                             also separated both sides at the start
 //! ```
 //! SIMD version of [`Contact::detect`], a pair in each lane. Pairs whose start normal is ambiguous
 //! (touching sides, nearly parallel edges) go to [`Contact::detect`] one by one.

@@ -7,13 +7,13 @@
 //!        └── contacts of particles that moved
 //! after MAX_ROUNDS rounds: roll back particles to where they started, until all are separated
 //! ```
-//! All contacts are separated at the start of the substep, at once. So rolling back to the start
-//! always succeeds, unless fixed particles that move against each other leave no room. Particles
-//! roll back to their start plus the mean displacement, so that a falling cloth does not stop. A
-//! fixed particle does not roll back; it carries along the particles in its way. This has the role
-//! of the rigid impact zones of Provot, "Collision and self-collision handling in cloth model
-//! dedicated to design garments", 1997, and of Bridson, Fedkiw, Anderson, "Robust Treatment of
-//! Collisions, Contact and Friction for Cloth Animation", SIGGRAPH 2002.
+//! At the start of the substep all contacts are separated at the same time. So rolling back to the
+//! start always succeeds, unless fixed particles move against each other and leave no space.
+//! Particles roll back to their start plus the mean displacement, so that a falling cloth does not
+//! stop. A fixed particle does not roll back; the particles in its path move along with it. This
+//! has the role of the rigid impact zones of Provot, "Collision and self-collision handling in
+//! cloth model dedicated to design garments", 1997, and of Bridson, Fedkiw, Anderson, "Robust
+//! Treatment of Collisions, Contact and Friction for Cloth Animation", SIGGRAPH 2002.
 //!
 //! Reads contacts; writes `SweptParticles::now`, contact normals and the contact graph.
 //!

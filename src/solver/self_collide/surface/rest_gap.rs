@@ -1,4 +1,4 @@
-//! Gap of each pair: that of the material, less for pairs that are nearer at rest.
+//! Gap of each pair: the gap of the material, or a smaller one for pairs that are nearer at rest.
 //!
 //! ```text
 //! gap(pair) = min(gap, max(½ · rest distance, ½ · split distance))    both sides of one piece

@@ -7,9 +7,9 @@
 //!          ◀──● B ┊            separation(n) > 0 at the start, and > gap at the end for all
 //!                 ┊            positions within the motion bounds
 //! ```
-//! A conservative continuous test: both sides are on their own sides of a plane at the start and at
-//! the end, so they did not cross it (see `contact`). It rejects most pairs; the rest goes to the
-//! narrow phase, or becomes speculative contacts.
+//! A conservative continuous test: at the start and at the end the two sides lie on opposite sides
+//! of a plane, so they did not cross (see `contact`). It rejects most pairs; the other pairs go to
+//! the narrow phase or become speculative contacts.
 //!
 //! Reads [`SweptParticles`]; writes its own lists.
 //!

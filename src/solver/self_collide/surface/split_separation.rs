@@ -1,4 +1,4 @@
-//! Split separation: moves the copies of freshly split vertices apart by a hair.
+//! Split separation: moves the copies of freshly split vertices apart by a small distance.
 //!
 //! ```text
 //!      ╲   │   ╱                ╲   │   ╱       The copies of a split vertex start at one place,
@@ -16,7 +16,7 @@
 //! particles.
 //!
 //! Invariant: momentum is conserved: each step is weighted by inverse masses, and the final limit
-//! scales all displacements of a place by the same factor.
+//! scales all displacements at one place by the same factor.
 
 use crate::math::sort::sort_by;
 use crate::math::{TINY, min};

@@ -14,8 +14,8 @@
 //! Reads and writes its own lists; [`interleaved::gather`] fills `start` and `now`.
 //!
 //! Invariant: pairs that culling dropped cannot touch while every particle stays within its bound.
-//! Whoever moves particles later widens the bounds of those that escaped and tests their pairs
-//! again.
+//! A stage that moves particles later must widen the bounds of those that escaped and test their
+//! pairs again.
 
 use crate::math::wide4::{Float4, Wide4, XYZ_MASK, xyz};
 use crate::math::{max, min};

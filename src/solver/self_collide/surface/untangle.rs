@@ -12,7 +12,7 @@
 //! SIGGRAPH 2003), the second one contour minimization (Volino, Magnenat-Thalmann, "Resolving
 //! Surface Collisions through Intersection Contour Minimization", SIGGRAPH 2006), restricted to
 //! motion along the line: the part across it, where surfaces hardly intersect, is mostly noise.
-//! Contacts would keep intersecting sides crossed, so those of the particles involved are disabled.
+//! Contacts would keep the sides crossed, so the contacts of the particles involved are disabled.
 //!
 //! Reads the mesh, cluster pairs and start positions; writes `SweptParticles::now`, predicted
 //! positions (no velocity results), velocities, and disables contacts.

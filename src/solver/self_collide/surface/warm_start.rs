@@ -1,8 +1,8 @@
 //! Warm start: contact forces of the last substep, used to start the contact solver of the next.
 //!
-//! Contacts that start at zero have to find the forces that hold up a stack anew in each substep,
-//! and six sweeps never quite do; contacts that start at the last solution converge over many
-//! substeps (Catto, "Iterative Dynamics with Temporal Coherence", GDC 2005).
+//! If contacts start at zero, the six sweeps of a substep do not converge to the forces that hold
+//! up a stack. If they start at the last solution, they converge over many substeps (Catto,
+//! "Iterative Dynamics with Temporal Coherence", GDC 2005).
 //!
 //! Forces are stored, not impulses, so that the step size may change between substeps. They are
 //! part of a saved state and of the state hash.

@@ -1,7 +1,7 @@
 //! The columns of particles and links that the kernels of a grid work on, whole or in part.
 //!
-//! With threads, each has the slices of its own band, which begin at a particle and a link of their
-//! own; without, they begin at 0.
+//! With several threads each thread has the slices of its band, which begin at the first particle
+//! and link of the band. With one thread they begin at 0.
 //!
 //! Reads nothing by itself; kernels write `x`, `y`, `z` and `lambda` through it.
 //! Invariant: the particle lists have one length, and so have the link lists.

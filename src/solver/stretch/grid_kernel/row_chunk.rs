@@ -7,9 +7,9 @@
 //! interleave          back to the order in memory
 //! store               both runs, λ
 //! ```
-//! A chunk has two phases, `compute` and `apply`. Chunks are independent, so that the processor
-//! starts the next one while it waits for the division of this one. (Two chunks in one loop body
-//! would make WebAssembly engines run out of registers.)
+//! A chunk has two phases, `compute` and `apply`. Chunks are independent, so the processor can
+//! start the next chunk while it waits for the division of the current one. (Two chunks in one loop
+//! body would make WebAssembly engines run out of registers.)
 //!
 //! Reads and writes through `ChunkPointers`.
 //! Invariant: lanes outside `mask` are stored with the bits that they had.

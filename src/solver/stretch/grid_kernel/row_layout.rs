@@ -4,8 +4,8 @@
 //! RowPattern::Straight       a: ● ● ● ●  (contiguous)     b: ● ● ● ●  (contiguous)
 //! RowPattern::Pairs, Quads   a and b alternate in one contiguous run: [ low half │ high half ]
 //! ```
-//! A chunk of L links so touches two runs of L particles: at a and at b if the row is straight, the
-//! low and the high half of 2 L neighbours otherwise.
+//! So a chunk of L links touches two runs of L particles. In a straight row these begin at a and at
+//! b; in other rows they are the low and the high half of 2 L neighbours.
 //!
 //! Reads `GridSlices` and `LinkRow`; writes nothing.
 //! Invariant: a cursor that `GridPointers::cursor` returned has `count` links, and the particles at
