@@ -1,11 +1,11 @@
-//! What a renderer is told: which parts of its lists changed, and which borders are frayed.
+//! Change tracking for renderers: the changed ranges of the lists, and the frayed borders.
 
 use crate::common::{bare_grid, irregular_mesh, triangles};
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Changes, Cloth, Error, IndexFormat, PinMode};
 use std::collections::HashMap;
 
-/// A renderer that uploads only what `changes` names.
+/// A renderer that uploads only the ranges that `changes` reports.
 #[derive(Default)]
 struct Renderer {
     revision: u32,
@@ -16,7 +16,8 @@ struct Renderer {
     uploaded: u32,
 }
 
-fn put<T: Clone>(list: &mut Vec<T>, first: u32, count: u32, from: &[T], empty: T) {
+/// Resizes `list` to the length of `from` and copies the given range.
+fn copy_range<T: Clone>(list: &mut Vec<T>, first: u32, count: u32, from: &[T], empty: T) {
     list.resize(from.len(), empty);
     let range = first as usize..(first + count) as usize;
     list[range.clone()].clone_from_slice(&from[range]);
@@ -27,10 +28,10 @@ impl Renderer {
         let Changes { first_vertex, vertex_count, first_index, index_count } =
             cloth.changes(self.revision);
         let view = cloth.view();
-        put(&mut self.indices, first_index, index_count, view.indices, 0);
-        put(&mut self.uvs, first_vertex, vertex_count, view.uvs, Vec2::NAN);
-        put(&mut self.sources, first_vertex, vertex_count, view.source_vertices, 0);
-        put(&mut self.frayed, first_vertex, vertex_count, view.frayed, false);
+        copy_range(&mut self.indices, first_index, index_count, view.indices, 0);
+        copy_range(&mut self.uvs, first_vertex, vertex_count, view.uvs, Vec2::NAN);
+        copy_range(&mut self.sources, first_vertex, vertex_count, view.source_vertices, 0);
+        copy_range(&mut self.frayed, first_vertex, vertex_count, view.frayed, false);
         self.revision = view.topology_revision;
         self.uploaded = vertex_count + index_count;
         assert_eq!(self.indices, view.indices);
@@ -41,7 +42,7 @@ impl Renderer {
 }
 
 #[test]
-fn uploading_what_changed_keeps_up_with_any_tears_and_cuts() {
+fn uploading_the_changed_ranges_keeps_a_renderer_up_to_date() {
     let mut desc = bare_grid(12, 12, 0.1, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.3;
@@ -49,7 +50,7 @@ fn uploading_what_changed_keeps_up_with_any_tears_and_cuts() {
     let (mut eager, mut lazy, mut late) =
         (Renderer::default(), Renderer::default(), Renderer::default());
     eager.update(&mut cloth);
-    assert_eq!(eager.uploaded, 144 + 121 * 6, "all at first");
+    assert_eq!(eager.uploaded, 144 + 121 * 6, "the first update uploads everything");
     eager.update(&mut cloth);
     assert_eq!(eager.uploaded, 0);
     let grab = cloth.grab_particle(66).unwrap();
@@ -75,23 +76,23 @@ fn uploading_what_changed_keeps_up_with_any_tears_and_cuts() {
 }
 
 #[test]
-fn a_small_tear_is_a_small_upload() {
+fn a_small_tear_causes_a_small_upload() {
     let mut cloth = Cloth::grid(&bare_grid(40, 40, 0.05, PinMode::TopEdge)).unwrap();
     let revision = cloth.topology_revision();
     assert!(cloth.tear_edge(820, 860).unwrap());
     let changes = cloth.changes(revision);
     assert!(changes.index_count > 0 && changes.index_count < 500, "{changes:?}");
-    // The new vertex is the last, and its neighbours are frayed now.
+    // The range covers the new last vertex and its neighbours, which are frayed now.
     assert_eq!(changes.first_vertex + changes.vertex_count, 1601);
     assert!(changes.first_vertex >= 818, "{changes:?}");
     assert_eq!(cloth.changes(cloth.topology_revision()), Changes::default());
     let all = Changes { first_vertex: 0, vertex_count: 1601, first_index: 0, index_count: 9126 };
     assert_eq!(cloth.changes(0), all);
-    assert_eq!(cloth.changes(revision + 9), all, "a revision that never was");
+    assert_eq!(cloth.changes(revision + 9), all, "an unknown revision reports everything");
 }
 
 #[test]
-fn what_is_too_long_ago_is_everything() {
+fn a_revision_that_is_too_old_reports_everything() {
     let mut cloth = Cloth::grid(&bare_grid(20, 20, 0.05, PinMode::TopEdge)).unwrap();
     let first = cloth.topology_revision();
     let mut tears = 0;
@@ -106,8 +107,8 @@ fn what_is_too_long_ago_is_everything() {
     assert!(cloth.changes(first + tears - 60).first_index > 0);
 }
 
-/// The ends of border edges, by the triangles alone.
-fn at_borders(cloth: &Cloth) -> Vec<bool> {
+/// Whether each vertex is an end of a border edge, computed from the triangles alone.
+fn border_flags(cloth: &Cloth) -> Vec<bool> {
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     for [a, b, c] in triangles(cloth) {
         for (p, q) in [(a, b), (b, c), (c, a)] {
@@ -122,44 +123,44 @@ fn at_borders(cloth: &Cloth) -> Vec<bool> {
 }
 
 #[test]
-fn borders_of_tears_and_cuts_are_frayed_and_hems_are_not() {
+fn borders_from_tears_and_cuts_are_frayed_and_original_borders_are_not() {
     let mut sheet = Cloth::grid(&bare_grid(10, 8, 0.1, PinMode::TopEdge)).unwrap();
     let mut ring = Cloth::mesh(&irregular_mesh()).unwrap();
     for cloth in [&mut sheet, &mut ring] {
         assert!(cloth.frayed().iter().all(|frayed| !frayed));
-        let hems = at_borders(cloth);
+        let original_borders = border_flags(cloth);
         let uvs = cloth.uvs().to_vec();
         let (from, to) = (Vec3::new(-3.0, -0.31, -5.0), Vec3::new(3.0, -0.36, -5.0));
         assert!(cloth.cut(from, to, Vec3::Z * 9.0).unwrap() > 1);
         let triangle = triangles(cloth)[5];
         let _ = cloth.tear_edge(triangle[0], triangle[1]);
-        let borders = at_borders(cloth);
+        let borders = border_flags(cloth);
         let mut count = 0;
         for (v, frayed) in cloth.frayed().iter().enumerate() {
-            assert!(borders[v] || !frayed, "vertex {v} is inside");
-            let is_hem = hems.get(v).copied().unwrap_or(false);
+            assert!(borders[v] || !frayed, "vertex {v} is frayed inside the cloth");
+            let is_original = original_borders.get(v).copied().unwrap_or(false);
             assert!(
-                *frayed || !borders[v] || is_hem || uvs.len() <= v,
-                "vertex {v} is at a border"
+                *frayed || !borders[v] || is_original || uvs.len() <= v,
+                "vertex {v} is not frayed at a new border"
             );
             count += u32::from(*frayed);
         }
-        assert!(count >= 6, "{count} are frayed");
+        assert!(count >= 6, "only {count} vertices are frayed");
         let restored = Cloth::restore(&cloth.save()).unwrap();
         assert_eq!(restored.frayed(), cloth.frayed());
         cloth.reset();
         assert!(cloth.frayed().iter().all(|frayed| !frayed));
     }
-    // What a cut leaves of a hem is a hem: its new end is frayed, the next vertex is not.
+    // The rest of an original border stays original: its new end is frayed, the next vertex is not.
     let (from, to) = (Vec3::new(0.44, 1.0, -5.0), Vec3::new(0.44, -3.0, -5.0));
     assert!(sheet.cut(from, to, Vec3::Z * 9.0).unwrap() > 8);
     let frayed: Vec<u32> = (0..10).filter(|v| sheet.frayed()[*v as usize]).collect();
-    assert_eq!(frayed, [] as [u32; 0], "the pinned row has a new vertex there");
+    assert_eq!(frayed, [] as [u32; 0], "the pinned row got a new vertex at the cut");
     assert!(sheet.frayed()[80..].iter().all(|frayed| *frayed));
 }
 
 #[test]
-fn indices_are_written_as_wide_as_asked_while_they_fit() {
+fn indices_are_written_in_the_requested_width_if_they_fit() {
     let mut cloth = Cloth::grid(&bare_grid(5, 4, 0.1, PinMode::TopEdge)).unwrap();
     cloth.cut(Vec3::new(-1.0, -0.16, -1.0), Vec3::new(0.33, -0.14, -1.0), Vec3::Z * 2.0).unwrap();
     let count = cloth.indices().len();
@@ -177,15 +178,15 @@ fn indices_are_written_as_wide_as_asked_while_they_fit() {
     assert!(wide.iter().map(|b| u32::from_ne_bytes(*b)).eq(cloth.indices().iter().copied()));
 
     let last = cloth.positions().len() as u32 - 1;
-    let mut refused = |size: usize, format, base, field: &str| {
+    let mut assert_refused = |size: usize, format, base, field: &str| {
         let before = narrow.clone();
-        let told = cloth.write_indices(&mut narrow[..size], format, false, base).unwrap_err();
-        assert!(matches!(told, Error::BadValue { field: named, .. } if named == field), "{told}");
+        let error = cloth.write_indices(&mut narrow[..size], format, false, base).unwrap_err();
+        assert!(matches!(error, Error::BadValue { field: named, .. } if named == field), "{error}");
         assert_eq!(narrow, before);
     };
-    refused(2 * count - 1, IndexFormat::U16, 0, "buffer");
-    refused(2 * count, IndexFormat::U32, 0, "buffer");
-    refused(2 * count, IndexFormat::U16, 65535 - last, "index_format");
+    assert_refused(2 * count - 1, IndexFormat::U16, 0, "buffer");
+    assert_refused(2 * count, IndexFormat::U32, 0, "buffer");
+    assert_refused(2 * count, IndexFormat::U16, 65535 - last, "index_format");
     cloth.write_indices(&mut narrow, IndexFormat::U16, false, 65534 - last).unwrap();
     let mut wide = vec![0_u8; 4 * count];
     assert!(cloth.write_indices(&mut wide, IndexFormat::U32, false, u32::MAX - last).is_err());

@@ -1,4 +1,5 @@
-//! Cuts with a blade: as straight as the hand, without slivers, and clean whatever is cut and how often.
+//! Cuts with a blade: they follow the blade, leave no slivers, and keep the mesh clean after any
+//! number of cuts.
 
 use crate::common::{assert_clean, bare_grid, irregular_mesh, total_mass, triangles};
 use muslin::glam::{Vec2, Vec3};
@@ -6,17 +7,18 @@ use muslin::{Cloth, Error, Event, EventKind, Material, MeshDesc, PinMode, Preset
 use proptest::prelude::*;
 
 /// A flat sheet of 9 × 7 cells of 10 cm, its top left corner at the origin.
-fn sheet(pin_mode: PinMode) -> Cloth {
+fn flat_sheet(pin_mode: PinMode) -> Cloth {
     Cloth::grid(&bare_grid(10, 8, 0.1, pin_mode)).unwrap()
 }
 
-/// Cuts a sheet in the x–y plane from one point to another, straight through.
+/// Cuts a sheet in the x–y plane from one point to another. Returns the number of opened edges.
 fn slice(cloth: &mut Cloth, from: [f32; 2], to: [f32; 2]) -> muslin::Result<u32> {
     let at = |[x, y]: [f32; 2]| Vec3::new(x, y, -5.0);
     cloth.cut(at(from), at(to), Vec3::Z * 10.0)
 }
 
-fn events(cloth: &mut Cloth) -> Vec<Event> {
+/// Returns all pending events.
+fn drained_events(cloth: &mut Cloth) -> Vec<Event> {
     core::iter::from_fn(|| cloth.next_event()).collect()
 }
 
@@ -24,8 +26,9 @@ fn count_of(events: &[Event], kind: EventKind) -> usize {
     events.iter().filter(|event| event.kind == kind).count()
 }
 
-/// The sharpest angle [°] and the least area of all triangles in the texture, scaled.
-fn least(cloth: &Cloth, scale: Vec2) -> (f32, f32) {
+/// The smallest angle [°] and the smallest area of all triangles, measured in the texture, which is
+/// scaled by `scale`.
+fn min_angle_and_area(cloth: &Cloth, scale: Vec2) -> (f32, f32) {
     let uv = |v: u32| cloth.uvs()[v as usize] * scale;
     let mut least = (180.0_f32, f32::INFINITY);
     for [a, b, c] in triangles(cloth) {
@@ -41,22 +44,23 @@ fn least(cloth: &Cloth, scale: Vec2) -> (f32, f32) {
 }
 
 #[test]
-fn a_cut_all_through_makes_two_pieces_along_a_straight_line() {
-    let mut cloth = sheet(PinMode::TopEdge);
+fn a_cut_through_the_sheet_makes_two_pieces_along_a_straight_line() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     let before = cloth.clone();
     let (from, to) = (Vec2::new(-0.2, -0.17), Vec2::new(1.2, -0.53));
     let opened = slice(&mut cloth, from.into(), to.into()).unwrap();
     assert!(opened > 9, "{opened} edges opened");
     assert_clean(&cloth, &before);
     assert_eq!(cloth.stats().pieces, 2);
-    let told = events(&mut cloth);
-    assert_eq!(count_of(&told, EventKind::EdgeTorn) as u32, opened);
-    assert_eq!(count_of(&told, EventKind::PieceDetached), 1);
-    let made = count_of(&told, EventKind::EdgeDivided) + count_of(&told, EventKind::VertexSplit);
+    let events = drained_events(&mut cloth);
+    assert_eq!(count_of(&events, EventKind::EdgeTorn) as u32, opened);
+    assert_eq!(count_of(&events, EventKind::PieceDetached), 1);
+    let made =
+        count_of(&events, EventKind::EdgeDivided) + count_of(&events, EventKind::VertexSplit);
     assert_eq!(made, cloth.positions().len() - before.positions().len());
-    // The cut goes where the blade went, give or take an eighth of an edge where it passed a vertex.
+    // The cut follows the blade, within an eighth of an edge where it snaps to a vertex.
     let along = (to - from).normalize();
-    for event in told.iter().filter(|event| event.kind == EventKind::VertexSplit) {
+    for event in events.iter().filter(|event| event.kind == EventKind::VertexSplit) {
         let off = (event.position.truncate() - from).perp_dot(along).abs();
         assert!(off < 0.125 * 0.1 * 2.0_f32.sqrt() + 1.0e-5, "{off} m beside the blade");
     }
@@ -64,19 +68,19 @@ fn a_cut_all_through_makes_two_pieces_along_a_straight_line() {
     cloth.step(60);
     assert_clean(&cloth, &before);
     let lowest = cloth.positions().iter().map(|x| x.y).fold(0.0, f32::min);
-    assert!(lowest < -4.0, "the piece fell to {lowest} m only");
+    assert!(lowest < -4.0, "the piece fell only to {lowest} m");
     assert!((0..10).all(|i| cloth.positions()[i].y == 0.0), "the pins hold");
 }
 
 #[test]
-fn new_vertices_lie_between_the_ends_of_their_edges_in_all_they_have() {
-    let mut cloth = sheet(PinMode::TopEdge);
+fn new_vertices_interpolate_position_uv_and_velocity_of_their_edges() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     for i in 0..80 {
         let x = cloth.positions()[i];
         cloth.set_velocity(i as u32, Vec3::new(0.2 * x.y, 0.0, 3.0 * x.x)).unwrap();
     }
     slice(&mut cloth, [-0.2, -0.233], [0.63, -0.371]).unwrap();
-    for event in events(&mut cloth) {
+    for event in drained_events(&mut cloth) {
         if event.kind != EventKind::EdgeDivided {
             continue;
         }
@@ -96,14 +100,14 @@ fn new_vertices_lie_between_the_ends_of_their_edges_in_all_they_have() {
 }
 
 #[test]
-fn a_cut_that_ends_within_the_sheet_ends_at_the_last_edge_before() {
-    let mut cloth = sheet(PinMode::TopEdge);
+fn a_cut_that_ends_inside_the_sheet_stops_at_the_last_crossed_edge() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     let before = cloth.clone();
     let opened = slice(&mut cloth, [-0.2, -0.33], [0.43, -0.37]).unwrap();
     assert!(opened >= 4, "{opened}");
     assert_clean(&cloth, &before);
     assert_eq!(cloth.stats().pieces, 1);
-    let split = events(&mut cloth);
+    let split = drained_events(&mut cloth);
     let farthest = split
         .iter()
         .filter(|event| event.kind == EventKind::VertexSplit)
@@ -114,13 +118,13 @@ fn a_cut_that_ends_within_the_sheet_ends_at_the_last_edge_before() {
 
 #[test]
 fn a_blade_within_one_triangle_or_beside_the_cloth_cuts_nothing() {
-    let mut cloth = sheet(PinMode::TopEdge);
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     let hash = cloth.state_hash();
     let revision = cloth.topology_revision();
     for (from, to) in [([0.62, -0.63], [0.64, -0.66]), ([2.0, 0.0], [2.0, -1.0])] {
         assert_eq!(slice(&mut cloth, from, to), Ok(0));
     }
-    // Too short a sweep.
+    // This sweep is too short to reach the cloth.
     let from = Vec3::new(-1.0, -0.33, 1.0);
     assert_eq!(cloth.cut(from, from + Vec3::X * 3.0, Vec3::Z * -0.9), Ok(0));
     assert_eq!((cloth.state_hash(), cloth.topology_revision()), (hash, revision));
@@ -128,20 +132,20 @@ fn a_blade_within_one_triangle_or_beside_the_cloth_cuts_nothing() {
 }
 
 #[test]
-fn cutting_the_same_place_twice_cuts_once() {
+fn repeating_a_cut_changes_nothing() {
     for (from, to) in [([-0.2, -0.33], [0.43, -0.37]), ([-1.0, -0.3], [2.0, -0.3])] {
-        let mut cloth = sheet(PinMode::TopEdge);
+        let mut cloth = flat_sheet(PinMode::TopEdge);
         assert!(slice(&mut cloth, from, to).unwrap() > 0);
         let hash = cloth.state_hash();
         assert_eq!(slice(&mut cloth, from, to), Ok(0));
-        assert_eq!(slice(&mut cloth, to, from), Ok(0), "nor the other way");
+        assert_eq!(slice(&mut cloth, to, from), Ok(0), "nor in the opposite direction");
         assert_eq!(cloth.state_hash(), hash);
     }
 }
 
 #[test]
-fn a_cut_along_vertices_makes_no_new_ones_but_splits() {
-    let mut cloth = sheet(PinMode::TopEdge);
+fn a_cut_along_vertices_splits_them_and_divides_no_edge() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     let before = cloth.clone();
     assert_eq!(slice(&mut cloth, [-1.0, -0.3], [2.0, -0.3]), Ok(9));
     assert_eq!(cloth.indices().len(), before.indices().len());
@@ -151,9 +155,9 @@ fn a_cut_along_vertices_makes_no_new_ones_but_splits() {
 }
 
 #[test]
-fn a_cut_just_below_the_pinned_row_frees_what_hangs_from_it() {
+fn a_cut_just_below_the_pinned_row_releases_the_sheet() {
     for y in [-0.001, -0.01, -0.04] {
-        let mut cloth = sheet(PinMode::TopEdge);
+        let mut cloth = flat_sheet(PinMode::TopEdge);
         let before = cloth.clone();
         assert!(slice(&mut cloth, [-1.0, y], [2.0, y]).unwrap() >= 9);
         assert_eq!(cloth.stats().pieces, 2);
@@ -166,7 +170,7 @@ fn a_cut_just_below_the_pinned_row_frees_what_hangs_from_it() {
 
 #[test]
 fn a_cut_along_a_row_of_pins_leaves_pins_on_both_sides() {
-    let mut cloth = sheet(PinMode::None);
+    let mut cloth = flat_sheet(PinMode::None);
     let before = cloth.clone();
     (30..40).for_each(|i| cloth.pin(i, None).unwrap());
     assert_eq!(slice(&mut cloth, [-1.0, -0.3], [2.0, -0.3]), Ok(9));
@@ -178,17 +182,17 @@ fn a_cut_along_a_row_of_pins_leaves_pins_on_both_sides() {
     assert!(highest > -0.31, "both sides hang from their pins, the highest at {highest}");
     cloth.unpin_all();
     cloth.step(60);
-    assert!(cloth.positions().iter().all(|x| x.y < -4.0), "and fall without them");
+    assert!(cloth.positions().iter().all(|x| x.y < -4.0), "both sides fall without pins");
 }
 
 #[test]
-fn a_border_row_of_pins_is_nothing_to_cut_along() {
-    let mut cloth = sheet(PinMode::TopEdge);
+fn a_cut_along_a_pinned_border_row_cuts_nothing() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     assert_eq!(slice(&mut cloth, [-1.0, 0.0], [2.0, 0.0]), Ok(0));
 }
 
 #[test]
-fn a_cut_cloth_hangs_as_calmly_as_a_whole_one() {
+fn a_cut_cloth_comes_to_rest_like_an_uncut_one() {
     let hang = |is_cut: bool| {
         let mut desc = bare_grid(20, 20, 0.05, PinMode::TopCorners);
         desc.settings.damping = 0.5;
@@ -209,16 +213,16 @@ fn a_cut_cloth_hangs_as_calmly_as_a_whole_one() {
     let (whole, cut) = (hang(false), hang(true));
     assert!(
         cut.kinetic_energy < 1.0e-4,
-        "{} J, whole {} J",
+        "{} J, uncut {} J",
         cut.kinetic_energy,
         whole.kinetic_energy
     );
-    // The short links at the tips of a cut carry what the cut does not, but come apart by no more.
-    assert!(cut.max_stretch < 0.25, "{}, whole {}", cut.max_stretch, whole.max_stretch);
+    // Short links at the ends of a cut carry the load around it, but stretch by less than this.
+    assert!(cut.max_stretch < 0.25, "{}, uncut {}", cut.max_stretch, whole.max_stretch);
 }
 
 #[test]
-fn a_sheet_whose_first_row_lost_all_its_links_goes_on() {
+fn a_sheet_stays_stable_after_its_first_row_loses_all_links() {
     let mut cloth = Cloth::grid(&bare_grid(10, 8, 0.1, PinMode::TopEdge)).unwrap();
     for column in 0..9 {
         let x = (column as f32 + 0.5) * 0.1;
@@ -230,7 +234,7 @@ fn a_sheet_whose_first_row_lost_all_its_links_goes_on() {
 }
 
 #[test]
-fn a_cut_that_does_not_fit_changes_nothing() {
+fn a_cut_that_exceeds_the_reserve_changes_nothing() {
     let mut desc = bare_grid(10, 8, 0.1, PinMode::TopEdge);
     desc.extra_particles = 12;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -239,39 +243,39 @@ fn a_cut_that_does_not_fit_changes_nothing() {
     assert_eq!(whole, Err(Error::Full { what: "the whole cut" }));
     assert_eq!((cloth.state_hash(), cloth.topology_revision()), (hash, revision));
     assert!(cloth.next_event().is_none());
-    assert!(slice(&mut cloth, [-0.2, -0.33], [0.23, -0.37]).unwrap() > 0, "a short one fits");
+    assert!(slice(&mut cloth, [-0.2, -0.33], [0.23, -0.37]).unwrap() > 0, "a short cut fits");
 }
 
 #[test]
-fn a_blade_that_is_none_is_refused_by_name() {
-    let mut cloth = sheet(PinMode::TopEdge);
+fn an_invalid_blade_is_refused_by_argument_name() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
     let hash = cloth.state_hash();
     let nan = Vec3::new(0.0, f32::NAN, 0.0);
-    let mut refused = |from, to, sweep, name: &str| {
-        let told = cloth.cut(from, to, sweep).unwrap_err();
+    let mut assert_refused = |from, to, sweep, name: &str| {
+        let error = cloth.cut(from, to, sweep).unwrap_err();
         assert!(
-            matches!(told, Error::BadValue { field, .. } if field == name),
-            "{told} is not about {name}"
+            matches!(error, Error::BadValue { field, .. } if field == name),
+            "{error} is not about {name}"
         );
     };
-    refused(nan, Vec3::X, Vec3::Z, "from");
-    refused(Vec3::ZERO, Vec3::INFINITY, Vec3::Z, "to");
-    refused(Vec3::ZERO, Vec3::X, nan, "sweep");
-    refused(Vec3::X, Vec3::X, Vec3::Z, "to");
-    refused(Vec3::ZERO, Vec3::X, Vec3::ZERO, "sweep");
-    refused(Vec3::ZERO, Vec3::X, Vec3::X * -2.0, "sweep");
+    assert_refused(nan, Vec3::X, Vec3::Z, "from");
+    assert_refused(Vec3::ZERO, Vec3::INFINITY, Vec3::Z, "to");
+    assert_refused(Vec3::ZERO, Vec3::X, nan, "sweep");
+    assert_refused(Vec3::X, Vec3::X, Vec3::Z, "to");
+    assert_refused(Vec3::ZERO, Vec3::X, Vec3::ZERO, "sweep");
+    assert_refused(Vec3::ZERO, Vec3::X, Vec3::X * -2.0, "sweep");
     assert_eq!(cloth.state_hash(), hash);
 }
 
 #[test]
-fn the_lists_that_a_renderer_reads_never_move() {
-    let mut cloth = sheet(PinMode::TopEdge);
-    let places = |cloth: &mut Cloth| {
+fn view_pointers_stay_valid_through_cuts() {
+    let mut cloth = flat_sheet(PinMode::TopEdge);
+    let addresses = |cloth: &mut Cloth| {
         let view = cloth.view();
         let lists = (view.positions.as_ptr(), view.normals.as_ptr(), view.uvs.as_ptr());
         (lists, view.indices.as_ptr(), view.source_vertices.as_ptr(), view.index_capacity)
     };
-    let first = places(&mut cloth);
+    let first = addresses(&mut cloth);
     let mut most = 0;
     for k in 0..40 {
         let y = -0.7 * (k as f32 * 0.618).fract();
@@ -281,14 +285,14 @@ fn the_lists_that_a_renderer_reads_never_move() {
         most = view.indices.len() as u32;
         assert!(most <= view.index_capacity);
         assert!(view.positions.len() as u32 <= view.vertex_capacity);
-        assert_eq!(places(&mut cloth), first);
+        assert_eq!(addresses(&mut cloth), first);
     }
-    assert!(most > 63 * 6, "nothing was divided");
+    assert!(most > 63 * 6, "no edge was divided");
 }
 
 #[test]
-fn a_cut_cloth_is_saved_and_goes_on_in_the_same_bits() {
-    let mut cloth = sheet(PinMode::TopCorners);
+fn a_restored_cut_cloth_continues_with_the_same_bits() {
+    let mut cloth = flat_sheet(PinMode::TopCorners);
     slice(&mut cloth, [0.21, 0.1], [0.47, -0.8]).unwrap();
     cloth.step(10);
     slice(&mut cloth, [-0.2, -0.33], [0.63, -0.37]).unwrap();
@@ -310,9 +314,13 @@ fn a_cut_cloth_is_saved_and_goes_on_in_the_same_bits() {
     assert_eq!(restored.state_hash(), cloth.state_hash());
     assert_eq!(copy.state_hash(), cloth.state_hash());
     cloth.reset();
-    assert_eq!(cloth.state_hash(), sheet(PinMode::TopCorners).state_hash(), "whole again");
-    assert_eq!(links(&cloth), links(&sheet(PinMode::TopCorners)));
-    assert_eq!(cloth.uvs(), sheet(PinMode::TopCorners).uvs());
+    assert_eq!(
+        cloth.state_hash(),
+        flat_sheet(PinMode::TopCorners).state_hash(),
+        "a reset removes the cuts"
+    );
+    assert_eq!(links(&cloth), links(&flat_sheet(PinMode::TopCorners)));
+    assert_eq!(cloth.uvs(), flat_sheet(PinMode::TopCorners).uvs());
 }
 
 proptest! {
@@ -331,10 +339,10 @@ proptest! {
         let size = Vec2::new((columns - 1) as f32, (rows - 1) as f32) * 0.1;
         for (at, ticks) in cuts {
             let [a, b, c, d] = at.map(|at| f32::from(at) / 65536.0 * 1.4 - 0.2);
-            let told = slice(&mut cloth, [a * size.x, -b * size.y], [c * size.x, -d * size.y]);
-            prop_assert!(told.is_ok(), "{:?}", told);
+            let result = slice(&mut cloth, [a * size.x, -b * size.y], [c * size.x, -d * size.y]);
+            prop_assert!(result.is_ok(), "{:?}", result);
             assert_clean(&cloth, &before);
-            let (angle, area) = least(&cloth, size);
+            let (angle, area) = min_angle_and_area(&cloth, size);
             prop_assert!(angle > 4.99, "an angle of {}°", angle);
             prop_assert!(area > 0.0049 * 0.01, "an area of {}", area);
             cloth.step(ticks);

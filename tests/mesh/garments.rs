@@ -1,4 +1,4 @@
-//! Meshes of all kinds as cloth: taken, told, hung for ten seconds until they rest, torn along their seams.
+//! Garment meshes as cloth: repair reports, hanging until rest, and tears and cuts at seams.
 
 use crate::common::crossings::crossings;
 use crate::common::garments::{assert_whole, disc, moebius_strip, shirt, sleeve, wreck};
@@ -6,7 +6,7 @@ use muslin::glam::Vec3;
 use muslin::{Cloth, Error, EventKind, Material, MeshDesc, Preset, SelfCollision, Settings};
 use std::fmt::Write;
 
-/// The garments, of cotton in calm air.
+/// The garments, of cotton, without wind.
 fn garments() -> Vec<(&'static str, MeshDesc)> {
     let garments = [
         ("shirt", shirt()),
@@ -15,15 +15,15 @@ fn garments() -> Vec<(&'static str, MeshDesc)> {
         ("moebius strip", moebius_strip()),
         ("wreck", wreck()),
     ];
-    let dressed = |(name, desc): (&'static str, MeshDesc)| {
+    let with_settings = |(name, desc): (&'static str, MeshDesc)| {
         let settings = Settings { damping: 2.0, ..Settings::default() };
         let material = Material::preset(Preset::Cotton);
         (name, MeshDesc { settings, material, ..desc })
     };
-    garments.into_iter().map(dressed).collect()
+    garments.into_iter().map(with_settings).collect()
 }
 
-/// The speed of the particles that have mass [m/s].
+/// RMS speed of the particles that have mass [m/s].
 fn rms_speed(cloth: &Cloth) -> f32 {
     let moving = (0..cloth.particle_count()).filter(|p| cloth.mass(*p).unwrap() > 0.0);
     let speeds: Vec<f32> = moving.map(|p| cloth.velocity(p).unwrap().length_squared()).collect();
@@ -31,7 +31,7 @@ fn rms_speed(cloth: &Cloth) -> f32 {
 }
 
 #[test]
-fn what_was_repaired_is_told() {
+fn mesh_reports_list_every_repair() {
     let mut text = String::new();
     for (name, desc) in garments() {
         let cloth = Cloth::mesh(&desc).unwrap();
@@ -41,7 +41,7 @@ fn what_was_repaired_is_told() {
 }
 
 #[test]
-fn they_hang_until_they_rest() {
+fn hanging_garments_come_to_rest_within_ten_seconds() {
     for (name, desc) in garments() {
         let mut cloth = Cloth::mesh(&desc).unwrap();
         assert_whole(&mut cloth, &desc);
@@ -63,7 +63,7 @@ fn they_hang_until_they_rest() {
 }
 
 #[test]
-fn nothing_of_them_goes_through_the_rest() {
+fn hanging_garments_do_not_pass_through_themselves() {
     for (name, mut desc) in garments() {
         desc.settings.self_collision = SelfCollision::Surface;
         let mut cloth = Cloth::mesh(&desc).unwrap();
@@ -78,14 +78,14 @@ fn nothing_of_them_goes_through_the_rest() {
         }
         println!("{name}: {most} crossings, {speeds:.6?} m/s");
         assert_eq!(most, 0, "{name} goes through itself");
-        // What swings loses half of its speed in two seconds with the damping of the defaults.
+        // Swinging parts lose half of their speed in two seconds with the default damping.
         assert!(speeds[0] < 5.0e-3, "{name} moves at {} m/s after ten seconds", speeds[0]);
         assert!(speeds[1] < 1.0e-3, "{name} moves at {} m/s after twenty seconds", speeds[1]);
     }
 }
 
 #[test]
-fn vertices_without_triangles_stay_where_they_are() {
+fn vertices_without_triangles_do_not_move() {
     let desc = wreck();
     let mut cloth = Cloth::mesh(&desc).unwrap();
     let unused: Vec<usize> =
@@ -100,12 +100,12 @@ fn vertices_without_triangles_stay_where_they_are() {
 }
 
 #[test]
-fn a_clone_a_restored_and_a_reset_garment_go_on_in_the_same_bits() {
+fn clone_restore_and_reset_of_a_torn_garment_give_the_same_bits() {
     for (name, desc) in garments() {
         let mut desc = desc;
         desc.settings.tearing = true;
         desc.material.tear_stretch = 1.2;
-        let play = |cloth: &mut Cloth, ticks: u32| {
+        let run_script = |cloth: &mut Cloth, ticks: u32| {
             let grab = cloth.grab_particle(cloth.particle_count() / 2).unwrap();
             let from = cloth.position(cloth.particle_count() / 2).unwrap();
             for tick in 1..=ticks {
@@ -119,15 +119,15 @@ fn a_clone_a_restored_and_a_reset_garment_go_on_in_the_same_bits() {
             cloth.step(10);
         };
         let mut straight = Cloth::mesh(&desc).unwrap();
-        play(&mut straight, 30);
+        run_script(&mut straight, 30);
         assert_whole(&mut straight, &desc);
         assert!(straight.positions().len() > desc.positions.len(), "{name} was not torn");
         let mut others = [straight.clone(), Cloth::restore(&straight.save()).unwrap()];
-        play(&mut straight, 10);
+        run_script(&mut straight, 10);
         for other in &mut others {
             let capacity = other.view().vertex_capacity;
             assert_eq!(capacity, straight.view().vertex_capacity, "{name}");
-            play(other, 10);
+            run_script(other, 10);
             assert_eq!(other.state_hash(), straight.state_hash(), "{name}");
             assert_eq!(other.indices(), straight.indices(), "{name}");
             assert_eq!(other.vertex_particles(), straight.vertex_particles(), "{name}");
@@ -143,7 +143,7 @@ fn a_clone_a_restored_and_a_reset_garment_go_on_in_the_same_bits() {
     }
 }
 
-/// Two patches side by side, welded along the line x = 0.4, each with a texture of its own.
+/// Two patches side by side, welded along the line x = 0.4, each with its own part of the texture.
 fn seamed_sheet() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 0.0, ..MeshDesc::default() };
     for (first, u) in [(0, 0.0), (4, 1.0)] {
@@ -155,8 +155,8 @@ fn seamed_sheet() -> MeshDesc {
     desc
 }
 
-/// A row's particle on the seam of the seamed sheet, and its two vertices.
-fn on_seam(cloth: &Cloth, row: u32) -> (u32, [u32; 2]) {
+/// The particle on the seam of the seamed sheet in a row, and its two vertices.
+fn seam_particle(cloth: &Cloth, row: u32) -> (u32, [u32; 2]) {
     let vertices = [5 * row + 4, 45 + 5 * row];
     let [particle, same] = vertices.map(|v| cloth.vertex_particles()[v as usize]);
     assert_eq!(particle, same);
@@ -164,30 +164,34 @@ fn on_seam(cloth: &Cloth, row: u32) -> (u32, [u32; 2]) {
 }
 
 #[test]
-fn a_seam_that_is_cut_open_needs_no_new_vertices() {
+fn a_cut_along_a_seam_adds_no_vertices() {
     let desc = seamed_sheet();
     let mut cloth = Cloth::mesh(&desc).unwrap();
     assert_eq!((cloth.particle_count(), cloth.mesh_report().welded_vertices), (81, 9));
     let before = (cloth.indices().to_vec(), cloth.uvs().to_vec());
     let seam = [Vec3::new(0.4, -0.35, -1.0), Vec3::new(0.4, -2.0, -1.0), Vec3::Z * 2.0];
     assert_eq!(cloth.cut(seam[0], seam[1], seam[2]).unwrap(), 4);
-    assert_eq!((cloth.indices(), cloth.uvs()), (&*before.0, &*before.1), "each side keeps its own");
+    assert_eq!(
+        (cloth.indices(), cloth.uvs()),
+        (&*before.0, &*before.1),
+        "each side keeps its own vertices"
+    );
     assert_eq!(cloth.particle_count(), 85);
     let changes = cloth.changes(1);
     let changed = changes.first_vertex..changes.first_vertex + changes.vertex_count;
     assert!(changed.contains(&29) && changed.contains(&85), "{changes:?}");
     assert_eq!(changes.index_count, 0);
     assert_whole(&mut cloth, &desc);
-    let mut told = Vec::new();
+    let mut split = Vec::new();
     while let Some(event) = cloth.next_event() {
         if event.kind == EventKind::VertexSplit {
             assert_eq!(event.vertex, event.source, "no vertex had to be split");
-            told.push(event.vertex);
+            split.push(event.vertex);
         }
     }
-    let parted: Vec<u32> = (5..9).map(|row| 45 + 5 * row).collect();
-    assert_eq!(told, parted);
-    for vertex in told {
+    let expected: Vec<u32> = (5..9).map(|row| 45 + 5 * row).collect();
+    assert_eq!(split, expected);
+    for vertex in split {
         let opposite = 5 * ((vertex - 45) / 5) + 4;
         let [a, b] = [vertex, opposite].map(|v| cloth.vertex_particles()[v as usize]);
         assert_ne!(a, b);
@@ -196,40 +200,40 @@ fn a_seam_that_is_cut_open_needs_no_new_vertices() {
 }
 
 #[test]
-fn a_cut_across_a_seam_makes_a_vertex_on_either_side_of_it() {
+fn a_cut_across_a_seam_adds_one_vertex_on_each_side() {
     let desc = seamed_sheet();
     let mut cloth = Cloth::mesh(&desc).unwrap();
     let count = cloth.positions().len() as u32;
     let blade = [Vec3::new(0.27, -0.44, -1.0), Vec3::new(0.53, -0.46, -1.0), Vec3::Z * 2.0];
     assert!(cloth.cut(blade[0], blade[1], blade[2]).unwrap() > 0);
     assert_whole(&mut cloth, &desc);
-    let (top, _) = on_seam(&cloth, 4);
-    let (bottom, _) = on_seam(&cloth, 5);
-    let mut on_it = None;
+    let (top, _) = seam_particle(&cloth, 4);
+    let (bottom, _) = seam_particle(&cloth, 5);
+    let mut seam_vertex = None;
     while let Some(event) = cloth.next_event() {
         let ends = [event.particle_a, event.particle_b];
         if event.kind == EventKind::EdgeDivided && ends.contains(&top) && ends.contains(&bottom) {
-            on_it = Some(event.vertex);
+            seam_vertex = Some(event.vertex);
         }
     }
-    let vertex = on_it.expect("the seam was crossed");
+    let vertex = seam_vertex.expect("the cut crosses the seam");
     assert!(vertex >= count);
     let [one, other] = [vertex, vertex + 1].map(|v| v as usize);
     let (uvs, particles) = (cloth.uvs(), cloth.vertex_particles());
     assert_eq!(particles[one], particles[other]);
     assert!((uvs[one].y - uvs[other].y).abs() < 1.0e-6);
     assert!((uvs[one].x - 0.0625).abs() < 1.0e-6 || (uvs[one].x - 1.0).abs() < 1.0e-6);
-    assert!((uvs[one].x - uvs[other].x).abs() > 0.9, "either side has its own texture");
+    assert!((uvs[one].x - uvs[other].x).abs() > 0.9, "each side has its own part of the texture");
 }
 
 #[test]
-fn a_tear_across_a_seam_keeps_the_texture_of_either_side() {
+fn a_tear_across_a_seam_keeps_the_uvs_of_both_sides() {
     let mut desc = seamed_sheet();
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.3;
     let mut cloth = Cloth::mesh(&desc).unwrap();
     let whole = (cloth.indices().to_vec(), cloth.uvs().to_vec());
-    let (particle, _) = on_seam(&cloth, 6);
+    let (particle, _) = seam_particle(&cloth, 6);
     let grab = cloth.grab_particle(particle).unwrap();
     for tick in 1..=60 {
         let target = Vec3::new(0.4 + 0.004 * tick as f32, -0.6 - 0.02 * tick as f32, 0.1);
@@ -238,17 +242,17 @@ fn a_tear_across_a_seam_keeps_the_texture_of_either_side() {
         assert_whole(&mut cloth, &desc);
     }
     let (sources, uvs) = (cloth.source_vertices(), cloth.uvs());
-    assert!(cloth.positions().len() > desc.positions.len() + 4, "it tore");
+    assert!(cloth.positions().len() > desc.positions.len() + 4, "the cloth tore");
     for (now, then) in cloth.indices().iter().zip(&whole.0) {
-        assert_eq!(sources[*now as usize], *then, "a corner keeps its given vertex");
-        assert_eq!(uvs[*now as usize], whole.1[*then as usize], "and its place in the texture");
+        assert_eq!(sources[*now as usize], *then, "each corner keeps its source vertex");
+        assert_eq!(uvs[*now as usize], whole.1[*then as usize], "each corner keeps its uv");
     }
-    // By steps or in one go: the same vertices with the same numbers.
-    let torn = |split: bool| {
+    // Single steps and one long step give the same vertices with the same indices.
+    let torn = |in_single_steps: bool| {
         let mut cloth = Cloth::mesh(&desc).unwrap();
         let grab = cloth.grab_particle(particle).unwrap();
         cloth.move_grab(grab, Vec3::new(0.6, -1.6, 0.1)).unwrap();
-        let ticks = if split { vec![1; 80] } else { vec![80] };
+        let ticks = if in_single_steps { vec![1; 80] } else { vec![80] };
         ticks.into_iter().for_each(|ticks| cloth.step(ticks));
         (cloth.indices().to_vec(), cloth.vertex_particles().to_vec())
     };
@@ -256,13 +260,13 @@ fn a_tear_across_a_seam_keeps_the_texture_of_either_side() {
 }
 
 #[test]
-fn what_was_handed_out_never_moves() {
+fn view_pointers_stay_valid_through_tears_and_cuts_of_seams() {
     let mut desc = seamed_sheet();
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.1;
     desc.extra_particles = 100;
     let mut cloth = Cloth::mesh(&desc).unwrap();
-    let places = |cloth: &mut Cloth| {
+    let addresses = |cloth: &mut Cloth| {
         let view = cloth.view();
         (
             [view.positions.as_ptr(), view.normals.as_ptr()],
@@ -270,21 +274,21 @@ fn what_was_handed_out_never_moves() {
             (view.uvs.as_ptr(), view.frayed.as_ptr(), view.vertex_capacity),
         )
     };
-    let at = places(&mut cloth);
-    // Two vertices to a particle on the seam, so room for two to each particle that may come.
-    assert_eq!(at.2.2, 90 + 2 * 100);
+    let first = addresses(&mut cloth);
+    // Particles on the seam have two vertices, so the capacity is two for each extra particle.
+    assert_eq!(first.2.2, 90 + 2 * 100);
     let grab = cloth.grab_particle(60).unwrap();
     for tick in 1..=30 {
         cloth.move_grab(grab, Vec3::new(0.5, -0.6, 0.05 * tick as f32)).unwrap();
         cloth.step(1);
     }
-    assert!(cloth.particle_count() > 81, "it tore");
-    assert_eq!(places(&mut cloth), at);
+    assert!(cloth.particle_count() > 81, "the cloth tore");
+    assert_eq!(addresses(&mut cloth), first);
     let heights = (0..8).map(|row| -0.05 - 0.1 * row as f32);
     let cut = |y: f32| cloth.cut(Vec3::new(-1.0, y, -9.0), Vec3::new(2.0, y, -9.0), Vec3::Z * 18.0);
     let cuts: Vec<Result<u32, Error>> = heights.map(cut).collect();
     assert!(cuts.iter().flatten().any(|opened| *opened > 4), "{cuts:?}");
     assert!(cuts.contains(&Err(Error::Full { what: "the whole cut" })), "{cuts:?}");
     assert_whole(&mut cloth, &desc);
-    assert_eq!(places(&mut cloth), at);
+    assert_eq!(addresses(&mut cloth), first);
 }

@@ -1,4 +1,4 @@
-//! Meshes: how they are repaired, torn, cut and written for a renderer.
+//! Meshes: repair, tearing, cutting, and output for a renderer.
 
 #[path = "../common/mod.rs"]
 mod common;

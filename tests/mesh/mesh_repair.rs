@@ -1,5 +1,5 @@
-//! What can be wrong with a mesh: each defect alone is repaired and told, any heap of triangles comes out sound or
-//! is refused, and a grid is a grid however it was given.
+//! Mesh repair: each single defect is repaired and reported, any triangle soup becomes a sound mesh
+//! or is refused, and a grid is recognised in every form in which it is given.
 
 use crate::common::garments::{assert_whole, patch};
 use crate::common::{bare_grid, irregular_mesh};
@@ -7,15 +7,16 @@ use muslin::glam::Vec3;
 use muslin::{Cloth, Error, GridDesc, Material, MeshDesc, MeshReport, PinMode, Preset, Wind};
 use proptest::prelude::*;
 
-/// A flat sheet of 5 × 5 vertices with the diagonals of a grid; nothing is wrong with it.
-fn sheet() -> MeshDesc {
+/// A flat sheet of 5 × 5 vertices with the diagonals of a grid and without defects.
+fn clean_sheet() -> MeshDesc {
     let mut desc = MeshDesc::default();
     patch(&mut desc, [5, 5], 0.0, |x, y| Vec3::new(x as f32, -(y as f32), 0.0) * 0.125);
     desc
 }
 
-/// Makes cloth of a mesh, and checks that it is sound, now and after it has moved.
-fn made(desc: &MeshDesc) -> (Cloth, MeshReport) {
+/// Creates a cloth from a mesh and checks that it is sound, before and after it has moved. Returns
+/// the cloth and its report.
+fn checked_cloth(desc: &MeshDesc) -> (Cloth, MeshReport) {
     let mut cloth = Cloth::mesh(desc).unwrap();
     assert_whole(&mut cloth, desc);
     cloth.step(5);
@@ -24,7 +25,7 @@ fn made(desc: &MeshDesc) -> (Cloth, MeshReport) {
     (cloth, report)
 }
 
-/// The report of a sheet with nothing wrong.
+/// The report of the clean sheet.
 const CLEAN: MeshReport = MeshReport {
     vertices: 25,
     triangles: 32,
@@ -43,104 +44,108 @@ const CLEAN: MeshReport = MeshReport {
 };
 
 #[test]
-fn a_clean_mesh_is_left_as_it_is() {
-    let desc = sheet();
-    let (cloth, report) = made(&desc);
+fn a_clean_mesh_is_not_changed() {
+    let desc = clean_sheet();
+    let (cloth, report) = checked_cloth(&desc);
     assert_eq!(report, CLEAN);
     assert!(report.is_clean());
     assert_eq!(cloth.indices(), desc.indices);
     assert!(cloth.vertex_particles().iter().copied().eq(0..25));
-    let (_, irregular) = made(&irregular_mesh());
+    let (_, irregular) = checked_cloth(&irregular_mesh());
     assert_eq!((irregular.particles, irregular.is_grid), (31, false));
 }
 
 #[test]
-fn flat_triangles_are_dropped() {
-    let mut desc = sheet();
-    // A vertex twice, three in a row, and three in a row but for rounding.
+fn degenerate_triangles_are_dropped() {
+    let mut desc = clean_sheet();
+    // A repeated vertex, three collinear vertices, and three that are nearly collinear.
     desc.indices.splice(6..6, [0, 0, 1, 0, 1, 2]);
     desc.positions.push(Vec3::new(0.3, -0.3, 1.0e-9));
     desc.uvs.push(desc.uvs[0]);
     desc.indices.extend([0, 25, 12]);
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     let expected = MeshReport { dropped_degenerate: 3, vertices: 26, triangles: 35, ..CLEAN };
     assert_eq!(
         report,
         MeshReport { particles: 26, unused_vertices: 1, is_grid: false, ..expected }
     );
-    assert_eq!(cloth.indices(), sheet().indices);
+    assert_eq!(cloth.indices(), clean_sheet().indices);
 }
 
 #[test]
-fn repeated_triangles_are_dropped_whichever_way_they_wind() {
-    let mut desc = sheet();
+fn duplicate_triangles_are_dropped_with_either_winding() {
+    let mut desc = clean_sheet();
     let [a, b, c] = [desc.indices[9], desc.indices[10], desc.indices[11]];
     desc.indices.extend([a, b, c, b, c, a, c, b, a]);
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     assert_eq!(report, MeshReport { dropped_duplicates: 3, triangles: 35, ..CLEAN });
-    assert_eq!(cloth.indices(), sheet().indices);
+    assert_eq!(cloth.indices(), clean_sheet().indices);
 }
 
 #[test]
-fn the_few_that_face_the_other_way_are_turned() {
-    let mut desc = sheet();
+fn triangles_with_the_winding_of_the_minority_are_turned() {
+    let mut desc = clean_sheet();
     for at in [1, 8, 9, 30] {
         desc.indices.swap(3 * at, 3 * at + 1);
     }
-    let (mut cloth, report) = made(&desc);
+    let (mut cloth, report) = checked_cloth(&desc);
     assert_eq!(report, MeshReport { turned_triangles: 4, is_grid: false, ..CLEAN });
     assert!(cloth.normals().iter().all(|normal| normal.z > 0.9));
-    // Most of them: then it is the others that are wrong.
+    // With all triangles reversed, the minority is the same four triangles.
     desc.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(0, 1));
-    let (mut cloth, report) = made(&desc);
+    let (mut cloth, report) = checked_cloth(&desc);
     assert_eq!(report.turned_triangles, 4);
     assert!(cloth.normals().iter().all(|normal| normal.z < -0.9));
 }
 
 #[test]
-fn a_third_triangle_at_an_edge_becomes_a_sheet_of_its_own() {
-    let mut desc = sheet();
+fn a_third_triangle_at_an_edge_becomes_a_separate_piece() {
+    let mut desc = clean_sheet();
     let fin = desc.positions.len() as u32;
     desc.positions.push(Vec3::new(0.3, -0.25, 0.1));
     desc.uvs.push(desc.uvs[0]);
     desc.indices.extend([12, 13, fin]);
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     assert_eq!((report.split_edges, report.split_vertices, report.pieces), (1, 2, 2));
     assert_eq!(report.particles, 28);
-    assert_eq!(&cloth.indices()[..96], &sheet().indices[..], "the sheet keeps its vertices");
+    assert_eq!(&cloth.indices()[..96], &clean_sheet().indices[..], "the sheet keeps its vertices");
     assert_eq!(&cloth.indices()[96..], [26, 27, fin]);
     assert_eq!(&cloth.source_vertices()[26..], [12, 13]);
 }
 
 #[test]
-fn of_three_sheets_at_an_edge_the_flattest_two_stay_joined() {
-    // Two walls of a gutter come first, then its floor's other half.
+fn the_flattest_two_of_three_triangles_at_an_edge_stay_joined() {
+    // A floor triangle and a wall come first, then the other half of the floor.
     let mut desc = MeshDesc {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::new(0.5, 1.0, 0.2), Vec3::NEG_Z],
         ..MeshDesc::default()
     };
     desc.indices = vec![0, 1, 2, 1, 0, 3, 0, 1, 4];
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     assert_eq!((report.split_edges, report.split_vertices, report.turned_triangles), (1, 2, 1));
     assert_eq!(cloth.indices(), [0, 1, 2, 5, 6, 3, 0, 4, 1]);
 }
 
 #[test]
-fn sheets_that_meet_at_a_point_are_parted() {
-    let mut desc = sheet();
+fn pieces_that_meet_in_one_vertex_are_separated() {
+    let mut desc = clean_sheet();
     let far = desc.positions.len() as u32;
     desc.positions.extend([Vec3::new(0.5, -0.75, 0.0), Vec3::new(0.75, -0.75, 0.0)]);
     desc.uvs.extend([desc.uvs[0]; 2]);
     desc.indices.extend([24, far, far + 1]);
     desc.pinned = vec![24];
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     assert_eq!((report.split_edges, report.split_vertices, report.pieces), (0, 1, 2));
     assert_eq!(&cloth.indices()[96..], [27, far, far + 1]);
-    assert_eq!(cloth.pinned().collect::<Vec<_>>(), [24, 27], "a pinned vertex holds all it held");
+    assert_eq!(
+        cloth.pinned().collect::<Vec<_>>(),
+        [24, 27],
+        "both copies of a pinned vertex are pinned"
+    );
 }
 
 #[test]
-fn doubled_vertices_share_a_particle() {
+fn duplicate_vertices_are_welded_to_one_particle() {
     let mut desc = MeshDesc { weld_distance: 1.0e-3, ..MeshDesc::default() };
     for first in [0, 4] {
         patch(&mut desc, [5, 5], 0.0, |x, y| {
@@ -148,7 +153,7 @@ fn doubled_vertices_share_a_particle() {
         });
     }
     desc.pinned = vec![4, 45];
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     let expected = MeshReport { vertices: 50, triangles: 64, particles: 45, ..CLEAN };
     let expected = MeshReport { kept_triangles: 64, welded_vertices: 5, ..expected };
     assert_eq!(report, MeshReport { is_grid: false, ..expected });
@@ -157,60 +162,60 @@ fn doubled_vertices_share_a_particle() {
         let of = |vertex: usize| cloth.vertex_particles()[vertex];
         assert_eq!(of(5 * row + 4), of(25 + 5 * row));
     }
-    assert_eq!(cloth.pinned().collect::<Vec<_>>(), [4, 24], "particles, not vertices");
-    // Left as they are they are two pieces.
-    let (_, report) = made(&MeshDesc { weld_distance: -1.0, ..desc });
+    assert_eq!(cloth.pinned().collect::<Vec<_>>(), [4, 24], "pins are particles, not vertices");
+    // Without welding they are two pieces.
+    let (_, report) = checked_cloth(&MeshDesc { weld_distance: -1.0, ..desc });
     assert_eq!((report.pieces, report.particles, report.welded_vertices), (2, 50, 0));
 }
 
 #[test]
-fn a_weld_wider_than_the_mesh_leaves_every_triangle_its_corners() {
-    let desc = MeshDesc { weld_distance: 100.0, ..sheet() };
-    let (_, report) = made(&desc);
+fn a_weld_distance_larger_than_the_mesh_does_not_collapse_it() {
+    let desc = MeshDesc { weld_distance: 100.0, ..clean_sheet() };
+    let (_, report) = checked_cloth(&desc);
     assert!(report.kept_triangles > 0 && report.particles >= 3, "{report:?}");
 }
 
 #[test]
 fn pieces_and_unused_vertices_are_kept() {
-    let mut desc = sheet();
+    let mut desc = clean_sheet();
     desc.positions.extend([Vec3::Z, Vec3::Z * 2.0]);
     desc.uvs.extend([desc.uvs[0]; 2]);
     patch(&mut desc, [3, 3], 1.0, |x, y| Vec3::new(x as f32, -(y as f32), 9.0));
-    let (cloth, report) = made(&desc);
+    let (cloth, report) = checked_cloth(&desc);
     assert_eq!((report.pieces, report.unused_vertices, report.particles), (2, 2, 36));
     assert!(report.is_clean());
     assert_eq!(cloth.stats().pieces, 2);
 }
 
 #[test]
-fn what_is_beyond_repair_says_why() {
-    let flat = MeshDesc { positions: vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0], ..sheet() };
+fn a_mesh_beyond_repair_is_refused_with_its_reason() {
+    let flat = MeshDesc { positions: vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0], ..clean_sheet() };
     let flat = MeshDesc { indices: vec![0, 1, 2, 1, 2, 1], uvs: Vec::new(), ..flat };
-    let said = Cloth::mesh(&flat).unwrap_err();
+    let error = Cloth::mesh(&flat).unwrap_err();
     assert_eq!(
-        said.to_string(),
+        error.to_string(),
         "`indices` must hold at least one triangle with an area (triangle or vertex 0)"
     );
-    let mut vast = sheet();
+    let mut vast = clean_sheet();
     vast.positions[12] = Vec3::splat(3.0e38);
     vast.positions[13] = Vec3::new(-3.0e38, 3.0e38, 0.0);
-    let said = Cloth::mesh(&vast).unwrap_err();
+    let error = Cloth::mesh(&vast).unwrap_err();
     assert!(matches!(
-        said,
+        error,
         Error::BadMesh { must: "leave every triangle an area that is finite", .. }
     ));
-    let mut far = sheet();
+    let mut far = clean_sheet();
     far.indices[7] = 25;
-    let said = Cloth::mesh(&far).unwrap_err();
-    assert_eq!(said, Error::BadIndex { field: "indices", index: 25, count: 25 });
+    let error = Cloth::mesh(&far).unwrap_err();
+    assert_eq!(error, Error::BadIndex { field: "indices", index: 25, count: 25 });
     for weld_distance in [f32::NAN, f32::INFINITY] {
-        let said = Cloth::mesh(&MeshDesc { weld_distance, ..sheet() }).unwrap_err();
-        assert_eq!(said.to_string(), "`weld_distance` must be finite");
+        let error = Cloth::mesh(&MeshDesc { weld_distance, ..clean_sheet() }).unwrap_err();
+        assert_eq!(error.to_string(), "`weld_distance` must be finite");
     }
 }
 
-/// The mesh that a grid shows its renderer.
-fn as_mesh(desc: &GridDesc) -> MeshDesc {
+/// The mesh descriptor of the triangles that a grid gives to its renderer.
+fn mesh_of_grid(desc: &GridDesc) -> MeshDesc {
     let grid = Cloth::grid(desc).unwrap();
     MeshDesc {
         positions: grid.positions().to_vec(),
@@ -224,7 +229,7 @@ fn as_mesh(desc: &GridDesc) -> MeshDesc {
 }
 
 #[test]
-fn the_same_sheet_as_grid_and_as_mesh_gives_the_same_bits() {
+fn a_sheet_given_as_grid_or_as_mesh_gives_the_same_bits() {
     for spacing in [0.05, 0.0625, 0.037] {
         let mut desc = bare_grid(23, 18, spacing, PinMode::TopCorners);
         desc.origin = Vec3::new(0.0, 1.7, -0.3);
@@ -232,7 +237,7 @@ fn the_same_sheet_as_grid_and_as_mesh_gives_the_same_bits() {
             Material { tear_stretch: 1.2, lift: 0.5, ..Material::preset(Preset::Cotton) };
         desc.settings.tearing = true;
         let mut grid = Cloth::grid(&desc).unwrap();
-        let mut mesh = Cloth::mesh(&as_mesh(&desc)).unwrap();
+        let mut mesh = Cloth::mesh(&mesh_of_grid(&desc)).unwrap();
         assert!(mesh.mesh_report().is_grid);
         for cloth in [&mut grid, &mut mesh] {
             let velocity = Vec3::new(0.5, 0.0, 3.0);
@@ -251,7 +256,7 @@ fn the_same_sheet_as_grid_and_as_mesh_gives_the_same_bits() {
             cloth.release(grab).unwrap();
             cloth.step(60);
         }
-        assert!(grid.particle_count() > 23 * 18 + 10, "it tore");
+        assert!(grid.particle_count() > 23 * 18 + 10, "the cloth tore");
         assert_eq!(mesh.state_hash(), grid.state_hash(), "spacing {spacing}");
         assert_eq!(mesh.positions(), grid.positions());
         assert_eq!(mesh.normals(), grid.normals());
@@ -260,13 +265,13 @@ fn the_same_sheet_as_grid_and_as_mesh_gives_the_same_bits() {
 }
 
 #[test]
-fn a_grid_with_a_split_seam_is_a_grid_once_it_is_welded() {
+fn a_grid_with_a_split_seam_is_recognised_after_welding() {
     let desc = bare_grid(11, 9, 0.1, PinMode::TopEdge);
-    let mut seamed = as_mesh(&desc);
-    // Every triangle right of column 5 names doubles of that column's vertices.
-    let mut doubles = Vec::new();
+    let mut seamed = mesh_of_grid(&desc);
+    // Triangles right of column 5 use duplicates of that column's vertices.
+    let mut duplicates = Vec::new();
     for row in 0..9 {
-        doubles.push(seamed.positions.len() as u32);
+        duplicates.push(seamed.positions.len() as u32);
         seamed.positions.push(seamed.positions[row * 11 + 5]);
         seamed.uvs.push(seamed.uvs[row * 11 + 5]);
     }
@@ -274,7 +279,7 @@ fn a_grid_with_a_split_seam_is_a_grid_once_it_is_welded() {
     let (triangles, _) = seamed.indices.as_chunks_mut::<3>();
     for triangle in triangles.iter_mut().filter(|t| t.iter().any(|v| column(*v) > 5)) {
         for vertex in triangle.iter_mut().filter(|v| column(**v) == 5) {
-            *vertex = doubles[*vertex as usize / 11];
+            *vertex = duplicates[*vertex as usize / 11];
         }
     }
     seamed.weld_distance = 0.0;
@@ -288,12 +293,12 @@ fn a_grid_with_a_split_seam_is_a_grid_once_it_is_welded() {
     assert_whole(&mut mesh, &seamed);
 }
 
-/// Any heap of triangles between a few points, some of which lie together.
-fn soup() -> impl Strategy<Value = MeshDesc> {
-    let place = prop::array::uniform3(0..5_i32);
-    let positions = prop::collection::vec(place, 4..24);
+/// Random triangles between a few points, some of which coincide.
+fn triangle_soup() -> impl Strategy<Value = MeshDesc> {
+    let point = prop::array::uniform3(0..5_i32);
+    let positions = prop::collection::vec(point, 4..24);
     let weld = prop::sample::select(vec![-1.0, 0.0, 0.3, 1.5]);
-    (positions, weld, any::<u64>(), 1..80_usize).prop_map(|(places, weld_distance, seed, count)| {
+    (positions, weld, any::<u64>(), 1..80_usize).prop_map(|(points, weld_distance, seed, count)| {
         let mut random = seed | 1;
         let mut next = |below: usize| {
             random ^= random << 13;
@@ -302,7 +307,7 @@ fn soup() -> impl Strategy<Value = MeshDesc> {
             (random % below as u64) as u32
         };
         let positions: Vec<Vec3> =
-            places.iter().map(|p| Vec3::from_array(p.map(|x| x as f32 * 0.25))).collect();
+            points.iter().map(|p| Vec3::from_array(p.map(|x| x as f32 * 0.25))).collect();
         let indices = (0..3 * count).map(|_| next(positions.len())).collect();
         let pinned = vec![next(positions.len())];
         MeshDesc { positions, indices, pinned, weld_distance, ..MeshDesc::default() }
@@ -313,7 +318,10 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_heap_of_triangles_is_sound_or_refused(mut desc in soup(), tears in any::<bool>()) {
+    fn any_triangle_soup_becomes_a_sound_cloth_or_is_refused(
+        mut desc in triangle_soup(),
+        tears in any::<bool>(),
+    ) {
         desc.settings.tearing = tears;
         desc.material.tear_stretch = 1.1;
         match Cloth::mesh(&desc) {
@@ -336,8 +344,8 @@ proptest! {
                 prop_assert_eq!(restored.vertex_particles(), cloth.vertex_particles());
             }
             Err(error) => {
-                let has_none = matches!(error, Error::BadMesh { at: 0, .. });
-                prop_assert!(has_none, "{}", error);
+                let has_no_triangle = matches!(error, Error::BadMesh { at: 0, .. });
+                prop_assert!(has_no_triangle, "{}", error);
             }
         }
     }

@@ -1,24 +1,26 @@
-//! When cloth tears, and how a rip runs: cases T1 to T4 and T7 of validation.
+//! Tear strength and tear propagation: cases T1 to T4 and T7 of the validation list.
 
 use crate::common::{assert_clean, bare, bare_grid, total_mass};
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, EventKind, LinkKind, MeshDesc, PinMode};
 
-/// The strain at which cloths tear here.
+/// The tear strain of the cloths in this file.
 const LIMIT: f32 = 0.3;
 
-/// The greatest strain of the links that can tear.
-fn most_strained(cloth: &Cloth) -> f32 {
+/// The largest strain of the links that can tear.
+fn max_strain(cloth: &Cloth) -> f32 {
     cloth.stats().max_stretch
 }
 
+/// Drains the events and returns whether an edge has torn.
 fn has_torn(cloth: &mut Cloth) -> bool {
     let events = core::iter::from_fn(|| cloth.next_event());
     events.filter(|event| event.kind == EventKind::EdgeTorn).count() > 0
 }
 
-/// A strip of 12 × 40 cells of 2 cm, its middle narrowed to 7; its first and last rows are pinned. All
-/// links are stretch links, so that what `stats` has is what can tear.
+/// Returns a strip of 12 × 40 cells of 2 cm, narrowed to 7 cells in its middle, and the pinned
+/// particles of its last row; the first row is pinned, too. All links are stretch links, so
+/// `max_stretch` of `stats` is the strain of links that can tear.
 fn narrowed_strip(tick: f32) -> (Cloth, Vec<u32>) {
     let (columns, rows) = (13_u32, 41_u32);
     let is_cell = |column: u32, row: u32| !(14..26).contains(&row) || (3..10).contains(&column);
@@ -53,7 +55,7 @@ fn narrowed_strip(tick: f32) -> (Cloth, Vec<u32>) {
     settings.tethers = false;
     settings.gravity = Vec3::ZERO;
     settings.damping = 4.0;
-    // Enough sweeps for the strip to be strained alike all along, slow as it is pulled.
+    // Enough sweeps for the same strain along the whole strip at this slow pull.
     (settings.substeps, settings.iterations) = (16, 8);
     material.tear_stretch = 1.0 + LIMIT;
     material.tear_variation = 0.0;
@@ -73,62 +75,68 @@ fn narrowed_strip(tick: f32) -> (Cloth, Vec<u32>) {
     (Cloth::mesh(&desc).unwrap(), held[columns as usize..].to_vec())
 }
 
-/// Pulls `held` down to `length` [m] over `seconds`, until something tears. Says by how much it was pulled
-/// then, and the strains before that tick and, without the tear, after it.
-fn pull(cloth: &mut Cloth, held: &[u32], length: f32, seconds: f32) -> Option<(f32, [f32; 2])> {
+/// Moves `held` down by `length` [m] over `seconds`, until something tears. Returns the pull [m] at
+/// that tick, and the largest strains before it and, in a copy that cannot tear, after it.
+fn pull_until_tear(
+    cloth: &mut Cloth,
+    held: &[u32],
+    length: f32,
+    seconds: f32,
+) -> Option<(f32, [f32; 2])> {
     let ticks = (seconds / cloth.settings().tick) as u32;
     let starts: Vec<Vec3> = held.iter().map(|i| cloth.positions()[*i as usize]).collect();
     for tick in 1..=ticks {
         let by = length * tick as f32 / ticks as f32;
         let targets: Vec<Vec3> = starts.iter().map(|x| *x - Vec3::Y * by).collect();
         cloth.set_pin_targets(held, &targets).unwrap();
-        let before = most_strained(cloth);
-        let mut whole = cloth.clone();
+        let before = max_strain(cloth);
+        let mut untorn = cloth.clone();
         cloth.step(1);
         if has_torn(cloth) {
-            let mut settings = whole.settings().clone();
+            let mut settings = untorn.settings().clone();
             settings.tearing = false;
-            whole.set_settings(settings).unwrap();
-            whole.step(1);
-            return Some((by, [before, most_strained(&whole)]));
+            untorn.set_settings(settings).unwrap();
+            untorn.step(1);
+            return Some((by, [before, max_strain(&untorn)]));
         }
     }
     None
 }
 
 #[test]
-fn t1_and_t3_a_strip_tears_when_its_strain_gets_there_whatever_the_tick() {
-    let mut failures = Vec::new();
+fn t1_and_t3_a_strip_tears_at_its_tear_strain_at_any_tick_rate() {
+    let mut pulls = Vec::new();
     for rate in [30.0, 60.0, 120.0, 240.0] {
         let (mut cloth, held) = narrowed_strip(1.0 / rate);
-        let (by, [before, after]) = pull(&mut cloth, &held, 0.2, 10.0).expect("it tears");
+        let (by, [before, after]) =
+            pull_until_tear(&mut cloth, &held, 0.2, 10.0).expect("it tears");
         assert!(before <= LIMIT && after > LIMIT, "at {rate} Hz from {before} to {after}");
-        failures.push(by);
+        pulls.push(by);
     }
-    let most = failures.iter().copied().fold(0.0, f32::max);
-    let least = failures.iter().copied().fold(f32::INFINITY, f32::min);
-    assert!(most - least < 0.02 * most, "failed when pulled by {failures:?} m");
+    let most = pulls.iter().copied().fold(0.0, f32::max);
+    let least = pulls.iter().copied().fold(f32::INFINITY, f32::min);
+    assert!(most - least < 0.02 * most, "it tore when pulled by {pulls:?} m");
 }
 
 #[test]
-fn t1_nothing_tears_just_below_the_limit() {
+fn t1_nothing_tears_just_below_the_tear_strain() {
     let (mut cloth, held) = narrowed_strip(1.0 / 60.0);
-    // Until it is strained to 0.98 of the limit, and held there for five seconds.
+    // Strain the strip to 0.98 of the limit, and hold it there for five seconds.
     let mut by = 0.0;
     let starts: Vec<Vec3> = held.iter().map(|i| cloth.positions()[*i as usize]).collect();
-    while most_strained(&cloth) < 0.98 * LIMIT {
+    while max_strain(&cloth) < 0.98 * LIMIT {
         by += 0.0002;
         let targets: Vec<Vec3> = starts.iter().map(|x| *x - Vec3::Y * by).collect();
         cloth.set_pin_targets(&held, &targets).unwrap();
         cloth.step(1);
     }
     cloth.step(300);
-    assert!(most_strained(&cloth) > 0.95 * LIMIT);
+    assert!(max_strain(&cloth) > 0.95 * LIMIT);
     assert!(!has_torn(&mut cloth));
 }
 
 #[test]
-fn t2_a_strip_tears_at_its_top_when_its_own_weight_is_too_much() {
+fn t2_a_strip_tears_at_its_top_when_its_weight_exceeds_its_strength() {
     let (rows, spacing) = (31_u32, 0.02);
     let mut desc = bare_grid(4, rows, spacing, PinMode::TopEdge);
     desc.settings.tearing = true;
@@ -142,7 +150,7 @@ fn t2_a_strip_tears_at_its_top_when_its_own_weight_is_too_much() {
     desc.material.shear_stiffness = 0.01;
     desc.material.bend_stiffness = 0.0;
     let mut cloth = Cloth::grid(&desc).unwrap();
-    // Below the first thread hangs all of the strip but half a cell; what stretches grows no thinner.
+    // The first links carry all but half a cell of the strip; stretching does not narrow it.
     let length = (rows - 1) as f32 * spacing - 0.5 * spacing;
     let exact = LIMIT * 20.0 / (desc.material.density * length);
     for tick in 1..=1800 {
@@ -155,18 +163,18 @@ fn t2_a_strip_tears_at_its_top_when_its_own_weight_is_too_much() {
             .find(|event| event.kind == EventKind::EdgeTorn);
         if let Some(torn) = torn {
             let row = torn.particle_a.min(torn.particle_b) / 4;
-            assert!(row < 2, "tore in row {row}");
+            assert!(row < 2, "it tore in row {row}");
             let off = (gravity - exact).abs() / exact;
-            assert!(off < 0.05, "tore at {gravity} m/s², expected {exact}");
+            assert!(off < 0.05, "it tore at {gravity} m/s², expected {exact}");
             return;
         }
     }
     panic!("nothing tore");
 }
 
-/// A square of 1 m with a cut of 25 cm at its middle row (`beside`: half a cell below), gripped at its
-/// top and bottom: by how much it is pulled when the cut runs on.
-fn notched(nodes: u32, beside: f32) -> f32 {
+/// Returns the pull [m] at which a cut of 25 cm in a square of 1 m grows. The cut lies `offset`
+/// cells below the middle row; the square is held at its top and bottom.
+fn notch_pull(nodes: u32, offset: f32) -> f32 {
     let spacing = 1.0 / (nodes - 1) as f32;
     let mut desc = bare_grid(nodes, nodes, spacing, PinMode::TopEdge);
     desc.settings.tearing = true;
@@ -178,26 +186,26 @@ fn notched(nodes: u32, beside: f32) -> f32 {
     (desc.material.stretch_stiffness_warp, desc.material.stretch_stiffness_weft) = (200.0, 200.0);
     desc.material.shear_stiffness = 100.0;
     let mut cloth = Cloth::grid(&desc).unwrap();
-    let y = -((nodes / 2) as f32 + beside) * spacing;
+    let y = -((nodes / 2) as f32 + offset) * spacing;
     let at = |x: f32| Vec3::new(x, y, -1.0);
     assert!(cloth.cut(at(-1.0), at(0.251), Vec3::Z * 2.0).unwrap() > 4);
     has_torn(&mut cloth);
     let bottom: Vec<u32> = (nodes * (nodes - 1)..nodes * nodes).collect();
-    pull(&mut cloth, &bottom, 0.2, 10.0).expect("the cut runs on").0
+    pull_until_tear(&mut cloth, &bottom, 0.2, 10.0).expect("the cut grows").0
 }
 
 #[test]
-fn t4_a_notch_runs_on_at_the_same_pull_whatever_the_mesh() {
-    for (beside, spread) in [(0.0, 0.1), (0.5, 0.3)] {
-        let pulls = [24, 40, 56].map(|nodes| notched(nodes, beside));
+fn t4_a_notch_grows_at_the_same_pull_at_any_resolution() {
+    for (offset, spread) in [(0.0, 0.1), (0.5, 0.3)] {
+        let pulls = [24, 40, 56].map(|nodes| notch_pull(nodes, offset));
         let most = pulls.iter().copied().fold(0.0, f32::max);
         let least = pulls.iter().copied().fold(f32::INFINITY, f32::min);
-        assert!(most - least < spread * least, "cut {beside} beside a row: {pulls:?} m");
+        assert!(most - least < spread * least, "cut {offset} cells below a row: {pulls:?} m");
     }
 }
 
 #[test]
-fn t7_what_a_rip_leaves_is_whole() {
+fn t7_a_rip_leaves_a_clean_mesh_without_overstretched_links() {
     let mut desc = bare_grid(24, 24, 0.04, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.settings.max_tears_per_tick = 64;
@@ -214,7 +222,7 @@ fn t7_what_a_rip_leaves_is_whole() {
     assert_clean(&cloth, &before);
     assert!((total_mass(&cloth) - total_mass(&before)).abs() < 1.0e-6 * total_mass(&before));
     let torn = cloth.positions().len() - before.positions().len();
-    assert!(torn >= 8, "only {torn} tore");
+    assert!(torn >= 8, "only {torn} vertices split");
     for (a, b, kind) in cloth.links().filter(|link| link.2 != LinkKind::Bend) {
         let at = |v: u32| cloth.positions()[v as usize];
         let flat = |v: u32| cloth.uvs()[v as usize] * Vec2::splat(23.0 * 0.04);
@@ -228,7 +236,7 @@ fn t7_what_a_rip_leaves_is_whole() {
 }
 
 #[test]
-fn a_yank_rips_a_slit_and_not_confetti() {
+fn a_yank_opens_one_slit_and_detaches_few_pieces() {
     let mut desc = bare_grid(40, 40, 0.05, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.5;
@@ -250,10 +258,13 @@ fn a_yank_rips_a_slit_and_not_confetti() {
         .map(|event| event.count)
         .collect();
     assert!(torn >= 8, "{torn} edges tore");
-    // Slits are long and few: most tears make a slit longer, and crumbs are few.
-    let crumbs = pieces.iter().filter(|count| **count < 10).count();
-    assert!(crumbs <= 2 && pieces.len() <= 4, "{torn} tears left pieces of {pieces:?} triangles");
-    // And what tears is beside what tore: four in five tears are one path, two cells apart at most.
+    // Most tears make a slit longer, so few small pieces come off.
+    let small_pieces = pieces.iter().filter(|count| **count < 10).count();
+    assert!(
+        small_pieces <= 2 && pieces.len() <= 4,
+        "{torn} tears left pieces of {pieces:?} triangles"
+    );
+    // Each tear is near an earlier one: four in five form one path, with gaps of up to two cells.
     let place = |v: u32| cloth.uvs()[v as usize] * 39.0;
     let mut left: Vec<Vec2> = events
         .iter()
@@ -272,11 +283,11 @@ fn a_yank_rips_a_slit_and_not_confetti() {
         }
         longest = path.len().max(longest);
     }
-    assert!(10 * longest >= 8 * torn, "{longest} of {torn} tears are of one slit");
+    assert!(10 * longest >= 8 * torn, "{longest} of {torn} tears belong to one slit");
 }
 
 #[test]
-fn a_slit_sheet_does_not_tear_on_under_its_own_weight() {
+fn a_slit_sheet_does_not_tear_further_under_its_own_weight() {
     let mut desc = bare_grid(40, 40, 0.05, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.settings.damping = 0.5;
@@ -290,14 +301,14 @@ fn a_slit_sheet_does_not_tear_on_under_its_own_weight() {
     let mut most = 0.0;
     for _ in 0..900 {
         cloth.step(1);
-        most = f32::max(most, most_strained(&cloth));
-        assert!(!has_torn(&mut cloth), "tore at tick {}", cloth.stats().ticks);
+        most = f32::max(most, max_strain(&cloth));
+        assert!(!has_torn(&mut cloth), "it tore at tick {}", cloth.stats().ticks);
     }
-    assert!(most < 0.5, "strained by {most} under its own weight");
+    assert!(most < 0.5, "it is strained by {most} under its own weight");
 }
 
 #[test]
-fn tears_with_tethers_a_bound_grabs_and_pins_keep_every_promise() {
+fn tearing_with_tethers_grabs_and_pins_keeps_the_mesh_clean_and_the_strain_limit() {
     let mut desc = bare_grid(24, 24, 0.05, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.settings.max_stretch = 0.4;
@@ -326,7 +337,7 @@ fn tears_with_tethers_a_bound_grabs_and_pins_keep_every_promise() {
             assert!(cloth.cut(from, to, Vec3::Z * 18.0).unwrap() > 0);
         }
     }
-    assert!(cloth.positions().len() > before.positions().len() + 30, "it tore and was cut");
+    assert!(cloth.positions().len() > before.positions().len() + 30, "the cloth tore and was cut");
     assert_clean(&cloth, &before);
     for grab in grabs {
         cloth.release(grab).unwrap();

@@ -1,12 +1,12 @@
-//! Tears keep the mesh clean, whatever tears and in whatever order.
+//! Tests of tearing: the mesh stays a clean triangle mesh after any tears in any order.
 
 use crate::common::{assert_clean, assert_sound, bare_grid, irregular_mesh, total_mass, triangles};
 use muslin::glam::Vec3;
 use muslin::{AS_MANY_AGAIN, Cloth, Error, Event, EventKind, MeshDesc, PinMode};
 use proptest::prelude::*;
 
-/// A mesh of uneven quads with holes in it, its diagonals this way and that, a third of it wound the
-/// other way.
+/// A mesh of uneven quads with holes and mixed diagonals; a third of its triangles have the
+/// opposite winding.
 fn random_mesh(columns: u32, rows: u32, seed: u32) -> MeshDesc {
     let mut random = seed | 1;
     let mut next = move |below: u32| {
@@ -21,7 +21,7 @@ fn random_mesh(columns: u32, rows: u32, seed: u32) -> MeshDesc {
         desc.positions.push(Vec3::new(x, -y, next(100) as f32 / 300.0) * 0.1);
     }
     for (row, column) in (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |c| (row, c))) {
-        // No two holes meet in a point.
+        // Two holes never meet in a point.
         let is_hole = row % 2 == 1 && column % 2 == 1 && next(2) == 0;
         let a = row * columns + column;
         let (b, c, d) = (a + 1, a + columns, a + columns + 1);
@@ -35,12 +35,13 @@ fn random_mesh(columns: u32, rows: u32, seed: u32) -> MeshDesc {
     desc
 }
 
-fn events(cloth: &mut Cloth) -> Vec<Event> {
+/// Returns all pending events.
+fn drained_events(cloth: &mut Cloth) -> Vec<Event> {
     core::iter::from_fn(|| cloth.next_event()).collect()
 }
 
-/// Tears at edge number `pick` of the cloth as it is now, counted over triangles.
-fn tear_somewhere(cloth: &mut Cloth, pick: usize) -> muslin::Result<bool> {
+/// Tears edge number `pick` of the current mesh, counted over the corners of its triangles.
+fn tear_numbered_edge(cloth: &mut Cloth, pick: usize) -> muslin::Result<bool> {
     let corner = pick % cloth.indices().len();
     let triangle = triangles(cloth)[corner / 3];
     cloth.tear_edge(triangle[corner % 3], triangle[(corner + 1) % 3])
@@ -60,7 +61,7 @@ proptest! {
         let mut cloth = Cloth::grid(&desc).unwrap();
         let before = cloth.clone();
         for pick in picks {
-            tear_somewhere(&mut cloth, pick).unwrap();
+            tear_numbered_edge(&mut cloth, pick).unwrap();
             cloth.step(1);
         }
         assert_sound(&cloth, &before);
@@ -79,7 +80,7 @@ proptest! {
         let mut cloth = Cloth::mesh(&desc).unwrap();
         let before = cloth.clone();
         for pick in picks {
-            tear_somewhere(&mut cloth, pick).unwrap();
+            tear_numbered_edge(&mut cloth, pick).unwrap();
         }
         cloth.step(5);
         assert_sound(&cloth, &before);
@@ -100,7 +101,7 @@ proptest! {
                 let is_blade = from != to;
                 prop_assert_eq!(cloth.cut(from, to, Vec3::Z * 18.0).is_ok(), is_blade);
             } else {
-                tear_somewhere(&mut cloth, pick).unwrap();
+                tear_numbered_edge(&mut cloth, pick).unwrap();
             }
             cloth.step(ticks);
         }
@@ -113,7 +114,7 @@ proptest! {
 }
 
 #[test]
-fn a_pull_beyond_the_limit_tears_and_one_below_it_does_not() {
+fn a_strip_tears_only_when_pulled_beyond_its_tear_limit() {
     for (pull, tears) in [(0.98, false), (1.03, true)] {
         let mut desc = bare_grid(3, 12, 0.1, PinMode::TopEdge);
         desc.settings.tearing = true;
@@ -122,7 +123,7 @@ fn a_pull_beyond_the_limit_tears_and_one_below_it_does_not() {
         desc.material.tear_stretch = 1.5;
         desc.material.tear_variation = 0.0;
         desc.settings.iterations = 10;
-        // Elastic, and too soft in shear for the grips to matter.
+        // Elastic, and so soft in shear that the grips do not matter.
         desc.material.stretch_stiffness_warp = 100.0;
         desc.material.stretch_stiffness_weft = 100.0;
         desc.material.shear_stiffness = 0.01;
@@ -130,7 +131,7 @@ fn a_pull_beyond_the_limit_tears_and_one_below_it_does_not() {
         let bottom = [33, 34, 35];
         let length = 11.0 * 0.1;
         let ends: Vec<Vec3> = bottom.iter().map(|i| cloth.positions()[*i as usize]).collect();
-        // Slowly, so that the strain is the same all along the strip.
+        // Pull slowly, so that the strain is the same along the whole strip.
         for tick in 1..=600 {
             let longer = 0.5 * pull * length * (tick as f32 / 600.0);
             let targets: Vec<Vec3> = ends.iter().map(|x| *x - Vec3::Y * longer).collect();
@@ -138,13 +139,13 @@ fn a_pull_beyond_the_limit_tears_and_one_below_it_does_not() {
             cloth.step(1);
         }
         cloth.step(300);
-        let torn = events(&mut cloth).iter().any(|event| event.kind == EventKind::EdgeTorn);
+        let torn = drained_events(&mut cloth).iter().any(|event| event.kind == EventKind::EdgeTorn);
         assert_eq!(torn, tears, "pulled to {pull} of the limit");
     }
 }
 
 #[test]
-fn a_yank_rips_the_sheet_and_keeps_every_law() {
+fn a_yank_tears_the_sheet_and_keeps_the_mesh_valid() {
     let mut desc = bare_grid(20, 20, 0.1, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.5;
@@ -163,7 +164,7 @@ fn a_yank_rips_the_sheet_and_keeps_every_law() {
 }
 
 #[test]
-fn tearing_stops_when_the_reserve_is_used_up_and_says_so_once() {
+fn tearing_stops_when_the_reserve_is_used_up_and_sends_one_event() {
     let mut desc = bare_grid(12, 12, 0.1, PinMode::TopEdge);
     desc.extra_particles = 10;
     desc.settings.tearing = true;
@@ -175,32 +176,36 @@ fn tearing_stops_when_the_reserve_is_used_up_and_says_so_once() {
         cloth.move_grab(grab, Vec3::new(0.6, -0.6, 0.05 * tick as f32)).unwrap();
         cloth.step(1);
     }
-    let told = events(&mut cloth);
-    let used_up = told.iter().filter(|event| event.kind == EventKind::ReserveUsedUp);
-    let places: Vec<Vec3> = used_up.map(|event| event.position).collect();
-    assert_eq!(places.len(), 1);
-    assert!((places[0] - Vec3::new(0.6, -0.6, 0.0)).truncate().length() < 0.5, "{}", places[0]);
+    let events = drained_events(&mut cloth);
+    let used_up = events.iter().filter(|event| event.kind == EventKind::ReserveUsedUp);
+    let positions: Vec<Vec3> = used_up.map(|event| event.position).collect();
+    assert_eq!(positions.len(), 1);
+    assert!(
+        (positions[0] - Vec3::new(0.6, -0.6, 0.0)).truncate().length() < 0.5,
+        "{}",
+        positions[0]
+    );
     let count = cloth.positions().len();
     assert!(count <= 154 && count > 150, "{count} particles");
-    assert!(matches!(tear_somewhere(&mut cloth, 0), Err(Error::Full { .. })));
+    assert!(matches!(tear_numbered_edge(&mut cloth, 0), Err(Error::Full { .. })));
     assert_sound(&cloth, &before);
 }
 
 #[test]
-fn a_cloth_can_be_torn_until_every_triangle_is_alone() {
+fn a_cloth_can_be_torn_into_single_triangles() {
     let mut desc = bare_grid(5, 5, 0.1, PinMode::None);
     desc.extra_particles = 200;
     let mut cloth = Cloth::grid(&desc).unwrap();
     let before = cloth.clone();
     for round in 0..40 {
         for corner in 0..cloth.indices().len() {
-            tear_somewhere(&mut cloth, corner + round).unwrap();
+            tear_numbered_edge(&mut cloth, corner + round).unwrap();
         }
     }
     assert_sound(&cloth, &before);
     assert_eq!(cloth.stats().pieces, 32, "two triangles in each of sixteen cells");
     assert_eq!(cloth.positions().len(), 3 * 32);
-    let detached = events(&mut cloth);
+    let detached = drained_events(&mut cloth);
     let detached = detached.iter().filter(|event| event.kind == EventKind::PieceDetached).count();
     assert_eq!(detached, 31);
     cloth.step(30);
@@ -222,7 +227,7 @@ fn nothing_tears_while_tearing_is_off() {
 }
 
 #[test]
-fn pins_that_are_dropped_while_it_tears_let_all_go_that_hung_from_them() {
+fn removing_all_pins_during_a_tear_releases_the_whole_cloth() {
     let mut desc = bare_grid(16, 12, 0.1, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.3;
@@ -240,57 +245,57 @@ fn pins_that_are_dropped_while_it_tears_let_all_go_that_hung_from_them() {
             cloth.unpin_all();
         }
     }
-    assert!(cloth.positions().len() > before.positions().len(), "it tore");
+    assert!(cloth.positions().len() > before.positions().len(), "the cloth tore");
     assert_sound(&cloth, &before);
     cloth.release(grab).unwrap();
     cloth.step(120);
     assert_eq!(cloth.pinned().count(), 0);
-    assert!(cloth.positions().iter().all(|x| x.y < -5.0), "nothing holds it any more");
+    assert!(cloth.positions().iter().all(|x| x.y < -5.0), "the whole cloth falls");
     assert_sound(&cloth, &before);
 }
 
 #[test]
-fn a_tear_beside_a_pin_splits_the_free_end_and_leaves_the_pin() {
+fn a_tear_next_to_a_pin_splits_the_free_vertex_and_keeps_the_pin() {
     let mut cloth = Cloth::grid(&bare_grid(6, 6, 0.1, PinMode::TopEdge)).unwrap();
     let before = cloth.clone();
-    assert!(cloth.tear_edge(2, 8).unwrap(), "the lower end gives way");
-    let split: Vec<Event> = events(&mut cloth)
+    assert!(cloth.tear_edge(2, 8).unwrap(), "the free vertex splits");
+    let split: Vec<Event> = drained_events(&mut cloth)
         .into_iter()
         .filter(|event| event.kind == EventKind::VertexSplit)
         .collect();
     assert_eq!(split[0].source, 8);
     assert_eq!(cloth.pinned().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
-    assert!(!cloth.tear_edge(2, 3).unwrap(), "between two pins nothing gives way");
+    assert!(!cloth.tear_edge(2, 3).unwrap(), "an edge between two pins does not tear");
     cloth.step(60);
     assert!((0..6).all(|pin| cloth.positions()[pin].y == 0.0));
     assert_sound(&cloth, &before);
 }
 
 #[test]
-fn a_whole_row_torn_below_the_pins_falls_and_the_pins_hold_what_is_left() {
+fn a_sheet_torn_off_below_its_pins_falls_and_the_pins_stay() {
     let mut desc = bare_grid(8, 8, 0.1, PinMode::TopEdge);
     desc.extra_particles = 200;
     let mut cloth = Cloth::grid(&desc).unwrap();
     let before = cloth.clone();
-    // Whatever still joins the second row to the third is torn, until nothing does.
+    // Tear edges between the second and the third row until a piece comes off.
     for _ in 0..60 {
         let sources = cloth.source_vertices().to_vec();
         let row = |v: u32| sources[v as usize] / 8;
-        let joins = triangles(&cloth).into_iter().find_map(|triangle| {
+        let joining_edge = triangles(&cloth).into_iter().find_map(|triangle| {
             let ends = |a: usize, b: usize| [triangle[a], triangle[b]];
             [ends(0, 1), ends(1, 2), ends(2, 0)].into_iter().find(|[a, b]| {
                 let both = [row(*a).min(row(*b)), row(*a).max(row(*b))];
                 both == [1, 2] && cloth.clone().tear_edge(*a, *b).unwrap()
             })
         });
-        let Some([a, b]) = joins else { break };
+        let Some([a, b]) = joining_edge else { break };
         assert!(cloth.tear_edge(a, b).unwrap());
         if cloth.stats().pieces > 1 {
             break;
         }
     }
-    assert!(cloth.stats().pieces > 1, "torn off");
-    let off: u32 = events(&mut cloth)
+    assert!(cloth.stats().pieces > 1, "a piece is torn off");
+    let off: u32 = drained_events(&mut cloth)
         .iter()
         .filter(|event| event.kind == EventKind::PieceDetached)
         .map(|event| event.count)

@@ -1,12 +1,13 @@
-//! Snapshots: what a fresh grid is made of, and what scripted tears rebuild.
+//! Snapshots of the topology: constraints of new cloths, and changes by scripted tears and cuts.
 
 use crate::common::{bare_grid, irregular_mesh, triangles};
 use muslin::glam::Vec3;
 use muslin::{Cloth, EventKind, LinkKind, PinMode};
 use std::fmt::Write;
 
-/// A fresh cloth in words: links by kind, colours, the links of the first and last particle, triangles.
-fn describe(cloth: &Cloth) -> String {
+/// The text of a snapshot of a new cloth: links by kind, colours, the links of the first and the
+/// last particle, and triangles.
+fn constraint_summary(cloth: &Cloth) -> String {
     let mut text = String::new();
     let links: Vec<(u32, u32, LinkKind)> = cloth.links().collect();
     for kind in [LinkKind::Stretch, LinkKind::Shear, LinkKind::Bend] {
@@ -38,9 +39,9 @@ fn describe(cloth: &Cloth) -> String {
     text
 }
 
-/// What tears and cuts changed: triangles that got new vertices, where those came from, pieces, borders and
-/// events.
-fn describe_tears(cloth: &mut Cloth, before: &Cloth) -> String {
+/// The text of a snapshot of tears and cuts: triangles with new vertices, the sources of these
+/// vertices, pieces, borders and events.
+fn change_summary(cloth: &mut Cloth, before: &Cloth) -> String {
     let mut text = String::new();
     let (whole, now) = (triangles(before), triangles(cloth));
     for (at, (now, then)) in now.iter().zip(&whole).enumerate() {
@@ -88,21 +89,21 @@ fn describe_tears(cloth: &mut Cloth, before: &Cloth) -> String {
 }
 
 #[test]
-fn a_fresh_grid_is_woven_so() {
+fn a_new_grid_has_these_constraints() {
     let cloth = Cloth::grid(&bare_grid(5, 4, 0.1, PinMode::TopEdge)).unwrap();
-    insta::assert_snapshot!(describe(&cloth));
+    insta::assert_snapshot!(constraint_summary(&cloth));
 }
 
 #[test]
-fn a_fresh_default_grid_is_woven_so() {
+fn a_new_default_grid_has_these_constraints() {
     let cloth = Cloth::grid(&bare_grid(40, 40, 0.05, PinMode::TopEdge)).unwrap();
-    insta::assert_snapshot!(describe(&cloth));
+    insta::assert_snapshot!(constraint_summary(&cloth));
 }
 
 #[test]
-fn a_fresh_mesh_is_woven_so() {
+fn a_new_mesh_has_these_constraints() {
     let cloth = Cloth::mesh(&irregular_mesh()).unwrap();
-    insta::assert_snapshot!(describe(&cloth));
+    insta::assert_snapshot!(constraint_summary(&cloth));
 }
 
 #[test]
@@ -136,15 +137,15 @@ fn a_tear_in_the_middle_opens_a_slit() {
     let mut cloth = Cloth::grid(&bare_grid(4, 4, 0.1, PinMode::TopEdge)).unwrap();
     let before = cloth.clone();
     assert!(cloth.tear_edge(5, 9).unwrap());
-    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+    insta::assert_snapshot!(change_summary(&mut cloth, &before));
 }
 
 #[test]
-fn tears_across_the_sheet_cut_it_in_two() {
+fn tears_across_the_sheet_divide_it_into_two_pieces() {
     let mut cloth = Cloth::grid(&bare_grid(4, 4, 0.1, PinMode::TopEdge)).unwrap();
     let before = cloth.clone();
     for column in 0..4 {
-        // Below the tear of its neighbour the sheet hangs from other vertices by now.
+        // The tear of the previous column may have replaced the upper vertex.
         let below = 8 + column;
         let above = triangles(&cloth)
             .into_iter()
@@ -155,11 +156,11 @@ fn tears_across_the_sheet_cut_it_in_two() {
             cloth.tear_edge(above, below).unwrap();
         }
     }
-    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+    insta::assert_snapshot!(change_summary(&mut cloth, &before));
 }
 
 #[test]
-fn a_scripted_yank_tears_so() {
+fn a_scripted_yank_tears_these_edges() {
     let mut desc = bare_grid(6, 6, 0.1, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.5;
@@ -172,34 +173,34 @@ fn a_scripted_yank_tears_so() {
         cloth.move_grab(grab, pull).unwrap();
         cloth.step(1);
     }
-    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+    insta::assert_snapshot!(change_summary(&mut cloth, &before));
 }
 
-/// Cuts straight through whatever lies in the x–y plane.
+/// Cuts along a line in the x–y plane, through the whole cloth. Returns the number of opened edges.
 fn slice(cloth: &mut Cloth, [x, y]: [f32; 2], [to_x, to_y]: [f32; 2]) -> u32 {
     cloth.cut(Vec3::new(x, y, -2.0), Vec3::new(to_x, to_y, -2.0), Vec3::Z * 4.0).unwrap()
 }
 
 #[test]
-fn a_cut_from_the_border_into_the_sheet_divides_so() {
+fn a_cut_from_the_border_into_the_sheet_divides_these_triangles() {
     let mut cloth = Cloth::grid(&bare_grid(4, 4, 0.1, PinMode::TopEdge)).unwrap();
     let before = cloth.clone();
     assert_eq!(slice(&mut cloth, [-0.1, -0.13], [0.17, -0.17]), 3);
-    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+    insta::assert_snapshot!(change_summary(&mut cloth, &before));
 }
 
 #[test]
-fn a_slanted_cut_all_through_divides_so() {
+fn an_oblique_cut_through_the_sheet_divides_these_triangles() {
     let mut cloth = Cloth::grid(&bare_grid(6, 6, 0.1, PinMode::TopEdge)).unwrap();
     let before = cloth.clone();
     assert_eq!(slice(&mut cloth, [-0.1, -0.3], [0.6, -0.15]), 8);
-    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+    insta::assert_snapshot!(change_summary(&mut cloth, &before));
 }
 
 #[test]
-fn cuts_of_a_ring_divide_so() {
+fn a_cut_of_a_ring_divides_these_triangles() {
     let mut cloth = Cloth::mesh(&irregular_mesh()).unwrap();
     let before = cloth.clone();
     assert_eq!(slice(&mut cloth, [0.05, 0.3], [0.55, 1.5]), 4);
-    insta::assert_snapshot!(describe_tears(&mut cloth, &before));
+    insta::assert_snapshot!(change_summary(&mut cloth, &before));
 }

@@ -287,8 +287,8 @@ fn a_cloth_saved_while_its_folds_harden_continues_with_the_same_bits() {
             cloth.step(60);
         }
         assert_eq!(restored.state_hash(), cloth.state_hash(), "{kind}");
-        // Hash and save contain the accumulated yielding only while the material hardens or weakens.
-        // Without both it is dropped.
+        // Hash and save contain accumulated plastic angles only while the material hardens or
+        // weakens. Without both it is dropped.
         let firm =
             Material { yield_weakening: 0.0, yield_hardening: 0.0, ..cloth.material().clone() };
         cloth.set_material(firm).unwrap();
@@ -303,7 +303,7 @@ fn a_cloth_saved_while_its_folds_harden_continues_with_the_same_bits() {
 }
 
 #[test]
-fn reset_clears_the_accumulated_yielding_of_folds() {
+fn reset_clears_the_accumulated_plastic_angles_of_folds() {
     let nodes = 24;
     for (kind, cloth) in grid_and_mesh(&hardening_strip(nodes, 0.3, 1.5)) {
         let mut fresh = cloth.clone();
@@ -350,7 +350,7 @@ fn hardened_folds_can_be_torn_and_cut_and_survive_extreme_coefficients() {
 }
 
 #[test]
-fn a_material_without_hardening_or_weakening_accumulates_no_yielding() {
+fn a_material_without_hardening_or_weakening_accumulates_no_plastic_angles() {
     let nodes = 24;
     for (kind, cloth) in grid_and_mesh(&hardening_strip(nodes, 0.0, 0.0)) {
         let mut unchanged = creased_and_folded(cloth, nodes);
