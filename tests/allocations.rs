@@ -272,7 +272,7 @@ fn writing_vertices_allocates_nothing_after_the_first_time() {
 
 #[test]
 fn colliders_of_every_shape_are_touched_without_an_allocation() {
-    let mut cloth = Cloth::grid(&common::shapes::sheet(24, 1.0, 0.4)).unwrap();
+    let mut cloth = Cloth::grid(&common::shapes::free_sheet(24, 1.0, 0.4)).unwrap();
     let shape = |shape, x: f32, z: f32| ColliderDesc {
         shape,
         radius: 0.15,
@@ -288,8 +288,8 @@ fn colliders_of_every_shape_are_touched_without_an_allocation() {
         shape(Shape::Capsule, 0.25, -0.25),
         shape(Shape::Box, -0.25, 0.25),
         ColliderDesc { position, ..common::shapes::octahedron(0.2) },
-        common::shapes::ball_of_triangles(0.15, 6),
-        common::shapes::hills(8, 1.5),
+        common::shapes::sphere_mesh(0.15, 6),
+        common::shapes::hilly_heightfield(8, 1.5),
     ];
     let handles = all.each_ref().map(|desc| cloth.add_collider(desc).unwrap());
     let play = |cloth: &mut Cloth| {

@@ -1,14 +1,17 @@
-//! How often triangles of a cloth go through each other, in double precision.
+//! Exact intersection test between the triangles of a cloth, in double precision.
 
 use muslin::Cloth;
 use muslin::glam::DVec3;
 
-/// Pairs of triangles without a common vertex that go through each other.
-pub fn crossings(cloth: &Cloth) -> usize {
+/// Number of triangle pairs that intersect and share no vertex.
+pub fn crossing_count(cloth: &Cloth) -> usize {
     crossing_pairs(cloth).len()
 }
 
-/// The triangles of those pairs.
+/// Indices of the triangles of each intersecting pair, lower index first; pairs that share a vertex
+/// do not count.
+///
+/// Sorts the bounding boxes by their lower x and tests only pairs whose boxes overlap.
 pub fn crossing_pairs(cloth: &Cloth) -> Vec<[u32; 2]> {
     let x: Vec<DVec3> = cloth.positions().iter().map(|x| x.as_dvec3()).collect();
     let triangles = super::triangles(cloth);
@@ -29,7 +32,7 @@ pub fn crossing_pairs(cloth: &Cloth) -> Vec<[u32; 2]> {
             }
             let is_near = low.cmple(other_high).all() && other_low.cmple(high).all();
             let shares = triangles[*one].iter().any(|v| triangles[*other].contains(v));
-            if is_near && !shares && cross(corners(*one), corners(*other)) {
+            if is_near && !shares && triangles_intersect(corners(*one), corners(*other)) {
                 pairs.push([*one.min(other) as u32, *one.max(other) as u32]);
             }
         }
@@ -37,18 +40,19 @@ pub fn crossing_pairs(cloth: &Cloth) -> Vec<[u32; 2]> {
     pairs
 }
 
-/// Whether an edge of either triangle goes through the other.
-fn cross(one: [DVec3; 3], other: [DVec3; 3]) -> bool {
+/// Whether an edge of either triangle pierces the other triangle.
+fn triangles_intersect(one: [DVec3; 3], other: [DVec3; 3]) -> bool {
     (0..3).any(|k| {
         let next = (k + 1) % 3;
-        pierces([one[k], one[next]], other) || pierces([other[k], other[next]], one)
+        edge_pierces([one[k], one[next]], other) || edge_pierces([other[k], other[next]], one)
     })
 }
 
-fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+/// Whether the segment from `p` to `q` passes through the inside of the triangle `a`, `b`, `c`.
+fn edge_pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let n = (b - a).cross(c - a);
     let (over_p, over_q) = ((p - a).dot(n), (q - a).dot(n));
-    // What touches within a nanometre or so does not count.
+    // An end point within about a nanometre of the plane is contact, not an intersection.
     let least = 1.0e-9 * n.length();
     if over_p.abs() <= least || over_q.abs() <= least || (over_p > 0.0) == (over_q > 0.0) {
         return false;

@@ -1,19 +1,24 @@
-//! The heavy elastica: what a strip that is held level at one end hangs like.
+//! The heavy elastica: the equilibrium shape of a strip under gravity that is clamped level at one
+//! end. Solved by shooting from the free end, with fourth-order Runge–Kutta steps.
 //!
 //! ```text
 //! θ'' = −Γ (1 − s) cos θ,   θ(0) = 0,   θ'(1) = 0,   Γ = σ g L³ / D
 //! ```
+//!
+//! θ: slope [rad]; s: arc length from the clamp over the length L; σ: mass per area; D: bending
+//! rigidity; Γ: gravito-bending number.
 
-/// The tip of a strip of length 1: how far down it is, how far out, and its slope [rad].
+/// Free end of a strip of length 1: its drop below the clamp, its horizontal distance from the
+/// clamp, and its slope [rad].
 #[derive(Clone, Copy, Debug)]
 pub struct Tip {
     pub drop: f64,
-    pub reach: f64,
+    pub span: f64,
     pub slope: f64,
 }
 
-/// From the tip back to the clamp, for the slope that the tip has: the slope at the clamp, drop and reach.
-fn back(gamma: f64, slope: f64) -> (f64, f64, f64) {
+/// Integrates from the free end, which has the slope `slope` [rad], to the clamp. Returns the slope
+fn integrate_to_clamp(gamma: f64, slope: f64) -> (f64, f64, f64) {
     const STEPS: u32 = 4000;
     let h = 1.0 / f64::from(STEPS);
     let rate = |u: f64, [angle, bend, ..]: [f64; 4]| {
@@ -32,25 +37,25 @@ fn back(gamma: f64, slope: f64) -> (f64, f64, f64) {
     (y[0], y[2], y[3])
 }
 
-/// The tip at a gravito-bending number `gamma`.
+/// Shape of the free end at the gravito-bending number `gamma`, by bisection over its slope.
 pub fn tip(gamma: f64) -> Tip {
     let (mut low, mut high) = (0.0, core::f64::consts::FRAC_PI_2);
     for _ in 0..60 {
         let slope = 0.5 * (low + high);
-        if back(gamma, slope).0 > 0.0 { high = slope } else { low = slope }
+        if integrate_to_clamp(gamma, slope).0 > 0.0 { high = slope } else { low = slope }
     }
     let slope = 0.5 * (low + high);
-    let (_, drop, reach) = back(gamma, slope);
-    Tip { drop, reach, slope }
+    let (_, drop, span) = integrate_to_clamp(gamma, slope);
+    Tip { drop, span, slope }
 }
 
-/// The gravito-bending number of a strip that hangs with this drop over reach.
-pub fn gamma_of(drop_over_reach: f64) -> f64 {
+/// Gravito-bending number at which the drop divided by the span is `drop_over_span`.
+pub fn gamma_of(drop_over_span: f64) -> f64 {
     let (mut low, mut high) = (1.0e-4_f64, 1.0e4_f64);
     for _ in 0..50 {
         let gamma = (low * high).sqrt();
         let tip = tip(gamma);
-        if tip.drop / tip.reach > drop_over_reach { high = gamma } else { low = gamma }
+        if tip.drop / tip.span > drop_over_span { high = gamma } else { low = gamma }
     }
     (low * high).sqrt()
 }

@@ -1,17 +1,18 @@
-//! Strips that hands fold and let go.
+//! Strips that are folded by moving pins and then released, to measure plastic bending.
 
-use super::strip::speed;
+use super::rms_speed;
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, PinMode, Settings};
 
-/// How long a strip is, and a sheet wide [m].
-pub const SIZE: f32 = 0.2;
+/// Length of a strip and width of a sheet [m].
+pub const STRIP_LENGTH: f32 = 0.2;
 
-/// Half of what is between the hands that fold a strip, so that it all counts as one fold [m].
-pub const ARC: f32 = 0.012;
+/// Half the length of the free part between the two pinned parts of a strip [m]: short enough to
+/// count as one fold.
+pub const ARC_HALF_LENGTH: f32 = 0.012;
 
-/// A sheet of something like paper in the x–z plane, in no gravity.
-pub fn sheet(nodes: u32, across: u32, yield_angle: f32) -> GridDesc {
+/// A paper-like sheet of `nodes` by `across` particles in the x–z plane, without gravity.
+pub fn paper_sheet_desc(nodes: u32, across: u32, yield_angle: f32) -> GridDesc {
     let material = Material {
         bend_stiffness: 4.0e-4,
         density: 0.08,
@@ -24,7 +25,7 @@ pub fn sheet(nodes: u32, across: u32, yield_angle: f32) -> GridDesc {
     GridDesc {
         columns: nodes,
         rows: across,
-        spacing: spacing(nodes),
+        spacing: node_spacing(nodes),
         down: Vec3::Z,
         pin_mode: PinMode::None,
         material,
@@ -33,51 +34,54 @@ pub fn sheet(nodes: u32, across: u32, yield_angle: f32) -> GridDesc {
     }
 }
 
-/// Between neighbours on a strip of so many [m].
-pub fn spacing(nodes: u32) -> f32 {
-    SIZE / (nodes - 1) as f32
+/// Distance between neighbours on a strip of `nodes` particles [m].
+pub fn node_spacing(nodes: u32) -> f32 {
+    STRIP_LENGTH / (nodes - 1) as f32
 }
 
-/// Where a particle is on the flat strip.
-fn place(nodes: u32, i: u32) -> Vec3 {
-    Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * spacing(nodes)
+/// Position of particle `i` on the flat strip.
+fn flat_position(nodes: u32, i: u32) -> Vec3 {
+    Vec3::new((i % nodes) as f32, 0.0, (i / nodes) as f32) * node_spacing(nodes)
 }
 
-/// Folds a strip by turning what is farther than `arc` from its middle, slowly, from one angle to another.
-pub fn fold(cloth: &mut Cloth, nodes: u32, arc: f32, [from, to]: [f32; 2]) {
-    let middle = SIZE / 2.0;
+/// Folds a strip over 240 ticks: pins every particle farther than `arc` [m] from the middle and
+/// turns the two ends against each other from one angle to another [rad].
+pub fn fold_strip(cloth: &mut Cloth, nodes: u32, arc: f32, [from, to]: [f32; 2]) {
+    let middle = STRIP_LENGTH / 2.0;
     let count = cloth.positions().len() as u32;
-    let held: Vec<u32> = (0..count).filter(|i| (place(nodes, *i).x - middle).abs() > arc).collect();
+    let pinned: Vec<u32> =
+        (0..count).filter(|i| (flat_position(nodes, *i).x - middle).abs() > arc).collect();
     for tick in 0..=240 {
         let turned = from + (to - from) * (tick as f32 / 240.0);
-        let targets: Vec<Vec3> = held
+        let targets: Vec<Vec3> = pinned
             .iter()
             .map(|i| {
-                let at = place(nodes, *i) - Vec3::X * middle;
-                // Along an arc between the hands the sheet is as long as it was.
+                let at = flat_position(nodes, *i) - Vec3::X * middle;
+                // The free part follows a circular arc, so its length does not change.
                 let half = 0.5 * turned;
                 let side = if at.x > 0.0 { 1.0 } else { -1.0 };
-                let (reach, lift) = if half.abs() > 1.0e-4 {
+                let (span, lift) = if half.abs() > 1.0e-4 {
                     let radius = arc / half;
                     (radius * half.sin(), radius * (1.0 - half.cos()))
                 } else {
                     (arc, 0.0)
                 };
                 let beyond = at.x.abs() - arc;
-                let x = side * (reach + beyond * half.cos());
+                let x = side * (span + beyond * half.cos());
                 Vec3::new(middle + x, lift + beyond * half.sin(), at.z)
             })
             .collect();
-        cloth.set_pin_targets(&held, &targets).unwrap();
+        cloth.set_pin_targets(&pinned, &targets).unwrap();
         cloth.step(1);
     }
 }
 
-/// Lets a strip go until it rests, then says by how much its ends are turned against each other.
-pub fn release(cloth: &mut Cloth, nodes: u32) -> f32 {
+/// Releases all pins, steps until the strip is at rest, and returns the angle between its two ends
+/// [rad]; 0 is flat.
+pub fn residual_angle(cloth: &mut Cloth, nodes: u32) -> f32 {
     cloth.unpin_all();
     let mut ticks = 0;
-    while ticks < 60 || (speed(cloth) > 1.0e-3 && ticks < 900) {
+    while ticks < 60 || (rms_speed(cloth) > 1.0e-3 && ticks < 900) {
         cloth.step(1);
         ticks += 1;
     }
@@ -87,8 +91,8 @@ pub fn release(cloth: &mut Cloth, nodes: u32) -> f32 {
     core::f32::consts::PI - left.angle_between(right)
 }
 
-/// Folds a strip from where it lies flat, and lets go.
-pub fn fold_and_release(cloth: &mut Cloth, nodes: u32, arc: f32, angle: f32) -> f32 {
-    fold(cloth, nodes, arc, [0.0, angle]);
-    release(cloth, nodes)
+/// Folds a flat strip to `angle` [rad], releases it, and returns the angle that remains [rad].
+pub fn residual_angle_after_fold(cloth: &mut Cloth, nodes: u32, arc: f32, angle: f32) -> f32 {
+    fold_strip(cloth, nodes, arc, [0.0, angle]);
+    residual_angle(cloth, nodes)
 }

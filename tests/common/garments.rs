@@ -1,13 +1,15 @@
-//! Meshes as artists export them: vertices doubled along seams, and all that can be wrong with a mesh.
+//! Garment meshes as artists export them, with duplicate vertices along seams, and a mesh with
+//! every defect that the mesh intake repairs.
 
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, MeshDesc};
 use std::collections::{HashMap, HashSet};
 use std::f32::consts::{PI, TAU};
 
-/// Appends a patch of `columns` × `rows` vertices, each where `at` puts it, with a piece of the texture of its
-/// own that begins at `u`; where `at` says nowhere there is a vertex in no triangle. Gives its first vertex.
-pub fn patch(
+/// Appends a grid of `columns` × `rows` vertices, the position of each given by `at(column, row)`.
+/// Its texture coordinates start at `u`, so that patches do not overlap in the texture. Returns the
+/// index of its first vertex.
+pub fn push_grid_patch(
     desc: &mut MeshDesc,
     [columns, rows]: [u32; 2],
     u: f32,
@@ -31,7 +33,7 @@ pub fn patch(
     first
 }
 
-/// A round cloth, hung by a tenth of its rim. Nothing is wrong with it.
+/// A disc that is pinned along a tenth of its rim. It has no defects.
 pub fn disc() -> MeshDesc {
     let (around, rings) = (40, 10);
     let mut desc = MeshDesc { positions: vec![Vec3::ZERO], ..MeshDesc::default() };
@@ -57,11 +59,11 @@ pub fn disc() -> MeshDesc {
     desc
 }
 
-/// A sleeve: a tube cut open along one line, as its texture is, and hung by one end.
+/// A sleeve: a tube with duplicate vertices along its seam, pinned at one end.
 pub fn sleeve() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0e-4, ..MeshDesc::default() };
     let (around, rings) = (24, 16);
-    patch(&mut desc, [around + 1, rings], 0.0, |i, ring| {
+    push_grid_patch(&mut desc, [around + 1, rings], 0.0, |i, ring| {
         let (sine, cosine) = (i as f32 / around as f32 * TAU).sin_cos();
         Vec3::new(0.15 * cosine, -0.04 * ring as f32, 0.15 * sine)
     });
@@ -69,11 +71,11 @@ pub fn sleeve() -> MeshDesc {
     desc
 }
 
-/// A strip with a half twist, its ends welded, hung by a few of its vertices.
+/// A Möbius strip: a half twist and welded ends, pinned by six vertices.
 pub fn moebius_strip() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0e-4, ..MeshDesc::default() };
     let (along, across) = (60, 5);
-    patch(&mut desc, [along + 1, across], 0.0, |i, side| {
+    push_grid_patch(&mut desc, [along + 1, across], 0.0, |i, side| {
         let turn = i as f32 / along as f32;
         let (sine, cosine) = (turn * TAU).sin_cos();
         let (tilt, level) = (turn * PI).sin_cos();
@@ -84,12 +86,13 @@ pub fn moebius_strip() -> MeshDesc {
     desc
 }
 
-/// A shirt: front and back, each of a body and two sleeves that were laid out apart. Open at the neck, the hem
-/// and the cuffs; hung by the shoulders.
+/// A shirt: front and back, each made of a body and two sleeves that are separate in the texture.
+/// Open at the neck, the hem and the cuffs; pinned at the shoulders.
 pub fn shirt() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0e-4, ..MeshDesc::default() };
     let step = 0.04;
-    // In steps: the body reaches from 6 to 16 across and from 0 to 18 down, the sleeves to 0 and 22, and to 5.
+    // In steps: the body spans x from 6 to 16 and y from 0 to 18; the sleeves span x from 0 to 6
+    // and from 16 to 22, and y from 0 to 5.
     let on_seam = |x: u32, y: u32| {
         let at_shoulder = y == 0 && !(9..=13).contains(&x);
         let at_side = (x == 6 || x == 16) && y >= 5;
@@ -101,11 +104,11 @@ pub fn shirt() -> MeshDesc {
             let bulge = if on_seam(x, y) { 0.0 } else { 0.03 * side };
             Vec3::new(x as f32 * step, -(y as f32) * step, bulge)
         };
-        let body = patch(&mut desc, [11, 19], u, |x, y| place(6 + x, y));
-        patch(&mut desc, [7, 6], u + 0.25, place);
-        patch(&mut desc, [7, 6], u + 0.5, |x, y| place(16 + x, y));
+        let body = push_grid_patch(&mut desc, [11, 19], u, |x, y| place(6 + x, y));
+        push_grid_patch(&mut desc, [7, 6], u + 0.25, place);
+        push_grid_patch(&mut desc, [7, 6], u + 0.5, |x, y| place(16 + x, y));
         if side < 0.0 {
-            // The back faces back.
+            // Wind the triangles of the back the other way, so that they face outwards.
             let first = desc.indices.iter().position(|v| *v == body).unwrap();
             desc.indices[first..].as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
         }
@@ -114,21 +117,23 @@ pub fn shirt() -> MeshDesc {
     desc
 }
 
-/// A hung cloth with everything wrong with it that can be repaired.
-pub fn wreck() -> MeshDesc {
+/// A pinned cloth with every defect that the mesh intake repairs.
+pub fn defective_mesh() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0e-3, ..MeshDesc::default() };
-    // Two halves that are apart by less than the weld, the right one inside out but for two triangles.
+    // Two halves with a gap below the weld distance; the right half is wound the other way, except
+    // for two triangles.
     let place = |x: u32, y: u32| Vec3::new(x as f32, -(y as f32), 0.0) * 0.05;
-    let left = patch(&mut desc, [9, 12], 0.0, place);
+    let left = push_grid_patch(&mut desc, [9, 12], 0.0, place);
     let half = desc.indices.len();
-    let right = patch(&mut desc, [9, 12], 1.0, |x, y| place(8 + x, y) + Vec3::X * 4.0e-4);
+    let right = push_grid_patch(&mut desc, [9, 12], 1.0, |x, y| place(8 + x, y) + Vec3::X * 4.0e-4);
     desc.indices[half..].as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
     desc.indices[half + 9..half + 15].as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
-    // Triangles that are there twice, that name a vertex twice, and that have no area.
+    // Duplicate triangles, a triangle that uses a vertex twice, and one without area.
     let again: Vec<u32> = desc.indices[30..36].to_vec();
     desc.indices.extend([again[1], again[0], again[2], again[3], again[4], again[5]]);
     desc.indices.extend([left, left, left + 1, left, left + 1, left + 2]);
-    // A fin on an edge in the middle of the sheet, one end of it pinned, and a flag at a mere point of it.
+    // A third triangle on an edge in the middle of the sheet, with one end pinned, and a triangle
+    // that is joined to the sheet by one vertex only.
     let (a, b) = (left + 5 * 9 + 3, left + 5 * 9 + 4);
     let fin = desc.positions.len() as u32;
     desc.positions.push(place(3, 5) + Vec3::new(0.025, 0.0, 0.05));
@@ -137,16 +142,17 @@ pub fn wreck() -> MeshDesc {
     desc.indices.extend([a, b, fin]);
     let point = left + 11 * 9 + 7;
     desc.indices.extend([point, fin + 1, fin + 2]);
-    // Vertices of no triangle, and a piece of its own.
+    // Vertices without triangles, and a separate piece.
     desc.positions.extend([Vec3::Y, Vec3::Y * 2.0]);
     desc.uvs.resize(desc.positions.len(), Vec2::ZERO);
-    let apart = patch(&mut desc, [5, 5], 2.0, |x, y| place(20 + x, y));
+    let apart = push_grid_patch(&mut desc, [5, 5], 2.0, |x, y| place(20 + x, y));
     desc.pinned = vec![left, left + 4, right + 2, right + 8, a, b, point, apart, apart + 4];
     desc
 }
 
-/// The laws that hold for vertices and particles alike, however a mesh was given and torn.
-pub fn assert_whole(cloth: &mut Cloth, given: &MeshDesc) {
+/// Asserts the invariants of vertices and particles that hold for every mesh after intake, tears
+/// and cuts.
+pub fn assert_mesh_invariants(cloth: &mut Cloth, given: &MeshDesc) {
     let (particles, report) = (cloth.particle_count() as usize, *cloth.mesh_report());
     let view = cloth.view();
     let count = view.positions.len();
@@ -174,13 +180,16 @@ pub fn assert_whole(cloth: &mut Cloth, given: &MeshDesc) {
         triangles.iter().map(|triangle| triangle.map(|v| view.particles[v as usize])).collect();
     let mut at_edge: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
     for (at, [a, b, c]) in of_particles.iter().copied().enumerate() {
-        assert!(a != b && b != c && c != a, "triangle {at} is flat");
+        assert!(a != b && b != c && c != a, "triangle {at} uses a particle twice");
         for [p, q] in [[a, b], [b, c], [c, a]] {
             at_edge.entry([p.min(q), p.max(q)]).or_default().push(at);
         }
     }
-    assert!(at_edge.values().all(|around| around.len() <= 2), "a third triangle at an edge");
-    assert_fans(&of_particles, particles);
+    assert!(
+        at_edge.values().all(|around| around.len() <= 2),
+        "an edge has more than two triangles"
+    );
+    assert_one_fan_per_particle(&of_particles, particles);
     let normals = view.normals.to_vec();
     let (positions, to) = (view.positions.to_vec(), view.particles.to_vec());
     let mut normal_of: HashMap<u32, Vec3> = HashMap::new();
@@ -188,12 +197,12 @@ pub fn assert_whole(cloth: &mut Cloth, given: &MeshDesc) {
         assert_eq!(cloth.position(*particle), Some(positions[vertex]), "vertex {vertex}");
         assert_eq!(*normal_of.entry(*particle).or_insert(normals[vertex]), normals[vertex]);
     }
-    let held: HashSet<u32> = to.into_iter().collect();
-    assert_eq!(held.len(), particles, "every particle has a vertex");
+    let with_vertices: HashSet<u32> = to.into_iter().collect();
+    assert_eq!(with_vertices.len(), particles, "every particle has a vertex");
 }
 
-/// The triangles of every particle hang together by edges.
-fn assert_fans(triangles: &[[u32; 3]], particles: usize) {
+/// Asserts that the triangles of every particle are connected through edges.
+fn assert_one_fan_per_particle(triangles: &[[u32; 3]], particles: usize) {
     let mut around: Vec<Vec<[u32; 3]>> = vec![Vec::new(); particles];
     for triangle in triangles {
         triangle.iter().for_each(|particle| around[*particle as usize].push(*triangle));
@@ -210,6 +219,6 @@ fn assert_fans(triangles: &[[u32; 3]], particles: usize) {
                 !reached[*other] && fan[at].iter().any(|p| is_shared(&p))
             }));
         }
-        assert!(reached.iter().all(|r| *r), "particle {particle} joins fans by a point");
+        assert!(reached.iter().all(|r| *r), "particle {particle} joins two fans at a point");
     }
 }

@@ -1,4 +1,5 @@
-//! What several tests need: cloths to test on, and the laws that no tear may break.
+//! Helpers shared by the integration tests: cloth descriptors, measurements, and the invariants
+//! that hold after any tear or cut.
 #![allow(dead_code)]
 
 pub mod crossings;
@@ -12,20 +13,21 @@ use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, MeshDesc, PinMode, Settings};
 use std::collections::HashMap;
 
-/// Only gravity and links: no damping, no air.
+/// Settings and material with gravity and links only: no damping, no drag, no lift.
 pub fn bare() -> (Settings, Material) {
     let settings = Settings { damping: 0.0, ..Settings::default() };
     let material = Material { drag: 0.0, lift: 0.0, ..Material::default() };
     (settings, material)
 }
 
-/// A grid in the x–y plane, with only gravity and links.
+/// A grid in the x–y plane with gravity and links only: no damping, no drag, no lift.
 pub fn bare_grid(columns: u32, rows: u32, spacing: f32, pin_mode: PinMode) -> GridDesc {
     let (settings, material) = bare();
     GridDesc { columns, rows, spacing, pin_mode, settings, material, ..GridDesc::default() }
 }
 
-/// Three quarters of a ring of triangles, some wound the other way, with a flap at its end.
+/// Three quarters of a ring of triangles, some wound the other way, with one triangle added at its
+/// start.
 pub fn irregular_mesh() -> MeshDesc {
     let mut positions = Vec::new();
     for i in 0..10 {
@@ -59,7 +61,7 @@ pub fn irregular_mesh() -> MeshDesc {
     MeshDesc { positions, indices, uvs, pinned: vec![0, 2], ..MeshDesc::default() }
 }
 
-/// Triangles of a cloth.
+/// Vertex indices of each triangle.
 pub fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
     cloth.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
 }
@@ -70,20 +72,32 @@ pub fn total_mass(cloth: &Cloth) -> f64 {
     (0..cloth.positions().len()).map(mass).sum()
 }
 
-/// The laws that hold for every cloth, however torn. `before` is the untorn one.
-pub fn assert_sound(cloth: &Cloth, before: &Cloth) {
-    assert_clean(cloth, before);
+/// Root mean square speed of all particles [m/s].
+pub fn rms_speed(cloth: &Cloth) -> f32 {
+    let count = cloth.positions().len() as u32;
+    let sum: f32 = (0..count).map(|i| cloth.velocity(i).unwrap().length_squared()).sum();
+    (sum / count as f32).sqrt()
+}
+
+/// Asserts the invariants that hold for every torn cloth. `before` is the same cloth before any
+/// tear.
+pub fn assert_tear_invariants(cloth: &Cloth, before: &Cloth) {
+    assert_cut_invariants(cloth, before);
     let sources = cloth.source_vertices();
-    assert_eq!(cloth.indices().len(), before.indices().len(), "no triangle is lost or doubled");
+    assert_eq!(
+        cloth.indices().len(),
+        before.indices().len(),
+        "the number of triangles must not change"
+    );
     for (now, then) in cloth.indices().iter().zip(before.indices()) {
         let source = sources[*now as usize];
-        assert_eq!(source, *then, "a corner keeps its original vertex");
+        assert_eq!(source, *then, "a triangle corner must keep its source vertex");
     }
 }
 
-/// The laws that hold for every cloth, however torn and cut. `before` is the whole one; its texture lies
-/// flat and without overlaps, so that areas can be measured in it.
-pub fn assert_clean(cloth: &Cloth, before: &Cloth) {
+/// Asserts the invariants that hold for every torn and cut cloth. `before` is the same cloth before
+/// any tear or cut; its texture is planar and has no overlaps, so that areas can be measured in it.
+pub fn assert_cut_invariants(cloth: &Cloth, before: &Cloth) {
     let count = cloth.positions().len();
     let sources = cloth.source_vertices();
     assert_eq!(sources.len(), count);
@@ -95,8 +109,8 @@ pub fn assert_clean(cloth: &Cloth, before: &Cloth) {
     let was_used =
         |v: usize| v >= before.positions().len() || before.indices().contains(&(v as u32));
     assert!((0..count).all(|v| is_used[v] || !was_used(v)), "a vertex without triangles");
-    let (area, whole) = (texture_area(cloth), texture_area(before));
-    assert!((area - whole).abs() <= 1.0e-6 * whole, "area {area}, was {whole}");
+    let (area, area_before) = (texture_area(cloth), texture_area(before));
+    assert!((area - area_before).abs() <= 1.0e-6 * area_before, "area {area}, was {area_before}");
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     for [a, b, c] in triangles(cloth) {
         for (p, q) in [(a, b), (b, c), (c, a)] {
@@ -106,11 +120,11 @@ pub fn assert_clean(cloth: &Cloth, before: &Cloth) {
     for (edge, uses) in &edges {
         assert!(*uses <= 2, "edge {edge:?} has {uses} triangles");
     }
-    assert_one_fan_a_vertex(cloth);
+    assert_one_fan_per_vertex(cloth);
     let mut all: Vec<[u32; 3]> = triangles(cloth);
     all.iter_mut().for_each(|triangle| triangle.sort_unstable());
     all.sort_unstable();
-    assert!(all.windows(2).all(|two| two[0] != two[1]), "a triangle twice");
+    assert!(all.windows(2).all(|two| two[0] != two[1]), "a duplicate triangle");
     let mut beside = vec![Vec::new(); count];
     for [a, b] in edges.keys() {
         beside[*a as usize].push(*b);
@@ -119,25 +133,25 @@ pub fn assert_clean(cloth: &Cloth, before: &Cloth) {
     for (a, b, kind) in cloth.links() {
         assert!((a as usize) < count && (b as usize) < count && a != b);
         let joined = edges.contains_key(&[a.min(b), a.max(b)]);
-        // Others reach over a triangle and the next, or over two edges in a row.
+        // Shear and bend links span two adjacent triangles or two edges in a row.
         let over = || beside[a as usize].iter().any(|v| beside[b as usize].contains(v));
-        let may_reach = kind != muslin::LinkKind::Stretch && over();
-        assert!(joined || may_reach, "a {kind:?} link {a}–{b} without triangles");
+        let may_span = kind != muslin::LinkKind::Stretch && over();
+        assert!(joined || may_span, "a {kind:?} link {a}–{b} without triangles");
     }
     let (mass, exact) = (total_mass(cloth), total_mass(before));
     assert!((mass - exact).abs() <= 1.0e-6 * exact, "mass {mass} kg, was {exact} kg");
     assert!(cloth.positions().iter().all(|x| x.is_finite()));
 }
 
-/// The area of all triangles in the texture.
+/// Total area of the triangles in the texture.
 fn texture_area(cloth: &Cloth) -> f64 {
     let uv = |v: u32| cloth.uvs()[v as usize].as_dvec2();
     let area = |[a, b, c]: [u32; 3]| 0.5 * (uv(b) - uv(a)).perp_dot(uv(c) - uv(a)).abs();
     triangles(cloth).into_iter().map(area).sum()
 }
 
-/// No vertex joins two fans of triangles by a mere point.
-fn assert_one_fan_a_vertex(cloth: &Cloth) {
+/// Asserts that the triangles of every vertex are connected through edges.
+fn assert_one_fan_per_vertex(cloth: &Cloth) {
     let mut around: HashMap<u32, Vec<[u32; 3]>> = HashMap::new();
     for triangle in triangles(cloth) {
         for v in triangle {
@@ -158,6 +172,6 @@ fn assert_one_fan_a_vertex(cloth: &Cloth) {
                 }
             }
         }
-        assert!(reached.iter().all(|r| *r), "vertex {v} joins two fans by a point: {fan:?}");
+        assert!(reached.iter().all(|r| *r), "vertex {v} joins two fans at a point: {fan:?}");
     }
 }

@@ -1,23 +1,23 @@
-//! Colliders to fall on, measured without the library's own geometry.
+//! Collider descriptors, and signed distances to them computed independently of the library.
 #![allow(dead_code)]
 
-use super::bare_grid;
+use super::{bare_grid, rms_speed};
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Shape};
 
-/// A free sheet of this width that lies flat above the origin.
-pub fn sheet(nodes: u32, width: f32, height: f32) -> GridDesc {
+/// An unpinned, horizontal, square sheet, centred over the origin at `height` [m].
+pub fn free_sheet(nodes: u32, width: f32, height: f32) -> GridDesc {
     let spacing = width / (nodes - 1) as f32;
     let mut desc = bare_grid(nodes, nodes, spacing, PinMode::None);
     desc.down = Vec3::Z;
     desc.origin = Vec3::new(-0.5 * width, height, -0.5 * width);
-    // A person would feel that it is cloth: the air brakes it, and so does its weave.
+    // Some damping, as air and internal friction give real fabric.
     desc.settings.damping = 0.5;
     desc
 }
 
-/// The signed distance of a point from a shape at its place.
-pub fn distance(desc: &ColliderDesc, x: Vec3) -> f32 {
+/// Signed distance of the world-space point `x` from a posed shape [m]; negative inside.
+pub fn signed_distance(desc: &ColliderDesc, x: Vec3) -> f32 {
     let p = desc.rotation.inverse() * (x - desc.position);
     match desc.shape {
         Shape::Plane => p.y,
@@ -35,34 +35,35 @@ pub fn distance(desc: &ColliderDesc, x: Vec3) -> f32 {
             q.max(Vec3::ZERO).length() + q.max_element().min(0.0)
         }
         Shape::Convex => hull_distance(&desc.positions, p),
-        Shape::Mesh => surface_distance(desc, p),
-        Shape::Heightfield => ground_distance(desc, p),
+        Shape::Mesh => mesh_distance(desc, p),
+        Shape::Heightfield => heightfield_distance(desc, p),
         other => panic!("no distance from {other:?}"),
     }
 }
 
-/// The deepest vertex and the deepest point of any triangle [m]; above 0 is outside.
-pub fn clearance(cloth: &Cloth, desc: &ColliderDesc) -> (f32, f32) {
+/// Least signed distance of any vertex and of any sampled triangle point [m]; positive is outside.
+pub fn vertex_and_face_clearance(cloth: &Cloth, desc: &ColliderDesc) -> (f32, f32) {
     let x = cloth.positions();
-    let vertices = x.iter().map(|x| distance(desc, *x)).fold(f32::INFINITY, f32::min);
+    let vertices = x.iter().map(|x| signed_distance(desc, *x)).fold(f32::INFINITY, f32::min);
     let mut faces = vertices;
     for t in cloth.indices().chunks_exact(3) {
         let [a, b, c] = [t[0], t[1], t[2]].map(|i| x[i as usize]);
-        if distance(desc, (a + b + c) / 3.0) > (b - a).length().max((c - a).length()) {
+        if signed_distance(desc, (a + b + c) / 3.0) > (b - a).length().max((c - a).length()) {
             continue;
         }
         for i in 0..=8 {
             for j in 0..=8 - i {
                 let (v, w) = (i as f32 / 8.0, j as f32 / 8.0);
-                faces = faces.min(distance(desc, a + (b - a) * v + (c - a) * w));
+                faces = faces.min(signed_distance(desc, a + (b - a) * v + (c - a) * w));
             }
         }
     }
     (vertices, faces)
 }
 
-/// Steps until the cloth is at rest, which it is if it was slow for two seconds, and says after how many ticks.
-pub fn settle(cloth: &mut Cloth, most: u32) -> u32 {
+/// Steps until the RMS speed was below 1 mm/s for 120 ticks in a row, and returns the number of
+/// ticks; panics after `most` ticks.
+pub fn ticks_until_rest(cloth: &mut Cloth, most: u32) -> u32 {
     let mut calm = 0;
     for tick in 1..=most {
         cloth.step(1);
@@ -74,14 +75,9 @@ pub fn settle(cloth: &mut Cloth, most: u32) -> u32 {
     panic!("after {most} ticks it still moves at {} m/s", rms_speed(cloth));
 }
 
-pub fn rms_speed(cloth: &Cloth) -> f32 {
-    let count = cloth.positions().len();
-    let speed2 = (0..count).map(|i| cloth.velocity(i as u32).unwrap().length_squared());
-    (speed2.sum::<f32>() / count as f32).sqrt()
-}
-
-/// The noise at rest over ten seconds: the most rms speed [m/s], and how far any particle drifts [m].
-pub fn noise(cloth: &mut Cloth) -> (f32, f32) {
+/// Runs ten seconds at rest and returns the largest RMS speed [m/s] and the largest drift of any
+/// particle [m].
+pub fn speed_and_drift_at_rest(cloth: &mut Cloth) -> (f32, f32) {
     let start = cloth.positions().to_vec();
     let mut most = 0.0_f32;
     for _ in 0..600 {
@@ -92,7 +88,8 @@ pub fn noise(cloth: &mut Cloth) -> (f32, f32) {
     (most, drift.fold(0.0, f32::max))
 }
 
-/// From the hull of some points: the most that a plane through three of them, with none beyond, is below.
+/// Signed distance from the convex hull of `points`: the largest distance over all supporting
+/// planes through three points.
 fn hull_distance(points: &[Vec3], p: Vec3) -> f32 {
     let mut most = f32::NEG_INFINITY;
     for (i, a) in points.iter().enumerate() {
@@ -110,9 +107,9 @@ fn hull_distance(points: &[Vec3], p: Vec3) -> f32 {
     most
 }
 
-/// From a closed mesh around the origin that is star-shaped: by the triangle that a ray from there leaves
-/// through. The distance is that from its plane.
-fn surface_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
+/// Signed distance from a closed mesh that is star-shaped around the origin: the distance from the
+/// plane of the triangle that the ray from the origin through `p` hits.
+fn mesh_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
     let mut found = f32::INFINITY;
     for t in desc.indices.chunks_exact(3) {
         let [a, b, c] = [t[0], t[1], t[2]].map(|i| desc.positions[i as usize]);
@@ -129,8 +126,8 @@ fn surface_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
     found
 }
 
-/// From ground: straight down, over cells that are divided from their first to their last corner.
-fn ground_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
+/// Vertical distance from a heightfield whose cells are split from first to last corner.
+fn heightfield_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
     let at = |c: u32, r: u32| desc.heights[(r * desc.columns + c) as usize];
     let (x, z) = (p.x / desc.spacing, p.z / desc.spacing);
     let is_over = |x: f32, count: u32| x >= 0.0 && x <= (count - 1) as f32;
@@ -148,13 +145,13 @@ fn ground_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
     p.y - height
 }
 
-/// A ball of triangles, `rings` from pole to pole.
-pub fn ball_of_triangles(radius: f32, rings: u32) -> ColliderDesc {
+/// A sphere as a triangle mesh, with `rings` rings from pole to pole.
+pub fn sphere_mesh(radius: f32, rings: u32) -> ColliderDesc {
     let around = 2 * rings;
     let mut positions = Vec::new();
     for ring in 0..=rings {
         let (sin, cos) = (ring as f32 * std::f32::consts::PI / rings as f32).sin_cos();
-        // Both poles are points.
+        // The sine of π is not exactly 0 in f32; all vertices of the last ring must coincide.
         let sin = if ring == rings { 0.0 } else { sin };
         for k in 0..around {
             let (s, c) = (k as f32 * std::f32::consts::TAU / around as f32).sin_cos();
@@ -171,8 +168,8 @@ pub fn ball_of_triangles(radius: f32, rings: u32) -> ColliderDesc {
     ColliderDesc { shape: Shape::Mesh, positions, indices, ..Default::default() }
 }
 
-/// Hills in a square around the origin.
-pub fn hills(cells: u32, width: f32) -> ColliderDesc {
+/// A hilly heightfield of `cells` × `cells` cells in a square around the origin.
+pub fn hilly_heightfield(cells: u32, width: f32) -> ColliderDesc {
     let count = cells + 1;
     let heights = (0..count * count).map(|i| {
         let (x, z) = ((i % count) as f32 / cells as f32, (i / count) as f32 / cells as f32);
@@ -189,7 +186,7 @@ pub fn hills(cells: u32, width: f32) -> ColliderDesc {
     }
 }
 
-/// Eight faces around the origin.
+/// A convex octahedron around the origin.
 pub fn octahedron(size: f32) -> ColliderDesc {
     let axes = [Vec3::X, Vec3::Y, Vec3::Z];
     let positions = axes.into_iter().flat_map(|axis| [axis * size, -axis * size]).collect();

@@ -1,39 +1,42 @@
-//! A strip that is clamped level at one end and hangs from there.
+//! A cantilever strip: clamped level at one end, bent by gravity. Used to compare bending with the
+//! heavy elastica.
 
+use super::rms_speed;
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, GridDesc, Material, PinMode, Settings};
 
-/// The strip, and how it is simulated.
+/// A strip and the simulation settings for it.
 #[derive(Clone, Debug)]
 pub struct Strip {
-    /// Particles along it, the two of the clamp included, and across.
+    /// Particles along the strip, including the two of the clamp.
     pub nodes: u32,
+    /// Particles across the strip.
     pub across: u32,
     /// Length outside the clamp [m].
     pub length: f32,
     pub gravity: f32,
     pub material: Material,
-    /// Ticks a second.
+    /// Ticks per second.
     pub rate: u32,
     pub iterations: u32,
-    /// By how much the whole scene is turned about the vertical [rad].
+    /// Rotation of the whole scene about the vertical [rad].
     pub turn: f32,
-    /// Whether it is cut along the warp.
+    /// Whether the strip runs along the warp.
     pub is_warp: bool,
 }
 
-/// How it hangs, over its length.
+/// Shape of the strip at rest; lengths are divided by the length of the strip.
 #[derive(Clone, Copy, Debug)]
-pub struct Hung {
+pub struct StripAtRest {
     pub drop: f32,
-    pub reach: f32,
+    pub span: f32,
     pub settled: bool,
     pub seconds: f32,
     pub max_stretch: f32,
 }
 
-impl Hung {
-    pub fn note(&self) -> String {
+impl StripAtRest {
+    pub fn settling_note(&self) -> String {
         let note = if self.settled { "" } else { " did not settle" };
         format!("{note} {:.1} s", self.seconds)
     }
@@ -56,15 +59,15 @@ impl Default for Strip {
 }
 
 impl Strip {
-    /// As stiff as makes this its gravito-bending number.
+    /// Sets the bend stiffness so that the gravito-bending number is `gamma`.
     pub fn with_gamma(mut self, gamma: f32) -> Self {
         self.material.bend_stiffness =
             self.material.density * self.gravity * self.length.powi(3) / gamma;
         self
     }
 
-    /// Hangs it, and waits until it is at rest.
-    pub fn hang(&self) -> Hung {
+    /// Steps until the RMS speed was below 1 mm/s for half a second, for 20 s at most.
+    pub fn simulate_to_rest(&self) -> StripAtRest {
         let spacing = self.length / (self.nodes - 2) as f32;
         let rotation = Quat::from_rotation_y(self.turn);
         let (along, across) = (rotation * Vec3::X, rotation * Vec3::Z);
@@ -106,25 +109,18 @@ impl Strip {
         while calm < self.rate / 2 && ticks < 20 * self.rate {
             cloth.step(1);
             ticks += 1;
-            calm = if speed(&cloth) < 1.0e-3 { calm + 1 } else { 0 };
+            calm = if rms_speed(&cloth) < 1.0e-3 { calm + 1 } else { 0 };
         }
         let mean = |list: &[u32]| {
             list.iter().map(|i| cloth.positions()[*i as usize]).sum::<Vec3>() / list.len() as f32
         };
         let hung = mean(&tip) - mean(&clamp);
-        Hung {
+        StripAtRest {
             drop: -hung.y / self.length,
-            reach: hung.dot(along) / self.length,
+            span: hung.dot(along) / self.length,
             settled: calm >= self.rate / 2,
             seconds: ticks as f32 / self.rate as f32,
             max_stretch: cloth.stats().max_stretch,
         }
     }
-}
-
-/// Root of the mean square of all speeds [m/s].
-pub fn speed(cloth: &Cloth) -> f32 {
-    let count = cloth.positions().len() as u32;
-    let sum: f32 = (0..count).map(|i| cloth.velocity(i).unwrap().length_squared()).sum();
-    (sum / count as f32).sqrt()
 }

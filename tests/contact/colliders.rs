@@ -1,7 +1,9 @@
 //! A sheet on a collider of every shape: it comes to rest, and nothing of it is inside.
 
+use crate::common::rms_speed;
 use crate::common::shapes::{
-    ball_of_triangles, clearance, hills, noise, octahedron, rms_speed, settle, sheet,
+    free_sheet, hilly_heightfield, octahedron, speed_and_drift_at_rest, sphere_mesh,
+    ticks_until_rest, vertex_and_face_clearance,
 };
 use muslin::glam::{EulerRot, Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Shape};
@@ -18,18 +20,18 @@ fn assert_lands(desc: &ColliderDesc, mut cloth: Cloth) -> Cloth {
     for tick in 0..240 {
         cloth.step(1);
         if tick % 8 == 0 {
-            let (vertex, face) = clearance(&cloth, desc);
+            let (vertex, face) = vertex_and_face_clearance(&cloth, desc);
             (deepest, faces) = (deepest.min(vertex), faces.min(face));
         }
     }
     println!("{name}: vertices {deepest} m, faces {faces} m while it lands");
     assert!(deepest > -2.0e-5, "{name}: a vertex is {} m inside", -deepest);
     assert!(faces > -POKES, "{name}: a triangle is {} m inside", -faces);
-    let ticks = settle(&mut cloth, 2400);
-    let (noise, drift) = noise(&mut cloth);
+    let ticks = ticks_until_rest(&mut cloth, 2400);
+    let (noise, drift) = speed_and_drift_at_rest(&mut cloth);
     println!("{name}: at rest after {ticks} ticks, noise {noise} m/s, drift {drift} m");
     assert!(noise < 1.0e-3 && drift < 1.0e-3, "{name}: noise {noise} m/s, drift {drift} m");
-    let (vertex, face) = clearance(&cloth, desc);
+    let (vertex, face) = vertex_and_face_clearance(&cloth, desc);
     assert!(vertex > 0.0 && face > 0.0, "{name} at rest: {vertex} m, {face} m");
     cloth
 }
@@ -42,7 +44,7 @@ fn on_top(cloth: &Cloth, height: f32) -> usize {
 fn a_sheet_lands_on_a_sphere_and_stays_outside() {
     for nodes in [24, 40, 56] {
         let ball = ColliderDesc { shape: Shape::Sphere, radius: 0.3, ..Default::default() };
-        let cloth = assert_lands(&ball, Cloth::grid(&sheet(nodes, 1.0, 0.3 + 0.15)).unwrap());
+        let cloth = assert_lands(&ball, Cloth::grid(&free_sheet(nodes, 1.0, 0.3 + 0.15)).unwrap());
         assert!(on_top(&cloth, 0.2) > 10, "it fell off");
     }
 }
@@ -55,14 +57,14 @@ fn a_sheet_lands_on_a_ball_smaller_than_a_cell_and_stays_outside() {
         position: Vec3::new(0.011, 0.0, 0.013),
         ..Default::default()
     };
-    let mut desc = sheet(9, 0.8, 0.2);
+    let mut desc = free_sheet(9, 0.8, 0.2);
     desc.material.bend_stiffness = 0.02;
     let mut cloth = Cloth::grid(&desc).unwrap();
     cloth.add_collider(&ball).unwrap();
     cloth.add_collider(&ColliderDesc { position: Vec3::Y * -0.1, ..Default::default() }).unwrap();
     for _ in 0..300 {
         cloth.step(1);
-        let (vertex, face) = clearance(&cloth, &ball);
+        let (vertex, face) = vertex_and_face_clearance(&cloth, &ball);
         assert!(vertex > 0.0 && face > -1.0e-3, "{vertex} m, {face} m");
     }
     assert!(on_top(&cloth, -0.05) > 0, "it went around the ball");
@@ -80,7 +82,7 @@ fn a_sheet_lands_on_capsules_and_stays_outside() {
             rotation: lying,
             ..Default::default()
         };
-        let cloth = assert_lands(&capsule, Cloth::grid(&sheet(24, 1.0, 0.3)).unwrap());
+        let cloth = assert_lands(&capsule, Cloth::grid(&free_sheet(24, 1.0, 0.3)).unwrap());
         assert!(on_top(&cloth, 0.0) > 10, "it fell off");
     }
 }
@@ -92,7 +94,7 @@ fn a_sheet_lands_on_boxes_and_stays_outside() {
         [(Vec3::new(0.25, 0.2, 0.25), Quat::IDENTITY), (Vec3::new(0.25, 0.2, 0.15), turned)]
     {
         let desc = ColliderDesc { shape: Shape::Box, half_extents, rotation, ..Default::default() };
-        assert_lands(&desc, Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap());
+        assert_lands(&desc, Cloth::grid(&free_sheet(21, 0.9, 0.45)).unwrap());
     }
 }
 
@@ -100,12 +102,12 @@ fn a_sheet_lands_on_boxes_and_stays_outside() {
 fn a_pole_that_fits_into_a_cell_does_not_poke_through_the_sheet_that_hangs_on_it() {
     let half_extents = Vec3::new(0.012, 0.2, 0.012);
     let pole = ColliderDesc { shape: Shape::Box, half_extents, ..Default::default() };
-    let mut cloth = Cloth::grid(&sheet(31, 0.9, 0.45)).unwrap();
+    let mut cloth = Cloth::grid(&free_sheet(31, 0.9, 0.45)).unwrap();
     cloth.add_collider(&pole).unwrap();
     for tick in 0..400 {
         cloth.step(1);
         if tick % 8 == 0 {
-            let (vertex, face) = clearance(&cloth, &pole);
+            let (vertex, face) = vertex_and_face_clearance(&cloth, &pole);
             assert!(vertex > -2.0e-5 && face > -POKES, "tick {tick}: {vertex} m, {face} m");
         }
     }
@@ -117,12 +119,12 @@ fn a_pole_that_fits_into_a_cell_does_not_poke_through_the_sheet_that_hangs_on_it
 fn a_sheet_lands_on_a_convex_body_and_stays_outside() {
     let rotation = Quat::from_euler(EulerRot::XYZ, 0.2, 0.3, 0.1);
     let body = ColliderDesc { rotation, ..octahedron(0.3) };
-    let mut cloth = Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap();
+    let mut cloth = Cloth::grid(&free_sheet(21, 0.9, 0.45)).unwrap();
     cloth.add_collider(&body).unwrap();
     for tick in 0..900 {
         cloth.step(1);
         if tick % 8 == 0 {
-            let (vertex, face) = clearance(&cloth, &body);
+            let (vertex, face) = vertex_and_face_clearance(&cloth, &body);
             assert!(vertex > -2.0e-5 && face > -POKES, "tick {tick}: {vertex} m, {face} m");
         }
         let speed = rms_speed(&cloth);
@@ -134,13 +136,16 @@ fn a_sheet_lands_on_a_convex_body_and_stays_outside() {
 #[test]
 fn a_sheet_lands_on_a_mesh_and_stays_outside() {
     let cloth =
-        assert_lands(&ball_of_triangles(0.3, 6), Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap());
+        assert_lands(&sphere_mesh(0.3, 6), Cloth::grid(&free_sheet(21, 0.9, 0.45)).unwrap());
     assert!(on_top(&cloth, 0.2) > 10, "it fell off");
 }
 
 #[test]
 fn a_sheet_lands_on_hills_and_stays_above() {
     for cells in [6, 20] {
-        assert_lands(&hills(cells, 1.6), Cloth::grid(&sheet(21, 0.9, 0.45)).unwrap());
+        assert_lands(
+            &hilly_heightfield(cells, 1.6),
+            Cloth::grid(&free_sheet(21, 0.9, 0.45)).unwrap(),
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Fast hits, and colliders that move: nothing gets through, and what is carried goes along.
 
-use crate::common::shapes::{distance, hills, octahedron, sheet};
+use crate::common::shapes::{free_sheet, hilly_heightfield, octahedron, signed_distance};
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Shape};
 
@@ -10,7 +10,7 @@ fn speeds() -> [f32; 4] {
 
 /// A sheet thrown down at a collider below it; nothing of it may get beneath `floor`.
 fn assert_stops(desc: &ColliderDesc, speed: f32, is_cloth_moving: bool) {
-    let mut cloth = Cloth::grid(&sheet(12, 0.4, 0.3)).unwrap();
+    let mut cloth = Cloth::grid(&free_sheet(12, 0.4, 0.3)).unwrap();
     let handle: Collider = cloth.add_collider(desc).unwrap();
     let mut at = desc.clone();
     if is_cloth_moving {
@@ -23,7 +23,7 @@ fn assert_stops(desc: &ColliderDesc, speed: f32, is_cloth_moving: bool) {
         }
         cloth.step(1);
         for x in cloth.positions() {
-            let outside = distance(&at, *x);
+            let outside = signed_distance(&at, *x);
             let above = x.y - at.position.y;
             let beside = desc.shape != Shape::Plane
                 && (at.rotation.inverse() * (*x - at.position)).abs().x > desc.half_extents.x;
@@ -80,8 +80,9 @@ fn nothing_gets_through_any_shape_at_twenty_metres_a_second() {
     };
     for speed in speeds() {
         for is_cloth_moving in [true, false] {
-            for desc in [&flat(0.001), &sheet_of_two, &hills(20, 2.0), &octahedron(1.5)] {
-                let mut cloth = Cloth::grid(&sheet(12, 0.4, 1.7)).unwrap();
+            for desc in [&flat(0.001), &sheet_of_two, &hilly_heightfield(20, 2.0), &octahedron(1.5)]
+            {
+                let mut cloth = Cloth::grid(&free_sheet(12, 0.4, 1.7)).unwrap();
                 let handle = cloth.add_collider(desc).unwrap();
                 if is_cloth_moving {
                     (0..144).for_each(|i| cloth.set_velocity(i, Vec3::NEG_Y * speed).unwrap());
@@ -98,7 +99,7 @@ fn nothing_gets_through_any_shape_at_twenty_metres_a_second() {
                         let up = if desc.shape == Shape::Mesh {
                             x.y - at.position.y
                         } else {
-                            distance(&at, *x)
+                            signed_distance(&at, *x)
                         };
                         assert!(up > -1.0e-4 || beside, "{:?} at {speed} m/s: {up} m", desc.shape);
                     }
@@ -111,7 +112,7 @@ fn nothing_gets_through_any_shape_at_twenty_metres_a_second() {
 #[test]
 fn a_fast_ball_smaller_than_a_cell_takes_the_sheet_along() {
     for speed in speeds() {
-        let mut cloth = Cloth::grid(&sheet(9, 0.8, 0.3)).unwrap();
+        let mut cloth = Cloth::grid(&free_sheet(9, 0.8, 0.3)).unwrap();
         cloth
             .set_settings(muslin::Settings { gravity: Vec3::ZERO, ..cloth.settings().clone() })
             .unwrap();
@@ -137,7 +138,7 @@ fn a_fast_ball_smaller_than_a_cell_takes_the_sheet_along() {
 
 #[test]
 fn a_plate_that_swings_like_a_racket_does_not_go_through() {
-    let mut cloth = Cloth::grid(&sheet(12, 0.4, 0.0)).unwrap();
+    let mut cloth = Cloth::grid(&free_sheet(12, 0.4, 0.0)).unwrap();
     cloth
         .set_settings(muslin::Settings { gravity: Vec3::ZERO, ..cloth.settings().clone() })
         .unwrap();
@@ -170,7 +171,7 @@ fn a_plate_that_swings_like_a_racket_does_not_go_through() {
 
 #[test]
 fn a_turntable_carries_a_sheet_around() {
-    let mut cloth = Cloth::grid(&sheet(12, 0.3, 0.001)).unwrap();
+    let mut cloth = Cloth::grid(&free_sheet(12, 0.3, 0.001)).unwrap();
     cloth.set_material(muslin::Material { friction: 1.0, ..cloth.material().clone() }).unwrap();
     let desc = ColliderDesc {
         shape: Shape::Box,

@@ -1,7 +1,9 @@
 //! Friction, restitution, what colliders get of it all, and what is refused.
 
-use crate::common::bare_grid;
-use crate::common::shapes::{ball_of_triangles, hills, octahedron, rms_speed, settle, sheet};
+use crate::common::shapes::{
+    free_sheet, hilly_heightfield, octahedron, sphere_mesh, ticks_until_rest,
+};
+use crate::common::{bare_grid, rms_speed};
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Error, GridDesc, PinMode, Settings, Shape};
 
@@ -113,7 +115,7 @@ fn a_sheet_bounces_as_newton_says() {
             [0.0, 0.5].into_iter().flat_map(|e| slabs().into_iter().map(move |slab| (e, slab)))
         {
             let desc = ColliderDesc { restitution, ..desc };
-            let mut grid = sheet(8, 0.35, top + 0.5);
+            let mut grid = free_sheet(8, 0.35, top + 0.5);
             grid.origin.y += grid.material.thickness;
             grid.settings = settings.clone();
             let mut cloth = Cloth::grid(&grid).unwrap();
@@ -158,11 +160,11 @@ fn colliders_bear_the_weight_of_what_lies_on_them() {
     all.push((0.3, ColliderDesc { shape: Shape::Sphere, radius: 0.3, ..Default::default() }));
     // Its tip under the inside of a triangle.
     all.push((0.3, ColliderDesc { position: Vec3::new(0.004, 0.0, 0.011), ..octahedron(0.3) }));
-    all.push((0.3, ball_of_triangles(0.3, 6)));
+    all.push((0.3, sphere_mesh(0.3, 6)));
     for (top, desc) in all {
-        let mut cloth = Cloth::grid(&sheet(16, 0.5, top + 0.01)).unwrap();
+        let mut cloth = Cloth::grid(&free_sheet(16, 0.5, top + 0.01)).unwrap();
         let ground = cloth.add_collider(&desc).unwrap();
-        settle(&mut cloth, 2000);
+        ticks_until_rest(&mut cloth, 2000);
         let weight = 9.81 * crate::common::total_mass(&cloth) as f32;
         let mut mean = Vec3::ZERO;
         for _ in 0..60 {
@@ -180,7 +182,7 @@ fn colliders_bear_the_weight_of_what_lies_on_them() {
 
 #[test]
 fn a_hit_gives_a_collider_the_momentum_that_the_sheet_had_and_a_turn_about_its_middle() {
-    let mut grid = sheet(8, 0.2, 0.5);
+    let mut grid = free_sheet(8, 0.2, 0.5);
     grid.origin.x += 0.3;
     grid.settings.gravity = Vec3::ZERO;
     grid.settings.damping = 0.0;
@@ -210,7 +212,7 @@ fn a_hit_gives_a_collider_the_momentum_that_the_sheet_had_and_a_turn_about_its_m
 #[test]
 fn thickness_is_the_gap_at_rest() {
     for thickness in [0.0, 0.002, 0.01] {
-        let mut cloth = Cloth::grid(&sheet(8, 0.2, 0.05)).unwrap();
+        let mut cloth = Cloth::grid(&free_sheet(8, 0.2, 0.05)).unwrap();
         let half_extents = Vec3::new(1.0, 0.1, 1.0);
         let position = Vec3::Y * -0.1;
         let desc = ColliderDesc {
@@ -240,10 +242,10 @@ fn what_starts_inside_comes_out_and_is_not_flung() {
         (0.3, cube(Vec3::splat(0.5))),
         (-0.02, octahedron(0.4)),
         (0.3, octahedron(0.4)),
-        (-0.02, hills(10, 2.0)),
+        (-0.02, hilly_heightfield(10, 2.0)),
     ];
     for (height, desc) in shapes {
-        let mut cloth = Cloth::grid(&sheet(21, 0.8, height)).unwrap();
+        let mut cloth = Cloth::grid(&free_sheet(21, 0.8, height)).unwrap();
         cloth.add_collider(&desc).unwrap();
         cloth
             .add_collider(&ColliderDesc { position: Vec3::Y * -1.0, ..Default::default() })
@@ -253,7 +255,7 @@ fn what_starts_inside_comes_out_and_is_not_flung() {
             cloth.step(1);
             fastest = fastest.max(rms_speed(&cloth));
         }
-        let (vertex, _) = crate::common::shapes::clearance(&cloth, &desc);
+        let (vertex, _) = crate::common::shapes::vertex_and_face_clearance(&cloth, &desc);
         let told = format!("{:?} from {height} m", desc.shape);
         assert!(vertex > 0.0, "{told}: a vertex is still {} m inside", -vertex);
         // What falls off to the floor is as fast as that makes it.
@@ -263,8 +265,8 @@ fn what_starts_inside_comes_out_and_is_not_flung() {
 
 #[test]
 fn a_saved_cloth_goes_on_with_all_its_colliders() {
-    let mut cloth = Cloth::grid(&sheet(16, 0.9, 0.5)).unwrap();
-    let all = [ball_of_triangles(0.2, 6), octahedron(0.25), hills(8, 2.0)];
+    let mut cloth = Cloth::grid(&free_sheet(16, 0.9, 0.5)).unwrap();
+    let all = [sphere_mesh(0.2, 6), octahedron(0.25), hilly_heightfield(8, 2.0)];
     let handles = all.map(|desc| cloth.add_collider(&desc).unwrap());
     let capsule = ColliderDesc { shape: Shape::Capsule, top_radius: 0.1, ..Default::default() };
     cloth.add_collider(&capsule).unwrap();
@@ -292,7 +294,7 @@ fn a_collider_tells_a_hash_apart() {
         cloth.add_collider(desc).unwrap();
         cloth.state_hash()
     };
-    let one = ball_of_triangles(0.2, 6);
+    let one = sphere_mesh(0.2, 6);
     let mut other = one.clone();
     other.positions[9].x += 0.25;
     assert_ne!(hash(&one), hash(&other));
@@ -306,7 +308,7 @@ fn colliders_that_cannot_be_are_refused_and_change_nothing() {
     let before = cloth.state_hash();
     let shape = |shape| ColliderDesc { shape, ..Default::default() };
     let (ball, capsule, cuboid) = (shape(Shape::Sphere), shape(Shape::Capsule), shape(Shape::Box));
-    let (convex, mesh, field) = (octahedron(1.0), ball_of_triangles(1.0, 3), hills(3, 1.0));
+    let (convex, mesh, field) = (octahedron(1.0), sphere_mesh(1.0, 3), hilly_heightfield(3, 1.0));
     let mut bad: Vec<(&str, ColliderDesc)> = Vec::new();
     for radius in [0.0, -1.0, f32::NAN, f32::INFINITY] {
         bad.push(("collider.radius", ColliderDesc { radius, ..ball.clone() }));

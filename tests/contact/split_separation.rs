@@ -3,7 +3,7 @@
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Event, GridDesc, Material, PinMode, SelfCollision, Settings};
 
-use crate::common::crossings::crossings;
+use crate::common::crossings::crossing_count;
 
 const SURFACE: SelfCollision = SelfCollision::Surface;
 
@@ -21,7 +21,7 @@ fn crumpled(side: u32, seed: u32, ticks: u32) -> Cloth {
         cloth.set_velocity(i, Vec3::Z * 0.05 * push).unwrap();
     }
     cloth.step(ticks);
-    assert_eq!(crossings(&cloth), 0, "it crosses itself before anything tears");
+    assert_eq!(crossing_count(&cloth), 0, "it crosses itself before anything tears");
     let (low, high) = bounds(&cloth);
     assert!(high.y - low.y < 0.75, "it stands {} m high", high.y - low.y);
     cloth
@@ -46,7 +46,7 @@ fn slash(cloth: &mut Cloth, turn: f32, beside: f32) -> u32 {
 fn play(name: &str, cloth: &mut Cloth, ticks: u32, mut act: impl FnMut(&mut Cloth, u32)) {
     for tick in 0..ticks {
         act(cloth, tick);
-        assert_eq!(crossings(cloth), 0, "{name}: as tick {tick} begins");
+        assert_eq!(crossing_count(cloth), 0, "{name}: as tick {tick} begins");
         let looks = tick == 1 || tick == ticks / 2;
         let restored = looks.then(|| Cloth::restore(&cloth.save()).unwrap());
         cloth.step(1);
@@ -54,7 +54,7 @@ fn play(name: &str, cloth: &mut Cloth, ticks: u32, mut act: impl FnMut(&mut Clot
             restored.step(1);
             assert_eq!(restored.state_hash(), cloth.state_hash(), "{name}, tick {tick}");
         }
-        assert_eq!(crossings(cloth), 0, "{name}: after tick {tick}");
+        assert_eq!(crossing_count(cloth), 0, "{name}: after tick {tick}");
     }
     println!("{name}: {} particles", cloth.positions().len());
     let (low, high) = bounds(cloth);
@@ -77,7 +77,7 @@ fn a_crumpled_sheet_that_is_cut_does_not_cross_itself() {
         let turn = 0.4 * seed as f32;
         let opened = slash(&mut cloth, turn, 0.01);
         assert!(opened > side, "only {opened} edges opened");
-        assert_eq!(crossings(&cloth), 0, "as it is cut");
+        assert_eq!(crossing_count(&cloth), 0, "as it is cut");
         slash(&mut cloth, turn, 0.01);
         let name = format!("cut {side} {seed} {at}");
         play(&name, &mut cloth, 36, |cloth, tick| {

@@ -3,7 +3,7 @@
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings, Shape};
 
-use crate::common::crossings::crossings;
+use crate::common::crossings::crossing_count;
 
 fn surface() -> Settings {
     Settings { self_collision: SelfCollision::Surface, ..Settings::default() }
@@ -70,7 +70,7 @@ fn watch(
         spent += took;
         worst = worst.max(took);
         if tick % 5 == 4 || tick + 1 == ticks {
-            last = crossings(cloth);
+            last = crossing_count(cloth);
             most = most.max(last);
         }
     }
@@ -309,7 +309,7 @@ fn a_flat_sheet_and_its_cut_feel_nothing_of_themselves() {
         // The sides of the cut parted by some thousandths of the spacing, and come back by less than that.
         assert!(most < 3.0e-4, "it moved by {most} m, at a distance of {distance} m");
         assert!(speed(&cloth) < 1.0e-3, "it moves on at {} m/s", speed(&cloth));
-        assert_eq!(crossings(&cloth), 0);
+        assert_eq!(crossing_count(&cloth), 0);
     }
 }
 

@@ -3,7 +3,7 @@
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings};
 
-use crate::common::crossings::crossings;
+use crate::common::crossings::crossing_count;
 use crate::common::garments::{moebius_strip, shirt};
 
 /// Particles along a side of a sheet, and how long that is [m].
@@ -42,19 +42,23 @@ fn two_sheets(held: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
 /// Plays until nothing crosses any more, for `most` ticks at most, and on until `ticks` are over; nothing crosses
 /// then, nor in the last half second.
 fn assert_comes_out(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
-    let before = crossings(cloth);
+    let before = crossing_count(cloth);
     assert!(before >= 8, "{name}: only {before} crossings to begin with");
     let mut last = 0;
     for tick in 1..=ticks {
         cloth.step(1);
         let looks = tick <= most + 1 || tick % 10 == 0 || tick + 30 > ticks;
-        if looks && crossings(cloth) > 0 {
+        if looks && crossing_count(cloth) > 0 {
             last = tick;
         }
     }
     let speed = cloth.stats().max_speed;
     println!("{name}: {before} crossings, none after {last} ticks; {speed:.5} m/s at most");
-    assert!(last < most, "{name}: {} crossings, the last after {last} ticks", crossings(cloth));
+    assert!(
+        last < most,
+        "{name}: {} crossings, the last after {last} ticks",
+        crossing_count(cloth)
+    );
 }
 
 #[test]
@@ -210,7 +214,7 @@ fn held_sheets_that_were_led_through_come_out_once_they_are_let_go() {
     }
     // Held, they stay as they are.
     cloth.step(30);
-    assert!(crossings(&cloth) > 0);
+    assert!(crossing_count(&cloth) > 0);
     upper.iter().for_each(|at| cloth.unpin(*at).unwrap());
     assert_comes_out("a sheet led through", &mut cloth, 60, 120);
 }
@@ -224,7 +228,7 @@ fn a_restored_tangle_goes_on_in_the_same_bits() {
     ];
     for (name, cloth) in &mut all {
         for _ in 0..4 {
-            assert!(crossings(cloth) > 0, "{name} has come out before");
+            assert!(crossing_count(cloth) > 0, "{name} has come out before");
             let mut restored = Cloth::restore(&cloth.save()).unwrap();
             assert_eq!(restored.state_hash(), cloth.state_hash(), "{name}");
             cloth.step(1);

@@ -1,6 +1,6 @@
 //! Every scene of the demo shows what it promises, from its first second on.
 
-use crate::common::crossings::crossings;
+use crate::common::crossings::crossing_count;
 use muslin_scenes::{
     Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SceneInstance, SheetOnBall,
 };
@@ -35,7 +35,7 @@ fn the_sheet_lies_on_its_ball() {
     let mut cast = SheetOnBall::build();
     for _ in 0..40 {
         cast.step(15);
-        assert_eq!(crossings(&cast.cloths[0]), 0);
+        assert_eq!(crossing_count(&cast.cloths[0]), 0);
     }
 }
 
@@ -63,7 +63,7 @@ fn the_curtain_lets_its_ball_through() {
     for second in 0..14 {
         cast.step(60);
         Curtain::check(&cast).unwrap_or_else(|what| panic!("after {second} s: {what}"));
-        assert_eq!(crossings(&cast.cloths[0]), 0, "after {second} s");
+        assert_eq!(crossing_count(&cast.cloths[0]), 0, "after {second} s");
         for x in cast.cloths[0].positions() {
             (front, back) = (front.max(x.z), back.min(x.z));
         }

@@ -1,7 +1,9 @@
 //! Garment meshes as cloth: repair reports, hanging until rest, and tears and cuts at seams.
 
-use crate::common::crossings::crossings;
-use crate::common::garments::{assert_whole, disc, moebius_strip, shirt, sleeve, wreck};
+use crate::common::crossings::crossing_count;
+use crate::common::garments::{
+    assert_mesh_invariants, defective_mesh, disc, moebius_strip, shirt, sleeve,
+};
 use muslin::glam::Vec3;
 use muslin::{Cloth, Error, EventKind, Material, MeshDesc, Preset, SelfCollision, Settings};
 use std::fmt::Write;
@@ -13,7 +15,7 @@ fn garments() -> Vec<(&'static str, MeshDesc)> {
         ("disc", disc()),
         ("sleeve", sleeve()),
         ("moebius strip", moebius_strip()),
-        ("wreck", wreck()),
+        ("wreck", defective_mesh()),
     ];
     let with_settings = |(name, desc): (&'static str, MeshDesc)| {
         let settings = Settings { damping: 2.0, ..Settings::default() };
@@ -44,10 +46,10 @@ fn mesh_reports_list_every_repair() {
 fn hanging_garments_come_to_rest_within_ten_seconds() {
     for (name, desc) in garments() {
         let mut cloth = Cloth::mesh(&desc).unwrap();
-        assert_whole(&mut cloth, &desc);
+        assert_mesh_invariants(&mut cloth, &desc);
         let start = cloth.positions().to_vec();
         cloth.step(600);
-        assert_whole(&mut cloth, &desc);
+        assert_mesh_invariants(&mut cloth, &desc);
         let (speed, stats) = (rms_speed(&cloth), cloth.stats());
         println!("{name}: {speed:.6} m/s, stretched by {:.4} at most", stats.max_stretch);
         assert!(speed < 1.0e-3, "{name} moves at {speed} m/s after ten seconds");
@@ -72,7 +74,7 @@ fn hanging_garments_do_not_pass_through_themselves() {
         for speed in &mut speeds {
             for _ in 0..20 {
                 cloth.step(30);
-                most = most.max(crossings(&cloth));
+                most = most.max(crossing_count(&cloth));
             }
             *speed = rms_speed(&cloth);
         }
@@ -86,7 +88,7 @@ fn hanging_garments_do_not_pass_through_themselves() {
 
 #[test]
 fn vertices_without_triangles_do_not_move() {
-    let desc = wreck();
+    let desc = defective_mesh();
     let mut cloth = Cloth::mesh(&desc).unwrap();
     let unused: Vec<usize> =
         (0..desc.positions.len()).filter(|v| !desc.indices.contains(&(*v as u32))).collect();
@@ -120,7 +122,7 @@ fn clone_restore_and_reset_of_a_torn_garment_give_the_same_bits() {
         };
         let mut straight = Cloth::mesh(&desc).unwrap();
         run_script(&mut straight, 30);
-        assert_whole(&mut straight, &desc);
+        assert_mesh_invariants(&mut straight, &desc);
         assert!(straight.positions().len() > desc.positions.len(), "{name} was not torn");
         let mut others = [straight.clone(), Cloth::restore(&straight.save()).unwrap()];
         run_script(&mut straight, 10);
@@ -147,7 +149,7 @@ fn clone_restore_and_reset_of_a_torn_garment_give_the_same_bits() {
 fn seamed_sheet() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 0.0, ..MeshDesc::default() };
     for (first, u) in [(0, 0.0), (4, 1.0)] {
-        crate::common::garments::patch(&mut desc, [5, 9], u, |x, y| {
+        crate::common::garments::push_grid_patch(&mut desc, [5, 9], u, |x, y| {
             Vec3::new((first + x) as f32, -(y as f32), 0.0) * 0.1
         });
     }
@@ -181,7 +183,7 @@ fn a_cut_along_a_seam_adds_no_vertices() {
     let changed = changes.first_vertex..changes.first_vertex + changes.vertex_count;
     assert!(changed.contains(&29) && changed.contains(&85), "{changes:?}");
     assert_eq!(changes.index_count, 0);
-    assert_whole(&mut cloth, &desc);
+    assert_mesh_invariants(&mut cloth, &desc);
     let mut split = Vec::new();
     while let Some(event) = cloth.next_event() {
         if event.kind == EventKind::VertexSplit {
@@ -206,7 +208,7 @@ fn a_cut_across_a_seam_adds_one_vertex_on_each_side() {
     let count = cloth.positions().len() as u32;
     let blade = [Vec3::new(0.27, -0.44, -1.0), Vec3::new(0.53, -0.46, -1.0), Vec3::Z * 2.0];
     assert!(cloth.cut(blade[0], blade[1], blade[2]).unwrap() > 0);
-    assert_whole(&mut cloth, &desc);
+    assert_mesh_invariants(&mut cloth, &desc);
     let (top, _) = seam_particle(&cloth, 4);
     let (bottom, _) = seam_particle(&cloth, 5);
     let mut seam_vertex = None;
@@ -239,7 +241,7 @@ fn a_tear_across_a_seam_keeps_the_uvs_of_both_sides() {
         let target = Vec3::new(0.4 + 0.004 * tick as f32, -0.6 - 0.02 * tick as f32, 0.1);
         cloth.move_grab(grab, target).unwrap();
         cloth.step(1);
-        assert_whole(&mut cloth, &desc);
+        assert_mesh_invariants(&mut cloth, &desc);
     }
     let (sources, uvs) = (cloth.source_vertices(), cloth.uvs());
     assert!(cloth.positions().len() > desc.positions.len() + 4, "the cloth tore");
@@ -289,6 +291,6 @@ fn view_pointers_stay_valid_through_tears_and_cuts_of_seams() {
     let cuts: Vec<Result<u32, Error>> = heights.map(cut).collect();
     assert!(cuts.iter().flatten().any(|opened| *opened > 4), "{cuts:?}");
     assert!(cuts.contains(&Err(Error::Full { what: "the whole cut" })), "{cuts:?}");
-    assert_whole(&mut cloth, &desc);
+    assert_mesh_invariants(&mut cloth, &desc);
     assert_eq!(addresses(&mut cloth), first);
 }

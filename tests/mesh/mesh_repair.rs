@@ -1,7 +1,7 @@
 //! Mesh repair: each single defect is repaired and reported, any triangle soup becomes a sound mesh
 //! or is refused, and a grid is recognised in every form in which it is given.
 
-use crate::common::garments::{assert_whole, patch};
+use crate::common::garments::{assert_mesh_invariants, push_grid_patch};
 use crate::common::{bare_grid, irregular_mesh};
 use muslin::glam::Vec3;
 use muslin::{Cloth, Error, GridDesc, Material, MeshDesc, MeshReport, PinMode, Preset, Wind};
@@ -10,7 +10,7 @@ use proptest::prelude::*;
 /// A flat sheet of 5 × 5 vertices with the diagonals of a grid and without defects.
 fn clean_sheet() -> MeshDesc {
     let mut desc = MeshDesc::default();
-    patch(&mut desc, [5, 5], 0.0, |x, y| Vec3::new(x as f32, -(y as f32), 0.0) * 0.125);
+    push_grid_patch(&mut desc, [5, 5], 0.0, |x, y| Vec3::new(x as f32, -(y as f32), 0.0) * 0.125);
     desc
 }
 
@@ -18,9 +18,9 @@ fn clean_sheet() -> MeshDesc {
 /// the cloth and its report.
 fn checked_cloth(desc: &MeshDesc) -> (Cloth, MeshReport) {
     let mut cloth = Cloth::mesh(desc).unwrap();
-    assert_whole(&mut cloth, desc);
+    assert_mesh_invariants(&mut cloth, desc);
     cloth.step(5);
-    assert_whole(&mut cloth, desc);
+    assert_mesh_invariants(&mut cloth, desc);
     let report = *cloth.mesh_report();
     (cloth, report)
 }
@@ -148,7 +148,7 @@ fn pieces_that_meet_in_one_vertex_are_separated() {
 fn duplicate_vertices_are_welded_to_one_particle() {
     let mut desc = MeshDesc { weld_distance: 1.0e-3, ..MeshDesc::default() };
     for first in [0, 4] {
-        patch(&mut desc, [5, 5], 0.0, |x, y| {
+        push_grid_patch(&mut desc, [5, 5], 0.0, |x, y| {
             Vec3::new((first + x) as f32 + 1.0e-3 * first as f32, -(y as f32), 0.0) * 0.125
         });
     }
@@ -180,7 +180,7 @@ fn pieces_and_unused_vertices_are_kept() {
     let mut desc = clean_sheet();
     desc.positions.extend([Vec3::Z, Vec3::Z * 2.0]);
     desc.uvs.extend([desc.uvs[0]; 2]);
-    patch(&mut desc, [3, 3], 1.0, |x, y| Vec3::new(x as f32, -(y as f32), 9.0));
+    push_grid_patch(&mut desc, [3, 3], 1.0, |x, y| Vec3::new(x as f32, -(y as f32), 9.0));
     let (cloth, report) = checked_cloth(&desc);
     assert_eq!((report.pieces, report.unused_vertices, report.particles), (2, 2, 36));
     assert!(report.is_clean());
@@ -290,7 +290,7 @@ fn a_grid_with_a_split_seam_is_recognised_after_welding() {
     mesh.step(90);
     assert_eq!(mesh.state_hash(), grid.state_hash());
     assert_eq!(mesh.indices(), seamed.indices);
-    assert_whole(&mut mesh, &seamed);
+    assert_mesh_invariants(&mut mesh, &seamed);
 }
 
 /// Random triangles between a few points, some of which coincide.
@@ -326,7 +326,7 @@ proptest! {
         desc.material.tear_stretch = 1.1;
         match Cloth::mesh(&desc) {
             Ok(mut cloth) => {
-                assert_whole(&mut cloth, &desc);
+                assert_mesh_invariants(&mut cloth, &desc);
                 let report = *cloth.mesh_report();
                 let dropped = report.dropped_degenerate + report.dropped_duplicates;
                 prop_assert_eq!(report.triangles, report.kept_triangles + dropped);
@@ -337,7 +337,7 @@ proptest! {
                 let blade = [Vec3::new(-1.0, 0.4, -1.0), Vec3::new(3.0, 0.55, -1.0)];
                 let _ = cloth.cut(blade[0], blade[1], Vec3::Z * 4.0);
                 cloth.step(3);
-                assert_whole(&mut cloth, &desc);
+                assert_mesh_invariants(&mut cloth, &desc);
                 let restored = Cloth::restore(&cloth.save()).unwrap();
                 prop_assert_eq!(restored.state_hash(), cloth.state_hash());
                 prop_assert_eq!(restored.indices(), cloth.indices());

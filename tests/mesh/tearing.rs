@@ -1,6 +1,8 @@
 //! Tests of tearing: the mesh stays a clean triangle mesh after any tears in any order.
 
-use crate::common::{assert_clean, assert_sound, bare_grid, irregular_mesh, total_mass, triangles};
+use crate::common::{
+    assert_cut_invariants, assert_tear_invariants, bare_grid, irregular_mesh, total_mass, triangles,
+};
 use muslin::glam::Vec3;
 use muslin::{AS_MANY_AGAIN, Cloth, Error, Event, EventKind, MeshDesc, PinMode};
 use proptest::prelude::*;
@@ -64,7 +66,7 @@ proptest! {
             tear_numbered_edge(&mut cloth, pick).unwrap();
             cloth.step(1);
         }
-        assert_sound(&cloth, &before);
+        assert_tear_invariants(&cloth, &before);
         let restored = Cloth::restore(&cloth.save()).unwrap();
         prop_assert_eq!(restored.state_hash(), cloth.state_hash());
         let links = |cloth: &Cloth| cloth.links().collect::<Vec<_>>();
@@ -83,7 +85,7 @@ proptest! {
             tear_numbered_edge(&mut cloth, pick).unwrap();
         }
         cloth.step(5);
-        assert_sound(&cloth, &before);
+        assert_tear_invariants(&cloth, &before);
     }
 
     #[test]
@@ -105,7 +107,7 @@ proptest! {
             }
             cloth.step(ticks);
         }
-        assert_clean(&cloth, &before);
+        assert_cut_invariants(&cloth, &before);
         let mut restored = Cloth::restore(&cloth.save()).unwrap();
         restored.step(3);
         cloth.step(3);
@@ -159,7 +161,7 @@ fn a_yank_tears_the_sheet_and_keeps_the_mesh_valid() {
     cloth.release(grab).unwrap();
     cloth.step(60);
     assert!(cloth.positions().len() > before.positions().len() + 10);
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
     assert!((0..20).all(|i| (cloth.positions()[i].y).abs() < 1.0e-4), "pins do not tear off");
 }
 
@@ -188,7 +190,7 @@ fn tearing_stops_when_the_reserve_is_used_up_and_sends_one_event() {
     let count = cloth.positions().len();
     assert!(count <= 154 && count > 150, "{count} particles");
     assert!(matches!(tear_numbered_edge(&mut cloth, 0), Err(Error::Full { .. })));
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
 }
 
 #[test]
@@ -202,7 +204,7 @@ fn a_cloth_can_be_torn_into_single_triangles() {
             tear_numbered_edge(&mut cloth, corner + round).unwrap();
         }
     }
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
     assert_eq!(cloth.stats().pieces, 32, "two triangles in each of sixteen cells");
     assert_eq!(cloth.positions().len(), 3 * 32);
     let detached = drained_events(&mut cloth);
@@ -246,12 +248,12 @@ fn removing_all_pins_during_a_tear_releases_the_whole_cloth() {
         }
     }
     assert!(cloth.positions().len() > before.positions().len(), "the cloth tore");
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
     cloth.release(grab).unwrap();
     cloth.step(120);
     assert_eq!(cloth.pinned().count(), 0);
     assert!(cloth.positions().iter().all(|x| x.y < -5.0), "the whole cloth falls");
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
 }
 
 #[test]
@@ -268,7 +270,7 @@ fn a_tear_next_to_a_pin_splits_the_free_vertex_and_keeps_the_pin() {
     assert!(!cloth.tear_edge(2, 3).unwrap(), "an edge between two pins does not tear");
     cloth.step(60);
     assert!((0..6).all(|pin| cloth.positions()[pin].y == 0.0));
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
 }
 
 #[test]
@@ -302,6 +304,6 @@ fn a_sheet_torn_off_below_its_pins_falls_and_the_pins_stay() {
         .sum();
     assert!(off > 0);
     cloth.step(60);
-    assert_sound(&cloth, &before);
+    assert_tear_invariants(&cloth, &before);
     assert!((0..8).all(|pin| cloth.positions()[pin].y == 0.0));
 }

@@ -1,7 +1,7 @@
 //! Plastic bending of a crumpled sheet: case P7 of the validation list, also with hardening folds.
 
-use crate::common::folding::{SIZE, sheet, spacing};
-use crate::common::strip::speed;
+use crate::common::folding::{STRIP_LENGTH, node_spacing, paper_sheet_desc};
+use crate::common::rms_speed;
 use muslin::glam::Vec3;
 use muslin::{Cloth, Material, Preset, SelfCollision};
 
@@ -12,7 +12,7 @@ const HOLDS: u32 = 8;
 
 /// The position of a particle on the flat sheet [m].
 fn flat_position(i: u32) -> Vec3 {
-    Vec3::new((i % NODES) as f32, 0.0, (i / NODES) as f32) * spacing(NODES)
+    Vec3::new((i % NODES) as f32, 0.0, (i / NODES) as f32) * node_spacing(NODES)
 }
 
 /// A pseudo-random number from −1 to 1 for each particle, the same in each run.
@@ -28,7 +28,7 @@ fn paper_material(is_plastic: bool) -> Material {
 }
 
 fn paper_sheet(material: Material) -> Cloth {
-    let mut desc = sheet(NODES, NODES, 0.0);
+    let mut desc = paper_sheet_desc(NODES, NODES, 0.0);
     desc.material = material;
     desc.settings.substeps = 8;
     desc.settings.self_collision = SelfCollision::Particles;
@@ -52,7 +52,7 @@ fn move_pins(cloth: &mut Cloth, held: &[u32], ticks: u32, to: impl Fn(u32) -> Ve
 fn unpin_and_rest(cloth: &mut Cloth) {
     cloth.unpin_all();
     let mut ticks = 0;
-    while ticks < 120 || (speed(cloth) > 1.0e-3 && ticks < 900) {
+    while ticks < 120 || (rms_speed(cloth) > 1.0e-3 && ticks < 900) {
         cloth.step(1);
         ticks += 1;
     }
@@ -62,9 +62,9 @@ fn unpin_and_rest(cloth: &mut Cloth) {
 fn crumple(cloth: &mut Cloth) {
     let is_held = |i: &u32| (i % NODES).is_multiple_of(HOLDS) && (i / NODES).is_multiple_of(HOLDS);
     let held: Vec<u32> = (0..NODES * NODES).filter(is_held).collect();
-    let middle = Vec3::new(0.5, 0.0, 0.5) * SIZE;
+    let middle = Vec3::new(0.5, 0.0, 0.5) * STRIP_LENGTH;
     move_pins(cloth, &held, 240, |i| {
-        middle + (flat_position(i) - middle) * 0.6 + Vec3::Y * (0.2 * SIZE * noise(i))
+        middle + (flat_position(i) - middle) * 0.6 + Vec3::Y * (0.2 * STRIP_LENGTH * noise(i))
     });
     unpin_and_rest(cloth);
 }
@@ -95,7 +95,7 @@ fn fold_angle_and_width(cloth: &Cloth) -> (f32, f32) {
     let half = NODES / 2;
     let across = at(half * NODES).distance(at(half * NODES + NODES - 1));
     let down = at(half).distance(at((NODES - 1) * NODES + half));
-    (bent, (across + down) / (2.0 * SIZE))
+    (bent, (across + down) / (2.0 * STRIP_LENGTH))
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn settled_disc(material: &Material, rings: u32, turn: f32, settings: Settings) 
         cloth.step(1);
         ticks += 1;
         ticks_at_rest =
-            if crate::common::shapes::rms_speed(&cloth) < 1.0e-3 { ticks_at_rest + 1 } else { 0 };
+            if crate::common::rms_speed(&cloth) < 1.0e-3 { ticks_at_rest + 1 } else { 0 };
     }
     (cloth, ticks)
 }

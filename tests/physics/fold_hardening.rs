@@ -1,8 +1,10 @@
 //! Fold hardening and weakening: the more a fold has yielded, the larger is its yield angle and the
 //! smaller its bend stiffness.
 
-use crate::common::folding::{ARC, SIZE, fold, release, sheet, spacing};
-use crate::common::strip::speed;
+use crate::common::folding::{
+    ARC_HALF_LENGTH, STRIP_LENGTH, fold_strip, node_spacing, paper_sheet_desc, residual_angle,
+};
+use crate::common::rms_speed;
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, MeshDesc};
 
@@ -11,7 +13,7 @@ const STIFFNESS: f32 = 4.0e-5;
 
 /// The descriptor of a strip for folding, of a material that hardens and weakens as it yields.
 fn hardening_strip(nodes: u32, hardening: f32, weakening: f32) -> GridDesc {
-    let mut desc = sheet(nodes, 5, YIELD_ANGLE);
+    let mut desc = paper_sheet_desc(nodes, 5, YIELD_ANGLE);
     desc.material.yield_hardening = hardening;
     desc.material.yield_weakening = weakening;
     // Softer than paper, so that the substeps that suffice for any mesh suffice for the finest one.
@@ -80,9 +82,9 @@ fn tolerance_degrees(kind: &str) -> f32 {
 /// Folds a strip from the angle `from` to `to`, back to the angle `keeps` that should remain, and
 /// releases it. Returns the remaining angle [rad].
 fn remaining_angle(cloth: &mut Cloth, nodes: u32, [from, to]: [f32; 2], keeps: f32) -> f32 {
-    fold(cloth, nodes, ARC, [from, to]);
-    fold(cloth, nodes, ARC, [to, keeps]);
-    release(cloth, nodes)
+    fold_strip(cloth, nodes, ARC_HALF_LENGTH, [from, to]);
+    fold_strip(cloth, nodes, ARC_HALF_LENGTH, [to, keeps]);
+    residual_angle(cloth, nodes)
 }
 
 #[test]
@@ -160,7 +162,7 @@ fn droop(mut cloth: Cloth, nodes: u32) -> f32 {
         cloth.pin(i, None).unwrap();
     }
     let mut ticks = 0;
-    while ticks < 120 || (speed(&cloth) > 1.0e-5 && ticks < 3600) {
+    while ticks < 120 || (rms_speed(&cloth) > 1.0e-5 && ticks < 3600) {
         cloth.step(1);
         ticks += 1;
     }
@@ -179,7 +181,7 @@ fn a_weakened_crease_pressed_flat_turns_in_proportion_to_its_weakening() {
         grid.material.fold_length = 0.01;
         grid.settings.gravity = Vec3::NEG_Y * gravity;
         let load = grid.material.density * gravity;
-        let exact = load * (SIZE - spacing(nodes)).powi(4) / (8.0 * STIFFNESS);
+        let exact = load * (STRIP_LENGTH - node_spacing(nodes)).powi(4) / (8.0 * STIFFNESS);
         let plain = grid_and_mesh(&grid).map(|(kind, cloth)| {
             let name = format!("{kind} of {nodes}, droop of a strip [mm]");
             let droop = droop(cloth, nodes);
@@ -188,14 +190,14 @@ fn a_weakened_crease_pressed_flat_turns_in_proportion_to_its_weakening() {
         });
         // Creases between grid lines, on a grid line, and oblique. The part of the strip beyond a
         // crease turns about the crease's middle.
-        for (share, skew) in [(0.43, 0.0), (0.5, 0.0), (0.5, 0.5 * SIZE / 8.0)] {
-            let place = share * SIZE;
+        for (share, skew) in [(0.43, 0.0), (0.5, 0.0), (0.5, 0.5 * STRIP_LENGTH / 8.0)] {
+            let place = share * STRIP_LENGTH;
             for ((kind, mut cloth), plain) in grid_and_mesh(&grid).into_iter().zip(plain) {
-                let middle = Vec3::new(place, 0.0, 2.0 * spacing(nodes));
-                let off = Vec3::new(2.0 * skew, 0.0, SIZE / 4.0);
+                let middle = Vec3::new(place, 0.0, 2.0 * node_spacing(nodes));
+                let off = Vec3::new(2.0 * skew, 0.0, STRIP_LENGTH / 4.0);
                 cloth.crease(middle - off, middle + off, 0.5 * angle).unwrap();
                 cloth.crease(middle - off, middle + off, -0.5 * angle).unwrap();
-                let beyond = SIZE - place;
+                let beyond = STRIP_LENGTH - place;
                 let turn = 0.5 * load * beyond * beyond / STIFFNESS
                     * (grid.material.fold_length * weakening * angle);
                 let exact = turn * beyond;
@@ -225,7 +227,7 @@ fn a_weakened_fold_opens_more_under_a_load() {
         for (kind, mut cloth) in grid_and_mesh(&hardening_strip(nodes, 0.0, weakening)) {
             let kept = remaining_angle(&mut cloth, nodes, [0.0, angle], kept);
             // A small load on the free part, perpendicular to it.
-            let middle = SIZE / 2.0;
+            let middle = STRIP_LENGTH / 2.0;
             let count = cloth.positions().len() as u32;
             for i in (0..count).filter(|i| ((i % nodes) as f32) < 0.3 * nodes as f32) {
                 cloth.pin(i, None).unwrap();
@@ -270,7 +272,7 @@ fn perpendicular_to(along: Vec3) -> Vec3 {
 /// The strip after a crease and a fold, so that its hinges have hardened and weakened.
 fn creased_and_folded(mut cloth: Cloth, nodes: u32) -> Cloth {
     cloth.crease(Vec3::new(0.05, 0.0, -0.1), Vec3::new(0.08, 0.0, 0.3), 0.7).unwrap();
-    fold(&mut cloth, nodes, ARC, [0.0, 1.5]);
+    fold_strip(&mut cloth, nodes, ARC_HALF_LENGTH, [0.0, 1.5]);
     cloth
 }
 
@@ -282,7 +284,7 @@ fn a_cloth_saved_while_its_folds_harden_continues_with_the_same_bits() {
         let mut restored = Cloth::restore(&cloth.save()).unwrap();
         assert_eq!(restored.state_hash(), cloth.state_hash(), "{kind}");
         for cloth in [&mut cloth, &mut restored] {
-            fold(cloth, nodes, ARC, [1.5, 2.2]);
+            fold_strip(cloth, nodes, ARC_HALF_LENGTH, [1.5, 2.2]);
             cloth.unpin_all();
             cloth.step(60);
         }
@@ -311,7 +313,7 @@ fn reset_clears_the_accumulated_plastic_angles_of_folds() {
         cloth.reset();
         assert_eq!(cloth.state_hash(), fresh.state_hash(), "{kind}");
         for cloth in [&mut cloth, &mut fresh] {
-            fold(cloth, nodes, ARC, [0.0, 1.5]);
+            fold_strip(cloth, nodes, ARC_HALF_LENGTH, [0.0, 1.5]);
         }
         assert_eq!(cloth.state_hash(), fresh.state_hash(), "{kind}");
     }

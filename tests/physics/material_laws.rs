@@ -1,7 +1,7 @@
 //! Material parameters compared with closed forms: cases S, A4 and B4 of the validation list,
 //! damping, and changes of the material during motion.
 
-use crate::common::{bare_grid, elastica, strip::speed};
+use crate::common::{bare_grid, elastica, rms_speed};
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, Material, MeshDesc, PinMode, Settings, Wind};
 
@@ -10,7 +10,7 @@ const G: f32 = 9.81;
 /// Steps at least 60 ticks, until the RMS speed is at most 1 mm/s or `most_ticks` ticks have run.
 fn step_until_rest(cloth: &mut Cloth, most_ticks: u32) {
     let mut ticks = 0;
-    while ticks < 60 || (speed(cloth) > 1.0e-3 && ticks < most_ticks) {
+    while ticks < 60 || (rms_speed(cloth) > 1.0e-3 && ticks < most_ticks) {
         cloth.step(1);
         ticks += 1;
     }
@@ -95,7 +95,7 @@ fn wind_tilts_a_hanging_strip_by_the_ratio_of_drag_to_weight() {
         let at = |row: usize| sums[row];
         let hung = at(23) - at(0);
         let found = hung.z.atan2(-hung.y).to_degrees();
-        let rest = speed(&cloth);
+        let rest = rms_speed(&cloth);
         println!("A4 K = {k}: {found:.2}°, reference {degrees}°, at {rest:.4} m/s");
         assert!((found - degrees).abs() < 1.5, "A4 K = {k}: {found}°, exact {degrees}°");
         for row in 1..23 {
@@ -332,7 +332,7 @@ fn changing_the_bend_stiffness_of_a_hanging_cloth_causes_no_jerk() {
         let mut fastest = 0.0_f32;
         for _ in 0..60 {
             cloth.step(1);
-            fastest = fastest.max(speed(&cloth));
+            fastest = fastest.max(rms_speed(&cloth));
         }
         assert!(fastest < 1.0, "a change to {bend_stiffness} N·m accelerates it to {fastest} m/s");
     }

@@ -5,7 +5,7 @@ mod crossings;
 
 use super::play::{Gesture, Play};
 use super::*;
-use crossings::crossings;
+use crossings::crossing_count;
 use muslin_scenes::receipt::FLOOR;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -205,7 +205,7 @@ fn nothing_that_hands_do_takes_paper_through_itself() {
         for tick in 1..=gesture.ticks() {
             play.step(&mut tender).unwrap();
             if tick % 30 == 0 {
-                assert_eq!(crossings(tender.cloth()), 0, "{name}, at tick {tick}");
+                assert_eq!(crossing_count(tender.cloth()), 0, "{name}, at tick {tick}");
             }
         }
     }
@@ -313,7 +313,7 @@ fn crumpled_paper_is_a_ball_and_stays_one() {
     assert!(round > 0.6, "it lies in a box of {size} m");
     assert!(heights(&tender)[0] > FLOOR - 1.0e-3);
     assert!(speed(&tender) < 0.05, "it still moves at {} units/s", speed(&tender));
-    assert_eq!(crossings(tender.cloth()), 0);
+    assert_eq!(crossing_count(tender.cloth()), 0);
 }
 
 #[test]

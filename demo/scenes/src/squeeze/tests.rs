@@ -48,6 +48,6 @@ fn crumpled_paper_is_a_ball_and_comes_to_rest() {
         let size = x.iter().fold(Vec3::MIN, |high, x| high.max(*x)) - low;
         let roundness = size.min_element() / size.max_element();
         assert!(roundness > 0.6, "{small}, {ticks}: the bounding box is {size} m");
-        assert_eq!(crossings::crossings(&cloth), 0, "{small}, {ticks}");
+        assert_eq!(crossings::crossing_count(&cloth), 0, "{small}, {ticks}");
     }
 }
