@@ -6,7 +6,7 @@ use std::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, Wind};
 use muslin_scenes::disc::Disc;
-use muslin_scenes::{SceneInstance, Curtain, Drapes, Flag, HangingSheet, SheetOnBall};
+use muslin_scenes::{Curtain, Drapes, Flag, HangingSheet, SceneInstance, SheetOnBall};
 use serde::{Deserialize, Serialize};
 
 use crate::camera::Rig;
