@@ -314,16 +314,16 @@ fn tangents_follow_any_uvs_and_have_a_fallback_without_uvs() {
         let values =
             written_values(&mut cloth, Attribute::Tangent, Format::F32, &WriteDesc::default());
         for (t, n) in values.chunks_exact(4).zip(&normals) {
-            let (t, hand) = (Vec3::from_slice(t), t[3]);
+            let (t, handedness) = (Vec3::from_slice(t), t[3]);
             assert!((t.length() - 1.0).abs() < 1e-5 && t.dot(*n).abs() < 1e-5, "{t} on {n}");
             match wanted {
                 Some(wanted) if wanted.dot(*n).abs() < 1e-6 => {
                     assert!((t - wanted).length() < 1e-4, "{t} is not {wanted}");
                     let up = if wanted == Vec3::Y { Vec3::X } else { Vec3::NEG_Y };
-                    assert!((n.cross(t) * hand - up).length() < 0.2, "{n} {t} {hand}");
+                    assert!((n.cross(t) * handedness - up).length() < 0.2, "{n} {t} {handedness}");
                 }
                 Some(_) => {}
-                None => assert_eq!(hand, 1.0),
+                None => assert_eq!(handedness, 1.0),
             }
         }
     }
