@@ -66,7 +66,7 @@ impl InterpolatedSurface {
     }
 
     /// Computes the normals at `blend` (0: last tick, 1: current tick), and the tangents if `uvs`
-    /// are given. Does nothing that is already up to date.
+    /// are given. Skips what is already up to date.
     pub fn update(&mut self, world: &World, blend: f32, uvs: Option<&[Vec2]>) {
         let needs_normals = self.blend_of_normals != Some(blend);
         let are_tangents_current =

@@ -8,10 +8,9 @@
 //! ```
 //!
 //! Reads the descriptors and the caller's arguments; writes `World` between ticks, and `Outputs`
-//! after every change of positions or triangles.
-//! Invariant: every public call checks all of its arguments before it changes anything, and runs
-//! its floating-point work inside `with_float_env`, so that a host's rounding mode cannot change the
-//! result.
+//! after every change of positions or triangles. Invariant: every public call checks all of its
+//! arguments before it changes anything, and runs its floating-point work inside `with_float_env`,
+//! so that a host's rounding mode cannot change the result.
 
 mod anchors;
 mod attachments;

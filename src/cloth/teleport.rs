@@ -73,7 +73,7 @@ impl Cloth {
     /// relative to the body. The air moves with the body by the share that is not felt.
     ///
     /// In a frame, call this before [`Cloth::move_attachment`], [`Cloth::move_collider`] and
-    /// [`Cloth::set_anchors`], which set where things get to.
+    /// [`Cloth::set_anchors`], which set the poses for the end of the tick.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite, `rotation` is not a

@@ -238,8 +238,8 @@ impl Stream<'_> {
         let (a, b) = (self.bytes.as_ptr().addr() as u64, other.bytes.as_ptr().addr() as u64);
         let are_disjoint = a + self.span(count) <= b || b + other.span(count) <= a;
         let stride = self.effective_stride() as u64;
-        // Offset of the other stream's vertices within this stream's stride. It is the same for every
-        // vertex if both strides are equal.
+        // Offset of the other stream's vertices within this stream's stride. It is the same for
+        // every vertex if both strides are equal.
         let offset = (b as i64 - a as i64).rem_euclid(stride as i64) as u64;
         let are_interleaved = other.effective_stride() as u64 == stride
             && self.width() as u64 <= offset

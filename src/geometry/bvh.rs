@@ -16,7 +16,7 @@ use crate::geometry::aabb::Aabb;
 use crate::math::sort::sort_by;
 use core::ops::Range;
 
-/// The most items in a leaf.
+/// Largest number of items in a leaf.
 const LEAF: usize = 4;
 
 /// A tree over items that are numbered from 0.

@@ -35,7 +35,7 @@ pub(crate) struct SurfaceBend {
 }
 
 impl SurfaceBend {
-    /// Returns how far a chord of `length` [m] over such bends gets below the surface [m].
+    /// Returns how far a chord of `length` [m] over such bends lies below the surface [m].
     ///
     /// ```text
     /// one bend in the middle: angle L / 4    many, close together: curvature L² / 8
@@ -56,11 +56,11 @@ impl SurfaceBend {
 /// The sides of a feature that are free space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FeatureSides {
-    /// On the side of `outward`; behind it lies a solid.
+    /// Free space on the side of `outward`; the solid is behind it.
     Solid,
-    /// On both sides of a surface. Contacts count only on the side of `outward`.
+    /// Free space on both sides of a surface. Contacts count only on the side of `outward`.
     TwoSided,
-    /// Everywhere but in the face: the feature lies on the boundary of a surface.
+    /// Free space everywhere except in the face: the feature lies on the boundary of a surface.
     Boundary,
 }
 
@@ -261,7 +261,7 @@ impl Features {
 #[derive(Clone, Debug)]
 pub(crate) struct ShapeFeatures {
     pub features: Features,
-    /// Over feature ids; `None` if the shape is one plane.
+    /// BVH over feature ids; `None` if the shape is one plane.
     tree: Option<Bvh>,
     pub bends: BendHistogram,
 }
@@ -353,8 +353,8 @@ impl BendHistogram {
         self.0[bucket.min(BUCKETS - 1)].merge(bend);
     }
 
-    /// Returns the largest bends that a chord of `length` [m] crosses without getting below the
-    /// surface by more than `sagitta` [m].
+    /// Returns the largest bend at which a chord of `length` [m] lies at most `sagitta` [m] below
+    /// the surface.
     pub fn largest_within(&self, length: f32, sagitta: f32) -> SurfaceBend {
         let mut largest = SurfaceBend::default();
         let is_within = |bend: &&SurfaceBend| bend.sagitta(length) <= sagitta;

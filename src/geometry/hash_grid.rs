@@ -22,8 +22,8 @@ use glam::Vec3;
 /// With fewer than 2² cells along an axis, two neighbours of a cell would be the same cell.
 const MIN_BITS: u32 = 2;
 
-/// The most ranges of points that a cell reads: its own, one beside it, and three in each of four
-/// rows.
+/// Largest number of ranges of points that a cell reads: its own, one beside it, and three in each
+/// of four rows.
 const MAX_RANGES: usize = 14;
 
 /// Points that are tested in one batch: one bit of a `u64` each.

@@ -18,8 +18,8 @@ use crate::math::{max, min};
 use core::ops::RangeInclusive;
 use glam::Vec3;
 
-/// All points below the surface over a regular grid in x and z, down to a depth of the larger side
-/// of the grid below its lowest point.
+/// Terrain: the points below a surface over a regular grid in x and z. Its depth below the lowest
+/// point is the larger side of the grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Heightfield {
     columns: u32,

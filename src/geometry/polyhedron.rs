@@ -58,8 +58,8 @@ pub(crate) struct CandidateFaces<'a> {
 }
 
 impl SignedDistance for CandidateFaces<'_> {
-    /// Returns the largest distance from a face plane: beyond edges and vertices less than the
-    /// distance from the polyhedron.
+    /// Returns the largest distance from a face plane: beyond edges and vertices it is less than
+    /// the distance from the polyhedron.
     fn signed_distance(&self, p: Vec3) -> (f32, Vec3) {
         let mut most = (f32::NEG_INFINITY, Vec3::Y);
         for face in self.faces {

@@ -47,7 +47,7 @@ impl SignedDistance for Sphere {
 
 /// The convex hull of two spheres on the y axis: a capsule, tapered if their radii differ.
 ///
-/// Seen as a family of spheres along the axis, with radius and center linear in y.
+/// It is a family of spheres along the axis, whose radius is linear in y.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Capsule {
     /// The y coordinate of the middle [m].
@@ -58,8 +58,8 @@ pub(crate) struct Capsule {
     radius: f32,
     /// How much the radius falls per metre of y.
     taper: f32,
-    /// How far below a point the center of the sphere closest to it lies, per metre of distance
-    /// from the axis.
+    /// Drop in y from a point to the center of the closest sphere, per metre of distance from the
+    /// axis.
     slope: f32,
 }
 

@@ -82,7 +82,7 @@ mod many {
             Self { max: max.max(1), is_eager: false }
         }
 
-        /// At most `max` threads, and all of them for however little work.
+        /// At most `max` threads; splits even little work among all of them.
         pub fn eagerly(max: u32) -> Self {
             Self { is_eager: true, ..Self::up_to(max) }
         }

@@ -100,8 +100,8 @@ impl Seams {
     /// Applies the split of a particle: the vertices at `corners` move to, or are copied for, the
     /// new `particle`.
     ///
-    /// Calls `on_new_vertex(new, old)` for each copied vertex. If none was copied, calls it once
-    /// with the lowest vertex that moved, twice.
+    /// Calls `on_new_vertex(new, old)` for each copied vertex. If none was copied, calls it once,
+    /// with the lowest vertex that moved as both arguments.
     pub fn split_particle(
         &mut self,
         particle: u32,

@@ -29,8 +29,8 @@ use glam::{Vec2, Vec3};
 /// No hinge.
 const NONE: u32 = u32::MAX;
 
-/// Minimum determinant of M. Below it the hinges measure nearly the same, and rounding would become
-/// stiff; the difference is added to the diagonal of M.
+/// Minimum determinant of M. Below it the hinges measure nearly the same number, and rounding
+/// errors would act as a large stiffness; so the difference is added to the diagonal of M.
 const MIN_DETERMINANT: f32 = 0.15;
 
 /// The pairs of the three hinges of a triangle.

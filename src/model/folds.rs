@@ -407,9 +407,10 @@ fn mean_twist(plates: &PlateElements, at: usize, of: impl Fn(usize) -> f32) -> f
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// The angle of the fold through a particle: the largest sum over `fold_elements` consecutive
-/// elements that include the particle, along the row or the column, whichever the fold crosses more
-/// nearly at a right angle, projected to a crossing at a right angle.
+/// The angle of the fold through a particle [rad]: the largest sum over `fold_elements` consecutive
+/// elements that include the particle. The elements lie along the row or along the column,
+/// whichever is more nearly perpendicular to the fold. If it is not quite perpendicular, the sum is
+/// reduced to the angle across the fold.
 fn fold_angle(
     plates: &PlateElements,
     fold_elements: usize,

@@ -19,14 +19,15 @@ use crate::model::links::{LinkBatch, Links};
 use crate::model::sparse_links::SparseLinks;
 use core::ops::Range;
 
-/// Memory layout of the particles of a row. Link `k` of a row joins …
+/// Memory layout of the particles of a row of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RowPattern {
-    /// … `a + k` and `b + k`: between two rows of the grid.
+    /// Link `k` joins `a + k` and `b + k`: particles of two rows of the grid.
     Straight,
-    /// … `a + 2k` and `a + 2k + 1`: neighbours in one row.
+    /// Link `k` joins `a + 2k` and `a + 2k + 1`: neighbours in one row.
     Pairs,
-    /// … `a + k` and `a + k + 2` for k = 0, 1, 4, 5, 8, …: every second particle in one row.
+    /// Links join `a + k` and `a + k + 2` for k = 0, 1, 4, 5, 8, …: every second particle in one
+    /// row.
     Quads,
 }
 

@@ -148,7 +148,7 @@ impl Tethers {
         }
     }
 
-    /// Measures the paths again that crossed a tear. `touched` are all particles whose triangles
+    /// Recomputes the paths that crossed a tear. `touched` are all particles whose triangles
     /// changed; the pins have not changed.
     pub fn update_after_tear(&mut self, mesh: &Mesh, rest: &[Vec3], touched: &[u32]) {
         let scratch = &mut self.scratch;
@@ -246,8 +246,9 @@ impl TetherSet {
         }
     }
 
-    /// Collects the particles whose paths are gone after the `touched` ones lost triangles: those
-    /// whose path came through a lost triangle, and all whose paths came from there.
+    /// Collects the particles whose paths are invalid after the `touched` particles lost triangles:
+    /// those whose path comes through a lost triangle, and in turn those whose path comes through a
+    /// triangle of an invalid particle.
     fn invalidate(&mut self, mesh: &Mesh, touched: &[u32], scratch: &mut TetherScratch) {
         scratch.invalid.clear();
         for particle in touched {

@@ -32,8 +32,8 @@
 //!
 //! Reads and writes `World`. Each line of the code below is one stage, timed under its `Stage`.
 //! Invariant: the order of the stages is part of the result; the same input gives the same bits.
-//! With a strain limit or anchors, the last pass moves particles last, so these bounds hold when the
-//! tick ends.
+//! With a strain limit or anchors, the last pass moves particles last, so these bounds hold when
+//! the tick ends.
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};

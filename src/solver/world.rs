@@ -168,7 +168,8 @@ pub(crate) struct World {
     pub profile: Profile,
     /// Scratch buffers of the stages.
     pub scratch: TickScratch,
-    /// Number of ticks at rest. Written by `integrate::sleep`; a change by the host sets it to zero.
+    /// Number of ticks at rest. Written by `integrate::sleep`; a change by the host sets it to
+    /// zero.
     pub sleep: SleepTimer,
     /// Data of particle collision, while `self_collision` is `Particles`. Written by
     /// `particle_contacts`.

@@ -149,7 +149,7 @@ fn is_size(v: f32) -> bool {
 }
 
 impl ColliderDesc {
-    /// Validates the descriptor, except for what only building the shape reveals.
+    /// Validates the descriptor, except for defects that only building the shape detects.
     pub(crate) fn check(&self) -> Result<()> {
         check_pose(self.position, self.rotation, COLLIDER_FIELDS)?;
         self.check_shape()?;

@@ -22,7 +22,7 @@
 use crate::math::shared_points::SharedPoints;
 use core::ops::{Add, Div, Mul, Sub};
 
-/// The most lanes that any instruction set has.
+/// Largest number of lanes of any instruction set.
 pub(crate) const MAX_LANES: usize = 16;
 
 /// Lanes of one block of data that is stored in array-of-structures-of-arrays order.

@@ -102,7 +102,7 @@ pub(crate) fn repair(
     Ok(RepairedMesh { mesh, source_vertices, seams, report })
 }
 
-/// Where a corner is after its triangle was flipped, if it was.
+/// Returns the new number of a corner: flipping its triangle swaps the second and the third.
 fn corner_after_flip(corner: Corner, flipped: &[bool]) -> Corner {
     match (flipped[corner as usize / 3], corner % 3) {
         (true, 1) => corner + 1,

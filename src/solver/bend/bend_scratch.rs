@@ -21,8 +21,8 @@ pub(crate) struct BendScratch {
 }
 
 impl BendScratch {
-    /// Allocates the buffers of a grid with these `plates`, or of a mesh with so many `triangles`,
-    /// `hinges` and at most `capacity` particles.
+    /// Allocates the buffers of a grid with these `plates`, or of a mesh with these numbers of
+    /// `triangles` and `hinges` and at most `capacity` particles.
     pub fn new(
         plates: Option<&PlateElements>,
         triangles: usize,

@@ -40,13 +40,14 @@ const RESIDUAL_RATIO: f32 = 1.0e-8;
 /// Buffers with an entry per particle, and the cached matrix.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MeshBendScratch {
-    /// Element energies and stiffness matrix; valid while links and held particles stay.
+    /// Element energies and stiffness matrix; valid until links or held particles change.
     elements: Vec<TriangleStiffness>,
     stiffness: StiffnessMatrix,
     revision: u32,
     /// Key of the plastic softening for which the matrix was assembled.
     softening_key: Option<(u32, f32)>,
-    /// Chebyshev steps, valid while masses and `assembled_stiffness` stay too; `None` if too stiff.
+    /// Chebyshev steps, valid until masses or `assembled_stiffness` change too; `None` if too
+    /// stiff.
     chebyshev: Option<ChebyshevSteps>,
     assembled_stiffness: f32,
     /// Force of the rest curvature of each hinge, times h² [kg m³]; used if some hinges are bent.
@@ -70,7 +71,8 @@ pub(crate) struct MeshBendScratch {
 }
 
 impl MeshBendScratch {
-    /// Allocates buffers for so many triangles and hinges and at most `capacity` particles.
+    /// Allocates buffers for these numbers of triangles and hinges, and at most `capacity`
+    /// particles.
     pub fn new(triangles: usize, hinges: usize, capacity: usize) -> Self {
         let numbers = || Vec::with_capacity(capacity);
         let vectors = || Vec::with_capacity(capacity);

@@ -27,15 +27,15 @@ use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::spectral_bound;
 use crate::solver::bend::twist::{Twist, TwistOffset};
 
-/// Stiffness over mass from which the second solve runs, …
+/// Stiffness over mass from which the second solve runs.
 const MIN_SECOND_SOLVE: f32 = 0.25;
-/// … and factor of its shift: µ = `SHIFT_FACTOR` · √(stiffness over mass).
+/// Factor of the shift of the second solve: µ = `SHIFT_FACTOR` · √(stiffness over mass).
 const SHIFT_FACTOR: f32 = 4.0;
 
 /// Largest stiffness over mass; beyond it f32 cannot distinguish the sheet from a rigid one.
 const MAX_STIFFNESS_OVER_MASS: f32 = 3.0e4;
 
-/// Buffers, and factors that stay while pins, masses and stiffness do.
+/// Buffers, and factors that are valid until pins, masses or stiffness change.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlateScratch {
     /// Stiffness of each element relative to an interior one.

@@ -17,9 +17,10 @@ use crate::math::simd::{Level, leveled};
 use crate::math::{TINY, max, min};
 use crate::model::plate_elements::{PerKind, PlateElements};
 
-/// Ratio of curvature to rest curvature at which the blend towards the own direction starts, …
+/// Ratio of curvature to rest curvature at which the blend from the normal to the direction of the
+/// curvature starts.
 const BLEND_START: f32 = 0.25;
-/// … and width of the blend; beyond it the own direction counts alone.
+/// Width of the blend, in the same ratio; beyond it only the direction of the curvature counts.
 const BLEND_WIDTH: f32 = 0.5;
 
 /// Computes the unit normal at each particle of a grid: the cross product of the differences of its

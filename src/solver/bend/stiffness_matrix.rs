@@ -22,14 +22,14 @@ const WIDTH: usize = 12;
 /// Hinge corners of a triangle: three hinges of four; 6 particles differ, unless the mesh is torn.
 const CORNERS: usize = 12;
 
-/// Stiffness `by` [kg] between the particle of the row and the particle `with`.
+/// Stiffness [kg] between the particle of the row and the particle `column`.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    with: u32,
-    by: f32,
+    column: u32,
+    stiffness: f32,
 }
 
-const NO_ENTRY: Entry = Entry { with: 0, by: 0.0 };
+const NO_ENTRY: Entry = Entry { column: 0, stiffness: 0.0 };
 
 /// Symmetric matrix, stored as its upper half.
 #[derive(Clone, Debug, Default)]
@@ -84,9 +84,9 @@ impl StiffnessMatrix {
         }
         let Self { rows, counts, overflow, diagonal, row_sum } = self;
         let mut add_to_sums = |i: usize, entry: &Entry| {
-            for at in [i, entry.with as usize] {
-                diagonal[at] += entry.by;
-                row_sum[at] += entry.by.abs();
+            for at in [i, entry.column as usize] {
+                diagonal[at] += entry.stiffness;
+                row_sum[at] += entry.stiffness.abs();
             }
         };
         for (i, (row, count)) in rows.iter().zip(&*counts).enumerate() {
@@ -95,27 +95,29 @@ impl StiffnessMatrix {
         overflow.iter().for_each(|(row, entry)| add_to_sums(*row as usize, entry));
     }
 
-    fn add(&mut self, [a, b]: [u32; 2], by: f32) {
-        let (i, with) = if a < b { (a, b) } else { (b, a) };
+    fn add(&mut self, [a, b]: [u32; 2], stiffness: f32) {
+        let (i, column) = if a < b { (a, b) } else { (b, a) };
         let (row, count) = (&mut self.rows[i as usize], &mut self.counts[i as usize]);
-        let existing = row[..*count as usize].iter_mut().find(|entry| entry.with == with);
+        let existing = row[..*count as usize].iter_mut().find(|entry| entry.column == column);
         if let Some(entry) = existing {
-            entry.by += by;
+            entry.stiffness += stiffness;
         } else if let Some(entry) = row.get_mut(*count as usize) {
-            *entry = Entry { with, by };
+            *entry = Entry { column, stiffness };
             *count += 1;
         } else {
-            self.overflow.push((i, Entry { with, by }));
+            self.overflow.push((i, Entry { column, stiffness }));
         }
     }
 
     /// Sorts the overflow and merges entries of the same pair.
     fn sort_overflow(&mut self) {
-        let pair = |(row, entry): &(u32, Entry)| (*row, entry.with);
-        sort_by(&mut self.overflow, |p, q| pair(p).cmp(&pair(q)).then(p.1.by.total_cmp(&q.1.by)));
+        let pair = |(row, entry): &(u32, Entry)| (*row, entry.column);
+        sort_by(&mut self.overflow, |p, q| {
+            pair(p).cmp(&pair(q)).then(p.1.stiffness.total_cmp(&q.1.stiffness))
+        });
         self.overflow.dedup_by(|next, existing| {
             let is_same_pair = pair(next) == pair(existing);
-            existing.1.by += if is_same_pair { next.1.by } else { 0.0 };
+            existing.1.stiffness += if is_same_pair { next.1.stiffness } else { 0.0 };
             is_same_pair
         });
     }
@@ -124,16 +126,16 @@ impl StiffnessMatrix {
     pub fn add_forces(&self, x: &[Vec4], force: &mut [Vec4]) {
         for (i, (row, count)) in self.rows.iter().zip(&self.counts).enumerate() {
             let (from, mut sum) = (x[i], Vec4::ZERO);
-            for Entry { with, by } in &row[..*count as usize] {
-                let pair_force = (x[*with as usize] - from) * *by;
-                force[*with as usize] -= pair_force;
+            for Entry { column, stiffness } in &row[..*count as usize] {
+                let pair_force = (x[*column as usize] - from) * *stiffness;
+                force[*column as usize] -= pair_force;
                 sum += pair_force;
             }
             force[i] += sum;
         }
-        for (i, Entry { with, by }) in &self.overflow {
-            let pair_force = (x[*with as usize] - x[*i as usize]) * *by;
-            force[*with as usize] -= pair_force;
+        for (i, Entry { column, stiffness }) in &self.overflow {
+            let pair_force = (x[*column as usize] - x[*i as usize]) * *stiffness;
+            force[*column as usize] -= pair_force;
             force[*i as usize] += pair_force;
         }
     }

@@ -20,7 +20,8 @@ use crate::math::simd::{Level, leveled};
 use crate::model::plate_elements::PlateElements;
 use crate::solver::bend::banded::VectorColumns;
 
-/// Multipliers and buffers of the twist, and factors that stay while pins, masses and stiffness do.
+/// Multipliers and buffers of the twist, and factors that are valid until pins, masses or stiffness
+/// change.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Twist {
     /// Multipliers of this substep, one vector per cell [kg m].

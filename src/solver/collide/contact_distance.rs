@@ -18,9 +18,9 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::SurfaceBend;
 use crate::state::colliders::ColliderBody;
 
-/// The fraction of the gap that edges and triangles keep between particles. Where a shape is
-/// smooth, a triangle sinks in by less than the rest, so that its corners alone carry it and it
-/// rests still.
+/// The fraction of the gap that edges and triangles keep. On a smooth shape a triangle sinks in by
+/// less than the remaining fraction, so only its corners are in contact and the cloth comes to
+/// rest.
 pub(super) const TRIANGLE_GAP: f32 = 0.5;
 
 /// A factor for cells that are stretched.
@@ -42,9 +42,8 @@ pub(super) fn contact_gap(body: &ColliderBody, thickness: f32) -> f32 {
     if body.desc.thickness < 0.0 { thickness } else { body.desc.thickness }
 }
 
-/// Returns up to which bend the features of a shape count as smooth and are not tested, and the
-/// margin on top of the gap that particles keep for that [m]. `spacing` is the mean edge length
-/// [m].
+/// Returns the largest bend at which features count as smooth and are not tested, and the margin
+/// [m] that particles keep on top of the gap in return. `spacing` is the mean edge length [m].
 pub(super) fn smoothing(shape: &CollisionShape, spacing: f32) -> (SurfaceBend, f32) {
     let sagitta = |radius: f32| {
         if radius >= MIN_RADIUS * spacing {

@@ -34,8 +34,8 @@ pub(crate) struct ContactScratch {
 }
 
 impl ContactScratch {
-    /// Allocates for `bodies` colliders and a cloth of at most `particles` particles and `triangles`
-    /// triangles.
+    /// Allocates for `bodies` colliders and a cloth of at most `particles` particles and
+    /// `triangles` triangles.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.nearby.reserve(bodies, particles, triangles);
         let contacts = particles.saturating_sub(self.collider_contacts.len());

@@ -41,7 +41,7 @@ pub(super) struct FeatureQuery<'a> {
     pub candidates: Candidates<'a>,
     /// The distance to keep from features [m].
     pub gap: f32,
-    /// Deeper penetrations [m] cannot have come about step by step.
+    /// A penetration deeper than this [m] cannot result from motion in small steps.
     pub max_depth: f32,
 }
 

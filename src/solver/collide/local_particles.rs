@@ -77,11 +77,11 @@ impl Penetration {
 /// Limits how fast a point that started the substep inside a collider comes out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depenetration {
-    /// The most that such a point rises in the substep [m].
+    /// The largest distance that such a point rises in the substep [m].
     pub max_step: f32,
-    /// A point deeper than this [m] rises by `max_step` at most, whatever drags it in, and slides
-    /// freely. Cloth that begins inside a shape thus leaves it on the side where most of it is
-    /// pushed to, and is not torn.
+    /// A point deeper than this [m] rises by at most `max_step`, even if something pulls it inward,
+    /// and slides without friction. So cloth that starts inside a shape leaves it on the side to
+    /// which most of its points are pushed, and does not tear.
     pub deep: f32,
 }
 

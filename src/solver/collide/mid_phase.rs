@@ -116,7 +116,8 @@ impl MotionBound {
     }
 }
 
-/// Returns the features of a shape that has them from the start.
+/// Returns the features that a shape stores; `None` for smooth shapes, and for heightfields, whose
+/// features are made on the fly.
 fn features_of(shape: &CollisionShape) -> Option<&ShapeFeatures> {
     match shape {
         CollisionShape::Cuboid(_, features)

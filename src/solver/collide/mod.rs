@@ -42,17 +42,17 @@ use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::world::World;
 use crate::state::colliders::{ColliderBody, Impulse};
 
-/// Rounds of pushing triangles out of a shape per substep: at least this many while any penetrates,
-/// and at most this many while one is too deep.
+/// Rounds per substep that push triangles out of a shape: the smallest number while any triangle
+/// penetrates, and the largest number while one is too deep.
 const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 
-/// The largest speed at which cloth that started inside a shape comes out [m/s]. A faster one would
-/// stretch the cloth around it more than links can bear, and throw it.
+/// The largest speed at which cloth that started inside a shape comes out [m/s]. A larger speed
+/// would overstretch the cloth around it and fling it away.
 const MAX_DEPENETRATION_SPEED: f32 = 0.05;
 
-/// A penetration deeper than this, in mean edge lengths, did not come about by motion. The first value
-/// is for round shapes, the second for shapes with flat faces, whose vertices may stick through the
-/// cloth.
+/// A penetration deeper than this, in mean edge lengths, is not the result of motion. The first
+/// value is for round shapes, the second for shapes with flat faces, whose vertices may stick
+/// through the cloth.
 const DEEP: [f32; 2] = [0.25, 0.75];
 
 /// The fraction of the gap that the last round may leave to the next substep.

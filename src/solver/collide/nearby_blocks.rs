@@ -35,7 +35,7 @@ pub(crate) struct NearbyBlocks {
     pub(super) triangle_bounds: Vec<Aabb>,
     /// The longest edge at rest [m], and the number of triangles when it was measured.
     pub(super) longest_rest_edge: (f32, usize),
-    /// No edge is longer until the next rebuild [m]; 0 while it is not needed.
+    /// Upper bound of the edge lengths until the next rebuild [m]; 0 while it is not needed.
     pub(super) longest_edge: f32,
     /// Whether the next refresh must rebuild.
     pub(super) is_stale: bool,
@@ -64,8 +64,8 @@ pub(super) struct ColliderEntry {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum SweptBounds {
     Box(Aabb),
-    /// Below at least one of two planes, each a point and a normal: a half space at both ends of
-    /// the tick.
+    /// The union of two half spaces, each below a plane (a point and a normal): one half space at
+    /// the start and at the end of the tick.
     HalfSpaces([(Vec3, Vec3); 2]),
 }
 
@@ -74,7 +74,7 @@ pub(super) enum SweptBounds {
 pub(super) struct Neighbours<'a> {
     pub particle_blocks: &'a [u32],
     pub triangle_blocks: &'a [u32],
-    /// No edge is longer [m].
+    /// Upper bound of the edge lengths [m].
     pub longest_edge: f32,
     /// The margin on top of the gap that particles keep [m].
     pub sagitta_margin: f32,

@@ -28,7 +28,7 @@ use crate::solver::collide::mid_phase::Candidates;
 use crate::solver::collide::nearby_blocks::BLOCK;
 use glam::Vec3;
 
-/// The most steps of conservative advancement.
+/// Largest number of steps of conservative advancement.
 const MAX_STEPS: u32 = 24;
 
 /// Normals at the start and at the end whose angle has at least this cosine belong to the same side
@@ -109,11 +109,11 @@ pub(super) fn solve_particle(
     particles.apply_local_correction(i, end, penetration.normal, correction);
 }
 
-/// The least gap to surfaces without an inside [m]: a point that lies on the surface has lost its
-/// side.
+/// Smallest gap to surfaces without an inside [m]: for a point on the surface the side is unknown.
 const MIN_SURFACE_GAP: f32 = 1.0e-4;
 
-/// The most planes of a concave place that a particle is projected onto, one after the other.
+/// Largest number of planes of a concave place that a particle is projected onto, one after the
+/// other.
 const MAX_PLANES: u32 = 4;
 
 /// The fraction of the gap that counts as clear after a projection; the rest covers rounding.

@@ -30,8 +30,8 @@ struct ResponseParameters {
     resting_speed: f32,
     /// The factor that damping applies to velocities and history in this substep.
     decay: f32,
-    /// The momentum per kilogram and metre of correction that holds a particle where it was pushed
-    /// to [1/s].
+    /// The momentum per kilogram and metre of correction that keeps a particle at its corrected
+    /// position [1/s].
     momentum_per_correction: f32,
     /// The velocity that a particle got per metre of correction [1/s].
     velocity_per_correction: f32,

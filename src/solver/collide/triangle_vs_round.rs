@@ -26,8 +26,8 @@ use crate::solver::collide::nearby_blocks::{BLOCK, Neighbours};
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use glam::Vec3;
 
-/// The most alternations between the closest point of a triangle and the closest sphere of a
-/// capsule.
+/// Largest number of alternations between the closest point of a triangle and the closest sphere of
+/// a capsule.
 const MAX_STEPS: u32 = 8;
 
 /// Bisections of the substep that find when a triangle passed a point.

@@ -72,7 +72,8 @@ struct AttachmentFrames {
 }
 
 impl AttachmentFrames {
-    /// Loads the transforms of `attachment` after substep `moment` of `count`, if it is another one.
+    /// Computes the transforms of `attachment` after substep `moment` of `count`, unless they are
+    /// cached.
     fn update(&mut self, attachments: &Attachments, attachment: u32, moment: u32, count: u32) {
         if self.attachment == attachment {
             return;

@@ -5,9 +5,9 @@
 //! vertex     t = ΣT − n (n · ΣT), normalised;  handedness w = sign(Σd)
 //! ```
 //! Method: the direction of increasing u on each triangle, summed per vertex. T grows with the area
-//! of the triangle in the texture, so large triangles weigh more. The handedness w tells on which side v
-//! grows: along w (n × t). If the texture defines no direction, t is a unit vector normal to n and
-//! w is 1.
+//! of the triangle in the texture, so large triangles weigh more. The handedness w gives the
+//! direction in which v grows: along w (n × t). If the texture defines no direction, t is a unit
+//! vector normal to n and w is 1.
 //!
 //! Reads triangles, texture coordinates and positions; writes `Tangents`.
 //! Invariant: the sums are cached until positions or triangles change. `vertex_transform` makes
@@ -137,8 +137,8 @@ vectored! {
     ) = triangles::sum, Avx2, triangles::sum_scalar
 }
 
-/// Direction in which u grows on a triangle, scaled by its area in the texture. The per-vertex
-/// input that other sums use for the wind holds the texture coordinates here.
+/// Direction in which u grows on a triangle, scaled by its area in the texture.
+/// `SumInput::attribute` holds the texture coordinates.
 #[derive(Clone, Copy)]
 struct TextureTangent;
 

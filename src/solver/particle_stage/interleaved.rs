@@ -212,7 +212,7 @@ pub(crate) fn compute_motion_bounds(
     });
 }
 
-/// Whether any particle has no inverse mass.
+/// Whether any particle has zero inverse mass.
 pub(crate) fn has_fixed_particle(particles: &[Float4]) -> bool {
     particles.iter().any(|particle| particle[3] <= 0.0)
 }

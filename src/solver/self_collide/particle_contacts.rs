@@ -81,7 +81,7 @@ pub(crate) fn refresh_pairs(world: &mut World) {
     world.particle_collision = Some(collision);
 }
 
-/// Moves particles that are too near apart, in one pass.
+/// Separates the pairs of particles that are too near, in one pass.
 pub(crate) fn solve(world: &mut World) {
     let Some(collision) = &mut world.particle_collision else {
         return;

@@ -23,7 +23,7 @@ use crate::state::particles::Particles;
 use glam::Vec3;
 
 /// Particles of one piece that are nearer than this at rest are neighbours and do not collide [mean
-/// rest lengths]: the diagonal of a grid cell is.
+/// rest lengths]. The diagonal of a grid cell is shorter.
 const NEIGHBOUR_DISTANCE: f32 = 1.5;
 
 /// Margin of a list [mean rest lengths].

@@ -12,7 +12,7 @@ pub(crate) struct DampingScratch {
 }
 
 impl DampingScratch {
-    /// Allocates columns for so many `links` and `dynamic` links.
+    /// Allocates columns for `links` links and `dynamic` dynamic links.
     pub fn new(links: usize, dynamic: usize) -> Self {
         let columns = |count: usize| [Column::with_capacity(count), Column::with_capacity(count)];
         Self { undamped: [columns(links), columns(dynamic)] }

@@ -30,7 +30,7 @@ pub(crate) struct EndWeights {
 }
 
 impl EndWeights {
-    /// Grows the capacity to so many `particles` and `links` in all.
+    /// Grows the capacity to `particles` particles and `links` links in total.
     pub fn reserve(&mut self, particles: usize, links: usize) {
         self.w.reserve_exact(particles.saturating_sub(self.w.len()));
         for list in &mut self.ends {
@@ -44,7 +44,7 @@ impl EndWeights {
         same_bits(&self.w, w) && self.rigid == rigid
     }
 
-    /// Notes the inverse masses to compute from, and resizes the lists to `links` entries.
+    /// Stores the inverse masses to compute from, and resizes the lists to `links` entries.
     pub fn reset(&mut self, w: &[f32], rigid: [bool; 3], links: usize) {
         self.w.clear();
         self.w.extend_from_slice(w);

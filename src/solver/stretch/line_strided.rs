@@ -409,7 +409,7 @@ impl StridedBlock {
         self.first + chain * self.chain_stride + step * self.link_stride
     }
 
-    /// Checks that eight chains of so many steps lie within columns.
+    /// Checks that eight chains of `steps` steps lie within the columns.
     ///
     /// # Panics
     /// If they do not.

@@ -17,7 +17,7 @@ pub(crate) struct RollbackState {
 }
 
 impl RollbackState {
-    /// Allocates buffers for so many `particles` in at most `triangles` pieces.
+    /// Allocates buffers for `particles` particles in at most `triangles` pieces.
     pub fn with_capacity(particles: usize, triangles: usize) -> Self {
         Self {
             positions: Columns::with_capacity(particles),
@@ -26,7 +26,7 @@ impl RollbackState {
         }
     }
 
-    /// Grows the capacity to so many `triangles`, each of which may become a piece.
+    /// Grows the capacity to `triangles` triangles, each of which may become a piece.
     pub fn reserve(&mut self, triangles: usize) {
         self.ends.reserve_exact(triangles.saturating_sub(self.ends.len()));
     }

@@ -56,14 +56,14 @@ const MAX_ROUNDS: u32 = 24;
 /// The largest number of rounds for a cloth that was held apart and cannot roll back.
 const MAX_CONTRACTION_ROUNDS: u32 = 2000;
 
-/// The rounding margin, as a share of `max_stretch`: the limit that is worked towards is less than
-/// the limit that is guaranteed.
+/// The rounding margin, as a share of `max_stretch`: the solver aims at a limit below the
+/// guaranteed one.
 const ROUNDING_MARGIN: f32 = 4.0e-3;
 
 /// The share of `max_stretch` that a projected link keeps, so that the sweeps end.
 const TARGET_SHARE: f32 = 0.5;
 
-/// Every so many rounds, one pass goes along the pin order.
+/// Number of rounds between two passes along the pin order.
 const ROUNDS_PER_PIN_SWEEP: u32 = 8;
 
 const KINDS: [LinkKind; 2] = [LinkKind::Stretch, LinkKind::Shear];
@@ -83,8 +83,8 @@ pub(crate) fn project_once(world: &mut World) {
 
 /// Enforces the limit at the end of a tick.
 ///
-/// Where pins, grabs or anchors hold the cloth apart the limit cannot hold. That is reported by one
-/// event, and again only after it held in between.
+/// Where pins, grabs or anchors hold the cloth apart the limit cannot hold. One event reports that,
+/// and not again until the limit has held in between.
 pub(crate) fn enforce(world: &mut World) {
     let max_stretch = world.settings.max_stretch;
     let (limit, inner) = (1.0 + max_stretch, 1.0 + max_stretch * (1.0 - ROUNDING_MARGIN));

@@ -258,7 +258,7 @@ fn each_scalar(
 }
 
 /// Projects points outside a sphere onto it: returns `x` where it is inside or held (w = 0), else
-/// the nearest point of the sphere; none if no lane moves. `radius` is in [m].
+/// the nearest point of the sphere; `None` if no lane moves. `radius` is in [m].
 #[inline(always)]
 pub(crate) fn project_into_sphere<S: Simd>(
     s: S,

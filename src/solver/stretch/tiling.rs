@@ -31,11 +31,12 @@ const MAX_COLORS: usize = 4;
 /// The least number of links that is worth a thread.
 const MIN_LINKS_PER_THREAD: usize = 32_768;
 
-/// About the least number of grid rows of a band: the colours of a kind take four from it at each
-/// side, and then depend on two more.
+/// Approximate smallest number of grid rows of a band: the colours of a kind shrink it by four rows
+/// at each side, and then depend on two more.
 const MIN_ROWS_PER_BAND: usize = 16;
 
-/// Bands begin at multiples of so many rows, where the first colour of most kinds joins nothing.
+/// Bands begin at multiples of this number of rows, where no link of the first colour of most kinds
+/// crosses.
 const BAND_ALIGNMENT: usize = 4;
 
 /// Solves batches of grid rows on several threads. Returns false, and changes nothing, if it is not

@@ -136,9 +136,9 @@ struct Forward<F> {
 struct Backward<F> {
     /// The coupling times λ of the link after.
     coupled_lambda: F,
-    /// The pull of the link after on its first end: its constant part, …
+    /// The constant part of the pull of the link after on its first end.
     pull: [F; 3],
-    /// … and its stiffness against a displacement of that end.
+    /// The stiffness of that pull against a displacement of the end.
     hold: F,
 }
 

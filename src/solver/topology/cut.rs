@@ -56,7 +56,7 @@ impl CutPlan {
         self.opened as u32
     }
 
-    /// Whether the cut fits in a cloth with capacity for so many vertices and triangles.
+    /// Whether the cut fits in a cloth with these capacities for vertices and triangles.
     pub fn fits(&self, vertices: usize, triangles: usize) -> bool {
         self.vertices <= vertices && self.triangles <= triangles
     }
@@ -287,8 +287,8 @@ impl<'a> CutDraft<'a> {
         self.mesh.edges().filter(is_along).collect()
     }
 
-    /// Whether a triangle lies on the positive side of the blade: by its corners off the cut if
-    /// they agree, else by its centroid.
+    /// Whether a triangle lies on the positive side of the blade: by its corners that are not on
+    /// the cut if these agree, else by its centroid.
     fn side(&self, blade: &Blade, triangle: u32) -> bool {
         let corners = self.mesh.triangles[triangle as usize].map(|v| v as usize);
         let off_cut = || corners.into_iter().filter(|v| !self.is_on_cut[*v]);

@@ -32,7 +32,7 @@ use crate::state::events::{Event, EventKind};
 const STRENGTH_SEED: u32 = 0x6d75_736c;
 
 /// Ratio of the residual strain at a crack tip to that on a straight line of links: measured on
-/// sheets with long cracks at 4, 8 and 16 substeps, plus a quarter.
+/// sheets with long cracks at 4, 8 and 16 substeps, plus a margin of a quarter.
 const TIP_RESIDUAL_RATIO: f32 = 16.0;
 
 /// Tears the most overstretched links, at most `max_tears_per_tick`.
@@ -105,8 +105,8 @@ fn can_tear(world: &mut World, particle: u32) -> bool {
     false
 }
 
-/// Collects the `max_tears_per_tick` links with the largest excess, by falling excess and then by
-/// link order.
+/// Collects the `max_tears_per_tick` links with the largest excess, in order of descending excess
+/// and then of links.
 fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
     candidates.clear();
     let free_slots = candidates.capacity().saturating_sub(1);

@@ -8,13 +8,13 @@ use crate::mesh::Fan;
 /// Buffers of `tear`, kept so that no tick allocates.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TearScratch {
-    /// Most overstretched links, by falling excess.
+    /// Most overstretched links, in order of descending excess.
     pub candidates: Vec<TearCandidate>,
     /// Fan of the vertex that splits.
     pub fan: Fan,
     /// Fans at the far ends of the two edges that the split opens.
     pub far_fans: [Fan; 2],
-    /// Buffer for one part of a fan that falls apart.
+    /// Buffer for one part of a fan that was divided.
     pub part: Fan,
     /// Fan from which the mass of a vertex is computed.
     pub mass_fan: Fan,

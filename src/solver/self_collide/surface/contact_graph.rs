@@ -37,7 +37,7 @@ pub(crate) struct ContactGraph {
 /// Bits in a word of the bit set.
 pub(crate) const WORD_BITS: usize = 64;
 
-/// The particle is in `dirty`, in `moved`.
+/// Bits of `flags`: the particle is in `dirty`; the particle is in `moved`.
 const DIRTY: u8 = 1;
 const MOVED: u8 = 2;
 

@@ -41,8 +41,8 @@ pub(crate) const SUPPORTED_SHARE: f32 = 0.02;
 /// many substeps of free fall.
 const IMPACT_SUBSTEPS: f32 = 2.0;
 
-/// Pairs farther apart than this, at the start and now, do not enter the solver [gaps]:
-/// vertex–triangle, and edge–edge, which have little to do between flat layers.
+/// Pairs farther apart than this, at the start and now, do not enter the solver [gaps]: for
+/// vertex–triangle, then for edge–edge, which matters little between flat layers.
 pub(crate) const ACTIVE_DISTANCE: [f32; 2] = [1.1, 1.02];
 
 /// Share of the penetration (gap minus distance) that is corrected per substep, and the largest
@@ -249,7 +249,7 @@ fn slip(contact: &Contact, start: &[Float4], x: &[Float4]) -> Vec3 {
     relative - contact.n * relative.dot(contact.n)
 }
 
-/// Moves sides that are nearer than their gap apart. Predicted positions move along, so no velocity
+/// Separates sides that are nearer than their gap. Predicted positions move along, so no velocity
 /// results.
 ///
 /// `h` is the length of the substep [s].

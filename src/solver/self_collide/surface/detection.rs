@@ -160,8 +160,8 @@ impl Detector<'_> {
         self.bvh.pair_cache.measure(self.level, &self.motion.start);
     }
 
-    /// Margin of all distance tests [m]: both sides of a pair may still be this far apart after
-    /// they moved towards each other, and the pair counts as near.
+    /// Margin of all distance tests [m]: a pair counts as near if its sides may come within this
+    /// distance.
     fn margin(&self) -> f32 {
         let RestGap { mean_edge, gap, .. } = self.rest_gap;
         ACTIVE_DISTANCE[0] * gap + mean_edge * ROUNDING

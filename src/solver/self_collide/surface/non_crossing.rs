@@ -36,7 +36,7 @@ const MAX_ROUNDS: u32 = 48;
 /// Rounds that demand the minimum separation; later rounds accept the tolerated one.
 const STRICT_ROUNDS: u32 = 8;
 
-/// A contact that stays open gets a new normal every so many rounds.
+/// Number of rounds after which a contact that is still open gets a new normal.
 const NORMAL_ROUNDS: u32 = 4;
 
 /// Share of the minimum separation that counts as reached.
@@ -138,8 +138,8 @@ fn is_separated(contact: &Contact, x: &[Float4], least: f32) -> bool {
     least < 0.0 || separation(positions(x, contact.ids), contact.kind, contact.n) >= least
 }
 
-/// Pushes each particle of the first side and each of the second apart to the minimum separation,
-/// by inverse masses.
+/// Separates each particle of the first side from each of the second by the minimum separation, in
+/// proportion to inverse masses.
 fn push_sides(contact: &Contact, x: &mut [Float4], graph: &mut ContactGraph) {
     let (one, other) = contact.ids.split_at(contact.kind as usize);
     for a in one {

@@ -33,7 +33,7 @@ use crate::solver::self_collide::surface::cluster::CLUSTER_SIZE;
 /// Clusters, or pairs of them, that are processed together.
 const LANES: usize = 8;
 
-/// Least cosine between a normal and the common direction of a culled patch: 60°.
+/// Least cosine between a normal and the common direction of a culled cluster or pair: 60°.
 const MIN_COSINE: f32 = 0.5;
 
 /// The unit mean normal of a cluster's triangles, and the least cosine of a normal with it; −1 if

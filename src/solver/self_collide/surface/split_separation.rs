@@ -63,7 +63,7 @@ struct CornerWedge {
     edges: [Vec3; 2],
 }
 
-/// Two wedges of different copies, and the directions that separate them: any one of them will do.
+/// Two wedges of different copies, and the directions that separate them; one of them is enough.
 #[derive(Clone, Copy, Debug)]
 struct WedgePair {
     copies: [usize; 2],
@@ -255,7 +255,7 @@ impl WedgePair {
     }
 }
 
-/// The unit component of `v` square to `edge`.
+/// The unit component of `v` perpendicular to `edge`.
 fn perpendicular(edge: Vec3, v: Vec3) -> Vec3 {
     let across = v - edge * v.dot(edge);
     across * (1.0 / (across.length() + TINY))

@@ -31,8 +31,8 @@ use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 const LANE_BITS: u32 = (1 << LANES) - 1;
 
 /// Skin of a refresh: the larger of a share of the mean rest length and a share of the relative
-/// displacement in the coming substep. In a crowd (this many tick pairs per cluster) both shares
-/// are small: there, testing many cached pairs takes longer than finding few of them anew.
+/// displacement in the coming substep. Above a number of tick pairs per cluster both shares are
+/// small: there, testing many cached pairs takes longer than searching for a few again.
 const SKIN: f32 = 0.4;
 const SKIN_OF_DISPLACEMENT: f32 = 0.25;
 const CROWD: usize = 12;

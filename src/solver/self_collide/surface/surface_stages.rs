@@ -159,7 +159,7 @@ impl SurfaceCollision {
     }
 
     /// Runs the non-crossing pass, and returns whether any particle moved. The centre of mass of a
-    /// free cloth does not move: one without fixed particles and collider contacts.
+    /// free cloth (no fixed particles, no collider contacts) does not move.
     fn enforce_non_crossing(&mut self, world: &World) -> bool {
         let has_rolled_back = self.run_non_crossing(world);
         let now = &mut self.motion.now;
@@ -385,8 +385,8 @@ pub(crate) fn damp_velocities(world: &mut World) {
     world.surface_collision = Some(surface);
 }
 
-/// Moves those of `vertices` apart that share their position with another copy since a split.
-/// Momentum is conserved; nearby surfaces give way.
+/// Separates those of `vertices` that have the same position as another copy after a split.
+/// Momentum is conserved; nearby surfaces are pushed aside.
 pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = u32>) {
     let Some(mut surface) = world.surface_collision.take() else {
         return;

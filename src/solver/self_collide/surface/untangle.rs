@@ -40,7 +40,8 @@ use glam::Vec3;
 const SPEED: f32 = 40.0;
 const MAX_STEP: f32 = 1.0 / 6.0;
 
-/// A cloth without known intersections is scanned in parts: all of it once in so many ticks.
+/// A cloth without known intersections is scanned in parts: the whole cloth once in this number of
+/// ticks.
 const SCAN_TICKS: u32 = 16;
 
 /// Flags of a particle: it has penetrated; it is on a penetrated triangle or next to one; it is on
@@ -284,8 +285,9 @@ impl SurfaceIntersections {
     }
 
     /// Resolves an intersection by contour minimization: the edge moves along the intersection
-    /// lines of its triangles with the other triangle. At a border the line leads into the only
-    /// triangle; elsewhere the directions of both triangles add up to where the line bends.
+    /// lines of its triangles with the other triangle. At a border the line runs into the only
+    /// triangle. Elsewhere the directions into both triangles are added: the sum points to the
+    /// inner side of the bend of the line, and is zero for a straight line.
     fn resolve_by_contour(
         &mut self,
         intersection: &EdgeIntersection,

@@ -114,7 +114,7 @@ impl GridPointers {
         cursor
     }
 
-    /// Whether the slices contain so many links from a cursor on, and the particles at their ends.
+    /// Whether the slices contain `count` links from a cursor on, and the particles at their ends.
     #[inline(always)]
     pub fn contains<const PATTERN: u8>(&self, cursor: RowCursor, links: usize) -> bool {
         let particles = if PATTERN == STRAIGHT { links } else { 2 * links };
@@ -183,7 +183,7 @@ impl RowCursor {
         Self { a: a.wrapping_sub(by.a), b: b.wrapping_sub(by.b), link: link.wrapping_sub(by.link) }
     }
 
-    /// The cursor so many links further on.
+    /// The cursor that many links further on.
     #[inline(always)]
     pub fn advance<const PATTERN: u8>(self, links: usize) -> Self {
         let particles = if PATTERN == STRAIGHT { links } else { 2 * links };
