@@ -1,4 +1,4 @@
-//! The demo itself, the same behind a window, on a page and in a file: cloth, camera, hands and
+//! The demo itself, the same behind a window, on a page and in a file: cloth, camera, pointers and
 //! controls. It knows no platform; those bring events and time, and take pictures.
 
 use glam::{Vec2, Vec3};
@@ -6,15 +6,17 @@ use muslin::{Cloth, LinkKind, Result, Stage};
 use muslin_scenes::SceneInstance;
 use three_d::{CoreError, RenderTarget};
 
-use crate::blade::Afterglow;
+use crate::afterglow::Afterglow;
 use crate::camera::Camera;
 use crate::controls::{self, Action, Kind};
-use crate::meter::{Governor, Meter, Readout, StageTime};
-use crate::pointer::{Cursor, Pointers, Scene, Screen};
-use crate::render::trail::Spark;
-use crate::render::{Frame, Renderer, Surface};
+use crate::meter::{Meter, Readout, ResolutionScaler, StageTime};
+use crate::picking::{PickContext, Screen};
+use crate::pointer::{Cursor, Pointers};
+use crate::render::trail::TrailPoint;
+use crate::render::{ClothSurface, FrameScene, Renderer};
+use crate::scene;
+use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
-use crate::stage::{self, Show};
 
 /// The longest frame that the camera eases through [s].
 const LONGEST_FRAME: f32 = 0.1;
@@ -22,27 +24,27 @@ const LONGEST_FRAME: f32 = 0.1;
 /// The running demo.
 pub struct App {
     settings: Settings,
-    cast: SceneInstance,
+    scene: SceneInstance,
     camera: Camera,
-    hands: Pointers,
+    pointers: Pointers,
     /// The blade is out for as long as a key is held.
     blade: bool,
     afterglow: Afterglow,
-    sparks: Vec<Spark>,
+    trail_points: Vec<TrailPoint>,
     screen: Screen,
-    calm: bool,
+    reduced_motion: bool,
     meter: Meter,
-    governor: Governor,
+    resolution_scaler: ResolutionScaler,
     clock: fn() -> f64,
     times_stages: bool,
-    lines: Vec<Lines>,
+    lines: Vec<WireframeLines>,
     /// Which cloths these are: new ones may count their topology from the start again.
     generation: u32,
 }
 
 /// The links of a cloth, as the wireframe shows them.
 #[derive(Debug, Default)]
-struct Lines {
+struct WireframeLines {
     ends: Vec<u32>,
     revision: Option<u64>,
 }
@@ -51,21 +53,21 @@ impl App {
     /// Hangs the sheet. `clock` counts seconds from anywhere; it only times the simulation.
     ///
     /// # Errors
-    /// As [`stage::build`].
+    /// As [`scene::build`].
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
         Ok(Self {
-            cast: stage::build(&settings, false)?,
-            camera: Camera::new(stage::rig(settings.scene)),
+            scene: scene::build(&settings, false)?,
+            camera: Camera::new(scene::camera_rig(settings.scene)),
             settings,
-            hands: Pointers::default(),
+            pointers: Pointers::default(),
             blade: false,
             afterglow: Afterglow::default(),
-            sparks: Vec::new(),
+            trail_points: Vec::new(),
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
-            calm: false,
+            reduced_motion: false,
             meter: Meter::default(),
-            governor: Governor::default(),
+            resolution_scaler: ResolutionScaler::default(),
             clock,
             times_stages: false,
             lines: Vec::new(),
@@ -81,7 +83,7 @@ impl App {
     /// Takes other values, clamped: rebuilds the sheet if it must, tunes it otherwise.
     ///
     /// # Errors
-    /// As [`stage::build`]; the old values stay.
+    /// As [`scene::build`]; the old values stay.
     pub fn set_settings(&mut self, mut settings: Settings) -> Result<()> {
         settings.clamp();
         let rebuild = settings.resolution != self.settings.resolution
@@ -89,9 +91,9 @@ impl App {
             || settings.fabric != self.settings.fabric
             || settings.scene != self.settings.scene;
         if rebuild {
-            self.hang(&settings)?;
+            self.rebuild_scene(&settings)?;
         } else {
-            stage::tune(&mut self.cast, &settings, self.calm)?;
+            scene::apply_settings(&mut self.scene, &settings, self.reduced_motion)?;
         }
         self.settings = settings;
         Ok(())
@@ -102,7 +104,7 @@ impl App {
     /// # Errors
     /// As [`App::set_settings`].
     pub fn set(&mut self, name: &str, value: f32) -> Result<()> {
-        let Some(control) = controls::find(name) else {
+        let Some(control) = controls::find_control(name) else {
             return Ok(());
         };
         if let Kind::Button(action) = control.kind {
@@ -118,7 +120,7 @@ impl App {
     /// # Errors
     /// As [`App::set_settings`].
     pub fn key(&mut self, key: char, shift: bool) -> Result<bool> {
-        let Some(control) = controls::of_key(key) else {
+        let Some(control) = controls::find_control_by_key(key) else {
             return Ok(false);
         };
         let mut settings = self.settings.clone();
@@ -132,15 +134,15 @@ impl App {
     /// Does what a button says.
     ///
     /// # Errors
-    /// As [`stage::build`].
+    /// As [`scene::build`].
     pub fn act(&mut self, action: Action) -> Result<()> {
         match action {
             Action::Reset => {
                 let settings = self.settings.clone();
-                self.hang(&settings)
+                self.rebuild_scene(&settings)
             }
             Action::DropPins => {
-                self.cast.cloths.iter_mut().for_each(Cloth::unpin_all);
+                self.scene.cloths.iter_mut().for_each(Cloth::unpin_all);
                 Ok(())
             }
         }
@@ -149,18 +151,18 @@ impl App {
     /// Takes most of the restlessness out of wind and camera, for people who ask their system so.
     ///
     /// # Errors
-    /// As [`stage::tune`].
-    pub fn set_calm(&mut self, calm: bool) -> Result<()> {
-        self.calm = calm;
-        self.camera.set_drift(!calm);
-        stage::tune(&mut self.cast, &self.settings, calm)
+    /// As [`scene::apply_settings`].
+    pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<()> {
+        self.reduced_motion = reduced_motion;
+        self.camera.set_drift(!reduced_motion);
+        scene::apply_settings(&mut self.scene, &self.settings, reduced_motion)
     }
 
     /// The screen has this size, in the pixels that pointers count in.
     pub fn resize(&mut self, size: Vec2) {
         if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
             self.screen.size = size;
-            self.camera.frame(self.screen.aspect());
+            self.camera.fit_to_aspect(self.screen.aspect());
         }
     }
 
@@ -169,8 +171,8 @@ impl App {
     /// # Errors
     /// As [`Pointers::press`].
     pub fn press(&mut self, id: u32, at: Vec2) -> Result<()> {
-        let (hands, mut scene) = self.hands();
-        hands.press(id, at, &mut scene)
+        let (pointers, mut pick) = self.pick_context();
+        pointers.press(id, at, &mut pick)
     }
 
     /// A pointer moves.
@@ -178,8 +180,8 @@ impl App {
     /// # Errors
     /// As [`Pointers::drag`].
     pub fn drag(&mut self, id: u32, to: Vec2) -> Result<()> {
-        let (hands, mut scene) = self.hands();
-        hands.drag(id, to, &mut scene)
+        let (pointers, mut pick) = self.pick_context();
+        pointers.drag(id, to, &mut pick)
     }
 
     /// A pointer goes up, or is lost.
@@ -187,13 +189,13 @@ impl App {
     /// # Errors
     /// As [`Pointers::lift`].
     pub fn lift(&mut self, id: u32) -> Result<()> {
-        let (hands, mut scene) = self.hands();
-        hands.lift(id, &mut scene)
+        let (pointers, mut pick) = self.pick_context();
+        pointers.lift(id, &mut pick)
     }
 
     /// The mouse has left the screen.
-    pub fn leave(&mut self) {
-        self.hands.leave();
+    pub fn clear_hover(&mut self) {
+        self.pointers.clear_hover();
     }
 
     /// The wheel turns by so many pixels, away from the cloth if positive.
@@ -216,8 +218,8 @@ impl App {
     /// # Errors
     /// As [`Pointers::cursor`].
     pub fn cursor(&mut self) -> Result<Cursor> {
-        let (hands, mut scene) = self.hands();
-        hands.cursor(&mut scene)
+        let (pointers, mut pick) = self.pick_context();
+        pointers.cursor(&mut pick)
     }
 
     /// Lets `seconds` pass.
@@ -226,17 +228,17 @@ impl App {
     /// As [`SceneInstance::advance`].
     pub fn frame(&mut self, seconds: f32) -> Result<()> {
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
-        self.camera.advance(seconds.min(LONGEST_FRAME), self.hands.any());
-        let (hands, mut scene) = self.hands();
-        hands.follow(&mut scene)?;
+        self.camera.advance(seconds.min(LONGEST_FRAME), self.pointers.is_any_down());
+        let (pointers, mut pick) = self.pick_context();
+        pointers.update_targets(&mut pick)?;
         if !self.settings.paused {
             let start = (self.clock)();
-            self.cast.advance(seconds)?;
-            self.meter.simulated((self.clock)() - start);
+            self.scene.advance(seconds)?;
+            self.meter.record_simulation((self.clock)() - start);
         }
         self.afterglow.fade(seconds);
-        self.meter.frame(seconds);
-        self.governor.frame(seconds);
+        self.meter.record_frame(seconds);
+        self.resolution_scaler.record_frame(seconds);
         Ok(())
     }
 
@@ -254,8 +256,8 @@ impl App {
     /// Runs exactly so many ticks, whatever the clock says.
     pub fn play(&mut self, ticks: u32) {
         let start = (self.clock)();
-        self.cast.step(ticks);
-        self.meter.simulated((self.clock)() - start);
+        self.scene.step(ticks);
+        self.meter.record_simulation((self.clock)() - start);
         self.afterglow.fade(ticks as f32 / 60.0);
     }
 
@@ -268,10 +270,10 @@ impl App {
         renderer: &mut Renderer,
         output: &RenderTarget<'_>,
     ) -> std::result::Result<(), CoreError> {
-        self.lines.resize_with(self.cast.cloths.len(), Lines::default);
+        self.lines.resize_with(self.scene.cloths.len(), WireframeLines::default);
         let mut seconds = [0.0; Stage::COUNT];
-        for (cloth, lines) in self.cast.cloths.iter_mut().zip(&mut self.lines) {
-            lines.follow(cloth, self.generation);
+        for (cloth, lines) in self.scene.cloths.iter_mut().zip(&mut self.lines) {
+            lines.update(cloth, self.generation);
             // Asking for normals makes them, which belongs to the stages.
             cloth.normals();
             for (sum, spent) in seconds.iter_mut().zip(cloth.stats().seconds) {
@@ -279,48 +281,48 @@ impl App {
             }
         }
         if self.times_stages {
-            self.meter.simulated_in(&seconds);
+            self.meter.record_stages(&seconds);
         }
-        self.sparks.clear();
-        self.sparks.extend(self.afterglow.sparks());
+        self.trail_points.clear();
+        self.trail_points.extend(self.afterglow.trail_points());
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
-        let (solids, looks) =
-            (stage::solids(&self.settings, &self.cast), stage::looks(&self.settings));
-        let frame = Frame {
+        let (solids, appearances) =
+            (scene::solids(&self.settings, &self.scene), scene::appearances(&self.settings));
+        let frame = FrameScene {
             solids: &solids,
-            sight: self.camera.sight(),
-            looks: &looks,
-            trail: &self.sparks,
+            view: self.camera.view(),
+            appearances: &appearances,
+            trail: &self.trail_points,
             wireframe: self.settings.wireframe,
-            share: self.governor.share(density),
+            resolution_scale: self.resolution_scaler.scale(density),
         };
         let start = (self.clock)();
-        renderer.expect(self.cast.cloths.len());
-        for (i, (cloth, lines)) in self.cast.cloths.iter_mut().zip(&self.lines).enumerate() {
+        renderer.set_cloth_count(self.scene.cloths.len());
+        for (i, (cloth, lines)) in self.scene.cloths.iter_mut().zip(&self.lines).enumerate() {
             let view = cloth.view();
-            let surface = Surface {
+            let surface = ClothSurface {
                 positions: view.positions,
-                unit: stage::unit(self.settings.scene),
+                unit: scene::unit(self.settings.scene),
                 normals: view.normals,
                 uvs: view.uvs,
                 frayed: view.frayed,
                 indices: view.indices,
                 lines: &lines.ends,
-                span: stage::span(&self.settings),
-                is_round: self.settings.scene == Show::Discs,
+                span: scene::span(&self.settings),
+                is_round: self.settings.scene == SceneKind::Discs,
                 revision: lines.revision.unwrap_or_default(),
             };
-            renderer.take(i, &surface);
+            renderer.upload_cloth(i, &surface);
         }
-        let taken = (self.clock)();
+        let uploaded = (self.clock)();
         renderer.draw(&frame, output)?;
-        self.meter.drawn(taken - start, (self.clock)() - taken);
+        self.meter.record_drawing(uploaded - start, (self.clock)() - uploaded);
         Ok(())
     }
 
     /// The numbers of the panel.
     pub fn readout(&self) -> Readout {
-        self.meter.readout(&self.cast.cloths)
+        self.meter.readout(&self.scene.cloths)
     }
 
     /// The screen, in the pixels that pointers count in.
@@ -334,66 +336,66 @@ impl App {
     }
 
     /// Particles across and down the sheet, as it was woven; of discs there is no such thing.
-    pub fn weave(&self) -> Option<[u32; 2]> {
-        stage::weave(&self.settings)
+    pub fn grid_size(&self) -> Option<[u32; 2]> {
+        scene::grid_size(&self.settings)
     }
 
     /// Where a particle of the first cloth is, as it is drawn [m].
     pub fn particle(&self, particle: u32) -> Option<Vec3> {
-        let at = self.cast.cloths.first()?.positions().get(particle as usize)?;
-        Some(*at / stage::unit(self.settings.scene))
+        let at = self.scene.cloths.first()?.positions().get(particle as usize)?;
+        Some(*at / scene::unit(self.settings.scene))
     }
 
     /// Where on the screen a particle of the first cloth appears, in the pixels that pointers count in.
     pub fn particle_on_screen(&self, particle: u32) -> Option<Vec2> {
         let at = self.particle(particle)?;
-        let sight = self.camera.sight();
-        let normal = sight.project(at, self.screen.aspect())?;
+        let view = self.camera.view();
+        let normal = view.project(at, self.screen.aspect())?;
         Some(self.screen.pixels(normal))
     }
 
     /// The hash of the cloths' states; one cloth's own if there is one.
     pub fn state_hash(&self) -> u64 {
-        let hashes = self.cast.cloths.iter().map(Cloth::state_hash);
+        let hashes = self.scene.cloths.iter().map(Cloth::state_hash);
         hashes.fold(0, |all, hash| all.rotate_left(1) ^ hash)
     }
 
-    fn hang(&mut self, settings: &Settings) -> Result<()> {
-        self.cast = stage::build(settings, self.calm)?;
+    fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
+        self.scene = scene::build(settings, self.reduced_motion)?;
         self.set_clocks();
         if settings.scene != self.settings.scene {
-            self.camera.go_to(stage::rig(settings.scene), self.screen.aspect());
+            self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());
         }
-        self.hands.forget();
+        self.pointers.clear();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
     }
 
     fn set_clocks(&mut self) {
         let clock = self.times_stages.then_some(self.clock);
-        self.cast.cloths.iter_mut().for_each(|cloth| cloth.set_clock(clock));
+        self.scene.cloths.iter_mut().for_each(|cloth| cloth.set_clock(clock));
     }
 
-    fn hands(&mut self) -> (&mut Pointers, Scene<'_>) {
-        let unit = stage::unit(self.settings.scene);
-        let scene = Scene {
+    fn pick_context(&mut self) -> (&mut Pointers, PickContext<'_>) {
+        let unit = scene::unit(self.settings.scene);
+        let pick = PickContext {
             unit,
-            sight: self.camera.sight().scaled(unit),
-            spacing: stage::spacing(&self.settings),
-            span: stage::span(&self.settings),
+            view: self.camera.view().scaled(unit),
+            spacing: scene::spacing(&self.settings),
+            span: scene::span(&self.settings),
             blade: self.blade || self.settings.blade,
             afterglow: &mut self.afterglow,
             screen: self.screen,
-            cloths: &mut self.cast.cloths,
+            cloths: &mut self.scene.cloths,
             camera: &mut self.camera,
         };
-        (&mut self.hands, scene)
+        (&mut self.pointers, pick)
     }
 }
 
-impl Lines {
+impl WireframeLines {
     /// Finds the links anew if others hold than before.
-    fn follow(&mut self, cloth: &Cloth, generation: u32) {
+    fn update(&mut self, cloth: &Cloth, generation: u32) {
         let revision = (u64::from(generation) << 32) | u64::from(cloth.topology_revision());
         if self.revision != Some(revision) {
             self.revision = Some(revision);

@@ -6,19 +6,18 @@
 use glam::Vec2;
 use muslin::{Error, EventKind, Result};
 
-use crate::pointer::Scene;
-use crate::render::trail::Spark;
+use crate::picking::PickContext;
 
 /// How far before and behind the cloth that it meets the blade reaches, as it is drawn [m].
 const DEPTH: f32 = 0.4;
-/// Places along a piece of a swipe where it is felt how far away the cloth is.
-const FEELERS: u32 = 12;
+/// Places along a piece of a swipe where it is samples how far away the cloth is.
+const DEPTH_SAMPLES: u32 = 12;
 /// A piece shorter than so many edges waits for more.
-const LEAST: f32 = 1.6;
+const MIN_EDGES: f32 = 1.6;
 
 /// A particle of a cloth.
 #[derive(Clone, Copy, Debug)]
-struct Tip {
+struct CutEnd {
     cloth: usize,
     particle: u32,
 }
@@ -29,7 +28,7 @@ pub struct Swipe {
     /// Where the next piece starts, in pixels, if no slit goes on from there.
     from: Vec2,
     /// The end of the slit so far.
-    end: Option<Tip>,
+    end: Option<CutEnd>,
 }
 
 impl Swipe {
@@ -43,17 +42,17 @@ impl Swipe {
     ///
     /// # Errors
     /// As [`muslin::Cloth::cut`], but for a reserve that is used up: then nothing is cut any more.
-    pub fn reach(&mut self, to: Vec2, last: bool, scene: &mut Scene<'_>) -> Result<()> {
-        let ahead = self.from(scene);
-        let edge = scene.edge_pixels();
-        if ahead.distance(to) < if last { 1.0 } else { LEAST * edge } {
+    pub fn cut_to(&mut self, to: Vec2, last: bool, pick: &mut PickContext<'_>) -> Result<()> {
+        let ahead = self.from(pick);
+        let edge = pick.edge_pixels();
+        if ahead.distance(to) < if last { 1.0 } else { MIN_EDGES * edge } {
             return Ok(());
         }
         let way = (to - ahead).normalize_or_zero();
         // A hair back, so that the blade surely goes through the end of the slit.
         let from = if self.end.is_some() { ahead - way * (0.1 * edge) } else { ahead };
-        let end = cut(from, to, scene)?;
-        let over_cloth = scene.depth(to)?.is_some();
+        let end = cut(from, to, pick)?;
+        let over_cloth = pick.depth(to)?.is_some();
         if !over_cloth {
             *self = Self::new(to);
         } else if end.is_some() {
@@ -62,32 +61,32 @@ impl Swipe {
         Ok(())
     }
 
-    fn from(&self, scene: &Scene<'_>) -> Vec2 {
+    fn from(&self, pick: &PickContext<'_>) -> Vec2 {
         let end = self
             .end
-            .and_then(|end| scene.cloths.get(end.cloth)?.positions().get(end.particle as usize));
-        end.and_then(|at| scene.pixels(*at)).unwrap_or(self.from)
+            .and_then(|end| pick.cloths.get(end.cloth)?.positions().get(end.particle as usize));
+        end.and_then(|at| pick.pixels(*at)).unwrap_or(self.from)
     }
 }
 
 /// Cuts along a straight piece of a swipe and says where the slit ends, if there is one.
-fn cut(from: Vec2, to: Vec2, scene: &mut Scene<'_>) -> Result<Option<Tip>> {
-    let mut felt = Vec::new();
-    for i in 0..=FEELERS {
-        let share = i as f32 / FEELERS as f32;
-        felt.extend(scene.depth(from.lerp(to, share))?.map(|depth| (share, depth)));
+fn cut(from: Vec2, to: Vec2, pick: &mut PickContext<'_>) -> Result<Option<CutEnd>> {
+    let mut samples = Vec::new();
+    for i in 0..=DEPTH_SAMPLES {
+        let share = i as f32 / DEPTH_SAMPLES as f32;
+        samples.extend(pick.depth(from.lerp(to, share))?.map(|depth| (share, depth)));
     }
-    let (Some(first), Some(last)) = (felt.first().copied(), felt.last().copied()) else {
+    let (Some(first), Some(last)) = (samples.first().copied(), samples.last().copied()) else {
         return Ok(None);
     };
     // A plane through the eye, as deep at both ends as the cloth that is nearest to them.
-    let (a, b) = (scene.at_depth(from, first.1), scene.at_depth(to, last.1));
-    let into = ((a + b) * 0.5 - scene.sight.eye).normalize_or_zero();
-    let depth = into * (DEPTH * scene.unit);
+    let (a, b) = (pick.at_depth(from, first.1), pick.at_depth(to, last.1));
+    let into = ((a + b) * 0.5 - pick.view.eye).normalize_or_zero();
+    let depth = into * (DEPTH * pick.unit);
     let way = to - from;
-    let mut end: Option<(f32, Tip)> = None;
-    for cloth in 0..scene.cloths.len() {
-        let cut = &mut scene.cloths[cloth];
+    let mut end: Option<(f32, CutEnd)> = None;
+    for cloth in 0..pick.cloths.len() {
+        let cut = &mut pick.cloths[cloth];
         while cut.next_event().is_some() {}
         match cut.cut(a - depth, b - depth, depth * 2.0) {
             // A piece too short to have a direction, or no room for more.
@@ -95,77 +94,22 @@ fn cut(from: Vec2, to: Vec2, scene: &mut Scene<'_>) -> Result<Option<Tip>> {
             Ok(_) => {}
             Err(error) => return Err(error),
         }
-        while let Some(event) = scene.cloths[cloth].next_event() {
+        while let Some(event) = pick.cloths[cloth].next_event() {
             let touched = match event.kind {
                 EventKind::EdgeDivided => [event.vertex; 2],
                 EventKind::EdgeTorn => [event.particle_a, event.particle_b],
                 _ => continue,
             };
             for particle in touched {
-                let at = scene.cloths[cloth].positions().get(particle as usize).copied();
-                if let Some(at) = at.and_then(|at| scene.pixels(at)) {
+                let at = pick.cloths[cloth].positions().get(particle as usize).copied();
+                if let Some(at) = at.and_then(|at| pick.pixels(at)) {
                     let far = (at - from).dot(way);
                     if end.is_none_or(|(farthest, _)| far > farthest) {
-                        end = Some((far, Tip { cloth, particle }));
+                        end = Some((far, CutEnd { cloth, particle }));
                     }
                 }
             }
         }
     }
-    Ok(end.map(|(_, tip)| tip))
-}
-
-/// How long the path of the blade glows [s].
-const AFTERGLOW: f32 = 0.7;
-
-/// The paths that still glow.
-#[derive(Clone, Debug, Default)]
-pub struct Afterglow {
-    /// With the seconds that each has left.
-    sparks: Vec<(Spark, f32)>,
-}
-
-impl Afterglow {
-    /// The blade is at a point of the screen, x and y from -1 to 1; `first` begins a path.
-    pub fn add(&mut self, at: Vec2, first: bool) {
-        self.sparks.push((Spark { at, glow: 1.0, first }, AFTERGLOW));
-    }
-
-    /// Lets `seconds` pass.
-    pub fn fade(&mut self, seconds: f32) {
-        for (spark, left) in &mut self.sparks {
-            *left -= seconds;
-            spark.glow = (*left / AFTERGLOW).max(0.0);
-        }
-        let out = self.sparks.iter().take_while(|(_, left)| *left <= 0.0).count();
-        self.sparks.drain(..out);
-        if let Some((spark, _)) = self.sparks.first_mut() {
-            spark.first = true;
-        }
-    }
-
-    /// What there is to draw.
-    pub fn sparks(&self) -> impl Iterator<Item = Spark> + '_ {
-        self.sparks.iter().map(|(spark, _)| *spark)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_path_goes_out_from_its_beginning_and_stays_one_path() {
-        let mut glow = Afterglow::default();
-        for i in 0..10 {
-            glow.add(Vec2::X * i as f32, i == 0);
-            glow.fade(0.1);
-        }
-        let left: Vec<_> = glow.sparks().collect();
-        assert_eq!(left.len(), 6);
-        assert!(left[0].first && left[1..].iter().all(|spark| !spark.first));
-        assert!(left.windows(2).all(|two| two[0].glow < two[1].glow));
-        glow.fade(1.0);
-        assert_eq!(glow.sparks().count(), 0);
-    }
+    Ok(end.map(|(_, cut_end)| cut_end))
 }

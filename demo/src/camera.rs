@@ -10,7 +10,7 @@ use crate::render::light::STAGE_CENTRE;
 
 /// What a rig turns around and how far it goes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rig {
+pub struct CameraRig {
     /// What the camera looks at [m].
     pub target: Vec3,
     /// Angle from straight up [rad].
@@ -23,7 +23,7 @@ pub struct Rig {
     pub half_width: f32,
 }
 
-impl Default for Rig {
+impl Default for CameraRig {
     /// The rig around the hanging sheet.
     fn default() -> Self {
         Self {
@@ -47,7 +47,7 @@ const PATIENCE: f32 = 6.0;
 
 /// Spherical place of the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
+struct OrbitPose {
     azimuth: f32,
     polar: f32,
     radius: f32,
@@ -56,16 +56,16 @@ struct Place {
 /// The rig: where it is, and where it is easing to.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    rig: Rig,
-    now: Place,
-    goal: Place,
+    rig: CameraRig,
+    now: OrbitPose,
+    goal: OrbitPose,
     idle: f32,
     drift: bool,
 }
 
 /// A camera's view, fixed for one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct CameraView {
     /// Where the eye is [m].
     pub eye: Vec3,
     /// What it looks at [m].
@@ -74,15 +74,15 @@ pub struct Sight {
 
 impl Default for Camera {
     fn default() -> Self {
-        Self::new(Rig::default())
+        Self::new(CameraRig::default())
     }
 }
 
 impl Camera {
     /// A camera at the start of its rig.
-    pub fn new(rig: Rig) -> Self {
+    pub fn new(rig: CameraRig) -> Self {
         let [azimuth, polar, radius] = rig.start;
-        let place = Place { azimuth, polar, radius };
+        let place = OrbitPose { azimuth, polar, radius };
         Self { rig, now: place, goal: place, idle: 0.0, drift: true }
     }
 
@@ -91,7 +91,7 @@ impl Camera {
         if drag.is_finite() {
             self.goal.azimuth -= drag.x * TURN;
             self.goal.polar -= drag.y * TURN * 0.6;
-            self.keep_in_range();
+            self.clamp_goal();
         }
     }
 
@@ -99,24 +99,24 @@ impl Camera {
     pub fn zoom(&mut self, factor: f32) {
         if factor.is_finite() && factor > 0.0 {
             self.goal.radius *= factor;
-            self.keep_in_range();
+            self.clamp_goal();
         }
     }
 
     /// Steps back until the cloth fits across a screen of this width over height.
-    pub fn frame(&mut self, aspect: f32) {
+    pub fn fit_to_aspect(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
             let across = self.rig.half_width / ((FIELD * 0.5).tan() * aspect);
             self.goal.radius = across.max(self.rig.start[2]);
-            self.keep_in_range();
+            self.clamp_goal();
             self.now.radius = self.goal.radius;
         }
     }
 
     /// Goes to the start of another rig.
-    pub fn go_to(&mut self, rig: Rig, aspect: f32) {
+    pub fn reset_to_rig(&mut self, rig: CameraRig, aspect: f32) {
         *self = Self { drift: self.drift, ..Self::new(rig) };
-        self.frame(aspect);
+        self.fit_to_aspect(aspect);
     }
 
     /// Lets the rig sway gently once it has not been touched for a while, or forbids it.
@@ -139,28 +139,28 @@ impl Camera {
     }
 
     /// The view from where the rig is now.
-    pub fn sight(&self) -> Sight {
-        let Place { azimuth, polar, radius } = self.now;
+    pub fn view(&self) -> CameraView {
+        let OrbitPose { azimuth, polar, radius } = self.now;
         let around = Vec3::new(azimuth.sin(), 0.0, azimuth.cos()) * polar.sin();
         let target = self.rig.target;
-        Sight { eye: target + (around + Vec3::Y * polar.cos()) * radius, target }
+        CameraView { eye: target + (around + Vec3::Y * polar.cos()) * radius, target }
     }
 
-    fn keep_in_range(&mut self) {
-        let Rig { polar, radius, .. } = &self.rig;
+    fn clamp_goal(&mut self) {
+        let CameraRig { polar, radius, .. } = &self.rig;
         self.goal.polar = self.goal.polar.clamp(*polar.start(), *polar.end());
         self.goal.radius = self.goal.radius.clamp(*radius.start(), *radius.end());
     }
 }
 
-impl Sight {
-    /// The same sight of a world whose lengths are `unit` times as long.
+impl CameraView {
+    /// The same view of a world whose lengths are `unit` times as long.
     pub fn scaled(self, unit: f32) -> Self {
         Self { eye: self.eye * unit, target: self.target * unit }
     }
 
     /// Pixels that a metre covers at a distance of a metre, on a screen so many pixels high.
-    pub fn lens(&self, height: f32) -> f32 {
+    pub fn focal_length_pixels(&self, height: f32) -> f32 {
         0.5 * height / (FIELD * 0.5).tan()
     }
 
@@ -207,15 +207,15 @@ mod tests {
         for _ in 0..600 {
             camera.advance(1.0 / 60.0, true);
         }
-        let sight = camera.sight();
-        let arm = sight.eye - sight.target;
+        let view = camera.view();
+        let arm = view.eye - view.target;
         (arm.length(), (arm.y / arm.length()).acos())
     }
 
     #[test]
     fn orbit_and_zoom_stop_at_their_limits() {
         let mut camera = Camera::default();
-        let Rig { polar: polars, radius: radii, .. } = Rig::default();
+        let CameraRig { polar: polars, radius: radii, .. } = CameraRig::default();
         camera.orbit(Vec2::new(0.3, 100.0));
         camera.zoom(1.0e6);
         let (radius, polar) = settle(&mut camera);
@@ -231,24 +231,24 @@ mod tests {
     #[test]
     fn nonsense_leaves_the_camera_where_it_was() {
         let mut camera = Camera::default();
-        let before = camera.sight();
+        let before = camera.view();
         camera.orbit(Vec2::new(f32::NAN, f32::INFINITY));
         camera.zoom(f32::NAN);
         camera.zoom(-2.0);
-        camera.frame(0.0);
+        camera.fit_to_aspect(0.0);
         camera.advance(1.0 / 60.0, true);
-        assert_eq!(camera.sight(), before);
+        assert_eq!(camera.view(), before);
     }
 
     #[test]
     fn motion_is_eased_and_never_overshoots() {
         let mut camera = Camera::default();
-        let start = camera.sight().eye.distance(STAGE_CENTRE);
+        let start = camera.view().eye.distance(STAGE_CENTRE);
         camera.zoom(0.7);
         let mut last = start;
         for _ in 0..120 {
             camera.advance(1.0 / 60.0, true);
-            let radius = camera.sight().eye.distance(STAGE_CENTRE);
+            let radius = camera.view().eye.distance(STAGE_CENTRE);
             assert!(radius <= last + 1.0e-5 && last - radius < 0.3 * start);
             last = radius;
         }
@@ -257,11 +257,11 @@ mod tests {
 
     #[test]
     fn a_ray_through_a_projected_point_meets_the_point() {
-        let sight = Camera::default().sight();
+        let view = Camera::default().view();
         let at = Vec3::new(0.7, 0.6, -0.2);
-        let screen = sight.project(at, 1.6).unwrap();
-        let ray = sight.ray(screen, 1.6);
-        let miss = (at - sight.eye).cross(ray).length();
+        let screen = view.project(at, 1.6).unwrap();
+        let ray = view.ray(screen, 1.6);
+        let miss = (at - view.eye).cross(ray).length();
         assert!(miss < 1.0e-4, "missed by {miss} m");
     }
 
@@ -269,9 +269,9 @@ mod tests {
     fn a_narrow_screen_still_shows_the_whole_sheet() {
         let mut camera = Camera::default();
         let aspect = 390.0 / 844.0;
-        camera.frame(aspect);
+        camera.fit_to_aspect(aspect);
         for x in [-1.0, 1.0] {
-            let at = camera.sight().project(Vec3::new(x, STAGE_CENTRE.y, 0.0), aspect).unwrap();
+            let at = camera.view().project(Vec3::new(x, STAGE_CENTRE.y, 0.0), aspect).unwrap();
             assert!(at.x.abs() < 1.0, "edge lands at {at}");
         }
     }

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use crate::controls::{self, Kind};
 use crate::gesture::Gesture;
+use crate::receipt;
+use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
-use crate::shot::{Receipt, Shot};
-use crate::stage::Show;
-use crate::tender;
+use crate::shot::{ReceiptShot, Shot};
 
 /// What `--help` prints.
 pub const USAGE: &str = "\
@@ -43,9 +43,9 @@ pub enum Task {
     /// The usage text.
     Help,
     /// A window, with the controls that were given on top of the kept ones.
-    Window(Vec<(&'static str, f32)>),
+    ClothWindow(Vec<(&'static str, f32)>),
     /// A window with the receipt.
-    Receipt(Receipt),
+    ReceiptWindow(ReceiptShot),
     /// A picture.
     Shot(PathBuf, Box<Shot>),
     /// A page, which another command builds and serves.
@@ -65,7 +65,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
     let args: Vec<String> = args.by_ref().collect();
     let of_receipt = args.windows(2).any(|two| two[0] == "--scene" && is_receipt(&two[1]));
     let mut args = args.into_iter();
-    let mut shot = Shot { receipt: of_receipt.then(Receipt::default), ..Shot::default() };
+    let mut shot = Shot { receipt: of_receipt.then(ReceiptShot::default), ..Shot::default() };
     let (mut ticks, mut orbit, mut zoom) = (None, None, None);
     let mut file = None;
     let mut values = Vec::new();
@@ -88,7 +88,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             "--play" => match &mut shot.receipt {
                 None => shot.play = Some(named("--play", &Gesture::ALL, &value()?)?),
                 Some(receipt) => {
-                    let all = tender::play::Gesture::ALL;
+                    let all = receipt::gestures::ReceiptGesture::ALL;
                     receipt.play = Some(named("--play", &all, &value()?)?);
                 }
             },
@@ -112,7 +112,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             other => {
                 let control = other
                     .strip_prefix("--")
-                    .and_then(controls::find)
+                    .and_then(controls::find_control)
                     .ok_or_else(|| format!("{other} is no option; --help lists them"))?;
                 match control.kind {
                     Kind::Switch { .. } => values.push((control.name, 1.0)),
@@ -138,14 +138,14 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
             Ok(Task::Shot(file, Box::new(shot)))
         }
         (None, Some(option)) => Err(format!("{option} needs --shot FILE.png")),
-        (None, None) => Ok(shot.receipt.map_or(Task::Window(values), Task::Receipt)),
+        (None, None) => Ok(shot.receipt.map_or(Task::ClothWindow(values), Task::ReceiptWindow)),
     }
 }
 
 /// Gives the controls their values.
 pub fn apply(values: &[(&'static str, f32)], settings: &mut Settings) {
     for (name, value) in values {
-        if let Some(control) = controls::find(name) {
+        if let Some(control) = controls::find_control(name) {
             control.set(settings, *value);
         }
     }
@@ -175,7 +175,7 @@ const RECEIPT: &str = "tender";
 
 /// A scene's place among all, by its name or number.
 fn scene(text: &str) -> Result<usize, String> {
-    let names = Show::NAMES.map(str::to_lowercase);
+    let names = SceneKind::NAMES.map(str::to_lowercase);
     let names: Vec<&str> = names.iter().map(String::as_str).chain([RECEIPT]).collect();
     let number = text.parse().ok().filter(|number| *number < names.len());
     number.or_else(|| names.iter().position(|name| *name == text)).ok_or_else(|| {
@@ -184,7 +184,7 @@ fn scene(text: &str) -> Result<usize, String> {
 }
 
 fn is_receipt(text: &str) -> bool {
-    scene(text) == Ok(Show::ALL.len())
+    scene(text) == Ok(SceneKind::ALL.len())
 }
 
 fn frames(text: &str) -> Result<u32, String> {
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn no_argument_is_a_window() {
-        assert_eq!(parsed(""), Ok(Task::Window(Vec::new())));
+        assert_eq!(parsed(""), Ok(Task::ClothWindow(Vec::new())));
     }
 
     #[test]
@@ -231,23 +231,28 @@ mod tests {
             ("--scene=sheet", 0.0),
             ("--scene curtain", 4.0),
         ] {
-            assert_eq!(parsed(line), Ok(Task::Window(vec![("scene", place)])));
+            assert_eq!(parsed(line), Ok(Task::ClothWindow(vec![("scene", place)])));
         }
         for line in ["--scene tender --wind --small", "--wind --scene=5 --small"] {
-            let Ok(Task::Receipt(receipt)) = parsed(line) else { panic!("{line}") };
+            let Ok(Task::ReceiptWindow(receipt)) = parsed(line) else { panic!("{line}") };
             assert!(receipt.settings.wind && receipt.small);
         }
         let task = parsed("--scene tender --shot a.png --play fold --brief");
         let Ok(Task::Shot(_, shot)) = task else { panic!("{task:?}") };
         let receipt = shot.receipt.unwrap();
-        assert_eq!(receipt.play, Some(tender::play::Gesture::Fold));
+        assert_eq!(receipt.play, Some(receipt::gestures::ReceiptGesture::Fold));
         assert_eq!(receipt.settings.sheet, muslin_scenes::Sheet::Brief);
-        assert_eq!(shot.ticks, 60 + tender::play::Gesture::Fold.ticks());
+        assert_eq!(shot.ticks, 60 + receipt::gestures::ReceiptGesture::Fold.ticks());
         // A gesture may have a view of its own, but what is given goes before it.
-        for (line, zoom) in [("", tender::play::Gesture::Letter.view().1), (" --zoom 2", 2.0)] {
+        for (line, zoom) in
+            [("", receipt::gestures::ReceiptGesture::Letter.view().1), (" --zoom 2", 2.0)]
+        {
             let task = parsed(&format!("--scene tender --shot a.png --play letter{line}"));
             let Ok(Task::Shot(_, shot)) = task else { panic!("{task:?}") };
-            assert_eq!((shot.orbit, shot.zoom), (tender::play::Gesture::Letter.view().0, zoom));
+            assert_eq!(
+                (shot.orbit, shot.zoom),
+                (receipt::gestures::ReceiptGesture::Letter.view().0, zoom)
+            );
         }
     }
 

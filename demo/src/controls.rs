@@ -4,8 +4,8 @@
 use serde::Serialize;
 
 use crate::fabric::Fabric;
+use crate::scene_kind::SceneKind;
 use crate::settings::{DAMPING, GRAVITY, Pinning, RESOLUTIONS, STIFFNESS, Settings, WIND};
-use crate::stage::Show;
 
 /// One control.
 pub struct Control {
@@ -167,10 +167,10 @@ pub static CONTROLS: &[Control] = &[
         about: "What is on the stage",
         key: 'E',
         kind: Kind::Choice {
-            options: &Show::NAMES,
-            get: |s| Show::ALL.iter().position(|show| *show == s.scene).unwrap_or(0),
+            options: &SceneKind::NAMES,
+            get: |s| SceneKind::ALL.iter().position(|show| *show == s.scene).unwrap_or(0),
             set: |s, i| {
-                s.scene = Show::ALL[i];
+                s.scene = SceneKind::ALL[i];
                 s.fabric = s.scene.fabric();
             },
         },
@@ -225,12 +225,12 @@ pub static CONTROLS: &[Control] = &[
 ];
 
 /// The control of this name.
-pub fn find(name: &str) -> Option<&'static Control> {
+pub fn find_control(name: &str) -> Option<&'static Control> {
     CONTROLS.iter().find(|c| c.name == name)
 }
 
 /// The control of this key, whatever its case.
-pub fn of_key(key: char) -> Option<&'static Control> {
+pub fn find_control_by_key(key: char) -> Option<&'static Control> {
     CONTROLS.iter().find(|c| c.key.eq_ignore_ascii_case(&key))
 }
 
@@ -266,11 +266,13 @@ impl Control {
     }
 
     /// Whether it changes anything in the scene that is on.
-    pub fn suits(&self, settings: &Settings) -> bool {
+    pub fn is_enabled(&self, settings: &Settings) -> bool {
         match self.name {
-            "fabric" => settings.scene != Show::Discs,
-            "pinning" => matches!(settings.scene, Show::Sheet | Show::Flag),
-            "drop" => matches!(settings.scene, Show::Sheet | Show::Flag | Show::Curtain),
+            "fabric" => settings.scene != SceneKind::Discs,
+            "pinning" => matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag),
+            "drop" => {
+                matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Curtain)
+            }
             _ => true,
         }
     }
@@ -364,8 +366,8 @@ mod tests {
             for b in &CONTROLS[i + 1..] {
                 assert!(a.name != b.name && a.key != b.key, "{} and {}", a.name, b.name);
             }
-            assert!(std::ptr::eq(find(a.name).unwrap(), a));
-            assert!(std::ptr::eq(of_key(a.key.to_ascii_lowercase()).unwrap(), a));
+            assert!(std::ptr::eq(find_control(a.name).unwrap(), a));
+            assert!(std::ptr::eq(find_control_by_key(a.key.to_ascii_lowercase()).unwrap(), a));
         }
     }
 
@@ -403,30 +405,39 @@ mod tests {
 
     #[test]
     fn controls_that_change_nothing_in_a_scene_say_so() {
-        let suits = |name: &str, scene| {
-            find(name).unwrap().suits(&Settings { scene, ..Settings::default() })
+        let is_enabled = |name: &str, scene| {
+            find_control(name).unwrap().is_enabled(&Settings { scene, ..Settings::default() })
         };
-        for scene in Show::ALL {
-            assert!(suits("wind", scene) && suits("scene", scene) && suits("reset", scene));
+        for scene in SceneKind::ALL {
+            assert!(
+                is_enabled("wind", scene)
+                    && is_enabled("scene", scene)
+                    && is_enabled("reset", scene)
+            );
         }
-        assert!(suits("fabric", Show::Curtain) && !suits("fabric", Show::Discs));
-        assert!(suits("pinning", Show::Flag) && !suits("pinning", Show::Ball));
-        assert!(suits("drop", Show::Curtain) && !suits("drop", Show::Discs));
+        assert!(
+            is_enabled("fabric", SceneKind::Curtain) && !is_enabled("fabric", SceneKind::Discs)
+        );
+        assert!(is_enabled("pinning", SceneKind::Flag) && !is_enabled("pinning", SceneKind::Ball));
+        assert!(is_enabled("drop", SceneKind::Curtain) && !is_enabled("drop", SceneKind::Discs));
     }
 
     #[test]
     fn keys_go_up_down_and_around() {
         let mut settings = Settings::default();
-        let wind = of_key('w').unwrap();
+        let wind = find_control_by_key('w').unwrap();
         wind.press(&mut settings, false);
         assert!((settings.wind - 1.1).abs() < 1.0e-5);
         wind.press(&mut settings, true);
         assert!((settings.wind - 0.8).abs() < 1.0e-5);
-        let pins = of_key('P').unwrap();
+        let pins = find_control_by_key('P').unwrap();
         for wanted in [Pinning::TopCorners, Pinning::Corners, Pinning::TopEdge] {
             pins.press(&mut settings, false);
             assert_eq!(settings.pinning, wanted);
         }
-        assert_eq!(of_key('r').unwrap().press(&mut settings, false), Some(Action::Reset));
+        assert_eq!(
+            find_control_by_key('r').unwrap().press(&mut settings, false),
+            Some(Action::Reset)
+        );
     }
 }

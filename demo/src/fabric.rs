@@ -20,7 +20,7 @@ pub enum Fabric {
 
 /// How a fabric takes the light. Colours are sRGB, `0xrrggbb`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct Appearance {
     /// Colour of the front.
     pub front: u32,
     /// Colour of the back.
@@ -81,9 +81,9 @@ impl Fabric {
     }
 
     /// How it takes the light.
-    pub fn look(self) -> Look {
+    pub fn appearance(self) -> Appearance {
         match self {
-            Self::Silk => Look {
+            Self::Silk => Appearance {
                 front: 0x9fb6ff,
                 back: 0xc0c8ff,
                 kept: 0.72,
@@ -97,7 +97,7 @@ impl Fabric {
                 through: 1.0,
                 printed: false,
             },
-            Self::Cotton => Look {
+            Self::Cotton => Appearance {
                 front: 0xe9dfcf,
                 back: 0xdcd3c6,
                 kept: 0.85,
@@ -111,7 +111,7 @@ impl Fabric {
                 through: 1.35,
                 printed: false,
             },
-            Self::Denim => Look {
+            Self::Denim => Appearance {
                 front: 0x3d5283,
                 back: 0xb4bfd2,
                 kept: 1.0,
@@ -125,7 +125,7 @@ impl Fabric {
                 through: 0.10,
                 printed: false,
             },
-            Self::Flag => Look {
+            Self::Flag => Appearance {
                 front: 0xf2ead8,
                 back: 0xf2ead8,
                 kept: 1.0,
@@ -153,7 +153,7 @@ mod tests {
             for b in &Fabric::ALL[i + 1..] {
                 let (light, heavy) = (a.material().density, b.material().density);
                 assert!((light - heavy).abs() > 0.004, "{a:?} and {b:?} weigh {light} and {heavy}");
-                assert_ne!(a.look().front, b.look().front);
+                assert_ne!(a.appearance().front, b.appearance().front);
             }
         }
     }

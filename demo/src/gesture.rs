@@ -16,25 +16,33 @@ pub enum Gesture {
     Cut,
 }
 
-/// A pointer's way: where it is at which tick, straight in between, in shares of the sheet as it
+/// A pointer's keyframes: where it is at which tick, straight in between, in shares of the sheet as it
 /// appears when the gesture begins: (0, 0) is its top left corner.
 struct Stroke {
     blade: bool,
-    way: &'static [(u32, [f32; 2])],
+    keyframes: &'static [(u32, [f32; 2])],
 }
 
 const TEAR: [Stroke; 2] = [
-    Stroke { blade: false, way: &[(0, [0.44, 0.85]), (45, [-0.18, 0.85]), (80, [-0.18, 0.85])] },
-    Stroke { blade: false, way: &[(0, [0.54, 0.85]), (45, [1.16, 0.73]), (80, [1.16, 0.73])] },
+    Stroke {
+        blade: false,
+        keyframes: &[(0, [0.44, 0.85]), (45, [-0.18, 0.85]), (80, [-0.18, 0.85])],
+    },
+    Stroke {
+        blade: false,
+        keyframes: &[(0, [0.54, 0.85]), (45, [1.16, 0.73]), (80, [1.16, 0.73])],
+    },
 ];
 
 const YANK: [Stroke; 1] = [Stroke {
     blade: false,
-    way: &[(0, [0.03, 0.72]), (6, [0.03, 0.72]), (30, [-0.60, 0.90]), (60, [-0.60, 1.00])],
+    keyframes: &[(0, [0.03, 0.72]), (6, [0.03, 0.72]), (30, [-0.60, 0.90]), (60, [-0.60, 1.00])],
 }];
 
-const CUT: [Stroke; 1] =
-    [Stroke { blade: true, way: &[(0, [-0.12, 0.30]), (10, [0.22, 0.46]), (24, [0.78, 0.60])] }];
+const CUT: [Stroke; 1] = [Stroke {
+    blade: true,
+    keyframes: &[(0, [-0.12, 0.30]), (10, [0.22, 0.46]), (24, [0.78, 0.60])],
+}];
 
 impl Gesture {
     /// All of them, with the names that the command line knows.
@@ -60,17 +68,17 @@ impl Gesture {
 }
 
 /// A gesture while it is played.
-pub struct Play {
+pub struct GesturePlayer {
     gesture: Gesture,
     tick: u32,
     corner: Vec2,
     size: Vec2,
 }
 
-impl Play {
+impl GesturePlayer {
     /// Begins on the sheet as it hangs now.
     pub fn new(gesture: Gesture, app: &mut App) -> Self {
-        let Some([columns, rows]) = app.weave() else {
+        let Some([columns, rows]) = app.grid_size() else {
             return Self::over(gesture, app);
         };
         let place = |app: &mut App, particle| app.particle_on_screen(particle).unwrap_or_default();
@@ -95,7 +103,7 @@ impl Play {
     /// As [`App::press`], [`App::drag`] and [`App::lift`].
     pub fn step(&mut self, app: &mut App) -> Result<()> {
         for (id, stroke) in (1..).zip(self.gesture.strokes()) {
-            let [(begin, _), .., (end, _)] = stroke.way else {
+            let [(begin, _), .., (end, _)] = stroke.keyframes else {
                 continue;
             };
             let at = self.corner + stroke.at(self.tick) * self.size;
@@ -118,10 +126,10 @@ impl Play {
 
 impl Stroke {
     fn at(&self, tick: u32) -> Vec2 {
-        let after = self.way.iter().position(|(at, _)| *at >= tick);
-        let to = after.unwrap_or(self.way.len() - 1);
+        let after = self.keyframes.iter().position(|(at, _)| *at >= tick);
+        let to = after.unwrap_or(self.keyframes.len() - 1);
         let from = to.saturating_sub(1);
-        let [(start, a), (end, b)] = [self.way[from], self.way[to]];
+        let [(start, a), (end, b)] = [self.keyframes[from], self.keyframes[to]];
         let share = (tick.saturating_sub(start) as f32 / (end - start).max(1) as f32).min(1.0);
         Vec2::from(a).lerp(Vec2::from(b), share)
     }
@@ -136,7 +144,7 @@ mod tests {
         let mut app = App::new(settings, || 0.0).unwrap();
         app.camera().set_drift(false);
         app.play(60);
-        let mut play = Play::new(gesture, &mut app);
+        let mut play = GesturePlayer::new(gesture, &mut app);
         for _ in 0..gesture.ticks() {
             play.step(&mut app).unwrap();
         }
@@ -146,7 +154,7 @@ mod tests {
     #[test]
     fn a_stroke_passes_its_places_at_their_ticks() {
         let stroke = &CUT[0];
-        for (tick, place) in stroke.way {
+        for (tick, place) in stroke.keyframes {
             assert!(stroke.at(*tick).distance(Vec2::from(*place)) < 1.0e-6);
         }
         let half = Vec2::new(0.5, 0.53);

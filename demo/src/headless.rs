@@ -66,14 +66,14 @@ impl Headless {
     }
 
     fn on(device: &Device) -> Result<Self, String> {
-        let told = |e: glutin::error::Error| e.to_string();
+        let to_message = |e: glutin::error::Error| e.to_string();
         // SAFETY: no native display is passed, so there is none that could go away.
-        let display = unsafe { Display::with_device(device, None) }.map_err(told)?;
+        let display = unsafe { Display::with_device(device, None) }.map_err(to_message)?;
         let template =
             ConfigTemplateBuilder::new().with_surface_type(ConfigSurfaceTypes::empty()).build();
         // SAFETY: the template names no native window.
         let config = unsafe { display.find_configs(template) }
-            .map_err(told)?
+            .map_err(to_message)?
             .next()
             .ok_or("the device has no configuration")?;
         let attributes = ContextAttributesBuilder::new()
@@ -81,8 +81,9 @@ impl Headless {
             .with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3))))
             .build(None);
         // SAFETY: display and config are the ones just made.
-        let context = unsafe { display.create_context(&config, &attributes) }.map_err(told)?;
-        let current = context.make_current_surfaceless().map_err(told)?;
+        let context =
+            unsafe { display.create_context(&config, &attributes) }.map_err(to_message)?;
+        let current = context.make_current_surfaceless().map_err(to_message)?;
         let load = |name: &str| match CString::new(name) {
             Ok(name) => display.get_proc_address(&name),
             Err(_) => std::ptr::null(),

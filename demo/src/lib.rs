@@ -4,19 +4,22 @@
 //! [`app`] is the sheet and [`tender`] the receipt; [`native`] puts them into a window, `web` onto pages,
 //! [`headless`] into pictures. [`controls`] is the one table behind both panels.
 
+pub mod afterglow;
 pub mod app;
 pub mod blade;
 pub mod camera;
 pub mod controls;
 pub mod fabric;
 pub mod gesture;
-pub mod hand;
 pub mod meter;
+pub mod patch_grab;
+pub mod picking;
 pub mod pointer;
+pub mod receipt;
 pub mod render;
+pub mod scene;
+pub mod scene_kind;
 pub mod settings;
-pub mod stage;
-pub mod tender;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;

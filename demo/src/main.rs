@@ -5,9 +5,9 @@ fn main() -> std::process::ExitCode {
     use muslin_demo::app::App;
     use muslin_demo::cli::{self, Task};
     use muslin_demo::native;
-    use muslin_demo::native::desk::OnDesk;
-    use muslin_demo::native::show::Sheet;
-    use muslin_demo::tender::Tender;
+    use muslin_demo::native::receipt_window::ReceiptWindow;
+    use muslin_demo::native::window_app::ClothWindow;
+    use muslin_demo::receipt::ReceiptApp;
     use std::process::ExitCode;
 
     let run = || -> Result<(), Box<dyn std::error::Error>> {
@@ -24,14 +24,14 @@ fn main() -> std::process::ExitCode {
                     println!("{rate:.1} frames a second on {driver}");
                 }
             }
-            Task::Window(values) => {
-                let mut settings = native::store::read();
+            Task::ClothWindow(values) => {
+                let mut settings = native::settings_file::read();
                 cli::apply(&values, &mut settings);
-                native::run(Sheet::new(App::new(settings, native::clock)?))?;
+                native::run(ClothWindow::new(App::new(settings, native::clock)?))?;
             }
-            Task::Receipt(receipt) => {
-                let tender = Tender::new(receipt.settings, receipt.small, native::clock)?;
-                native::run(OnDesk::new(tender))?;
+            Task::ReceiptWindow(receipt) => {
+                let tender = ReceiptApp::new(receipt.settings, receipt.small, native::clock)?;
+                native::run(ReceiptWindow::new(tender))?;
             }
         }
         Ok(())

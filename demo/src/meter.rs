@@ -43,26 +43,26 @@ pub struct Meter {
 
 impl Meter {
     /// A frame took so long [s].
-    pub fn frame(&mut self, seconds: f32) {
+    pub fn record_frame(&mut self, seconds: f32) {
         if seconds > 0.0 {
             blend(&mut self.frame, f64::from(seconds));
         }
     }
 
     /// The simulation of a frame took so long [s].
-    pub fn simulated(&mut self, seconds: f64) {
+    pub fn record_simulation(&mut self, seconds: f64) {
         blend(&mut self.simulation, seconds.max(0.0));
     }
 
     /// The stages of the simulation took so long in a frame [s].
-    pub fn simulated_in(&mut self, stages: &[f32; Stage::COUNT]) {
+    pub fn record_stages(&mut self, stages: &[f32; Stage::COUNT]) {
         for (figure, seconds) in self.stages.iter_mut().zip(stages) {
             blend(figure, f64::from(*seconds));
         }
     }
 
     /// Handing the cloth to the graphics card took so long in a frame, and asking for the picture [s].
-    pub fn drawn(&mut self, upload: f64, draw: f64) {
+    pub fn record_drawing(&mut self, upload: f64, draw: f64) {
         blend(&mut self.stages[Stage::COUNT], upload.max(0.0));
         blend(&mut self.stages[Stage::COUNT + 1], draw.max(0.0));
     }
@@ -104,7 +104,7 @@ impl Meter {
 
 /// Draws dense screens less finely where full density is too slow.
 #[derive(Clone, Copy, Debug)]
-pub struct Governor {
+pub struct ResolutionScaler {
     scale: f32,
     slow: f32,
 }
@@ -116,15 +116,15 @@ const PATIENCE: f32 = 2.0;
 /// Frames longer than this are not drawing but waiting [s].
 const PAUSE: f32 = 0.5;
 
-impl Default for Governor {
+impl Default for ResolutionScaler {
     fn default() -> Self {
         Self { scale: 1.0, slow: 0.0 }
     }
 }
 
-impl Governor {
+impl ResolutionScaler {
     /// A frame took so long [s].
-    pub fn frame(&mut self, seconds: f32) {
+    pub fn record_frame(&mut self, seconds: f32) {
         if seconds > PAUSE {
             return;
         }
@@ -137,7 +137,7 @@ impl Governor {
 
     /// What share of a screen's pixels to draw along each side, if it has `density` device pixels
     /// to one that the eye counts: never fewer than one.
-    pub fn share(&self, density: f32) -> f32 {
+    pub fn scale(&self, density: f32) -> f32 {
         self.scale.max(1.0 / density.max(1.0))
     }
 }
@@ -152,25 +152,25 @@ mod tests {
 
     #[test]
     fn a_dense_screen_is_drawn_less_finely_when_slow_and_a_plain_one_never() {
-        let mut governor = Governor::default();
+        let mut resolution_scaler = ResolutionScaler::default();
         for _ in 0..600 {
-            governor.frame(1.0 / 60.0);
+            resolution_scaler.record_frame(1.0 / 60.0);
         }
-        assert_eq!(governor.share(2.0), 1.0);
+        assert_eq!(resolution_scaler.scale(2.0), 1.0);
         for _ in 0..600 {
-            governor.frame(1.0 / 15.0);
+            resolution_scaler.record_frame(1.0 / 15.0);
         }
-        assert_eq!((governor.share(1.0), governor.share(2.0)), (1.0, 0.5));
+        assert_eq!((resolution_scaler.scale(1.0), resolution_scaler.scale(2.0)), (1.0, 0.5));
     }
 
     #[test]
     fn steady_frames_read_as_their_rate() {
         let mut meter = Meter::default();
         assert_eq!(meter.fps(), 0.0);
-        meter.frame(0.5);
+        meter.record_frame(0.5);
         for _ in 0..200 {
-            meter.frame(1.0 / 60.0);
-            meter.simulated(0.0015);
+            meter.record_frame(1.0 / 60.0);
+            meter.record_simulation(0.0015);
         }
         assert!((meter.fps() - 60.0).abs() < 0.5, "{} fps", meter.fps());
         assert!((meter.milliseconds() - 1.5).abs() < 0.01);
@@ -180,8 +180,8 @@ mod tests {
     fn every_stage_has_a_name_and_its_own_figure() {
         let mut meter = Meter::default();
         let seconds = std::array::from_fn(|i| 0.001 * i as f32);
-        meter.simulated_in(&seconds);
-        meter.drawn(0.020, 0.021);
+        meter.record_stages(&seconds);
+        meter.record_drawing(0.020, 0.021);
         let told = meter.stages();
         assert_eq!(told.len(), STAGES);
         for (i, StageTime { name, milliseconds }) in told[..Stage::COUNT].iter().enumerate() {

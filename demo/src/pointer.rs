@@ -1,11 +1,12 @@
-//! Hands on the scene: each pointer holds a piece of cloth or the camera, or nothing.
+//! Hands on the pick: each pointer holds a piece of cloth or the camera, or nothing.
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, Hit, Result};
+use muslin::Result;
 
-use crate::blade::{Afterglow, Swipe};
-use crate::camera::{Camera, Sight};
-use crate::hand::{Hand, TIP};
+use crate::blade::Swipe;
+use crate::camera::Camera;
+use crate::patch_grab::{FINGERTIP_RADIUS, PatchGrab};
+use crate::picking::{PickContext, Screen};
 use crate::render::light::{FLOOR, STAGE_CENTRE};
 
 /// How far a held particle may be pulled from the middle of the stage [m].
@@ -13,36 +14,11 @@ const REACH: f32 = 4.0;
 /// How near to the floor it may be pulled [m].
 const CLEARANCE: f32 = 0.02;
 
-/// The screen that pointers move on, in the pixels that they count in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Screen {
-    /// Width and height.
-    pub size: Vec2,
-}
-
-impl Screen {
-    /// Width over height.
-    pub fn aspect(&self) -> f32 {
-        self.size.x.max(1.0) / self.size.y.max(1.0)
-    }
-
-    /// From pixels, y down, to -1 to 1, y up.
-    pub fn normal(&self, at: Vec2) -> Vec2 {
-        let share = at / self.size.max(Vec2::ONE);
-        Vec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
-    }
-
-    /// From -1 to 1, y up, to pixels, y down.
-    pub fn pixels(&self, at: Vec2) -> Vec2 {
-        Vec2::new(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y) * self.size
-    }
-}
-
 /// What a pointer holds.
 #[derive(Debug)]
 enum Hold {
     /// Of the cloth of this number.
-    Cloth(usize, Hand),
+    Cloth(usize, PatchGrab),
     Camera,
     Blade(Swipe),
 }
@@ -88,7 +64,7 @@ pub struct Pointers {
 
 impl Pointers {
     /// Whether any pointer is down.
-    pub fn any(&self) -> bool {
+    pub fn is_any_down(&self) -> bool {
         !self.down.is_empty()
     }
 
@@ -99,20 +75,20 @@ impl Pointers {
     ///
     /// # Errors
     /// As [`Cloth::grab_ray`].
-    pub fn press(&mut self, id: u32, at: Vec2, scene: &mut Scene<'_>) -> Result<()> {
+    pub fn press(&mut self, id: u32, at: Vec2, pick: &mut PickContext<'_>) -> Result<()> {
         if !at.is_finite() {
             return Ok(());
         }
-        self.lift(id, scene)?;
-        if scene.blade {
-            scene.glow(at, true);
+        self.lift(id, pick)?;
+        if pick.blade {
+            pick.glow(at, true);
             self.down.push(Pointer { id, at, hold: Hold::Blade(Swipe::new(at)) });
             return Ok(());
         }
-        let hold = match scene.take(at)? {
+        let hold = match grab_at(pick, at)? {
             Some((cloth, hand)) => Hold::Cloth(cloth, hand),
             None => {
-                self.open_hands(scene)?;
+                self.turn_grabs_into_orbit(pick)?;
                 Hold::Camera
             }
         };
@@ -124,7 +100,7 @@ impl Pointers {
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
-    pub fn drag(&mut self, id: u32, to: Vec2, scene: &mut Scene<'_>) -> Result<()> {
+    pub fn drag(&mut self, id: u32, to: Vec2, pick: &mut PickContext<'_>) -> Result<()> {
         if !to.is_finite() {
             return Ok(());
         }
@@ -134,8 +110,8 @@ impl Pointers {
         };
         let from = std::mem::replace(&mut self.down[moved].at, to);
         if let Hold::Blade(swipe) = &mut self.down[moved].hold {
-            scene.glow(to, false);
-            return swipe.reach(to, false, scene);
+            pick.glow(to, false);
+            return swipe.cut_to(to, false, pick);
         }
         if matches!(self.down[moved].hold, Hold::Camera) {
             let others: Vec<Vec2> = self
@@ -144,29 +120,29 @@ impl Pointers {
                 .filter(|p| p.id != id && matches!(p.hold, Hold::Camera))
                 .map(|p| p.at)
                 .collect();
-            turn(scene.camera, scene.screen, [from, to], &others);
+            orbit_and_pinch(pick.camera, pick.screen, [from, to], &others);
         }
-        self.follow(scene)
+        self.update_targets(pick)
     }
 
     /// A pointer goes up, is cancelled or is lost: it lets go.
     ///
     /// # Errors
     /// As [`Cloth::release`].
-    pub fn lift(&mut self, id: u32, scene: &mut Scene<'_>) -> Result<()> {
+    pub fn lift(&mut self, id: u32, pick: &mut PickContext<'_>) -> Result<()> {
         let Some(i) = self.down.iter().position(|p| p.id == id) else {
             return Ok(());
         };
         let pointer = self.down.swap_remove(i);
         match pointer.hold {
-            Hold::Cloth(cloth, hand) => hand.release(&mut scene.cloths[cloth]),
-            Hold::Blade(mut swipe) => swipe.reach(pointer.at, true, scene),
+            Hold::Cloth(cloth, hand) => hand.release(&mut pick.cloths[cloth]),
+            Hold::Blade(mut swipe) => swipe.cut_to(pointer.at, true, pick),
             Hold::Camera => Ok(()),
         }
     }
 
     /// The pointer has left the screen.
-    pub fn leave(&mut self) {
+    pub fn clear_hover(&mut self) {
         self.hover = None;
     }
 
@@ -174,13 +150,13 @@ impl Pointers {
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
-    pub fn follow(&mut self, scene: &mut Scene<'_>) -> Result<()> {
-        let forward = scene.sight.forward();
+    pub fn update_targets(&mut self, pick: &mut PickContext<'_>) -> Result<()> {
+        let forward = pick.view.forward();
         for pointer in &mut self.down {
             if let Hold::Cloth(cloth, hand) = &mut pointer.hold {
-                let depth = (hand.at() - scene.sight.eye).dot(forward);
-                let to = within_reach(scene.at_depth(pointer.at, depth) / scene.unit) * scene.unit;
-                hand.move_to(to, &mut scene.cloths[*cloth])?;
+                let depth = (hand.at() - pick.view.eye).dot(forward);
+                let to = clamp_to_stage(pick.at_depth(pointer.at, depth) / pick.unit) * pick.unit;
+                hand.move_to(to, &mut pick.cloths[*cloth])?;
             }
         }
         Ok(())
@@ -188,19 +164,19 @@ impl Pointers {
 
     /// Every pointer that held cloth now holds the camera: the cloth they held is no more, or a
     /// pinch begins.
-    fn open_hands(&mut self, scene: &mut Scene<'_>) -> Result<()> {
+    fn turn_grabs_into_orbit(&mut self, pick: &mut PickContext<'_>) -> Result<()> {
         for pointer in &mut self.down {
             if matches!(pointer.hold, Hold::Cloth(..))
                 && let Hold::Cloth(cloth, hand) = std::mem::replace(&mut pointer.hold, Hold::Camera)
             {
-                hand.release(&mut scene.cloths[cloth])?;
+                hand.release(&mut pick.cloths[cloth])?;
             }
         }
         Ok(())
     }
 
     /// Forgets every pointer without asking the cloth, which has been replaced.
-    pub fn forget(&mut self) {
+    pub fn clear(&mut self) {
         self.down.clear();
     }
 
@@ -208,16 +184,16 @@ impl Pointers {
     ///
     /// # Errors
     /// As [`Cloth::raycast`].
-    pub fn cursor(&self, scene: &mut Scene<'_>) -> Result<Cursor> {
+    pub fn cursor(&self, pick: &mut PickContext<'_>) -> Result<Cursor> {
         if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth(..))) {
             return Ok(Cursor::Grabbing);
         }
-        if scene.blade || self.down.iter().any(|p| matches!(p.hold, Hold::Blade(_))) {
+        if pick.blade || self.down.iter().any(|p| matches!(p.hold, Hold::Blade(_))) {
             return Ok(Cursor::Crosshair);
         }
         match self.hover {
             Some(at) if self.down.is_empty() => {
-                let hit = scene.nearest(at)?;
+                let hit = pick.nearest(at)?;
                 Ok(if hit.is_some() { Cursor::Grab } else { Cursor::Default })
             }
             _ => Ok(Cursor::Default),
@@ -227,9 +203,14 @@ impl Pointers {
 
 /// Turns the camera by a pointer's way from one pixel to another while `others` hold it too; two of them
 /// pinch.
-pub fn turn(camera: &mut Camera, screen: Screen, [from, to]: [Vec2; 2], others: &[Vec2]) {
+pub fn orbit_and_pinch(
+    camera: &mut Camera,
+    screen: Screen,
+    [from, to]: [Vec2; 2],
+    others: &[Vec2],
+) {
     let height = screen.size.y.max(1.0);
-    // Both fingers of a pinch turn the camera by half, so that their middle leads it.
+    // Both fingers of a pinch orbit_and_pinch the camera by half, so that their middle leads it.
     camera.orbit((to - from) / (height * (others.len() + 1) as f32));
     if let [other] = others {
         let (before, after) = (from.distance(*other), to.distance(*other));
@@ -239,95 +220,23 @@ pub fn turn(camera: &mut Camera, screen: Screen, [from, to]: [Vec2; 2], others: 
     }
 }
 
-/// What pointers act on.
-pub struct Scene<'a> {
-    /// The cloths.
-    pub cloths: &'a mut [Cloth],
-    /// The camera rig.
-    pub camera: &'a mut Camera,
-    /// Length of what is drawn as a metre [m].
-    pub unit: f32,
-    /// Where the camera is in this frame, among the cloths as large as they are.
-    pub sight: Sight,
-    /// The screen.
-    pub screen: Screen,
-    /// Whether the blade is out.
-    pub blade: bool,
-    /// The path of the blade.
-    pub afterglow: &'a mut Afterglow,
-    /// Distance between neighbouring particles [m].
-    pub spacing: f32,
-    /// What the weave's coordinates span, as it is drawn [m].
-    pub span: Vec2,
+/// A hand on the cloth behind a pixel, or on one that is nearly there.
+fn grab_at(pick: &mut PickContext<'_>, at: Vec2) -> Result<Option<(usize, PatchGrab)>> {
+    let ray = [pick.view.eye, pick.ray(at)];
+    let (span, fingertip) = (pick.span * pick.unit, FINGERTIP_RADIUS * pick.unit);
+    let radius = 0.6 * pick.spacing;
+    let hit = pick.nearest(at)?.map(|(cloth, _)| cloth);
+    let beside = (0..pick.cloths.len()).filter(|_| hit.is_none());
+    for cloth in hit.into_iter().chain(beside) {
+        let taken = PatchGrab::grab_ray(&mut pick.cloths[cloth], ray, radius, span, fingertip)?;
+        if let Some(hand) = taken {
+            return Ok(Some((cloth, hand)));
+        }
+    }
+    Ok(None)
 }
 
-impl Scene<'_> {
-    /// The unit direction from the eye through a pixel.
-    pub fn ray(&self, at: Vec2) -> Vec3 {
-        self.sight.ray(self.screen.normal(at), self.screen.aspect())
-    }
-
-    /// Where a point appears, in pixels; `None` behind the eye.
-    pub fn pixels(&self, at: Vec3) -> Option<Vec2> {
-        self.sight.project(at, self.screen.aspect()).map(|normal| self.screen.pixels(normal))
-    }
-
-    /// How far in front of the eye the cloth is behind a pixel [m].
-    ///
-    /// # Errors
-    /// As [`Cloth::raycast`].
-    pub fn depth(&self, at: Vec2) -> Result<Option<f32>> {
-        let hit = self.nearest(at)?;
-        Ok(hit.map(|(_, hit)| (hit.position - self.sight.eye).dot(self.sight.forward())))
-    }
-
-    /// The cloth behind a pixel that is nearest to the eye, and where.
-    fn nearest(&self, at: Vec2) -> Result<Option<(usize, Hit)>> {
-        let direction = self.ray(at);
-        let mut nearest: Option<(usize, Hit)> = None;
-        for (i, cloth) in self.cloths.iter().enumerate() {
-            let within = nearest.as_ref().map_or(100.0, |(_, hit)| hit.distance);
-            if let Some(hit) = cloth.raycast(self.sight.eye, direction, within)? {
-                nearest = Some((i, hit));
-            }
-        }
-        Ok(nearest)
-    }
-
-    /// A hand on the cloth behind a pixel, or on one that is nearly there.
-    fn take(&mut self, at: Vec2) -> Result<Option<(usize, Hand)>> {
-        let ray = [self.sight.eye, self.ray(at)];
-        let (span, tip) = (self.span * self.unit, TIP * self.unit);
-        let radius = 0.6 * self.spacing;
-        let hit = self.nearest(at)?.map(|(cloth, _)| cloth);
-        let beside = (0..self.cloths.len()).filter(|_| hit.is_none());
-        for cloth in hit.into_iter().chain(beside) {
-            let taken = Hand::take(&mut self.cloths[cloth], ray, radius, span, tip)?;
-            if let Some(hand) = taken {
-                return Ok(Some((cloth, hand)));
-            }
-        }
-        Ok(None)
-    }
-
-    /// The point behind a pixel, so far in front of the eye [m].
-    pub fn at_depth(&self, at: Vec2, depth: f32) -> Vec3 {
-        let ray = self.ray(at);
-        self.sight.eye + ray * (depth / ray.dot(self.sight.forward()))
-    }
-
-    /// How many pixels an edge of the cloth covers, about.
-    pub fn edge_pixels(&self) -> f32 {
-        let away = self.sight.eye.distance(self.sight.target);
-        self.spacing * self.sight.lens(self.screen.size.y) / away.max(0.1)
-    }
-
-    fn glow(&mut self, at: Vec2, first: bool) {
-        self.afterglow.add(self.screen.normal(at), first);
-    }
-}
-
-fn within_reach(at: Vec3) -> Vec3 {
+fn clamp_to_stage(at: Vec3) -> Vec3 {
     let mut near = STAGE_CENTRE + (at - STAGE_CENTRE).clamp_length_max(REACH);
     near.y = near.y.max(FLOOR + CLEARANCE);
     near
@@ -338,18 +247,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_and_normal_coordinates_are_each_others_inverse() {
-        let screen = Screen { size: Vec2::new(390.0, 844.0) };
-        let at = Vec2::new(17.0, 800.0);
-        assert!(screen.pixels(screen.normal(at)).distance(at) < 1.0e-3);
-        assert_eq!(screen.normal(Vec2::ZERO), Vec2::new(-1.0, 1.0));
-    }
-
-    #[test]
     fn nothing_is_pulled_off_the_stage_or_under_the_floor() {
-        let far = within_reach(Vec3::new(5.0, -300.0, 2.0));
+        let far = clamp_to_stage(Vec3::new(5.0, -300.0, 2.0));
         assert!(far.distance(STAGE_CENTRE) <= REACH + 1.0e-3 && far.y >= FLOOR);
         let near = Vec3::new(0.3, 0.4, 0.5);
-        assert!(within_reach(near).distance(near) < 1.0e-6);
+        assert!(clamp_to_stage(near).distance(near) < 1.0e-6);
     }
 }

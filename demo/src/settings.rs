@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use crate::fabric::Fabric;
-use crate::stage::Show;
+use crate::scene_kind::SceneKind;
 
 /// Wind, as a share of a fresh breeze.
 pub const WIND: RangeInclusive<f32> = 0.0..=3.0;
@@ -52,7 +52,7 @@ pub struct Settings {
     /// Time stands still.
     pub paused: bool,
     /// What is on the stage.
-    pub scene: Show,
+    pub scene: SceneKind,
     /// What its cloth is of.
     pub fabric: Fabric,
     /// What holds the sheet up.
@@ -72,7 +72,7 @@ impl Default for Settings {
             tearing: false,
             blade: false,
             paused: false,
-            scene: Show::Sheet,
+            scene: SceneKind::Sheet,
             fabric: Fabric::Silk,
             pinning: Pinning::TopEdge,
             resolution: 40,

@@ -7,14 +7,14 @@ use glam::Vec2;
 
 use crate::app::App;
 use crate::camera::Camera;
-use crate::gesture::{Gesture, Play};
+use crate::gesture::{Gesture, GesturePlayer};
 use crate::headless::Headless;
 use crate::meter::StageTime;
 use crate::native;
-use crate::render::desk::Desk;
-use crate::render::{Canvas, Renderer};
+use crate::receipt::{self, ReceiptApp};
+use crate::render::receipt_renderer::ReceiptRenderer;
+use crate::render::{OffscreenCanvas, Renderer};
 use crate::settings::Settings;
-use crate::tender::{self, Tender};
 
 /// What to draw.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,18 +36,18 @@ pub struct Shot {
     /// What the camera's distance is multiplied by.
     pub zoom: f32,
     /// The receipt, in place of the cloth that the controls tell of.
-    pub receipt: Option<Receipt>,
+    pub receipt: Option<ReceiptShot>,
 }
 
 /// The receipt in a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Receipt {
+pub struct ReceiptShot {
     /// Its controls.
-    pub settings: tender::Settings,
+    pub settings: receipt::ReceiptSettings,
     /// Whether it has fewer particles.
     pub small: bool,
     /// What hands do in the last ticks.
-    pub play: Option<tender::play::Gesture>,
+    pub play: Option<receipt::gestures::ReceiptGesture>,
 }
 
 impl Default for Shot {
@@ -87,18 +87,20 @@ impl Shot {
     /// [`crate::headless::NoContext`] if nothing can draw here, or what the cloth or driver refuses.
     pub fn take(&self) -> Result<Picture, Failure> {
         let headless = Headless::new()?;
-        let mut act: Box<dyn Act> = match &self.receipt {
+        let mut subject: Box<dyn ShotSubject> = match &self.receipt {
             None => Box::new(self.begin(Renderer::new(&headless.context)?)?),
-            Some(receipt) => Box::new(self.begin_receipt(receipt, Desk::new(&headless.context)?)?),
+            Some(receipt) => {
+                Box::new(self.begin_receipt(receipt, ReceiptRenderer::new(&headless.context)?)?)
+            }
         };
         let [width, height] = self.size;
-        let canvas = Canvas::new(&headless.context, width, height);
+        let canvas = OffscreenCanvas::new(&headless.context, width, height);
         let mut strip = Picture::black([width * self.strip, height]);
         // The hands work before the usual camera, whatever the picture: the same gesture in each.
-        let hands_view = act.camera().clone();
+        let hands_view = subject.camera().clone();
         if self.times {
             // What is made at the first frame is none of the others' time.
-            act.draw(&canvas)?;
+            subject.draw(&canvas)?;
             headless.finish();
         }
         let start = native::clock();
@@ -106,10 +108,10 @@ impl Shot {
         for i in 0..self.strip {
             let until = self.moment(i);
             while ticks < until {
-                act.tick()?;
+                subject.tick()?;
                 ticks += 1;
                 if self.times {
-                    act.draw(&canvas)?;
+                    subject.draw(&canvas)?;
                 }
             }
             if self.times && i + 1 == self.strip {
@@ -117,43 +119,47 @@ impl Shot {
                 strip.rate =
                     Some((headless.driver(), f64::from(ticks) / (native::clock() - start)));
             }
-            *act.camera() = self.view(&hands_view);
-            act.draw(&canvas)?;
-            *act.camera() = hands_view.clone();
+            *subject.camera() = self.view(&hands_view);
+            subject.draw(&canvas)?;
+            *subject.camera() = hands_view.clone();
             strip.put(i * width, self.size, &canvas.pixels());
         }
         if self.times {
-            strip.times = act.times();
+            strip.times = subject.times();
         }
         Ok(strip)
     }
 
     /// The scene after as many ticks as come before the gesture, and the gesture.
-    fn begin(&self, renderer: Renderer) -> Result<OnStage, Failure> {
+    fn begin(&self, renderer: Renderer) -> Result<ClothSubject, Failure> {
         let mut settings = self.settings.clone();
         settings.tearing |= matches!(self.play, Some(Gesture::Tear | Gesture::Yank));
         let mut app = App::new(settings, native::clock)?;
         app.camera().set_drift(false);
         app.play(self.ticks - self.played());
         app.time_stages(self.times);
-        let play = self.play.map(|gesture| Play::new(gesture, &mut app));
-        Ok(OnStage { app, play, renderer })
+        let play = self.play.map(|gesture| GesturePlayer::new(gesture, &mut app));
+        Ok(ClothSubject { app, play, renderer })
     }
 
     /// The same of the receipt.
-    fn begin_receipt(&self, receipt: &Receipt, desk: Desk) -> Result<OnDesk, Failure> {
-        let mut tender = Tender::new(receipt.settings.clone(), receipt.small, native::clock)?;
+    fn begin_receipt(
+        &self,
+        receipt: &ReceiptShot,
+        desk: ReceiptRenderer,
+    ) -> Result<ReceiptSubject, Failure> {
+        let mut tender = ReceiptApp::new(receipt.settings.clone(), receipt.small, native::clock)?;
         tender.play(self.ticks - self.played())?;
         tender.time_stages(self.times);
-        let play = receipt.play.map(tender::play::Play::new);
-        Ok(OnDesk { tender, play, desk })
+        let play = receipt.play.map(receipt::gestures::ReceiptGesturePlayer::new);
+        Ok(ReceiptSubject { tender, play, desk })
     }
 
     /// Ticks that are played with hands, or from the first picture of a strip to the last.
     fn played(&self) -> u32 {
         let gesture = match &self.receipt {
             None => self.play.map(Gesture::ticks),
-            Some(receipt) => receipt.play.map(tender::play::Gesture::ticks),
+            Some(receipt) => receipt.play.map(receipt::gestures::ReceiptGesture::ticks),
         };
         let still = if self.times {
             self.ticks
@@ -174,7 +180,7 @@ impl Shot {
     fn view(&self, usual: &Camera) -> Camera {
         let [width, height] = self.size.map(|side| side as f32);
         let mut camera = usual.clone();
-        camera.frame(width / height);
+        camera.fit_to_aspect(width / height);
         camera.orbit(self.orbit);
         camera.zoom(self.zoom);
         for _ in 0..600 {
@@ -185,21 +191,21 @@ impl Shot {
 }
 
 /// What a picture is taken of.
-trait Act {
+trait ShotSubject {
     fn tick(&mut self) -> Result<(), Failure>;
-    fn draw(&mut self, canvas: &Canvas) -> Result<(), Failure>;
+    fn draw(&mut self, canvas: &OffscreenCanvas) -> Result<(), Failure>;
     fn camera(&mut self) -> &mut Camera;
     fn times(&self) -> Vec<StageTime>;
 }
 
 /// The cloth of the controls, and who plays with it.
-struct OnStage {
+struct ClothSubject {
     app: App,
-    play: Option<Play>,
+    play: Option<GesturePlayer>,
     renderer: Renderer,
 }
 
-impl Act for OnStage {
+impl ShotSubject for ClothSubject {
     fn tick(&mut self) -> Result<(), Failure> {
         match &mut self.play {
             Some(play) => play.step(&mut self.app)?,
@@ -208,7 +214,7 @@ impl Act for OnStage {
         Ok(())
     }
 
-    fn draw(&mut self, canvas: &Canvas) -> Result<(), Failure> {
+    fn draw(&mut self, canvas: &OffscreenCanvas) -> Result<(), Failure> {
         Ok(self.app.draw(&mut self.renderer, &canvas.target())?)
     }
 
@@ -222,13 +228,13 @@ impl Act for OnStage {
 }
 
 /// The receipt, and who plays with it.
-struct OnDesk {
-    tender: Tender,
-    play: Option<tender::play::Play>,
-    desk: Desk,
+struct ReceiptSubject {
+    tender: ReceiptApp,
+    play: Option<receipt::gestures::ReceiptGesturePlayer>,
+    desk: ReceiptRenderer,
 }
 
-impl Act for OnDesk {
+impl ShotSubject for ReceiptSubject {
     fn tick(&mut self) -> Result<(), Failure> {
         match &mut self.play {
             Some(play) => play.step(&mut self.tender)?,
@@ -237,7 +243,7 @@ impl Act for OnDesk {
         Ok(())
     }
 
-    fn draw(&mut self, canvas: &Canvas) -> Result<(), Failure> {
+    fn draw(&mut self, canvas: &OffscreenCanvas) -> Result<(), Failure> {
         Ok(self.tender.draw(&mut self.desk, &canvas.target())?)
     }
 

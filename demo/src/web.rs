@@ -27,16 +27,16 @@ pub struct Demo {
     renderer: Option<Renderer>,
 }
 
-pub(crate) fn told(error: impl std::fmt::Display) -> JsError {
+pub(crate) fn js_error(error: impl std::fmt::Display) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// three-d's context around the page's.
-pub(crate) fn around(gl: web_sys::WebGl2RenderingContext) -> Result<Context, JsError> {
+/// three-d's context context_from_webgl the page's.
+pub(crate) fn context_from_webgl(gl: web_sys::WebGl2RenderingContext) -> Result<Context, JsError> {
     let gl = three_d::context::Context::from_webgl2_context(gl);
     #[expect(clippy::arc_with_non_send_sync, reason = "three-d asks for an Arc everywhere")]
     let gl = Arc::new(gl);
-    Context::from_gl_context(gl).map_err(told)
+    Context::from_gl_context(gl).map_err(js_error)
 }
 
 #[wasm_bindgen]
@@ -46,14 +46,14 @@ impl Demo {
     #[wasm_bindgen(constructor)]
     pub fn new(kept: Option<String>) -> Result<Demo, JsError> {
         let settings = kept.and_then(|text| Settings::from_json(&text).ok()).unwrap_or_default();
-        let app = App::new(settings, || now() * 1.0e-3).map_err(told)?;
+        let app = App::new(settings, || now() * 1.0e-3).map_err(js_error)?;
         Ok(Self { app, renderer: None })
     }
 
     /// Takes a WebGL 2 context; again after one was lost.
     pub fn attach(&mut self, gl: web_sys::WebGl2RenderingContext) -> Result<(), JsError> {
         self.renderer = None;
-        self.renderer = Some(Renderer::new(&around(gl)?).map_err(told)?);
+        self.renderer = Some(Renderer::new(&context_from_webgl(gl)?).map_err(js_error)?);
         Ok(())
     }
 
@@ -74,33 +74,34 @@ impl Demo {
 
     /// The value of a control: a switch is 0 or 1, a choice its place.
     pub fn get(&self, name: &str) -> f32 {
-        controls::find(name).map_or(0.0, |c| c.get(self.app.settings()))
+        controls::find_control(name).map_or(0.0, |c| c.get(self.app.settings()))
     }
 
     /// The value of a control as it is printed.
     pub fn text(&self, name: &str) -> String {
-        controls::find(name).map_or_else(String::new, |c| c.text(self.app.settings()))
+        controls::find_control(name).map_or_else(String::new, |c| c.text(self.app.settings()))
     }
 
     /// Whether a control changes anything in the scene that is on.
-    pub fn suits(&self, name: &str) -> bool {
-        controls::find(name).is_some_and(|c| c.suits(self.app.settings()))
+    #[wasm_bindgen(js_name = isEnabled)]
+    pub fn is_enabled(&self, name: &str) -> bool {
+        controls::find_control(name).is_some_and(|c| c.is_enabled(self.app.settings()))
     }
 
     /// Gives a control a value, or presses it if it is a button.
     pub fn set(&mut self, name: &str, value: f32) -> Result<(), JsError> {
-        self.app.set(name, value).map_err(told)
+        self.app.set(name, value).map_err(js_error)
     }
 
     /// Does what a key does, and says whether it does anything.
     pub fn key(&mut self, key: char, shift: bool) -> Result<bool, JsError> {
-        self.app.key(key, shift).map_err(told)
+        self.app.key(key, shift).map_err(js_error)
     }
 
     /// Whether the visitor asks for reduced motion.
-    #[wasm_bindgen(js_name = setCalm)]
-    pub fn set_calm(&mut self, calm: bool) -> Result<(), JsError> {
-        self.app.set_calm(calm).map_err(told)
+    #[wasm_bindgen(js_name = setReducedMotion)]
+    pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<(), JsError> {
+        self.app.set_reduced_motion(reduced_motion).map_err(js_error)
     }
 
     /// The canvas has this size in CSS pixels.
@@ -110,22 +111,23 @@ impl Demo {
 
     /// A pointer comes down, in CSS pixels of the canvas.
     pub fn press(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
-        self.app.press(id, Vec2::new(x, y)).map_err(told)
+        self.app.press(id, Vec2::new(x, y)).map_err(js_error)
     }
 
     /// A pointer moves.
     pub fn drag(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
-        self.app.drag(id, Vec2::new(x, y)).map_err(told)
+        self.app.drag(id, Vec2::new(x, y)).map_err(js_error)
     }
 
     /// A pointer goes up, or is lost.
     pub fn lift(&mut self, id: u32) -> Result<(), JsError> {
-        self.app.lift(id).map_err(told)
+        self.app.lift(id).map_err(js_error)
     }
 
     /// The mouse has left the canvas.
-    pub fn leave(&mut self) {
-        self.app.leave();
+    #[wasm_bindgen(js_name = clearHover)]
+    pub fn clear_hover(&mut self) {
+        self.app.clear_hover();
     }
 
     /// The wheel turns, in CSS pixels.
@@ -140,7 +142,7 @@ impl Demo {
 
     /// Where the camera is [m].
     pub fn eye(&mut self) -> Box<[f32]> {
-        Box::new(self.app.camera().sight().eye.to_array())
+        Box::new(self.app.camera().view().eye.to_array())
     }
 
     /// The key for the blade goes down or up.
@@ -151,16 +153,16 @@ impl Demo {
 
     /// The CSS cursor that fits.
     pub fn cursor(&mut self) -> Result<String, JsError> {
-        self.app.cursor().map(|c| c.css().into()).map_err(told)
+        self.app.cursor().map(|c| c.css().into()).map_err(js_error)
     }
 
     /// Lets `seconds` pass and draws into a canvas of so many device pixels.
     pub fn frame(&mut self, seconds: f32, width: u32, height: u32) -> Result<(), JsError> {
-        self.app.frame(seconds).map_err(told)?;
+        self.app.frame(seconds).map_err(js_error)?;
         if let Some(renderer) = &mut self.renderer {
             let context = renderer.context().clone();
             let screen = RenderTarget::screen(&context, width, height);
-            self.app.draw(renderer, &screen).map_err(told)?;
+            self.app.draw(renderer, &screen).map_err(js_error)?;
         }
         Ok(())
     }

@@ -2,10 +2,10 @@
 //! packages to install.
 
 use muslin_demo::gesture::Gesture;
+use muslin_demo::receipt;
+use muslin_demo::scene_kind::SceneKind;
 use muslin_demo::settings::Settings;
-use muslin_demo::shot::{Picture, Receipt, Shot};
-use muslin_demo::stage::Show;
-use muslin_demo::tender;
+use muslin_demo::shot::{Picture, ReceiptShot, Shot};
 
 fn take(shot: &Shot) -> Picture {
     shot.take().unwrap_or_else(|error| panic!("{error}"))
@@ -108,23 +108,23 @@ fn a_film_strip_shows_the_gesture_go_on() {
 #[test]
 fn discs_and_curtain_stand_out_against_the_stage() {
     let scene = |scene| Settings { scene, fabric: scene.fabric(), ..Settings::default() };
-    let discs = take(&Shot { settings: scene(Show::Discs), ..small() });
+    let discs = take(&Shot { settings: scene(SceneKind::Discs), ..small() });
     let at = |x: f32, y: f32| brightness(&discs, [x - 0.03, x + 0.03], [y - 0.04, y + 0.04]);
     let [silk, cotton, denim] = [at(0.26, 0.40), at(0.50, 0.44), at(0.76, 0.45)];
     assert!(silk > 80.0 && cotton > silk && denim < 0.7 * silk, "{silk}, {cotton}, {denim}");
     for x in [0.10, 0.39, 0.63, 0.92] {
         assert!(at(x, 0.30) < 45.0, "between discs, at {x}, it is {}", at(x, 0.30));
     }
-    let curtain = take(&Shot { settings: scene(Show::Curtain), ..small() });
+    let curtain = take(&Shot { settings: scene(SceneKind::Curtain), ..small() });
     let cloth = brightness(&curtain, [0.42, 0.58], [0.25, 0.55]);
     assert!(cloth > 60.0, "the curtain's brightness is {cloth}");
-    let later = take(&Shot { ticks: 140, settings: scene(Show::Curtain), ..small() });
+    let later = take(&Shot { ticks: 140, settings: scene(SceneKind::Curtain), ..small() });
     assert!(difference(&curtain, &later) > 0.02, "the ball does not roll");
 }
 
-fn receipt(play: Option<tender::play::Gesture>, strip: u32) -> Picture {
-    let receipt = Receipt { play, small: true, ..Receipt::default() };
-    let ticks = 60 + play.map_or(0, tender::play::Gesture::ticks);
+fn receipt(play: Option<receipt::gestures::ReceiptGesture>, strip: u32) -> Picture {
+    let receipt = ReceiptShot { play, small: true, ..ReceiptShot::default() };
+    let ticks = 60 + play.map_or(0, receipt::gestures::ReceiptGesture::ticks);
     take(&Shot { size: [240, 240], ticks, strip, receipt: Some(receipt), ..Shot::default() })
 }
 
@@ -148,7 +148,7 @@ fn the_receipt_is_printed_paper_over_a_light_ground() {
 #[test]
 fn the_receipts_gestures_can_be_seen() {
     let still = receipt(None, 1);
-    for (name, gesture) in tender::play::Gesture::ALL {
+    for (name, gesture) in receipt::gestures::ReceiptGesture::ALL {
         let strip = receipt(Some(gesture), 3);
         for i in 0..3 {
             let rows = strip.rgb.chunks_exact(3 * 720);

@@ -24,11 +24,11 @@ export function context(canvas) {
   return gl?.getExtension("EXT_color_buffer_float") ? gl : null;
 }
 
-/** Draws frame after frame while the page is seen; `tell` is called four times a second. */
-export function loop(canvas, demo, tell) {
+/** Draws frame after frame while the page is seen; `updateReadout` is called four times a second. */
+export function loop(canvas, demo, updateReadout) {
   const gl = canvas.getContext("webgl2");
   let last = 0;
-  let told = 0;
+  let lastReadout = 0;
   let request = 0;
 
   function frame(now) {
@@ -46,9 +46,9 @@ export function loop(canvas, demo, tell) {
     }
     demo.resize(wide, high);
     demo.frame(seconds, width, height);
-    if (now - told > 250) {
-      told = now;
-      tell();
+    if (now - lastReadout > 250) {
+      lastReadout = now;
+      updateReadout();
     }
   }
 
@@ -80,7 +80,7 @@ export function loop(canvas, demo, tell) {
 }
 
 /** Hands pointers and wheel to the demo; `press(event, x, y)` says what a pointer that comes down does. */
-export function followPointers(canvas, demo, press) {
+export function listenToPointers(canvas, demo, press) {
   const at = (event) => {
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -105,7 +105,7 @@ export function followPointers(canvas, demo, press) {
       cursor();
     });
   }
-  canvas.addEventListener("pointerleave", () => demo.leave());
+  canvas.addEventListener("pointerleave", () => demo.clearHover());
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener(
     "wheel",

@@ -1,16 +1,16 @@
 // The page: canvas, events, storage and clock. What any of it means is decided in the wasm.
 
-import { by, context, enter, fail, followPointers, isFree, loop, moveCamera } from "./canvas.js";
+import { by, context, enter, fail, listenToPointers, isFree, loop, moveCamera } from "./canvas.js";
 import init, { Demo } from "./muslin_demo.js";
 import { drawPanel } from "./panel.js";
 
 const KEY = "cloth3d.settings.v1";
 const NARROW = matchMedia("(max-width: 640px)");
-const CALM = matchMedia("(prefers-reduced-motion: reduce)");
+const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
 const canvas = by("stage");
 
 // A private window may refuse storage; the demo runs without it.
-function kept() {
+function readSettings() {
   try {
     return localStorage.getItem(KEY) ?? undefined;
   } catch {
@@ -18,7 +18,7 @@ function kept() {
   }
 }
 
-function keep(settings) {
+function saveSettings(settings) {
   try {
     localStorage.setItem(KEY, settings);
   } catch {
@@ -27,39 +27,39 @@ function keep(settings) {
 }
 
 function run(demo) {
-  const keepNow = () => keep(demo.settings());
+  const saveNow = () => saveSettings(demo.settings());
   const refresh = drawPanel(by("controls"), JSON.parse(Demo.controls()), {
     get: (name) => demo.get(name),
     text: (name) => demo.text(name),
-    suits: (name) => demo.suits(name),
+    isEnabled: (name) => demo.isEnabled(name),
     set: (name, value) => {
       demo.set(name, value);
       refresh();
-      keepNow();
+      saveNow();
     },
   });
   // What was corrupt or out of range is put right in the storage too.
-  keepNow();
+  saveNow();
 
-  const calm = () => demo.setCalm(CALM.matches);
-  CALM.addEventListener("change", calm);
-  calm();
+  const applyReducedMotion = () => demo.setReducedMotion(REDUCED_MOTION.matches);
+  REDUCED_MOTION.addEventListener("change", applyReducedMotion);
+  applyReducedMotion();
 
   by("stages").addEventListener("toggle", () => demo.timeStages(by("stages").open));
   loop(canvas, demo, () => {
     show(JSON.parse(demo.readout()));
     if (by("stages").open) showStages(JSON.parse(demo.stageTimes()));
   });
-  followPointers(canvas, demo, (event, x, y) => {
+  listenToPointers(canvas, demo, (event, x, y) => {
     if (event.pointerType === "mouse" && event.button !== 0) return false;
     demo.holdBlade(event.shiftKey);
     demo.press(event.pointerId, x, y);
     by("help").dispatchEvent(new Event("touched"));
     return true;
   });
-  followKeys(demo, () => {
+  listenToKeys(demo, () => {
     refresh();
-    keepNow();
+    saveNow();
   });
   overlays();
   for (const id of ["panel", "help", "ask"]) by(id).hidden = false;
@@ -105,7 +105,7 @@ function showStages(stages) {
   });
 }
 
-function followKeys(demo, changed) {
+function listenToKeys(demo, changed) {
   const blade = (event) => {
     demo.holdBlade(event.shiftKey === true);
     canvas.style.cursor = demo.cursor();
@@ -155,7 +155,7 @@ try {
   const gl = context(canvas);
   if (gl) {
     await init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
-    const demo = new Demo(kept());
+    const demo = new Demo(readSettings());
     demo.attach(gl);
     run(demo);
   } else {

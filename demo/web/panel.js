@@ -12,17 +12,17 @@ function named(control, made) {
 }
 
 /**
- * Fills `form` with a row a control. `get(name)` and `text(name)` read the demo, `suits(name)` says whether the
+ * Fills `form` with a row a control. `get(name)` and `text(name)` read the demo, `isEnabled(name)` says whether the
  * control changes anything now, `set(name, value)` changes it. Returns a function that shows the values as they are now.
  */
-export function drawPanel(form, table, { get, text, suits, set }) {
+export function drawPanel(form, table, { get, text, isEnabled, set }) {
   const refreshers = [];
   for (const control of table) {
     const { row, refresh } = builders[control.kind](control, { get, text, set });
     form.append(named(control, row));
     if (refresh) refreshers.push(refresh);
     // Rows of several inputs and buttons can be switched off as one.
-    if ("disabled" in row) refreshers.push(() => (row.disabled = !suits(control.name)));
+    if ("disabled" in row) refreshers.push(() => (row.disabled = !isEnabled(control.name)));
   }
   const refresh = () => refreshers.forEach((each) => each());
   refresh();

@@ -1,27 +1,27 @@
 // The receipt's page: canvas, events and pills. What any of it means is decided in the wasm.
 
-import { by, context, enter, fail, followPointers, isFree, loop, moveCamera } from "./canvas.js";
+import { by, context, enter, fail, listenToPointers, isFree, loop, moveCamera } from "./canvas.js";
 import init, { Receipt } from "./muslin_demo.js";
 
-const CALM = matchMedia("(prefers-reduced-motion: reduce)");
+const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
 /** Fewer particles do on small and touch screens, and where people ask for less motion. */
-const SMALL = navigator.maxTouchPoints > 0 || innerWidth < 768 || CALM.matches;
+const USE_SMALL_SHEET = navigator.maxTouchPoints > 0 || innerWidth < 768 || REDUCED_MOTION.matches;
 /** The instructions stay so long, and two presses are one double press within so much [ms]. */
-const STAY = 3000;
-const DOUBLE = 350;
+const INSTRUCTIONS_MS = 3000;
+const DOUBLE_PRESS_MS = 350;
 const canvas = by("stage");
 
 function run(receipt) {
   const refresh = drawPills(receipt);
-  const calm = () => receipt.setCalm(CALM.matches);
-  CALM.addEventListener("change", calm);
-  calm();
+  const applyReducedMotion = () => receipt.setReducedMotion(REDUCED_MOTION.matches);
+  REDUCED_MOTION.addEventListener("change", applyReducedMotion);
+  applyReducedMotion();
   loop(canvas, receipt, () => show(JSON.parse(receipt.readout())));
-  followPointers(canvas, receipt, presses(receipt));
-  followKeys(receipt, refresh);
+  listenToPointers(canvas, receipt, pressHandler(receipt));
+  listenToKeys(receipt, refresh);
   by("loading").hidden = true;
   by("pills").hidden = false;
-  setTimeout(() => by("instructions").classList.add("gone"), STAY);
+  setTimeout(() => by("instructions").classList.add("gone"), INSTRUCTIONS_MS);
 
   window.muslinDemo = {
     stateHash: () => receipt.stateHash(),
@@ -65,26 +65,26 @@ function drawPills(receipt) {
   return refresh;
 }
 
-function presses(receipt) {
-  let last = { time: -DOUBLE, x: 0, y: 0 };
+function pressHandler(receipt) {
+  let last = { time: -DOUBLE_PRESS_MS, x: 0, y: 0 };
   return (event, x, y) => {
     const turns = event.pointerType === "mouse" && event.button === 2;
     if (event.button !== 0 && !turns) return false;
     const before = last;
     last = { time: event.timeStamp, x, y };
-    const twice = last.time - before.time < DOUBLE && Math.hypot(x - before.x, y - before.y) < 12;
+    const twice = last.time - before.time < DOUBLE_PRESS_MS && Math.hypot(x - before.x, y - before.y) < 12;
     if (twice && !turns) receipt.crease(x, y);
     receipt.press(event.pointerId, x, y, turns);
     return true;
   };
 }
 
-function followKeys(receipt, changed) {
-  const stay = (event) => receipt.stay(event.shiftKey === true);
-  addEventListener("keyup", stay);
-  addEventListener("blur", stay);
+function listenToKeys(receipt, changed) {
+  const updateLeaveInPlace = (event) => receipt.setLeaveInPlace(event.shiftKey === true);
+  addEventListener("keyup", updateLeaveInPlace);
+  addEventListener("blur", updateLeaveInPlace);
   addEventListener("keydown", (event) => {
-    if (event.key === "Shift") stay(event);
+    if (event.key === "Shift") updateLeaveInPlace(event);
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (moveCamera(event, canvas, receipt)) return;
     if (!event.repeat && event.key.length === 1 && (event.key !== " " || isFree(event, canvas))) {
@@ -107,7 +107,7 @@ try {
   const gl = context(canvas);
   if (gl) {
     await init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
-    const receipt = new Receipt(SMALL);
+    const receipt = new Receipt(USE_SMALL_SHEET);
     receipt.attach(gl);
     run(receipt);
   } else {

@@ -1,4 +1,4 @@
-//! Tests: what hands, controls and time do to the demo.
+//! Tests: what pointers, controls and time do to the demo.
 
 use super::*;
 
@@ -31,13 +31,13 @@ fn a_grabbed_particle_comes_along_with_its_pointer() {
 #[test]
 fn empty_space_turns_the_camera_and_leaves_the_cloth_alone() {
     let mut app = app();
-    let (before, hash) = (app.camera.sight(), app.state_hash());
+    let (before, hash) = (app.camera.view(), app.state_hash());
     app.press(1, Vec2::new(20.0, 20.0)).unwrap();
     app.drag(1, Vec2::new(220.0, 60.0)).unwrap();
     for _ in 0..30 {
         app.camera.advance(1.0 / 60.0, true);
     }
-    assert!(app.camera.sight().eye.distance(before.eye) > 0.5);
+    assert!(app.camera.view().eye.distance(before.eye) > 0.5);
     assert_eq!(app.state_hash(), hash);
 }
 
@@ -48,7 +48,7 @@ fn a_second_finger_zooms_and_neither_its_coming_nor_its_going_jumps() {
         for _ in 0..300 {
             app.camera.advance(1.0 / 60.0, true);
         }
-        app.camera.sight().eye
+        app.camera.view().eye
     };
     app.press(1, Vec2::new(100.0, 650.0)).unwrap();
     let still = settle(&mut app);
@@ -79,7 +79,7 @@ fn a_new_resolution_hangs_a_new_sheet_and_forgets_the_hands() {
 
 #[test]
 fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
-    for scene in 0..Show::ALL.len() {
+    for scene in 0..SceneKind::ALL.len() {
         let mut app = app();
         for (name, value) in [("wind", 3.0), ("gravity", 20.0), ("damping", 0.0)] {
             app.set(name, value).unwrap();
@@ -94,7 +94,7 @@ fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
                 app.frame(1.0 / 60.0).unwrap();
             }
             assert_eq!(app.readout().particles, whole.particles, "the wind tore scene {scene}");
-            let places = app.cast.cloths.iter().flat_map(|cloth| cloth.positions());
+            let places = app.scene.cloths.iter().flat_map(|cloth| cloth.positions());
             for at in places {
                 assert!(at.is_finite() && at.length() < 4.0, "a particle is at {at}");
             }
@@ -124,8 +124,8 @@ fn discs() -> (App, impl Fn(&App, usize) -> Vec2) {
     app.set("scene", 3.0).unwrap();
     app.play(60);
     let middle = |app: &App, disc: usize| {
-        let at = app.cast.cloths[disc].positions()[0] / stage::unit(Show::Discs);
-        let normal = app.camera.sight().project(at, app.screen.aspect()).unwrap();
+        let at = app.scene.cloths[disc].positions()[0] / scene::unit(SceneKind::Discs);
+        let normal = app.camera.view().project(at, app.screen.aspect()).unwrap();
         app.screen.pixels(normal)
     };
     (app, middle)
@@ -151,7 +151,7 @@ fn a_hand_takes_the_disc_that_is_under_it_and_no_other() {
 #[test]
 fn the_blade_cuts_the_disc_that_it_crosses_and_no_other() {
     let (mut app, middle) = discs();
-    let whole = app.cast.cloths.iter().map(|cloth| cloth.particle_count());
+    let whole = app.scene.cloths.iter().map(|cloth| cloth.particle_count());
     let whole: Vec<_> = whole.collect();
     let centre = middle(&app, 1);
     app.hold_blade(true);
@@ -160,7 +160,7 @@ fn the_blade_cuts_the_disc_that_it_crosses_and_no_other() {
         app.drag(1, centre + Vec2::new(20.0 * step as f32 - 170.0, 0.0)).unwrap();
     }
     app.lift(1).unwrap();
-    let grown = app.cast.cloths.iter().zip(whole).map(|(cloth, n)| cloth.particle_count() - n);
+    let grown = app.scene.cloths.iter().zip(whole).map(|(cloth, n)| cloth.particle_count() - n);
     let grown: Vec<_> = grown.collect();
     assert!(grown[0] == 0 && grown[1] > 10 && grown[2] == 0, "{grown:?} particles more");
 }
@@ -168,13 +168,13 @@ fn the_blade_cuts_the_disc_that_it_crosses_and_no_other() {
 #[test]
 fn another_scene_is_seen_from_where_its_own_camera_starts() {
     let mut app = app();
-    let usual = app.camera.sight();
+    let usual = app.camera.view();
     app.wheel(300.0);
     app.set("fabric", 1.0).unwrap();
     app.frame(1.0).unwrap();
-    assert!(app.camera.sight().eye.distance(usual.eye) > 0.1, "the same scene jumps back");
+    assert!(app.camera.view().eye.distance(usual.eye) > 0.1, "the same scene jumps back");
     app.set("scene", 3.0).unwrap();
-    assert!(app.camera.sight().target.distance(usual.target) > 0.3);
+    assert!(app.camera.view().target.distance(usual.target) > 0.3);
     app.set("scene", 0.0).unwrap();
-    assert_eq!(app.camera.sight().target, usual.target);
+    assert_eq!(app.camera.view().target, usual.target);
 }

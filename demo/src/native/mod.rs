@@ -1,9 +1,9 @@
 //! The demo in a window: three-d's context, winit's events, and egui over the picture.
 
-pub mod desk;
 pub mod panel;
-pub mod show;
-pub mod store;
+pub mod receipt_window;
+pub mod settings_file;
+pub mod window_app;
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -17,8 +17,8 @@ use winit::event_loop::{ControlFlow, EventLoop};
 use winit::window::{CursorIcon, Window, WindowBuilder};
 
 use crate::pointer::Cursor;
-use crate::tender::hands::Button;
-use show::Show;
+use crate::receipt::pointers::PressKind;
+use window_app::WindowApp;
 
 /// The mouse, among the pointers; fingers count from one.
 const MOUSE: u32 = 0;
@@ -55,41 +55,42 @@ pub fn clock() -> f64 {
 ///
 /// # Errors
 /// [`NoWindow`] if there is no display or it has no OpenGL 3.3.
-pub fn run(mut show: impl Show + 'static) -> Result<(), NoWindow> {
+pub fn run(mut app: impl WindowApp + 'static) -> Result<(), NoWindow> {
     let event_loop = event_loop()?;
-    let told = |e: &dyn fmt::Display| NoWindow(e.to_string());
+    let to_message = |e: &dyn fmt::Display| NoWindow(e.to_string());
     let window = WindowBuilder::new()
-        .with_title(show.title())
+        .with_title(app.title())
         .with_inner_size(LogicalSize::new(1280.0, 720.0))
         .with_min_inner_size(LogicalSize::new(320.0, 320.0))
         .build(&event_loop)
-        .map_err(|e| told(&e))?;
+        .map_err(|e| to_message(&e))?;
     // The scene is drawn into a multisampled target of its own.
     let surface = SurfaceSettings { multisamples: 0, ..SurfaceSettings::default() };
-    let context = WindowedContext::from_winit_window(&window, surface).map_err(|e| told(&e))?;
-    show.attach(&context).map_err(|e| told(&e))?;
-    let mut stage = Stage {
+    let context =
+        WindowedContext::from_winit_window(&window, surface).map_err(|e| to_message(&e))?;
+    app.attach(&context).map_err(|e| to_message(&e))?;
+    let mut window_state = WindowState {
         input: FrameInputGenerator::from_winit_window(&window),
         gui: GUI::new(&context),
         mouse: Vec2::ZERO,
         pressed: (f64::NEG_INFINITY, Vec2::ZERO),
         last: clock(),
-        show,
+        app,
         context,
         window,
     };
-    stage.fit();
+    window_state.fit();
     event_loop.run(move |event, _, flow| match event {
-        Event::WindowEvent { event, .. } => stage.take(&event, flow),
-        Event::MainEventsCleared => stage.window.request_redraw(),
+        Event::WindowEvent { event, .. } => window_state.take(&event, flow),
+        Event::MainEventsCleared => window_state.window.request_redraw(),
         Event::RedrawRequested(_) => {
             *flow = ControlFlow::Poll;
-            if let Err(error) = stage.frame() {
+            if let Err(error) = window_state.frame() {
                 eprintln!("{error}");
                 *flow = ControlFlow::ExitWithCode(1);
             }
         }
-        Event::LoopDestroyed => stage.show.keep(),
+        Event::LoopDestroyed => window_state.app.save_settings(),
         _ => {}
     })
 }
@@ -108,8 +109,8 @@ fn event_loop() -> Result<EventLoop<()>, NoWindow> {
 }
 
 /// Window, context and what is shown.
-struct Stage<S> {
-    show: S,
+struct WindowState<A> {
+    app: A,
     gui: GUI,
     input: FrameInputGenerator,
     context: WindowedContext,
@@ -120,11 +121,11 @@ struct Stage<S> {
     window: Window,
 }
 
-impl<S: Show> Stage<S> {
+impl<A: WindowApp> WindowState<A> {
     /// The size of the window in logical pixels, the ones that pointers count in.
     fn fit(&mut self) {
         let size = self.window.inner_size().to_logical(self.window.scale_factor());
-        self.show.resize(Vec2::new(size.width, size.height));
+        self.app.resize(Vec2::new(size.width, size.height));
     }
 
     fn take(&mut self, event: &WindowEvent<'_>, flow: &mut ControlFlow) {
@@ -148,35 +149,35 @@ impl<S: Show> Stage<S> {
             WindowEvent::CursorMoved { position, .. } => {
                 let at = position.to_logical::<f32>(scale);
                 self.mouse = Vec2::new(at.x, at.y);
-                let dragged = self.show.drag(MOUSE, self.mouse);
-                dragged.and_then(|()| self.show.drag(RIGHT, self.mouse))
+                let dragged = self.app.drag(MOUSE, self.mouse);
+                dragged.and_then(|()| self.app.drag(RIGHT, self.mouse))
             }
             WindowEvent::CursorLeft { .. } => {
-                self.show.leave();
+                self.app.clear_hover();
                 Ok(())
             }
             WindowEvent::MouseInput { state, button, .. } => {
-                let (id, button) = match button {
-                    MouseButton::Left => (MOUSE, Button::Main),
-                    MouseButton::Right => (RIGHT, Button::Turn),
+                let (id, press) = match button {
+                    MouseButton::Left => (MOUSE, PressKind::Main),
+                    MouseButton::Right => (RIGHT, PressKind::Turn),
                     _ => return,
                 };
                 match state {
-                    ElementState::Pressed if self.show.covers(self.mouse) => Ok(()),
-                    ElementState::Pressed => self.press(id, self.mouse, button),
-                    ElementState::Released => self.show.lift(id),
+                    ElementState::Pressed if self.app.covers(self.mouse) => Ok(()),
+                    ElementState::Pressed => self.press(id, self.mouse, press),
+                    ElementState::Released => self.app.lift(id),
                 }
             }
-            WindowEvent::MouseWheel { delta, .. } if !self.show.covers(self.mouse) => {
+            WindowEvent::MouseWheel { delta, .. } if !self.app.covers(self.mouse) => {
                 let pixels = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => lines * NOTCH,
                     MouseScrollDelta::PixelDelta(by) => by.to_logical::<f32>(scale).y,
                 };
-                self.show.wheel(-pixels);
+                self.app.wheel(-pixels);
                 Ok(())
             }
             WindowEvent::TouchpadMagnify { delta, .. } => {
-                self.show.pinch((*delta as f32).exp());
+                self.app.pinch((*delta as f32).exp());
                 Ok(())
             }
             WindowEvent::Touch(touch) => {
@@ -184,16 +185,16 @@ impl<S: Show> Stage<S> {
                 let at = Vec2::new(at.x, at.y);
                 let finger = (touch.id as u32 % (RIGHT - 1)) + 1;
                 match touch.phase {
-                    TouchPhase::Started if self.show.covers(at) => Ok(()),
-                    TouchPhase::Started => self.press(finger, at, Button::Main),
-                    TouchPhase::Moved => self.show.drag(finger, at),
-                    TouchPhase::Ended | TouchPhase::Cancelled => self.show.lift(finger),
+                    TouchPhase::Started if self.app.covers(at) => Ok(()),
+                    TouchPhase::Started => self.press(finger, at, PressKind::Main),
+                    TouchPhase::Moved => self.app.drag(finger, at),
+                    TouchPhase::Ended | TouchPhase::Cancelled => self.app.lift(finger),
                 }
             }
-            WindowEvent::ModifiersChanged(keys) => self.show.shift(keys.shift()),
+            WindowEvent::ModifiersChanged(keys) => self.app.shift(keys.shift()),
             WindowEvent::Focused(false) => {
-                let let_go = self.show.shift(false).and_then(|()| self.show.lift(MOUSE));
-                let_go.and_then(|()| self.show.lift(RIGHT))
+                let let_go = self.app.shift(false).and_then(|()| self.app.lift(MOUSE));
+                let_go.and_then(|()| self.app.lift(RIGHT))
             }
             WindowEvent::ReceivedCharacter(key) => self.key(*key),
             _ => Ok(()),
@@ -208,40 +209,40 @@ impl<S: Show> Stage<S> {
         if self.gui.context().egui_wants_keyboard_input() {
             return Ok(());
         }
-        self.show.key(key)
+        self.app.key(key)
     }
 
     /// A pointer comes down; soon after the one before and near it, it is a double press.
-    fn press(&mut self, id: u32, at: Vec2, button: Button) -> muslin::Result<()> {
+    fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> muslin::Result<()> {
         let now = clock();
         let (then, there) = std::mem::replace(&mut self.pressed, (now, at));
-        if button == Button::Main && now - then < DOUBLE && at.distance(there) < 12.0 {
-            self.show.press_twice(at)?;
+        if press == PressKind::Main && now - then < DOUBLE && at.distance(there) < 12.0 {
+            self.app.press_twice(at)?;
         }
-        self.show.press(id, at, button)
+        self.app.press(id, at, press)
     }
 
     fn frame(&mut self) -> Result<(), Box<dyn std::error::Error>> {
         let now = clock();
         let seconds = (now - self.last) as f32;
         if now.floor() > self.last.floor() {
-            self.show.keep();
+            self.app.save_settings();
         }
         self.last = now;
-        self.show.frame(seconds)?;
+        self.app.frame(seconds)?;
 
         let mut input = self.input.generate(&self.context);
-        let show = &mut self.show;
+        let app = &mut self.app;
         self.gui.update(
             &mut input.events,
             input.accumulated_time,
             input.viewport,
             input.device_pixel_ratio,
-            |ui| show.overlay(ui.ctx()),
+            |ui| app.draw_overlay(ui.ctx()),
         );
-        self.show.obey()?;
-        let cursor = match self.show.cursor()? {
-            _ if self.show.covers(self.mouse) => CursorIcon::Default,
+        self.app.run_commands()?;
+        let cursor = match self.app.cursor()? {
+            _ if self.app.covers(self.mouse) => CursorIcon::Default,
             Cursor::Default => CursorIcon::Default,
             Cursor::Grab => CursorIcon::Grab,
             Cursor::Grabbing => CursorIcon::Grabbing,
@@ -250,7 +251,7 @@ impl<S: Show> Stage<S> {
         self.window.set_cursor_icon(cursor);
 
         let screen = input.screen();
-        self.show.draw(&screen)?;
+        self.app.draw(&screen)?;
         screen.write::<CoreError>(|| self.gui.render())?;
         self.context.swap_buffers()?;
         Ok(())

@@ -22,7 +22,7 @@ const DEEP: Color32 = Color32::from_rgb(0x05, 0x07, 0x0d);
 const WIDTH: f32 = 236.0;
 
 /// What the user did to a row; carried out after the panel is drawn.
-pub enum Wish {
+pub enum PanelCommand {
     /// A control shall have this value.
     Set(&'static str, f32),
     /// A button was pressed.
@@ -67,7 +67,7 @@ impl Panel {
     }
 
     /// Draws it and notes what the user wants.
-    pub fn draw(&mut self, ctx: &Context, app: &App, wishes: &mut Vec<Wish>) {
+    pub fn draw(&mut self, ctx: &Context, app: &App, commands: &mut Vec<PanelCommand>) {
         if !self.styled {
             ctx.set_visuals(visuals());
             self.styled = true;
@@ -85,7 +85,7 @@ impl Panel {
                         ScrollArea::vertical()
                             .min_scrolled_height(room.max(80.0))
                             .max_height(room.max(80.0))
-                            .show(ui, |ui| rows(ui, app, wishes));
+                            .show(ui, |ui| rows(ui, app, commands));
                     }
                 });
             },
@@ -131,7 +131,7 @@ impl Panel {
     }
 }
 
-fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
+fn rows(ui: &mut Ui, app: &App, commands: &mut Vec<PanelCommand>) {
     ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
     for control in CONTROLS {
         if matches!(control.kind, Kind::Button(_)) {
@@ -139,8 +139,8 @@ fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
         }
         ui.add_space(8.0);
         let hint = format!("{} ({})", control.about, control.key_name());
-        let suits = control.suits(app.settings());
-        let row = ui.add_enabled_ui(suits, |ui| row(ui, app, control, wishes));
+        let is_enabled = control.is_enabled(app.settings());
+        let row = ui.add_enabled_ui(is_enabled, |ui| row(ui, app, control, commands));
         row.response.on_hover_text(hint);
     }
     ui.add_space(12.0);
@@ -150,9 +150,9 @@ fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
                 let size = vec2(0.5 * (WIDTH - 8.0), 30.0);
                 let hint = format!("{} ({})", control.about, control.key_name());
                 let button = Button::new(control.label).min_size(size);
-                let suits = control.suits(app.settings());
-                if ui.add_enabled(suits, button).on_hover_text(hint).clicked() {
-                    wishes.push(Wish::Act(action));
+                let is_enabled = control.is_enabled(app.settings());
+                if ui.add_enabled(is_enabled, button).on_hover_text(hint).clicked() {
+                    commands.push(PanelCommand::Act(action));
                 }
             }
         }
@@ -176,13 +176,13 @@ fn rows(ui: &mut Ui, app: &App, wishes: &mut Vec<Wish>) {
             });
         }
     });
-    wishes.push(Wish::TimeStages(stages.fully_open()));
+    commands.push(PanelCommand::TimeStages(stages.fully_open()));
 }
 
-fn row(ui: &mut Ui, app: &App, control: &Control, wishes: &mut Vec<Wish>) {
+fn row(ui: &mut Ui, app: &App, control: &Control, commands: &mut Vec<PanelCommand>) {
     let settings = app.settings();
     let label = RichText::new(control.label.to_uppercase()).size(11.5).color(MUTED);
-    let mut wish = |value: f32| wishes.push(Wish::Set(control.name, value));
+    let mut command = |value: f32| commands.push(PanelCommand::Set(control.name, value));
     match &control.kind {
         Kind::Slider { min, max, step, .. } => {
             ui.horizontal(|ui| {
@@ -199,7 +199,7 @@ fn row(ui: &mut Ui, app: &App, control: &Control, wishes: &mut Vec<Wish>) {
                 .show_value(false)
                 .trailing_fill(true);
             if ui.add(slider).changed() {
-                wish(value);
+                command(value);
             }
         }
         Kind::Switch { get, .. } => {
@@ -207,7 +207,7 @@ fn row(ui: &mut Ui, app: &App, control: &Control, wishes: &mut Vec<Wish>) {
                 ui.label(label);
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     if switch(ui, get(settings)) {
-                        wish(f32::from(u8::from(!get(settings))));
+                        command(f32::from(u8::from(!get(settings))));
                     }
                 });
             });
@@ -227,7 +227,7 @@ fn row(ui: &mut Ui, app: &App, control: &Control, wishes: &mut Vec<Wish>) {
                         Button::new(text.color(TEXT))
                     };
                     if ui.add(button.min_size(size)).clicked() {
-                        wish(i as f32);
+                        command(i as f32);
                     }
                 }
             });

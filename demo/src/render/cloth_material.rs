@@ -5,14 +5,14 @@ use three_d::{Context, CoreError, Program, RenderStates};
 
 use super::light::{FLOOR, linear};
 use super::mesh::Mesh;
-use super::shadow::Shadow;
-use super::{Pass, REFLECTION, matrix, vector};
-use crate::fabric::Look;
+use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
+use super::shadow::ShadowMap;
+use crate::fabric::Appearance;
 
-/// A [`Look`] as light meets it: linear colours.
+/// A [`Appearance`] as light meets it: linear colours.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dye {
-    look: Look,
+pub(super) struct ClothAlbedo {
+    appearance: Appearance,
     front: Vec3,
     back: Vec3,
     seam: Vec3,
@@ -20,19 +20,19 @@ pub(super) struct Dye {
     pub(super) weft: Vec3,
 }
 
-impl Dye {
-    pub(super) fn new(look: Look) -> Self {
+impl ClothAlbedo {
+    pub(super) fn new(appearance: Appearance) -> Self {
         let kept = |colour: u32| {
             let pure = linear(colour);
             let grey = pure.dot(Vec3::new(0.2126, 0.7152, 0.0722));
-            Vec3::splat(grey).lerp(pure, look.kept)
+            Vec3::splat(grey).lerp(pure, appearance.kept)
         };
-        let [warp, weft] = look.threads.map(kept);
+        let [warp, weft] = appearance.threads.map(kept);
         Self {
-            look,
-            front: kept(look.front),
-            back: kept(look.back),
-            seam: kept(look.seam.0),
+            appearance,
+            front: kept(appearance.front),
+            back: kept(appearance.back),
+            seam: kept(appearance.seam.0),
             warp,
             weft,
         }
@@ -68,36 +68,56 @@ impl ClothMaterial {
     }
 
     /// Draws the cloth; `dim` below one darkens it under a wireframe.
-    pub(super) fn draw(&self, pass: &Pass, mesh: &Mesh, shadow: &Shadow, dye: &Dye, dim: f32) {
-        self.prepare(pass, mesh, shadow, dye, As::Itself);
+    pub(super) fn draw(
+        &self,
+        pass: &RenderPass,
+        mesh: &Mesh,
+        shadow: &ShadowMap,
+        albedo: &ClothAlbedo,
+        dim: f32,
+    ) {
+        self.prepare(pass, mesh, shadow, albedo, As::Itself);
         self.program.use_uniform("dim", dim);
         self.program.draw_elements(RenderStates::default(), pass.viewport, &mesh.triangles);
     }
 
     /// Draws the cloth upside down below the floor; the floor is blended over it afterwards.
-    pub(super) fn draw_reflection(&self, pass: &Pass, mesh: &Mesh, shadow: &Shadow, dye: &Dye) {
-        self.prepare(pass, mesh, shadow, dye, As::Reflection);
+    pub(super) fn draw_reflection(
+        &self,
+        pass: &RenderPass,
+        mesh: &Mesh,
+        shadow: &ShadowMap,
+        albedo: &ClothAlbedo,
+    ) {
+        self.prepare(pass, mesh, shadow, albedo, As::Reflection);
         self.program.use_uniform("dim", 1.0_f32);
-        let states = RenderStates { blend: REFLECTION, ..RenderStates::default() };
+        let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
         self.program.draw_elements(states, pass.viewport, &mesh.triangles);
     }
 
-    fn prepare(&self, pass: &Pass, mesh: &Mesh, shadow: &Shadow, dye: &Dye, shown: As) {
+    fn prepare(
+        &self,
+        pass: &RenderPass,
+        mesh: &Mesh,
+        shadow: &ShadowMap,
+        albedo: &ClothAlbedo,
+        shown: As,
+    ) {
         let p = &self.program;
-        let mut eye = pass.sight.eye;
+        let mut eye = pass.view.eye;
         if shown == As::Reflection {
             eye.y = 2.0 * FLOOR - eye.y;
         }
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
-        p.use_uniform("eye", vector(eye));
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
+        p.use_uniform("eye", to_gl_vector(eye));
         p.use_uniform("mirrored", if shown == As::Reflection { 1.0_f32 } else { 0.0 });
         p.use_uniform("floorHeight", FLOOR);
-        p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
-        p.use_uniform("fillColour", vector(pass.lights.fill.colour));
-        p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
-        p.use_uniform("rimColour", vector(pass.lights.rim.colour));
-        shadow.use_in(p, &pass.lights);
-        self.dye(dye, mesh.span);
+        p.use_uniform("fillTowards", to_gl_vector(pass.lights.fill.towards));
+        p.use_uniform("fillColour", to_gl_vector(pass.lights.fill.colour));
+        p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
+        p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
+        shadow.bind(p, &pass.lights);
+        self.albedo(albedo, mesh.span);
         p.use_uniform("roundHem", if mesh.is_round { 1.0_f32 } else { 0.0 });
         p.use_vertex_attribute("position", &mesh.positions);
         p.use_vertex_attribute("normal", &mesh.normals);
@@ -105,18 +125,21 @@ impl ClothMaterial {
         p.use_vertex_attribute("frayed", &mesh.frayed);
     }
 
-    fn dye(&self, dye: &Dye, span: Vec2) {
-        let (p, look) = (&self.program, &dye.look);
-        let [across, along, strength, mirror] = look.gloss;
-        let [relief, slub] = look.relief;
+    fn albedo(&self, albedo: &ClothAlbedo, span: Vec2) {
+        let (p, appearance) = (&self.program, &albedo.appearance);
+        let [across, along, strength, mirror] = appearance.gloss;
+        let [relief, slub] = appearance.relief;
         p.use_uniform("span", three_d::Vec2::new(span.x, span.y));
-        p.use_uniform("frontAlbedo", vector(dye.front));
-        p.use_uniform("backAlbedo", vector(dye.back));
-        p.use_uniform("seamAlbedo", vector(dye.seam));
-        p.use_uniform("seamCover", look.seam.1);
-        p.use_uniform("cloth", three_d::Vec4::new(look.count, relief, slub, look.weave));
+        p.use_uniform("frontAlbedo", to_gl_vector(albedo.front));
+        p.use_uniform("backAlbedo", to_gl_vector(albedo.back));
+        p.use_uniform("seamAlbedo", to_gl_vector(albedo.seam));
+        p.use_uniform("seamCover", appearance.seam.1);
+        p.use_uniform(
+            "cloth",
+            three_d::Vec4::new(appearance.count, relief, slub, appearance.weave),
+        );
         p.use_uniform("gloss", three_d::Vec4::new(across, along, strength, mirror));
-        p.use_uniform("fibres", three_d::Vec2::new(look.fuzz, look.through));
-        p.use_uniform("printed", if look.printed { 1.0_f32 } else { 0.0 });
+        p.use_uniform("fibres", three_d::Vec2::new(appearance.fuzz, appearance.through));
+        p.use_uniform("printed", if appearance.printed { 1.0_f32 } else { 0.0 });
     }
 }

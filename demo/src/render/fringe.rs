@@ -2,8 +2,8 @@
 //! apart. Hems have none.
 //!
 //! ```text
-//!   cloth  ───┬──┬─┬──┬───  border      root + reach · s, then droop, lift and curl · s²
-//!             │  ╲ │  ╰╮    threads     reach follows the thread that crosses the border
+//!   cloth  ───┬──┬─┬──┬───  border      root + along · s, then droop, lift and curl · s²
+//!             │  ╲ │  ╰╮    threads     along follows the thread that crosses the border
 //! ```
 //! Which threads there are changes with the triangles; where they are is read off their triangle
 //! anew in each frame, so they ride on every fold.
@@ -17,19 +17,19 @@ use three_d::{
     Wrapping, WriteMask,
 };
 
-use super::cloth_material::Dye;
-use super::mesh::Surface;
-use super::shadow::Shadow;
-use super::{Pass, matrix, vector};
+use super::cloth_material::ClothAlbedo;
+use super::mesh::ClothSurface;
+use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
+use super::shadow::ShadowMap;
 
 /// Short fibres along a border [1/m].
 const FUZZ: f32 = 420.0;
 /// Long loose threads along a border [1/m].
 const STRANDS: f32 = 75.0;
 /// No cloth gets more threads than this: one torn to shreds has thinner fringes.
-const MOST: f32 = 9000.0;
+const MAX_THREADS: f32 = 9000.0;
 /// Pieces that a thread bends in.
-const BENDS: u32 = 4;
+const SEGMENTS: u32 = 4;
 
 /// A thread, as it is woven into its triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,8 +38,8 @@ struct Thread {
     corners: [u32; 3],
     /// Where on the edge it comes out, as a share.
     at: f32,
-    /// Which way it goes: so much of the edge, so much of the side that leads inside.
-    way: [f32; 2],
+    /// Which direction it goes: so much of the edge, so much of the side that leads inside.
+    direction: [f32; 2],
     /// Its length [m].
     length: f32,
     /// Half its width [m], how it leans, sags and is coloured: see `fringe.vert`.
@@ -53,13 +53,13 @@ pub struct Fringe {
 
 /// The threads of a cloth.
 ///
-/// They are told to the program by a texture and not as instances: to a rasteriser in software each instance
+/// They are thread_texture to the program by a texture and not as instances: to a rasteriser in software each instance
 /// is a draw call of its own.
-pub struct Threads {
+pub struct FrayedThreads {
     context: Context,
-    /// Side, share of the way to the tip, which thread.
+    /// Side, share of the direction to the tip, which thread.
     ribbons: VertexBuffer<[f32; 3]>,
-    told: Option<Texture2D>,
+    thread_texture: Option<Texture2D>,
     threads: Vec<Thread>,
     revision: Option<u64>,
     staging: Vec<[f32; 4]>,
@@ -84,30 +84,30 @@ impl Fringe {
 
     pub(super) fn draw(
         &self,
-        pass: &Pass,
-        threads: &Threads,
-        shadow: &Shadow,
-        dye: &Dye,
+        pass: &RenderPass,
+        threads: &FrayedThreads,
+        shadow: &ShadowMap,
+        albedo: &ClothAlbedo,
         dim: f32,
     ) {
-        let Some(told) = &threads.told else {
+        let Some(thread_texture) = &threads.thread_texture else {
             return;
         };
         let p = &self.program;
         let pixels = Vec2::new(pass.viewport.width as f32, pass.viewport.height as f32);
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("pixels", three_d::Vec2::new(pixels.x, pixels.y));
-        p.use_uniform("lens", pass.sight.lens(pixels.y));
-        p.use_uniform("eye", vector(pass.sight.eye));
+        p.use_uniform("lens", pass.view.focal_length_pixels(pixels.y));
+        p.use_uniform("eye", to_gl_vector(pass.view.eye));
         p.use_uniform("dim", dim);
-        p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
-        p.use_uniform("fillColour", vector(pass.lights.fill.colour));
-        p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
-        p.use_uniform("rimColour", vector(pass.lights.rim.colour));
-        p.use_uniform("warp", vector(dye.warp));
-        p.use_uniform("weft", vector(dye.weft));
-        shadow.use_in(p, &pass.lights);
-        p.use_texture("threads", told);
+        p.use_uniform("fillTowards", to_gl_vector(pass.lights.fill.towards));
+        p.use_uniform("fillColour", to_gl_vector(pass.lights.fill.colour));
+        p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
+        p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
+        p.use_uniform("warp", to_gl_vector(albedo.warp));
+        p.use_uniform("weft", to_gl_vector(albedo.weft));
+        shadow.bind(p, &pass.lights);
+        p.use_texture("threads", thread_texture);
         p.use_vertex_attribute("corner", &threads.ribbons);
         let states = RenderStates {
             blend: Blend::TRANSPARENCY,
@@ -119,13 +119,13 @@ impl Fringe {
     }
 }
 
-impl Threads {
+impl FrayedThreads {
     /// Of a cloth that is whole.
     pub fn new(context: &Context) -> Self {
         Self {
             context: context.clone(),
             ribbons: VertexBuffer::new(context),
-            told: None,
+            thread_texture: None,
             threads: Vec::new(),
             revision: None,
             staging: Vec::new(),
@@ -133,13 +133,13 @@ impl Threads {
     }
 
     /// Follows the cloth.
-    pub fn update(&mut self, surface: &Surface<'_>) {
+    pub fn update(&mut self, surface: &ClothSurface<'_>) {
         if self.revision != Some(surface.revision) {
             self.revision = Some(surface.revision);
-            fray(surface, &mut self.threads);
-            self.make_room();
+            rebuild_threads(surface, &mut self.threads);
+            self.resize_buffers();
         }
-        let Some(told) = &mut self.told else {
+        let Some(thread_texture) = &mut self.thread_texture else {
             return;
         };
         let scale = surface.unit.recip();
@@ -147,30 +147,34 @@ impl Threads {
         for thread in &self.threads {
             let [a, b, c] = thread.corners.map(|corner| surface.positions[corner as usize] * scale);
             let [na, nb] = [0, 1].map(|i| surface.normals[thread.corners[i] as usize]);
-            let way = (b - a) * thread.way[0] + (c - a) * thread.way[1];
-            let reach = way.normalize_or_zero() * thread.length;
+            let direction = (b - a) * thread.direction[0] + (c - a) * thread.direction[1];
+            let along = direction.normalize_or_zero() * thread.length;
             let [width, lean, curl, shade] = thread.traits;
             self.staging.extend([
                 a.lerp(b, thread.at).extend(width).to_array(),
-                reach.extend(lean).to_array(),
+                along.extend(lean).to_array(),
                 na.lerp(nb, thread.at).extend(curl).to_array(),
                 [shade, 0.0, 0.0, 0.0],
             ]);
         }
-        let texels = (told.width() * told.height()) as usize;
+        let texels = (thread_texture.width() * thread_texture.height()) as usize;
         self.staging.resize(texels, [0.0; 4]);
-        told.fill(&self.staging);
+        thread_texture.fill(&self.staging);
     }
 
     /// A texture and ribbons for as many threads as there are.
-    fn make_room(&mut self) {
+    fn resize_buffers(&mut self) {
         let rows = self.threads.len().div_ceil(ROW) as u32;
         if rows == 0 {
-            self.told = None;
-        } else if self.told.as_ref().is_none_or(|told| told.height() != rows) {
+            self.thread_texture = None;
+        } else if self
+            .thread_texture
+            .as_ref()
+            .is_none_or(|thread_texture| thread_texture.height() != rows)
+        {
             // The old one goes first.
-            self.told = None;
-            self.told = Some(Texture2D::new_empty::<[f32; 4]>(
+            self.thread_texture = None;
+            self.thread_texture = Some(Texture2D::new_empty::<[f32; 4]>(
                 &self.context,
                 (TEXELS * ROW) as u32,
                 rows,
@@ -186,13 +190,13 @@ impl Threads {
     }
 }
 
-/// Corners of a ribbon: two triangles a bend.
-const CORNERS: u32 = 6 * BENDS;
+/// UnitQuad of a ribbon: two triangles a segment.
+const CORNERS: u32 = 6 * SEGMENTS;
 
 /// The corners of a thread: x is the side, −1 or 1; y runs along it from 0 to 1; z is its number.
 fn ribbon(thread: u32) -> impl Iterator<Item = [f32; 3]> {
-    (0..BENDS).flat_map(move |bend| {
-        let [near, far] = [bend, bend + 1].map(|i| i as f32 / BENDS as f32);
+    (0..SEGMENTS).flat_map(move |segment| {
+        let [near, far] = [segment, segment + 1].map(|i| i as f32 / SEGMENTS as f32);
         let corners =
             [[-1.0, near], [1.0, near], [1.0, far], [-1.0, near], [1.0, far], [-1.0, far]];
         corners.map(|[side, share]| [side, share, thread as f32])
@@ -200,12 +204,12 @@ fn ribbon(thread: u32) -> impl Iterator<Item = [f32; 3]> {
 }
 
 /// Finds the threads of every torn border.
-fn fray(surface: &Surface<'_>, threads: &mut Vec<Thread>) {
+fn rebuild_threads(surface: &ClothSurface<'_>, threads: &mut Vec<Thread>) {
     threads.clear();
     let borders = borders(surface);
     let uv = |corner: u32| surface.uvs[corner as usize] * surface.span;
     let long: f32 = borders.iter().map(|[a, b, _]| uv(*a).distance(uv(*b))).sum();
-    let share = (MOST / (long * (FUZZ + STRANDS))).min(1.0);
+    let share = (MAX_THREADS / (long * (FUZZ + STRANDS))).min(1.0);
     for corners in borders {
         let [a, b, c] = corners.map(uv);
         let plane = Mat2::from_cols(b - a, c - a);
@@ -214,30 +218,36 @@ fn fray(surface: &Surface<'_>, threads: &mut Vec<Thread>) {
         }
         let into_triangle = plane.inverse();
         let outward = outward(a, b, c);
-        let mut dice = Dice::of(a + b);
-        // Weft threads cross a border by how much of it runs along the warp, and the other way.
+        let mut random = HashRandom::of(a + b);
+        // Weft threads cross a border by how much of it runs along the warp, and the other direction.
         let run = (b - a).abs();
         for (axis, extent) in [(Vec2::X, run.y), (Vec2::Y, run.x)] {
             let along = axis * if axis.dot(outward) < 0.0 { -1.0 } else { 1.0 };
-            for (density, strand) in [(FUZZ, false), (STRANDS, true)] {
+            for (density, is_strand) in [(FUZZ, false), (STRANDS, true)] {
                 let wanted = extent * density * share;
-                let count = wanted.floor() + f32::from(u8::from(dice.roll() < wanted.fract()));
+                let count =
+                    wanted.floor() + f32::from(u8::from(random.next_unit() < wanted.fract()));
                 for i in 0..count as u32 {
-                    let lean = (dice.roll() - 0.5) * if strand { 0.7 } else { 1.5 };
-                    let way = into_triangle * Vec2::from_angle(lean).rotate(along);
-                    let long = dice.roll();
+                    let lean = (random.next_unit() - 0.5) * if is_strand { 0.7 } else { 1.5 };
+                    let direction = into_triangle * Vec2::from_angle(lean).rotate(along);
+                    let long = random.next_unit();
                     // Few are much longer than the rest.
                     let length =
-                        if strand { 0.012 + 0.052 * long * long } else { 0.004 + 0.008 * long };
-                    let width = if strand { 0.00055 } else { 0.0004 };
-                    let lift = dice.roll() - 0.5;
+                        if is_strand { 0.012 + 0.052 * long * long } else { 0.004 + 0.008 * long };
+                    let width = if is_strand { 0.00055 } else { 0.0004 };
+                    let lift = random.next_unit() - 0.5;
                     let shade = if axis == Vec2::X { 0.0 } else { 1.0 };
                     threads.push(Thread {
                         corners,
-                        at: (i as f32 + dice.roll()) / count,
-                        way: way.to_array(),
+                        at: (i as f32 + random.next_unit()) / count,
+                        direction: direction.to_array(),
                         length,
-                        traits: [width, lift, TAU * dice.roll(), shade + 0.9 * dice.roll()],
+                        traits: [
+                            width,
+                            lift,
+                            TAU * random.next_unit(),
+                            shade + 0.9 * random.next_unit(),
+                        ],
                     });
                 }
             }
@@ -246,7 +256,7 @@ fn fray(surface: &Surface<'_>, threads: &mut Vec<Thread>) {
 }
 
 /// The edges that one triangle alone has and that are no hems, with that triangle's third corner.
-fn borders(surface: &Surface<'_>) -> Vec<[u32; 3]> {
+fn borders(surface: &ClothSurface<'_>) -> Vec<[u32; 3]> {
     let torn = |corner: u32| surface.frayed[corner as usize];
     let mut open: HashMap<[u32; 2], [u32; 3]> = HashMap::new();
     for triangle in surface.indices.chunks_exact(3) {
@@ -280,15 +290,15 @@ fn outward(a: Vec2, b: Vec2, c: Vec2) -> Vec2 {
 }
 
 /// Numbers from 0 to 1 that look random, the same for the same place in the cloth.
-struct Dice(u32);
+struct HashRandom(u32);
 
-impl Dice {
+impl HashRandom {
     fn of(place: Vec2) -> Self {
         let [x, y] = place.to_array().map(f32::to_bits);
         Self(x.wrapping_mul(0x9e37_79b1) ^ y.rotate_left(13).wrapping_mul(0x85eb_ca77) | 1)
     }
 
-    fn roll(&mut self) -> f32 {
+    fn next_unit(&mut self) -> f32 {
         // Marsaglia, "Xorshift RNGs" (2003).
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 17;
@@ -305,7 +315,7 @@ mod tests {
 
     fn threads_of(cloth: &mut Cloth) -> Vec<Thread> {
         let view = cloth.view();
-        let surface = Surface {
+        let surface = ClothSurface {
             positions: view.positions,
             unit: 1.0,
             normals: view.normals,
@@ -318,7 +328,7 @@ mod tests {
             revision: 1,
         };
         let mut threads = Vec::new();
-        fray(&surface, &mut threads);
+        rebuild_threads(&surface, &mut threads);
         threads
     }
 
@@ -340,10 +350,10 @@ mod tests {
             let [a, b, c] = thread.corners.map(|corner| cloth.positions()[corner as usize]);
             let root = a.lerp(b, thread.at);
             assert!((root.y + 0.55).abs() < 1.0e-3, "a thread grows at {root}");
-            let way = (b - a) * thread.way[0] + (c - a) * thread.way[1];
+            let direction = (b - a) * thread.direction[0] + (c - a) * thread.direction[1];
             // Away from the triangle that it is woven into.
-            assert!(way.y * (c.y - root.y) < 0.0, "a thread goes {way} at {root}");
-            if way.y > 0.0 { up += 1 } else { down += 1 }
+            assert!(direction.y * (c.y - root.y) < 0.0, "a thread goes {direction} at {root}");
+            if direction.y > 0.0 { up += 1 } else { down += 1 }
         }
         let wanted = (0.6 * (FUZZ + STRANDS)) as usize;
         assert!(up > wanted / 2 && down > wanted / 2, "{up} up, {down} down");
@@ -359,7 +369,7 @@ mod tests {
             assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
         }
         let count = threads_of(&mut cloth).len() as f32;
-        assert!(count > 0.8 * MOST && count < 1.05 * MOST, "{count} threads");
+        assert!(count > 0.8 * MAX_THREADS && count < 1.05 * MAX_THREADS, "{count} threads");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use three_d::{
 };
 
 use super::light::{STAGE_CENTRE, linear};
-use super::{Corners, Pass, matrix, vector};
+use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 
 /// Texels along a side of the radial texture.
 const SIZE: u32 = 128;
@@ -70,22 +70,22 @@ impl Glow {
         })
     }
 
-    pub(super) fn draw(&self, pass: &Pass, corners: &Corners) {
+    pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad) {
         let p = &self.program;
-        let (right, up) = (pass.sight.right(), pass.sight.up());
+        let (right, up) = (pass.view.right(), pass.view.up());
         for halo in &self.halos {
-            p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
-            p.use_uniform("centre", vector(halo.centre));
-            p.use_uniform("right", vector(right * halo.radius));
-            p.use_uniform("up", vector(up * halo.radius));
-            p.use_uniform("tint", vector(halo.tint));
+            p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
+            p.use_uniform("centre", to_gl_vector(halo.centre));
+            p.use_uniform("right", to_gl_vector(right * halo.radius));
+            p.use_uniform("up", to_gl_vector(up * halo.radius));
+            p.use_uniform("tint", to_gl_vector(halo.tint));
             p.use_texture("halo", &self.texture);
             let states = RenderStates {
                 blend: Blend::ADD,
                 write_mask: WriteMask::COLOR,
                 ..RenderStates::default()
             };
-            corners.draw(p, states, pass.viewport);
+            quad.draw(p, states, pass.viewport);
         }
     }
 }

@@ -3,8 +3,8 @@
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
 use super::light::{FLOOR, STAGE_CENTRE};
-use super::shadow::Shadow;
-use super::{Corners, Pass, matrix, vector};
+use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
+use super::shadow::ShadowMap;
 
 /// Half a side of the floor [m]; it has faded away long before.
 const REACH: f32 = 8.0;
@@ -27,21 +27,21 @@ impl Ground {
         })
     }
 
-    pub(super) fn draw(&self, pass: &Pass, corners: &Corners, shadow: &Shadow) {
+    pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad, shadow: &ShadowMap) {
         let p = &self.program;
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("reach", REACH);
         p.use_uniform("floorHeight", FLOOR);
-        p.use_uniform("eye", vector(pass.sight.eye));
-        p.use_uniform("centre", vector(STAGE_CENTRE));
-        p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
-        p.use_uniform("rimColour", vector(pass.lights.rim.colour));
-        shadow.use_in(p, &pass.lights);
+        p.use_uniform("eye", to_gl_vector(pass.view.eye));
+        p.use_uniform("centre", to_gl_vector(STAGE_CENTRE));
+        p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
+        p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
+        shadow.bind(p, &pass.lights);
         let states = RenderStates {
             blend: Blend::TRANSPARENCY,
             write_mask: WriteMask::COLOR,
             ..RenderStates::default()
         };
-        corners.draw(p, states, pass.viewport);
+        quad.draw(p, states, pass.viewport);
     }
 }

@@ -5,7 +5,7 @@ use three_d::{Context, ElementBuffer, VertexBuffer};
 
 /// A cloth as the renderer sees it: borrowed columns, one entry a vertex.
 #[derive(Clone, Copy, Debug)]
-pub struct Surface<'a> {
+pub struct ClothSurface<'a> {
     /// Where the vertices are [m].
     pub positions: &'a [Vec3],
     /// Length of what is drawn as a metre [m].
@@ -28,7 +28,7 @@ pub struct Surface<'a> {
     pub revision: u64,
 }
 
-/// The buffers of one [`Surface`].
+/// The buffers of one [`ClothSurface`].
 pub struct Mesh {
     pub(super) positions: VertexBuffer<[f32; 3]>,
     pub(super) normals: VertexBuffer<[f32; 3]>,
@@ -60,7 +60,7 @@ impl Mesh {
     }
 
     /// Uploads what may have changed: positions and normals always, the rest with the revision.
-    pub fn update(&mut self, surface: &Surface<'_>) {
+    pub fn update(&mut self, surface: &ClothSurface<'_>) {
         let staging = &mut self.staging;
         let mut upload = |buffer: &mut VertexBuffer<[f32; 3]>, values: &[Vec3], scale: f32| {
             staging.clear();

@@ -1,11 +1,10 @@
 //! From linear light to pixels: vignette, filmic curve, sRGB, dither.
 
 use three_d::{
-    Context, CoreError, DepthTest, Interpolation, Program, RenderStates, Texture2D, Viewport,
-    Wrapping, WriteMask, f16,
+    Context, CoreError, DepthTest, Program, RenderStates, Texture2D, Viewport, WriteMask,
 };
 
-use super::Corners;
+use super::pass::UnitQuad;
 
 /// The last pass.
 pub struct Post {
@@ -27,7 +26,7 @@ impl Post {
         })
     }
 
-    pub(super) fn draw(&self, viewport: Viewport, corners: &Corners, scene: &Texture2D) {
+    pub(super) fn draw(&self, viewport: Viewport, quad: &UnitQuad, scene: &Texture2D) {
         let p = &self.program;
         p.use_texture("scene", scene);
         p.use_uniform("aspect", viewport.width as f32 / viewport.height as f32);
@@ -37,20 +36,6 @@ impl Post {
             write_mask: WriteMask::COLOR,
             ..RenderStates::default()
         };
-        corners.draw(p, states, viewport);
+        quad.draw(p, states, viewport);
     }
-}
-
-/// A half-float texture for linear light.
-pub(super) fn linear_texture(context: &Context, width: u32, height: u32) -> Texture2D {
-    Texture2D::new_empty::<[f16; 4]>(
-        context,
-        width,
-        height,
-        Interpolation::Linear,
-        Interpolation::Linear,
-        None,
-        Wrapping::ClampToEdge,
-        Wrapping::ClampToEdge,
-    )
 }

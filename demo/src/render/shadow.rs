@@ -11,17 +11,16 @@ use three_d::{
 
 use super::light::{Light, Lights};
 use super::mesh::Mesh;
-use super::solid::{Solid, Solids};
-use super::{matrix, vector};
+use super::pass::{to_gl_matrix, to_gl_vector};
 
 /// The map, and what fills it.
-pub struct Shadow {
+pub struct ShadowMap {
     context: Context,
-    depths: Depths,
+    depths: DepthProgram,
     map: DepthTexture2D,
 }
 
-impl Shadow {
+impl ShadowMap {
     /// An empty map of `size` texels a side.
     ///
     /// # Errors
@@ -29,7 +28,7 @@ impl Shadow {
     pub fn new(context: &Context, size: u32) -> Result<Self, CoreError> {
         Ok(Self {
             context: context.clone(),
-            depths: Depths::new(context)?,
+            depths: DepthProgram::new(context)?,
             map: depth_map(context, size),
         })
     }
@@ -42,44 +41,43 @@ impl Shadow {
         &self,
         meshes: impl Iterator<Item = &'a Mesh>,
         clip: Mat4,
-        shapes: &Solids,
-        solids: &[Solid],
+        draw_others: impl Fn(Viewport),
     ) -> Result<(), CoreError> {
         self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
             let viewport = Viewport::new_at_origo(self.map.width(), self.map.height());
             for mesh in meshes {
                 self.depths.draw(mesh, clip, viewport);
             }
-            shapes.draw_depth(clip, viewport, solids);
+            draw_others(viewport);
             Ok(())
         })?;
         Ok(())
     }
 
     /// Hands map and key light to a program that includes `light.glsl`.
-    pub(super) fn use_in(&self, program: &Program, lights: &Lights) {
-        self.use_with(program, &lights.key, lights.key.clip_from_world());
+    pub(super) fn bind(&self, program: &Program, lights: &Lights) {
+        self.bind_with_clip(program, &lights.key, lights.key.clip_from_world());
     }
 
     /// The same for any light, and the clip space that the map was drawn in.
-    pub(super) fn use_with(&self, program: &Program, key: &Light, clip: Mat4) {
-        program.use_uniform("shadowFromWorld", matrix(clip));
-        program.use_uniform("keyTowards", vector(key.towards));
-        program.use_uniform("keyColour", vector(key.colour));
+    pub(super) fn bind_with_clip(&self, program: &Program, key: &Light, clip: Mat4) {
+        program.use_uniform("shadowFromWorld", to_gl_matrix(clip));
+        program.use_uniform("keyTowards", to_gl_vector(key.towards));
+        program.use_uniform("keyColour", to_gl_vector(key.colour));
         program.use_depth_texture("shadowMap", &self.map);
-        compare(&self.context);
+        enable_depth_compare(&self.context);
     }
 
     /// Hands the bare depths to a program.
-    pub(super) fn use_depths(&self, program: &Program, name: &str) {
+    pub(super) fn bind_depths(&self, program: &Program, name: &str) {
         program.use_depth_texture(name, &self.map);
     }
 }
 
 /// The program that draws how far cloth is from a light.
-pub(super) struct Depths(Program);
+pub(super) struct DepthProgram(Program);
 
-impl Depths {
+impl DepthProgram {
     /// Compiles it.
     ///
     /// # Errors
@@ -92,7 +90,7 @@ impl Depths {
 
     /// Draws a cloth into the part of a depth map that `viewport` is.
     pub fn draw(&self, mesh: &Mesh, clip: Mat4, viewport: Viewport) {
-        self.0.use_uniform("shadowFromWorld", matrix(clip));
+        self.0.use_uniform("shadowFromWorld", to_gl_matrix(clip));
         self.0.use_vertex_attribute("position", &mesh.positions);
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
         self.0.draw_elements(states, viewport, &mesh.triangles);
@@ -105,8 +103,8 @@ pub(super) fn depth_map(context: &Context, size: u32) -> DepthTexture2D {
     DepthTexture2D::new::<f32>(context, size, size, edge, edge)
 }
 
-/// Has the depth texture that was just bound compare and blend what a shadow sampler asks of it.
-pub(super) fn compare(context: &Context) {
+/// Has the depth texture that was just bound enable_depth_compare and blend what a shadow sampler asks of it.
+pub(super) fn enable_depth_compare(context: &Context) {
     // three-d binds the map for plain reads; a shadow sampler compares and blends instead.
     let parameters = [
         (context::TEXTURE_COMPARE_MODE, context::COMPARE_REF_TO_TEXTURE),

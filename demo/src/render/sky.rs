@@ -3,7 +3,7 @@
 use three_d::{Context, CoreError, DepthTest, Program, RenderStates, WriteMask};
 
 use super::light::before_tone_curve;
-use super::{Corners, Pass, vector};
+use super::pass::{RenderPass, UnitQuad, to_gl_vector};
 
 /// The program that fills the screen with the backdrop.
 pub struct Sky {
@@ -25,16 +25,16 @@ impl Sky {
         })
     }
 
-    pub(super) fn draw(&self, pass: &Pass, corners: &Corners) {
+    pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad) {
         let p = &self.program;
-        p.use_uniform("lowColour", vector(before_tone_curve(0x05070d)));
-        p.use_uniform("highColour", vector(before_tone_curve(0x0b1020)));
+        p.use_uniform("lowColour", to_gl_vector(before_tone_curve(0x05070d)));
+        p.use_uniform("highColour", to_gl_vector(before_tone_curve(0x0b1020)));
         p.use_uniform("aspect", pass.aspect());
         let states = RenderStates {
             depth_test: DepthTest::Always,
             write_mask: WriteMask::COLOR,
             ..RenderStates::default()
         };
-        corners.draw(p, states, pass.viewport);
+        quad.draw(p, states, pass.viewport);
     }
 }

@@ -6,8 +6,8 @@ use three_d::{ClearState, Context, CoreError, DepthTexture2D, Program, Viewport}
 
 use super::light::Light;
 use super::mesh::Mesh;
-use super::shadow::{Depths, depth_map};
-use super::{matrix, shadow, vector};
+use super::pass::{to_gl_matrix, to_gl_vector};
+use super::shadow::{DepthProgram, depth_map, enable_depth_compare};
 
 /// Directions, in a square of maps.
 const SIDE: u32 = 2;
@@ -18,7 +18,7 @@ const TEXELS: u32 = 384;
 /// The maps, and what fills them.
 pub struct SkyLight {
     context: Context,
-    depths: Depths,
+    depths: DepthProgram,
     maps: DepthTexture2D,
     towards: [Vec3; COUNT],
     clips: [Mat4; COUNT],
@@ -34,7 +34,7 @@ impl SkyLight {
         let around = |turn: f32| Vec3::new(turn.sin(), 0.62, turn.cos()).normalize();
         Ok(Self {
             context: context.clone(),
-            depths: Depths::new(context)?,
+            depths: DepthProgram::new(context)?,
             maps: depth_map(context, SIDE * TEXELS),
             towards: [Vec3::Y, around(-0.5), around(1.6), around(3.7)],
             clips: [Mat4::IDENTITY; COUNT],
@@ -66,10 +66,10 @@ impl SkyLight {
     }
 
     /// Hands the maps to a program that includes `sky_light.glsl`.
-    pub(super) fn use_in(&self, program: &Program) {
-        program.use_uniform_array("skyFromWorld", &self.clips.map(matrix));
-        program.use_uniform_array("skyTowards", &self.towards.map(vector));
+    pub(super) fn bind(&self, program: &Program) {
+        program.use_uniform_array("skyFromWorld", &self.clips.map(to_gl_matrix));
+        program.use_uniform_array("skyTowards", &self.towards.map(to_gl_vector));
         program.use_depth_texture("skyMaps", &self.maps);
-        shadow::compare(&self.context);
+        enable_depth_compare(&self.context);
     }
 }

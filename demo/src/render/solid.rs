@@ -9,8 +9,8 @@ use three_d::{
 };
 
 use super::light::{FLOOR, linear};
-use super::shadow::Shadow;
-use super::{Pass, REFLECTION, matrix, vector};
+use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
+use super::shadow::ShadowMap;
 
 /// A rod with round or flat ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,17 +29,17 @@ pub struct Solid {
 
 impl Solid {
     /// A ball.
-    pub fn ball(centre: Vec3, radius: f32, colour: u32) -> Self {
-        Self::rod(centre, centre, radius, colour)
+    pub fn sphere(centre: Vec3, radius: f32, colour: u32) -> Self {
+        Self::capsule(centre, centre, radius, colour)
     }
 
     /// A rod with round ends.
-    pub fn rod(from: Vec3, to: Vec3, radius: f32, colour: u32) -> Self {
+    pub fn capsule(from: Vec3, to: Vec3, radius: f32, colour: u32) -> Self {
         Self { from, to, radius, bevel: None, colour }
     }
 
     /// A rod with flat ends, whose edges are round by a radius of `bevel`.
-    pub fn block(from: Vec3, to: Vec3, radius: f32, bevel: f32, colour: u32) -> Self {
+    pub fn cylinder(from: Vec3, to: Vec3, radius: f32, bevel: f32, colour: u32) -> Self {
         // What is round of the edges lies within its length.
         let round = (to - from).normalize_or(Vec3::Y) * bevel;
         Self { from: from + round, to: to - round, radius, bevel: Some(bevel), colour }
@@ -55,7 +55,7 @@ pub struct Solids {
     triangles: ElementBuffer<u32>,
 }
 
-/// Corners around, and from the middle to a pole.
+/// UnitQuad around, and from the middle to a pole.
 const AROUND: u32 = 48;
 const UP: u32 = 12;
 
@@ -80,14 +80,14 @@ impl Solids {
         })
     }
 
-    pub(super) fn draw(&self, pass: &Pass, shadow: &Shadow, solids: &[Solid], dim: f32) {
+    pub(super) fn draw(&self, pass: &RenderPass, shadow: &ShadowMap, solids: &[Solid], dim: f32) {
         self.draw_with(pass, shadow, pass.lights.key.clip_from_world(), solids, dim);
     }
 
     /// Draws them upside down below the floor; the floor is blended over them afterwards.
-    pub(super) fn draw_reflection(&self, pass: &Pass, shadow: &Shadow, solids: &[Solid]) {
-        let states = RenderStates { blend: REFLECTION, ..RenderStates::default() };
-        let eye = pass.sight.eye.with_y(2.0 * FLOOR - pass.sight.eye.y);
+    pub(super) fn draw_reflection(&self, pass: &RenderPass, shadow: &ShadowMap, solids: &[Solid]) {
+        let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
+        let eye = pass.view.eye.with_y(2.0 * FLOOR - pass.view.eye.y);
         let clip = pass.lights.key.clip_from_world();
         self.draw_from(eye, pass, shadow, clip, solids, states, [0.45, 1.0]);
     }
@@ -95,21 +95,21 @@ impl Solids {
     /// The same where the shadow map was drawn in another clip space.
     pub(super) fn draw_with(
         &self,
-        pass: &Pass,
-        shadow: &Shadow,
+        pass: &RenderPass,
+        shadow: &ShadowMap,
         clip: Mat4,
         solids: &[Solid],
         dim: f32,
     ) {
         let states = RenderStates::default();
-        self.draw_from(pass.sight.eye, pass, shadow, clip, solids, states, [dim, 0.0]);
+        self.draw_from(pass.view.eye, pass, shadow, clip, solids, states, [dim, 0.0]);
     }
 
     fn draw_from(
         &self,
         eye: Vec3,
-        pass: &Pass,
-        shadow: &Shadow,
+        pass: &RenderPass,
+        shadow: &ShadowMap,
         clip: Mat4,
         solids: &[Solid],
         states: RenderStates,
@@ -118,16 +118,16 @@ impl Solids {
         let p = &self.program;
         for solid in solids {
             self.place(p, pass.clip_from_world, solid);
-            p.use_uniform("eye", vector(eye));
+            p.use_uniform("eye", to_gl_vector(eye));
             p.use_uniform("dim", dim);
             p.use_uniform("mirrored", mirrored);
             p.use_uniform("floorHeight", FLOOR);
-            p.use_uniform("albedo", vector(linear(solid.colour)));
-            p.use_uniform("fillTowards", vector(pass.lights.fill.towards));
-            p.use_uniform("fillColour", vector(pass.lights.fill.colour));
-            p.use_uniform("rimTowards", vector(pass.lights.rim.towards));
-            p.use_uniform("rimColour", vector(pass.lights.rim.colour));
-            shadow.use_with(p, &pass.lights.key, clip);
+            p.use_uniform("albedo", to_gl_vector(linear(solid.colour)));
+            p.use_uniform("fillTowards", to_gl_vector(pass.lights.fill.towards));
+            p.use_uniform("fillColour", to_gl_vector(pass.lights.fill.colour));
+            p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
+            p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
+            shadow.bind_with_clip(p, &pass.lights.key, clip);
             p.draw_elements(states, pass.viewport, &self.triangles);
         }
     }
@@ -144,13 +144,13 @@ impl Solids {
     fn place(&self, program: &Program, clip_from_world: Mat4, solid: &Solid) {
         let along = (solid.to - solid.from).normalize_or(Vec3::Y);
         let across = along.any_orthonormal_vector();
-        program.use_uniform("clipFromWorld", matrix(clip_from_world));
-        program.use_uniform("from", vector(solid.from));
-        program.use_uniform("to", vector(solid.to));
+        program.use_uniform("clipFromWorld", to_gl_matrix(clip_from_world));
+        program.use_uniform("from", to_gl_vector(solid.from));
+        program.use_uniform("to", to_gl_vector(solid.to));
         program.use_uniform("radius", solid.radius);
         program.use_uniform("bevel", solid.bevel.unwrap_or(-1.0));
-        program.use_uniform("across", vector(across));
-        program.use_uniform("along", vector(along));
+        program.use_uniform("across", to_gl_vector(across));
+        program.use_uniform("along", to_gl_vector(along));
         program.use_vertex_attribute("place", &self.shell);
     }
 }

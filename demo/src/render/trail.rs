@@ -6,14 +6,14 @@ use three_d::{
 };
 
 use super::light::linear;
-use super::{Pass, vector};
+use super::pass::{RenderPass, to_gl_vector};
 
-/// Half the width of the glow, as a share of the picture's height.
+/// Half the width of the glow, as a resolution_scale of the picture's height.
 const REACH: f32 = 0.016;
 
 /// Where the blade was.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spark {
+pub struct TrailPoint {
     /// On the screen, x and y from -1 to 1, y up.
     pub at: Vec2,
     /// How much of its glow is left: 1 is fresh, 0 has gone out.
@@ -44,14 +44,14 @@ impl Trail {
         })
     }
 
-    pub(super) fn draw(&mut self, pass: &Pass, sparks: &[Spark]) {
-        let ribbon = ribbon(sparks, pass.aspect());
+    pub(super) fn draw(&mut self, pass: &RenderPass, trail_points: &[TrailPoint]) {
+        let ribbon = ribbon(trail_points, pass.aspect());
         if ribbon.is_empty() {
             return;
         }
         self.ribbon.fill(&ribbon);
         let p = &self.program;
-        p.use_uniform("glow", vector(linear(0x7cc0ff)));
+        p.use_uniform("glow", to_gl_vector(linear(0x7cc0ff)));
         p.use_vertex_attribute("place", &self.ribbon);
         let states = RenderStates {
             blend: Blend::ADD,
@@ -64,23 +64,23 @@ impl Trail {
 }
 
 /// Two triangles a piece of the path: x, y on the screen, side from -1 to 1, glow.
-fn ribbon(sparks: &[Spark], aspect: f32) -> Vec<[f32; 4]> {
+fn ribbon(trail_points: &[TrailPoint], aspect: f32) -> Vec<[f32; 4]> {
     let wide = Vec2::new(aspect, 1.0);
     let mut ribbon = Vec::new();
     // Pieces meet in the middle of their directions, so that no bend shows a gap.
     let direction = |i: usize| {
-        let (before, after) = (sparks[..=i].iter().rev(), sparks[i + 1..].iter());
-        let from = before.take(2).take_while(|s| !s.first || s.at == sparks[i].at).last();
+        let (before, after) = (trail_points[..=i].iter().rev(), trail_points[i + 1..].iter());
+        let from = before.take(2).take_while(|s| !s.first || s.at == trail_points[i].at).last();
         let to = after.take(1).take_while(|s| !s.first).last();
-        let (from, to) = (from.unwrap_or(&sparks[i]), to.unwrap_or(&sparks[i]));
+        let (from, to) = (from.unwrap_or(&trail_points[i]), to.unwrap_or(&trail_points[i]));
         ((to.at - from.at) * wide).normalize_or(Vec2::X)
     };
-    for i in 1..sparks.len() {
-        if sparks[i].first {
+    for i in 1..trail_points.len() {
+        if trail_points[i].first {
             continue;
         }
         let ends = [i - 1, i].map(|i| {
-            let spark = sparks[i];
+            let spark = trail_points[i];
             let across = direction(i).perp() * REACH * 2.0 * (0.35 + 0.65 * spark.glow) / wide;
             [-1.0, 1.0].map(|side| {
                 let at = spark.at + across * side;
@@ -97,8 +97,8 @@ fn ribbon(sparks: &[Spark], aspect: f32) -> Vec<[f32; 4]> {
 mod tests {
     use super::*;
 
-    fn spark(x: f32, first: bool) -> Spark {
-        Spark { at: Vec2::new(x, 0.2), glow: 1.0, first }
+    fn spark(x: f32, first: bool) -> TrailPoint {
+        TrailPoint { at: Vec2::new(x, 0.2), glow: 1.0, first }
     }
 
     #[test]

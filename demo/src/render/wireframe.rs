@@ -5,7 +5,7 @@ use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
 use super::light::linear;
 use super::mesh::Mesh;
-use super::{Pass, matrix};
+use super::pass::{RenderPass, to_gl_matrix};
 
 /// The program that draws lines.
 pub struct Wireframe {
@@ -29,13 +29,13 @@ impl Wireframe {
         })
     }
 
-    pub(super) fn draw(&self, pass: &Pass, mesh: &Mesh) {
+    pub(super) fn draw(&self, pass: &RenderPass, mesh: &Mesh) {
         if mesh.lines.count() == 0 {
             return;
         }
         let p = &self.program;
         let tint = linear(0x7cc0ff);
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("tint", three_d::Vec4::new(tint.x, tint.y, tint.z, 0.55));
         p.use_vertex_attribute("position", &mesh.positions);
         let states = RenderStates {

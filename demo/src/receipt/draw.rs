@@ -3,20 +3,24 @@
 use glam::Vec3;
 use three_d::{CoreError, RenderTarget};
 
-use super::Tender;
-use crate::render::Surface;
-use crate::render::desk::{Desk, View};
+use super::ReceiptApp;
+use crate::render::ClothSurface;
+use crate::render::receipt_renderer::{ReceiptFrame, ReceiptRenderer};
 
-impl Tender {
+impl ReceiptApp {
     /// Draws the scene as it is now.
     ///
     /// # Errors
-    /// As [`Desk::draw`].
-    pub fn draw(&mut self, desk: &mut Desk, output: &RenderTarget<'_>) -> Result<(), CoreError> {
+    /// As [`ReceiptRenderer::draw`].
+    pub fn draw(
+        &mut self,
+        renderer: &mut ReceiptRenderer,
+        output: &RenderTarget<'_>,
+    ) -> Result<(), CoreError> {
         // Asking for normals makes them, which belongs to the stages.
         self.cloth.normals();
         if self.times_stages {
-            self.meter.simulated_in(&self.cloth.stats().seconds);
+            self.meter.record_stages(&self.cloth.stats().seconds);
         }
         let unit = self.settings.sheet.unit();
         let revision =
@@ -30,7 +34,7 @@ impl Tender {
         let view = self.cloth.view();
         self.positions.clear();
         self.positions.extend(view.positions.iter().map(|at| *at / unit));
-        let surface = Surface {
+        let surface = ClothSurface {
             positions: &self.positions,
             unit: 1.0,
             normals: view.normals,
@@ -44,12 +48,15 @@ impl Tender {
         };
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
         let start = (self.clock)();
-        desk.take(&surface);
-        let taken = (self.clock)();
-        let view =
-            View { sight: self.camera.sight(), pins: &pins, share: self.governor.share(density) };
-        desk.draw(&view, output)?;
-        self.meter.drawn(taken - start, (self.clock)() - taken);
+        renderer.upload_paper(&surface);
+        let uploaded = (self.clock)();
+        let view = ReceiptFrame {
+            view: self.camera.view(),
+            pins: &pins,
+            resolution_scale: self.resolution_scaler.scale(density),
+        };
+        renderer.draw(&view, output)?;
+        self.meter.record_drawing(uploaded - start, (self.clock)() - uploaded);
         Ok(())
     }
 }

@@ -8,13 +8,13 @@ pub const SECONDS: f32 = 0.5;
 
 /// A receipt on its way back.
 #[derive(Debug)]
-pub struct PutBack {
+pub struct ReturnAnimation {
     from: Vec<Vec3>,
     to: Vec<Vec3>,
     age: f32,
 }
 
-impl PutBack {
+impl ReturnAnimation {
     /// Begins where everything is now; what tears have added goes to where it was torn from.
     pub fn new(cloth: &Cloth, desc: &GridDesc) -> Self {
         let place = |particle: &u32| {
@@ -43,8 +43,8 @@ impl PutBack {
     /// How far any particle is from where it goes [m].
     #[cfg(test)]
     pub fn farthest(&self, cloth: &Cloth) -> f32 {
-        let ways = cloth.positions().iter().zip(&self.to).map(|(at, to)| at.distance(*to));
-        ways.fold(0.0, f32::max)
+        let tracks = cloth.positions().iter().zip(&self.to).map(|(at, to)| at.distance(*to));
+        tracks.fold(0.0, f32::max)
     }
 }
 
@@ -61,8 +61,8 @@ mod tests {
     #[test]
     fn it_starts_fast_and_ends_slowly_where_it_should() {
         assert_eq!((ease_out(0.0), ease_out(1.0), ease_out(7.0)), (0.0, 1.0, 1.0));
-        let ways: Vec<f32> =
+        let tracks: Vec<f32> =
             (0..10).map(|i| ease_out((i + 1) as f32 / 10.0) - ease_out(i as f32 / 10.0)).collect();
-        assert!(ways.windows(2).all(|two| two[1] < two[0]), "{ways:?}");
+        assert!(tracks.windows(2).all(|two| two[1] < two[0]), "{tracks:?}");
     }
 }

@@ -8,14 +8,15 @@ use three_d::{
     RenderTarget, Texture2D, Viewport, Wrapping, WriteMask,
 };
 
+use super::hdr_target::HdrTarget;
 use super::light::{Light, Lights, linear};
-use super::mesh::{Mesh, Surface};
-use super::shadow::Shadow;
+use super::mesh::{ClothSurface, Mesh};
+use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
+use super::shadow::ShadowMap;
 use super::sky_light::SkyLight;
 use super::solid::{Solid, Solids};
-use super::{Corners, Pass, Target, matrix, vector};
-use crate::camera::Sight;
-use crate::tender::print::Print;
+use crate::camera::CameraView;
+use crate::receipt::ink_map::InkMap;
 
 /// What fills the picture where nothing is.
 const BACKDROP: u32 = 0xe8e8e8;
@@ -34,36 +35,36 @@ const DEPTH: f32 = 60.0;
 
 /// What a frame shows besides the paper.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'a> {
+pub struct ReceiptFrame<'a> {
     /// From where, in units.
-    pub sight: Sight,
+    pub view: CameraView,
     /// Where pins are, in units.
     pub pins: &'a [Vec3],
-    /// The share of the output's pixels that are drawn along each side.
-    pub share: f32,
+    /// The resolution_scale of the output's pixels that are drawn along each side.
+    pub resolution_scale: f32,
 }
 
 /// Everything on the graphics card; dropped and made anew when a context is lost.
-pub struct Desk {
+pub struct ReceiptRenderer {
     context: Context,
     lights: Lights,
     mesh: Mesh,
-    shadow: Shadow,
-    depths: Shadow,
+    shadow: ShadowMap,
+    depths: ShadowMap,
     sky: SkyLight,
     ink: Texture2D,
     paper: Program,
     ground: Program,
     solids: Solids,
     daylight: Program,
-    corners: Corners,
-    target: Option<Target>,
+    quad: UnitQuad,
+    target: Option<HdrTarget>,
     /// The middle of the paper, and how far it reaches from there, in units.
     middle: Vec3,
     radius: f32,
 }
 
-impl Desk {
+impl ReceiptRenderer {
     /// Compiles the shaders, prints the receipt and makes the textures.
     ///
     /// # Errors
@@ -83,8 +84,8 @@ impl Desk {
             context: context.clone(),
             lights: lights(),
             mesh: Mesh::new(context),
-            shadow: Shadow::new(context, SHARP)?,
-            depths: Shadow::new(context, COARSE)?,
+            shadow: ShadowMap::new(context, SHARP)?,
+            depths: ShadowMap::new(context, COARSE)?,
             sky: SkyLight::new(context)?,
             ink: ink(context),
             paper: Program::from_source(context, include_str!("shaders/cloth.vert"), lit)?,
@@ -95,7 +96,7 @@ impl Desk {
                 include_str!("shaders/screen.vert"),
                 include_str!("shaders/daylight.frag"),
             )?,
-            corners: Corners::new(context),
+            quad: UnitQuad::new(context),
             target: None,
             middle: Vec3::ZERO,
             radius: RADIUS,
@@ -103,7 +104,7 @@ impl Desk {
     }
 
     /// Takes the paper as it is now.
-    pub fn take(&mut self, surface: &Surface<'_>) {
+    pub fn upload_paper(&mut self, surface: &ClothSurface<'_>) {
         self.mesh.update(surface);
         let count = surface.positions.len().max(1) as f32;
         self.middle = surface.positions.iter().sum::<Vec3>() / count;
@@ -115,24 +116,30 @@ impl Desk {
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
-    pub fn draw(&mut self, view: &View<'_>, output: &RenderTarget<'_>) -> Result<(), CoreError> {
-        let side = |pixels: u32| (pixels as f32 * view.share).round().max(1.0) as u32;
+    pub fn draw(
+        &mut self,
+        view: &ReceiptFrame<'_>,
+        output: &RenderTarget<'_>,
+    ) -> Result<(), CoreError> {
+        let side = |pixels: u32| (pixels as f32 * view.resolution_scale).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
-        Target::fit(&mut self.target, &self.context, width, height);
+        HdrTarget::resize(&mut self.target, &self.context, width, height);
         let pins: Vec<Solid> = view.pins.iter().map(|at| pin(*at)).collect();
         let key = self.lights.key;
         let clip = key.clip_around(self.middle, self.radius, 0.5 * DEPTH, 0.0..DEPTH);
         for shadow in [&self.shadow, &self.depths] {
-            shadow.draw(std::iter::once(&self.mesh), clip, &self.solids, &pins)?;
+            shadow.draw(std::iter::once(&self.mesh), clip, |viewport| {
+                self.solids.draw_depth(clip, viewport, &pins);
+            })?;
         }
         self.sky.draw(&self.mesh, self.middle, self.radius)?;
         let Some(target) = &self.target else {
             return Ok(());
         };
-        let pass = Pass {
+        let pass = RenderPass {
             viewport: Viewport::new_at_origo(width, height),
-            clip_from_world: view.sight.clip_from_world(width as f32 / height as f32),
-            sight: view.sight,
+            clip_from_world: view.view.clip_from_world(width as f32 / height as f32),
+            view: view.view,
             lights: self.lights,
         };
         let backdrop = before_daylight(BACKDROP);
@@ -154,7 +161,7 @@ impl Desk {
                 write_mask: WriteMask::COLOR,
                 ..RenderStates::default()
             };
-            self.corners.draw(&self.daylight, states, output.viewport());
+            self.quad.draw(&self.daylight, states, output.viewport());
             Ok(())
         })?;
         Ok(())
@@ -165,31 +172,31 @@ impl Desk {
         &self.context
     }
 
-    fn draw_ground(&self, pass: &Pass, clip: Mat4, backdrop: Vec3) {
+    fn draw_ground(&self, pass: &RenderPass, clip: Mat4, backdrop: Vec3) {
         let p = &self.ground;
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("reach", REACH);
         p.use_uniform("floorHeight", GROUND);
-        p.use_uniform("backdrop", vector(backdrop));
+        p.use_uniform("backdrop", to_gl_vector(backdrop));
         p.use_uniform("depthRange", DEPTH);
         p.use_uniform("radius", self.radius);
-        p.use_uniform("middle", vector(self.middle));
-        self.depths.use_depths(p, "depths");
-        self.shadow.use_with(p, &self.lights.key, clip);
-        self.sky.use_in(p);
-        self.corners.draw(p, RenderStates::default(), pass.viewport);
+        p.use_uniform("middle", to_gl_vector(self.middle));
+        self.depths.bind_depths(p, "depths");
+        self.shadow.bind_with_clip(p, &self.lights.key, clip);
+        self.sky.bind(p);
+        self.quad.draw(p, RenderStates::default(), pass.viewport);
     }
 
-    fn draw_paper(&self, pass: &Pass, clip: Mat4) {
+    fn draw_paper(&self, pass: &RenderPass, clip: Mat4) {
         let p = &self.paper;
-        p.use_uniform("clipFromWorld", matrix(pass.clip_from_world));
-        p.use_uniform("eye", vector(pass.sight.eye));
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
+        p.use_uniform("eye", to_gl_vector(pass.view.eye));
         p.use_uniform("mirrored", 0.0_f32);
         p.use_uniform("floorHeight", GROUND);
         p.use_uniform("span", three_d::Vec2::new(self.mesh.span.x, self.mesh.span.y));
         p.use_texture("ink", &self.ink);
-        self.shadow.use_with(p, &self.lights.key, clip);
-        self.sky.use_in(p);
+        self.shadow.bind_with_clip(p, &self.lights.key, clip);
+        self.sky.bind(p);
         p.use_vertex_attribute("position", &self.mesh.positions);
         p.use_vertex_attribute("normal", &self.mesh.normals);
         p.use_vertex_attribute("texcoord", &self.mesh.uvs);
@@ -215,12 +222,12 @@ fn lights() -> Lights {
 /// A push pin through the paper at a place.
 fn pin(at: Vec3) -> Solid {
     let [from, to] = [0.02, 0.10].map(|out| at + Vec3::Z * out);
-    Solid::rod(from, to, 0.075, 0xc8402f)
+    Solid::capsule(from, to, 0.075, 0xc8402f)
 }
 
 /// The print as a texture that stays sharp when seen askew.
 fn ink(context: &Context) -> Texture2D {
-    let print = Print::new();
+    let print = InkMap::new();
     let texture = Texture2D::new_empty::<u8>(
         context,
         print.size[0],

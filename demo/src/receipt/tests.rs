@@ -1,9 +1,9 @@
-//! Tests: what hands, gestures and time do to the receipt.
+//! Tests: what pointers, gestures and time do to the receipt.
 
 #[path = "../../../tests/common/crossings.rs"]
 mod crossings;
 
-use super::play::{Gesture, Play};
+use super::gestures::{ReceiptGesture, ReceiptGesturePlayer};
 use super::*;
 use crossings::crossing_count;
 use muslin_scenes::receipt::FLOOR;
@@ -11,18 +11,18 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 const FRAME: f32 = 1.0 / 60.0;
 
-fn tender(sheet: Sheet) -> Tender {
-    Tender::new(Settings { sheet, ..Settings::default() }, true, || 0.0).unwrap()
+fn tender(sheet: Sheet) -> ReceiptApp {
+    ReceiptApp::new(ReceiptSettings { sheet, ..ReceiptSettings::default() }, true, || 0.0).unwrap()
 }
 
-fn played(gesture: Gesture, sheet: Sheet) -> Tender {
+fn played(gesture: ReceiptGesture, sheet: Sheet) -> ReceiptApp {
     played_for(gesture, sheet, gesture.ticks())
 }
 
-fn played_for(gesture: Gesture, sheet: Sheet, ticks: u32) -> Tender {
+fn played_for(gesture: ReceiptGesture, sheet: Sheet, ticks: u32) -> ReceiptApp {
     let mut tender = tender(sheet);
     tender.play(60).unwrap();
-    let mut play = Play::new(gesture);
+    let mut play = ReceiptGesturePlayer::new(gesture);
     for _ in 0..ticks {
         play.step(&mut tender).unwrap();
     }
@@ -34,23 +34,23 @@ fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
 }
 
 /// The mean speed of all particles, in units a second.
-fn speed(tender: &Tender) -> f32 {
+fn speed(tender: &ReceiptApp) -> f32 {
     let count = tender.cloth().positions().len() as u32;
     let speeds = (0..count).filter_map(|i| tender.cloth().velocity(i)).map(|v| v.length());
     speeds.sum::<f32>() / count as f32 / tender.settings().sheet.unit()
 }
 
 /// Lowest and highest of all particles, in units.
-fn heights(tender: &Tender) -> [f32; 2] {
+fn heights(tender: &ReceiptApp) -> [f32; 2] {
     let unit = tender.settings().sheet.unit();
     let y = tender.cloth().positions().iter().map(|at| at.y / unit);
     y.fold([f32::MAX, f32::MIN], |[low, high], y| [low.min(y), high.max(y)])
 }
 
 /// How far from its pins' plane, as woven, any particle is, in units.
-fn off(tender: &Tender) -> f32 {
+fn off(tender: &ReceiptApp) -> f32 {
     let desc = tender.settings().sheet.desc(true);
-    let places = PutBack::new(tender.cloth(), &desc);
+    let places = ReturnAnimation::new(tender.cloth(), &desc);
     places.farthest(tender.cloth()) / tender.settings().sheet.unit()
 }
 
@@ -61,8 +61,8 @@ fn a_hand_takes_what_is_within_half_a_unit_of_its_ray_and_nothing_farther() {
         let edge = 0.5 * tender.span().x;
         for (beside, holds) in [(0.42, true), (0.7, false)] {
             let at = tender.on_screen(Vec3::new(edge + beside, 0.0, 0.0)).unwrap();
-            tender.press(1, at, Button::Main).unwrap();
-            assert_eq!(tender.hands.holds_paper(), holds, "{sheet:?}, {beside} units beside it");
+            tender.press(1, at, PressKind::Main).unwrap();
+            assert_eq!(tender.pointers.holds_cloth(), holds, "{sheet:?}, {beside} units beside it");
             tender.lift(1).unwrap();
         }
     }
@@ -72,12 +72,12 @@ fn a_hand_takes_what_is_within_half_a_unit_of_its_ray_and_nothing_farther() {
 fn a_grabbed_particle_comes_along_on_the_plane_that_faces_the_camera() {
     for sheet in Sheet::ALL {
         let mut tender = tender(sheet);
-        let [columns, rows] = tender.weave();
+        let [columns, rows] = tender.grid_size();
         let particle = (rows - 1) * columns + columns / 2;
         let from = tender.particle(particle).unwrap();
-        let sight = tender.camera().sight();
+        let view = tender.camera().view();
         let at = tender.on_screen(from).unwrap();
-        tender.press(7, at, Button::Main).unwrap();
+        tender.press(7, at, PressKind::Main).unwrap();
         let to = at + Vec2::new(40.0, -10.0);
         tender.drag(7, to);
         for _ in 0..60 {
@@ -86,32 +86,32 @@ fn a_grabbed_particle_comes_along_on_the_plane_that_faces_the_camera() {
         let held = tender.particle(particle).unwrap();
         let now = tender.on_screen(held).unwrap();
         assert!(now.distance(to) < 2.0, "{sheet:?}: held at {now}, pointer at {to}");
-        let depth = (held - from).dot(sight.forward());
+        let depth = (held - from).dot(view.forward());
         assert!(depth.abs() < 0.01, "{sheet:?}: it came {depth} units nearer or farther");
         tender.lift(7).unwrap();
-        assert!(!tender.hands.any());
+        assert!(!tender.pointers.is_any_down());
     }
 }
 
 #[test]
 fn the_right_button_and_two_fingers_beside_the_paper_turn_the_camera() {
     let mut tender = tender(Sheet::Paper);
-    let settled = |tender: &mut Tender| {
+    let settled = |tender: &mut ReceiptApp| {
         for _ in 0..300 {
             tender.camera.advance(FRAME, true);
         }
-        tender.camera.sight().eye
+        tender.camera.view().eye
     };
     let middle = tender.on_screen(Vec3::ZERO).unwrap();
     let before = settled(&mut tender);
-    tender.press(1, middle, Button::Turn).unwrap();
+    tender.press(1, middle, PressKind::Turn).unwrap();
     tender.drag(1, middle + Vec2::X * 150.0);
     tender.lift(1).unwrap();
     let turned = settled(&mut tender);
     assert!(turned.distance(before) > 2.0);
     assert!((turned.distance(TARGET) - before.distance(TARGET)).abs() < 1.0e-3);
-    tender.press(1, Vec2::new(60.0, 600.0), Button::Main).unwrap();
-    tender.press(2, Vec2::new(1200.0, 600.0), Button::Main).unwrap();
+    tender.press(1, Vec2::new(60.0, 600.0), PressKind::Main).unwrap();
+    tender.press(2, Vec2::new(1200.0, 600.0), PressKind::Main).unwrap();
     tender.drag(2, Vec2::new(800.0, 600.0));
     let pinched = settled(&mut tender);
     assert!(pinched.distance(TARGET) > 1.2 * turned.distance(TARGET));
@@ -123,36 +123,36 @@ fn two_fingers_on_the_paper_are_two_hands_and_a_key_leaves_a_hand_in_place() {
     let half = 0.5 * tender.span();
     let low = |x: f32| Vec3::new(x * half.x, -half.y, 0.0);
     let [left, right] = [-0.9, 0.9].map(|x| tender.on_screen(low(x)).unwrap());
-    tender.press(1, left, Button::Main).unwrap();
-    tender.press(2, right, Button::Main).unwrap();
-    assert_eq!(tender.hands.grips().count(), 2);
+    tender.press(1, left, PressKind::Main).unwrap();
+    tender.press(2, right, PressKind::Main).unwrap();
+    assert_eq!(tender.pointers.grabs().count(), 2);
     tender.lift(2).unwrap();
-    tender.stay(true).unwrap();
+    tender.set_leave_in_place(true).unwrap();
     tender.lift(1).unwrap();
-    assert_eq!(tender.hands.grips().count(), 1);
-    let kept = tender.hands.grips().next().unwrap();
-    tender.press(1, right, Button::Main).unwrap();
+    assert_eq!(tender.pointers.grabs().count(), 1);
+    let kept = tender.pointers.grabs().next().unwrap();
+    tender.press(1, right, PressKind::Main).unwrap();
     tender.drag(1, right - Vec2::Y * 60.0);
     for _ in 0..30 {
         tender.frame(FRAME).unwrap();
     }
-    assert_eq!(tender.hands.grips().count(), 2);
-    assert!(tender.hands.grips().any(|grip| grip.1.distance(kept.1) < 1.0e-4));
+    assert_eq!(tender.pointers.grabs().count(), 2);
+    assert!(tender.pointers.grabs().any(|held| held.1.distance(kept.1) < 1.0e-4));
     tender.lift(1).unwrap();
-    tender.stay(false).unwrap();
-    assert!(!tender.hands.holds_paper());
+    tender.set_leave_in_place(false).unwrap();
+    assert!(!tender.pointers.holds_cloth());
 }
 
 #[test]
 fn pause_stops_the_paper_and_wind_moves_it_unless_people_ask_for_calm() {
     for sheet in Sheet::ALL {
         let mut tender = tender(sheet);
-        tender.act(Action::Pause).unwrap();
+        tender.act(ReceiptAction::Pause).unwrap();
         let hash = tender.cloth().state_hash();
         tender.frame(0.03).unwrap();
         assert_eq!(tender.cloth().state_hash(), hash);
-        tender.act(Action::Pause).unwrap();
-        let swing = |tender: &mut Tender| {
+        tender.act(ReceiptAction::Pause).unwrap();
+        let swing = |tender: &mut ReceiptApp| {
             tender.play(240).unwrap();
             speed(tender)
         };
@@ -160,16 +160,16 @@ fn pause_stops_the_paper_and_wind_moves_it_unless_people_ask_for_calm() {
         tender.key('w').unwrap();
         let blown = swing(&mut tender);
         assert!(blown > 2.0 * still && blown > 0.05, "{sheet:?}: {still}, then {blown} units/s");
-        tender.set_calm(true).unwrap();
+        tender.set_reduced_motion(true).unwrap();
         assert_eq!(tender.cloth().wind().velocity, Vec3::ZERO);
     }
 }
 
 #[test]
 fn less_motion_means_fewer_particles() {
-    let mut tender = Tender::new(Settings::default(), false, || 0.0).unwrap();
+    let mut tender = ReceiptApp::new(ReceiptSettings::default(), false, || 0.0).unwrap();
     assert_eq!(tender.readout().particles, 40 * 60);
-    tender.set_calm(true).unwrap();
+    tender.set_reduced_motion(true).unwrap();
     assert_eq!(tender.readout().particles, 24 * 36);
 }
 
@@ -189,7 +189,7 @@ fn where_ticks_take_long_time_runs_slower_and_nothing_is_made_up_for() {
         static ASKED: AtomicU32 = AtomicU32::new(0);
         0.02 * f64::from(ASKED.fetch_add(1, Ordering::Relaxed))
     }
-    let mut tender = Tender::new(Settings::default(), true, slow).unwrap();
+    let mut tender = ReceiptApp::new(ReceiptSettings::default(), true, slow).unwrap();
     tender.frame(0.03).unwrap();
     assert_eq!(tender.cloth().stats().ticks, 2);
     tender.frame(0.0).unwrap();
@@ -198,10 +198,10 @@ fn where_ticks_take_long_time_runs_slower_and_nothing_is_made_up_for() {
 
 #[test]
 fn nothing_that_hands_do_takes_paper_through_itself() {
-    for (name, gesture) in Gesture::ALL {
+    for (name, gesture) in ReceiptGesture::ALL {
         let mut tender = tender(Sheet::Paper);
         tender.play(60).unwrap();
-        let mut play = Play::new(gesture);
+        let mut play = ReceiptGesturePlayer::new(gesture);
         for tick in 1..=gesture.ticks() {
             play.step(&mut tender).unwrap();
             if tick % 30 == 0 {
@@ -212,8 +212,8 @@ fn nothing_that_hands_do_takes_paper_through_itself() {
 }
 
 /// By how much the lower half of the sheet is turned against the upper one [rad].
-fn turned(tender: &Tender) -> f32 {
-    let [columns, rows] = tender.weave();
+fn turned(tender: &ReceiptApp) -> f32 {
+    let [columns, rows] = tender.grid_size();
     let row = |row: u32| {
         let places = (0..columns).map(|column| tender.particle(row * columns + column).unwrap());
         places.sum::<Vec3>() / columns as f32
@@ -224,7 +224,7 @@ fn turned(tender: &Tender) -> f32 {
 #[test]
 fn folded_in_half_and_released_the_crease_stays() {
     let flat = turned(&tender(Sheet::Paper));
-    let mut tender = played(Gesture::Fold, Sheet::Paper);
+    let mut tender = played(ReceiptGesture::Fold, Sheet::Paper);
     assert!(tender.cloth().pinned().count() == 2, "it fell");
     let folded = turned(&tender);
     // Its own weight opens it, but not all the way.
@@ -236,8 +236,8 @@ fn folded_in_half_and_released_the_crease_stays() {
 }
 
 /// How much each quarter of the sheet's length is turned against the one before [rad].
-fn folds(tender: &Tender) -> [f32; 3] {
-    let [columns, rows] = tender.weave();
+fn folds(tender: &ReceiptApp) -> [f32; 3] {
+    let [columns, rows] = tender.grid_size();
     let middle = |share: f32| {
         let row = (share * (rows - 1) as f32).round() as u32;
         let places = (0..columns).map(|column| tender.particle(row * columns + column).unwrap());
@@ -253,8 +253,8 @@ fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_
     tender.play(60).unwrap();
     let before = folds(&tender);
     assert!(before.iter().all(|turned| *turned < 0.4), "it hangs folded by {before:?}");
-    let mut play = Play::new(Gesture::Letter);
-    for tick in 0..Gesture::Letter.ticks() {
+    let mut play = ReceiptGesturePlayer::new(ReceiptGesture::Letter);
+    for tick in 0..ReceiptGesture::Letter.ticks() {
         play.step(&mut tender).unwrap();
         let corners = [0, 23, 35 * 24, 36 * 24 - 1].map(|i| tender.particle(i).unwrap());
         for at in corners.into_iter().map(|at| tender.on_screen(at).unwrap()) {
@@ -262,7 +262,7 @@ fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_
             assert!(is_seen, "at tick {tick} a corner is at {at}");
         }
     }
-    assert!(!tender.hands.any() && tender.letter.is_none(), "hands still hold it");
+    assert!(!tender.pointers.is_any_down() && tender.letter_fold.is_none(), "hands still hold it");
     tender.play(240).unwrap();
     let creased = folds(&tender);
     assert!(creased.iter().all(|turned| *turned > 2.6), "it is folded by {creased:?}");
@@ -281,8 +281,8 @@ fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_
 #[test]
 fn a_toss_flies_lands_and_comes_to_rest_on_the_floor() {
     for sheet in Sheet::ALL {
-        let mut tender = played(Gesture::Toss, sheet);
-        let middle = |tender: &Tender| {
+        let mut tender = played(ReceiptGesture::Toss, sheet);
+        let middle = |tender: &ReceiptApp| {
             let x = tender.cloth().positions();
             x.iter().sum::<Vec3>() / x.len() as f32 / tender.settings().sheet.unit()
         };
@@ -299,7 +299,7 @@ fn a_toss_flies_lands_and_comes_to_rest_on_the_floor() {
 
 #[test]
 fn crumpled_paper_is_a_ball_and_stays_one() {
-    let mut tender = played(Gesture::Crumple, Sheet::Paper);
+    let mut tender = played(ReceiptGesture::Crumple, Sheet::Paper);
     tender.play(120).unwrap();
     let unit = Sheet::Paper.unit();
     let x = tender.cloth().positions();
@@ -321,10 +321,10 @@ fn reset_brings_everything_back_in_half_a_second_and_the_last_of_it_slowly() {
     for sheet in Sheet::ALL {
         // Folded and held, crumpled and on the floor, in the air.
         for (gesture, ticks) in [
-            (Gesture::Fold, 180),
-            (Gesture::Letter, 620),
-            (Gesture::Crumple, 240),
-            (Gesture::Toss, 170),
+            (ReceiptGesture::Fold, 180),
+            (ReceiptGesture::Letter, 620),
+            (ReceiptGesture::Crumple, 240),
+            (ReceiptGesture::Toss, 170),
         ] {
             comes_back(&mut played_for(gesture, sheet, ticks));
         }
@@ -337,23 +337,23 @@ fn reset_brings_everything_back_in_half_a_second_and_the_last_of_it_slowly() {
     }
 }
 
-fn comes_back(tender: &mut Tender) {
+fn comes_back(tender: &mut ReceiptApp) {
     // Also while time stands still.
-    tender.act(Action::Pause).unwrap();
-    tender.act(Action::Reset).unwrap();
-    let mut ways = vec![off(tender)];
-    while tender.is_put_back() {
+    tender.act(ReceiptAction::Pause).unwrap();
+    tender.act(ReceiptAction::Reset).unwrap();
+    let mut tracks = vec![off(tender)];
+    while tender.is_returning() {
         tender.frame(FRAME).unwrap();
-        ways.push(off(tender));
-        assert!(ways.len() < 40, "it does not arrive: {ways:?}");
+        tracks.push(off(tender));
+        assert!(tracks.len() < 40, "it does not arrive: {tracks:?}");
     }
-    assert_eq!(ways.len(), 31, "it took {} frames", ways.len() - 1);
-    let steps: Vec<f32> = ways.windows(2).map(|two| two[0] - two[1]).collect();
+    assert_eq!(tracks.len(), 31, "it took {} frames", tracks.len() - 1);
+    let steps: Vec<f32> = tracks.windows(2).map(|two| two[0] - two[1]).collect();
     assert!(steps.windows(2).all(|two| two[1] <= two[0] + 1.0e-3), "no ease-out: {steps:?}");
-    assert!(ways[30] < 1.0e-3, "it is {} units off", ways[30]);
+    assert!(tracks[30] < 1.0e-3, "it is {} units off", tracks[30]);
     let fresh = {
-        let mut fresh = Tender::new(tender.settings().clone(), true, || 0.0).unwrap();
-        fresh.act(Action::Pause).unwrap();
+        let mut fresh = ReceiptApp::new(tender.settings().clone(), true, || 0.0).unwrap();
+        fresh.act(ReceiptAction::Pause).unwrap();
         fresh.play(30).unwrap();
         fresh.cloth().positions().to_vec()
     };

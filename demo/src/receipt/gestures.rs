@@ -1,21 +1,21 @@
-//! What hands do with the receipt in pictures and tests: gestures played by tick, through the same door as
+//! What pointers do with the receipt in pictures and tests: gestures played by tick, through the same door as
 //! a person's pointers and keys.
 
 use glam::Vec2;
 use muslin::Result;
 
-use super::Tender;
-use super::hands::Button;
-use super::settings::Action;
+use super::ReceiptApp;
+use super::pointers::PressKind;
+use super::settings::ReceiptAction;
 
 /// A gesture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Gesture {
-    /// Two hands lift the lower edge to the upper one; the bend is pressed into a crease; they let go.
+pub enum ReceiptGesture {
+    /// Two pointers lift the lower edge to the upper one; the bend is pressed into a crease; they let go.
     Fold,
-    /// Hands press the sheet to a ball, again and again, and drop it.
+    /// ReceiptPointers press the sheet to a ball, again and again, and drop it.
     Crumple,
-    /// Two hands fold it on the floor, in half and in half again, and let go.
+    /// Two pointers fold it on the floor, in half and in half again, and let go.
     Letter,
     /// A hand takes it off its pins and throws it across the floor.
     Toss,
@@ -23,48 +23,59 @@ pub enum Gesture {
 
 /// A pointer's way: where it is at which tick, in shares of the sheet as it hangs, (0, 0) its top left
 /// corner; it eases from place to place.
-type Way = &'static [(u32, [f32; 2])];
+type PointerTrack = &'static [(u32, [f32; 2])];
 
 /// Something that is done at a tick.
 #[derive(Clone, Copy)]
-enum Deed {
-    Act(Action),
+enum ScriptedAction {
+    Act(ReceiptAction),
     /// A finger presses the bend at this place, in shares of the sheet as it hangs.
     Crease([f32; 2]),
 }
 
-struct Score {
+struct GestureScript {
     ticks: u32,
-    ways: &'static [Way],
-    deeds: &'static [(u32, Deed)],
+    tracks: &'static [PointerTrack],
+    actions: &'static [(u32, ScriptedAction)],
 }
 
-const FOLD: Score = Score {
+const FOLD: GestureScript = GestureScript {
     ticks: 720,
-    ways: &[
+    tracks: &[
         &[(0, [0.03, 0.99]), (12, [0.03, 0.99]), (150, [0.06, 0.10]), (330, [0.06, 0.10])],
         &[(0, [0.97, 0.99]), (12, [0.97, 0.99]), (150, [0.94, 0.10]), (330, [0.94, 0.10])],
     ],
-    deeds: &[(250, Deed::Crease([0.5, 0.40])), (290, Deed::Crease([0.5, 0.40]))],
+    actions: &[
+        (250, ScriptedAction::Crease([0.5, 0.40])),
+        (290, ScriptedAction::Crease([0.5, 0.40])),
+    ],
 };
 
-const CRUMPLE: Score = Score { ticks: 960, ways: &[], deeds: &[(1, Deed::Act(Action::Crumple))] };
+const CRUMPLE: GestureScript = GestureScript {
+    ticks: 960,
+    tracks: &[],
+    actions: &[(1, ScriptedAction::Act(ReceiptAction::Crumple))],
+};
 
-const LETTER: Score = Score { ticks: 1080, ways: &[], deeds: &[(1, Deed::Act(Action::Fold))] };
+const LETTER: GestureScript = GestureScript {
+    ticks: 1080,
+    tracks: &[],
+    actions: &[(1, ScriptedAction::Act(ReceiptAction::Fold))],
+};
 
-const TOSS: Score = Score {
+const TOSS: GestureScript = GestureScript {
     ticks: 840,
-    ways: &[&[
+    tracks: &[&[
         (0, [0.5, 0.12]),
         (30, [0.5, 0.12]),
         (90, [-0.25, 0.10]),
         (130, [-0.35, 0.15]),
         (160, [0.80, 0.05]),
     ]],
-    deeds: &[(20, Deed::Act(Action::Drop))],
+    actions: &[(20, ScriptedAction::Act(ReceiptAction::Drop))],
 };
 
-impl Gesture {
+impl ReceiptGesture {
     /// All of them, with the names that the command line knows.
     pub const ALL: [(&'static str, Self); 4] = [
         ("fold", Self::Fold),
@@ -75,7 +86,7 @@ impl Gesture {
 
     /// Ticks from its beginning until the receipt rests again.
     pub fn ticks(self) -> u32 {
-        self.score().ticks
+        self.script().ticks
     }
 
     /// How far the camera is dragged to see it well, in heights of the screen, and what its distance is multiplied by.
@@ -89,7 +100,7 @@ impl Gesture {
         }
     }
 
-    fn score(self) -> &'static Score {
+    fn script(self) -> &'static GestureScript {
         match self {
             Self::Fold => &FOLD,
             Self::Letter => &LETTER,
@@ -100,30 +111,30 @@ impl Gesture {
 }
 
 /// A gesture while it is played.
-pub struct Play {
-    gesture: Gesture,
+pub struct ReceiptGesturePlayer {
+    gesture: ReceiptGesture,
     tick: u32,
 }
 
-impl Play {
+impl ReceiptGesturePlayer {
     /// Begins on the sheet as it hangs.
-    pub fn new(gesture: Gesture) -> Self {
+    pub fn new(gesture: ReceiptGesture) -> Self {
         Self { gesture, tick: 0 }
     }
 
     /// Plays one tick.
     ///
     /// # Errors
-    /// As [`Tender::press`], [`Tender::lift`], [`Tender::act`] and [`Tender::crease`].
-    pub fn step(&mut self, tender: &mut Tender) -> Result<()> {
-        let score = self.gesture.score();
-        for (id, way) in (1..).zip(score.ways) {
+    /// As [`ReceiptApp::press`], [`ReceiptApp::lift`], [`ReceiptApp::act`] and [`ReceiptApp::crease`].
+    pub fn step(&mut self, tender: &mut ReceiptApp) -> Result<()> {
+        let script = self.gesture.script();
+        for (id, way) in (1..).zip(script.tracks) {
             let [(begin, _), .., (end, _)] = way else {
                 continue;
             };
             let at = on_screen(tender, place(way, self.tick));
             if self.tick == *begin {
-                tender.press(id, at, Button::Main)?;
+                tender.press(id, at, PressKind::Main)?;
             } else if self.tick > *begin && self.tick <= *end {
                 tender.drag(id, at);
             }
@@ -131,10 +142,10 @@ impl Play {
                 tender.lift(id)?;
             }
         }
-        for (_, deed) in score.deeds.iter().filter(|(tick, _)| *tick == self.tick) {
-            match deed {
-                Deed::Act(action) => tender.act(*action)?,
-                Deed::Crease(share) => {
+        for (_, action) in script.actions.iter().filter(|(tick, _)| *tick == self.tick) {
+            match action {
+                ScriptedAction::Act(action) => tender.act(*action)?,
+                ScriptedAction::Crease(share) => {
                     let at = on_screen(tender, *share);
                     tender.crease(at)?;
                 }
@@ -147,13 +158,13 @@ impl Play {
 }
 
 /// Where on the screen a place of the sheet as it hangs is.
-fn on_screen(tender: &Tender, [x, y]: [f32; 2]) -> Vec2 {
+fn on_screen(tender: &ReceiptApp, [x, y]: [f32; 2]) -> Vec2 {
     let at = Vec2::new(x - 0.5, 0.5 - y) * tender.span();
     tender.on_screen(at.extend(0.0)).unwrap_or_default()
 }
 
 /// Where a way is at a tick: a hand speeds up and slows down, but the last stretch ends at full speed.
-fn place(way: Way, tick: u32) -> [f32; 2] {
+fn place(way: PointerTrack, tick: u32) -> [f32; 2] {
     let after = way.iter().position(|(at, _)| *at >= tick);
     let to = after.unwrap_or(way.len() - 1);
     let from = to.saturating_sub(1);
@@ -170,7 +181,7 @@ mod tests {
 
     #[test]
     fn a_hand_passes_its_places_at_their_ticks() {
-        for way in FOLD.ways.iter().chain(TOSS.ways) {
+        for way in FOLD.tracks.iter().chain(TOSS.tracks) {
             for (tick, at) in *way {
                 let off = Vec2::from(place(way, *tick)).distance(Vec2::from(*at));
                 assert!(off < 1.0e-5, "at {tick} it is {off} off {at:?}");

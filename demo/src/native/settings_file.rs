@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::settings::Settings;
 
-/// Where the settings are kept; `None` if the user has no such folder.
+/// Where the settings are saved_settings; `None` if the user has no such folder.
 pub fn path() -> Option<PathBuf> {
     let folder =
         |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
@@ -28,7 +28,7 @@ pub fn write(json: &str) {
     if let Some(path) = path()
         && let Err(error) = write_to(&path, json)
     {
-        eprintln!("settings are not kept: {}: {error}", path.display());
+        eprintln!("settings are not saved: {}: {error}", path.display());
     }
 }
 

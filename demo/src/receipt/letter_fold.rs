@@ -1,4 +1,4 @@
-//! Folding a letter: two hands tip the sheet back, its print away from the eye, fold it in half towards the eye and
+//! Folding a letter_fold: two pointers tip the sheet back, its print away from the eye, fold it in half towards the eye and
 //! in half again, press each crease, lay it on the floor and let go.
 //!
 //! ```text
@@ -15,7 +15,7 @@ use muslin_scenes::receipt::FLOOR;
 /// Fingers across the sheet, and rows of them down its length.
 const ACROSS: u32 = 6;
 const DOWN: u32 = 9;
-/// When the hands have it all, when it is before the eye, when each half is begun to be folded over, when it is over, when
+/// When the pointers have it all, when it is before the eye, when each half is begun to be folded over, when it is over, when
 /// its crease is pressed, when the letter lies, and when they let go [s].
 const TAKEN: f32 = 0.3;
 const TIPPED: f32 = 1.5;
@@ -32,9 +32,9 @@ const CREASE: f32 = 0.3;
 /// Height of what lies, over the floor, and of every layer more, in units.
 const LYING: f32 = 0.05;
 const LAYER: f32 = 0.07;
-/// Hands that fold.
+/// ReceiptPointers that fold.
 #[derive(Debug)]
-pub struct Letter {
+pub struct LetterFold {
     /// Each with where it takes hold [m], and which place of the sheet, in units from the middle of its top.
     fingers: Vec<(Grab, Vec3, [f32; 2])>,
     /// Length of the sheet, in units.
@@ -44,7 +44,7 @@ pub struct Letter {
     age: f32,
 }
 
-impl Letter {
+impl LetterFold {
     /// Takes hold of a sheet as it was woven by `desc`, where a unit is so long [m].
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Letter {
                 let from = cloth.positions()[particle as usize];
                 let grab = match cloth.grab_particle(particle) {
                     Ok(grab) => grab,
-                    // Other hands hold all that can be held.
+                    // Other pointers hold all that can be held.
                     Err(Error::Full { .. }) => break,
                     Err(error) => return Err(error),
                 };
@@ -72,7 +72,7 @@ impl Letter {
         Ok(Self { fingers, length, desc, unit, age: 0.0 })
     }
 
-    /// Goes on for one tick, and says whether the hands still hold; they have let go otherwise.
+    /// Goes on for one tick, and says whether the pointers still hold; they have let go otherwise.
     ///
     /// # Errors
     /// As [`Cloth::move_grab`] and [`Cloth::crease`].
@@ -121,7 +121,7 @@ impl Letter {
         Ok(())
     }
 
-    /// Where hands have a place of the sheet now, in units.
+    /// Where pointers have a place of the sheet now, in units.
     fn place(&self, [across, down]: [f32; 2]) -> Vec3 {
         let half = 0.5 * self.length;
         let [first, second] = [0, 1].map(|fold| ease(self.age, BEGUN[fold], FOLDED[fold]));

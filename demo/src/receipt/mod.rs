@@ -1,18 +1,18 @@
-//! Tender: a receipt that hangs from two pins, to fold, crumple and toss. The same behind a window, on a
+//! ReceiptApp: a receipt that hangs from two pins, to fold, crumple and toss. The same behind a window, on a
 //! page and in a file, like [`crate::app`].
 //!
 //! What is drawn is measured in the brief's units, what moves in metres: [`Sheet::unit`] of them a unit.
 
-pub mod bill;
 pub mod crease;
-mod drawn;
-pub mod hands;
-pub mod letter;
+mod draw;
+pub mod gestures;
+pub mod ink_map;
+pub mod letter_fold;
 #[cfg(target_arch = "wasm32")]
 pub mod page;
-pub mod play;
-pub mod print;
-pub mod put_back;
+pub mod pointers;
+pub mod receipt_text;
+pub mod return_animation;
 pub mod settings;
 
 use glam::{Vec2, Vec3};
@@ -20,14 +20,15 @@ use muslin::{Cloth, Result};
 use muslin_scenes::receipt::Sheet;
 use muslin_scenes::squeeze::Squeeze;
 
-use crate::camera::{Camera, Rig};
-use crate::meter::{Governor, Meter, Readout, StageTime};
-use crate::pointer::{Cursor, Screen};
+use crate::camera::{Camera, CameraRig};
+use crate::meter::{Meter, Readout, ResolutionScaler, StageTime};
+use crate::picking::Screen;
+use crate::pointer::Cursor;
 use crease::Creases;
-use hands::{Button, Hands, Table};
-use letter::Letter;
-use put_back::PutBack;
-pub use settings::{Action, Control, Settings};
+use letter_fold::LetterFold;
+use pointers::{PressKind, ReceiptPickContext, ReceiptPointers};
+use return_animation::ReturnAnimation;
+pub use settings::{ReceiptAction, ReceiptControl, ReceiptSettings};
 
 /// Length of a tick [s], and the longest frame that ticks are run for.
 pub const TICK: f32 = 1.0 / 120.0;
@@ -43,62 +44,62 @@ const HOLD: f32 = 1.02;
 pub const TARGET: Vec3 = Vec3::new(0.0, -1.0, 0.0);
 
 /// The running scene.
-pub struct Tender {
-    settings: Settings,
+pub struct ReceiptApp {
+    settings: ReceiptSettings,
     small: bool,
-    calm: bool,
+    reduced_motion: bool,
     cloth: Cloth,
     camera: Camera,
-    hands: Hands,
+    pointers: ReceiptPointers,
     creases: Creases,
     squeeze: Option<Squeeze>,
-    letter: Option<Letter>,
-    put_back: Option<PutBack>,
+    letter_fold: Option<LetterFold>,
+    return_animation: Option<ReturnAnimation>,
     screen: Screen,
     /// Time that frames brought and no tick has run yet [s].
-    owed: f32,
+    unspent_time: f32,
     meter: Meter,
-    governor: Governor,
+    resolution_scaler: ResolutionScaler,
     clock: fn() -> f64,
     positions: Vec<Vec3>,
     generation: u32,
     times_stages: bool,
 }
 
-impl Tender {
+impl ReceiptApp {
     /// Hangs the receipt, one of fewer particles if `small`. `clock` counts seconds from anywhere.
     ///
     /// # Errors
     /// As [`Sheet::hang`].
-    pub fn new(settings: Settings, small: bool, clock: fn() -> f64) -> Result<Self> {
+    pub fn new(settings: ReceiptSettings, small: bool, clock: fn() -> f64) -> Result<Self> {
         let cloth = settings.sheet.hang(small)?;
         let mut tender = Self {
             camera: Camera::new(rig()),
             cloth,
             settings,
             small,
-            calm: false,
-            hands: Hands::default(),
+            reduced_motion: false,
+            pointers: ReceiptPointers::default(),
             creases: Creases::default(),
             squeeze: None,
-            letter: None,
-            put_back: None,
+            letter_fold: None,
+            return_animation: None,
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
-            owed: 0.0,
+            unspent_time: 0.0,
             meter: Meter::default(),
-            governor: Governor::default(),
+            resolution_scaler: ResolutionScaler::default(),
             clock,
             positions: Vec::new(),
             generation: 0,
             times_stages: false,
         };
         tender.camera.set_drift(false);
-        tender.blow()?;
+        tender.apply_wind()?;
         Ok(tender)
     }
 
     /// The controls' values.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &ReceiptSettings {
         &self.settings
     }
 
@@ -106,18 +107,18 @@ impl Tender {
     ///
     /// # Errors
     /// As [`Sheet::hang`].
-    pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
+    pub fn set_settings(&mut self, settings: ReceiptSettings) -> Result<()> {
         let rehang = settings.sheet != self.settings.sheet;
         self.settings = settings;
-        if rehang { self.hang() } else { self.blow() }
+        if rehang { self.rebuild_cloth() } else { self.apply_wind() }
     }
 
     /// Does what a key does, and says whether it was one.
     ///
     /// # Errors
-    /// As [`Tender::act`].
+    /// As [`ReceiptApp::act`].
     pub fn key(&mut self, key: char) -> Result<bool> {
-        let Some(control) = settings::of_key(key) else {
+        let Some(control) = settings::find_control_by_key(key) else {
             return Ok(false);
         };
         self.act(control.action)?;
@@ -128,17 +129,17 @@ impl Tender {
     ///
     /// # Errors
     /// As [`Sheet::hang`] and [`Cloth::grab_particle`].
-    pub fn act(&mut self, action: Action) -> Result<()> {
+    pub fn act(&mut self, action: ReceiptAction) -> Result<()> {
         let mut settings = self.settings.clone();
         match action {
-            Action::Wind => settings.wind = !settings.wind,
-            Action::Pause => settings.paused = !settings.paused,
-            Action::Counter => settings.counter = !settings.counter,
-            Action::Sheet => settings.sheet = settings.sheet.other(),
-            Action::Reset => return self.reset(),
-            Action::Drop => self.cloth.unpin_all(),
-            Action::Crumple => return self.crumple(),
-            Action::Fold => return self.fold(),
+            ReceiptAction::Wind => settings.wind = !settings.wind,
+            ReceiptAction::Pause => settings.paused = !settings.paused,
+            ReceiptAction::Counter => settings.counter = !settings.counter,
+            ReceiptAction::Sheet => settings.sheet = settings.sheet.other(),
+            ReceiptAction::Reset => return self.reset(),
+            ReceiptAction::Drop => self.cloth.unpin_all(),
+            ReceiptAction::Crumple => return self.crumple(),
+            ReceiptAction::Fold => return self.fold(),
         }
         self.set_settings(settings)
     }
@@ -147,40 +148,40 @@ impl Tender {
     ///
     /// # Errors
     /// As [`Sheet::hang`].
-    pub fn set_calm(&mut self, calm: bool) -> Result<()> {
-        self.calm = calm;
-        if calm && !self.small {
+    pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<()> {
+        self.reduced_motion = reduced_motion;
+        if reduced_motion && !self.small {
             self.small = true;
-            return self.hang();
+            return self.rebuild_cloth();
         }
-        self.blow()
+        self.apply_wind()
     }
 
     /// The screen has this size, in the pixels that pointers count in.
     pub fn resize(&mut self, size: Vec2) {
         if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
             self.screen.size = size;
-            self.camera.frame(self.screen.aspect());
+            self.camera.fit_to_aspect(self.screen.aspect());
         }
     }
 
     /// A pointer comes down.
     ///
     /// # Errors
-    /// As [`Hands::press`].
-    pub fn press(&mut self, id: u32, at: Vec2, button: Button) -> Result<()> {
+    /// As [`ReceiptPointers::press`].
+    pub fn press(&mut self, id: u32, at: Vec2, button: PressKind) -> Result<()> {
         // What is on its way back cannot be held.
-        if self.put_back.is_some() && button == Button::Main {
+        if self.return_animation.is_some() && button == PressKind::Main {
             return Ok(());
         }
-        let (hands, mut table) = self.hands();
-        hands.press(id, at, button, &mut table)
+        let (pointers, mut pick) = self.pick_context();
+        pointers.press(id, at, button, &mut pick)
     }
 
     /// A pointer moves.
     pub fn drag(&mut self, id: u32, to: Vec2) {
-        let (hands, mut table) = self.hands();
-        hands.drag(id, to, &mut table);
+        let (pointers, mut pick) = self.pick_context();
+        pointers.drag(id, to, &mut pick);
     }
 
     /// A pointer goes up, or is lost.
@@ -188,22 +189,22 @@ impl Tender {
     /// # Errors
     /// As [`Cloth::release`].
     pub fn lift(&mut self, id: u32) -> Result<()> {
-        let (hands, mut table) = self.hands();
-        hands.lift(id, &mut table)
+        let (pointers, mut pick) = self.pick_context();
+        pointers.lift(id, &mut pick)
     }
 
     /// The mouse has left the screen.
-    pub fn leave(&mut self) {
-        self.hands.leave();
+    pub fn clear_hover(&mut self) {
+        self.pointers.clear_hover();
     }
 
-    /// The key that leaves hands where they are goes down, or up, and they let go.
+    /// The key that leaves pointers where they are goes down, or up, and they let go.
     ///
     /// # Errors
     /// As [`Cloth::release`].
-    pub fn stay(&mut self, on: bool) -> Result<()> {
-        let (hands, mut table) = self.hands();
-        hands.stay(on, &mut table)
+    pub fn set_leave_in_place(&mut self, on: bool) -> Result<()> {
+        let (pointers, mut pick) = self.pick_context();
+        pointers.set_leave_in_place(on, &mut pick)
     }
 
     /// A finger runs along the bend under a point of the screen and makes it a crease; says whether there
@@ -212,12 +213,12 @@ impl Tender {
     /// # Errors
     /// As [`Cloth::crease`].
     pub fn crease(&mut self, at: Vec2) -> Result<bool> {
-        if self.settings.sheet != Sheet::Paper || self.put_back.is_some() {
+        if self.settings.sheet != Sheet::Paper || self.return_animation.is_some() {
             return Ok(false);
         }
-        let (_, table) = self.hands();
-        let ray = table.ray(at);
-        let Some(hit) = table.cloth.raycast(table.sight.eye, ray, f32::INFINITY)? else {
+        let (_, pick) = self.pick_context();
+        let ray = pick.ray(at);
+        let Some(hit) = pick.cloth.raycast(pick.view.eye, ray, f32::INFINITY)? else {
             return Ok(false);
         };
         let desc = self.settings.sheet.desc(self.small);
@@ -239,8 +240,8 @@ impl Tender {
     /// # Errors
     /// As [`Cloth::raycast`].
     pub fn cursor(&mut self) -> Result<Cursor> {
-        let (hands, table) = self.hands();
-        hands.cursor(&table)
+        let (pointers, pick) = self.pick_context();
+        pointers.cursor(&pick)
     }
 
     /// Lets `seconds` pass.
@@ -250,23 +251,23 @@ impl Tender {
     pub fn frame(&mut self, seconds: f32) -> Result<()> {
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
         let step = seconds.min(LONGEST_FRAME);
-        self.camera.advance(step, self.hands.any());
-        if let Some(mut put_back) = self.put_back.take() {
-            if put_back.advance(step, &mut self.cloth)? {
-                self.put_back = Some(put_back);
+        self.camera.advance(step, self.pointers.is_any_down());
+        if let Some(mut return_animation) = self.return_animation.take() {
+            if return_animation.advance(step, &mut self.cloth)? {
+                self.return_animation = Some(return_animation);
             } else {
-                self.settle();
+                self.finish_reset();
             }
         } else if !self.settings.paused {
-            self.owed += step;
-            let ticks = (self.owed / TICK) as u32;
-            self.owed -= ticks as f32 * TICK;
+            self.unspent_time += step;
+            let ticks = (self.unspent_time / TICK) as u32;
+            self.unspent_time -= ticks as f32 * TICK;
             let (clock, start) = (self.clock, (self.clock)());
-            self.play_while(ticks, || clock() - start < PATIENCE)?;
-            self.meter.simulated(clock() - start);
+            self.run_ticks_while(ticks, || clock() - start < PATIENCE)?;
+            self.meter.record_simulation(clock() - start);
         }
-        self.meter.frame(seconds);
-        self.governor.frame(seconds);
+        self.meter.record_frame(seconds);
+        self.resolution_scaler.record_frame(seconds);
         Ok(())
     }
 
@@ -275,30 +276,30 @@ impl Tender {
     /// # Errors
     /// As [`Cloth::move_grab`].
     pub fn play(&mut self, ticks: u32) -> Result<()> {
-        self.play_while(ticks, || true)
+        self.run_ticks_while(ticks, || true)
     }
 
     /// Runs so many ticks, one at least, as long as there is time.
-    fn play_while(&mut self, ticks: u32, has_time: impl Fn() -> bool) -> Result<()> {
+    fn run_ticks_while(&mut self, ticks: u32, has_time: impl Fn() -> bool) -> Result<()> {
         if ticks > 0 {
-            let (hands, mut table) = self.hands();
-            hands.follow(&mut table)?;
+            let (pointers, mut pick) = self.pick_context();
+            pointers.update_targets(&mut pick)?;
         }
         for tick in 0..ticks {
             if tick > 0 && !has_time() {
                 return Ok(());
             }
-            self.hands.tick(TICK, &mut self.cloth)?;
-            self.pull_off()?;
+            self.pointers.tick(TICK, &mut self.cloth)?;
+            self.unpin_pulled()?;
             if let Some(mut squeeze) = self.squeeze.take()
                 && squeeze.tick(TICK, &mut self.cloth)?
             {
                 self.squeeze = Some(squeeze);
             }
-            if let Some(mut letter) = self.letter.take()
-                && letter.tick(TICK, &mut self.cloth)?
+            if let Some(mut letter_fold) = self.letter_fold.take()
+                && letter_fold.tick(TICK, &mut self.cloth)?
             {
-                self.letter = Some(letter);
+                self.letter_fold = Some(letter_fold);
             }
             self.cloth.step(1);
         }
@@ -311,7 +312,7 @@ impl Tender {
         self.cloth.set_clock(on.then_some(self.clock));
     }
 
-    /// How long each stage takes, while [`Tender::time_stages`] is on.
+    /// How long each stage takes, while [`ReceiptApp::time_stages`] is on.
     pub fn stage_times(&self) -> Vec<StageTime> {
         self.meter.stages()
     }
@@ -337,7 +338,7 @@ impl Tender {
     }
 
     /// Particles across and down.
-    pub fn weave(&self) -> [u32; 2] {
+    pub fn grid_size(&self) -> [u32; 2] {
         self.settings.sheet.grid_size(self.small)
     }
 
@@ -349,74 +350,74 @@ impl Tender {
 
     /// Where on the screen a place appears that is given in units.
     pub fn on_screen(&self, at: Vec3) -> Option<Vec2> {
-        let normal = self.camera.sight().project(at, self.screen.aspect())?;
+        let normal = self.camera.view().project(at, self.screen.aspect())?;
         Some(self.screen.pixels(normal))
     }
 
     /// Whether the receipt is on its way back to its pins.
-    pub fn is_put_back(&self) -> bool {
-        self.put_back.is_some()
+    pub fn is_returning(&self) -> bool {
+        self.return_animation.is_some()
     }
 
     /// Whether it is being crumpled.
-    pub fn is_squeezed(&self) -> bool {
+    pub fn is_crumpling(&self) -> bool {
         self.squeeze.is_some()
     }
 
     /// A fresh receipt.
-    fn hang(&mut self) -> Result<()> {
+    fn rebuild_cloth(&mut self) -> Result<()> {
         self.cloth = self.settings.sheet.hang(self.small)?;
         self.cloth.set_clock(self.times_stages.then_some(self.clock));
-        self.hands.forget();
-        self.forget();
-        self.blow()
+        self.pointers.clear();
+        self.clear_actions();
+        self.apply_wind()
     }
 
-    fn blow(&mut self) -> Result<()> {
-        let blows = self.settings.wind && !self.calm;
+    fn apply_wind(&mut self) -> Result<()> {
+        let blows = self.settings.wind && !self.reduced_motion;
         self.cloth.set_wind(self.settings.sheet.wind(blows))
     }
 
     /// Half a second's way back to the pins, from wherever it is.
     fn reset(&mut self) -> Result<()> {
-        let (hands, mut table) = self.hands();
-        hands.open(&mut table)?;
+        let (pointers, mut pick) = self.pick_context();
+        pointers.release_all(&mut pick)?;
         if let Some(squeeze) = self.squeeze.take() {
             squeeze.release(&mut self.cloth)?;
         }
-        if let Some(letter) = self.letter.take() {
-            letter.release(&mut self.cloth)?;
+        if let Some(letter_fold) = self.letter_fold.take() {
+            letter_fold.release(&mut self.cloth)?;
         }
         let desc = self.settings.sheet.desc(self.small);
-        self.put_back = Some(PutBack::new(&self.cloth, &desc));
+        self.return_animation = Some(ReturnAnimation::new(&self.cloth, &desc));
         Ok(())
     }
 
     /// The way back is done: the receipt is as new.
-    fn settle(&mut self) {
+    fn finish_reset(&mut self) {
         self.cloth.reset();
-        self.forget();
+        self.clear_actions();
         // Creases are gone, those of the roll too, and the brief's masses.
         if let Err(error) = self.settings.sheet.apply_initial_state(&mut self.cloth, self.small) {
             unreachable!("the scene's own sheet: {error}");
         }
     }
 
-    fn forget(&mut self) {
+    fn clear_actions(&mut self) {
         self.creases = Creases::default();
         self.squeeze = None;
-        self.letter = None;
-        self.put_back = None;
-        self.owed = 0.0;
+        self.letter_fold = None;
+        self.return_animation = None;
+        self.unspent_time = 0.0;
         self.generation = self.generation.wrapping_add(1);
     }
 
     fn crumple(&mut self) -> Result<()> {
-        if self.is_handled() {
+        if self.is_busy() {
             return Ok(());
         }
-        let (hands, mut table) = self.hands();
-        hands.open(&mut table)?;
+        let (pointers, mut pick) = self.pick_context();
+        pointers.release_all(&mut pick)?;
         self.cloth.unpin_all();
         let unit = self.settings.sheet.unit();
         self.squeeze = Some(Squeeze::new(&mut self.cloth, unit)?);
@@ -424,26 +425,26 @@ impl Tender {
     }
 
     fn fold(&mut self) -> Result<()> {
-        if self.is_handled() {
+        if self.is_busy() {
             return Ok(());
         }
-        let (hands, mut table) = self.hands();
-        hands.open(&mut table)?;
+        let (pointers, mut pick) = self.pick_context();
+        pointers.release_all(&mut pick)?;
         self.cloth.unpin_all();
         let sheet = self.settings.sheet;
         let desc = sheet.desc(self.small);
-        self.letter = Some(Letter::new(&mut self.cloth, desc, sheet.unit())?);
+        self.letter_fold = Some(LetterFold::new(&mut self.cloth, desc, sheet.unit())?);
         Ok(())
     }
 
-    /// Whether hands of its own do something with it.
-    fn is_handled(&self) -> bool {
-        self.squeeze.is_some() || self.letter.is_some() || self.put_back.is_some()
+    /// Whether pointers of its own do something with it.
+    fn is_busy(&self) -> bool {
+        self.squeeze.is_some() || self.letter_fold.is_some() || self.return_animation.is_some()
     }
 
     /// Paper comes off a pin that a hand pulls it away from.
-    fn pull_off(&mut self) -> Result<()> {
-        if self.settings.sheet != Sheet::Paper || !self.hands.holds_paper() {
+    fn unpin_pulled(&mut self) -> Result<()> {
+        if self.settings.sheet != Sheet::Paper || !self.pointers.holds_cloth() {
             return Ok(());
         }
         let desc = self.settings.sheet.desc(self.small);
@@ -454,7 +455,7 @@ impl Tender {
         let pins: Vec<u32> = self.cloth.pinned().collect();
         for pin in pins {
             let at = self.cloth.positions()[pin as usize];
-            let pulled = self.hands.grips().any(|(particle, to)| {
+            let pulled = self.pointers.grabs().any(|(particle, to)| {
                 particle == pin || to.distance(at) > HOLD * place(particle).distance(place(pin))
             });
             if pulled {
@@ -464,24 +465,24 @@ impl Tender {
         Ok(())
     }
 
-    fn hands(&mut self) -> (&mut Hands, Table<'_>) {
+    fn pick_context(&mut self) -> (&mut ReceiptPointers, ReceiptPickContext<'_>) {
         let unit = self.settings.sheet.unit();
-        let table = Table {
-            sight: self.camera.sight().scaled(unit),
-            columns: self.weave()[0],
+        let pick = ReceiptPickContext {
+            view: self.camera.view().scaled(unit),
+            columns: self.grid_size()[0],
             slides: self.settings.sheet == Sheet::Paper,
             unit,
             screen: self.screen,
             cloth: &mut self.cloth,
             camera: &mut self.camera,
         };
-        (&mut self.hands, table)
+        (&mut self.pointers, pick)
     }
 }
 
 /// The camera of the brief, in units.
-fn rig() -> Rig {
-    Rig {
+fn rig() -> CameraRig {
+    CameraRig {
         target: TARGET,
         polar: 0.15..=1.56,
         radius: 4.0..=30.0,

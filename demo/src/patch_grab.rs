@@ -5,31 +5,31 @@ use glam::{Vec2, Vec3};
 use muslin::{Cloth, Error, Grab, LinkKind, Result};
 
 /// How far a fingertip reaches along the cloth, as it is drawn [m]; one edge at least.
-pub const TIP: f32 = 0.055;
+pub const FINGERTIP_RADIUS: f32 = 0.055;
 /// So many particles at most: the cloth has a few dozen grabs for all fingers together.
-const MOST: usize = 9;
+const MAX_PARTICLES: usize = 9;
 
 /// What a hand holds, from taking it to letting go.
 #[derive(Debug)]
-pub struct Hand {
+pub struct PatchGrab {
     /// Each with its place beside the first one.
     held: Vec<(Grab, Vec3)>,
     /// Where the first one is sent [m].
     at: Vec3,
 }
 
-impl Hand {
+impl PatchGrab {
     /// Takes what a ray hits, or what is within `radius` [m] of it; `span` is what the weave's
-    /// coordinates cover, and `tip` how far the fingertip reaches [m].
+    /// coordinates cover, and `fingertip` how far the fingertip reaches [m].
     ///
     /// # Errors
     /// As [`Cloth::grab_ray`].
-    pub fn take(
+    pub fn grab_ray(
         cloth: &mut Cloth,
         [eye, direction]: [Vec3; 2],
         radius: f32,
         span: Vec2,
-        tip: f32,
+        fingertip: f32,
     ) -> Result<Option<Self>> {
         let hit = cloth.raycast(eye, direction, f32::INFINITY)?;
         let Some((grab, at)) = cloth.grab_ray(eye, direction, radius)? else {
@@ -40,7 +40,7 @@ impl Hand {
             Some(found as u32)
         });
         let mut hand = Self { held: vec![(grab, Vec3::ZERO)], at };
-        for particle in first.map_or_else(Vec::new, |first| patch(cloth, first, span, tip)) {
+        for particle in first.map_or_else(Vec::new, |first| patch(cloth, first, span, fingertip)) {
             let beside = cloth.positions()[particle as usize] - at;
             match cloth.grab_particle(particle) {
                 Ok(grab) => hand.held.push((grab, beside)),
@@ -77,12 +77,12 @@ impl Hand {
 
 /// The particles around `first` that threads lead to within a fingertip, nearest first, itself not
 /// included.
-fn patch(cloth: &Cloth, first: u32, span: Vec2, tip: f32) -> Vec<u32> {
+fn patch(cloth: &Cloth, first: u32, span: Vec2, fingertip: f32) -> Vec<u32> {
     let place = |particle: u32| cloth.uvs()[particle as usize] * span;
     let threads: Vec<_> = cloth.links().filter(|link| link.2 != LinkKind::Bend).collect();
     let edge = threads.iter().filter(|link| link.2 == LinkKind::Stretch);
     let edge = edge.map(|(a, b, _)| place(*a).distance(place(*b))).fold(f32::INFINITY, f32::min);
-    let reach = tip.max(1.05 * edge);
+    let reach = fingertip.max(1.05 * edge);
     let near = |particle: u32| place(particle).distance(place(first)) <= reach;
     let mut patch = vec![first];
     let mut next = 0;
@@ -99,7 +99,7 @@ fn patch(cloth: &Cloth, first: u32, span: Vec2, tip: f32) -> Vec<u32> {
     patch.remove(0);
     let far = |particle: &u32| place(*particle).distance(place(first));
     patch.sort_by(|a, b| far(a).total_cmp(&far(b)).then(a.cmp(b)));
-    patch.truncate(MOST - 1);
+    patch.truncate(MAX_PARTICLES - 1);
     patch
 }
 
@@ -119,7 +119,10 @@ mod tests {
     fn a_hand_holds_a_particle_and_its_neighbours_and_lets_go_of_all() {
         let mut cloth = sheet();
         let eye = Vec3::new(0.5, -0.5, 1.0);
-        let mut hand = Hand::take(&mut cloth, [eye, AHEAD], 0.0, Vec2::ONE, TIP).unwrap().unwrap();
+        let mut hand =
+            PatchGrab::grab_ray(&mut cloth, [eye, AHEAD], 0.0, Vec2::ONE, FINGERTIP_RADIUS)
+                .unwrap()
+                .unwrap();
         assert_eq!(hand.held.len(), 5);
         let to = hand.at() + Vec3::new(0.1, 0.1, 0.3);
         hand.move_to(to, &mut cloth).unwrap();
@@ -138,7 +141,7 @@ mod tests {
         let (from, to) = (Vec3::new(0.475, 0.1, -0.2), Vec3::new(0.475, -0.9, -0.2));
         assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
         let left = 10 * 21 + 9;
-        for particle in patch(&cloth, left, Vec2::ONE, TIP) {
+        for particle in patch(&cloth, left, Vec2::ONE, FINGERTIP_RADIUS) {
             assert!(cloth.positions()[particle as usize].x < 0.476);
         }
     }
@@ -146,6 +149,10 @@ mod tests {
     #[test]
     fn past_the_cloth_there_is_nothing_to_hold() {
         let eye = Vec3::new(3.0, 3.0, 1.0);
-        assert!(Hand::take(&mut sheet(), [eye, AHEAD], 0.05, Vec2::ONE, TIP).unwrap().is_none());
+        assert!(
+            PatchGrab::grab_ray(&mut sheet(), [eye, AHEAD], 0.05, Vec2::ONE, FINGERTIP_RADIUS)
+                .unwrap()
+                .is_none()
+        );
     }
 }

@@ -4,17 +4,17 @@ use glam::Vec2;
 use muslin::Result;
 use three_d::{Context, CoreError, RenderTarget, egui};
 
-use super::panel::{Panel, Wish};
-use super::store;
+use super::panel::{Panel, PanelCommand};
+use super::settings_file;
 use crate::app::App;
 use crate::pointer::Cursor;
+use crate::receipt::pointers::PressKind;
 use crate::render::Renderer;
-use crate::tender::hands::Button;
 
 /// A scene with its overlay. Pointers are told in logical pixels; what fails is what the cloth refuses, or
 /// the driver where a picture is drawn.
 #[expect(clippy::missing_errors_doc, reason = "said above, for all of them")]
-pub trait Show {
+pub trait WindowApp {
     /// What the window is called.
     fn title(&self) -> &'static str;
     /// Makes what it needs on the graphics card.
@@ -24,7 +24,7 @@ pub trait Show {
     /// Whether a point belongs to the overlay.
     fn covers(&self, at: Vec2) -> bool;
     /// A pointer comes down.
-    fn press(&mut self, id: u32, at: Vec2, button: Button) -> Result<()>;
+    fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> Result<()>;
     /// A pointer comes down for the second time.
     fn press_twice(&mut self, at: Vec2) -> Result<()>;
     /// A pointer moves.
@@ -32,7 +32,7 @@ pub trait Show {
     /// A pointer goes up.
     fn lift(&mut self, id: u32) -> Result<()>;
     /// The mouse has left the window.
-    fn leave(&mut self);
+    fn clear_hover(&mut self);
     /// The wheel turns by so many pixels, away if positive.
     fn wheel(&mut self, pixels: f32);
     /// A trackpad's pinch, nearer above one.
@@ -46,33 +46,33 @@ pub trait Show {
     /// Lets time pass.
     fn frame(&mut self, seconds: f32) -> Result<()>;
     /// Draws the overlay and notes what the user wants.
-    fn overlay(&mut self, ctx: &egui::Context);
+    fn draw_overlay(&mut self, ctx: &egui::Context);
     /// Does what the user wanted.
-    fn obey(&mut self) -> Result<()>;
+    fn run_commands(&mut self) -> Result<()>;
     /// Draws the picture.
     fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError>;
-    /// Writes down what is to be kept; asked once a second and at the end.
-    fn keep(&mut self);
+    /// Writes down what is to be saved_settings; asked once a second and at the end.
+    fn save_settings(&mut self);
 }
 
 /// The sheet with its panel.
-pub struct Sheet {
+pub struct ClothWindow {
     app: App,
     renderer: Option<Renderer>,
     panel: Panel,
-    wishes: Vec<Wish>,
-    kept: String,
+    commands: Vec<PanelCommand>,
+    saved_settings: String,
 }
 
-impl Sheet {
+impl ClothWindow {
     /// Around an app.
     pub fn new(app: App) -> Self {
-        let kept = app.settings().to_json();
-        Self { app, renderer: None, panel: Panel::default(), wishes: Vec::new(), kept }
+        let saved_settings = app.settings().to_json();
+        Self { app, renderer: None, panel: Panel::default(), commands: Vec::new(), saved_settings }
     }
 }
 
-impl Show for Sheet {
+impl WindowApp for ClothWindow {
     fn title(&self) -> &'static str {
         "Muslin"
     }
@@ -90,9 +90,9 @@ impl Show for Sheet {
         self.panel.covers(at)
     }
 
-    fn press(&mut self, id: u32, at: Vec2, button: Button) -> Result<()> {
+    fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> Result<()> {
         self.panel.hide_help();
-        if button == Button::Main { self.app.press(id, at) } else { Ok(()) }
+        if press == PressKind::Main { self.app.press(id, at) } else { Ok(()) }
     }
 
     fn press_twice(&mut self, _: Vec2) -> Result<()> {
@@ -107,8 +107,8 @@ impl Show for Sheet {
         self.app.lift(id)
     }
 
-    fn leave(&mut self) {
-        self.app.leave();
+    fn clear_hover(&mut self) {
+        self.app.clear_hover();
     }
 
     fn wheel(&mut self, pixels: f32) {
@@ -143,16 +143,16 @@ impl Show for Sheet {
         self.app.frame(seconds)
     }
 
-    fn overlay(&mut self, ctx: &egui::Context) {
-        self.panel.draw(ctx, &self.app, &mut self.wishes);
+    fn draw_overlay(&mut self, ctx: &egui::Context) {
+        self.panel.draw(ctx, &self.app, &mut self.commands);
     }
 
-    fn obey(&mut self) -> Result<()> {
-        for wish in self.wishes.drain(..) {
-            match wish {
-                Wish::Set(name, value) => self.app.set(name, value)?,
-                Wish::Act(action) => self.app.act(action)?,
-                Wish::TimeStages(on) => self.app.time_stages(on),
+    fn run_commands(&mut self) -> Result<()> {
+        for command in self.commands.drain(..) {
+            match command {
+                PanelCommand::Set(name, value) => self.app.set(name, value)?,
+                PanelCommand::Act(action) => self.app.act(action)?,
+                PanelCommand::TimeStages(on) => self.app.time_stages(on),
             }
         }
         Ok(())
@@ -165,11 +165,11 @@ impl Show for Sheet {
         }
     }
 
-    fn keep(&mut self) {
+    fn save_settings(&mut self) {
         let now = self.app.settings().to_json();
-        if now != self.kept {
-            store::write(&now);
-            self.kept = now;
+        if now != self.saved_settings {
+            settings_file::write(&now);
+            self.saved_settings = now;
         }
     }
 }

@@ -3,17 +3,17 @@
 use glam::Vec2;
 use muslin::Result;
 use three_d::egui::{
-    Align2, Area, Button as Pill, Color32, Context as Egui, CornerRadius, FontId, Id, Rect,
-    RichText, Stroke, Visuals, pos2, vec2,
+    Align2, Area, Button, Color32, Context as Egui, CornerRadius, FontId, Id, Rect, RichText,
+    Stroke, Visuals, pos2, vec2,
 };
 use three_d::{Context, CoreError, RenderTarget};
 
-use super::show::Show;
+use super::window_app::WindowApp;
 use crate::pointer::Cursor;
-use crate::render::desk::Desk;
-use crate::tender::Tender;
-use crate::tender::hands::Button;
-use crate::tender::settings::{Action, CONTROLS};
+use crate::receipt::ReceiptApp;
+use crate::receipt::pointers::PressKind;
+use crate::receipt::settings::{RECEIPT_CONTROLS, ReceiptAction};
+use crate::render::receipt_renderer::ReceiptRenderer;
 
 const TEXT: Color32 = Color32::from_rgb(0x2c, 0x30, 0x36);
 const MUTED: Color32 = Color32::from_rgb(0x5a, 0x61, 0x6b);
@@ -29,18 +29,18 @@ const INSTRUCTIONS: &str = "Click and drag to grab the paper";
 const MORE: &str = "Right-drag to orbit  ·  hold Shift to leave a hand in place  ·  double-click a bend to crease it";
 
 /// The receipt with its overlay.
-pub struct OnDesk {
-    tender: Tender,
-    desk: Option<Desk>,
-    wishes: Vec<Action>,
+pub struct ReceiptWindow {
+    tender: ReceiptApp,
+    renderer: Option<ReceiptRenderer>,
+    commands: Vec<ReceiptAction>,
     pills: Vec<Rect>,
     age: f32,
 }
 
-impl OnDesk {
+impl ReceiptWindow {
     /// Around the receipt.
-    pub fn new(tender: Tender) -> Self {
-        Self { tender, desk: None, wishes: Vec::new(), pills: Vec::new(), age: 0.0 }
+    pub fn new(tender: ReceiptApp) -> Self {
+        Self { tender, renderer: None, commands: Vec::new(), pills: Vec::new(), age: 0.0 }
     }
 
     fn pills(&mut self, ctx: &Egui) {
@@ -49,10 +49,10 @@ impl OnDesk {
         area.show(ctx, |ui| {
             ui.horizontal(|ui| {
                 ui.spacing_mut().button_padding = vec2(16.0, 8.0);
-                for control in CONTROLS.iter().filter(|control| control.is_pill) {
+                for control in RECEIPT_CONTROLS.iter().filter(|control| control.is_pill) {
                     let on = control.is_on(self.tender.settings()) == Some(true);
                     let [fill, text] = if on { [TEXT, Color32::WHITE] } else { [PILL, TEXT] };
-                    let pill = Pill::new(RichText::new(control.label).size(14.0).color(text))
+                    let pill = Button::new(RichText::new(control.label).size(14.0).color(text))
                         .fill(fill)
                         .stroke(Stroke::new(1.0, HAIRLINE))
                         .corner_radius(CornerRadius::same(18))
@@ -61,7 +61,7 @@ impl OnDesk {
                     let response = ui.add(pill).on_hover_text(hint);
                     self.pills.push(response.rect);
                     if response.clicked() {
-                        self.wishes.push(control.action);
+                        self.commands.push(control.action);
                     }
                 }
             });
@@ -69,13 +69,13 @@ impl OnDesk {
     }
 }
 
-impl Show for OnDesk {
+impl WindowApp for ReceiptWindow {
     fn title(&self) -> &'static str {
         "Tender — Receipt Paper Physics"
     }
 
     fn attach(&mut self, context: &Context) -> std::result::Result<(), CoreError> {
-        self.desk = Some(Desk::new(context)?);
+        self.renderer = Some(ReceiptRenderer::new(context)?);
         Ok(())
     }
 
@@ -87,8 +87,8 @@ impl Show for OnDesk {
         self.pills.iter().any(|rect| rect.contains(pos2(at.x, at.y)))
     }
 
-    fn press(&mut self, id: u32, at: Vec2, button: Button) -> Result<()> {
-        self.tender.press(id, at, button)
+    fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> Result<()> {
+        self.tender.press(id, at, press)
     }
 
     fn press_twice(&mut self, at: Vec2) -> Result<()> {
@@ -104,8 +104,8 @@ impl Show for OnDesk {
         self.tender.lift(id)
     }
 
-    fn leave(&mut self) {
-        self.tender.leave();
+    fn clear_hover(&mut self) {
+        self.tender.clear_hover();
     }
 
     fn wheel(&mut self, pixels: f32) {
@@ -117,7 +117,7 @@ impl Show for OnDesk {
     }
 
     fn shift(&mut self, held: bool) -> Result<()> {
-        self.tender.stay(held)
+        self.tender.set_leave_in_place(held)
     }
 
     fn key(&mut self, key: char) -> Result<()> {
@@ -133,7 +133,7 @@ impl Show for OnDesk {
         self.tender.frame(seconds)
     }
 
-    fn overlay(&mut self, ctx: &Egui) {
+    fn draw_overlay(&mut self, ctx: &Egui) {
         ctx.set_visuals(Visuals::light());
         let screen = ctx.content_rect();
         let painter = ctx.debug_painter();
@@ -161,18 +161,18 @@ impl Show for OnDesk {
         self.pills(ctx);
     }
 
-    fn obey(&mut self) -> Result<()> {
-        let wishes = std::mem::take(&mut self.wishes);
-        wishes.into_iter().try_for_each(|action| self.tender.act(action))
+    fn run_commands(&mut self) -> Result<()> {
+        let commands = std::mem::take(&mut self.commands);
+        commands.into_iter().try_for_each(|action| self.tender.act(action))
     }
 
     fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError> {
-        match &mut self.desk {
-            Some(desk) => self.tender.draw(desk, screen),
+        match &mut self.renderer {
+            Some(renderer) => self.tender.draw(renderer, screen),
             None => Ok(()),
         }
     }
 
     /// Every visit starts with a fresh receipt.
-    fn keep(&mut self) {}
+    fn save_settings(&mut self) {}
 }

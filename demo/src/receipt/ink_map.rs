@@ -2,7 +2,7 @@
 
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 
-use super::bill::{self, Face, Line, WIDTH};
+use super::receipt_text::{self, Face, Line, WIDTH};
 
 /// The brief's canvas.
 const CANVAS: [u32; 2] = [512, 768];
@@ -12,7 +12,7 @@ const FINE: u32 = 3;
 const MARGIN: [f32; 2] = [38.0, 46.0];
 
 /// How much ink there is: rows from the top, 0 is bare paper.
-pub struct Print {
+pub struct InkMap {
     /// Width and height in texels.
     pub size: [u32; 2],
     /// One a texel.
@@ -20,17 +20,17 @@ pub struct Print {
 }
 
 /// A printer that has come so far down the paper.
-struct Press<'a> {
+struct Typesetter<'a> {
     plain: FontRef<'a>,
     heavy: FontRef<'a>,
-    print: Print,
+    print: InkMap,
     /// Width of a character of plain text, in texels.
     pitch: f32,
     /// Where the next line begins, in texels.
     top: f32,
 }
 
-impl Print {
+impl InkMap {
     /// Prints the bill.
     pub fn new() -> Self {
         let size = CANVAS.map(|side| side * FINE);
@@ -41,14 +41,14 @@ impl Print {
         ) else {
             unreachable!("the demo's own fonts");
         };
-        let mut press = Press {
+        let mut press = Typesetter {
             plain,
             heavy,
             print: Self { size, ink: vec![0; (size[0] * size[1]) as usize] },
             pitch: width / WIDTH as f32,
             top: MARGIN[1] * FINE as f32,
         };
-        let lines = bill::lines();
+        let lines = receipt_text::lines();
         // As much space between the lines as there is.
         let free = size[1] as f32 - 2.0 * press.top;
         let high: f32 = lines.iter().map(height).sum();
@@ -67,7 +67,7 @@ impl Print {
     }
 }
 
-impl Default for Print {
+impl Default for InkMap {
     fn default() -> Self {
         Self::new()
     }
@@ -85,7 +85,7 @@ fn height(line: &Line) -> f32 {
     }
 }
 
-impl Press<'_> {
+impl Typesetter<'_> {
     /// Prints a line `high` texels high, where plain text has `line`.
     fn line(&mut self, text: &Line, high: f32, line: f32) {
         let left = MARGIN[0] * FINE as f32;
@@ -180,7 +180,7 @@ impl Press<'_> {
 const WIDE: [u8; 10] =
     [0b00110, 0b10001, 0b01001, 0b11000, 0b00101, 0b10100, 0b01100, 0b00011, 0b10010, 0b01010];
 
-impl Print {
+impl InkMap {
     fn ink_in(&mut self, [x, y]: [f32; 2], ink: u8) {
         let [wide, high] = self.size;
         if x >= 0.0 && y >= 0.0 && x < wide as f32 && y < high as f32 {
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn the_margins_are_bare_and_the_middle_is_printed() {
-        let print = Print::new();
+        let print = InkMap::new();
         let [wide, high] = print.size.map(|side| side as usize);
         assert_eq!(print.ink.len(), wide * high);
         let inked = |x: [f32; 2], y: [f32; 2]| {
@@ -229,7 +229,7 @@ mod tests {
             &include_bytes!("../../fonts/JetBrainsMono-ExtraBold.ttf")[..],
         ] {
             let font = FontRef::try_from_slice(font).unwrap();
-            for line in bill::lines() {
+            for line in receipt_text::lines() {
                 let text = match line {
                     Line::Centred(text, _) => text,
                     Line::Spread(a, b, _) => a + &b,
