@@ -1,26 +1,35 @@
-//! AFTERGLOW DOC
+//! Afterglow: the fading trail that the blade leaves on the screen.
+//!
+//! Method: each point of the trail starts with a glow of one, which falls linearly to zero in
+//! [`AFTERGLOW`] seconds.
+//!
+//! Reads positions in normalised device coordinates and frame times; writes the [`TrailPoint`]s
+//! that `render::trail` draws.
+//!
+//! Invariant: points are in the order of their age, and the oldest one always begins a path.
 
 use glam::Vec2;
 
 use crate::render::trail::TrailPoint;
 
-/// How long the path of the blade glows [s].
+/// Time after which a point of the trail is dark [s].
 const AFTERGLOW: f32 = 0.7;
 
-/// The paths that still glow.
+/// The points of all trails that still glow.
 #[derive(Clone, Debug, Default)]
 pub struct Afterglow {
-    /// With the seconds that each has left.
+    /// Each point with the time until it is dark [s].
     trail_points: Vec<(TrailPoint, f32)>,
 }
 
 impl Afterglow {
-    /// The blade is at a point of the screen, x and y from -1 to 1; `first` begins a path.
+    /// Appends a point in normalised device coordinates (x and y from -1 to 1); `first` begins a
+    /// new path.
     pub fn add(&mut self, at: Vec2, first: bool) {
         self.trail_points.push((TrailPoint { at, glow: 1.0, first }, AFTERGLOW));
     }
 
-    /// Lets `seconds` pass.
+    /// Fades all points by `seconds` [s] and removes the dark ones.
     pub fn fade(&mut self, seconds: f32) {
         for (spark, left) in &mut self.trail_points {
             *left -= seconds;
@@ -33,7 +42,7 @@ impl Afterglow {
         }
     }
 
-    /// What there is to draw.
+    /// Returns the points to draw, oldest first.
     pub fn trail_points(&self) -> impl Iterator<Item = TrailPoint> + '_ {
         self.trail_points.iter().map(|(spark, _)| *spark)
     }
@@ -44,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_goes_out_from_its_beginning_and_stays_one_path() {
+    fn a_trail_fades_from_its_oldest_point_and_stays_one_path() {
         let mut glow = Afterglow::default();
         for i in 0..10 {
             glow.add(Vec2::X * i as f32, i == 0);

@@ -1,5 +1,14 @@
-//! The demo itself, the same behind a window, on a page and in a file: cloth, camera, pointers and
-//! controls. It knows no platform; those bring events and time, and take pictures.
+//! The application of the cloth scenes, independent of the platform: cloth, camera, pointers and
+//! controls.
+//!
+//! Method: a window, a page or a screenshot passes events and frame times to [`App`] and asks it to
+//! draw.
+//!
+//! Reads events, frame times and [`Settings`]; writes the cloths, the camera and the pixels of the
+//! render target.
+//!
+//! Invariant: the settings stay in their ranges, and a settings change that fails leaves them as
+//! they were.
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, LinkKind, Result, Stage};
@@ -18,16 +27,16 @@ use crate::scene;
 use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
 
-/// The longest frame that the camera eases through [s].
+/// Longest frame time that the camera animation uses [s].
 const LONGEST_FRAME: f32 = 0.1;
 
-/// The running demo.
+/// The running demo with one of the cloth scenes.
 pub struct App {
     settings: Settings,
     scene: SceneInstance,
     camera: Camera,
     pointers: Pointers,
-    /// The blade is out for as long as a key is held.
+    /// Whether the key for the blade is held.
     blade: bool,
     afterglow: Afterglow,
     trail_points: Vec<TrailPoint>,
@@ -38,11 +47,12 @@ pub struct App {
     clock: fn() -> f64,
     times_stages: bool,
     lines: Vec<WireframeLines>,
-    /// Which cloths these are: new ones may count their topology from the start again.
+    /// Number of rebuilds of the scene. New cloths restart their topology revision, so this number
+    /// tells them apart.
     generation: u32,
 }
 
-/// The links of a cloth, as the wireframe shows them.
+/// End points of the links of one cloth, for the wireframe.
 #[derive(Debug, Default)]
 struct WireframeLines {
     ends: Vec<u32>,
@@ -50,7 +60,8 @@ struct WireframeLines {
 }
 
 impl App {
-    /// Hangs the sheet. `clock` counts seconds from anywhere; it only times the simulation.
+    /// Builds the scene of `settings`. `clock` returns seconds since any fixed time; the demo uses
+    /// it only to measure durations.
     ///
     /// # Errors
     /// As [`scene::build`].
@@ -75,15 +86,16 @@ impl App {
         })
     }
 
-    /// The controls' values.
+    /// Returns the values of the controls.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Takes other values, clamped: rebuilds the sheet if it must, tunes it otherwise.
+    /// Clamps and applies new settings; rebuilds the scene if resolution, pinning, fabric or scene
+    /// changes.
     ///
     /// # Errors
-    /// As [`scene::build`]; the old values stay.
+    /// As [`scene::build`]; the old settings stay.
     pub fn set_settings(&mut self, mut settings: Settings) -> Result<()> {
         settings.clamp();
         let rebuild = settings.resolution != self.settings.resolution
@@ -99,7 +111,7 @@ impl App {
         Ok(())
     }
 
-    /// Gives one control a value; an unknown name changes nothing.
+    /// Sets one control, or presses it if it is a button. An unknown name changes nothing.
     ///
     /// # Errors
     /// As [`App::set_settings`].
@@ -115,7 +127,7 @@ impl App {
         self.set_settings(settings)
     }
 
-    /// Does what a key of the table does, and says whether it was one.
+    /// Applies the control that belongs to a key; returns whether there is one.
     ///
     /// # Errors
     /// As [`App::set_settings`].
@@ -131,7 +143,7 @@ impl App {
         Ok(true)
     }
 
-    /// Does what a button says.
+    /// Runs the action of a button.
     ///
     /// # Errors
     /// As [`scene::build`].
@@ -148,7 +160,8 @@ impl App {
         }
     }
 
-    /// Takes most of the restlessness out of wind and camera, for people who ask their system so.
+    /// Reduces the changes of the wind and stops the camera drift, for users who prefer reduced
+    /// motion.
     ///
     /// # Errors
     /// As [`scene::apply_settings`].
@@ -158,7 +171,7 @@ impl App {
         scene::apply_settings(&mut self.scene, &self.settings, reduced_motion)
     }
 
-    /// The screen has this size, in the pixels that pointers count in.
+    /// Sets the size of the screen, in logical pixels.
     pub fn resize(&mut self, size: Vec2) {
         if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
             self.screen.size = size;
@@ -166,7 +179,7 @@ impl App {
         }
     }
 
-    /// A pointer comes down.
+    /// Handles a pointer that is pressed at `at`, in logical pixels.
     ///
     /// # Errors
     /// As [`Pointers::press`].
@@ -175,7 +188,7 @@ impl App {
         pointers.press(id, at, &mut pick)
     }
 
-    /// A pointer moves.
+    /// Handles a pointer that moves to `to`, in logical pixels.
     ///
     /// # Errors
     /// As [`Pointers::drag`].
@@ -184,7 +197,7 @@ impl App {
         pointers.drag(id, to, &mut pick)
     }
 
-    /// A pointer goes up, or is lost.
+    /// Handles a pointer that is released, or that the platform has lost.
     ///
     /// # Errors
     /// As [`Pointers::lift`].
@@ -193,27 +206,27 @@ impl App {
         pointers.lift(id, &mut pick)
     }
 
-    /// The mouse has left the screen.
+    /// Handles a mouse that leaves the screen: there is no hover position any more.
     pub fn clear_hover(&mut self) {
         self.pointers.clear_hover();
     }
 
-    /// The wheel turns by so many pixels, away from the cloth if positive.
+    /// Zooms by the wheel; positive `pixels` move the camera away from the cloth.
     pub fn wheel(&mut self, pixels: f32) {
         self.camera.zoom((0.0012 * pixels.clamp(-400.0, 400.0)).exp());
     }
 
-    /// A trackpad's pinch: the camera comes nearer by `factor` above one.
+    /// Zooms by a pinch gesture; a `factor` above one moves the camera nearer.
     pub fn pinch(&mut self, factor: f32) {
         self.camera.zoom(1.0 / factor);
     }
 
-    /// The key for the blade goes down or up.
+    /// Sets whether the key for the blade is held.
     pub fn hold_blade(&mut self, out: bool) {
         self.blade = out;
     }
 
-    /// What the cursor should say.
+    /// Returns the shape of the mouse cursor.
     ///
     /// # Errors
     /// As [`Pointers::cursor`].
@@ -222,7 +235,7 @@ impl App {
         pointers.cursor(&mut pick)
     }
 
-    /// Lets `seconds` pass.
+    /// Advances camera, grabs and cloth by a frame of `seconds` [s].
     ///
     /// # Errors
     /// As [`SceneInstance::advance`].
@@ -242,18 +255,18 @@ impl App {
         Ok(())
     }
 
-    /// Times every stage of a frame from now on, or no longer.
+    /// Switches the timing of every stage of a frame on or off.
     pub fn time_stages(&mut self, on: bool) {
         self.times_stages = on;
         self.set_clocks();
     }
 
-    /// How long each stage takes, while [`App::time_stages`] is on.
+    /// Returns how long each stage takes in a frame, while [`App::time_stages`] is on.
     pub fn stage_times(&self) -> Vec<StageTime> {
         self.meter.stages()
     }
 
-    /// Runs exactly so many ticks, whatever the clock says.
+    /// Runs exactly `ticks` ticks, independent of the clock.
     pub fn play(&mut self, ticks: u32) {
         let start = (self.clock)();
         self.scene.step(ticks);
@@ -261,7 +274,7 @@ impl App {
         self.afterglow.fade(ticks as f32 / 60.0);
     }
 
-    /// Draws the scene as it is now.
+    /// Draws the current state of the scene.
     ///
     /// # Errors
     /// As [`Renderer::draw`].
@@ -274,7 +287,7 @@ impl App {
         let mut seconds = [0.0; Stage::COUNT];
         for (cloth, lines) in self.scene.cloths.iter_mut().zip(&mut self.lines) {
             lines.update(cloth, self.generation);
-            // Asking for normals makes them, which belongs to the stages.
+            // This call computes the normals, so their time counts as time of the simulation.
             cloth.normals();
             for (sum, spent) in seconds.iter_mut().zip(cloth.stats().seconds) {
                 *sum += spent;
@@ -320,33 +333,34 @@ impl App {
         Ok(())
     }
 
-    /// The numbers of the panel.
+    /// Returns the numbers that the panel shows.
     pub fn readout(&self) -> Readout {
         self.meter.readout(&self.scene.cloths)
     }
 
-    /// The screen, in the pixels that pointers count in.
+    /// Returns the screen, measured in logical pixels.
     pub fn screen(&self) -> Screen {
         self.screen
     }
 
-    /// The camera rig.
+    /// Returns the camera.
     pub fn camera(&mut self) -> &mut Camera {
         &mut self.camera
     }
 
-    /// Particles across and down the sheet, as it was woven; of discs there is no such thing.
+    /// Returns the numbers of particles across and down the sheet; `None` for discs, which are no
+    /// grid.
     pub fn grid_size(&self) -> Option<[u32; 2]> {
         scene::grid_size(&self.settings)
     }
 
-    /// Where a particle of the first cloth is, as it is drawn [m].
+    /// Returns the position of a particle of the first cloth, in drawn metres.
     pub fn particle(&self, particle: u32) -> Option<Vec3> {
         let at = self.scene.cloths.first()?.positions().get(particle as usize)?;
         Some(*at / scene::unit(self.settings.scene))
     }
 
-    /// Where on the screen a particle of the first cloth appears, in the pixels that pointers count in.
+    /// Returns the position of a particle of the first cloth on the screen, in logical pixels.
     pub fn particle_on_screen(&self, particle: u32) -> Option<Vec2> {
         let at = self.particle(particle)?;
         let view = self.camera.view();
@@ -354,7 +368,7 @@ impl App {
         Some(self.screen.pixels(normal))
     }
 
-    /// The hash of the cloths' states; one cloth's own if there is one.
+    /// Returns the state hash of all cloths; with one cloth it is the hash of that cloth.
     pub fn state_hash(&self) -> u64 {
         let hashes = self.scene.cloths.iter().map(Cloth::state_hash);
         hashes.fold(0, |all, hash| all.rotate_left(1) ^ hash)
@@ -394,7 +408,7 @@ impl App {
 }
 
 impl WireframeLines {
-    /// Finds the links anew if others hold than before.
+    /// Rebuilds the list of lines if the topology of the cloth has changed.
     fn update(&mut self, cloth: &Cloth, generation: u32) {
         let revision = (u64::from(generation) << 32) | u64::from(cloth.topology_revision());
         if self.revision != Some(revision) {

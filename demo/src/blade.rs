@@ -1,47 +1,54 @@
-//! The blade: a swipe over the screen that cuts the cloth behind it, and the path that glows after it.
+//! Blade: cuts the cloth along the swipe of a pointer.
 //!
-//! A swipe comes in pieces, and a piece that ends inside a triangle cuts only up to the edge before.
-//! So the next piece starts where the slit really ended, wherever the cloth has swung by then.
+//! Method: a swipe arrives in pieces. The cutting surface of a piece is a parallelogram through the
+//! piece, with the depth of the cloth at both of its ends. [`muslin::Cloth::cut`] ends a cut at the
+//! last edge before the end of the piece, so the next piece starts at the end of the real cut, even
+//! if the cloth has moved since.
+//!
+//! Reads pointer positions and the camera view; writes the topology of the cloths.
+//!
+//! Invariant: consecutive pieces of a swipe over cloth make one connected cut.
 
 use glam::Vec2;
 use muslin::{Error, EventKind, Result};
 
 use crate::picking::PickContext;
 
-/// How far before and behind the cloth that it meets the blade reaches, as it is drawn [m].
+/// Extent of the cutting surface in front of the cloth and behind it, in drawn metres.
 const DEPTH: f32 = 0.4;
-/// Places along a piece of a swipe where it is samples how far away the cloth is.
+/// Number of intervals along a piece between the rays that measure the depth of the cloth.
 const DEPTH_SAMPLES: u32 = 12;
-/// A piece shorter than so many edges waits for more.
+/// Least length of a piece, in edges of the cloth; a shorter piece waits for the next pointer move.
 const MIN_EDGES: f32 = 1.6;
 
-/// A particle of a cloth.
+/// Particle at the end of a cut.
 #[derive(Clone, Copy, Debug)]
 struct CutEnd {
     cloth: usize,
     particle: u32,
 }
 
-/// A swipe of one pointer.
+/// The state of a swipe of one pointer.
 #[derive(Clone, Copy, Debug)]
 pub struct Swipe {
-    /// Where the next piece starts, in pixels, if no slit goes on from there.
+    /// Start of the next piece [px], if it does not continue a cut.
     from: Vec2,
-    /// The end of the slit so far.
+    /// End of the cut so far.
     end: Option<CutEnd>,
 }
 
 impl Swipe {
-    /// Begins at a point of the screen.
+    /// Starts a swipe at a point of the screen [px].
     pub fn new(from: Vec2) -> Self {
         Self { from, end: None }
     }
 
-    /// Cuts up to a point of the screen; a short piece waits until it is longer, unless it is the
-    /// `last`.
+    /// Cuts up to a point of the screen [px]. A short piece waits until it is longer, unless it is
+    /// the `last`.
     ///
     /// # Errors
-    /// As [`muslin::Cloth::cut`], but for a reserve that is used up: then nothing is cut any more.
+    /// As [`muslin::Cloth::cut`]. A cloth without free particles is no error: it is not cut any
+    /// further.
     pub fn cut_to(&mut self, to: Vec2, last: bool, pick: &mut PickContext<'_>) -> Result<()> {
         let ahead = self.from(pick);
         let edge = pick.edge_pixels();
@@ -49,7 +56,7 @@ impl Swipe {
             return Ok(());
         }
         let way = (to - ahead).normalize_or_zero();
-        // A hair back, so that the blade surely goes through the end of the slit.
+        // The piece starts a little earlier, so that it passes through the end of the cut.
         let from = if self.end.is_some() { ahead - way * (0.1 * edge) } else { ahead };
         let end = cut(from, to, pick)?;
         let over_cloth = pick.depth(to)?.is_some();
@@ -69,7 +76,8 @@ impl Swipe {
     }
 }
 
-/// Cuts along a straight piece of a swipe and says where the slit ends, if there is one.
+/// Cuts every cloth along a straight piece of a swipe and returns the end of the cut, if there is
+/// one.
 fn cut(from: Vec2, to: Vec2, pick: &mut PickContext<'_>) -> Result<Option<CutEnd>> {
     let mut samples = Vec::new();
     for i in 0..=DEPTH_SAMPLES {
@@ -79,7 +87,7 @@ fn cut(from: Vec2, to: Vec2, pick: &mut PickContext<'_>) -> Result<Option<CutEnd
     let (Some(first), Some(last)) = (samples.first().copied(), samples.last().copied()) else {
         return Ok(None);
     };
-    // A plane through the eye, as deep at both ends as the cloth that is nearest to them.
+    // A plane through the eye, at the depth of the nearest cloth at both ends.
     let (a, b) = (pick.at_depth(from, first.1), pick.at_depth(to, last.1));
     let into = ((a + b) * 0.5 - pick.view.eye).normalize_or_zero();
     let depth = into * (DEPTH * pick.unit);
@@ -89,7 +97,7 @@ fn cut(from: Vec2, to: Vec2, pick: &mut PickContext<'_>) -> Result<Option<CutEnd
         let cut = &mut pick.cloths[cloth];
         while cut.next_event().is_some() {}
         match cut.cut(a - depth, b - depth, depth * 2.0) {
-            // A piece too short to have a direction, or no room for more.
+            // The piece is too short to have a direction, or the cloth has no free particles.
             Ok(0) | Err(Error::Full { .. } | Error::BadValue { .. }) => continue,
             Ok(_) => {}
             Err(error) => return Err(error),

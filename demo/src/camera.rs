@@ -1,5 +1,17 @@
-//! The camera rig: it orbits and zooms around the cloth, eases towards where it is sent, and keeps
-//! to sane angles and distances.
+//! Orbit camera: it turns around a target, zooms, and eases towards its goal.
+//!
+//! ```text
+//! eye = target + radius · (sin φ · sin θ, cos θ, cos φ · sin θ)      φ azimuth, θ polar angle
+//! ```
+//! Method: drags and zooms change a goal pose; each frame moves the current pose by the share 1 −
+//! exp(−[`EASE`] · dt) of its distance to the goal, so the motion does not depend on the frame
+//! rate.
+//!
+//! Reads drags, zoom factors and frame times; writes the pose, from which [`CameraView`] is
+//! computed.
+//!
+//! Invariant: the goal pose is always within the limits of the [`CameraRig`], and input that is not
+//! finite changes nothing.
 
 use std::ops::RangeInclusive;
 
@@ -8,23 +20,23 @@ use glam::{Mat4, Vec2, Vec3};
 
 use crate::render::light::STAGE_CENTRE;
 
-/// What a rig turns around and how far it goes.
+/// Target, limits and start pose of an orbit camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraRig {
-    /// What the camera looks at [m].
+    /// Point that the camera looks at [m].
     pub target: Vec3,
-    /// Angle from straight up [rad].
+    /// Limits of the angle from straight up [rad].
     pub polar: RangeInclusive<f32>,
-    /// Distance from the target [m].
+    /// Limits of the distance to the target [m].
     pub radius: RangeInclusive<f32>,
-    /// Angle around the target and from straight up [rad], and distance [m], to start from.
+    /// Start pose: azimuth [rad], polar angle [rad] and distance [m].
     pub start: [f32; 3],
-    /// Half of what must fit across the screen at the target's distance [m].
+    /// Half the width that must fit on the screen at the distance of the target [m].
     pub half_width: f32,
 }
 
 impl Default for CameraRig {
-    /// The rig around the hanging sheet.
+    /// Returns the rig for the hanging sheet.
     fn default() -> Self {
         Self {
             target: STAGE_CENTRE,
@@ -38,14 +50,14 @@ impl Default for CameraRig {
 
 /// Vertical field of view [rad].
 const FIELD: f32 = 0.60;
-/// How fast the rig closes in on its goal [1/s].
+/// Rate at which the pose approaches its goal [1/s].
 const EASE: f32 = 9.0;
-/// Turn for a drag across the height of the screen [rad].
+/// Angle of a drag across the height of the screen [rad].
 const TURN: f32 = 3.6;
-/// Seconds without a touch until the rig starts to drift by itself.
+/// Time without input after which the camera starts to drift [s].
 const PATIENCE: f32 = 6.0;
 
-/// Spherical place of the camera.
+/// Pose in spherical coordinates around the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OrbitPose {
     azimuth: f32,
@@ -53,7 +65,7 @@ struct OrbitPose {
     radius: f32,
 }
 
-/// The rig: where it is, and where it is easing to.
+/// An orbit camera: its current pose and its goal.
 #[derive(Clone, Debug)]
 pub struct Camera {
     rig: CameraRig,
@@ -63,12 +75,12 @@ pub struct Camera {
     drift: bool,
 }
 
-/// A camera's view, fixed for one frame.
+/// Position and target of the camera in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
-    /// Where the eye is [m].
+    /// Position of the eye [m].
     pub eye: Vec3,
-    /// What it looks at [m].
+    /// Point that the eye looks at [m].
     pub target: Vec3,
 }
 
@@ -79,14 +91,14 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// A camera at the start of its rig.
+    /// Creates a camera at the start pose of `rig`.
     pub fn new(rig: CameraRig) -> Self {
         let [azimuth, polar, radius] = rig.start;
         let place = OrbitPose { azimuth, polar, radius };
         Self { rig, now: place, goal: place, idle: 0.0, drift: true }
     }
 
-    /// Turns the rig by a drag, given in heights of the screen: right and down are positive.
+    /// Orbits by a drag, in screen heights; right and down are positive.
     pub fn orbit(&mut self, drag: Vec2) {
         if drag.is_finite() {
             self.goal.azimuth -= drag.x * TURN;
@@ -95,7 +107,7 @@ impl Camera {
         }
     }
 
-    /// Brings the camera nearer (`factor` below one) or takes it away.
+    /// Multiplies the distance to the target by `factor`.
     pub fn zoom(&mut self, factor: f32) {
         if factor.is_finite() && factor > 0.0 {
             self.goal.radius *= factor;
@@ -103,7 +115,8 @@ impl Camera {
         }
     }
 
-    /// Steps back until the cloth fits across a screen of this width over height.
+    /// Sets the distance so that the cloth fits on a screen with this aspect ratio (width over
+    /// height).
     pub fn fit_to_aspect(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
             let across = self.rig.half_width / ((FIELD * 0.5).tan() * aspect);
@@ -113,23 +126,23 @@ impl Camera {
         }
     }
 
-    /// Goes to the start of another rig.
+    /// Moves the camera to the start pose of another rig, without easing.
     pub fn reset_to_rig(&mut self, rig: CameraRig, aspect: f32) {
         *self = Self { drift: self.drift, ..Self::new(rig) };
         self.fit_to_aspect(aspect);
     }
 
-    /// Lets the rig sway gently once it has not been touched for a while, or forbids it.
+    /// Sets whether the camera drifts slowly after some time without input.
     pub fn set_drift(&mut self, drift: bool) {
         self.drift = drift;
     }
 
-    /// Eases for `dt` [s]; `touched` says that a hand is on the scene.
+    /// Eases towards the goal for `dt` [s]; `touched` says whether a pointer is down.
     pub fn advance(&mut self, dt: f32, touched: bool) {
         self.idle = if touched { 0.0 } else { self.idle + dt };
         if self.drift && self.idle > PATIENCE {
             let time = self.idle - PATIENCE;
-            // Starts from rest and swings to both sides of where it was left.
+            // The drift starts at rest and swings to both sides of the last pose.
             self.goal.azimuth += 0.035 * (0.25 * time).cos() * time.min(1.0) * dt;
         }
         let share = 1.0 - (-EASE * dt).exp();
@@ -138,7 +151,7 @@ impl Camera {
         self.now.radius += (self.goal.radius - self.now.radius) * share;
     }
 
-    /// The view from where the rig is now.
+    /// Returns the view of the current pose.
     pub fn view(&self) -> CameraView {
         let OrbitPose { azimuth, polar, radius } = self.now;
         let around = Vec3::new(azimuth.sin(), 0.0, azimuth.cos()) * polar.sin();
@@ -154,45 +167,47 @@ impl Camera {
 }
 
 impl CameraView {
-    /// The same view of a world whose lengths are `unit` times as long.
+    /// Returns the same view with all lengths multiplied by `unit`.
     pub fn scaled(self, unit: f32) -> Self {
         Self { eye: self.eye * unit, target: self.target * unit }
     }
 
-    /// Pixels that a metre covers at a distance of a metre, on a screen so many pixels high.
+    /// Returns the focal length [px] on a screen of `height` pixels: the pixels that 1 m covers at
+    /// a distance of 1 m.
     pub fn focal_length_pixels(&self, height: f32) -> f32 {
         0.5 * height / (FIELD * 0.5).tan()
     }
 
-    /// The direction of looking.
+    /// Returns the unit vector along the view.
     pub fn forward(&self) -> Vec3 {
         (self.target - self.eye).normalize()
     }
 
-    /// To the right on the screen.
+    /// Returns the unit vector to the right of the screen.
     pub fn right(&self) -> Vec3 {
         self.forward().cross(Vec3::Y).normalize()
     }
 
-    /// Up on the screen.
+    /// Returns the unit vector to the top of the screen.
     pub fn up(&self) -> Vec3 {
         self.right().cross(self.forward())
     }
 
-    /// Maps the world into GL's clip space for a screen of this width over height.
+    /// Returns the matrix from world space to clip space for this aspect ratio (width over height).
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
         proj::opengl::perspective(FIELD, aspect, 0.1, 60.0)
             * view::look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 
-    /// The unit direction from the eye through a point of the screen, x and y from -1 to 1, y up.
+    /// Returns the unit direction from the eye through a point in normalised device coordinates (y
+    /// up).
     pub fn ray(&self, screen: Vec2, aspect: f32) -> Vec3 {
         let half = (FIELD * 0.5).tan();
         (self.forward() + self.right() * (screen.x * half * aspect) + self.up() * (screen.y * half))
             .normalize()
     }
 
-    /// Where on the screen a point appears, x and y from -1 to 1, y up; `None` behind the eye.
+    /// Projects a point to normalised device coordinates (y up); `None` behind the eye.
     pub fn project(&self, at: Vec3, aspect: f32) -> Option<Vec2> {
         let clip = self.clip_from_world(aspect) * at.extend(1.0);
         (clip.w > 0.0).then(|| Vec2::new(clip.x, clip.y) / clip.w)
@@ -213,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn orbit_and_zoom_stop_at_their_limits() {
+    fn orbit_and_zoom_stop_at_the_limits_of_the_rig() {
         let mut camera = Camera::default();
         let CameraRig { polar: polars, radius: radii, .. } = CameraRig::default();
         camera.orbit(Vec2::new(0.3, 100.0));
@@ -229,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_leaves_the_camera_where_it_was() {
+    fn invalid_input_does_not_move_the_camera() {
         let mut camera = Camera::default();
         let before = camera.view();
         camera.orbit(Vec2::new(f32::NAN, f32::INFINITY));
@@ -241,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn motion_is_eased_and_never_overshoots() {
+    fn the_camera_eases_to_its_goal_without_overshoot() {
         let mut camera = Camera::default();
         let start = camera.view().eye.distance(STAGE_CENTRE);
         camera.zoom(0.7);
@@ -256,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_through_a_projected_point_meets_the_point() {
+    fn a_ray_through_a_projected_point_hits_the_point() {
         let view = Camera::default().view();
         let at = Vec3::new(0.7, 0.6, -0.2);
         let screen = view.project(at, 1.6).unwrap();

@@ -1,4 +1,10 @@
-//! The command line: a window by default, or a picture.
+//! Command line of the demo: opens a window by default, or writes a picture.
+//!
+//! Method: one pass over the arguments; every control of [`controls`] is an option too.
+//!
+//! Reads the arguments; writes a [`Task`].
+//!
+//! Invariant: an argument that is wrong gives an error that names it; nothing is ignored silently.
 
 use std::path::PathBuf;
 
@@ -9,7 +15,7 @@ use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
 use crate::shot::{ReceiptShot, Shot};
 
-/// What `--help` prints.
+/// Text that `--help` prints.
 pub const USAGE: &str = "\
 The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to fold, crumple and toss.
 
@@ -37,27 +43,27 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
   --web               serve the demo as a page (through `cargo xtask demo --web`)
   --help              this text";
 
-/// What the user asks for.
+/// What the program must do.
 #[derive(Debug, PartialEq)]
 pub enum Task {
-    /// The usage text.
+    /// Print the usage text.
     Help,
-    /// A window, with the controls that were given on top of the kept ones.
+    /// Open a window; the given controls override the saved settings.
     ClothWindow(Vec<(&'static str, f32)>),
-    /// A window with the receipt.
+    /// Open a window with the receipt.
     ReceiptWindow(ReceiptShot),
-    /// A picture.
+    /// Write a picture to a file.
     Shot(PathBuf, Box<Shot>),
-    /// A page, which another command builds and serves.
+    /// Serve the page; another command builds it.
     Web,
 }
 
-/// Reads the arguments.
+/// Parses the arguments.
 ///
 /// # Errors
 /// A sentence that names the argument and the rule.
 pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
-    // `--size=1x1` is `--size 1x1`.
+    // `--size=1x1` means `--size 1x1`.
     let mut args = args.into_iter().flat_map(|arg| match arg.split_once('=') {
         Some((name, value)) if name.starts_with("--") => vec![name.into(), value.into()],
         _ => vec![arg],
@@ -127,7 +133,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
         }
     }
     let gesture = shot.receipt.as_ref().and_then(|receipt| receipt.play);
-    // The receipt's gestures last longer than the usual picture waits.
+    // Gestures of the receipt take longer than the default number of ticks.
     let usual = gesture.map_or(shot.ticks, |gesture| 60 + gesture.ticks());
     shot.ticks = ticks.unwrap_or(usual);
     let seen = gesture.map_or((shot.orbit, shot.zoom), |gesture| gesture.view());
@@ -142,7 +148,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
     }
 }
 
-/// Gives the controls their values.
+/// Sets the controls to the given values.
 pub fn apply(values: &[(&'static str, f32)], settings: &mut Settings) {
     for (name, value) in values {
         if let Some(control) = controls::find_control(name) {
@@ -162,7 +168,7 @@ fn finite(option: &str, text: &str) -> Result<f32, String> {
         .ok_or_else(|| format!("{option} must be a number, not {text:?}"))
 }
 
-/// What has this name.
+/// Returns the entry with this name.
 fn named<T: Copy>(option: &str, all: &[(&'static str, T)], name: &str) -> Result<T, String> {
     let known = all.iter().find(|(known, _)| *known == name);
     let names: Vec<_> = all.iter().map(|(name, _)| *name).collect();
@@ -170,10 +176,10 @@ fn named<T: Copy>(option: &str, all: &[(&'static str, T)], name: &str) -> Result
     known.map(|(_, it)| *it).ok_or_else(|| format!("{option} must be one of {names}, not {name:?}"))
 }
 
-/// The name of the receipt among scenes; its number comes after those of the others.
+/// Name of the receipt among the scenes; its number follows the numbers of the other scenes.
 const RECEIPT: &str = "tender";
 
-/// A scene's place among all, by its name or number.
+/// Returns the number of a scene from its name or number.
 fn scene(text: &str) -> Result<usize, String> {
     let names = SceneKind::NAMES.map(str::to_lowercase);
     let names: Vec<&str> = names.iter().map(String::as_str).chain([RECEIPT]).collect();
@@ -208,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shot_takes_its_options_and_any_control() {
+    fn a_shot_accepts_its_options_and_every_control() {
         let task = parsed("--shot a.png --size=390x844 --frames 60 --tear --wind 2 --wireframe");
         let Ok(Task::Shot(file, shot)) = task else {
             panic!("{task:?}");
@@ -219,12 +225,12 @@ mod tests {
     }
 
     #[test]
-    fn no_argument_is_a_window() {
+    fn no_argument_opens_a_window() {
         assert_eq!(parsed(""), Ok(Task::ClothWindow(Vec::new())));
     }
 
     #[test]
-    fn scenes_have_names_and_numbers_and_the_receipt_its_own_options() {
+    fn scenes_have_names_and_numbers_and_the_receipt_has_its_own_options() {
         for (line, place) in [
             ("--scene flag", 1.0),
             ("--scene 2", 2.0),
@@ -243,7 +249,7 @@ mod tests {
         assert_eq!(receipt.play, Some(receipt::gestures::ReceiptGesture::Fold));
         assert_eq!(receipt.settings.sheet, muslin_scenes::Sheet::Brief);
         assert_eq!(shot.ticks, 60 + receipt::gestures::ReceiptGesture::Fold.ticks());
-        // A gesture may have a view of its own, but what is given goes before it.
+        // A gesture may have its own camera view, but explicit options override it.
         for (line, zoom) in
             [("", receipt::gestures::ReceiptGesture::Letter.view().1), (" --zoom 2", 2.0)]
         {
@@ -257,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_argument_is_named() {
+    fn an_error_names_the_wrong_argument() {
         for (line, named) in [
             ("--shot", "--shot"),
             ("--shot a.png --size 12", "--size"),

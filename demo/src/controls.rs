@@ -1,5 +1,11 @@
-//! The one table of controls: egui rows and HTML rows are both drawn from it, and keys are looked
-//! up in it.
+//! Table of controls: the window draws its rows with egui, the page draws its rows with HTML, and
+//! keys are looked up in the same table.
+//!
+//! Method: each [`Control`] has functions that read and write one field of [`Settings`].
+//!
+//! Reads values and keys; writes [`Settings`].
+//!
+//! Invariant: a control never sets a value outside its range, and names and keys are unique.
 
 use serde::Serialize;
 
@@ -9,19 +15,20 @@ use crate::settings::{DAMPING, GRAVITY, Pinning, RESOLUTIONS, STIFFNESS, Setting
 
 /// One control.
 pub struct Control {
-    /// Its name for code: the page and the tests call it so.
+    /// Name in code; the page, the command line and the tests use it.
     pub name: &'static str,
-    /// Its name for people.
+    /// Label on the panel.
     pub label: &'static str,
-    /// What it does, in a few words.
+    /// Short description.
     pub about: &'static str,
-    /// Its key. A slider grows with it and shrinks with Shift; a choice goes on to the next.
+    /// Key. It increases a slider (with Shift: decreases it) and selects the next option of a
+    /// choice.
     pub key: char,
-    /// How it looks and what it changes.
+    /// Type of the control, with access to its value.
     pub kind: Kind,
 }
 
-/// What kinds of control there are.
+/// Types of controls.
 pub enum Kind {
     /// A number in a range.
     Slider {
@@ -31,47 +38,47 @@ pub enum Kind {
         max: f32,
         /// Distance between neighbouring values.
         step: f32,
-        /// Digits shown after the point.
+        /// Decimal places to show.
         digits: usize,
-        /// What the number counts; may be empty.
+        /// Unit to show; may be empty.
         unit: &'static str,
-        /// Reads it.
+        /// Reads the value.
         get: fn(&Settings) -> f32,
-        /// Writes it; [`set`] has already brought it into range.
+        /// Writes the value; [`Control::set`] has clamped it.
         set: fn(&mut Settings, f32),
     },
     /// On or off.
     Switch {
-        /// Reads it.
+        /// Reads the value.
         get: fn(&Settings) -> bool,
-        /// Writes it.
+        /// Writes the value.
         set: fn(&mut Settings, bool),
     },
-    /// One of a few.
+    /// One of several options.
     Choice {
-        /// What people choose from.
+        /// Names of the options.
         options: &'static [&'static str],
-        /// Reads which one it is.
+        /// Reads the index of the option.
         get: fn(&Settings) -> usize,
-        /// Writes it; [`set`] has already made sure that there is such an option.
+        /// Writes the index of the option; [`Control::set`] has clamped it.
         set: fn(&mut Settings, usize),
     },
-    /// Something that happens once.
+    /// A button that runs an action.
     Button(Action),
 }
 
-/// What a button does.
+/// Actions of buttons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Hangs a fresh sheet.
+    /// Rebuilds the scene.
     Reset,
-    /// Lets go of every pin.
+    /// Unpins all particles.
     DropPins,
 }
 
 const PINNINGS: [Pinning; 3] = [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners];
 
-/// Every control, in the order of the panel.
+/// All controls, in the order of the panel.
 pub static CONTROLS: &[Control] = &[
     Control {
         name: "wind",
@@ -224,18 +231,19 @@ pub static CONTROLS: &[Control] = &[
     },
 ];
 
-/// The control of this name.
+/// Finds a control by its name.
 pub fn find_control(name: &str) -> Option<&'static Control> {
     CONTROLS.iter().find(|c| c.name == name)
 }
 
-/// The control of this key, whatever its case.
+/// Finds a control by its key, upper or lower case.
 pub fn find_control_by_key(key: char) -> Option<&'static Control> {
     CONTROLS.iter().find(|c| c.key.eq_ignore_ascii_case(&key))
 }
 
 impl Control {
-    /// Its value as a number: a switch is 0 or 1, a choice its place, a button 0.
+    /// Returns the value as a number: a switch is 0 or 1, a choice is the index of its option, a
+    /// button is 0.
     pub fn get(&self, settings: &Settings) -> f32 {
         match &self.kind {
             Kind::Slider { get, .. } => get(settings),
@@ -245,7 +253,7 @@ impl Control {
         }
     }
 
-    /// Gives it the nearest value that it can have; no number changes nothing.
+    /// Sets the nearest allowed value; NaN changes nothing.
     pub fn set(&self, settings: &mut Settings, value: f32) {
         if value.is_nan() {
             return;
@@ -253,7 +261,8 @@ impl Control {
         match &self.kind {
             Kind::Slider { min, max, step, set, .. } => {
                 let steps = ((value.clamp(*min, *max) - min) / step).round();
-                // Four digits are enough for any step, and leave no 9.900001 behind.
+                // Rounding to four decimal places is exact enough for every step and avoids values
+                // such as 9.900001.
                 let tidy = ((min + steps * step) * 1.0e4).round() / 1.0e4;
                 set(settings, tidy.clamp(*min, *max));
             }
@@ -265,7 +274,7 @@ impl Control {
         }
     }
 
-    /// Whether it changes anything in the scene that is on.
+    /// Returns whether the control has an effect in the current scene.
     pub fn is_enabled(&self, settings: &Settings) -> bool {
         match self.name {
             "fabric" => settings.scene != SceneKind::Discs,
@@ -277,7 +286,8 @@ impl Control {
         }
     }
 
-    /// Does what its key does: a slider moves by a tenth of its range, back with `shift`.
+    /// Applies a key press: a slider moves by a tenth of its range, backwards with `shift`. Returns
+    /// the action of a button.
     pub fn press(&self, settings: &mut Settings, shift: bool) -> Option<Action> {
         let now = self.get(settings);
         match &self.kind {
@@ -295,7 +305,7 @@ impl Control {
         None
     }
 
-    /// Its key as it is printed.
+    /// Returns the name of the key.
     pub fn key_name(&self) -> String {
         match self.key {
             ' ' => "Space".into(),
@@ -303,7 +313,7 @@ impl Control {
         }
     }
 
-    /// Its value as it is printed beside a slider.
+    /// Returns the value as text, with its unit.
     pub fn text(&self, settings: &Settings) -> String {
         match &self.kind {
             Kind::Slider { digits, unit, .. } => {
@@ -316,7 +326,7 @@ impl Control {
     }
 }
 
-/// A row of the table as the page gets it.
+/// One control in the JSON document for the page.
 #[derive(Serialize)]
 struct Row {
     name: &'static str,
@@ -330,7 +340,8 @@ struct Row {
     options: &'static [&'static str],
 }
 
-/// The table as JSON: name, label, about, key, kind, and `range` (least, greatest, step) or `options`.
+/// Returns the table as JSON: name, label, about, key, kind, and `range` (least, greatest, step) or
+/// `options`.
 pub fn to_json() -> String {
     let rows: Vec<Row> = CONTROLS
         .iter()
@@ -352,7 +363,7 @@ pub fn to_json() -> String {
             }
         })
         .collect();
-    // Strings and finite numbers: there is nothing in it that JSON could not say.
+    // Strings and finite numbers only, so the conversion cannot fail.
     serde_json::to_string(&rows).unwrap_or_default()
 }
 
@@ -361,7 +372,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_keys_are_each_used_once() {
+    fn names_and_keys_are_unique() {
         for (i, a) in CONTROLS.iter().enumerate() {
             for b in &CONTROLS[i + 1..] {
                 assert!(a.name != b.name && a.key != b.key, "{} and {}", a.name, b.name);
@@ -372,7 +383,7 @@ mod tests {
     }
 
     #[test]
-    fn every_control_reads_back_what_it_was_given() {
+    fn every_control_returns_the_value_that_was_set() {
         for control in CONTROLS {
             let mut settings = Settings::default();
             let (given, wanted) = match &control.kind {
@@ -391,7 +402,7 @@ mod tests {
     }
 
     #[test]
-    fn a_control_cannot_leave_its_range() {
+    fn a_control_stays_in_its_range() {
         for control in CONTROLS {
             for wild in [f32::INFINITY, f32::NEG_INFINITY, 1.0e9, -1.0e9, f32::NAN] {
                 let mut settings = Settings::default();
@@ -404,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn controls_that_change_nothing_in_a_scene_say_so() {
+    fn controls_without_effect_in_a_scene_are_disabled() {
         let is_enabled = |name: &str, scene| {
             find_control(name).unwrap().is_enabled(&Settings { scene, ..Settings::default() })
         };
@@ -423,7 +434,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_go_up_down_and_around() {
+    fn keys_increase_decrease_and_wrap_around() {
         let mut settings = Settings::default();
         let wind = find_control_by_key('w').unwrap();
         wind.press(&mut settings, false);

@@ -1,16 +1,23 @@
-//! The fabrics of the demo: what they are made of, and how they take the light.
+//! Fabrics of the demo: the material for the simulation and the appearance for the shaders.
+//!
+//! Method: materials are presets of Muslin with other limits for tearing; appearances are tuned by
+//! eye.
+//!
+//! Reads a [`Fabric`]; returns a [`Material`] or an [`Appearance`].
+//!
+//! Invariant: colours are sRGB `0xrrggbb`; `render::cloth_material` converts them to linear values.
 
 use muslin::{Material, Preset};
 use serde::{Deserialize, Serialize};
 
-/// A fabric that the sheet can be of.
+/// A fabric of the sheet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fabric {
     /// Light and fluid, silvery blue.
     #[default]
     Silk,
-    /// Unbleached shirting: dull, and the light comes through.
+    /// Unbleached shirting: matt and translucent.
     Cotton,
     /// Heavy indigo twill with a pale back and topstitching.
     Denim,
@@ -18,45 +25,47 @@ pub enum Fabric {
     Flag,
 }
 
-/// How a fabric takes the light. Colours are sRGB, `0xrrggbb`.
+/// Parameters of a fabric for the cloth shader. Colours are sRGB, `0xrrggbb`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Appearance {
     /// Colour of the front.
     pub front: u32,
     /// Colour of the back.
     pub back: u32,
-    /// How much of these colours the fabric keeps: the lights of the stage bring the rest.
+    /// Saturation of the colours, 0 (grey) to 1; coloured lights add the rest.
     pub kept: f32,
-    /// Colour of loose threads that run down, and across.
+    /// Colours of loose warp and weft threads.
     pub threads: [u32; 2],
-    /// Colour of the seam along the hem, and how plainly it shows.
+    /// Colour of the seam along the hem, and its opacity.
     pub seam: (u32, f32),
-    /// Threads a metre that the eye makes out.
+    /// Visible threads per metre.
     pub count: f32,
-    /// How far they stand out, and how unevenly they are spun.
+    /// Height of the thread relief, and unevenness of the yarn.
     pub relief: [f32; 2],
-    /// 0: over and under by turns; 1: diagonal ridges; 2: fine, with a stouter thread now and then.
+    /// Weave: 0 plain, 1 twill, 2 ripstop.
     pub weave: f32,
-    /// Width of the gloss across and along, its strength, and what the surface mirrors.
+    /// Specular lobe: roughness across and along the thread, its strength, and the strength of
+    /// reflections.
     pub gloss: [f32; 4],
-    /// Sheen of loose fibres at grazing angles.
+    /// Strength of the sheen of loose fibres at grazing angles.
     pub fuzz: f32,
-    /// Share of the light that comes through.
+    /// Strength of the transmitted light.
     pub through: f32,
-    /// Whether it bears the print of a flag.
+    /// Whether the flag is printed on it.
     pub printed: bool,
 }
 
 impl Fabric {
-    /// All of them, in the order of the panel.
+    /// All fabrics, in the order of the panel.
     pub const ALL: [Self; 4] = [Self::Silk, Self::Cotton, Self::Denim, Self::Flag];
-    /// What the panel calls them.
+    /// Names on the panel.
     pub const NAMES: [&'static str; 4] = ["Silk", "Cotton", "Denim", "Flag"];
 
-    /// What it is made of. It stretches as little as the sweeps allow, so that the slider for them
-    /// is felt.
+    /// Returns the material. Stretch compliance is zero, so that the number of iterations (the
+    /// stiffness control) alone decides how much the cloth stretches.
     pub fn material(self) -> Material {
-        // Four times its length, as the brief has it, is rubber: these rip as cloth does.
+        // A limit of four times the rest length behaves like rubber; with these limits it tears
+        // like cloth.
         let tear_stretch = match self {
             Self::Silk | Self::Flag => 1.75,
             Self::Cotton => 1.65,
@@ -70,7 +79,7 @@ impl Fabric {
         }
     }
 
-    /// The fabric of Muslin's that it is.
+    /// Returns the preset of Muslin for this fabric.
     pub fn preset(self) -> Preset {
         match self {
             Self::Silk => Preset::Silk,
@@ -80,7 +89,7 @@ impl Fabric {
         }
     }
 
-    /// How it takes the light.
+    /// Returns the parameters for the cloth shader.
     pub fn appearance(self) -> Appearance {
         match self {
             Self::Silk => Appearance {
@@ -148,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fabrics_differ_in_weight_and_in_look() {
+    fn fabrics_differ_in_density_and_colour() {
         for (i, a) in Fabric::ALL.iter().enumerate() {
             for b in &Fabric::ALL[i + 1..] {
                 let (light, heavy) = (a.material().density, b.material().density);

@@ -1,23 +1,31 @@
-//! What hands do in pictures: gestures played by tick, through the same door as a person's pointers.
+//! Scripted gestures: pointer input by keyframes, for pictures and tests.
+//!
+//! Method: positions between two keyframes are interpolated linearly; the result goes through
+//! [`App::press`], [`App::drag`] and [`App::lift`], as the input of a user does.
+//!
+//! Reads the keyframes and the outline of the sheet on the screen; writes pointer events and runs
+//! ticks.
+//!
+//! Invariant: the same gesture on the same state gives the same cloth.
 
 use glam::Vec2;
 use muslin::Result;
 
 use crate::app::App;
 
-/// A gesture.
+/// A scripted gesture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
-    /// Two hands take the hem, a little apart, and pull it asunder.
+    /// Two pointers grab the hem side by side and pull it apart.
     Tear,
-    /// One hand takes the sheet by its side and yanks it down and away.
+    /// One pointer grabs the side of the sheet and pulls it down and away quickly.
     Yank,
     /// The blade swipes across the sheet.
     Cut,
 }
 
-/// A pointer's keyframes: where it is at which tick, straight in between, in shares of the sheet as it
-/// appears when the gesture begins: (0, 0) is its top left corner.
+/// Keyframes of one pointer: tick and position, as a fraction of the sheet on the screen when the
+/// gesture starts; (0, 0) is the top left corner.
 struct Stroke {
     blade: bool,
     keyframes: &'static [(u32, [f32; 2])],
@@ -45,11 +53,11 @@ const CUT: [Stroke; 1] = [Stroke {
 }];
 
 impl Gesture {
-    /// All of them, with the names that the command line knows.
+    /// All gestures with their names on the command line.
     pub const ALL: [(&'static str, Self); 3] =
         [("tear", Self::Tear), ("yank", Self::Yank), ("cut", Self::Cut)];
 
-    /// Ticks from its beginning until the cloth hangs again.
+    /// Returns the number of ticks until the cloth is at rest again.
     pub fn ticks(self) -> u32 {
         match self {
             Self::Tear => 110,
@@ -67,7 +75,7 @@ impl Gesture {
     }
 }
 
-/// A gesture while it is played.
+/// State of a gesture while it runs.
 pub struct GesturePlayer {
     gesture: Gesture,
     tick: u32,
@@ -76,7 +84,7 @@ pub struct GesturePlayer {
 }
 
 impl GesturePlayer {
-    /// Begins on the sheet as it hangs now.
+    /// Starts a gesture on the current state of the sheet.
     pub fn new(gesture: Gesture, app: &mut App) -> Self {
         let Some([columns, rows]) = app.grid_size() else {
             return Self::over(gesture, app);
@@ -89,7 +97,7 @@ impl GesturePlayer {
         Self { gesture, tick: 0, corner, size }
     }
 
-    /// Begins on the first of several cloths.
+    /// Starts a gesture on the outline of the first cloth, for scenes without a grid.
     fn over(gesture: Gesture, app: &App) -> Self {
         let places: Vec<_> = (0..).map_while(|i| app.particle_on_screen(i)).collect();
         let low = places.iter().copied().reduce(Vec2::min).unwrap_or_default();
@@ -97,7 +105,7 @@ impl GesturePlayer {
         Self { gesture, tick: 0, corner: low, size: high - low }
     }
 
-    /// Plays one tick.
+    /// Sends the input of one tick and runs the tick.
     ///
     /// # Errors
     /// As [`App::press`], [`App::drag`] and [`App::lift`].
@@ -152,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_passes_its_places_at_their_ticks() {
+    fn a_stroke_passes_its_keyframes_at_their_ticks() {
         let stroke = &CUT[0];
         for (tick, place) in stroke.keyframes {
             assert!(stroke.at(*tick).distance(Vec2::from(*place)) < 1.0e-6);
@@ -162,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_swipe_of_the_blade_cuts_one_slit_and_leaves_one_piece() {
+    fn a_swipe_of_the_blade_makes_one_cut_and_leaves_one_piece() {
         let app = played(Gesture::Cut, Settings::default());
         let readout = app.readout();
         assert!(readout.particles > 1600 + 25, "{} particles", readout.particles);
@@ -171,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_yank_rips_a_slit_and_no_confetti() {
+    fn a_yank_tears_the_sheet_into_at_most_three_pieces() {
         let app = played(Gesture::Yank, Settings { tearing: true, ..Settings::default() });
         let readout = app.readout();
         assert!(readout.particles > 1600 + 8, "{} particles", readout.particles);

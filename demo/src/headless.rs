@@ -1,4 +1,11 @@
-//! A GL context without a window: EGL on whatever device there is, a software rasteriser included.
+//! OpenGL context without a window, through EGL on any device, including a software rasteriser.
+//!
+//! Method: EGL device enumeration and a surfaceless context; the first device that offers OpenGL
+//! 3.3 is used.
+//!
+//! Reads the list of devices; makes a context current on this thread.
+//!
+//! Invariant: the context stays current while [`Headless`] lives.
 
 use std::ffi::CString;
 use std::fmt;
@@ -13,14 +20,14 @@ use glutin::display::GlDisplay;
 use three_d::Context;
 use three_d::context::HasContext as _;
 
-/// A drawing context that no screen belongs to.
+/// A drawing context without a screen.
 pub struct Headless {
-    /// What to draw with.
+    /// Context for three-d.
     pub context: Context,
     _current: PossiblyCurrentContext,
 }
 
-/// Why there is no context; says in one line what to install.
+/// Reason why there is no context; its message names the packages to install.
 #[derive(Debug)]
 pub struct NoContext(String);
 
@@ -37,7 +44,7 @@ impl fmt::Display for NoContext {
 impl std::error::Error for NoContext {}
 
 impl Headless {
-    /// Makes a context on the first device that gives one.
+    /// Creates a context on the first device that offers one.
     ///
     /// # Errors
     /// [`NoContext`] if EGL is missing or no device offers OpenGL 3.3.
@@ -53,13 +60,13 @@ impl Headless {
         Err(NoContext(why))
     }
 
-    /// Waits until all that was asked for is drawn.
+    /// Waits until the driver has finished all drawing.
     pub fn finish(&self) {
         // SAFETY: the context is current.
         unsafe { self.context.finish() }
     }
 
-    /// What draws, in its driver's words.
+    /// Returns the name of the renderer as the driver gives it.
     pub fn driver(&self) -> String {
         // SAFETY: the context is current.
         unsafe { self.context.get_parameter_string(three_d::context::RENDERER) }
@@ -67,11 +74,11 @@ impl Headless {
 
     fn on(device: &Device) -> Result<Self, String> {
         let to_message = |e: glutin::error::Error| e.to_string();
-        // SAFETY: no native display is passed, so there is none that could go away.
+        // SAFETY: the call passes no native display, so no display can become invalid.
         let display = unsafe { Display::with_device(device, None) }.map_err(to_message)?;
         let template =
             ConfigTemplateBuilder::new().with_surface_type(ConfigSurfaceTypes::empty()).build();
-        // SAFETY: the template names no native window.
+        // SAFETY: the template refers to no native window.
         let config = unsafe { display.find_configs(template) }
             .map_err(to_message)?
             .next()
@@ -80,7 +87,7 @@ impl Headless {
             .with_profile(GlProfile::Core)
             .with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3))))
             .build(None);
-        // SAFETY: display and config are the ones just made.
+        // SAFETY: display and config come from the calls above.
         let context =
             unsafe { display.create_context(&config, &attributes) }.map_err(to_message)?;
         let current = context.make_current_surfaceless().map_err(to_message)?;

@@ -1,8 +1,18 @@
-//! The demo of Muslin, drawn with three-d: a sheet that hangs, is grabbed, blows and tears, and a receipt
-//! to fold, crumple and toss.
+//! The demo of Muslin, drawn with three-d: cloth to grab, cut and tear, and a receipt to fold,
+//! crumple and toss.
 //!
-//! [`app`] is the sheet and [`tender`] the receipt; [`native`] puts them into a window, `web` onto pages,
-//! [`headless`] into pictures. [`controls`] is the one table behind both panels.
+//! ```text
+//! native (window)   web (page)   shot (PNG file)
+//!         ╲             │             ╱
+//!       app (five cloth scenes), receipt (one scene)
+//!         │                     │
+//!       scene, pointer, camera  render
+//! ```
+//! The upper row knows the platform and passes events and time down. The middle row owns the cloth
+//! and its settings. [`controls`] is the table of controls that both the window and the page show.
+//!
+//! Invariant: a module imports only from its own row or a lower one, and no two files import each
+//! other.
 
 pub mod afterglow;
 pub mod app;

@@ -1,4 +1,4 @@
-//! The demo of Muslin as a program: a window, or `--shot` for a picture.
+//! The demo of Muslin as a program: it opens a window, or writes a picture with `--shot`.
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {
@@ -45,6 +45,6 @@ fn main() -> std::process::ExitCode {
     }
 }
 
-/// The page loads the library, not this program.
+/// Empty: the page loads the library instead of this program.
 #[cfg(target_arch = "wasm32")]
 fn main() {}

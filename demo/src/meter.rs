@@ -1,39 +1,46 @@
-//! Smoothed figures of how fast it runs, and how finely it can be drawn at that speed.
+//! Frame timing: smoothed durations, and the resolution scale that follows from them.
+//!
+//! ```text
+//! figure += (value − figure) · 0.06       exponential moving average, once per frame
+//! ```
+//! Reads durations [s]; writes smoothed figures, a [`Readout`] and the resolution scale.
+//!
+//! Invariant: nothing here feeds back into the simulation.
 
 use muslin::{Cloth, Stage};
 use serde::Serialize;
 
-/// How quickly a figure follows: the share that one frame has in it.
+/// Weight of one frame in the moving average.
 const FOLLOW: f64 = 0.06;
 
-/// Stages of the simulation, and after them those of the picture.
+/// Stages of the simulation, and two more for upload and draw calls.
 const STAGES: usize = Stage::COUNT + 2;
 
-/// The numbers that a panel shows.
+/// Numbers that a panel shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Readout {
-    /// Particles, those that tears have added included.
+    /// Particles, including those that tears have added.
     pub particles: u32,
-    /// Constraints that still hold.
+    /// Constraints that are not torn.
     pub constraints: u32,
-    /// Pieces that the cloth is in.
+    /// Connected pieces of the cloth.
     pub pieces: u32,
-    /// Frames a second, smoothed.
+    /// Frames per second, smoothed.
     pub fps: f32,
-    /// Simulation in a frame [ms], smoothed.
+    /// Simulation time per frame [ms], smoothed.
     pub milliseconds: f32,
 }
 
-/// How long a stage takes in a frame.
+/// Duration of one stage in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StageTime {
-    /// What it is called.
+    /// Name of the stage.
     pub name: &'static str,
-    /// How long it takes [ms], smoothed.
+    /// Duration [ms], smoothed.
     pub milliseconds: f32,
 }
 
-/// Frame time, simulation time and what it is made of, smoothed.
+/// Smoothed frame time, simulation time and times of the stages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Meter {
     frame: f64,
@@ -42,32 +49,32 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// A frame took so long [s].
+    /// Adds the duration of a frame [s].
     pub fn record_frame(&mut self, seconds: f32) {
         if seconds > 0.0 {
             blend(&mut self.frame, f64::from(seconds));
         }
     }
 
-    /// The simulation of a frame took so long [s].
+    /// Adds the duration of the simulation in a frame [s].
     pub fn record_simulation(&mut self, seconds: f64) {
         blend(&mut self.simulation, seconds.max(0.0));
     }
 
-    /// The stages of the simulation took so long in a frame [s].
+    /// Adds the durations of the stages of the simulation in a frame [s].
     pub fn record_stages(&mut self, stages: &[f32; Stage::COUNT]) {
         for (figure, seconds) in self.stages.iter_mut().zip(stages) {
             blend(figure, f64::from(*seconds));
         }
     }
 
-    /// Handing the cloth to the graphics card took so long in a frame, and asking for the picture [s].
+    /// Adds the durations of the upload to the GPU and of the draw calls in a frame [s].
     pub fn record_drawing(&mut self, upload: f64, draw: f64) {
         blend(&mut self.stages[Stage::COUNT], upload.max(0.0));
         blend(&mut self.stages[Stage::COUNT + 1], draw.max(0.0));
     }
 
-    /// What each stage is called and how long it takes in a frame.
+    /// Returns name and duration of each stage.
     pub fn stages(&self) -> Vec<StageTime> {
         let names = Stage::ALL.iter().map(|stage| match stage {
             Stage::Outputs => "normals",
@@ -79,7 +86,7 @@ impl Meter {
         times.map(|(name, milliseconds)| StageTime { name, milliseconds }).collect()
     }
 
-    /// These figures beside those of the cloths that they are about.
+    /// Returns these figures together with the counts of `cloths`.
     pub fn readout(&self, cloths: &[Cloth]) -> Readout {
         let mut readout =
             Readout { fps: self.fps(), milliseconds: self.milliseconds(), ..Readout::default() };
@@ -91,29 +98,29 @@ impl Meter {
         readout
     }
 
-    /// Frames a second.
+    /// Returns the frames per second.
     pub fn fps(&self) -> f32 {
         if self.frame > 0.0 { (1.0 / self.frame) as f32 } else { 0.0 }
     }
 
-    /// Simulation in a frame [ms].
+    /// Returns the simulation time per frame [ms].
     pub fn milliseconds(&self) -> f32 {
         (1000.0 * self.simulation) as f32
     }
 }
 
-/// Draws dense screens less finely where full density is too slow.
+/// Lowers the render resolution on dense screens while frames are too slow.
 #[derive(Clone, Copy, Debug)]
 pub struct ResolutionScaler {
     scale: f32,
     slow: f32,
 }
 
-/// Below this rate it is too slow [1/s].
+/// Frame rate below which a frame counts as slow [1/s].
 const SLOW: f32 = 40.0;
-/// For so long [s] before anything changes.
+/// Time of slow frames before the scale changes [s].
 const PATIENCE: f32 = 2.0;
-/// Frames longer than this are not drawing but waiting [s].
+/// Longer frames are pauses of the window and do not count [s].
 const PAUSE: f32 = 0.5;
 
 impl Default for ResolutionScaler {
@@ -123,7 +130,7 @@ impl Default for ResolutionScaler {
 }
 
 impl ResolutionScaler {
-    /// A frame took so long [s].
+    /// Adds the duration of a frame [s]; lowers the scale after [`PATIENCE`] of slow frames.
     pub fn record_frame(&mut self, seconds: f32) {
         if seconds > PAUSE {
             return;
@@ -135,8 +142,8 @@ impl ResolutionScaler {
         }
     }
 
-    /// What share of a screen's pixels to draw along each side, if it has `density` device pixels
-    /// to one that the eye counts: never fewer than one.
+    /// Returns the fraction of the device pixels to draw along each side; `density` is the number
+    /// of device pixels per logical pixel. The result is at least one pixel per logical pixel.
     pub fn scale(&self, density: f32) -> f32 {
         self.scale.max(1.0 / density.max(1.0))
     }
@@ -151,7 +158,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_dense_screen_is_drawn_less_finely_when_slow_and_a_plain_one_never() {
+    fn slow_frames_lower_the_scale_only_on_dense_screens() {
         let mut resolution_scaler = ResolutionScaler::default();
         for _ in 0..600 {
             resolution_scaler.record_frame(1.0 / 60.0);
@@ -164,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn steady_frames_read_as_their_rate() {
+    fn steady_frames_give_their_frame_rate() {
         let mut meter = Meter::default();
         assert_eq!(meter.fps(), 0.0);
         meter.record_frame(0.5);
@@ -177,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn every_stage_has_a_name_and_its_own_figure() {
+    fn every_stage_has_a_name_and_its_own_duration() {
         let mut meter = Meter::default();
         let seconds = std::array::from_fn(|i| 0.001 * i as f32);
         meter.record_stages(&seconds);

@@ -1,26 +1,34 @@
-//! A hand on the cloth: it takes not one thread but the patch under its fingertip, so that a pull
-//! is felt around it and does not bite a hole.
+//! Patch grab: one pointer grabs a small patch of particles, so that a pull does not stretch the
+//! cloth at a single particle.
+//!
+//! Method: picking by a ray, then breadth-first search along the links within a fingertip radius of
+//! rest distance.
+//!
+//! Reads the cloth and a pick ray; writes grabs of the cloth.
+//!
+//! Invariant: the grabbed particles keep their offsets to each other while the patch moves.
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, Error, Grab, LinkKind, Result};
 
-/// How far a fingertip reaches along the cloth, as it is drawn [m]; one edge at least.
+/// Radius of the patch along the cloth, in drawn metres; at least one edge.
 pub const FINGERTIP_RADIUS: f32 = 0.055;
-/// So many particles at most: the cloth has a few dozen grabs for all fingers together.
+/// Most particles of a patch: a cloth has a few dozen grabs for all pointers together.
 const MAX_PARTICLES: usize = 9;
 
-/// What a hand holds, from taking it to letting go.
+/// The grabs of one patch.
 #[derive(Debug)]
 pub struct PatchGrab {
-    /// Each with its place beside the first one.
+    /// Each grab with its offset from the picked particle [m].
     held: Vec<(Grab, Vec3)>,
-    /// Where the first one is sent [m].
+    /// Target of the picked particle [m].
     at: Vec3,
 }
 
 impl PatchGrab {
-    /// Takes what a ray hits, or what is within `radius` [m] of it; `span` is what the weave's
-    /// coordinates cover, and `fingertip` how far the fingertip reaches [m].
+    /// Grabs the patch at the particle that the ray hits, or that is within `radius` [m] of the
+    /// ray. `span` is the size of the sheet in texture space [m], `fingertip` the radius of the
+    /// patch [m].
     ///
     /// # Errors
     /// As [`Cloth::grab_ray`].
@@ -44,7 +52,7 @@ impl PatchGrab {
             let beside = cloth.positions()[particle as usize] - at;
             match cloth.grab_particle(particle) {
                 Ok(grab) => hand.held.push((grab, beside)),
-                // Other fingers hold all that can be held.
+                // Other pointers use all grabs of the cloth.
                 Err(Error::Full { .. }) => break,
                 Err(error) => return Err(error),
             }
@@ -52,12 +60,12 @@ impl PatchGrab {
         Ok(Some(hand))
     }
 
-    /// Where it holds the cloth [m].
+    /// Returns the target of the picked particle [m].
     pub fn at(&self) -> Vec3 {
         self.at
     }
 
-    /// Takes what it holds along.
+    /// Moves the patch; `at` is the new target of the picked particle [m].
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
@@ -66,7 +74,7 @@ impl PatchGrab {
         self.held.iter().try_for_each(|(grab, beside)| cloth.move_grab(*grab, at + *beside))
     }
 
-    /// Lets go.
+    /// Releases all grabs of the patch.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -75,8 +83,8 @@ impl PatchGrab {
     }
 }
 
-/// The particles around `first` that threads lead to within a fingertip, nearest first, itself not
-/// included.
+/// Returns the particles within `fingertip` [m] of `first` that links connect with it, nearest
+/// first, without `first`.
 fn patch(cloth: &Cloth, first: u32, span: Vec2, fingertip: f32) -> Vec<u32> {
     let place = |particle: u32| cloth.uvs()[particle as usize] * span;
     let threads: Vec<_> = cloth.links().filter(|link| link.2 != LinkKind::Bend).collect();
@@ -116,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hand_holds_a_particle_and_its_neighbours_and_lets_go_of_all() {
+    fn a_patch_grabs_a_particle_with_its_neighbours_and_releases_all() {
         let mut cloth = sheet();
         let eye = Vec3::new(0.5, -0.5, 1.0);
         let mut hand =
@@ -136,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn a_patch_does_not_reach_across_a_slit() {
+    fn a_patch_does_not_cross_a_cut() {
         let mut cloth = sheet();
         let (from, to) = (Vec3::new(0.475, 0.1, -0.2), Vec3::new(0.475, -0.9, -0.2));
         assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
@@ -147,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn past_the_cloth_there_is_nothing_to_hold() {
+    fn a_ray_beside_the_cloth_grabs_nothing() {
         let eye = Vec3::new(3.0, 3.0, 1.0);
         assert!(
             PatchGrab::grab_ray(&mut sheet(), [eye, AHEAD], 0.05, Vec2::ONE, FINGERTIP_RADIUS)

@@ -1,4 +1,11 @@
-//! Hands on the pick: each pointer holds a piece of cloth or the camera, or nothing.
+//! Pointers (mouse and fingers) on a cloth scene: each one grabs cloth, orbits the camera or cuts.
+//!
+//! Method: a press picks the nearest cloth by a ray. A grabbed patch then moves in the plane
+//! through it that is parallel to the screen.
+//!
+//! Reads pointer events; writes grabs, cuts and the goal of the camera through [`PickContext`].
+//!
+//! Invariant: a released or lost pointer releases its grabs.
 
 use glam::{Vec2, Vec3};
 use muslin::Result;
@@ -9,15 +16,15 @@ use crate::patch_grab::{FINGERTIP_RADIUS, PatchGrab};
 use crate::picking::{PickContext, Screen};
 use crate::render::light::{FLOOR, STAGE_CENTRE};
 
-/// How far a held particle may be pulled from the middle of the stage [m].
+/// Greatest distance of a grabbed particle from the centre of the stage, in drawn metres.
 const REACH: f32 = 4.0;
-/// How near to the floor it may be pulled [m].
+/// Least height of a grabbed particle over the floor, in drawn metres.
 const CLEARANCE: f32 = 0.02;
 
-/// What a pointer holds.
+/// What a pointer does while it is pressed.
 #[derive(Debug)]
 enum Hold {
-    /// Of the cloth of this number.
+    /// Drags a patch of the cloth with this index.
     Cloth(usize, PatchGrab),
     Camera,
     Blade(Swipe),
@@ -30,21 +37,21 @@ struct Pointer {
     hold: Hold,
 }
 
-/// What the mouse's cursor should say.
+/// Shape of the mouse cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cursor {
-    /// Nothing in particular.
+    /// The arrow of the platform.
     Default,
-    /// Here is cloth to grab.
+    /// The pointer is over cloth.
     Grab,
-    /// Cloth is held.
+    /// A pointer drags cloth.
     Grabbing,
-    /// The blade is out.
+    /// The blade is on.
     Crosshair,
 }
 
 impl Cursor {
-    /// Its name in CSS.
+    /// Returns the name in CSS.
     pub fn css(self) -> &'static str {
         match self {
             Self::Default => "default",
@@ -55,7 +62,7 @@ impl Cursor {
     }
 }
 
-/// All pointers that are down.
+/// All pressed pointers, and the hover position of the mouse.
 #[derive(Debug, Default)]
 pub struct Pointers {
     down: Vec<Pointer>,
@@ -63,15 +70,16 @@ pub struct Pointers {
 }
 
 impl Pointers {
-    /// Whether any pointer is down.
+    /// Returns whether any pointer is pressed.
     pub fn is_any_down(&self) -> bool {
         !self.down.is_empty()
     }
 
-    /// A pointer comes down: on cloth it grabs, elsewhere it takes the camera; with the blade out it
-    /// cuts, wherever it is.
+    /// Handles a pressed pointer: it grabs the cloth under it, and orbits the camera elsewhere;
+    /// with the blade it cuts everywhere.
     ///
-    /// A second finger that lands beside the cloth turns both into a pinch.
+    /// If a finger lands beside the cloth, all pressed fingers start to orbit, so that two of them
+    /// pinch.
     ///
     /// # Errors
     /// As [`Cloth::grab_ray`].
@@ -96,7 +104,7 @@ impl Pointers {
         Ok(())
     }
 
-    /// A pointer moves, up or down.
+    /// Handles a pointer that moves, pressed or not.
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
@@ -125,7 +133,7 @@ impl Pointers {
         self.update_targets(pick)
     }
 
-    /// A pointer goes up, is cancelled or is lost: it lets go.
+    /// Handles a pointer that is released, cancelled or lost: it releases its grabs.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -141,12 +149,13 @@ impl Pointers {
         }
     }
 
-    /// The pointer has left the screen.
+    /// Removes the hover position: the mouse has left the screen.
     pub fn clear_hover(&mut self) {
         self.hover = None;
     }
 
-    /// Holds what is held under its pointer, also when only the camera has moved.
+    /// Updates the targets of all grabs from the pointers and the camera, which may have moved
+    /// alone.
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
@@ -162,8 +171,7 @@ impl Pointers {
         Ok(())
     }
 
-    /// Every pointer that held cloth now holds the camera: the cloth they held is no more, or a
-    /// pinch begins.
+    /// Releases the cloth of every pointer and lets them orbit the camera: a pinch begins.
     fn turn_grabs_into_orbit(&mut self, pick: &mut PickContext<'_>) -> Result<()> {
         for pointer in &mut self.down {
             if matches!(pointer.hold, Hold::Cloth(..))
@@ -175,12 +183,12 @@ impl Pointers {
         Ok(())
     }
 
-    /// Forgets every pointer without asking the cloth, which has been replaced.
+    /// Removes every pointer without releasing grabs: the cloth has been replaced.
     pub fn clear(&mut self) {
         self.down.clear();
     }
 
-    /// What the cursor should say.
+    /// Returns the shape of the mouse cursor.
     ///
     /// # Errors
     /// As [`Cloth::raycast`].
@@ -201,8 +209,8 @@ impl Pointers {
     }
 }
 
-/// Turns the camera by a pointer's way from one pixel to another while `others` hold it too; two of them
-/// pinch.
+/// Orbits the camera by the move of a pointer [px]; with exactly one of `others` on the camera too,
+/// it also zooms by the ratio of their distances (pinch).
 pub fn orbit_and_pinch(
     camera: &mut Camera,
     screen: Screen,
@@ -210,7 +218,7 @@ pub fn orbit_and_pinch(
     others: &[Vec2],
 ) {
     let height = screen.size.y.max(1.0);
-    // Both fingers of a pinch orbit_and_pinch the camera by half, so that their middle leads it.
+    // Each finger orbits by its share, so that the camera follows the midpoint of the fingers.
     camera.orbit((to - from) / (height * (others.len() + 1) as f32));
     if let [other] = others {
         let (before, after) = (from.distance(*other), to.distance(*other));
@@ -220,7 +228,8 @@ pub fn orbit_and_pinch(
     }
 }
 
-/// A hand on the cloth behind a pixel, or on one that is nearly there.
+/// Grabs a patch of the cloth behind a pixel, or of a cloth close to the ray; returns the index of
+/// the cloth.
 fn grab_at(pick: &mut PickContext<'_>, at: Vec2) -> Result<Option<(usize, PatchGrab)>> {
     let ray = [pick.view.eye, pick.ray(at)];
     let (span, fingertip) = (pick.span * pick.unit, FINGERTIP_RADIUS * pick.unit);
@@ -247,7 +256,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_is_pulled_off_the_stage_or_under_the_floor() {
+    fn grab_targets_stay_on_the_stage_and_above_the_floor() {
         let far = clamp_to_stage(Vec3::new(5.0, -300.0, 2.0));
         assert!(far.distance(STAGE_CENTRE) <= REACH + 1.0e-3 && far.y >= FLOOR);
         let near = Vec3::new(0.3, 0.4, 0.5);

@@ -1,5 +1,12 @@
-//! What is on the stage: the cloth of the scene, made and kept as the controls say, and what it hangs
-//! on.
+//! Scene setup: builds the cloths of a scene, applies the settings to them, and lists the solids to
+//! draw.
+//!
+//! Method: the descriptors of `muslin_scenes` with the fabric, resolution and pinning of
+//! [`Settings`]; some colliders are drawn slightly smaller than their collision shape.
+//!
+//! Reads [`Settings`]; writes a [`SceneInstance`].
+//!
+//! Invariant: clamped settings always build a scene.
 
 use std::f32::consts::TAU;
 
@@ -15,26 +22,27 @@ use crate::render::solid::Solid;
 use crate::scene_kind::SceneKind;
 use crate::settings::{Pinning, Settings};
 
-/// Speed of the air at wind 1 [m/s].
+/// Air speed of the hanging sheet at wind 1 [m/s].
 const BREEZE: f32 = 1.3;
-/// And where a flag flies.
+/// Air speed of the flag at wind 1 [m/s].
 const STIFF_BREEZE: f32 = 7.0;
-/// And where a sheet only lies.
+/// Air speed of the sheet on the ball and of the curtain at wind 1 [m/s].
 const BREATH: f32 = 0.6;
-/// And where small discs show how they hang.
+/// Air speed of the discs at wind 1 [m/s].
 const DRAUGHT: f32 = 0.25;
-/// What the cloth is kept over the floor, so that it never flickers through [m].
+/// Height of the floor collider over the drawn floor, which avoids z-fighting [m].
 const CLEARANCE: f32 = 0.006;
-/// What the ball is drawn smaller than it is felt, since triangles cut its corners [m].
+/// Difference between the collision radius and the drawn radius of the ball: the triangles of the
+/// cloth cut the corners of the round shape [m].
 const SKIN: f32 = 0.009;
-/// The fabrics of the discs.
+/// Fabrics of the discs.
 const DISCS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
 /// Colour of knobs and rings.
 const BRASS: u32 = 0xd9a04a;
-/// Radius of the flag's pole [m].
+/// Radius of the flag pole [m].
 const POLE: f32 = 0.016;
 
-/// Particles across and down, where they are woven in rows.
+/// Returns the numbers of particles across and down; `None` for the discs, which are no grid.
 pub fn grid_size(settings: &Settings) -> Option<[u32; 2]> {
     match settings.scene {
         SceneKind::Sheet | SceneKind::Ball => Some([settings.resolution; 2]),
@@ -44,7 +52,7 @@ pub fn grid_size(settings: &Settings) -> Option<[u32; 2]> {
     }
 }
 
-/// Length of what is drawn as a metre [m].
+/// Returns the length in the simulation of one drawn metre [m].
 pub fn unit(scene: SceneKind) -> f32 {
     match scene {
         SceneKind::Discs => Drapes::UNIT,
@@ -52,7 +60,7 @@ pub fn unit(scene: SceneKind) -> f32 {
     }
 }
 
-/// How each cloth takes the light.
+/// Returns the appearance of each cloth.
 pub fn appearances(settings: &Settings) -> Vec<Appearance> {
     match settings.scene {
         SceneKind::Discs => DISCS.map(Fabric::appearance).to_vec(),
@@ -60,7 +68,7 @@ pub fn appearances(settings: &Settings) -> Vec<Appearance> {
     }
 }
 
-/// Where the camera starts, and how far it goes.
+/// Returns start pose and limits of the camera.
 pub fn camera_rig(scene: SceneKind) -> CameraRig {
     let usual = CameraRig::default();
     match scene {
@@ -81,7 +89,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
     }
 }
 
-/// Distance between neighbouring particles [m].
+/// Returns the distance between neighbouring particles [m].
 pub fn spacing(settings: &Settings) -> f32 {
     let across = match settings.scene {
         SceneKind::Sheet => HangingSheet::SIZE,
@@ -93,14 +101,14 @@ pub fn spacing(settings: &Settings) -> f32 {
     across / (settings.resolution - 1) as f32
 }
 
-/// Width and height of a cloth, as it is drawn [m].
+/// Returns width and height of a cloth, in drawn metres.
 pub fn span(settings: &Settings) -> Vec2 {
     let size =
         grid_size(settings).map(|grid_size| grid_size.map(|n| (n - 1) as f32 * spacing(settings)));
     size.map_or(Vec2::splat(2.0 * Drapes::RADIUS), Vec2::from) / unit(settings.scene)
 }
 
-/// What the cloth hangs on and lies over, as it is drawn.
+/// Returns the solids to draw: supports and obstacles of the cloth.
 pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
     match settings.scene {
         SceneKind::Sheet => Vec::new(),
@@ -129,7 +137,7 @@ pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
     }
 }
 
-/// A pedestal, a little lower and thinner than it is felt.
+/// A pedestal, drawn slightly smaller than its collision shape.
 fn pedestal(place: Vec3) -> [Solid; 2] {
     let top = place / Drapes::UNIT - Vec3::Y * 0.004;
     let radius = Drapes::PEDESTAL / Drapes::UNIT - 0.006;
@@ -140,7 +148,7 @@ fn pedestal(place: Vec3) -> [Solid; 2] {
     ]
 }
 
-/// The curtain's rod on two stands, with a ring and a clip for each place that is held.
+/// The curtain rod on two stands, with a ring and a clip for each held point.
 fn rod() -> Vec<Solid> {
     let half = Vec3::X * (0.5 * Curtain::WIDTH + 0.13);
     let (from, to) = (Curtain::ROD - half, Curtain::ROD + half);
@@ -160,10 +168,10 @@ fn rod() -> Vec<Solid> {
     solids
 }
 
-/// A fresh cloth over the floor, or several.
+/// Builds the cloths of the scene over a floor, with the settings applied.
 ///
 /// # Errors
-/// As [`Cloth::grid`] and [`Cloth::mesh`]; clamped settings give none.
+/// As [`Cloth::grid`] and [`Cloth::mesh`]; clamped settings cause none.
 pub fn build(settings: &Settings, reduced_motion: bool) -> Result<SceneInstance> {
     let mut instance = match settings.scene {
         SceneKind::Discs => discs(settings)?.into(),
@@ -180,7 +188,7 @@ pub fn build(settings: &Settings, reduced_motion: bool) -> Result<SceneInstance>
     Ok(instance)
 }
 
-/// A sheet that hangs, flies or lies.
+/// Builds the cloth of a scene with one grid: sheet, flag or ball.
 fn sheet(settings: &Settings) -> Result<Cloth> {
     let mut desc = match settings.scene {
         SceneKind::Flag => Flag::desc(settings.resolution),
@@ -188,7 +196,7 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
         _ => HangingSheet::desc(settings.resolution, pin_mode(settings.pinning)),
     };
     desc.material = settings.fabric.material();
-    // The stiffness slider multiplies them by up to twelve sweeps: four are smooth, and cheap.
+    // The stiffness control sets up to twelve iterations per substep, so four substeps are enough.
     desc.settings.substeps = 4;
     let mut cloth = match settings.scene {
         SceneKind::Flag => Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?,
@@ -203,7 +211,8 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
     Ok(cloth)
 }
 
-/// Discs on their pedestals. Drapes are told apart by shear and bending, so these give way as their fabrics do.
+/// Builds the discs on their pedestals. Shear and bending set the drape, so each disc uses the
+/// unchanged stiffness of its preset.
 fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
     let rings = Disc::rings(across_disc(settings));
     let disc = |(fabric, place): (Fabric, Vec3)| {
@@ -217,7 +226,7 @@ fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
     DISCS.into_iter().zip(Drapes::CENTRES).map(disc).collect()
 }
 
-/// Particles across a disc: a few less, since there are three.
+/// Number of particles across a disc: two thirds of the resolution, because there are three discs.
 fn across_disc(settings: &Settings) -> u32 {
     (2 * settings.resolution).div_ceil(3)
 }
@@ -235,16 +244,17 @@ fn pin_mode(pinning: Pinning) -> PinMode {
     }
 }
 
-/// Gathers the flat sheet like a curtain, or arches it between its corners; lays a flag in waves.
+/// Sets the start positions: folds for the sheet, an arch between its corners, waves for the flag.
 ///
-/// Every row follows one curve whose arc is as long as the row, so no thread is stretched: the
-/// direction of the curve is given along the arc, and the places are its running sum.
+/// Every row follows one curve whose arc length equals the length of the row, so no link is
+/// stretched. A function gives the direction of the curve by arc length, and the positions are its
+/// running sum.
 fn fold_at_start(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
     let (Some([columns, rows]), step) = (grid_size(settings), spacing(settings)) else {
         return Ok(());
     };
     let direction = |u: f32| match (settings.scene, settings.pinning) {
-        // Uneven folds: the phase runs ahead and falls behind.
+        // The phase varies, so that the folds have different widths.
         (SceneKind::Sheet, Pinning::TopEdge) => {
             0.78 * (TAU * (4.5 * u + 0.10 * (TAU * u).sin() + 0.07 * (2.3 * TAU * u).cos())).sin()
         }
@@ -271,10 +281,11 @@ fn fold_at_start(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
     Ok(())
 }
 
-/// Brings cloths in line with the controls; `reduced_motion` takes most of the restlessness out of the wind.
+/// Applies the settings to all cloths; `reduced_motion` weakens gusts, wander and turbulence of the
+/// wind.
 ///
 /// # Errors
-/// As [`Cloth::set_settings`] and [`Cloth::set_wind`]; clamped settings give none.
+/// As [`Cloth::set_settings`] and [`Cloth::set_wind`]; clamped settings cause none.
 pub fn apply_settings(
     instance: &mut SceneInstance,
     settings: &Settings,
@@ -288,7 +299,7 @@ pub fn apply_settings(
 
 fn apply_settings_to(cloth: &mut Cloth, settings: &Settings, reduced_motion: bool) -> Result<()> {
     let mut live = cloth.settings().clone();
-    // So small are discs that substeps do for them what sweeps do for others.
+    // For the small discs, substeps set the stiffness instead of iterations.
     (live.substeps, live.iterations) = match settings.scene {
         SceneKind::Discs => ((4 * settings.stiffness).div_ceil(3), 2),
         _ => (live.substeps, settings.stiffness),
@@ -318,7 +329,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_scene_opens_in_motion_unstretched_and_on_the_stage() {
+    fn every_scene_starts_unstretched_in_motion_and_within_the_stage() {
         for scene in SceneKind::ALL {
             for pinning in [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners] {
                 let settings = Settings { scene, pinning, ..Settings::default() };
@@ -347,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn a_calm_wind_is_steadier() {
+    fn reduced_motion_weakens_the_gusts() {
         for scene in SceneKind::ALL {
             let settings = Settings { scene, ..Settings::default() };
             let [restless, reduced_motion] = [false, true].map(|reduced_motion| {

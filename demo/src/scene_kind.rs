@@ -1,33 +1,41 @@
-//! SCENEKIND DOC
+//! The cloth scenes of the demo, by name.
+//!
+//! Method: a plain enumeration, so that settings and scene setup can share it without importing
+//! each other.
+//!
+//! Reads nothing; [`SceneKind::fabric`] returns the default fabric of a scene.
+//!
+//! Invariant: `ALL` and `NAMES` have the same order, and the saved settings use the kebab-case
+//! names.
 
 use serde::{Deserialize, Serialize};
 
 use crate::fabric::Fabric;
 
-/// A scene of the demo.
+/// A cloth scene of the demo.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SceneKind {
-    /// The sheet that hangs by its top edge.
+    /// A sheet that hangs by its top edge.
     #[default]
     Sheet,
-    /// The flag that streams from its pole.
+    /// A flag on its pole.
     Flag,
-    /// The sheet that falls on a ball.
+    /// A sheet that falls on a ball.
     Ball,
     /// Discs of three fabrics on pedestals.
     Discs,
-    /// The curtain that a ball rolls through.
+    /// A curtain that a ball rolls through.
     Curtain,
 }
 
 impl SceneKind {
-    /// All of them, in the order of the panel.
+    /// All scenes, in the order of the panel.
     pub const ALL: [Self; 5] = [Self::Sheet, Self::Flag, Self::Ball, Self::Discs, Self::Curtain];
-    /// What the panel calls them.
+    /// Names on the panel.
     pub const NAMES: [&'static str; 5] = ["Sheet", "Flag", "Ball", "Discs", "Curtain"];
 
-    /// What its cloth is of when it opens.
+    /// Returns the fabric that the scene starts with.
     pub fn fabric(self) -> Fabric {
         match self {
             Self::Sheet | Self::Discs | Self::Curtain => Fabric::Silk,

@@ -1,4 +1,11 @@
-//! What the user may change: validated, clamped, and kept between visits.
+//! Settings of the cloth scenes: the values of the controls.
+//!
+//! Method: a serde document in JSON; unknown fields are ignored and missing ones get their
+//! defaults.
+//!
+//! Reads and writes JSON text; the platform stores it.
+//!
+//! Invariant: after [`Settings::clamp`] every value is in its range.
 
 use std::ops::RangeInclusive;
 
@@ -7,18 +14,18 @@ use serde::{Deserialize, Serialize};
 use crate::fabric::Fabric;
 use crate::scene_kind::SceneKind;
 
-/// Wind, as a share of a fresh breeze.
+/// Range of the wind, relative to the air speed of the scene.
 pub const WIND: RangeInclusive<f32> = 0.0..=3.0;
-/// Gravity [m/s²].
+/// Range of gravity [m/s²].
 pub const GRAVITY: RangeInclusive<f32> = 0.0..=20.0;
-/// Stiffness: sweeps over the links.
+/// Range of the stiffness: solver iterations per substep.
 pub const STIFFNESS: RangeInclusive<f32> = 1.0..=12.0;
-/// Damping: the share of its velocity that a particle loses in a sixtieth of a second.
+/// Range of the damping: fraction of its velocity that a particle loses in 1/60 s.
 pub const DAMPING: RangeInclusive<f32> = 0.0..=0.06;
-/// Particles along a side of the sheet.
+/// Allowed numbers of particles along a side.
 pub const RESOLUTIONS: [u32; 5] = [24, 40, 56, 96, 128];
 
-/// Which particles hold the sheet up.
+/// Which particles are pinned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pinning {
@@ -31,31 +38,31 @@ pub enum Pinning {
     Corners,
 }
 
-/// The controls' values.
+/// Values of the controls.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
     /// Strength of the wind, in [`WIND`].
     pub wind: f32,
-    /// Downwards [m/s²], in [`GRAVITY`].
+    /// Gravity, downwards [m/s²], in [`GRAVITY`].
     pub gravity: f32,
-    /// Sweeps over the links, in [`STIFFNESS`].
+    /// Solver iterations per substep, in [`STIFFNESS`].
     pub stiffness: u32,
-    /// Share of velocity lost each sixtieth of a second, in [`DAMPING`].
+    /// Fraction of the velocity lost in 1/60 s, in [`DAMPING`].
     pub damping: f32,
-    /// Links are drawn over the cloth.
+    /// Whether the links are drawn over the cloth.
     pub wireframe: bool,
-    /// Over-stretched links tear.
+    /// Whether overstretched links tear.
     pub tearing: bool,
-    /// Pointers cut instead of grabbing.
+    /// Whether pointers cut instead of grabbing.
     pub blade: bool,
-    /// Time stands still.
+    /// Whether the simulation is paused.
     pub paused: bool,
-    /// What is on the stage.
+    /// The scene.
     pub scene: SceneKind,
-    /// What its cloth is of.
+    /// Fabric of the cloth.
     pub fabric: Fabric,
-    /// What holds the sheet up.
+    /// Which particles are pinned.
     pub pinning: Pinning,
     /// Particles along a side, one of [`RESOLUTIONS`].
     pub resolution: u32,
@@ -81,23 +88,23 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Reads what [`Settings::to_json`] wrote; values out of range are brought into it.
+    /// Parses the text of [`Settings::to_json`] and clamps the values.
     ///
     /// # Errors
-    /// What is wrong with the text, if it is not such a document; use the defaults then.
+    /// The parse error of a text that is no such document; the caller then uses the defaults.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         let mut settings: Self = serde_json::from_str(text)?;
         settings.clamp();
         Ok(settings)
     }
 
-    /// The values as a JSON document.
+    /// Returns the values as a JSON document.
     pub fn to_json(&self) -> String {
-        // Numbers, booleans and unit variants: there is nothing in it that JSON could not say.
+        // Numbers, booleans and unit variants only, so the conversion cannot fail.
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// Brings every value into its range; what is no number becomes the default.
+    /// Clamps every value to its range; a value that is not finite gets its default.
     pub fn clamp(&mut self) {
         let usual = Self::default();
         let keep = |value: f32, range: RangeInclusive<f32>, usual: f32| {
@@ -112,7 +119,7 @@ impl Settings {
         }
     }
 
-    /// [`Settings::damping`] as the rate that Muslin takes [1/s].
+    /// Converts [`Settings::damping`] to the damping rate of Muslin [1/s].
     pub fn damping_rate(&self) -> f32 {
         -(1.0 - self.damping).ln() * 60.0
     }
@@ -123,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn settings_survive_writing_and_reading() {
+    fn settings_are_equal_after_writing_and_reading() {
         let settings = Settings {
             wind: 2.25,
             tearing: true,
@@ -136,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn values_out_of_range_are_brought_into_it() {
+    fn values_out_of_range_are_clamped() {
         let text =
             r#"{"wind": 99, "gravity": -4, "stiffness": 0, "damping": 1, "resolution": 4096}"#;
         let settings = Settings::from_json(text).unwrap();
@@ -149,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_value_is_the_usual_one_and_a_corrupt_document_is_refused() {
+    fn a_missing_value_gets_its_default_and_a_corrupt_document_is_an_error() {
         let settings = Settings::from_json(r#"{"wind": 1.5, "from_the_future": true}"#).unwrap();
         assert_eq!(settings.wind, 1.5);
         assert_eq!(settings.gravity, Settings::default().gravity);
@@ -159,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn damping_loses_its_share_every_sixtieth() {
+    fn the_damping_rate_removes_the_set_fraction_in_a_sixtieth_of_a_second() {
         let settings = Settings { damping: 0.03, ..Settings::default() };
         let left = (-settings.damping_rate() / 60.0).exp();
         assert!((left - 0.97).abs() < 1.0e-6, "{left} is left");

@@ -1,5 +1,12 @@
-//! A picture without a window: so many ticks of the scene, then one frame into a PNG, or several side
-//! by side: a film strip.
+//! Screenshots without a window: runs a scene for some ticks and writes one frame as PNG, or
+//! several frames side by side (a film strip).
+//!
+//! Method: an EGL context, an off-screen canvas and the same applications as in the window.
+//!
+//! Reads a [`Shot`]; writes a [`Picture`].
+//!
+//! Invariant: the same shot gives the same picture on the same driver, because ticks are counted
+//! and no clock is read.
 
 use std::path::Path;
 
@@ -16,37 +23,37 @@ use crate::render::receipt_renderer::ReceiptRenderer;
 use crate::render::{OffscreenCanvas, Renderer};
 use crate::settings::Settings;
 
-/// What to draw.
+/// Description of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
-    /// Width and height in pixels.
+    /// Width and height [px] of a frame.
     pub size: [u32; 2],
-    /// Ticks that the scene plays first.
+    /// Ticks to run in total.
     pub ticks: u32,
-    /// What hands do in the last of them.
+    /// Gesture to run in the last of these ticks.
     pub play: Option<Gesture>,
-    /// How many frames there are, side by side.
+    /// Number of frames side by side.
     pub strip: u32,
     /// Whether every tick is drawn and timed.
     pub times: bool,
-    /// The controls.
+    /// Values of the controls.
     pub settings: Settings,
-    /// How far the camera is dragged from where it starts, in heights of the screen.
+    /// Drag of the camera from its start pose, in screen heights.
     pub orbit: Vec2,
-    /// What the camera's distance is multiplied by.
+    /// Factor of the distance of the camera.
     pub zoom: f32,
-    /// The receipt, in place of the cloth that the controls tell of.
+    /// The receipt; if present, it replaces the cloth scene of `settings`.
     pub receipt: Option<ReceiptShot>,
 }
 
-/// The receipt in a picture.
+/// Description of a picture of the receipt.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReceiptShot {
-    /// Its controls.
+    /// Settings of the receipt.
     pub settings: receipt::ReceiptSettings,
-    /// Whether it has fewer particles.
+    /// Whether to use the smaller sheet.
     pub small: bool,
-    /// What hands do in the last ticks.
+    /// Gesture to run in the last ticks.
     pub play: Option<receipt::gestures::ReceiptGesture>,
 }
 
@@ -66,25 +73,27 @@ impl Default for Shot {
     }
 }
 
-/// A picture: rows from the top, three bytes a pixel.
+/// A picture: rows from the top, three bytes per pixel.
 pub struct Picture {
-    /// What the stages of a frame took, if they were timed.
+    /// Durations of the stages of a frame, if they were measured.
     pub times: Vec<StageTime>,
-    /// What drew it, and how many frames of the timed ones a second, from the first tick until the last was finished.
+    /// Name of the renderer, and frames per second from the first measured tick to the end of the
+    /// last one.
     pub rate: Option<(String, f64)>,
-    /// Width and height in pixels.
+    /// Width and height [px].
     pub size: [u32; 2],
-    /// Red, green, blue.
+    /// Red, green and blue of each pixel.
     pub rgb: Vec<u8>,
 }
 
 type Failure = Box<dyn std::error::Error>;
 
 impl Shot {
-    /// Plays and draws; the same picture each time on the same driver.
+    /// Runs the scene and draws the picture.
     ///
     /// # Errors
-    /// [`crate::headless::NoContext`] if nothing can draw here, or what the cloth or driver refuses.
+    /// [`crate::headless::NoContext`] if there is no OpenGL context, or the error of the cloth or
+    /// the driver.
     pub fn take(&self) -> Result<Picture, Failure> {
         let headless = Headless::new()?;
         let mut subject: Box<dyn ShotSubject> = match &self.receipt {
@@ -96,10 +105,11 @@ impl Shot {
         let [width, height] = self.size;
         let canvas = OffscreenCanvas::new(&headless.context, width, height);
         let mut strip = Picture::black([width * self.strip, height]);
-        // The hands work before the usual camera, whatever the picture: the same gesture in each.
+        // Gestures use the default camera, whatever view the picture has, so that the gesture is
+        // always the same.
         let hands_view = subject.camera().clone();
         if self.times {
-            // What is made at the first frame is none of the others' time.
+            // The first frame also creates buffers, so it is drawn before the measurement starts.
             subject.draw(&canvas)?;
             headless.finish();
         }
@@ -130,7 +140,7 @@ impl Shot {
         Ok(strip)
     }
 
-    /// The scene after as many ticks as come before the gesture, and the gesture.
+    /// Creates the cloth scene, runs the ticks before the gesture, and starts the gesture.
     fn begin(&self, renderer: Renderer) -> Result<ClothSubject, Failure> {
         let mut settings = self.settings.clone();
         settings.tearing |= matches!(self.play, Some(Gesture::Tear | Gesture::Yank));
@@ -142,7 +152,7 @@ impl Shot {
         Ok(ClothSubject { app, play, renderer })
     }
 
-    /// The same of the receipt.
+    /// Does the same for the receipt.
     fn begin_receipt(
         &self,
         receipt: &ReceiptShot,
@@ -155,7 +165,8 @@ impl Shot {
         Ok(ReceiptSubject { tender, play, desk })
     }
 
-    /// Ticks that are played with hands, or from the first picture of a strip to the last.
+    /// Returns the number of ticks with a gesture, or between the first and the last frame of a
+    /// strip.
     fn played(&self) -> u32 {
         let gesture = match &self.receipt {
             None => self.play.map(Gesture::ticks),
@@ -171,12 +182,12 @@ impl Shot {
         gesture.unwrap_or(still).min(self.ticks)
     }
 
-    /// After how many of these the picture of this number is taken.
+    /// Returns the number of these ticks before frame `i`.
     fn moment(&self, i: u32) -> u32 {
         self.played() * (i + 1) / self.strip
     }
 
-    /// The camera of the picture.
+    /// Returns the camera of the picture.
     fn view(&self, usual: &Camera) -> Camera {
         let [width, height] = self.size.map(|side| side as f32);
         let mut camera = usual.clone();
@@ -190,7 +201,7 @@ impl Shot {
     }
 }
 
-/// What a picture is taken of.
+/// An application that a picture can show.
 trait ShotSubject {
     fn tick(&mut self) -> Result<(), Failure>;
     fn draw(&mut self, canvas: &OffscreenCanvas) -> Result<(), Failure>;
@@ -198,7 +209,7 @@ trait ShotSubject {
     fn times(&self) -> Vec<StageTime>;
 }
 
-/// The cloth of the controls, and who plays with it.
+/// The cloth scenes with their gesture.
 struct ClothSubject {
     app: App,
     play: Option<GesturePlayer>,
@@ -227,7 +238,7 @@ impl ShotSubject for ClothSubject {
     }
 }
 
-/// The receipt, and who plays with it.
+/// The receipt with its gesture.
 struct ReceiptSubject {
     tender: ReceiptApp,
     play: Option<receipt::gestures::ReceiptGesturePlayer>,
@@ -266,7 +277,7 @@ impl Picture {
         }
     }
 
-    /// Puts the pixels of a smaller picture into this one, so far from its left side.
+    /// Copies the pixels of a frame into this picture, `left` pixels from its left side.
     fn put(&mut self, left: u32, size: [u32; 2], pixels: &[[u8; 4]]) {
         let [width, height] = size.map(|side| side as usize);
         for row in 0..height {
@@ -278,10 +289,10 @@ impl Picture {
         }
     }
 
-    /// Writes it as PNG.
+    /// Writes the picture as PNG.
     ///
     /// # Errors
-    /// What the file system says.
+    /// The error of the file system.
     pub fn save(&self, path: &Path) -> Result<(), Failure> {
         let file = std::fs::File::create(path).map_err(|e| format!("{}: {e}", path.display()))?;
         let file = std::io::BufWriter::new(file);

@@ -1,7 +1,11 @@
-//! The page's face of the demo: what `demo/web/main.js` calls.
+//! JavaScript interface of the cloth scenes for `demo/web/main.js`.
 //!
-//! The page owns canvas, events, storage and HTML controls; everything that decides anything is in
-//! the modules that the window shares.
+//! Method: thin wasm-bindgen wrappers around [`App`].
+//!
+//! Reads events, frame times and settings from the page; writes pixels, and JSON for the panel.
+//!
+//! Invariant: the page owns canvas, events, storage and HTML controls; all decisions are in modules
+//! that the window uses too.
 
 use std::sync::Arc;
 
@@ -20,7 +24,7 @@ extern "C" {
     pub(crate) fn now() -> f64;
 }
 
-/// The running demo, and what it has on the graphics card.
+/// The running demo with its GPU resources.
 #[wasm_bindgen]
 pub struct Demo {
     app: App,
@@ -31,7 +35,7 @@ pub(crate) fn js_error(error: impl std::fmt::Display) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// three-d's context context_from_webgl the page's.
+/// Wraps the WebGL context of the page for three-d.
 pub(crate) fn context_from_webgl(gl: web_sys::WebGl2RenderingContext) -> Result<Context, JsError> {
     let gl = three_d::context::Context::from_webgl2_context(gl);
     #[expect(clippy::arc_with_non_send_sync, reason = "three-d asks for an Arc everywhere")]
@@ -41,8 +45,7 @@ pub(crate) fn context_from_webgl(gl: web_sys::WebGl2RenderingContext) -> Result<
 
 #[wasm_bindgen]
 impl Demo {
-    /// Starts with the settings of an earlier visit, or the usual ones if there are none or they
-    /// are corrupt.
+    /// Starts with the saved settings; with the defaults if there are none or they are corrupt.
     #[wasm_bindgen(constructor)]
     pub fn new(kept: Option<String>) -> Result<Demo, JsError> {
         let settings = kept.and_then(|text| Settings::from_json(&text).ok()).unwrap_or_default();
@@ -50,113 +53,113 @@ impl Demo {
         Ok(Self { app, renderer: None })
     }
 
-    /// Takes a WebGL 2 context; again after one was lost.
+    /// Creates the renderer in a WebGL 2 context, also after a lost one.
     pub fn attach(&mut self, gl: web_sys::WebGl2RenderingContext) -> Result<(), JsError> {
         self.renderer = None;
         self.renderer = Some(Renderer::new(&context_from_webgl(gl)?).map_err(js_error)?);
         Ok(())
     }
 
-    /// The context is lost: lets go of everything in it.
+    /// Drops the renderer: its context is lost.
     pub fn detach(&mut self) {
         self.renderer = None;
     }
 
-    /// The table of controls as JSON.
+    /// Returns the table of controls as JSON.
     pub fn controls() -> String {
         controls::to_json()
     }
 
-    /// The settings as JSON, for storage.
+    /// Returns the settings as JSON, for storage.
     pub fn settings(&self) -> String {
         self.app.settings().to_json()
     }
 
-    /// The value of a control: a switch is 0 or 1, a choice its place.
+    /// Returns the value of a control: a switch is 0 or 1, a choice is the index of its option.
     pub fn get(&self, name: &str) -> f32 {
         controls::find_control(name).map_or(0.0, |c| c.get(self.app.settings()))
     }
 
-    /// The value of a control as it is printed.
+    /// Returns the value of a control as text.
     pub fn text(&self, name: &str) -> String {
         controls::find_control(name).map_or_else(String::new, |c| c.text(self.app.settings()))
     }
 
-    /// Whether a control changes anything in the scene that is on.
+    /// Returns whether a control has an effect in the current scene.
     #[wasm_bindgen(js_name = isEnabled)]
     pub fn is_enabled(&self, name: &str) -> bool {
         controls::find_control(name).is_some_and(|c| c.is_enabled(self.app.settings()))
     }
 
-    /// Gives a control a value, or presses it if it is a button.
+    /// Sets a control, or presses it if it is a button.
     pub fn set(&mut self, name: &str, value: f32) -> Result<(), JsError> {
         self.app.set(name, value).map_err(js_error)
     }
 
-    /// Does what a key does, and says whether it does anything.
+    /// Applies the control that belongs to a key; returns whether there is one.
     pub fn key(&mut self, key: char, shift: bool) -> Result<bool, JsError> {
         self.app.key(key, shift).map_err(js_error)
     }
 
-    /// Whether the visitor asks for reduced motion.
+    /// Sets whether the user prefers reduced motion.
     #[wasm_bindgen(js_name = setReducedMotion)]
     pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<(), JsError> {
         self.app.set_reduced_motion(reduced_motion).map_err(js_error)
     }
 
-    /// The canvas has this size in CSS pixels.
+    /// Sets the size of the canvas in CSS pixels.
     pub fn resize(&mut self, width: f32, height: f32) {
         self.app.resize(Vec2::new(width, height));
     }
 
-    /// A pointer comes down, in CSS pixels of the canvas.
+    /// Handles a pressed pointer, in CSS pixels of the canvas.
     pub fn press(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
         self.app.press(id, Vec2::new(x, y)).map_err(js_error)
     }
 
-    /// A pointer moves.
+    /// Handles a moved pointer.
     pub fn drag(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
         self.app.drag(id, Vec2::new(x, y)).map_err(js_error)
     }
 
-    /// A pointer goes up, or is lost.
+    /// Handles a released or lost pointer.
     pub fn lift(&mut self, id: u32) -> Result<(), JsError> {
         self.app.lift(id).map_err(js_error)
     }
 
-    /// The mouse has left the canvas.
+    /// Handles a mouse that leaves the canvas.
     #[wasm_bindgen(js_name = clearHover)]
     pub fn clear_hover(&mut self) {
         self.app.clear_hover();
     }
 
-    /// The wheel turns, in CSS pixels.
+    /// Zooms by the wheel, in CSS pixels.
     pub fn wheel(&mut self, pixels: f32) {
         self.app.wheel(pixels);
     }
 
-    /// Turns the camera as a drag would, in heights of the screen.
+    /// Orbits the camera by a drag, in screen heights.
     pub fn orbit(&mut self, x: f32, y: f32) {
         self.app.camera().orbit(Vec2::new(x, y));
     }
 
-    /// Where the camera is [m].
+    /// Returns the position of the camera [m].
     pub fn eye(&mut self) -> Box<[f32]> {
         Box::new(self.app.camera().view().eye.to_array())
     }
 
-    /// The key for the blade goes down or up.
+    /// Sets whether the key for the blade is held.
     #[wasm_bindgen(js_name = holdBlade)]
     pub fn hold_blade(&mut self, out: bool) {
         self.app.hold_blade(out);
     }
 
-    /// The CSS cursor that fits.
+    /// Returns the CSS name of the cursor.
     pub fn cursor(&mut self) -> Result<String, JsError> {
         self.app.cursor().map(|c| c.css().into()).map_err(js_error)
     }
 
-    /// Lets `seconds` pass and draws into a canvas of so many device pixels.
+    /// Advances by `seconds` [s] and draws into a canvas of `width` × `height` device pixels.
     pub fn frame(&mut self, seconds: f32, width: u32, height: u32) -> Result<(), JsError> {
         self.app.frame(seconds).map_err(js_error)?;
         if let Some(renderer) = &mut self.renderer {
@@ -167,30 +170,32 @@ impl Demo {
         Ok(())
     }
 
-    /// The numbers of the panel as JSON.
+    /// Returns the numbers of the panel as JSON.
     pub fn readout(&self) -> String {
         serde_json::to_string(&self.app.readout()).unwrap_or_default()
     }
 
-    /// Times every stage of a frame from now on, or no longer.
+    /// Switches the timing of the stages of a frame on or off.
     #[wasm_bindgen(js_name = timeStages)]
     pub fn time_stages(&mut self, on: bool) {
         self.app.time_stages(on);
     }
 
-    /// How long each stage takes, as JSON: name and milliseconds.
+    /// Returns name and duration [ms] of each stage as JSON.
     #[wasm_bindgen(js_name = stageTimes)]
     pub fn stage_times(&self) -> String {
         serde_json::to_string(&self.app.stage_times()).unwrap_or_default()
     }
 
-    /// The hash of the cloth's state, as the same hexadecimal number everywhere.
+    /// Returns the state hash of the cloth as a hexadecimal number; it is the same on every
+    /// platform.
     #[wasm_bindgen(js_name = stateHash)]
     pub fn state_hash(&self) -> String {
         format!("{:016x}", self.app.state_hash())
     }
 
-    /// Where a particle appears, x and y in CSS pixels of the canvas; nothing if it does not.
+    /// Returns x and y of a particle in CSS pixels of the canvas; nothing if it is behind the
+    /// camera.
     #[wasm_bindgen(js_name = particleScreen)]
     pub fn particle_screen(&mut self, particle: u32) -> Option<Box<[f32]>> {
         let at = self.app.particle_on_screen(particle)?;

@@ -1,5 +1,5 @@
-//! Pictures that the demo draws without a window. They need EGL; without it they fail and say which
-//! packages to install.
+//! Tests of pictures that the demo draws without a window. They need EGL; without it they fail and
+//! name the packages to install.
 
 use muslin_demo::gesture::Gesture;
 use muslin_demo::receipt;
@@ -15,7 +15,7 @@ fn small() -> Shot {
     Shot { size: [320, 180], ticks: 60, ..Shot::default() }
 }
 
-/// Mean brightness, 0 to 255, of a part of the picture given in shares of its sides.
+/// Mean brightness, 0 to 255, of a rectangle; `x` and `y` are fractions of the sides.
 fn brightness(picture: &Picture, x: [f32; 2], y: [f32; 2]) -> f32 {
     let [width, height] = picture.size.map(|side| side as f32);
     let (mut sum, mut count) = (0.0, 0);
@@ -29,14 +29,14 @@ fn brightness(picture: &Picture, x: [f32; 2], y: [f32; 2]) -> f32 {
     sum / count as f32
 }
 
-/// The share of bytes that two pictures differ in by more than a breath.
+/// Fraction of bytes that differ by more than 8 between two pictures.
 fn difference(a: &Picture, b: &Picture) -> f32 {
     let differ = a.rgb.iter().zip(&b.rgb).filter(|(a, b)| a.abs_diff(**b) > 8).count();
     differ as f32 / a.rgb.len() as f32
 }
 
 #[test]
-fn the_sheet_stands_out_bright_against_a_dark_stage() {
+fn the_sheet_is_bright_on_a_dark_background() {
     let picture = take(&small());
     let cloth = brightness(&picture, [0.42, 0.58], [0.25, 0.65]);
     let corner = brightness(&picture, [0.0, 0.12], [0.0, 0.15]);
@@ -45,11 +45,11 @@ fn the_sheet_stands_out_bright_against_a_dark_stage() {
 }
 
 #[test]
-fn the_floor_is_darker_where_the_shadow_falls() {
+fn the_floor_is_darker_in_the_shadow() {
     let lit = take(&small());
     let mut dropped = small();
     dropped.settings.pinning = muslin_demo::settings::Pinning::Corners;
-    // The same stage with the sheet held flat between four corners throws another shadow.
+    // The sheet pinned at four corners casts a different shadow on the same floor.
     let other = take(&dropped);
     assert!(difference(&lit, &other) > 0.02);
     let shadow = brightness(&lit, [0.62, 0.72], [0.84, 0.90]);
@@ -58,7 +58,7 @@ fn the_floor_is_darker_where_the_shadow_falls() {
 }
 
 #[test]
-fn the_same_shot_gives_the_same_picture_and_later_ticks_another() {
+fn the_same_shot_gives_the_same_picture_and_later_ticks_give_another() {
     let first = take(&small());
     assert!(first.rgb == take(&small()).rgb);
     let later = take(&Shot { ticks: 90, ..small() });
@@ -66,7 +66,7 @@ fn the_same_shot_gives_the_same_picture_and_later_ticks_another() {
 }
 
 #[test]
-fn wireframe_and_a_rip_can_be_seen() {
+fn wireframe_and_tears_are_visible() {
     let plain = take(&Shot { ticks: 120, ..small() });
     let settings = Settings { wireframe: true, ..Settings::default() };
     let lines = take(&Shot { ticks: 120, settings, ..small() });
@@ -76,7 +76,7 @@ fn wireframe_and_a_rip_can_be_seen() {
 }
 
 #[test]
-fn a_film_strip_shows_the_gesture_go_on() {
+fn the_frames_of_a_film_strip_differ() {
     let settings = Settings::default();
     for gesture in [Gesture::Yank, Gesture::Cut] {
         let shot = Shot {
@@ -106,7 +106,7 @@ fn a_film_strip_shows_the_gesture_go_on() {
 }
 
 #[test]
-fn discs_and_curtain_stand_out_against_the_stage() {
+fn discs_and_curtain_are_visible_on_the_stage() {
     let scene = |scene| Settings { scene, fabric: scene.fabric(), ..Settings::default() };
     let discs = take(&Shot { settings: scene(SceneKind::Discs), ..small() });
     let at = |x: f32, y: f32| brightness(&discs, [x - 0.03, x + 0.03], [y - 0.04, y + 0.04]);
@@ -131,7 +131,7 @@ fn receipt(play: Option<receipt::gestures::ReceiptGesture>, strip: u32) -> Pictu
 #[test]
 fn the_receipt_is_printed_paper_over_a_light_ground() {
     let picture = receipt(None, 1);
-    // The backdrop is the brief's, to a step of dither.
+    // The backdrop has the specified colour, up to one step of dither.
     for x in [0, 239] {
         for channel in &picture.rgb[3 * x..3 * x + 3] {
             assert!(channel.abs_diff(0xe8) <= 1, "the backdrop is {channel}");
@@ -146,7 +146,7 @@ fn the_receipt_is_printed_paper_over_a_light_ground() {
 }
 
 #[test]
-fn the_receipts_gestures_can_be_seen() {
+fn the_gestures_of_the_receipt_are_visible() {
     let still = receipt(None, 1);
     for (name, gesture) in receipt::gestures::ReceiptGesture::ALL {
         let strip = receipt(Some(gesture), 3);

@@ -1,4 +1,4 @@
-//! Tests: what pointers, controls and time do to the demo.
+//! Tests of the effect of pointers, controls and time on the cloth scenes.
 
 use super::*;
 
@@ -7,7 +7,7 @@ fn app() -> App {
 }
 
 #[test]
-fn a_grabbed_particle_comes_along_with_its_pointer() {
+fn a_grabbed_particle_moves_with_its_pointer() {
     let mut app = app();
     let particle = 20 * 40 + 20;
     let from = app.particle_on_screen(particle).unwrap();
@@ -29,7 +29,7 @@ fn a_grabbed_particle_comes_along_with_its_pointer() {
 }
 
 #[test]
-fn empty_space_turns_the_camera_and_leaves_the_cloth_alone() {
+fn a_drag_beside_the_cloth_orbits_the_camera_and_does_not_move_the_cloth() {
     let mut app = app();
     let (before, hash) = (app.camera.view(), app.state_hash());
     app.press(1, Vec2::new(20.0, 20.0)).unwrap();
@@ -42,7 +42,7 @@ fn empty_space_turns_the_camera_and_leaves_the_cloth_alone() {
 }
 
 #[test]
-fn a_second_finger_zooms_and_neither_its_coming_nor_its_going_jumps() {
+fn a_second_finger_zooms_and_the_camera_does_not_jump_at_press_or_release() {
     let mut app = app();
     let settle = |app: &mut App| {
         for _ in 0..300 {
@@ -66,7 +66,7 @@ fn a_second_finger_zooms_and_neither_its_coming_nor_its_going_jumps() {
 }
 
 #[test]
-fn a_new_resolution_hangs_a_new_sheet_and_forgets_the_hands() {
+fn a_new_resolution_rebuilds_the_sheet_and_clears_the_pointers() {
     let mut app = app();
     let at = app.particle_on_screen(820).unwrap();
     app.press(3, at).unwrap();
@@ -78,14 +78,14 @@ fn a_new_resolution_hangs_a_new_sheet_and_forgets_the_hands() {
 }
 
 #[test]
-fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
+fn with_extreme_settings_the_cloth_does_not_tear_and_stays_in_the_scene() {
     for scene in 0..SceneKind::ALL.len() {
         let mut app = app();
         for (name, value) in [("wind", 3.0), ("gravity", 20.0), ("damping", 0.0)] {
             app.set(name, value).unwrap();
         }
         app.set("scene", scene as f32).unwrap();
-        // A flag may tear in such a gale; the sheet may not.
+        // A flag may tear in this wind; the sheet must not.
         app.set("tearing", f32::from(u8::from(scene == 0))).unwrap();
         for stiffness in [1.0, 12.0] {
             app.set("stiffness", stiffness).unwrap();
@@ -103,7 +103,7 @@ fn with_everything_at_its_end_the_cloth_stays_whole_and_at_home() {
 }
 
 #[test]
-fn pause_stops_the_cloth_and_dropped_pins_let_it_fall() {
+fn pause_stops_the_cloth_and_without_pins_it_falls() {
     let mut app = app();
     app.set("paused", 1.0).unwrap();
     let hash = app.state_hash();
@@ -117,7 +117,7 @@ fn pause_stops_the_cloth_and_dropped_pins_let_it_fall() {
     assert!(fallen > 0.15, "fell {fallen} m");
 }
 
-/// Discs after a second, and where on the screen the middle of one appears.
+/// The discs after one second, and a function that returns the centre of a disc on the screen.
 fn discs() -> (App, impl Fn(&App, usize) -> Vec2) {
     let mut app = app();
     app.camera().set_drift(false);
@@ -132,7 +132,7 @@ fn discs() -> (App, impl Fn(&App, usize) -> Vec2) {
 }
 
 #[test]
-fn a_hand_takes_the_disc_that_is_under_it_and_no_other() {
+fn a_pointer_grabs_only_the_disc_under_it() {
     let (mut app, middle) = discs();
     let from = [0, 1, 2].map(|disc| middle(&app, disc));
     app.press(1, from[1]).unwrap();
@@ -149,7 +149,7 @@ fn a_hand_takes_the_disc_that_is_under_it_and_no_other() {
 }
 
 #[test]
-fn the_blade_cuts_the_disc_that_it_crosses_and_no_other() {
+fn the_blade_cuts_only_the_disc_that_it_crosses() {
     let (mut app, middle) = discs();
     let whole = app.scene.cloths.iter().map(|cloth| cloth.particle_count());
     let whole: Vec<_> = whole.collect();
@@ -166,7 +166,7 @@ fn the_blade_cuts_the_disc_that_it_crosses_and_no_other() {
 }
 
 #[test]
-fn another_scene_is_seen_from_where_its_own_camera_starts() {
+fn a_new_scene_resets_the_camera_to_the_start_of_its_rig() {
     let mut app = app();
     let usual = app.camera.view();
     app.wheel(300.0);

@@ -1,4 +1,12 @@
-//! The demo in a window: three-d's context, winit's events, and egui over the picture.
+//! Window of the demo: three-d's context, winit's events, and egui over the picture.
+//!
+//! Method: one winit event loop that forwards events to a [`WindowApp`] and draws a frame on every
+//! redraw.
+//!
+//! Reads window events; writes frames, and errors to standard error.
+//!
+//! Invariant: pointer positions are in logical pixels, and events over the overlay do not reach the
+//! scene.
 
 pub mod panel;
 pub mod receipt_window;
@@ -20,16 +28,16 @@ use crate::pointer::Cursor;
 use crate::receipt::pointers::PressKind;
 use window_app::WindowApp;
 
-/// The mouse, among the pointers; fingers count from one.
+/// Pointer id of the left mouse button; fingers count from one.
 const MOUSE: u32 = 0;
-/// The same mouse by its right button.
+/// Pointer id of the right mouse button.
 const RIGHT: u32 = u32::MAX;
-/// The longest time between the two of a double press [s].
+/// Longest time between the two presses of a double press [s].
 const DOUBLE: f64 = 0.35;
-/// Pixels that one notch of a wheel is worth.
+/// Pixels per notch of a mouse wheel.
 const NOTCH: f32 = 100.0;
 
-/// Why there is no window; says in one line what works instead.
+/// Reason why there is no window; its message names the alternatives.
 #[derive(Debug)]
 pub struct NoWindow(String);
 
@@ -45,13 +53,13 @@ impl fmt::Display for NoWindow {
 
 impl std::error::Error for NoWindow {}
 
-/// Seconds since the first call.
+/// Returns the seconds since the first call.
 pub fn clock() -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
 
-/// Opens a window for a show and runs until it is closed.
+/// Opens a window for `app` and runs it until the window is closed.
 ///
 /// # Errors
 /// [`NoWindow`] if there is no display or it has no OpenGL 3.3.
@@ -64,7 +72,7 @@ pub fn run(mut app: impl WindowApp + 'static) -> Result<(), NoWindow> {
         .with_min_inner_size(LogicalSize::new(320.0, 320.0))
         .build(&event_loop)
         .map_err(|e| to_message(&e))?;
-    // The scene is drawn into a multisampled target of its own.
+    // The scene has its own multisampled render target.
     let surface = SurfaceSettings { multisamples: 0, ..SurfaceSettings::default() };
     let context =
         WindowedContext::from_winit_window(&window, surface).map_err(|e| to_message(&e))?;
@@ -95,7 +103,7 @@ pub fn run(mut app: impl WindowApp + 'static) -> Result<(), NoWindow> {
     })
 }
 
-/// winit panics where there is no display; that becomes an error here.
+/// Creates the event loop. Without a display winit panics; this function returns an error instead.
 fn event_loop() -> Result<EventLoop<()>, NoWindow> {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if cfg!(all(unix, not(target_os = "macos"))) && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
@@ -108,21 +116,21 @@ fn event_loop() -> Result<EventLoop<()>, NoWindow> {
     made.map_err(|_| NoWindow("the display cannot be opened".into()))
 }
 
-/// Window, context and what is shown.
+/// The window with its context and application.
 struct WindowState<A> {
     app: A,
     gui: GUI,
     input: FrameInputGenerator,
     context: WindowedContext,
     mouse: Vec2,
-    /// When and where a pointer came down last.
+    /// Time [s] and position of the last press.
     pressed: (f64, Vec2),
     last: f64,
     window: Window,
 }
 
 impl<A: WindowApp> WindowState<A> {
-    /// The size of the window in logical pixels, the ones that pointers count in.
+    /// Passes the size of the window in logical pixels to the application.
     fn fit(&mut self) {
         let size = self.window.inner_size().to_logical(self.window.scale_factor());
         self.app.resize(Vec2::new(size.width, size.height));
@@ -212,7 +220,7 @@ impl<A: WindowApp> WindowState<A> {
         self.app.key(key)
     }
 
-    /// A pointer comes down; soon after the one before and near it, it is a double press.
+    /// Handles a press; a second press soon after the first and close to it is a double press.
     fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> muslin::Result<()> {
         let now = clock();
         let (then, there) = std::mem::replace(&mut self.pressed, (now, at));

@@ -1,4 +1,10 @@
-//! The panel in the window: egui rows for the table of controls, in the page's palette.
+//! Panel of the window: draws the table of controls with egui, in the colours of the page.
+//!
+//! Method: immediate mode; the panel collects commands, and the caller runs them after drawing.
+//!
+//! Reads [`App`]; writes [`PanelCommand`]s.
+//!
+//! Invariant: drawing the panel does not change the application.
 
 use glam::Vec2;
 use three_d::egui::{
@@ -18,20 +24,20 @@ const ACCENT: Color32 = Color32::from_rgb(0x7c, 0xc0, 0xff);
 const WARM: Color32 = Color32::from_rgb(0xff, 0xb8, 0x6b);
 const DEEP: Color32 = Color32::from_rgb(0x05, 0x07, 0x0d);
 
-/// Width of the rows.
+/// Width of the rows [px].
 const WIDTH: f32 = 236.0;
 
-/// What the user did to a row; carried out after the panel is drawn.
+/// A command of the user, to be run after the panel is drawn.
 pub enum PanelCommand {
-    /// A control shall have this value.
+    /// Set the control of this name.
     Set(&'static str, f32),
-    /// A button was pressed.
+    /// Run the action of a button.
     Act(Action),
-    /// The times of stages are shown, or hidden.
+    /// Switch the timing of the stages on or off.
     TimeStages(bool),
 }
 
-/// Whether it is open, and where it was drawn.
+/// State of the panel, and the rectangles that it covers.
 pub struct Panel {
     open: bool,
     help: bool,
@@ -56,17 +62,17 @@ impl Panel {
         self.help = !self.help;
     }
 
-    /// Hides the instructions: the scene has been touched.
+    /// Hides the instructions, because the user has touched the scene.
     pub fn hide_help(&mut self) {
         self.help = false;
     }
 
-    /// Whether a point of the window belongs to the panel and not to the scene.
+    /// Returns whether a point of the window belongs to the panel.
     pub fn covers(&self, at: Vec2) -> bool {
         self.rects.iter().any(|r| r.contains(egui::pos2(at.x, at.y)))
     }
 
-    /// Draws it and notes what the user wants.
+    /// Draws the panel and appends the commands of the user.
     pub fn draw(&mut self, ctx: &Context, app: &App, commands: &mut Vec<PanelCommand>) {
         if !self.styled {
             ctx.set_visuals(visuals());
@@ -80,7 +86,7 @@ impl Panel {
                     ui.set_width(WIDTH);
                     self.title(ui);
                     if self.open {
-                        // A low window scrolls the rows; the panel never leaves it.
+                        // In a low window the rows scroll, so that the panel fits.
                         let room = ctx.content_rect().height() - 112.0;
                         ScrollArea::vertical()
                             .min_scrolled_height(room.max(80.0))
@@ -236,7 +242,7 @@ fn row(ui: &mut Ui, app: &App, control: &Control, commands: &mut Vec<PanelComman
     }
 }
 
-/// A switch; says whether it was flipped.
+/// Draws a switch; returns whether it was clicked.
 fn switch(ui: &mut Ui, on: bool) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(34.0, 18.0), Sense::click());
     let share = ui.ctx().animate_bool(response.id, on);

@@ -1,4 +1,10 @@
-//! The receipt in a window: its title, instructions, pills, counter and pause over the picture.
+//! Window of the receipt: title, instructions, buttons, counter and pause over the picture.
+//!
+//! Method: egui in immediate mode over the picture of [`ReceiptApp`].
+//!
+//! Reads window events; writes the overlay, and actions that run after it is drawn.
+//!
+//! Invariant: a press on a button does not reach the paper.
 
 use glam::Vec2;
 use muslin::Result;
@@ -20,11 +26,11 @@ const MUTED: Color32 = Color32::from_rgb(0x5a, 0x61, 0x6b);
 const PILL: Color32 = Color32::from_rgba_premultiplied(140, 142, 144, 140);
 const HAIRLINE: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 26);
 
-/// How long the instructions stay [s], and how long they take to fade.
+/// Time that the instructions stay [s], and time that they take to fade [s].
 const STAY: f32 = 3.0;
 const FADE: f32 = 0.8;
 
-/// What people may do, beyond what the pills say.
+/// Instructions for actions without a button.
 const INSTRUCTIONS: &str = "Click and drag to grab the paper";
 const MORE: &str = "Right-drag to orbit  ·  hold Shift to leave a hand in place  ·  double-click a bend to crease it";
 
@@ -38,7 +44,7 @@ pub struct ReceiptWindow {
 }
 
 impl ReceiptWindow {
-    /// Around the receipt.
+    /// Creates the window state for a receipt.
     pub fn new(tender: ReceiptApp) -> Self {
         Self { tender, renderer: None, commands: Vec::new(), pills: Vec::new(), age: 0.0 }
     }
@@ -140,7 +146,7 @@ impl WindowApp for ReceiptWindow {
         let write = |at, anchor, text: &str, size, colour| {
             painter.text(at, anchor, text, FontId::proportional(size), colour);
         };
-        // Small capitals: a large one first.
+        // The title is in small capitals with a large initial.
         write(pos2(24.0, 18.0), Align2::LEFT_TOP, "T", 25.0, TEXT);
         write(pos2(40.0, 24.5), Align2::LEFT_TOP, "E N D E R", 17.0, TEXT);
         let left = 1.0 - ((self.age - STAY) / FADE).clamp(0.0, 1.0);
@@ -173,6 +179,6 @@ impl WindowApp for ReceiptWindow {
         }
     }
 
-    /// Every visit starts with a fresh receipt.
+    /// The receipt has no saved settings.
     fn save_settings(&mut self) {}
 }

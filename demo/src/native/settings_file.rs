@@ -1,10 +1,16 @@
-//! The settings file in the user's configuration folder.
+//! File of the saved settings in the configuration folder of the user.
+//!
+//! Method: one JSON file in the folder that the platform defines.
+//!
+//! Reads and writes `muslin-demo/settings.json`.
+//!
+//! Invariant: a missing or corrupt file gives the default settings.
 
 use std::path::{Path, PathBuf};
 
 use crate::settings::Settings;
 
-/// Where the settings are saved_settings; `None` if the user has no such folder.
+/// Returns the path of the file; `None` if the user has no configuration folder.
 pub fn path() -> Option<PathBuf> {
     let folder =
         |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
@@ -18,12 +24,12 @@ pub fn path() -> Option<PathBuf> {
     base.map(|base| base.join("muslin-demo").join("settings.json"))
 }
 
-/// The settings of an earlier run, or the usual ones if there are none or they are corrupt.
+/// Reads the settings of the last run; returns the defaults if there are none or they are corrupt.
 pub fn read() -> Settings {
     path().map_or_else(Settings::default, |path| read_from(&path))
 }
 
-/// Keeps the settings for the next run; says so in one line if it cannot.
+/// Saves the settings for the next run; prints one line if that fails.
 pub fn write(json: &str) {
     if let Some(path) = path()
         && let Err(error) = write_to(&path, json)
@@ -51,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_kept_is_read_again_and_a_corrupt_file_gives_the_usual_settings() {
+    fn saved_settings_are_read_again_and_a_corrupt_file_gives_the_defaults() {
         let folder = std::env::temp_dir().join(format!("muslin-store-{}", std::process::id()));
         let path = folder.join("deep").join("settings.json");
         assert_eq!(read_from(&path), Settings::default());

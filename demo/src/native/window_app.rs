@@ -1,4 +1,10 @@
-//! What a window asks of what it shows; the sheet's answers.
+//! Interface between a window and its application, and its implementation for the cloth scenes.
+//!
+//! Method: a trait with one function per event.
+//!
+//! Reads window events; writes the state of the application and the frame.
+//!
+//! Invariant: pointer positions are in logical pixels.
 
 use glam::Vec2;
 use muslin::Result;
@@ -11,51 +17,51 @@ use crate::pointer::Cursor;
 use crate::receipt::pointers::PressKind;
 use crate::render::Renderer;
 
-/// A scene with its overlay. Pointers are told in logical pixels; what fails is what the cloth refuses, or
-/// the driver where a picture is drawn.
+/// An application with an overlay. Pointer positions are in logical pixels. Functions fail with the
+/// error of the cloth, or of the driver when they draw.
 #[expect(clippy::missing_errors_doc, reason = "said above, for all of them")]
 pub trait WindowApp {
-    /// What the window is called.
+    /// Returns the title of the window.
     fn title(&self) -> &'static str;
-    /// Makes what it needs on the graphics card.
+    /// Creates the GPU resources.
     fn attach(&mut self, context: &Context) -> std::result::Result<(), CoreError>;
-    /// The window has this size.
+    /// Sets the size of the window.
     fn resize(&mut self, size: Vec2);
-    /// Whether a point belongs to the overlay.
+    /// Returns whether a point belongs to the overlay.
     fn covers(&self, at: Vec2) -> bool;
-    /// A pointer comes down.
+    /// Handles a pressed pointer.
     fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> Result<()>;
-    /// A pointer comes down for the second time.
+    /// Handles the second press of a double press.
     fn press_twice(&mut self, at: Vec2) -> Result<()>;
-    /// A pointer moves.
+    /// Handles a moved pointer.
     fn drag(&mut self, id: u32, to: Vec2) -> Result<()>;
-    /// A pointer goes up.
+    /// Handles a released pointer.
     fn lift(&mut self, id: u32) -> Result<()>;
-    /// The mouse has left the window.
+    /// Handles a mouse that leaves the window.
     fn clear_hover(&mut self);
-    /// The wheel turns by so many pixels, away if positive.
+    /// Zooms by the wheel; positive `pixels` move the camera away.
     fn wheel(&mut self, pixels: f32);
-    /// A trackpad's pinch, nearer above one.
+    /// Zooms by a pinch on a trackpad; a `factor` above one moves the camera nearer.
     fn pinch(&mut self, factor: f32);
-    /// Shift goes down or up.
+    /// Handles the Shift key.
     fn shift(&mut self, held: bool) -> Result<()>;
-    /// A key was typed.
+    /// Handles a typed key.
     fn key(&mut self, key: char) -> Result<()>;
-    /// What the cursor should say.
+    /// Returns the shape of the mouse cursor.
     fn cursor(&mut self) -> Result<Cursor>;
-    /// Lets time pass.
+    /// Advances by `seconds` [s].
     fn frame(&mut self, seconds: f32) -> Result<()>;
-    /// Draws the overlay and notes what the user wants.
+    /// Draws the overlay and collects the commands of the user.
     fn draw_overlay(&mut self, ctx: &egui::Context);
-    /// Does what the user wanted.
+    /// Runs the collected commands.
     fn run_commands(&mut self) -> Result<()>;
     /// Draws the picture.
     fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError>;
-    /// Writes down what is to be saved_settings; asked once a second and at the end.
+    /// Saves the settings if they have changed; called once a second and at the end.
     fn save_settings(&mut self);
 }
 
-/// The sheet with its panel.
+/// The cloth scenes with their panel.
 pub struct ClothWindow {
     app: App,
     renderer: Option<Renderer>,
@@ -65,7 +71,7 @@ pub struct ClothWindow {
 }
 
 impl ClothWindow {
-    /// Around an app.
+    /// Creates the window state for an application.
     pub fn new(app: App) -> Self {
         let saved_settings = app.settings().to_json();
         Self { app, renderer: None, panel: Panel::default(), commands: Vec::new(), saved_settings }
