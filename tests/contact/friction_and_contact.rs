@@ -1,4 +1,4 @@
-//! Friction, restitution, what colliders get of it all, and what is refused.
+//! Friction, restitution, rest gap, impulses on colliders, and refused collider descriptors.
 
 use crate::common::shapes::{
     free_sheet, hilly_heightfield, octahedron, sphere_mesh, ticks_until_rest,
@@ -7,8 +7,8 @@ use crate::common::{bare_grid, rms_speed};
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Error, GridDesc, PinMode, Settings, Shape};
 
-/// A sheet that lies flat on the slanted top of a shape.
-fn on_a_slope(
+/// A sheet that lies flat on the top of a shape tilted by `degrees`.
+fn sheet_on_slope(
     degrees: f32,
     desc: &ColliderDesc,
     top: f32,
@@ -30,7 +30,8 @@ fn on_a_slope(
     cloth
 }
 
-fn all_settings() -> Vec<Settings> {
+/// Settings with different ticks, substeps and iterations.
+fn settings_variants() -> Vec<Settings> {
     let bare = Settings { damping: 0.0, ..Settings::default() };
     vec![
         bare.clone(),
@@ -40,8 +41,8 @@ fn all_settings() -> Vec<Settings> {
     ]
 }
 
-/// Slabs whose tops are flat, by the height of their tops.
-fn slabs() -> Vec<(f32, ColliderDesc)> {
+/// Colliders with a flat top, each with the height of its top [m].
+fn flat_colliders() -> Vec<(f32, ColliderDesc)> {
     let wide = Vec3::new(20.0, 0.5, 20.0);
     let flat = ColliderDesc {
         shape: Shape::Mesh,
@@ -59,21 +60,21 @@ fn slabs() -> Vec<(f32, ColliderDesc)> {
 }
 
 #[test]
-fn a_sheet_slides_if_a_slope_is_steeper_than_friction_by_less_than_a_degree() {
-    for settings in all_settings() {
+fn a_sheet_slides_exactly_when_the_slope_exceeds_the_friction_angle() {
+    for settings in settings_variants() {
         for friction in [0.1_f32, 0.3, 0.6, 1.0] {
-            for (top, desc) in slabs() {
+            for (top, desc) in flat_colliders() {
                 let desc = ColliderDesc { friction, ..desc };
                 for (step, slides) in [(-0.5, false), (0.5, true)] {
                     let degrees = friction.atan().to_degrees() + step;
-                    let mut cloth = on_a_slope(degrees, &desc, top, &settings, 6);
+                    let mut cloth = sheet_on_slope(degrees, &desc, top, &settings, 6);
                     let start = cloth.positions()[14];
                     let ticks = (5.0 / settings.tick).round() as u32;
                     cloth.step(ticks);
                     let slid = (cloth.positions()[14] - start).length();
-                    let told = format!("{:?}, µ {friction} at {degrees}°: {slid} m", desc.shape);
-                    assert!(slid < 1.0e-3 || slides, "creeps: {told} in {settings:?}");
-                    assert!(slid > 0.1 || !slides, "sticks: {told} in {settings:?}");
+                    let case = format!("{:?}, µ {friction} at {degrees}°: {slid} m", desc.shape);
+                    assert!(slid < 1.0e-3 || slides, "creeps: {case} in {settings:?}");
+                    assert!(slid > 0.1 || !slides, "sticks: {case} in {settings:?}");
                 }
             }
         }
@@ -81,38 +82,39 @@ fn a_sheet_slides_if_a_slope_is_steeper_than_friction_by_less_than_a_degree() {
 }
 
 #[test]
-fn a_sheet_slides_down_and_stops_as_coulomb_says() {
-    for settings in all_settings() {
+fn a_sliding_sheet_obeys_coulomb_friction() {
+    for settings in settings_variants() {
         for nodes in [6, 12] {
-            for (top, desc) in slabs() {
+            for (top, desc) in flat_colliders() {
                 let desc = ColliderDesc { friction: 0.3, ..desc };
-                let mut cloth = on_a_slope(30.0, &desc, top, &settings, nodes);
+                let mut cloth = sheet_on_slope(30.0, &desc, top, &settings, nodes);
                 let start = cloth.positions()[7];
                 let ticks = (1.0 / settings.tick).round() as u32;
                 cloth.step(ticks);
                 let slid = (cloth.positions()[7] - start).length();
                 let exact = 0.5 * 9.81 * (0.5 - 0.3 * 0.75_f32.sqrt());
-                let told = format!("{:?}, {nodes} nodes, {settings:?}", desc.shape);
-                assert!((slid / exact - 1.0).abs() < 0.03, "{slid} of {exact} m: {told}");
+                let case = format!("{:?}, {nodes} nodes, {settings:?}", desc.shape);
+                assert!((slid / exact - 1.0).abs() < 0.03, "{slid} of {exact} m: {case}");
 
-                let mut cloth = on_a_slope(0.0, &desc, top, &settings, nodes);
+                let mut cloth = sheet_on_slope(0.0, &desc, top, &settings, nodes);
                 let start = cloth.positions()[7];
                 let count = cloth.positions().len() as u32;
                 (0..count).for_each(|i| cloth.set_velocity(i, Vec3::X * 2.0).unwrap());
                 cloth.step(2 * ticks);
                 let slid = (cloth.positions()[7] - start).length();
                 let exact = 4.0 / (2.0 * 0.3 * 9.81);
-                assert!((slid / exact - 1.0).abs() < 0.05, "{slid} of {exact} m: {told}");
+                assert!((slid / exact - 1.0).abs() < 0.05, "{slid} of {exact} m: {case}");
             }
         }
     }
 }
 
 #[test]
-fn a_sheet_bounces_as_newton_says() {
-    for settings in all_settings() {
-        for (restitution, (top, desc)) in
-            [0.0, 0.5].into_iter().flat_map(|e| slabs().into_iter().map(move |slab| (e, slab)))
+fn a_sheet_rebounds_to_the_height_given_by_restitution() {
+    for settings in settings_variants() {
+        for (restitution, (top, desc)) in [0.0, 0.5]
+            .into_iter()
+            .flat_map(|e| flat_colliders().into_iter().map(move |collider| (e, collider)))
         {
             let desc = ColliderDesc { restitution, ..desc };
             let mut grid = free_sheet(8, 0.35, top + 0.5);
@@ -130,14 +132,14 @@ fn a_sheet_bounces_as_newton_says() {
                 }
             }
             let exact = restitution * restitution * 0.5;
-            let told = format!("{:?}, e {restitution}: {rebound} m, exact {exact} m", desc.shape);
-            assert!((rebound - exact).abs() < 0.02 * 0.5, "{told} in {settings:?}");
+            let case = format!("{:?}, e {restitution}: {rebound} m, exact {exact} m", desc.shape);
+            assert!((rebound - exact).abs() < 0.02 * 0.5, "{case} in {settings:?}");
         }
     }
 }
 
 #[test]
-fn the_receipts_floor_keeps_four_fifths_of_a_slide_and_a_fifth_of_a_bounce() {
+fn tangential_and_normal_restitution_scale_the_velocity_after_an_impact() {
     let settings = Settings { substeps: 1, iterations: 1, damping: 0.0, ..Settings::default() };
     let floor = ColliderDesc {
         friction: 0.0,
@@ -145,20 +147,20 @@ fn the_receipts_floor_keeps_four_fifths_of_a_slide_and_a_fifth_of_a_bounce() {
         tangential_restitution: 0.8,
         ..Default::default()
     };
-    let mut cloth = on_a_slope(0.0, &floor, 0.0, &settings, 6);
+    let mut cloth = sheet_on_slope(0.0, &floor, 0.0, &settings, 6);
     (0..36).for_each(|i| cloth.set_velocity(i, Vec3::new(2.0, -3.0, 0.0)).unwrap());
     cloth.step(1);
     let after = cloth.velocity(14).unwrap();
     let exact = Vec3::new(1.6, 0.2 * 3.0, 0.0);
     assert!((after - exact).length() < 0.02, "{after}, expected {exact}");
-    assert!(cloth.positions().iter().all(|x| x.y >= 0.0), "nothing gets below the floor");
+    assert!(cloth.positions().iter().all(|x| x.y >= 0.0), "a particle is below the floor");
 }
 
 #[test]
-fn colliders_bear_the_weight_of_what_lies_on_them() {
-    let mut all = slabs();
+fn a_collider_receives_the_weight_of_a_resting_sheet() {
+    let mut all = flat_colliders();
     all.push((0.3, ColliderDesc { shape: Shape::Sphere, radius: 0.3, ..Default::default() }));
-    // Its tip under the inside of a triangle.
+    // The tip of the octahedron is under the inside of a triangle.
     all.push((0.3, ColliderDesc { position: Vec3::new(0.004, 0.0, 0.011), ..octahedron(0.3) }));
     all.push((0.3, sphere_mesh(0.3, 6)));
     for (top, desc) in all {
@@ -171,7 +173,7 @@ fn colliders_bear_the_weight_of_what_lies_on_them() {
             cloth.step(1);
             mean += cloth.collider_impulse(ground).unwrap().linear;
         }
-        // Sixty ticks are a second: the impulse of one is the mean force.
+        // Sixty ticks are one second, so the summed impulse equals the mean force.
         assert!(
             (mean + Vec3::Y * weight).length() < 0.02 * weight,
             "{:?}: {mean} of {weight} N",
@@ -181,7 +183,7 @@ fn colliders_bear_the_weight_of_what_lies_on_them() {
 }
 
 #[test]
-fn a_hit_gives_a_collider_the_momentum_that_the_sheet_had_and_a_turn_about_its_middle() {
+fn an_impact_transfers_linear_and_angular_momentum_to_the_collider() {
     let mut grid = free_sheet(8, 0.2, 0.5);
     grid.origin.x += 0.3;
     grid.settings.gravity = Vec3::ZERO;
@@ -210,7 +212,7 @@ fn a_hit_gives_a_collider_the_momentum_that_the_sheet_had_and_a_turn_about_its_m
 }
 
 #[test]
-fn thickness_is_the_gap_at_rest() {
+fn the_gap_at_rest_equals_the_collider_thickness() {
     for thickness in [0.0, 0.002, 0.01] {
         let mut cloth = Cloth::grid(&free_sheet(8, 0.2, 0.05)).unwrap();
         let half_extents = Vec3::new(1.0, 0.1, 1.0);
@@ -229,7 +231,7 @@ fn thickness_is_the_gap_at_rest() {
 }
 
 #[test]
-fn what_starts_inside_comes_out_and_is_not_flung() {
+fn particles_that_start_inside_a_collider_are_pushed_out_gently() {
     let cube =
         |half: Vec3| ColliderDesc { shape: Shape::Box, half_extents: half, ..Default::default() };
     let ball = |radius: f32| ColliderDesc { shape: Shape::Sphere, radius, ..Default::default() };
@@ -256,15 +258,15 @@ fn what_starts_inside_comes_out_and_is_not_flung() {
             fastest = fastest.max(rms_speed(&cloth));
         }
         let (vertex, _) = crate::common::shapes::vertex_and_face_clearance(&cloth, &desc);
-        let told = format!("{:?} from {height} m", desc.shape);
-        assert!(vertex > 0.0, "{told}: a vertex is still {} m inside", -vertex);
-        // What falls off to the floor is as fast as that makes it.
-        assert!(fastest < 4.5, "{told}: flung at {fastest} m/s");
+        let case = format!("{:?} from {height} m", desc.shape);
+        assert!(vertex > 0.0, "{case}: a vertex is still {} m inside", -vertex);
+        // The limit leaves room for particles that fall to the floor.
+        assert!(fastest < 4.5, "{case}: reached {fastest} m/s");
     }
 }
 
 #[test]
-fn a_saved_cloth_goes_on_with_all_its_colliders() {
+fn restored_and_cloned_cloths_keep_all_colliders_and_the_same_bits() {
     let mut cloth = Cloth::grid(&free_sheet(16, 0.9, 0.5)).unwrap();
     let all = [sphere_mesh(0.2, 6), octahedron(0.25), hilly_heightfield(8, 2.0)];
     let handles = all.map(|desc| cloth.add_collider(&desc).unwrap());
@@ -288,7 +290,7 @@ fn a_saved_cloth_goes_on_with_all_its_colliders() {
 }
 
 #[test]
-fn a_collider_tells_a_hash_apart() {
+fn the_state_hash_depends_on_every_collider_property() {
     let hash = |desc: &ColliderDesc| {
         let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
         cloth.add_collider(desc).unwrap();
@@ -303,7 +305,7 @@ fn a_collider_tells_a_hash_apart() {
 }
 
 #[test]
-fn colliders_that_cannot_be_are_refused_and_change_nothing() {
+fn invalid_colliders_are_refused_and_change_nothing() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let before = cloth.state_hash();
     let shape = |shape| ColliderDesc { shape, ..Default::default() };

@@ -7,7 +7,7 @@ mod colliders;
 mod fast_impacts;
 mod friction_and_contact;
 mod particle_collision;
-mod rest_when_tangled;
+mod rest_with_intersections;
 mod split_separation;
 mod surface_collision;
 mod untangling;

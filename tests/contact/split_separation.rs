@@ -1,4 +1,4 @@
-//! Cuts and tears of a surface that keeps from itself: the two sides of a slit do not go through each other.
+//! Cuts and tears with surface collision: the two sides of a fresh tear do not intersect.
 
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Event, GridDesc, Material, PinMode, SelfCollision, Settings};
@@ -7,8 +7,8 @@ use crate::common::crossings::crossing_count;
 
 const SURFACE: SelfCollision = SelfCollision::Surface;
 
-/// A sheet that stands on its edge over a floor and crumples, each `seed` another way.
-fn crumpled(side: u32, seed: u32, ticks: u32) -> Cloth {
+/// A sheet that stood on its edge over a floor and crumpled; `seed` varies the initial velocities.
+fn crumpled_sheet(side: u32, seed: u32, ticks: u32) -> Cloth {
     let spacing = 1.0 / side as f32;
     let settings = Settings { self_collision: SURFACE, ..Settings::default() };
     let desc = GridDesc { columns: side, rows: side, spacing, settings, ..GridDesc::default() };
@@ -21,34 +21,41 @@ fn crumpled(side: u32, seed: u32, ticks: u32) -> Cloth {
         cloth.set_velocity(i, Vec3::Z * 0.05 * push).unwrap();
     }
     cloth.step(ticks);
-    assert_eq!(crossing_count(&cloth), 0, "it crosses itself before anything tears");
+    assert_eq!(crossing_count(&cloth), 0, "the sheet intersects itself before any tear");
     let (low, high) = bounds(&cloth);
-    assert!(high.y - low.y < 0.75, "it stands {} m high", high.y - low.y);
+    assert!(high.y - low.y < 0.75, "the sheet is {} m high", high.y - low.y);
     cloth
 }
 
+/// Lower and upper corner of the bounding box [m].
 fn bounds(cloth: &Cloth) -> (Vec3, Vec3) {
     let mut all = cloth.positions().iter();
     let first = *all.next().unwrap();
     all.fold((first, first), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
-/// Cuts a heap through from above, turned about the vertical and so far beside its middle.
-fn slash(cloth: &mut Cloth, turn: f32, beside: f32) -> u32 {
+/// Cuts through the whole heap from above, turned about the vertical by `turn` [rad] and offset from
+/// its centre by `beside` [m]; returns the number of opened edges.
+fn cut_from_above(cloth: &mut Cloth, turn: f32, beside: f32) -> u32 {
     let (low, high) = bounds(cloth);
     let [along, across] = [Vec3::X, Vec3::Z].map(|axis| Quat::from_rotation_y(turn) * axis);
     let above = 0.5 * (low + high) + across * beside + Vec3::Y * (high.y - low.y + 0.1);
     cloth.cut(above - along * 0.45, above + along * 0.45, Vec3::NEG_Y * 3.0).unwrap()
 }
 
-/// Plays, and counts crossings before and after every tick. Twice in between a restored cloth must go on in the
-/// same bits.
-fn play(name: &str, cloth: &mut Cloth, ticks: u32, mut act: impl FnMut(&mut Cloth, u32)) {
+/// Runs `act` and one step per tick, and asserts that no triangles intersect before or after any step.
+/// At two ticks it also asserts that a restored cloth continues with the same bits.
+fn run_without_crossings(
+    name: &str,
+    cloth: &mut Cloth,
+    ticks: u32,
+    mut act: impl FnMut(&mut Cloth, u32),
+) {
     for tick in 0..ticks {
         act(cloth, tick);
-        assert_eq!(crossing_count(cloth), 0, "{name}: as tick {tick} begins");
-        let looks = tick == 1 || tick == ticks / 2;
-        let restored = looks.then(|| Cloth::restore(&cloth.save()).unwrap());
+        assert_eq!(crossing_count(cloth), 0, "{name}: before tick {tick}");
+        let checks_restore = tick == 1 || tick == ticks / 2;
+        let restored = checks_restore.then(|| Cloth::restore(&cloth.save()).unwrap());
         cloth.step(1);
         if let Some(mut restored) = restored {
             restored.step(1);
@@ -58,10 +65,11 @@ fn play(name: &str, cloth: &mut Cloth, ticks: u32, mut act: impl FnMut(&mut Clot
     }
     println!("{name}: {} particles", cloth.positions().len());
     let (low, high) = bounds(cloth);
-    assert!((high - low).length() < 3.0, "{name}: it was flung from {low} to {high}");
+    assert!((high - low).length() < 3.0, "{name}: the sheet spreads from {low} to {high}");
 }
 
-fn pieces_detached(cloth: &mut Cloth) -> usize {
+/// Number of `PieceDetached` events; removes all pending events.
+fn detached_piece_count(cloth: &mut Cloth) -> usize {
     let mut events: Vec<Event> = Vec::new();
     while let Some(event) = cloth.next_event() {
         events.push(event);
@@ -69,85 +77,97 @@ fn pieces_detached(cloth: &mut Cloth) -> usize {
     events.iter().filter(|event| event.kind == muslin::EventKind::PieceDetached).count()
 }
 
-/// One blade goes through many layers, so that pieces come off; then again at the same place, and across.
+/// One blade cuts through many folds, so that pieces are detached; further cuts follow at the same
+/// place and across it.
 #[test]
-fn a_crumpled_sheet_that_is_cut_does_not_cross_itself() {
+fn cutting_a_crumpled_sheet_causes_no_self_intersection() {
     for (side, seed, at) in [(16, 1, 90), (20, 3, 60), (24, 1, 45), (24, 2, 90)] {
-        let mut cloth = crumpled(side, seed, at);
+        let mut cloth = crumpled_sheet(side, seed, at);
         let turn = 0.4 * seed as f32;
-        let opened = slash(&mut cloth, turn, 0.01);
+        let opened = cut_from_above(&mut cloth, turn, 0.01);
         assert!(opened > side, "only {opened} edges opened");
-        assert_eq!(crossing_count(&cloth), 0, "as it is cut");
-        slash(&mut cloth, turn, 0.01);
+        assert_eq!(crossing_count(&cloth), 0, "right after the cut");
+        cut_from_above(&mut cloth, turn, 0.01);
         let name = format!("cut {side} {seed} {at}");
-        play(&name, &mut cloth, 36, |cloth, tick| {
+        run_without_crossings(&name, &mut cloth, 36, |cloth, tick| {
             if tick == 12 {
-                slash(cloth, turn, 0.01);
+                cut_from_above(cloth, turn, 0.01);
             }
             if tick == 20 {
-                assert!(slash(cloth, turn + 1.5, 0.0) > 5);
+                assert!(cut_from_above(cloth, turn + 1.5, 0.0) > 5);
             }
         });
-        assert!(pieces_detached(&mut cloth) > 0, "{name}: nothing came off");
+        assert!(detached_piece_count(&mut cloth) > 0, "{name}: no piece was detached");
     }
 }
 
-/// Edges all over it are torn by hand, some beside each other, until the reserve is used up.
+/// `tear_edge` tears edges all over the sheet, some adjacent, until the reserve is used up.
 #[test]
-fn a_crumpled_sheet_that_is_torn_by_hand_does_not_cross_itself() {
+fn tearing_edges_of_a_crumpled_sheet_causes_no_self_intersection() {
     for (side, seed, at) in [(16, 2, 45), (20, 5, 130), (24, 1, 90)] {
-        let mut cloth = crumpled(side, seed, at);
+        let mut cloth = crumpled_sheet(side, seed, at);
         let before = cloth.positions().len();
-        play(&format!("torn {side} {seed} {at}"), &mut cloth, 50, |cloth, tick| {
-            let first = (seed * 31 + tick * 53) % (side * (side - 1));
-            for a in first..first + 3 {
-                let b = if tick % 2 == 0 { a + 1 } else { a + side };
-                // An edge that is torn already, or none, is refused.
-                let _ = cloth.tear_edge(a, b);
-            }
-        });
+        run_without_crossings(
+            &format!("torn {side} {seed} {at}"),
+            &mut cloth,
+            50,
+            |cloth, tick| {
+                let first = (seed * 31 + tick * 53) % (side * (side - 1));
+                for a in first..first + 3 {
+                    let b = if tick % 2 == 0 { a + 1 } else { a + side };
+                    // The call refuses an edge that is torn already or does not exist.
+                    let _ = cloth.tear_edge(a, b);
+                }
+            },
+        );
         let torn = cloth.positions().len() - before;
         assert!(torn > 60, "only {torn} more particles");
     }
 }
 
-/// A corner is held and the middle of another border pulled out of the heap, until the sheet rips.
+/// One grab holds a corner, another pulls the middle of a border out of the heap until the sheet
+/// tears.
 #[test]
-fn a_crumpled_sheet_that_is_ripped_by_hands_does_not_cross_itself() {
+fn ripping_a_crumpled_sheet_with_grabs_causes_no_self_intersection() {
     for (side, seed, at) in [(16, 0, 90), (20, 4, 60), (20, 5, 60), (24, 0, 90)] {
-        let mut cloth = crumpled(side, seed, at);
+        let mut cloth = crumpled_sheet(side, seed, at);
         cloth.set_settings(Settings { tearing: true, ..*cloth.settings() }).unwrap();
         cloth.set_material(Material { tear_stretch: 1.15, ..*cloth.material() }).unwrap();
         let (before, particle) = (cloth.positions().len(), side / 2);
         let grab = cloth.grab_particle(particle).unwrap();
         cloth.grab_particle(side * side - 1).unwrap();
         let held = cloth.positions()[particle as usize];
-        play(&format!("ripped {side} {seed} {at}"), &mut cloth, 75, |cloth, tick| {
-            let by = Vec3::new(0.006, 0.01, 0.018) * tick as f32;
-            cloth.move_grab(grab, held + by).unwrap();
-        });
+        run_without_crossings(
+            &format!("ripped {side} {seed} {at}"),
+            &mut cloth,
+            75,
+            |cloth, tick| {
+                let by = Vec3::new(0.006, 0.01, 0.018) * tick as f32;
+                cloth.move_grab(grab, held + by).unwrap();
+            },
+        );
         let torn = cloth.positions().len() - before;
         assert!(torn > 3, "only {torn} more particles");
     }
 }
 
-/// What is held goes where hands say; layers in its way go along.
+/// A grabbed particle reaches its target exactly and pushes the surfaces in its path.
 #[test]
-fn what_is_pulled_through_a_heap_takes_along_what_is_in_its_way() {
+fn a_particle_pulled_through_a_heap_pushes_the_surfaces_in_its_path() {
     let (side, particle) = (24, 12);
-    let mut cloth = crumpled(side, 0, 90);
+    let mut cloth = crumpled_sheet(side, 0, 90);
     let grab = cloth.grab_particle(particle).unwrap();
     cloth.grab_particle(side * side - 1).unwrap();
     let held = cloth.positions()[particle as usize];
     let by = |tick: u32| Vec3::new(0.006, 0.01, 0.018) * tick as f32;
-    play("pulled", &mut cloth, 45, |cloth, tick| {
+    run_without_crossings("pulled", &mut cloth, 45, |cloth, tick| {
         cloth.move_grab(grab, held + by(tick)).unwrap();
     });
     assert_eq!(cloth.positions()[particle as usize], held + by(44));
 }
 
-/// A sheet in free flight, wrinkled and turning, each row another way.
-fn flying(self_collision: SelfCollision) -> Cloth {
+/// A wrinkled sheet that rotates in free flight.
+fn flying_sheet(self_collision: SelfCollision) -> Cloth {
     let mut desc = crate::common::bare_grid(12, 12, 0.05, PinMode::None);
     desc.settings.gravity = Vec3::ZERO;
     desc.settings.self_collision = self_collision;
@@ -161,8 +181,8 @@ fn flying(self_collision: SelfCollision) -> Cloth {
     cloth
 }
 
-/// Where the mass is in the mean, and its momentum.
-fn sums(cloth: &Cloth) -> (Vec3, Vec3) {
+/// Centre of mass [m] and linear momentum [kg m/s].
+fn centre_and_momentum(cloth: &Cloth) -> (Vec3, Vec3) {
     let count = cloth.positions().len();
     let mass = |i: usize| cloth.mass(i as u32).unwrap();
     let all: f32 = (0..count).map(mass).sum();
@@ -172,50 +192,50 @@ fn sums(cloth: &Cloth) -> (Vec3, Vec3) {
 }
 
 #[test]
-fn sides_part_by_a_hair_and_keep_their_momentum() {
+fn split_separation_is_tiny_and_conserves_momentum() {
     let cut = |self_collision| {
-        let mut cloth = flying(self_collision);
+        let mut cloth = flying_sheet(self_collision);
         let (from, to) = (Vec3::new(-0.1, -0.21, -1.0), Vec3::new(0.61, -0.37, -1.0));
         assert!(cloth.cut(from, to, Vec3::Z * 2.0).unwrap() > 8);
         assert!(cloth.tear_edge(10, 11).unwrap());
         cloth
     };
-    let (apart, together) = (cut(SURFACE), cut(SelfCollision::None));
-    let (after, plain) = (sums(&apart), sums(&together));
+    let (separated, coincident) = (cut(SURFACE), cut(SelfCollision::None));
+    let (after, plain) = (centre_and_momentum(&separated), centre_and_momentum(&coincident));
     assert!((after.0 - plain.0).length() < 1.0e-6, "{} is {}", after.0, plain.0);
     assert!((after.1 - plain.1).length() < 1.0e-6, "{} is {}", after.1, plain.1);
-    let (x, at) = (apart.positions(), together.positions());
+    let (x, at) = (separated.positions(), coincident.positions());
     assert_eq!(x.len(), at.len());
     let most = x.iter().zip(at).map(|(x, at)| x.distance(*at)).fold(0.0, f32::max);
-    assert!(most > 0.0 && most < 1.0e-4, "sides went {most} m");
-    // Without it they begin at the very same place.
+    assert!(most > 0.0 && most < 1.0e-4, "the sides moved by {most} m");
+    // Without surface collision the two sides start at the same position.
     let same = |x: &[Vec3]| (145..x.len()).filter(|i| x[..*i].contains(&x[*i])).count();
-    assert!(same(at) > 5 && same(x) == 0, "{} and {} at the same place", same(at), same(x));
+    assert!(same(at) > 5 && same(x) == 0, "{} and {} coincident particles", same(at), same(x));
 }
 
 #[test]
-fn pins_hold_both_sides_of_a_cut_where_they_were() {
-    let mut cloth = flying(SURFACE);
+fn pinned_particles_on_a_cut_stay_at_their_targets_on_both_sides() {
+    let mut cloth = flying_sheet(SURFACE);
     let pinned = [60, 61, 62, 63].map(|i| (i, cloth.positions()[i as usize]));
     pinned.iter().for_each(|(i, _)| cloth.pin(*i, None).unwrap());
     let (from, to) = (pinned[0].1 - Vec3::X * 0.4, pinned[3].1 + Vec3::X * 0.4);
     let level = |x: Vec3| Vec3::new(x.x, pinned[0].1.y, -1.0);
     assert!(cloth.cut(level(from), level(to), Vec3::Z * 2.0).unwrap() > 5);
-    play("pinned", &mut cloth, 20, |_, _| ());
+    run_without_crossings("pinned", &mut cloth, 20, |_, _| ());
     for (i, at) in pinned {
         let here = cloth.positions().iter().filter(|x| **x == at).count();
         assert_eq!((cloth.positions()[i as usize], here), (at, 2), "particle {i}");
     }
 }
 
-/// What was cut before surfaces kept apart parts when they begin to.
+/// A cut made without surface collision is separated when surface collision is switched on.
 #[test]
-fn slits_part_when_surfaces_begin_to_keep_apart() {
-    let mut cloth = crumpled(16, 1, 90);
+fn split_separation_starts_when_surface_collision_is_switched_on() {
+    let mut cloth = crumpled_sheet(16, 1, 90);
     let settings = cloth.settings().clone();
     let none = Settings { self_collision: SelfCollision::None, ..settings.clone() };
     cloth.set_settings(none).unwrap();
-    assert!(slash(&mut cloth, 0.4, 0.01) > 16);
+    assert!(cut_from_above(&mut cloth, 0.4, 0.01) > 16);
     cloth.set_settings(settings).unwrap();
-    play("cut before", &mut cloth, 30, |_, _| ());
+    run_without_crossings("cut before", &mut cloth, 30, |_, _| ());
 }

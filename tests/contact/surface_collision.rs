@@ -1,16 +1,19 @@
-//! Surfaces that keep apart: nothing crosses, layers rest on each other, and what moved them stays what it was.
+//! Surface collision: triangles never intersect, sheets rest on each other at the rest gap, momentum
+//! is conserved, and pins and grabs keep their targets.
 
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings, Shape};
 
 use crate::common::crossings::crossing_count;
+use crate::common::rms_speed;
 
-fn surface() -> Settings {
+/// Default settings with surface collision.
+fn surface_settings() -> Settings {
     Settings { self_collision: SelfCollision::Surface, ..Settings::default() }
 }
 
-/// A grid of `side` particles a side in the x–z plane, its middle over the origin at a height.
-fn lying(side: u32, size: f32, height: f32) -> GridDesc {
+/// A horizontal grid of `side` × `side` particles, centred over the origin at `height` [m].
+fn horizontal_sheet(side: u32, size: f32, height: f32) -> GridDesc {
     let origin = Vec3::new(-0.5 * size, height, -0.5 * size);
     let spacing = size / (side - 1) as f32;
     let down = Vec3::Z;
@@ -21,14 +24,14 @@ fn lying(side: u32, size: f32, height: f32) -> GridDesc {
         origin,
         down,
         pin_mode: PinMode::None,
-        settings: surface(),
+        settings: surface_settings(),
         ..GridDesc::default()
     }
 }
 
-/// Sheets over each other as one mesh, of `side` particles a side each.
-fn sheets(count: u32, side: u32, size: f32, place: impl Fn(u32, Vec3) -> Vec3) -> MeshDesc {
-    let mut desc = MeshDesc { settings: surface(), ..MeshDesc::default() };
+/// `count` sheets of `side` × `side` particles in one mesh; `place` gives their positions.
+fn stacked_sheets(count: u32, side: u32, size: f32, place: impl Fn(u32, Vec3) -> Vec3) -> MeshDesc {
+    let mut desc = MeshDesc { settings: surface_settings(), ..MeshDesc::default() };
     for sheet in 0..count {
         let first = desc.positions.len() as u32;
         let at = |k: u32| size * (k as f32 / (side - 1) as f32 - 0.5);
@@ -44,16 +47,17 @@ fn sheets(count: u32, side: u32, size: f32, place: impl Fn(u32, Vec3) -> Vec3) -
     desc
 }
 
-fn floor(height: f32) -> ColliderDesc {
+fn floor_at(height: f32) -> ColliderDesc {
     ColliderDesc { position: Vec3::Y * height, ..ColliderDesc::default() }
 }
 
-fn ball(radius: f32, position: Vec3) -> ColliderDesc {
+fn sphere_at(radius: f32, position: Vec3) -> ColliderDesc {
     ColliderDesc { shape: Shape::Sphere, radius, position, ..ColliderDesc::default() }
 }
 
-/// Plays, and tells the most crossings on the way and how many are left.
-fn watch(
+/// Runs `act` and one step per tick; returns the largest and the last number of intersecting triangle
+/// pairs, counted every fifth tick.
+fn most_and_last_crossings(
     name: &str,
     cloth: &mut Cloth,
     ticks: u32,
@@ -76,28 +80,21 @@ fn watch(
     }
     println!(
         "{name}: {most} at most, {last} at the end; rms {:.2} mm/s, {:.2} ms a tick, {:.2} at worst",
-        1.0e3 * speed(cloth),
+        1.0e3 * rms_speed(cloth),
         1.0e3 * spent / f64::from(ticks),
         1.0e3 * worst
     );
     (most, last)
 }
 
-/// Root of the mean square speed [m/s].
-fn speed(cloth: &Cloth) -> f32 {
-    let count = cloth.positions().len();
-    ((0..count as u32).map(|i| cloth.velocity(i).unwrap().length_squared()).sum::<f32>()
-        / count as f32)
-        .sqrt()
-}
-
 #[test]
-fn five_sheets_dropped_in_turn_lie_a_thickness_apart() {
-    let mut desc = sheets(5, 20, 0.5, |sheet, x| x + Vec3::Y * (0.02 + 0.05 * sheet as f32));
+fn stacked_sheets_rest_one_thickness_apart() {
+    let mut desc =
+        stacked_sheets(5, 20, 0.5, |sheet, x| x + Vec3::Y * (0.02 + 0.05 * sheet as f32));
     desc.material.thickness = 0.002;
     let mut cloth = Cloth::mesh(&desc).unwrap();
-    cloth.add_collider(&floor(0.0)).unwrap();
-    let (most, _) = watch("stack", &mut cloth, 180, |_, _| ());
+    cloth.add_collider(&floor_at(0.0)).unwrap();
+    let (most, _) = most_and_last_crossings("stack", &mut cloth, 180, |_, _| ());
     assert_eq!(most, 0);
     let mean = |sheet: usize| {
         let of = &cloth.positions()[400 * sheet..400 * (sheet + 1)];
@@ -109,41 +106,42 @@ fn five_sheets_dropped_in_turn_lie_a_thickness_apart() {
         let gap = (pair[1] - pair[0]) / 0.002;
         assert!((0.8..1.5).contains(&gap), "{gap} thicknesses");
     }
-    assert!(speed(&cloth) < 1.0e-3, "{} m/s", speed(&cloth));
+    assert!(rms_speed(&cloth) < 1.0e-3, "{} m/s", rms_speed(&cloth));
 }
 
 #[test]
-fn a_sheet_on_its_edge_crumples_without_a_crossing() {
-    let mut cloth = standing(32, 0);
-    let (most, last) = watch("edge", &mut cloth, 400, |_, _| ());
+fn a_sheet_that_falls_on_its_edge_crumples_without_self_intersection() {
+    let mut cloth = standing_sheet(32, 0);
+    let (most, last) = most_and_last_crossings("edge", &mut cloth, 400, |_, _| ());
     assert_eq!((most, last), (0, 0));
-    assert!(speed(&cloth) < 1.5e-3, "the heap moves at {} m/s", speed(&cloth));
+    assert!(rms_speed(&cloth) < 1.5e-3, "the heap moves at {} m/s", rms_speed(&cloth));
 }
 
-/// Cells fold over while a substep goes by: a row that lands lies on the next one, which stood before.
+/// A row of cells can fold over completely within one substep and land on the next row.
 #[test]
-fn what_folds_over_in_one_substep_does_not_cross() {
+fn cells_that_fold_over_within_one_substep_do_not_intersect() {
     for seed in [0, 1, 5, 8] {
-        let (most, last) = watch("landing", &mut standing(64, seed), 32, |_, _| ());
+        let (most, last) =
+            most_and_last_crossings("landing", &mut standing_sheet(64, seed), 32, |_, _| ());
         assert_eq!((most, last), (0, 0), "seed {seed}");
     }
 }
 
 #[test]
-fn a_sheet_over_a_ball_and_the_floor() {
-    let mut cloth = Cloth::grid(&lying(64, 1.6, 0.5)).unwrap();
-    cloth.add_collider(&ball(0.3, Vec3::Y * 0.1)).unwrap();
-    cloth.add_collider(&floor(-0.3)).unwrap();
-    let (most, last) = watch("ball", &mut cloth, 120, |_, _| ());
+fn a_sheet_draped_over_a_ball_and_a_floor_does_not_intersect_itself() {
+    let mut cloth = Cloth::grid(&horizontal_sheet(64, 1.6, 0.5)).unwrap();
+    cloth.add_collider(&sphere_at(0.3, Vec3::Y * 0.1)).unwrap();
+    cloth.add_collider(&floor_at(-0.3)).unwrap();
+    let (most, last) = most_and_last_crossings("ball", &mut cloth, 120, |_, _| ());
     assert_eq!((most, last), (0, 0));
 }
 
 #[test]
-fn a_sheet_on_a_turning_ball() {
-    let mut cloth = Cloth::grid(&lying(40, 1.4, 0.45)).unwrap();
-    let ball = cloth.add_collider(&ball(0.3, Vec3::Y * 0.1)).unwrap();
-    cloth.add_collider(&floor(-0.25)).unwrap();
-    let (most, last) = watch("turning", &mut cloth, 240, |cloth, tick| {
+fn a_sheet_on_a_turning_ball_does_not_intersect_itself() {
+    let mut cloth = Cloth::grid(&horizontal_sheet(40, 1.4, 0.45)).unwrap();
+    let ball = cloth.add_collider(&sphere_at(0.3, Vec3::Y * 0.1)).unwrap();
+    cloth.add_collider(&floor_at(-0.25)).unwrap();
+    let (most, last) = most_and_last_crossings("turning", &mut cloth, 240, |cloth, tick| {
         let turn = Quat::from_rotation_y((tick as f32 - 60.0).max(0.0) * 0.04);
         cloth.move_collider(ball, Vec3::Y * 0.1, turn).unwrap();
     });
@@ -151,20 +149,20 @@ fn a_sheet_on_a_turning_ball() {
 }
 
 #[test]
-fn a_curtain_falls_over_a_ball() {
+fn a_curtain_that_falls_over_a_ball_does_not_intersect_itself() {
     let desc = GridDesc {
         columns: 40,
         rows: 40,
         spacing: 0.03,
         origin: Vec3::new(-0.6, 1.6, 0.0),
-        settings: surface(),
+        settings: surface_settings(),
         pin_mode: PinMode::TopEdge,
         ..GridDesc::default()
     };
     let mut cloth = Cloth::grid(&desc).unwrap();
-    cloth.add_collider(&ball(0.25, Vec3::new(0.0, 0.3, 0.05))).unwrap();
-    cloth.add_collider(&floor(0.0)).unwrap();
-    let (most, last) = watch("curtain", &mut cloth, 150, |cloth, tick| {
+    cloth.add_collider(&sphere_at(0.25, Vec3::new(0.0, 0.3, 0.05))).unwrap();
+    cloth.add_collider(&floor_at(0.0)).unwrap();
+    let (most, last) = most_and_last_crossings("curtain", &mut cloth, 150, |cloth, tick| {
         if tick == 40 {
             cloth.unpin_all();
         }
@@ -172,8 +170,16 @@ fn a_curtain_falls_over_a_ball() {
     assert_eq!((most, last), (0, 0));
 }
 
-/// Takes an edge over to the other side, about an axis at a height, and lets it go.
-fn fold(cloth: &mut Cloth, tick: u32, [from, to]: [u32; 2], edge: &[u32], axis: Vec3, height: f32) {
+/// Pins `edge`, turns it by π about `axis` at `height` [m] between the ticks `from` and `to`, and
+/// unpins it.
+fn fold_edge_over(
+    cloth: &mut Cloth,
+    tick: u32,
+    [from, to]: [u32; 2],
+    edge: &[u32],
+    axis: Vec3,
+    height: f32,
+) {
     if tick == from {
         edge.iter().for_each(|i| cloth.pin(*i, None).unwrap());
     }
@@ -192,37 +198,37 @@ fn fold(cloth: &mut Cloth, tick: u32, [from, to]: [u32; 2], edge: &[u32], axis: 
 }
 
 #[test]
-fn a_sheet_is_folded_and_let_go() {
+fn a_sheet_folded_once_and_released_does_not_intersect_itself() {
     let side = 33;
-    let mut cloth = Cloth::grid(&lying(side, 0.8, 0.001)).unwrap();
-    cloth.add_collider(&floor(0.0)).unwrap();
+    let mut cloth = Cloth::grid(&horizontal_sheet(side, 0.8, 0.001)).unwrap();
+    cloth.add_collider(&floor_at(0.0)).unwrap();
     let left: Vec<u32> = (0..side).map(|k| k * side).collect();
-    let (most, last) = watch("fold", &mut cloth, 200, |cloth, tick| {
-        fold(cloth, tick, [10, 100], &left, Vec3::NEG_Z, 0.004);
+    let (most, last) = most_and_last_crossings("fold", &mut cloth, 200, |cloth, tick| {
+        fold_edge_over(cloth, tick, [10, 100], &left, Vec3::NEG_Z, 0.004);
     });
     assert_eq!((most, last), (0, 0));
 }
 
 #[test]
-fn a_sheet_is_folded_twice_and_let_go() {
+fn a_sheet_folded_twice_and_released_stays_folded_without_self_intersection() {
     let side = 33;
-    let mut cloth = Cloth::grid(&lying(side, 0.8, 0.001)).unwrap();
-    cloth.add_collider(&floor(0.0)).unwrap();
+    let mut cloth = Cloth::grid(&horizontal_sheet(side, 0.8, 0.001)).unwrap();
+    cloth.add_collider(&floor_at(0.0)).unwrap();
     let left: Vec<u32> = (0..side).map(|k| k * side).collect();
     let back: Vec<u32> = (0..side).collect();
-    let (most, last) = watch("fold twice", &mut cloth, 300, |cloth, tick| {
-        fold(cloth, tick, [10, 100], &left, Vec3::NEG_Z, 0.004);
-        fold(cloth, tick, [120, 210], &back, Vec3::X, 0.006);
+    let (most, last) = most_and_last_crossings("fold twice", &mut cloth, 300, |cloth, tick| {
+        fold_edge_over(cloth, tick, [10, 100], &left, Vec3::NEG_Z, 0.004);
+        fold_edge_over(cloth, tick, [120, 210], &back, Vec3::X, 0.006);
     });
     assert_eq!((most, last), (0, 0));
     let (low, high) = bounds(&cloth);
     let size = high - low;
-    assert!(size.x < 0.6 && size.z < 0.6 && size.y < 0.1, "it lies {size} m large");
+    assert!(size.x < 0.6 && size.z < 0.6 && size.y < 0.1, "the folded sheet measures {size} m");
 }
 
 #[test]
-fn sheets_that_meet_in_free_flight_keep_momentum_and_do_not_cross() {
-    let mut desc = sheets(2, 16, 0.5, |sheet, x| {
+fn sheets_that_collide_in_free_flight_conserve_momentum_and_do_not_intersect() {
+    let mut desc = stacked_sheets(2, 16, 0.5, |sheet, x| {
         Quat::from_rotation_z(0.2 * sheet as f32) * x + Vec3::Y * (0.08 * sheet as f32)
     });
     let (settings, material) = crate::common::bare();
@@ -233,39 +239,40 @@ fn sheets_that_meet_in_free_flight_keep_momentum_and_do_not_cross() {
     for i in 0..512 {
         cloth.set_velocity(i, Vec3::Y * if i < 256 { 1.0 } else { -1.0 }).unwrap();
     }
-    let sums = |cloth: &Cloth| {
+    let momenta = |cloth: &Cloth| {
         let mass = |i: usize| cloth.mass(i as u32).unwrap();
         let of = |i: usize| cloth.velocity(i as u32).unwrap() * mass(i);
         let linear: Vec3 = (0..512).map(of).sum();
         let angular: Vec3 = (0..512).map(|i| cloth.positions()[i].cross(of(i))).sum();
         (linear, angular)
     };
-    let start = sums(&cloth);
-    let (most, _) = watch("flight", &mut cloth, 60, |_, _| ());
-    let end = sums(&cloth);
+    let start = momenta(&cloth);
+    let (most, _) = most_and_last_crossings("flight", &mut cloth, 60, |_, _| ());
+    let end = momenta(&cloth);
     println!("{start:?} {end:?}");
     assert_eq!(most, 0);
     let one = 0.18 * 0.25;
     assert!((end.0 - start.0).length() < 1.0e-3 * one, "{:?} was {:?}", end.0, start.0);
 }
 
-/// A sheet that stands on its edge over a floor and is about to crumple, as a seed disturbs it.
-fn standing(side: u32, seed: u32) -> Cloth {
+/// A sheet that stands on its edge over a floor and is about to crumple; `seed` varies the initial
+/// velocities.
+fn standing_sheet(side: u32, seed: u32) -> Cloth {
     let spacing = 1.0 / side as f32;
     let desc = GridDesc { columns: side, rows: side, spacing, ..GridDesc::default() };
-    let desc = GridDesc { pin_mode: PinMode::None, settings: surface(), ..desc };
+    let desc = GridDesc { pin_mode: PinMode::None, settings: surface_settings(), ..desc };
     let mut cloth = Cloth::grid(&desc).unwrap();
-    cloth.add_collider(&floor(-1.05)).unwrap();
+    cloth.add_collider(&floor_at(-1.05)).unwrap();
     for i in (seed..side * side).step_by(7) {
         cloth.set_velocity(i, Vec3::Z * 0.05 * (((i + seed) % 5) as f32 - 2.0)).unwrap();
     }
     cloth
 }
 
-/// When pairs are listed makes no difference: a restored cloth lists them at another time.
+/// A restored cloth rebuilds its pair cache at another tick, which must not change the result.
 #[test]
-fn a_restored_cloth_goes_on_in_the_same_bits() {
-    let mut cloth = standing(16, 0);
+fn a_cloth_restored_while_it_crumples_continues_with_the_same_bits() {
+    let mut cloth = standing_sheet(16, 0);
     for tick in 0..100 {
         if tick == 15 {
             let at = |x: f32| Vec3::new(x, -0.8, -1.0);
@@ -283,16 +290,16 @@ fn a_restored_cloth_goes_on_in_the_same_bits() {
 }
 
 #[test]
-fn without_it_layers_do_cross() {
-    let mut cloth = standing(24, 0);
-    let settings = Settings { self_collision: SelfCollision::None, ..surface() };
+fn a_sheet_without_self_collision_intersects_itself() {
+    let mut cloth = standing_sheet(24, 0);
+    let settings = Settings { self_collision: SelfCollision::None, ..surface_settings() };
     cloth.set_settings(settings).unwrap();
-    let (most, _) = watch("none", &mut cloth, 120, |_, _| ());
+    let (most, _) = most_and_last_crossings("none", &mut cloth, 120, |_, _| ());
     assert!(most > 50, "{most} crossings");
 }
 
 #[test]
-fn a_flat_sheet_and_its_cut_feel_nothing_of_themselves() {
+fn a_flat_sheet_with_a_cut_does_not_collide_with_itself() {
     let mut desc = crate::common::bare_grid(9, 9, 0.1, PinMode::None);
     desc.settings.gravity = Vec3::ZERO;
     desc.settings.self_collision = SelfCollision::Surface;
@@ -305,29 +312,30 @@ fn a_flat_sheet_and_its_cut_feel_nothing_of_themselves() {
         cloth.step(10);
         let most = cloth.positions().iter().zip(&start).map(|(x, at)| (x - at).length());
         let most = most.fold(0.0, f32::max);
-        println!("flat: it moved by {most:e} m, {:e} m/s at last", speed(&cloth));
-        // The sides of the cut parted by some thousandths of the spacing, and come back by less than that.
-        assert!(most < 3.0e-4, "it moved by {most} m, at a distance of {distance} m");
-        assert!(speed(&cloth) < 1.0e-3, "it moves on at {} m/s", speed(&cloth));
+        println!("flat: moved by {most:e} m, {:e} m/s at the end", rms_speed(&cloth));
+        // The sides of the cut separate by a few thousandths of the spacing and return by less.
+        assert!(most < 3.0e-4, "the sheet moved by {most} m, at a distance of {distance} m");
+        assert!(rms_speed(&cloth) < 1.0e-3, "the sheet still moves at {} m/s", rms_speed(&cloth));
         assert_eq!(crossing_count(&cloth), 0);
     }
 }
 
 #[test]
-fn what_is_pinned_stays_where_it_is_pinned() {
-    let mut desc = sheets(2, 12, 0.4, |sheet, x| x + Vec3::Y * (0.1 * sheet as f32));
+fn pinned_particles_keep_their_positions_in_surface_contact() {
+    let mut desc = stacked_sheets(2, 12, 0.4, |sheet, x| x + Vec3::Y * (0.1 * sheet as f32));
     desc.pinned = vec![0, 11, 132, 143];
     let mut cloth = Cloth::mesh(&desc).unwrap();
     let before: Vec<Vec3> = desc.pinned.iter().map(|i| cloth.positions()[*i as usize]).collect();
-    let (most, _) = watch("pinned", &mut cloth, 120, |_, _| ());
+    let (most, _) = most_and_last_crossings("pinned", &mut cloth, 120, |_, _| ());
     assert_eq!(most, 0);
     let after: Vec<Vec3> = desc.pinned.iter().map(|i| cloth.positions()[*i as usize]).collect();
     assert_eq!(before, after);
 }
 
 #[test]
-fn a_bounded_sheet_that_is_dragged_tears_and_keeps_from_itself() {
-    let mut desc = GridDesc { columns: 12, rows: 12, settings: surface(), ..GridDesc::default() };
+fn a_dragged_sheet_with_a_stretch_limit_tears_and_stays_finite() {
+    let mut desc =
+        GridDesc { columns: 12, rows: 12, settings: surface_settings(), ..GridDesc::default() };
     (desc.settings.tearing, desc.settings.max_stretch) = (true, 0.5);
     desc.material.tear_stretch = 1.1;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -341,8 +349,9 @@ fn a_bounded_sheet_that_is_dragged_tears_and_keeps_from_itself() {
     assert!(cloth.positions().iter().all(|x| x.is_finite()));
 }
 
-/// Rips a sheet by its grabbed corner and cuts it, restores it in between, and counts crossings all the while.
-fn rip_and_cut(name: &str, mut cloth: Cloth, ticks: u32) {
+/// Cuts a sheet and tears it by a grabbed corner; asserts that it never intersects itself and that
+/// restored cloths continue with the same bits.
+fn assert_rip_and_cut_without_crossings(name: &str, mut cloth: Cloth, ticks: u32) {
     let (low, high) = bounds(&cloth);
     let middle = 0.5 * (low + high);
     let wide = Vec3::X * (0.3 * (high.x - low.x));
@@ -351,12 +360,12 @@ fn rip_and_cut(name: &str, mut cloth: Cloth, ticks: u32) {
     assert!(opened > 5, "{name}: the cut opened {opened} edges");
     let before = cloth.positions().len();
     let grab = cloth.grab_particle(0).unwrap();
-    let held = cloth.positions()[0];
-    let (most, last) = watch(name, &mut cloth, ticks, |cloth, tick| {
+    let start = cloth.positions()[0];
+    let (most, last) = most_and_last_crossings(name, &mut cloth, ticks, |cloth, tick| {
         if tick == 10 {
             assert!(cloth.tear_edge(before as u32 / 2, before as u32 / 2 + 1).unwrap());
         }
-        cloth.move_grab(grab, held + Vec3::new(0.004, 0.006, 0.012) * tick as f32).unwrap();
+        cloth.move_grab(grab, start + Vec3::new(0.004, 0.006, 0.012) * tick as f32).unwrap();
         if tick % 20 == 5 {
             let mut restored = Cloth::restore(&cloth.save()).unwrap();
             let mut straight = cloth.clone();
@@ -370,6 +379,7 @@ fn rip_and_cut(name: &str, mut cloth: Cloth, ticks: u32) {
     assert_eq!((most, last), (0, 0), "{name}");
 }
 
+/// Lower and upper corner of the bounding box [m].
 fn bounds(cloth: &Cloth) -> (Vec3, Vec3) {
     let mut all = cloth.positions().iter();
     let first = *all.next().unwrap();
@@ -377,38 +387,39 @@ fn bounds(cloth: &Cloth) -> (Vec3, Vec3) {
 }
 
 #[test]
-fn a_hanging_sheet_that_is_ripped_and_cut_does_not_cross_itself() {
-    let mut desc = GridDesc { columns: 20, rows: 20, settings: surface(), ..GridDesc::default() };
+fn a_hanging_sheet_that_is_torn_and_cut_does_not_intersect_itself() {
+    let mut desc =
+        GridDesc { columns: 20, rows: 20, settings: surface_settings(), ..GridDesc::default() };
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.15;
     let mut cloth = Cloth::grid(&desc).unwrap();
     cloth.step(30);
-    rip_and_cut("hanging rip", cloth, 90);
+    assert_rip_and_cut_without_crossings("hanging rip", cloth, 90);
 }
 
-/// What a leash pulls at the end of a tick is where it is to be, and what lies there gives way.
+/// The max distance to the anchor holds at the end of a tick; surfaces in the path give way.
 #[test]
-fn what_leashes_lead_pushes_other_layers_along() {
-    let mut desc = sheets(2, 12, 0.4, |sheet, x| x + Vec3::Y * (0.02 * sheet as f32));
+fn particles_led_by_anchors_push_other_surfaces_along() {
+    let mut desc = stacked_sheets(2, 12, 0.4, |sheet, x| x + Vec3::Y * (0.02 * sheet as f32));
     desc.settings.gravity = Vec3::ZERO;
     desc.settings.max_stretch = 0.1;
     let mut cloth = Cloth::mesh(&desc).unwrap();
-    let led: Vec<u32> = (144..288).collect();
-    let (start, most_off) = (cloth.positions()[144..].to_vec(), 0.001);
-    cloth.set_max_distances(&led, &[most_off; 144]).unwrap();
+    let anchored: Vec<u32> = (144..288).collect();
+    let (start, max_distance) = (cloth.positions()[144..].to_vec(), 0.001);
+    cloth.set_max_distances(&anchored, &[max_distance; 144]).unwrap();
     let mut anchors = start.clone();
-    let (most, _) = watch("led", &mut cloth, 60, |cloth, tick| {
+    let (most, _) = most_and_last_crossings("anchored", &mut cloth, 60, |cloth, tick| {
         for (anchor, at) in anchors.iter_mut().zip(&start) {
             let slope = 0.3 * at.x;
             *anchor = *at - Vec3::Y * ((0.004 + 0.01 * slope.abs()) * tick as f32);
         }
-        cloth.set_anchors(&led, &anchors, &[]).unwrap();
+        cloth.set_anchors(&anchored, &anchors, &[]).unwrap();
     });
     let off = cloth.positions()[144..].iter().zip(&anchors).map(|(x, at)| x.distance(*at));
     let off = off.fold(0.0, f32::max);
-    println!("led: {most} crossings, {off:.6} m off their anchors at most");
+    println!("anchored: {most} crossings, at most {off:.6} m from the anchors");
     assert_eq!(most, 0);
-    assert!(off < most_off + 1e-5, "{off} m off an anchor");
+    assert!(off < max_distance + 1e-5, "{off} m from an anchor");
     let lower = cloth.positions()[..144].iter().map(|x| x.y).fold(f32::MIN, f32::max);
     assert!(lower < -0.15, "the sheet below is at {lower} m");
 }

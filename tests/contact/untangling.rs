@@ -1,4 +1,5 @@
-//! Surfaces that go through each other already: they are drawn out, whichever way they cross, and come to rest.
+//! Untangling: surfaces that already intersect are separated, whatever the kind of intersection, and
+//! come to rest.
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings};
@@ -6,18 +7,18 @@ use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Se
 use crate::common::crossings::crossing_count;
 use crate::common::garments::{moebius_strip, shirt};
 
-/// Particles along a side of a sheet, and how long that is [m].
+/// Particles along a side of a sheet, and the length of a side [m].
 const SIDE: u32 = 20;
 const SIZE: f32 = 0.5;
 
-fn settings(self_collision: SelfCollision) -> Settings {
+fn settings_with(self_collision: SelfCollision) -> Settings {
     Settings { self_collision, ..Settings::default() }
 }
 
-/// Two sheets as one mesh: one lies at height 0, its border pinned if it is `held`; `place` puts the other one, from
-/// where particles are on it, from 0 to 1 along both sides.
-fn two_sheets(held: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
-    let settings = settings(SelfCollision::Surface);
+/// Two sheets in one mesh. The first lies at height 0, its border pinned if `is_pinned`; `place(u, v)`
+/// gives the positions of the second, with `u` and `v` from 0 to 1 along its sides.
+fn two_sheets(is_pinned: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
+    let settings = settings_with(SelfCollision::Surface);
     let mut desc = MeshDesc { settings, ..MeshDesc::default() };
     let at = |k: u32| k as f32 / (SIDE - 1) as f32;
     for sheet in 0..2 {
@@ -27,7 +28,7 @@ fn two_sheets(held: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
             let lies = Vec3::new(u * SIZE, 0.0, v * SIZE);
             desc.positions.push(if sheet == 0 { lies } else { place(u, v) });
             let is_border = [row, column].iter().any(|k| *k == 0 || *k == SIDE - 1);
-            if held && sheet == 0 && is_border {
+            if is_pinned && sheet == 0 && is_border {
                 desc.pinned.push(first + row * SIDE + column);
             }
             if row < SIDE - 1 && column < SIDE - 1 {
@@ -39,39 +40,39 @@ fn two_sheets(held: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
     desc
 }
 
-/// Plays until nothing crosses any more, for `most` ticks at most, and on until `ticks` are over; nothing crosses
-/// then, nor in the last half second.
-fn assert_comes_out(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
+/// Runs `ticks` ticks; asserts that the last intersection disappears before tick `most` and that none
+/// comes back, up to and including the last half second.
+fn assert_untangles(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
     let before = crossing_count(cloth);
-    assert!(before >= 8, "{name}: only {before} crossings to begin with");
+    assert!(before >= 8, "{name}: only {before} intersections at the start");
     let mut last = 0;
     for tick in 1..=ticks {
         cloth.step(1);
-        let looks = tick <= most + 1 || tick % 10 == 0 || tick + 30 > ticks;
-        if looks && crossing_count(cloth) > 0 {
+        let counts = tick <= most + 1 || tick % 10 == 0 || tick + 30 > ticks;
+        if counts && crossing_count(cloth) > 0 {
             last = tick;
         }
     }
     let speed = cloth.stats().max_speed;
-    println!("{name}: {before} crossings, none after {last} ticks; {speed:.5} m/s at most");
+    println!("{name}: {before} intersections, none after {last} ticks; {speed:.5} m/s at most");
     assert!(
         last < most,
-        "{name}: {} crossings, the last after {last} ticks",
+        "{name}: {} intersections, the last after {last} ticks",
         crossing_count(cloth)
     );
 }
 
 #[test]
-fn a_bump_goes_back() {
+fn a_bump_pushed_through_a_sheet_is_untangled() {
     for depth in [0.02, 0.06, 0.12] {
         let bump = |u: f32, v: f32| {
             let square = (u - 0.47).powi(2) + (v - 0.52).powi(2);
             Vec3::new(u * SIZE, 0.01 - (0.01 + depth) * (-square / 0.02).exp(), v * SIZE)
         };
         let mut cloth = Cloth::mesh(&two_sheets(true, bump)).unwrap();
-        assert_comes_out(&format!("a bump {depth} m deep"), &mut cloth, 20, 240);
+        assert_untangles(&format!("a bump {depth} m deep"), &mut cloth, 20, 240);
         let speed = cloth.stats().max_speed;
-        assert!(speed < 0.02, "after four seconds something moves at {speed} m/s");
+        assert!(speed < 0.02, "after four seconds the highest speed is {speed} m/s");
         let low = cloth.positions()[(SIDE * SIDE) as usize..].iter().map(|x| x.y);
         let low = low.fold(f32::INFINITY, f32::min);
         assert!(low > -0.1, "the upper sheet is at {low} m");
@@ -79,31 +80,32 @@ fn a_bump_goes_back() {
 }
 
 #[test]
-fn a_corner_goes_back() {
+fn a_corner_pushed_through_a_sheet_is_untangled() {
     for share in [0.1, 0.25, 0.45] {
         let corner = |u: f32, v: f32| {
             let across = 0.251 + (u - v) * SIZE * 0.5;
             Vec3::new(across, ((u + v) * 0.7 - share) * SIZE, 0.2533 + 0.05 * (u + v))
         };
         let mut cloth = Cloth::mesh(&two_sheets(true, corner)).unwrap();
-        assert_comes_out(&format!("a corner, {share}"), &mut cloth, 45, 120);
+        assert_untangles(&format!("a corner, {share}"), &mut cloth, 45, 120);
     }
 }
 
 #[test]
-fn a_sheet_goes_back_that_stands_in_another() {
+fn a_sheet_that_stands_through_another_is_untangled() {
     for share in [0.1, 0.3, 0.5] {
         let standing = |u: f32, v: f32| {
             let x = 0.1513 + u * SIZE * 0.6;
             Vec3::new(x, (v - share) * SIZE * 0.6, 0.2533 + 0.02 * v)
         };
         let mut cloth = Cloth::mesh(&two_sheets(true, standing)).unwrap();
-        assert_comes_out(&format!("a sheet, {share}"), &mut cloth, 45, 120);
+        assert_untangles(&format!("a sheet, {share}"), &mut cloth, 45, 120);
     }
 }
 
-/// Two sheets that are in each other like cards, each from a border on: neither has a part that got through.
-fn cards() -> MeshDesc {
+/// Two sheets that intersect along a line that starts at a border of each, like interleaved cards:
+/// neither has an enclosed part on the wrong side.
+fn interleaved_sheets() -> MeshDesc {
     let mut desc = two_sheets(false, |u, v| {
         Vec3::new(0.2513 + u * SIZE, v * SIZE - 0.2533, 0.2533 + 0.02 * v)
     });
@@ -112,7 +114,8 @@ fn cards() -> MeshDesc {
     desc
 }
 
-fn middle(cloth: &Cloth) -> Vec3 {
+/// Centre of mass [m].
+fn centre_of_mass(cloth: &Cloth) -> Vec3 {
     let count = cloth.positions().len() as u32;
     let all = (0..count).map(|at| (cloth.mass(at).unwrap(), cloth.position(at).unwrap()));
     let (mass, sum) = all.fold((0.0, Vec3::ZERO), |(mass, sum), (m, x)| (mass + m, sum + x * m));
@@ -120,35 +123,36 @@ fn middle(cloth: &Cloth) -> Vec3 {
 }
 
 #[test]
-fn cards_come_apart_and_their_middle_stays() {
-    let mut cloth = Cloth::mesh(&cards()).unwrap();
-    let before = middle(&cloth);
-    assert_comes_out("cards", &mut cloth, 60, 120);
-    let moved = middle(&cloth).distance(before);
-    assert!(moved < 1.0e-4, "the middle moved by {moved} m");
+fn interleaved_sheets_are_untangled_and_keep_their_centre_of_mass() {
+    let mut cloth = Cloth::mesh(&interleaved_sheets()).unwrap();
+    let before = centre_of_mass(&cloth);
+    assert_untangles("cards", &mut cloth, 60, 120);
+    let moved = centre_of_mass(&cloth).distance(before);
+    assert!(moved < 1.0e-4, "the centre of mass moved by {moved} m");
 }
 
-/// A garment that hung for ten seconds without collision, and then with.
-fn switched_on(desc: MeshDesc) -> Cloth {
+/// A garment that hung for ten seconds without self-collision, with surface collision just switched
+/// on.
+fn garment_with_late_collision(desc: MeshDesc) -> Cloth {
     let mut cloth =
-        Cloth::mesh(&MeshDesc { settings: settings(SelfCollision::None), ..desc }).unwrap();
+        Cloth::mesh(&MeshDesc { settings: settings_with(SelfCollision::None), ..desc }).unwrap();
     cloth.step(600);
-    cloth.set_settings(settings(SelfCollision::Surface)).unwrap();
+    cloth.set_settings(settings_with(SelfCollision::Surface)).unwrap();
     cloth
 }
 
 #[test]
-fn garments_come_out_that_hung_without() {
+fn garments_that_hung_without_self_collision_are_untangled() {
     for (name, desc) in [("shirt", shirt()), ("moebius strip", moebius_strip())] {
-        assert_comes_out(name, &mut switched_on(desc), 90, 240);
+        assert_untangles(name, &mut garment_with_late_collision(desc), 90, 240);
     }
 }
 
-/// A sheet that dropped on its edge and crumpled without its surface.
-fn heap(seed: u32, way: SelfCollision) -> Cloth {
+/// A sheet that fell on its edge and crumpled with `mode`, with surface collision just switched on.
+fn crumpled_heap(seed: u32, mode: SelfCollision) -> Cloth {
     let spacing = 1.0 / SIDE as f32;
     let desc = GridDesc { columns: SIDE, rows: SIDE, spacing, ..GridDesc::default() };
-    let desc = GridDesc { pin_mode: PinMode::None, settings: settings(way), ..desc };
+    let desc = GridDesc { pin_mode: PinMode::None, settings: settings_with(mode), ..desc };
     let mut cloth = Cloth::grid(&desc).unwrap();
     let floor = ColliderDesc { position: Vec3::Y * -1.05, ..ColliderDesc::default() };
     cloth.add_collider(&floor).unwrap();
@@ -156,34 +160,34 @@ fn heap(seed: u32, way: SelfCollision) -> Cloth {
         cloth.set_velocity(i, Vec3::Z * 0.05 * (((i + seed) % 5) as f32 - 2.0)).unwrap();
     }
     cloth.step(90);
-    cloth.set_settings(settings(SelfCollision::Surface)).unwrap();
+    cloth.set_settings(settings_with(SelfCollision::Surface)).unwrap();
     cloth
 }
 
 #[test]
-fn a_heap_comes_out_that_crumpled_by_its_particles() {
+fn a_heap_that_crumpled_with_particle_collision_is_untangled() {
     for seed in 0..4 {
-        let mut cloth = heap(seed, SelfCollision::Particles);
-        assert_comes_out(&format!("heap {seed}"), &mut cloth, 120, 240);
+        let mut cloth = crumpled_heap(seed, SelfCollision::Particles);
+        assert_untangles(&format!("heap {seed}"), &mut cloth, 120, 240);
     }
 }
 
 #[test]
-fn a_heap_comes_out_that_crumpled_without_any() {
+fn a_heap_that_crumpled_without_self_collision_is_untangled() {
     for seed in 0..2 {
-        let mut cloth = heap(seed, SelfCollision::None);
-        assert_comes_out(&format!("heap {seed}"), &mut cloth, 600, 700);
+        let mut cloth = crumpled_heap(seed, SelfCollision::None);
+        assert_untangles(&format!("heap {seed}"), &mut cloth, 600, 700);
     }
 }
 
 #[test]
-fn what_was_put_through_comes_out() {
+fn a_corner_placed_through_the_sheet_by_set_position_is_untangled() {
     let spacing = SIZE / (SIDE - 1) as f32;
-    let settings = settings(SelfCollision::Surface);
+    let settings = settings_with(SelfCollision::Surface);
     let desc = GridDesc { columns: SIDE, rows: SIDE, spacing, settings, ..GridDesc::default() };
     let mut cloth = Cloth::grid(&desc).unwrap();
     cloth.step(30);
-    // The lower right part is laid over the rest, a little aslant, and its corner put through.
+    // Fold the right part over the rest at a slight angle and place its corner through the sheet.
     let hinge = 12;
     for at in 0..SIDE * SIDE {
         let (row, column) = (at / SIDE, at % SIDE);
@@ -194,11 +198,11 @@ fn what_was_put_through_comes_out() {
             cloth.set_position(at, x + Vec3::new(-over, 0.0, off * over / 0.15)).unwrap();
         }
     }
-    assert_comes_out("a lapel", &mut cloth, 60, 120);
+    assert_untangles("a lapel", &mut cloth, 60, 120);
 }
 
 #[test]
-fn held_sheets_that_were_led_through_come_out_once_they_are_let_go() {
+fn pinned_sheets_moved_through_each_other_are_untangled_after_unpinning() {
     let standing =
         |u: f32, v: f32| Vec3::new(0.1513 + u * SIZE * 0.6, 0.02 + v * 0.3, 0.2533 + 0.02 * v);
     let mut desc = two_sheets(false, standing);
@@ -212,23 +216,23 @@ fn held_sheets_that_were_led_through_come_out_once_they_are_let_go() {
         cloth.set_pin_targets(&upper, &targets).unwrap();
         cloth.step(1);
     }
-    // Held, they stay as they are.
+    // While all particles are pinned, the sheets keep intersecting.
     cloth.step(30);
     assert!(crossing_count(&cloth) > 0);
     upper.iter().for_each(|at| cloth.unpin(*at).unwrap());
-    assert_comes_out("a sheet led through", &mut cloth, 60, 120);
+    assert_untangles("a sheet moved through", &mut cloth, 60, 120);
 }
 
 #[test]
-fn a_restored_tangle_goes_on_in_the_same_bits() {
+fn a_cloth_restored_while_it_untangles_continues_with_the_same_bits() {
     let mut all = [
-        ("cards", Cloth::mesh(&cards()).unwrap()),
-        ("shirt", switched_on(shirt())),
-        ("heap", heap(0, SelfCollision::Particles)),
+        ("cards", Cloth::mesh(&interleaved_sheets()).unwrap()),
+        ("shirt", garment_with_late_collision(shirt())),
+        ("heap", crumpled_heap(0, SelfCollision::Particles)),
     ];
     for (name, cloth) in &mut all {
         for _ in 0..4 {
-            assert!(crossing_count(cloth) > 0, "{name} has come out before");
+            assert!(crossing_count(cloth) > 0, "{name} is untangled too early");
             let mut restored = Cloth::restore(&cloth.save()).unwrap();
             assert_eq!(restored.state_hash(), cloth.state_hash(), "{name}");
             cloth.step(1);

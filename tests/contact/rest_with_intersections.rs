@@ -1,17 +1,17 @@
-//! Layers of a cloth go through each other, so that a cloth thrown about hangs in a tangle whose links
-//! cannot all have their lengths. It comes to rest all the same, as does any sheet after wind.
+//! A cloth without self-collision that was thrown about intersects itself, so that its links cannot
+//! all reach their rest lengths. It comes to rest nevertheless, as does any sheet after wind.
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, PinMode, Wind};
 
-/// The most that still counts as rest [m/s].
+/// Highest speed that counts as rest [m/s].
 const REST: f32 = 1.0e-3;
 
-/// Different ways to be thrown about.
+/// Number of random sequences of throws.
 const SEEDS: u32 = 6;
 
-/// Root mean square speed of the next two seconds [m/s].
-fn speed(cloth: &mut Cloth) -> f32 {
+/// Runs two seconds and returns the RMS speed over them, weighted by mass [m/s].
+fn rms_speed_over_two_seconds(cloth: &mut Cloth) -> f32 {
     let mass: f32 = (0..cloth.positions().len() as u32).map(|i| cloth.mass(i).unwrap()).sum();
     let ticks = (2.0 / cloth.settings().tick) as u32;
     let mut sum = 0.0;
@@ -27,8 +27,8 @@ fn sheet(side: u32, pin_mode: PinMode) -> GridDesc {
     GridDesc { columns: side, rows: side, spacing, pin_mode, ..GridDesc::default() }
 }
 
-/// A cloth that was thrown about by a hand in a storm, then left alone.
-fn tangled(mut desc: GridDesc, iterations: u32, seed: u32) -> Cloth {
+/// A cloth that a grab threw about in strong wind and that then hung freely for 28 s.
+fn self_intersecting_cloth(mut desc: GridDesc, iterations: u32, seed: u32) -> Cloth {
     desc.settings.gravity = Vec3::NEG_Y * 20.0;
     desc.settings.iterations = iterations;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -51,49 +51,50 @@ fn tangled(mut desc: GridDesc, iterations: u32, seed: u32) -> Cloth {
     cloth
 }
 
-/// A mere swing would come to rest as well, so some of them must be tangles indeed.
-fn assert_tangles_rest(side: u32, pin_mode: PinMode, iterations: u32) {
+/// Asserts that cloths that were thrown about come to rest, and that at least one stays stretched by
+/// its intersections: a cloth that only swings would come to rest in any case.
+fn assert_intersecting_cloths_rest(side: u32, pin_mode: PinMode, iterations: u32) {
     let mut most_stretch: f32 = 0.0;
     for seed in 0..SEEDS {
-        let mut cloth = tangled(sheet(side, pin_mode), iterations, seed);
-        let speed = speed(&mut cloth);
+        let mut cloth = self_intersecting_cloth(sheet(side, pin_mode), iterations, seed);
+        let speed = rms_speed_over_two_seconds(&mut cloth);
         assert!(
             speed < REST,
-            "{side}² by {pin_mode:?} with {iterations} sweeps, {seed}: {speed} m/s"
+            "{side}² by {pin_mode:?} with {iterations} iterations, seed {seed}: {speed} m/s"
         );
         most_stretch = most_stretch.max(cloth.stats().max_stretch);
     }
-    assert!(most_stretch > 0.02, "no tangle: stretched by {most_stretch}");
+    assert!(most_stretch > 0.02, "no cloth is entangled: the largest stretch is {most_stretch}");
 }
 
 #[test]
-fn a_coarse_tangle_comes_to_rest() {
-    assert_tangles_rest(24, PinMode::TopEdge, 2);
+fn a_coarse_self_intersecting_sheet_comes_to_rest() {
+    assert_intersecting_cloths_rest(24, PinMode::TopEdge, 2);
 }
 
 #[test]
-fn a_coarse_tangle_of_many_sweeps_comes_to_rest() {
-    assert_tangles_rest(24, PinMode::TopEdge, 12);
+fn a_coarse_self_intersecting_sheet_with_many_iterations_comes_to_rest() {
+    assert_intersecting_cloths_rest(24, PinMode::TopEdge, 12);
 }
 
 #[test]
-fn a_tangle_comes_to_rest() {
-    assert_tangles_rest(40, PinMode::TopEdge, 2);
+fn a_self_intersecting_sheet_comes_to_rest() {
+    assert_intersecting_cloths_rest(40, PinMode::TopEdge, 2);
 }
 
 #[test]
-fn a_tangle_of_many_sweeps_comes_to_rest() {
-    assert_tangles_rest(40, PinMode::TopEdge, 12);
+fn a_self_intersecting_sheet_with_many_iterations_comes_to_rest() {
+    assert_intersecting_cloths_rest(40, PinMode::TopEdge, 12);
 }
 
 #[test]
-fn a_tangle_hung_by_two_corners_comes_to_rest() {
-    assert_tangles_rest(24, PinMode::TopCorners, 2);
-    assert_tangles_rest(40, PinMode::TopCorners, 2);
+fn a_self_intersecting_sheet_pinned_at_two_corners_comes_to_rest() {
+    assert_intersecting_cloths_rest(24, PinMode::TopCorners, 2);
+    assert_intersecting_cloths_rest(40, PinMode::TopCorners, 2);
 }
 
 #[test]
-fn a_sheet_comes_to_rest_after_wind_however_fine_it_is_and_coarse_its_ticks() {
+fn a_sheet_comes_to_rest_after_wind_at_any_resolution_and_tick_length() {
     for (side, rate) in [(24, 60), (40, 60), (56, 30), (128, 60)] {
         let mut desc = sheet(side, PinMode::TopEdge);
         desc.settings.tick = 1.0 / rate as f32;
@@ -102,7 +103,7 @@ fn a_sheet_comes_to_rest_after_wind_however_fine_it_is_and_coarse_its_ticks() {
         cloth.step(5 * rate);
         cloth.set_wind(Wind::default()).unwrap();
         cloth.step(24 * rate);
-        let speed = speed(&mut cloth);
+        let speed = rms_speed_over_two_seconds(&mut cloth);
         assert!(speed < REST, "{side}² at {rate} Hz still moves at {speed} m/s");
     }
 }
