@@ -1,4 +1,4 @@
-//! Once a cloth is made and its threads are warm, ticks on several threads allocate nothing either.
+//! Ticks on several threads allocate no memory once the cloth exists and the pool is warm.
 #![cfg(feature = "parallel")]
 
 use muslin::glam::Vec3;
@@ -6,16 +6,17 @@ use muslin::{Cloth, GridDesc, MeshDesc, PinMode, Wind};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-struct Counting;
+/// The system allocator with a count of allocations.
+struct CountingAllocator;
 
-/// Allocations of all threads.
+/// Number of allocations on all threads.
 static COUNT: AtomicUsize = AtomicUsize::new(0);
 
-// SAFETY: every call is passed on to the system's allocator as it came.
-unsafe impl GlobalAlloc for Counting {
+// SAFETY: every call is forwarded unchanged to the system allocator.
+unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller's promises hold for the system's allocator too.
+        // SAFETY: the caller's guarantees are also those that the system allocator needs.
         unsafe { System.alloc(layout) }
     }
 
@@ -32,10 +33,10 @@ unsafe impl GlobalAlloc for Counting {
 }
 
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
-/// How often `work` allocates, on whatever threads.
-fn allocations(work: impl FnOnce()) -> usize {
+/// Number of allocations on all threads while `work` runs.
+fn allocation_count(work: impl FnOnce()) -> usize {
     let before = COUNT.load(Ordering::Relaxed);
     work();
     COUNT.load(Ordering::Relaxed) - before
@@ -49,13 +50,13 @@ fn step_and_read(cloth: &mut Cloth, ticks: u32) {
 }
 
 /// A grid and a mesh in the wind, on three threads.
-fn cloths() -> [Cloth; 2] {
+fn grid_and_mesh() -> [Cloth; 2] {
     let mut desc =
         GridDesc { columns: 70, rows: 70, pin_mode: PinMode::TopCorners, ..GridDesc::default() };
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.1;
     let grid = Cloth::grid(&desc).unwrap();
-    // In another order, or it would be found to be the grid.
+    // Rotate the triangles, or the mesh intake would detect the grid.
     let mut indices = grid.indices().to_vec();
     indices.rotate_left(3);
     let mesh = Cloth::mesh(&MeshDesc {
@@ -74,25 +75,29 @@ fn cloths() -> [Cloth; 2] {
     })
 }
 
-// One test, since what others allocate meanwhile would count.
+// A single test, because allocations of tests that run at the same time would count.
 #[test]
-fn ticks_on_threads_allocate_nothing() {
-    assert_eq!(allocations(|| drop(Vec::<u32>::with_capacity(9))), 1, "the counter counts");
+fn ticks_on_several_threads_allocate_nothing() {
+    assert_eq!(
+        allocation_count(|| drop(Vec::<u32>::with_capacity(9))),
+        1,
+        "the counter must count"
+    );
     let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
-    for mut cloth in cloths() {
+    for mut cloth in grid_and_mesh() {
         let before = cloth.positions().len();
         pool.install(|| {
             step_and_read(&mut cloth, 20);
-            assert_eq!(allocations(|| step_and_read(&mut cloth, 100)), 0);
+            assert_eq!(allocation_count(|| step_and_read(&mut cloth, 100)), 0);
         });
         assert!(cloth.positions().len() > before, "nothing tore");
-        // Handing over to the pool from outside takes a place in its queue, which is made sixty or so
-        // at a time.
+        // A job from outside the pool takes a slot in its queue, which allocates about sixty slots at a
+        // time.
         step_and_read(&mut cloth, 20);
-        let (handed_over, count) = (2 * 150, allocations(|| step_and_read(&mut cloth, 150)));
+        let (job_count, count) = (2 * 150, allocation_count(|| step_and_read(&mut cloth, 150)));
         assert!(
-            count <= handed_over / 50,
-            "{count} allocations in {handed_over} calls from outside"
+            count <= job_count / 50,
+            "{count} allocations in {job_count} jobs from outside the pool"
         );
     }
 }

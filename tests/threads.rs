@@ -1,4 +1,4 @@
-//! A cloth on several threads: every tick has the bits that it has on one.
+//! A cloth on several threads gives the same bits as on one thread, after every tick.
 #![cfg(feature = "parallel")]
 
 use muslin::glam::Vec3;
@@ -6,20 +6,21 @@ use muslin::{Cloth, ColliderDesc, Error, GridDesc, MeshDesc, PinMode, SelfCollis
 
 mod common;
 
-/// A sheet of so many particles a side, two metres wide and high.
+/// A sheet of `side` × `side` particles, 2 m wide and high.
 fn sheet(side: u32, pin_mode: PinMode) -> GridDesc {
     let spacing = 2.0 / (side - 1) as f32;
     GridDesc { columns: side, rows: side, spacing, pin_mode, ..GridDesc::default() }
 }
 
-fn blow(cloth: &mut Cloth) {
+/// Sets a gusty, turbulent wind.
+fn set_gusty_wind(cloth: &mut Cloth) {
     let velocity = Vec3::new(0.5, 0.25, 3.0);
     let wind = Wind { velocity, turbulence: 0.5, gust: 0.5, ..Wind::default() };
     cloth.set_wind(wind).unwrap();
 }
 
-/// The same triangles as any mesh.
-fn as_mesh(desc: &GridDesc) -> Cloth {
+/// The same triangles and pins as a cloth made from a mesh.
+fn mesh_cloth(desc: &GridDesc) -> Cloth {
     let grid = Cloth::grid(desc).unwrap();
     let mesh = Cloth::mesh(&MeshDesc {
         positions: grid.positions().to_vec(),
@@ -32,8 +33,13 @@ fn as_mesh(desc: &GridDesc) -> Cloth {
     mesh.unwrap()
 }
 
-/// Plays copies of a cloth on 1, 2, 3 and 4 threads side by side, and compares them after every tick.
-fn assert_equal_bits(cloth: &Cloth, ticks: u32, before: impl Fn(&mut Cloth, u32)) -> Cloth {
+/// Runs copies of a cloth on 1, 2, 3 and 4 threads and asserts equal bits after every tick. Returns
+/// the copy that ran on one thread.
+fn assert_equal_bits_on_threads(
+    cloth: &Cloth,
+    ticks: u32,
+    before: impl Fn(&mut Cloth, u32),
+) -> Cloth {
     let mut copies = [1, 2, 3, 4].map(|threads| {
         let mut copy = cloth.clone();
         copy.set_threads_eagerly(threads).unwrap();
@@ -61,45 +67,45 @@ fn assert_equal_bits(cloth: &Cloth, ticks: u32, before: impl Fn(&mut Cloth, u32)
 #[test]
 fn a_sheet_in_the_wind_has_the_same_bits_on_any_number_of_threads() {
     let mut cloth = Cloth::grid(&sheet(128, PinMode::TopCorners)).unwrap();
-    blow(&mut cloth);
-    assert_equal_bits(&cloth, 120, |_, _| ());
+    set_gusty_wind(&mut cloth);
+    assert_equal_bits_on_threads(&cloth, 120, |_, _| ());
 }
 
 #[test]
-fn a_sheet_that_crumples_has_the_same_bits_on_any_number_of_threads() {
+fn a_crumpling_sheet_has_the_same_bits_on_any_number_of_threads() {
     for self_collision in [SelfCollision::Particles, SelfCollision::Surface] {
         let mut desc = sheet(48, PinMode::None);
         desc.settings.self_collision = self_collision;
         let mut cloth = Cloth::grid(&desc).unwrap();
         let position = Vec3::NEG_Y * 2.1;
         cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).unwrap();
-        blow(&mut cloth);
-        assert_equal_bits(&cloth, 90, |_, _| ());
+        set_gusty_wind(&mut cloth);
+        assert_equal_bits_on_threads(&cloth, 90, |_, _| ());
     }
 }
 
 #[test]
-fn a_bounded_sheet_with_lift_has_the_same_bits_on_any_number_of_threads() {
-    // An odd number of rows and columns; rigid links, one sweep.
+fn a_sheet_with_a_strain_limit_and_lift_has_the_same_bits_on_any_number_of_threads() {
+    // An odd number of rows and columns, rigid links, one iteration.
     let mut desc = sheet(129, PinMode::TopEdge);
     desc.settings.max_stretch = 0.05;
     desc.settings.iterations = 1;
     desc.material.lift = 0.5;
     desc.material.bend_stiffness = 1.0;
     let mut cloth = Cloth::grid(&desc).unwrap();
-    blow(&mut cloth);
-    assert_equal_bits(&cloth, 30, |_, _| ());
+    set_gusty_wind(&mut cloth);
+    assert_equal_bits_on_threads(&cloth, 30, |_, _| ());
 }
 
 #[test]
 fn a_mesh_in_the_wind_has_the_same_bits_on_any_number_of_threads() {
-    let mut cloth = as_mesh(&sheet(128, PinMode::TopCorners));
-    blow(&mut cloth);
-    assert_equal_bits(&cloth, 120, |_, _| ());
+    let mut cloth = mesh_cloth(&sheet(128, PinMode::TopCorners));
+    set_gusty_wind(&mut cloth);
+    assert_equal_bits_on_threads(&cloth, 120, |_, _| ());
 }
 
-/// Pulls at the middle of a cloth until it tears, with pins above it let go on the way.
-fn pull(cloth: &mut Cloth, tick: u32) {
+/// Pulls the middle of a cloth until it tears, and unpins a corner at tick 60.
+fn pull_middle(cloth: &mut Cloth, tick: u32) {
     const MIDDLE: u32 = 64 * 128 + 64;
     if tick == 0 {
         cloth.pin(MIDDLE, None).unwrap();
@@ -111,7 +117,8 @@ fn pull(cloth: &mut Cloth, tick: u32) {
     }
 }
 
-fn tearing(side: u32) -> GridDesc {
+/// A sheet of `side` × `side` particles that tears.
+fn tearing_sheet(side: u32) -> GridDesc {
     let mut desc = sheet(side, PinMode::TopEdge);
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
@@ -120,22 +127,22 @@ fn tearing(side: u32) -> GridDesc {
 
 #[test]
 fn a_tearing_sheet_has_the_same_bits_on_any_number_of_threads() {
-    let mut cloth = Cloth::grid(&tearing(128)).unwrap();
-    blow(&mut cloth);
-    let torn = assert_equal_bits(&cloth, 120, pull);
-    assert!(torn.positions().len() > cloth.positions().len() + 20, "hardly anything tore");
+    let mut cloth = Cloth::grid(&tearing_sheet(128)).unwrap();
+    set_gusty_wind(&mut cloth);
+    let torn = assert_equal_bits_on_threads(&cloth, 120, pull_middle);
+    assert!(torn.positions().len() > cloth.positions().len() + 20, "too few edges tore");
 }
 
 #[test]
 fn a_tearing_mesh_has_the_same_bits_on_any_number_of_threads() {
-    let mut cloth = as_mesh(&tearing(128));
-    blow(&mut cloth);
-    let torn = assert_equal_bits(&cloth, 120, pull);
-    assert!(torn.positions().len() > cloth.positions().len() + 20, "hardly anything tore");
+    let mut cloth = mesh_cloth(&tearing_sheet(128));
+    set_gusty_wind(&mut cloth);
+    let torn = assert_equal_bits_on_threads(&cloth, 120, pull_middle);
+    assert!(torn.positions().len() > cloth.positions().len() + 20, "too few edges tore");
 }
 
 #[test]
-fn threads_are_one_until_a_cloth_is_given_more_and_stay() {
+fn the_thread_count_is_one_by_default_and_survives_reset_and_clone() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     assert_eq!(cloth.threads(), 1);
     cloth.set_threads(3).unwrap();
@@ -146,7 +153,7 @@ fn threads_are_one_until_a_cloth_is_given_more_and_stay() {
 }
 
 #[test]
-fn threads_are_neither_hashed_nor_saved() {
+fn the_thread_count_is_neither_hashed_nor_saved() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let (hash, saved) = (cloth.state_hash(), cloth.save());
     cloth.set_threads(2).unwrap();

@@ -1,4 +1,5 @@
-//! Leashes: particles stay near where animation has them, and out of their backstops.
+//! Anchors: particles stay within the max distance of their animated targets and outside their
+//! backstops.
 
 use crate::common::bare_grid;
 use muslin::glam::{Quat, Vec3};
@@ -7,19 +8,19 @@ use muslin::{Cloth, ColliderDesc, Error, GridDesc, Material, PinMode, Preset, Sh
 const COLUMNS: u32 = 20;
 const ROWS: u32 = 30;
 
-/// A cape on the back of a body, and all that says how it is worn.
-struct Worn {
+/// A cape with an anchor, a max distance and a backstop for every particle.
+struct AnchoredCape {
     cloth: Cloth,
     all: Vec<u32>,
     rest: Vec<Vec3>,
     distances: Vec<f32>,
 }
 
-/// How far behind its anchor each backstop begins [m], and its radius.
+/// Distance of each backstop behind its anchor and radius of its sphere [m].
 const BACKSTOP: (f32, f32) = (0.01, 0.3);
 
-/// From 0 at the top edge to 0.3 m at the hem.
-fn worn(change: impl FnOnce(&mut GridDesc)) -> Worn {
+/// A cape whose max distances grow from 0 at the top edge to 0.3 m at the hem.
+fn anchored_cape(change: impl FnOnce(&mut GridDesc)) -> AnchoredCape {
     let mut desc = GridDesc {
         columns: COLUMNS,
         rows: ROWS,
@@ -39,20 +40,20 @@ fn worn(change: impl FnOnce(&mut GridDesc)) -> Worn {
     let behind = vec![BACKSTOP.0; rest.len()];
     cloth.set_backstops(&all, &behind, &vec![BACKSTOP.1; rest.len()]).unwrap();
     cloth.set_anchors(&all, &rest, &vec![-Vec3::Z; rest.len()]).unwrap();
-    Worn { cloth, all, rest, distances }
+    AnchoredCape { cloth, all, rest, distances }
 }
 
-impl Worn {
-    /// The body is somewhere else, and the animation of the cape with it.
-    fn pose(&mut self, position: Vec3, rotation: Quat) -> (Vec<Vec3>, Vec3) {
+impl AnchoredCape {
+    /// Sets the anchors to the rest positions moved with the body; returns them and their normal.
+    fn set_anchors_for_pose(&mut self, position: Vec3, rotation: Quat) -> (Vec<Vec3>, Vec3) {
         let anchors: Vec<Vec3> = self.rest.iter().map(|x| position + rotation * *x).collect();
         let normal = rotation * -Vec3::Z;
         self.cloth.set_anchors(&self.all, &anchors, &vec![normal; self.all.len()]).unwrap();
         (anchors, normal)
     }
 
-    /// How far past its end the worst leash is, and how deep in its backstop the worst particle is [m].
-    fn worst(&self, anchors: &[Vec3], normal: Vec3) -> (f32, f32) {
+    /// Largest excess over a max distance and largest depth in a backstop [m]; negative is allowed.
+    fn largest_violations(&self, anchors: &[Vec3], normal: Vec3) -> (f32, f32) {
         let (behind, radius) = BACKSTOP;
         let mut worst = (f32::MIN, f32::MIN);
         for (at, x) in self.cloth.positions().iter().enumerate() {
@@ -65,50 +66,59 @@ impl Worn {
 }
 
 #[test]
-fn nothing_is_past_its_leash_or_in_its_backstop_on_a_body_that_runs_and_turns() {
+fn max_distances_and_backstops_hold_on_a_body_that_moves_and_rotates() {
     for max_stretch in [0.0, 0.05] {
-        let mut worn = worn(|desc| desc.settings.max_stretch = max_stretch);
+        let mut cape = anchored_cape(|desc| desc.settings.max_stretch = max_stretch);
         let velocity = Vec3::new(3.0, 0.0, 12.0);
-        worn.cloth
+        cape.cloth
             .set_wind(Wind { velocity, gust: 1.0, turbulence: 0.5, ..Wind::default() })
             .unwrap();
         let shape = Shape::Sphere;
         let ball = ColliderDesc { shape, radius: 0.2, ..ColliderDesc::default() };
-        let ball = worn.cloth.add_collider(&ball).unwrap();
+        let ball = cape.cloth.add_collider(&ball).unwrap();
         let (mut far, mut deep, mut at_end, mut at_back) = (f32::MIN, f32::MIN, 0, 0);
         let mut over = 0;
         for tick in 1..=300 {
             let time = tick as f32 / 60.0;
             let position = Vec3::new(10.0 * time, 0.1 * (tick % 7) as f32, 0.0);
             let rotation = Quat::from_rotation_y(core::f32::consts::TAU * 2.0 * time);
-            let (anchors, normal) = worn.pose(position, rotation);
-            // It runs into the cape again and again, and may not push it off the leash.
+            let (anchors, normal) = cape.set_anchors_for_pose(position, rotation);
+            // The ball hits the cape repeatedly and must not push it past the max distance.
             let toward = rotation * Vec3::new(0.0, 0.9, -0.45 + 0.2 * (tick % 3) as f32);
-            worn.cloth.move_collider(ball, position + toward, Quat::IDENTITY).unwrap();
-            worn.cloth.step(1);
-            over += u32::from(worn.cloth.stats().over_stretched > 0);
-            let worst = worn.worst(&anchors, normal);
+            cape.cloth.move_collider(ball, position + toward, Quat::IDENTITY).unwrap();
+            cape.cloth.step(1);
+            over += u32::from(cape.cloth.stats().over_stretched > 0);
+            let worst = cape.largest_violations(&anchors, normal);
             (far, deep) = (far.max(worst.0), deep.max(worst.1));
             at_end += u32::from(worst.0 > -1e-4);
             at_back += u32::from(worst.1 > -1e-4);
         }
-        println!("past the end by {far:.1e} m, in the backstop by {deep:.1e} m, {over} ticks over");
-        assert!(far < 1e-4 && deep < 1e-4, "{far} m past the end, {deep} m in the backstop");
-        assert!(at_end == 300 && at_back > 200, "the leashes hold nothing: {at_end}, {at_back}");
+        println!("excess {far:.1e} m, depth {deep:.1e} m, {over} ticks over-stretched");
+        assert!(
+            far < 1e-4 && deep < 1e-4,
+            "excess {far} m over the max distance, {deep} m in the backstop"
+        );
+        assert!(
+            at_end == 300 && at_back > 200,
+            "the limits are rarely reached: {at_end}, {at_back} ticks"
+        );
     }
 }
 
 #[test]
-fn a_sheet_that_falls_to_the_end_of_its_leash_stays_there() {
+fn a_falling_sheet_stops_at_the_max_distance_and_stays_there() {
     let mut desc = bare_grid(8, 8, 0.05, PinMode::None);
     desc.settings.damping = 0.0;
     let mut cloth = Cloth::grid(&desc).unwrap();
     let start = cloth.positions().to_vec();
     let all: Vec<u32> = (0..64).collect();
     cloth.set_max_distances(&all, &[0.25; 64]).unwrap();
-    // Half a second after it got there, which takes 0.226 s.
+    // It reaches the max distance after 0.226 s; check from half a second after that.
     cloth.step(12);
-    assert!(cloth.positions()[20].y > start[20].y - 0.25 + 1e-3, "it is there already");
+    assert!(
+        cloth.positions()[20].y > start[20].y - 0.25 + 1e-3,
+        "the sheet is already at the max distance"
+    );
     cloth.step(32);
     for tick in 0..120 {
         cloth.step(1);
@@ -120,8 +130,8 @@ fn a_sheet_that_falls_to_the_end_of_its_leash_stays_there() {
 }
 
 #[test]
-fn a_backstop_bears_a_sheet_that_lies_on_it() {
-    // Flat, with backstops of a metre below: on each its particle cannot slide, for it is right above.
+fn a_backstop_supports_a_sheet_that_lies_on_it() {
+    // Each particle is exactly above the centre of its backstop sphere, so it does not slide off.
     let mut desc = bare_grid(10, 10, 0.05, PinMode::None);
     desc.down = Vec3::Z;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -141,58 +151,58 @@ fn a_backstop_bears_a_sheet_that_lies_on_it() {
 }
 
 #[test]
-fn leashes_outlive_saving_and_cloning_but_not_a_reset() {
-    let mut worn = worn(|_| ());
-    worn.cloth.step(20);
-    worn.pose(Vec3::new(0.1, 0.0, 0.0), Quat::from_rotation_y(0.2));
-    let mut others = [Cloth::restore(&worn.cloth.save()).unwrap(), worn.cloth.clone()];
-    assert_eq!(others[0].save(), worn.cloth.save());
-    worn.cloth.step(10);
+fn anchors_survive_save_and_clone_but_not_reset() {
+    let mut cape = anchored_cape(|_| ());
+    cape.cloth.step(20);
+    cape.set_anchors_for_pose(Vec3::new(0.1, 0.0, 0.0), Quat::from_rotation_y(0.2));
+    let mut others = [Cloth::restore(&cape.cloth.save()).unwrap(), cape.cloth.clone()];
+    assert_eq!(others[0].save(), cape.cloth.save());
+    cape.cloth.step(10);
     for other in &mut others {
         other.step(10);
-        assert_eq!(other.state_hash(), worn.cloth.state_hash());
+        assert_eq!(other.state_hash(), cape.cloth.state_hash());
     }
-    let before = worn.cloth.state_hash();
+    let before = cape.cloth.state_hash();
     others[1].set_max_distances(&[5], &[0.02]).unwrap();
-    assert_ne!(others[1].state_hash(), before, "a leash is of the state");
-    worn.cloth.reset();
-    worn.cloth.step(30);
-    let fallen = worn.rest[300].y - worn.cloth.positions()[300].y;
-    assert!(fallen > 1.0, "nothing holds it after a reset, but it fell {fallen} m");
+    assert_ne!(others[1].state_hash(), before, "a max distance must change the state hash");
+    cape.cloth.reset();
+    cape.cloth.step(30);
+    let fallen = cape.rest[300].y - cape.cloth.positions()[300].y;
+    assert!(fallen > 1.0, "reset must remove the anchors, but the cape fell only {fallen} m");
 }
 
 #[test]
-fn cuts_leave_both_sides_on_their_leashes_and_lead_new_vertices_too() {
-    let mut worn = worn(|_| ());
+fn cuts_keep_max_distances_on_both_sides_and_give_them_to_new_vertices() {
+    let mut cape = anchored_cape(|_| ());
     let from = Vec3::new(0.003, 1.2, -2.0);
-    assert!(worn.cloth.cut(from, from - Vec3::Y * 2.0, Vec3::Z * 4.0).unwrap() > 10);
-    let count = worn.cloth.positions().len();
+    assert!(cape.cloth.cut(from, from - Vec3::Y * 2.0, Vec3::Z * 4.0).unwrap() > 10);
+    let count = cape.cloth.positions().len();
     assert!(count > 620);
-    let (anchors, normal) = worn.pose(Vec3::X * 0.05, Quat::IDENTITY);
+    let (anchors, normal) = cape.set_anchors_for_pose(Vec3::X * 0.05, Quat::IDENTITY);
     for _ in 0..240 {
-        worn.cloth.step(1);
+        cape.cloth.step(1);
         let _ = (&anchors, normal);
-        // Every vertex was within 0.3 m of a place on the cape, and that moved by 0.05 m.
-        let low = worn.cloth.positions().iter().map(|x| x.y).fold(f32::MAX, f32::min);
+        // Every vertex stays within 0.3 m of its anchor on the cape, which moved by 0.05 m.
+        let low = cape.cloth.positions().iter().map(|x| x.y).fold(f32::MAX, f32::min);
         assert!(low > 1.5 - 0.87 - 0.301, "one fell to {low} m");
     }
 }
 
 #[test]
-fn an_anchor_on_its_way_and_a_new_leash_wake_a_sleeping_cloth() {
+fn moving_anchors_and_changed_max_distances_wake_a_sleeping_cloth() {
     let asleep = || {
-        let mut worn = worn(|desc| {
+        let mut cape = anchored_cape(|desc| {
             (desc.settings.sleep_speed, desc.settings.damping) = (0.005, 3.0);
         });
-        worn.cloth.step(3000);
-        assert!(worn.cloth.stats().asleep);
-        worn
+        cape.cloth.step(3000);
+        assert!(cape.cloth.stats().asleep);
+        cape
     };
     let mut moved = asleep();
-    moved.pose(Vec3::ZERO, Quat::IDENTITY);
+    moved.set_anchors_for_pose(Vec3::ZERO, Quat::IDENTITY);
     moved.cloth.step(1);
-    assert!(moved.cloth.stats().asleep, "to where it is, is no move");
-    moved.pose(Vec3::X * 0.01, Quat::IDENTITY);
+    assert!(moved.cloth.stats().asleep, "an unchanged anchor must not wake the cloth");
+    moved.set_anchors_for_pose(Vec3::X * 0.01, Quat::IDENTITY);
     moved.cloth.step(1);
     assert!(!moved.cloth.stats().asleep);
     let mut longer = asleep();
@@ -206,8 +216,8 @@ fn an_anchor_on_its_way_and_a_new_leash_wake_a_sleeping_cloth() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_and_changes_nothing() {
-    let mut cloth = worn(|_| ()).cloth;
+fn invalid_anchor_calls_are_refused_and_change_nothing() {
+    let mut cloth = anchored_cape(|_| ()).cloth;
     let before = cloth.save();
     let bad = |field, must| Err(Error::BadValue { field, must });
     let as_many = "have as many entries as `particles`";

@@ -1,16 +1,16 @@
-//! Whatever is done to a cloth, it stays in the realm of numbers and comes to rest again.
+//! Extreme input: positions stay finite, and the cloth comes to rest again.
 
 use crate::common::assert_tear_invariants;
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, PinMode, Wind};
 
-/// The farthest that any particle is from the middle of the pins [m].
-fn farthest(cloth: &Cloth) -> f32 {
+/// Largest distance of any particle from the middle of the pins [m].
+fn largest_distance(cloth: &Cloth) -> f32 {
     cloth.positions().iter().map(|x| (*x - Vec3::new(1.0, 0.0, 0.0)).length()).fold(0.0, f32::max)
 }
 
-/// Every slider of the hanging sheet's panel at its end.
-fn at_the_limit(tearing: bool, iterations: u32) -> Cloth {
+/// A hanging sheet with every slider of the demo's panel at its extreme.
+fn sheet_at_slider_limits(tearing: bool, iterations: u32) -> Cloth {
     let mut desc = GridDesc::default();
     desc.settings.gravity = Vec3::NEG_Y * 20.0;
     desc.settings.iterations = iterations;
@@ -24,9 +24,9 @@ fn at_the_limit(tearing: bool, iterations: u32) -> Cloth {
 }
 
 #[test]
-fn ten_thousand_ticks_at_the_limit_and_then_to_rest() {
+fn a_sheet_at_the_slider_limits_stays_finite_and_comes_to_rest() {
     for (tearing, iterations) in [(false, 12), (false, 1), (true, 12)] {
-        let mut cloth = at_the_limit(tearing, iterations);
+        let mut cloth = sheet_at_slider_limits(tearing, iterations);
         let before = cloth.clone();
         let mut grab = None;
         for tick in 0..10_000_u32 {
@@ -37,18 +37,18 @@ fn ten_thousand_ticks_at_the_limit_and_then_to_rest() {
                 let particle = tick.wrapping_mul(2_654_435_761) % cloth.positions().len() as u32;
                 grab = Some(cloth.grab_particle(particle).unwrap());
             }
-            // Thrown about: far and back in a few ticks.
+            // Move the grab far away and back within a few ticks.
             let t = tick as f32;
             let thrown = Vec3::new((t * 0.9).sin(), (t * 0.53).cos(), (t * 0.71).sin()) * 6.0;
             cloth.move_grab(grab.unwrap(), thrown).unwrap();
             cloth.step(1);
             assert!(cloth.positions().iter().all(|x| x.is_finite()), "tick {tick}");
-            // The sheet hangs 1.95 m down from pins 1.95 m wide; the hand reaches 6·√3 m. What tore
-            // off may fly away.
+            // The sheet is 1.95 m high and wide; the grab moves up to 6·√3 m away. Torn pieces may fly
+            // farther.
             assert!(
-                tearing || farthest(&cloth) < 6.0 * 1.74 + 1.95,
+                tearing || largest_distance(&cloth) < 6.0 * 1.74 + 1.95,
                 "tick {tick}: {}",
-                farthest(&cloth)
+                largest_distance(&cloth)
             );
         }
         cloth.release(grab.unwrap()).unwrap();
@@ -60,13 +60,16 @@ fn ten_thousand_ticks_at_the_limit_and_then_to_rest() {
         cloth.step(1800);
         let mass: f32 = (0..1600).map(|i| cloth.mass(i).unwrap()).sum();
         let speed = (2.0 * cloth.stats().kinetic_energy / mass).sqrt();
-        assert!(speed < 1.0e-3, "with {iterations} sweeps it still moves at {speed} m/s");
-        assert!(farthest(&cloth) < 2.3);
+        assert!(
+            speed < 1.0e-3,
+            "with {iterations} iterations the sheet still moves at {speed} m/s"
+        );
+        assert!(largest_distance(&cloth) < 2.3);
     }
 }
 
 #[test]
-fn a_cloth_that_left_the_realm_of_numbers_is_mended_and_says_so() {
+fn a_cloth_with_non_finite_positions_recovers_and_reports_an_event() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     cloth.step(10);
     for particle in [500, 501, 900] {
@@ -77,11 +80,11 @@ fn a_cloth_that_left_the_realm_of_numbers_is_mended_and_says_so() {
     assert_eq!(event.kind, muslin::EventKind::Recovered);
     assert!(event.count >= 1);
     assert!(cloth.positions().iter().all(|x| x.is_finite()));
-    assert!(farthest(&cloth) < 2.5, "{}", farthest(&cloth));
+    assert!(largest_distance(&cloth) < 2.5, "{}", largest_distance(&cloth));
 }
 
 #[test]
-fn a_grabbed_particle_is_held_exactly_and_moved_no_faster_than_allowed() {
+fn a_grabbed_particle_reaches_its_target_exactly_within_the_speed_limit() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     cloth.step(60);
     let grabs = [(420, Vec3::new(0.3, -0.5, 0.4)), (1430, Vec3::new(1.5, -1.6, -0.4))];
@@ -95,7 +98,7 @@ fn a_grabbed_particle_is_held_exactly_and_moved_no_faster_than_allowed() {
         cloth.step(1);
         for ((i, _), before) in grabs.iter().zip(before) {
             let moved = (cloth.positions()[*i as usize] - before).length();
-            assert!(moved <= most * 1.001, "moved {moved} m in a tick");
+            assert!(moved <= most * 1.001, "the particle moved {moved} m in one tick");
         }
     }
     for (i, target) in grabs {
@@ -107,7 +110,7 @@ fn a_grabbed_particle_is_held_exactly_and_moved_no_faster_than_allowed() {
 }
 
 #[test]
-fn a_released_particle_keeps_the_velocity_of_the_hand() {
+fn a_released_particle_keeps_the_velocity_of_its_grab() {
     let mut desc = GridDesc { columns: 6, rows: 6, pin_mode: PinMode::None, ..GridDesc::default() };
     desc.settings.gravity = Vec3::ZERO;
     desc.material.drag = 0.0;
@@ -129,7 +132,7 @@ fn a_released_particle_keeps_the_velocity_of_the_hand() {
 }
 
 #[test]
-fn pins_follow_their_targets_without_lag() {
+fn pinned_particles_reach_their_targets_in_the_same_tick() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let top: Vec<u32> = (0..40).collect();
     let start = cloth.positions()[..40].to_vec();
@@ -146,11 +149,11 @@ fn pins_follow_their_targets_without_lag() {
     let y = cloth.positions()[0].y;
     cloth.step(60);
     let fallen = y - cloth.positions()[0].y;
-    assert!(fallen > 0.5, "unpinned, it falls, but by {fallen} m");
+    assert!(fallen > 0.5, "the unpinned sheet fell only {fallen} m");
 }
 
 #[test]
-fn advance_runs_what_is_owed_and_drops_a_backlog() {
+fn advance_runs_the_due_ticks_and_drops_the_backlog() {
     let mut cloth = Cloth::grid(&GridDesc { columns: 4, rows: 4, ..GridDesc::default() }).unwrap();
     assert_eq!(cloth.advance(0.0), Ok(0));
     assert_eq!(cloth.advance(0.010), Ok(0));

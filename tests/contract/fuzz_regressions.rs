@@ -1,16 +1,17 @@
-//! What the fuzzer of the C library found, each as small as it can be told.
+//! Bugs found by the fuzzer of the C library, each reduced to a minimal case.
 
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Error, GridDesc, Impulse, PinMode, SelfCollision};
 
-fn small() -> GridDesc {
+/// A grid of 7 × 7 particles.
+fn small_grid() -> GridDesc {
     GridDesc { columns: 7, rows: 7, ..GridDesc::default() }
 }
 
-/// Room for that many would be more than any machine has.
+/// A buffer of `max_tears_per_tick` entries would exceed any machine's memory.
 #[test]
-fn as_many_tears_a_tick_as_a_number_can_say_take_no_room() {
-    let mut desc = small();
+fn an_unlimited_number_of_tears_per_tick_needs_no_extra_memory() {
+    let mut desc = small_grid();
     desc.settings.tearing = true;
     desc.settings.max_tears_per_tick = u32::MAX;
     let mut cloth = Cloth::grid(&desc).unwrap();
@@ -18,7 +19,7 @@ fn as_many_tears_a_tick_as_a_number_can_say_take_no_room() {
     cloth.set_settings(desc.settings.clone()).unwrap();
     cloth.reset();
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
-    // What pulls at all of it may tear all of it in one tick.
+    // A load on every link may tear every link in one tick.
     for cloth in [&mut cloth, &mut restored] {
         for particle in 14..49 {
             cloth.set_position(particle, Vec3::new(0.0, -9.0 * particle as f32, 0.0)).unwrap();
@@ -29,10 +30,10 @@ fn as_many_tears_a_tick_as_a_number_can_say_take_no_room() {
     assert_eq!(restored.state_hash(), cloth.state_hash());
 }
 
-/// There its particles are at the same places, and a save of it could not be read.
+/// Neighbouring particles would round to the same position, and a save could not be restored.
 #[test]
-fn a_grid_so_far_off_that_neighbours_meet_is_refused() {
-    let far = |y: f32| GridDesc { origin: Vec3::Y * y, ..small() };
+fn a_grid_too_far_from_the_origin_for_its_spacing_is_refused() {
+    let far = |y: f32| GridDesc { origin: Vec3::Y * y, ..small_grid() };
     let refused = Cloth::grid(&far(4.0e37)).err();
     assert!(matches!(refused, Some(Error::BadValue { field: "origin", .. })), "{refused:?}");
     let cloth = Cloth::grid(&far(1.0e5)).unwrap();
@@ -40,18 +41,19 @@ fn a_grid_so_far_off_that_neighbours_meet_is_refused() {
 }
 
 #[test]
-fn normals_are_finite_wherever_a_particle_is() {
+fn normals_are_finite_wherever_a_particle_is_placed() {
     for far in [1.0e12, 1.0e20, 3.0e38] {
-        let mut cloth = Cloth::grid(&small()).unwrap();
+        let mut cloth = Cloth::grid(&small_grid()).unwrap();
         cloth.set_position(24, Vec3::new(far, -far, far)).unwrap();
         assert!(cloth.normals().iter().all(|normal| normal.is_finite()), "at {far} m");
     }
 }
 
-/// How far pins are apart was kept over the jump, and measured anew, rounded, in the restored one.
+/// The original cloth kept its pin distances over a teleport, while the restored cloth measured them
+/// again with other rounding.
 #[test]
-fn a_cloth_saved_after_a_jump_goes_on_in_the_same_bits() {
-    let mut cloth = Cloth::grid(&small()).unwrap();
+fn a_cloth_saved_after_a_teleport_continues_with_the_same_bits() {
+    let mut cloth = Cloth::grid(&small_grid()).unwrap();
     cloth.step(20);
     cloth.teleport(Vec3::new(7.6, 7.6, 7.6), Quat::from_xyzw(0.0, 0.6, 0.0, 0.8)).unwrap();
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
@@ -61,15 +63,16 @@ fn a_cloth_saved_after_a_jump_goes_on_in_the_same_bits() {
     assert_eq!(restored.state_hash(), cloth.state_hash());
 }
 
-/// A pin that moved ends its tick where it was to be but for rounding; how far pins are apart was kept from
-/// then, and measured anew, where the next tick had put them, in the restored one.
+/// A moved pin ends its tick at its target up to rounding. The original cloth kept the pin distances
+/// from that tick, while the restored cloth measured them from the positions of the next tick.
 #[test]
-fn a_cloth_saved_after_its_pins_moved_goes_on_in_the_same_bits() {
+fn a_cloth_saved_after_pins_moved_continues_with_the_same_bits() {
     for case in 0..40 {
-        let mut cloth = Cloth::grid(&small()).unwrap();
-        let way = |i: u32| ((37 * i + 11 * case) % 41) as f32 * 0.0731 - 1.5;
+        let mut cloth = Cloth::grid(&small_grid()).unwrap();
+        let coordinate = |i: u32| ((37 * i + 11 * case) % 41) as f32 * 0.0731 - 1.5;
         for pin in 0..3 {
-            let target = Vec3::new(way(pin), way(pin + 7), way(pin + 13)) * 3.0;
+            let target =
+                Vec3::new(coordinate(pin), coordinate(pin + 7), coordinate(pin + 13)) * 3.0;
             cloth.pin(16 * pin + 5, Some(target)).unwrap();
         }
         cloth.step(2);
@@ -81,9 +84,9 @@ fn a_cloth_saved_after_its_pins_moved_goes_on_in_the_same_bits() {
     }
 }
 
-/// Long ticks pull a sheet to pieces that keep apart: what is near what is found anew after a restore.
+/// Long ticks tear a sheet into pieces that collide; a restored cloth rebuilds its pair cache.
 #[test]
-fn a_cloth_in_long_ticks_with_surfaces_goes_on_in_the_same_bits() {
+fn a_cloth_with_long_ticks_and_surface_collision_restores_to_the_same_bits() {
     let mut desc =
         GridDesc { columns: 11, rows: 12, pin_mode: PinMode::TopCorners, ..GridDesc::default() };
     let material = &mut desc.material;
@@ -103,10 +106,10 @@ fn a_cloth_in_long_ticks_with_surfaces_goes_on_in_the_same_bits() {
     }
 }
 
-/// The torque of what is hit so far off is more than a number can say, and a save of it could not be read.
+/// The torque of such a distant contact overflowed, and a save could not be restored.
 #[test]
-fn what_a_cloth_does_to_a_collider_is_finite_wherever_it_is_hit() {
-    let mut desc = small();
+fn collider_impulses_are_finite_for_distant_contacts() {
+    let mut desc = small_grid();
     desc.material.density = 1.0e3;
     let mut cloth = Cloth::grid(&desc).unwrap();
     let floor = cloth.add_collider(&ColliderDesc::default()).unwrap();
@@ -117,13 +120,13 @@ fn what_a_cloth_does_to_a_collider_is_finite_wherever_it_is_hit() {
     Cloth::restore(&cloth.save()).unwrap();
 }
 
-/// A bound on stretch pulls at what was put as far off as a number can say.
+/// The strain limit acts on a particle placed near the largest finite number.
 #[test]
-fn positions_stay_finite_however_far_off_a_particle_is_put() {
+fn positions_stay_finite_wherever_a_particle_is_placed() {
     for (far, max_stretch) in [(f32::MAX, 0.0), (f32::MAX, 0.078), (2.0e38, 0.078), (1.0e20, 0.078)]
     {
         for particle in [0, 5] {
-            let mut desc = GridDesc { columns: 4, pin_mode: PinMode::Corners, ..small() };
+            let mut desc = GridDesc { columns: 4, pin_mode: PinMode::Corners, ..small_grid() };
             desc.settings.iterations = 2;
             desc.settings.max_stretch = max_stretch;
             let mut cloth = Cloth::grid(&desc).unwrap();
@@ -141,9 +144,9 @@ fn positions_stay_finite_however_far_off_a_particle_is_put() {
 }
 
 #[test]
-fn a_frame_that_would_take_a_cloth_farther_than_numbers_go_is_refused() {
+fn a_frame_move_that_would_overflow_positions_is_refused() {
     let far = Vec3::splat(-3.0e38);
-    let mut cloth = Cloth::grid(&small()).unwrap();
+    let mut cloth = Cloth::grid(&small_grid()).unwrap();
     cloth.step(2);
     cloth.set_frame(far, Quat::IDENTITY).unwrap();
     let before = cloth.state_hash();
@@ -155,10 +158,10 @@ fn a_frame_that_would_take_a_cloth_farther_than_numbers_go_is_refused() {
     cloth.teleport(far, Quat::IDENTITY).unwrap();
 }
 
-/// Both are numbers, and their sum is none.
+/// The velocity and the change by gravity are finite, but their sum overflows.
 #[test]
-fn a_cloth_as_fast_as_gravity_is_strong_is_saved_and_restored() {
-    let mut cloth = Cloth::grid(&small()).unwrap();
+fn a_cloth_with_the_largest_velocity_and_gravity_can_be_restored() {
+    let mut cloth = Cloth::grid(&small_grid()).unwrap();
     let mut settings = cloth.settings().clone();
     settings.gravity = Vec3::Y * f32::MAX;
     (settings.tick, settings.substeps) = (1.0, 1);
@@ -167,11 +170,11 @@ fn a_cloth_as_fast_as_gravity_is_strong_is_saved_and_restored() {
     Cloth::restore(&cloth.save()).unwrap();
 }
 
-/// The way between two places that numbers can say may be one that they cannot.
+/// The difference of two finite positions can overflow.
 #[test]
-fn what_is_attached_from_one_end_of_numbers_to_the_other_is_saved_and_restored() {
+fn an_attachment_across_the_range_of_floats_can_be_restored() {
     let far = Vec3::splat(-3.0e38);
-    let mut cloth = Cloth::grid(&small()).unwrap();
+    let mut cloth = Cloth::grid(&small_grid()).unwrap();
     cloth.set_position(30, -far).unwrap();
     let attachment = cloth.attach(&[30, 31], far, Quat::IDENTITY).unwrap();
     Cloth::restore(&cloth.save()).unwrap();
@@ -182,12 +185,12 @@ fn what_is_attached_from_one_end_of_numbers_to_the_other_is_saved_and_restored()
     Cloth::restore(&cloth.save()).unwrap();
 }
 
-/// A cut goes between two particles that are farther apart than a number can say.
+/// The cut divides an edge whose length overflows.
 #[test]
-fn what_is_cut_between_both_ends_of_numbers_is_somewhere() {
+fn cutting_an_edge_across_the_range_of_floats_gives_finite_positions() {
     let far = Vec3::X * 3.0e38;
     for flip in [1.0, -1.0] {
-        let mut cloth = Cloth::grid(&GridDesc { extra_particles: 200, ..small() }).unwrap();
+        let mut cloth = Cloth::grid(&GridDesc { extra_particles: 200, ..small_grid() }).unwrap();
         for i in 0..cloth.positions().len() as u32 {
             let side = if i % 7 < 3 { flip } else { -flip };
             cloth.set_position(i, far * side + Vec3::Y * (0.01 * i as f32)).unwrap();
@@ -199,10 +202,10 @@ fn what_is_cut_between_both_ends_of_numbers_is_somewhere() {
     }
 }
 
-/// What bent no way that numbers can say as it was torn does not say so for ever after.
+/// A hinge whose angle was not finite when it was torn must not stay non-finite.
 #[test]
-fn a_fold_that_was_flung_beyond_numbers_and_torn_goes_on_as_what_was_saved_of_it() {
-    let mut cloth = Cloth::grid(&GridDesc { extra_particles: 200, ..small() }).unwrap();
+fn a_torn_fold_with_an_overflowed_angle_restores_to_the_same_bits() {
+    let mut cloth = Cloth::grid(&GridDesc { extra_particles: 200, ..small_grid() }).unwrap();
     let [left, right] = [21, 27].map(|particle| cloth.positions()[particle]);
     cloth.crease(left, right, 1.0).unwrap();
     cloth.step(5);

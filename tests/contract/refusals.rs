@@ -1,29 +1,30 @@
-//! Bad input is refused by name, and changes nothing.
+//! Invalid input is refused with an error that names the field, and changes nothing.
 
 use muslin::glam::{Quat, Vec2, Vec3};
 use muslin::{
     Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, SelfCollision, Settings, Wind,
 };
 
-/// A field, and what makes it one that cannot be.
-type Spoiler<D> = (&'static str, fn(&mut D));
+/// A field name, and a function that makes this field invalid.
+type Invalidation<D> = (&'static str, fn(&mut D));
 
-/// What the error says, for a call that must fail.
-fn refusal<T>(result: Result<T, Error>) -> String {
+/// The error message of a call that must fail.
+fn error_message<T>(result: Result<T, Error>) -> String {
     match result {
-        Ok(_) => panic!("was taken"),
+        Ok(_) => panic!("the invalid call was accepted"),
         Err(error) => error.to_string(),
     }
 }
 
-fn assert_names(result: Result<Cloth, Error>, field: &str) {
-    let said = refusal(result);
-    assert!(said.contains(&format!("`{field}`")), "`{said}` does not name {field}");
+/// Asserts that the call fails with a message that names `field`.
+fn assert_error_names(result: Result<Cloth, Error>, field: &str) {
+    let message = error_message(result);
+    assert!(message.contains(&format!("`{field}`")), "`{message}` does not name {field}");
 }
 
 #[test]
-fn a_grid_names_the_field_that_cannot_be() {
-    let cases: &[Spoiler<GridDesc>] = &[
+fn grid_errors_name_the_invalid_field() {
+    let cases: &[Invalidation<GridDesc>] = &[
         ("columns", |d| d.columns = 1),
         ("rows", |d| d.rows = 0),
         ("columns", |d| (d.columns, d.rows) = (100_000, 100_000)),
@@ -40,22 +41,22 @@ fn a_grid_names_the_field_that_cannot_be() {
         ("settings.substeps", |d| d.settings.substeps = 0),
         ("settings.tick", |d| d.settings.tick = f32::NAN),
     ];
-    for (field, spoil) in cases {
+    for (field, invalidate) in cases {
         let mut desc = GridDesc::default();
-        spoil(&mut desc);
-        assert_names(Cloth::grid(&desc), field);
+        invalidate(&mut desc);
+        assert_error_names(Cloth::grid(&desc), field);
     }
 }
 
 #[test]
-fn a_mesh_names_what_cannot_be_cloth() {
+fn mesh_errors_name_the_invalid_field() {
     let square = || MeshDesc {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0), Vec3::NEG_X],
         indices: vec![0, 1, 2, 1, 3, 2],
         ..MeshDesc::default()
     };
     assert!(Cloth::mesh(&square()).is_ok());
-    let cases: &[Spoiler<MeshDesc>] = &[
+    let cases: &[Invalidation<MeshDesc>] = &[
         ("positions", |d| d.positions.clear()),
         ("positions", |d| d.positions[2].z = f32::NAN),
         ("indices", |d| d.indices.clear()),
@@ -68,18 +69,18 @@ fn a_mesh_names_what_cannot_be_cloth() {
         ("pinned", |d| d.pinned = vec![0, 5]),
         ("uvs", |d| d.uvs = vec![Vec2::ZERO; 4]),
     ];
-    for (field, spoil) in cases {
+    for (field, invalidate) in cases {
         let mut desc = square();
-        spoil(&mut desc);
-        assert_names(Cloth::mesh(&desc), field);
+        invalidate(&mut desc);
+        assert_error_names(Cloth::mesh(&desc), field);
     }
 }
 
 #[test]
-fn settings_material_and_wind_name_each_field_that_cannot_be() {
+fn errors_of_settings_material_and_wind_name_the_invalid_field() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let hash = cloth.state_hash();
-    let settings: &[Spoiler<Settings>] = &[
+    let settings: &[Invalidation<Settings>] = &[
         ("settings.tick", |s| s.tick = 0.0),
         ("settings.substeps", |s| s.substeps = 1001),
         ("settings.iterations", |s| s.iterations = 0),
@@ -97,12 +98,12 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
             (s.self_collision, s.self_distance) = (SelfCollision::Surface, 0.0251);
         }),
     ];
-    for (field, spoil) in settings {
+    for (field, invalidate) in settings {
         let mut changed = cloth.settings().clone();
-        spoil(&mut changed);
-        assert!(refusal(cloth.set_settings(changed)).contains(field), "{field}");
+        invalidate(&mut changed);
+        assert!(error_message(cloth.set_settings(changed)).contains(field), "{field}");
     }
-    let material: &[Spoiler<Material>] = &[
+    let material: &[Invalidation<Material>] = &[
         ("material.density", |m| m.density = 0.0),
         ("material.thickness", |m| m.thickness = -1.0),
         ("material.shear_stiffness", |m| m.shear_stiffness = f32::NAN),
@@ -119,22 +120,22 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
         ("material.bend_damping", |m| m.bend_damping = -0.1),
         ("material.stretch_damping", |m| m.stretch_damping = f32::INFINITY),
     ];
-    for (field, spoil) in material {
+    for (field, invalidate) in material {
         let mut changed = cloth.material().clone();
-        spoil(&mut changed);
-        assert!(refusal(cloth.set_material(changed)).contains(field), "{field}");
+        invalidate(&mut changed);
+        assert!(error_message(cloth.set_material(changed)).contains(field), "{field}");
     }
-    let wind: &[Spoiler<Wind>] = &[
+    let wind: &[Invalidation<Wind>] = &[
         ("wind.velocity", |w| w.velocity.x = f32::NAN),
         ("wind.gust", |w| w.gust = 1.1),
         ("wind.wander", |w| w.wander = -0.1),
         ("wind.turbulence", |w| w.turbulence = f32::NAN),
         ("wind.air_density", |w| w.air_density = -1.0),
     ];
-    for (field, spoil) in wind {
+    for (field, invalidate) in wind {
         let mut changed = Wind::default();
-        spoil(&mut changed);
-        assert!(refusal(cloth.set_wind(changed)).contains(field), "{field}");
+        invalidate(&mut changed);
+        assert!(error_message(cloth.set_wind(changed)).contains(field), "{field}");
     }
     assert_eq!(cloth.state_hash(), hash);
     assert_eq!(*cloth.settings(), Settings::default());
@@ -143,43 +144,43 @@ fn settings_material_and_wind_name_each_field_that_cannot_be() {
 }
 
 #[test]
-fn calls_name_the_argument_that_cannot_be_and_change_nothing() {
+fn refused_calls_name_the_invalid_argument_and_change_nothing() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let (hash, nan) = (cloth.state_hash(), Vec3::splat(f32::NAN));
-    let mut said = vec![
-        ("seconds", refusal(cloth.advance(-1.0))),
-        ("seconds", refusal(cloth.advance(f32::INFINITY))),
-        ("particle", refusal(cloth.pin(1600, None))),
-        ("target", refusal(cloth.pin(5, Some(nan)))),
-        ("particle", refusal(cloth.unpin(1600))),
-        ("targets", refusal(cloth.set_pin_targets(&[1, 2], &[Vec3::ZERO]))),
-        ("particles", refusal(cloth.set_pin_targets(&[50, 9999], &[Vec3::ZERO; 2]))),
-        ("targets", refusal(cloth.set_pin_targets(&[50, 51], &[Vec3::ZERO, nan]))),
-        ("position", refusal(cloth.set_position(70, nan))),
-        ("velocity", refusal(cloth.set_velocity(70, nan))),
-        ("direction", refusal(cloth.raycast(Vec3::ZERO, Vec3::ZERO, 1.0))),
-        ("origin", refusal(cloth.raycast(nan, Vec3::X, 1.0))),
-        ("max_distance", refusal(cloth.raycast(Vec3::ZERO, Vec3::X, -1.0))),
-        ("radius", refusal(cloth.grab_ray(Vec3::ZERO, Vec3::X, f32::NAN))),
-        ("particle", refusal(cloth.grab_particle(1600))),
-        ("particle_a", refusal(cloth.tear_edge(1600, 0))),
-        ("particle_b", refusal(cloth.tear_edge(0, 700))),
-        ("particle_b", refusal(cloth.tear_edge(7, 7))),
-        ("grab", refusal(cloth.move_grab(Grab::from_bits(1 << 16 | 1), Vec3::ZERO))),
+    let mut messages = vec![
+        ("seconds", error_message(cloth.advance(-1.0))),
+        ("seconds", error_message(cloth.advance(f32::INFINITY))),
+        ("particle", error_message(cloth.pin(1600, None))),
+        ("target", error_message(cloth.pin(5, Some(nan)))),
+        ("particle", error_message(cloth.unpin(1600))),
+        ("targets", error_message(cloth.set_pin_targets(&[1, 2], &[Vec3::ZERO]))),
+        ("particles", error_message(cloth.set_pin_targets(&[50, 9999], &[Vec3::ZERO; 2]))),
+        ("targets", error_message(cloth.set_pin_targets(&[50, 51], &[Vec3::ZERO, nan]))),
+        ("position", error_message(cloth.set_position(70, nan))),
+        ("velocity", error_message(cloth.set_velocity(70, nan))),
+        ("direction", error_message(cloth.raycast(Vec3::ZERO, Vec3::ZERO, 1.0))),
+        ("origin", error_message(cloth.raycast(nan, Vec3::X, 1.0))),
+        ("max_distance", error_message(cloth.raycast(Vec3::ZERO, Vec3::X, -1.0))),
+        ("radius", error_message(cloth.grab_ray(Vec3::ZERO, Vec3::X, f32::NAN))),
+        ("particle", error_message(cloth.grab_particle(1600))),
+        ("particle_a", error_message(cloth.tear_edge(1600, 0))),
+        ("particle_b", error_message(cloth.tear_edge(0, 700))),
+        ("particle_b", error_message(cloth.tear_edge(7, 7))),
+        ("grab", error_message(cloth.move_grab(Grab::from_bits(1 << 16 | 1), Vec3::ZERO))),
     ];
-    let spoilt = ColliderDesc { restitution: 3.0, ..ColliderDesc::default() };
-    said.push(("collider.restitution", refusal(cloth.add_collider(&spoilt))));
-    let spoilt =
+    let invalid = ColliderDesc { restitution: 3.0, ..ColliderDesc::default() };
+    messages.push(("collider.restitution", error_message(cloth.add_collider(&invalid))));
+    let invalid =
         ColliderDesc { rotation: Quat::from_xyzw(0.0, 0.0, 0.0, 0.0), ..ColliderDesc::default() };
-    said.push(("collider.rotation", refusal(cloth.add_collider(&spoilt))));
-    for (argument, said) in said {
-        assert!(said.contains(&format!("`{argument}`")), "`{said}` does not name {argument}");
+    messages.push(("collider.rotation", error_message(cloth.add_collider(&invalid))));
+    for (argument, message) in messages {
+        assert!(message.contains(&format!("`{argument}`")), "`{message}` does not name {argument}");
     }
     assert_eq!(cloth.state_hash(), hash);
 }
 
 #[test]
-fn handles_go_stale() {
+fn released_removed_and_reset_handles_are_refused() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     let grab = cloth.grab_particle(100).unwrap();
     cloth.release(grab).unwrap();
@@ -199,7 +200,7 @@ fn handles_go_stale() {
 }
 
 #[test]
-fn damaged_saves_are_refused_wherever_the_damage_is() {
+fn a_save_with_any_damaged_byte_is_refused() {
     let mut desc = GridDesc { columns: 6, rows: 6, ..GridDesc::default() };
     desc.settings.tearing = true;
     let mut cloth = Cloth::grid(&desc).unwrap();
