@@ -1,4 +1,4 @@
-//! Once a cloth is made, moving, tearing within its reserve and reading allocate nothing.
+//! After creation, stepping, tearing within the reserve and reading allocate no memory.
 
 use muslin::glam::{Quat, Vec3};
 use muslin::{
@@ -10,17 +10,18 @@ use std::cell::Cell;
 
 mod common;
 
-struct Counting;
+/// The system allocator with a count of allocations per thread.
+struct CountingAllocator;
 
 thread_local! {
     static COUNT: Cell<u32> = const { Cell::new(0) };
 }
 
-// SAFETY: every call is passed on to the system's allocator as it came.
-unsafe impl GlobalAlloc for Counting {
+// SAFETY: every call is forwarded unchanged to the system allocator.
+unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         COUNT.set(COUNT.get() + 1);
-        // SAFETY: the caller's promises hold for the system's allocator too.
+        // SAFETY: the caller's guarantees are also those that the system allocator needs.
         unsafe { System.alloc(layout) }
     }
 
@@ -37,17 +38,17 @@ unsafe impl GlobalAlloc for Counting {
 }
 
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
-/// How often `work` allocates.
-fn allocations(work: impl FnOnce()) -> u32 {
+/// Number of allocations on this thread while `work` runs.
+fn allocation_count(work: impl FnOnce()) -> u32 {
     let before = COUNT.get();
     work();
     COUNT.get() - before
 }
 
-/// Blows, drags, tears, drops and reads a cloth.
-fn use_up(cloth: &mut Cloth, particle: u32) {
+/// Drags a particle with a grab until edges tear, releases and unpins the cloth, and reads from it.
+fn exercise(cloth: &mut Cloth, particle: u32) {
     let grab = cloth.grab_particle(particle).unwrap();
     let from = cloth.positions()[particle as usize];
     for tick in 1..=90 {
@@ -67,6 +68,7 @@ fn use_up(cloth: &mut Cloth, particle: u32) {
     assert!(cloth.stats().kinetic_energy >= 0.0 && cloth.state_hash() != 0);
 }
 
+/// Asserts that a cloth, its clone and its restored copy allocate nothing while they are exercised.
 fn assert_allocates_nothing(mut cloth: Cloth, particle: u32) {
     let before = cloth.positions().len();
     cloth.set_wind(Wind { velocity: Vec3::Z, turbulence: 0.5, ..Wind::default() }).unwrap();
@@ -74,15 +76,15 @@ fn assert_allocates_nothing(mut cloth: Cloth, particle: u32) {
     cloth.add_collider(&floor).unwrap();
     let mut copy = cloth.clone();
     for cloth in [&mut cloth, &mut copy] {
-        assert_eq!(allocations(|| use_up(cloth, particle)), 0);
+        assert_eq!(allocation_count(|| exercise(cloth, particle)), 0);
         assert!(cloth.positions().len() > before, "nothing tore");
     }
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
-    assert_eq!(allocations(|| use_up(&mut restored, particle)), 0);
+    assert_eq!(allocation_count(|| exercise(&mut restored, particle)), 0);
 }
 
 #[test]
-fn a_grid_allocates_nothing_once_it_is_made() {
+fn a_grid_allocates_nothing_after_creation() {
     let mut desc = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
@@ -90,7 +92,7 @@ fn a_grid_allocates_nothing_once_it_is_made() {
 }
 
 #[test]
-fn a_mesh_allocates_nothing_once_it_is_made() {
+fn a_mesh_allocates_nothing_after_creation() {
     let mut desc: MeshDesc = common::irregular_mesh();
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
@@ -98,7 +100,7 @@ fn a_mesh_allocates_nothing_once_it_is_made() {
 }
 
 #[test]
-fn folds_that_wear_allocate_nothing() {
+fn hardening_folds_allocate_nothing() {
     let mut grid = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
     let mut mesh: MeshDesc = common::irregular_mesh();
     for (material, settings) in
@@ -119,7 +121,7 @@ fn folds_that_wear_allocate_nothing() {
 }
 
 #[test]
-fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
+fn a_cut_grid_allocates_nothing_until_the_next_cut() {
     let mut desc = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
@@ -130,28 +132,28 @@ fn a_cut_grid_allocates_nothing_until_it_is_cut_again() {
 }
 
 #[test]
-fn a_sheet_that_crumples_allocates_nothing() {
-    let mut cloth = crumpling(SelfCollision::Particles);
-    assert_eq!(allocations(|| cloth.step(90)), 0);
+fn a_sheet_that_crumples_with_particle_collision_allocates_nothing() {
+    let mut cloth = standing_sheet(SelfCollision::Particles);
+    assert_eq!(allocation_count(|| cloth.step(90)), 0);
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
     for cloth in [&mut cloth.clone(), &mut restored] {
-        assert_eq!(allocations(|| use_up(cloth, 300)), 0);
+        assert_eq!(allocation_count(|| exercise(cloth, 300)), 0);
         assert!(cloth.positions().len() > 24 * 24, "nothing tore");
     }
 }
 
 #[test]
-fn a_sheet_that_crumples_in_layers_allocates_nothing() {
-    let mut cloth = crumpling(SelfCollision::Surface);
-    assert_eq!(allocations(|| cloth.step(90)), 0);
+fn a_sheet_that_crumples_with_surface_collision_allocates_nothing() {
+    let mut cloth = standing_sheet(SelfCollision::Surface);
+    assert_eq!(allocation_count(|| cloth.step(90)), 0);
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
     for cloth in [&mut cloth.clone(), &mut restored] {
-        assert_eq!(allocations(|| cloth.step(20)), 0);
+        assert_eq!(allocation_count(|| cloth.step(20)), 0);
     }
 }
 
 /// A sheet that stands on its edge over a floor and is about to crumple.
-fn crumpling(self_collision: SelfCollision) -> Cloth {
+fn standing_sheet(self_collision: SelfCollision) -> Cloth {
     let mut desc = GridDesc { columns: 24, rows: 24, ..GridDesc::default() };
     desc.pin_mode = PinMode::None;
     desc.settings.self_collision = self_collision;
@@ -166,8 +168,8 @@ fn crumpling(self_collision: SelfCollision) -> Cloth {
     cloth
 }
 
-/// Where the lists that a renderer reads lie.
-fn places(cloth: &mut Cloth) -> [usize; 5] {
+/// Addresses of the buffers that a renderer reads.
+fn buffer_addresses(cloth: &mut Cloth) -> [usize; 5] {
     let (x, normals) = (cloth.positions().as_ptr(), cloth.normals().as_ptr());
     let (uvs, sources) = (cloth.uvs().as_ptr(), cloth.source_vertices().as_ptr());
     [
@@ -180,7 +182,7 @@ fn places(cloth: &mut Cloth) -> [usize; 5] {
 }
 
 #[test]
-fn a_large_sheet_torn_to_shreds_allocates_nothing_and_keeps_within_its_reserve() {
+fn a_large_sheet_torn_to_pieces_allocates_nothing_within_its_reserve() {
     let side = 128;
     let mut desc = GridDesc { columns: side, rows: side, ..GridDesc::default() };
     desc.spacing = 2.0 / side as f32;
@@ -189,16 +191,16 @@ fn a_large_sheet_torn_to_shreds_allocates_nothing_and_keeps_within_its_reserve()
     desc.settings.max_tears_per_tick = 64;
     desc.material.tear_stretch = 1.2;
     let mut cloth = Cloth::grid(&desc).unwrap();
-    // A cut makes its own room; what comes after has to do with it.
+    // A cut may allocate; the tears after it must not.
     let at = |x: f32| Vec3::new(x, -0.7, -1.0);
     assert!(cloth.cut(at(-1.0), at(0.9), Vec3::Z * 2.0).unwrap() > 100);
     cloth.step(10);
     let bottom: Vec<u32> = (side * (side - 1)..side * side).collect();
     let starts: Vec<Vec3> = bottom.iter().map(|i| cloth.positions()[*i as usize]).collect();
-    let (before, room) = (cloth.positions().len(), cloth.stats().bytes);
-    let lists = places(&mut cloth);
-    let mut by_hand = 0;
-    let count = allocations(|| {
+    let (before, bytes) = (cloth.positions().len(), cloth.stats().bytes);
+    let addresses = buffer_addresses(&mut cloth);
+    let mut torn_by_calls = 0;
+    let count = allocation_count(|| {
         let mut pick = 1_u32;
         while cloth.positions().len() < before + 1800 {
             pick = pick.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
@@ -210,7 +212,7 @@ fn a_large_sheet_torn_to_shreds_allocates_nothing_and_keeps_within_its_reserve()
                 cloth.step(1);
             }
         }
-        by_hand = cloth.positions().len();
+        torn_by_calls = cloth.positions().len();
         let mut targets = [Vec3::ZERO; 128];
         for tick in 1..=120 {
             for (target, start) in targets.iter_mut().zip(&starts) {
@@ -224,20 +226,20 @@ fn a_large_sheet_torn_to_shreds_allocates_nothing_and_keeps_within_its_reserve()
     });
     assert_eq!(count, 0, "allocations");
     let after = cloth.positions().len();
-    assert!(after > by_hand + 200, "ticks tore {by_hand} to {after}");
+    assert!(after > torn_by_calls + 200, "ticks tore {torn_by_calls} to {after}");
     assert!(after >= before + 2000, "{before} to {after} particles");
-    assert_eq!(cloth.stats().bytes, room, "no list grew");
-    assert_eq!(places(&mut cloth), lists, "no list moved");
+    assert_eq!(cloth.stats().bytes, bytes, "a buffer grew");
+    assert_eq!(buffer_addresses(&mut cloth), addresses, "a buffer moved");
 }
 
 #[test]
-fn the_counter_counts() {
-    let made = allocations(|| drop(Vec::<u32>::with_capacity(9)));
+fn the_allocation_counter_counts() {
+    let made = allocation_count(|| drop(Vec::<u32>::with_capacity(9)));
     assert_eq!(made, 1);
 }
 
 #[test]
-fn writing_vertices_allocates_nothing_after_the_first_time() {
+fn writing_vertices_allocates_nothing_after_the_first_call() {
     let mut desc = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.4;
@@ -258,7 +260,7 @@ fn writing_vertices_allocates_nothing_after_the_first_time() {
     write(&mut cloth, 0.5);
     let grab = cloth.grab_particle(210).unwrap();
     let before = cloth.positions().len();
-    let count = allocations(|| {
+    let count = allocation_count(|| {
         for tick in 1..=90 {
             cloth.move_grab(grab, Vec3::new(0.5, -0.5, 0.05 * tick as f32)).unwrap();
             cloth.step(1);
@@ -271,7 +273,7 @@ fn writing_vertices_allocates_nothing_after_the_first_time() {
 }
 
 #[test]
-fn colliders_of_every_shape_are_touched_without_an_allocation() {
+fn contact_with_colliders_of_every_shape_allocates_nothing() {
     let mut cloth = Cloth::grid(&common::shapes::free_sheet(24, 1.0, 0.4)).unwrap();
     let shape = |shape, x: f32, z: f32| ColliderDesc {
         shape,
@@ -292,7 +294,7 @@ fn colliders_of_every_shape_are_touched_without_an_allocation() {
         common::shapes::hilly_heightfield(8, 1.5),
     ];
     let handles = all.each_ref().map(|desc| cloth.add_collider(desc).unwrap());
-    let play = |cloth: &mut Cloth| {
+    let move_colliders_and_step = |cloth: &mut Cloth| {
         for i in 0..90 {
             for (desc, handle) in all.iter().zip(handles) {
                 let position = desc.position + Vec3::Y * (0.002 * i as f32);
@@ -304,33 +306,33 @@ fn colliders_of_every_shape_are_touched_without_an_allocation() {
             handles.iter().any(|handle| cloth.collider_impulse(*handle).unwrap().linear.y < 0.0)
         );
     };
-    assert_eq!(allocations(|| play(&mut cloth)), 0);
+    assert_eq!(allocation_count(|| move_colliders_and_step(&mut cloth)), 0);
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
-    assert_eq!(allocations(|| play(&mut restored)), 0);
+    assert_eq!(allocation_count(|| move_colliders_and_step(&mut restored)), 0);
 }
 
 #[test]
-fn what_is_worn_on_a_body_allocates_nothing_either() {
+fn attachments_anchors_and_moving_frames_allocate_nothing() {
     let mut desc =
         GridDesc { columns: 16, rows: 16, pin_mode: PinMode::None, ..GridDesc::default() };
     desc.material.tear_stretch = 1.3;
     (desc.settings.tearing, desc.settings.max_stretch) = (true, 0.1);
     let mut cloth = Cloth::grid(&desc).unwrap();
-    let (edge, led) = ((0..16).collect::<Vec<u32>>(), (16..256).collect::<Vec<u32>>());
+    let (edge, anchored) = ((0..16).collect::<Vec<u32>>(), (16..256).collect::<Vec<u32>>());
     let body = cloth.attach(&edge, Vec3::ZERO, Quat::IDENTITY).unwrap();
     cloth.set_pin_stiffness(&edge[4..12], 50.0).unwrap();
-    cloth.set_max_distances(&led, &[0.9; 240]).unwrap();
-    cloth.set_backstops(&led, &[0.2; 240], &[1.0; 240]).unwrap();
-    let anchors: Vec<Vec3> = led.iter().map(|i| cloth.positions()[*i as usize]).collect();
-    cloth.set_anchors(&led, &anchors, &[Vec3::Z; 240]).unwrap();
-    cloth.set_mass_scales(&led[..16], &[3.0; 16]).unwrap();
+    cloth.set_max_distances(&anchored, &[0.9; 240]).unwrap();
+    cloth.set_backstops(&anchored, &[0.2; 240], &[1.0; 240]).unwrap();
+    let anchors: Vec<Vec3> = anchored.iter().map(|i| cloth.positions()[*i as usize]).collect();
+    cloth.set_anchors(&anchored, &anchors, &[Vec3::Z; 240]).unwrap();
+    cloth.set_mass_scales(&anchored[..16], &[3.0; 16]).unwrap();
     let mut restored = Cloth::restore(&cloth.save()).unwrap();
     let mut copy = cloth.clone();
     for cloth in [&mut cloth, &mut copy, &mut restored] {
         let before = cloth.positions().len();
         let grab = cloth.grab_particle(136).unwrap();
         let from = cloth.positions()[136];
-        let used = allocations(|| {
+        let used = allocation_count(|| {
             for tick in 1..=60 {
                 let to = Vec3::new(0.02, 0.0, 0.01) * tick as f32;
                 cloth.move_attachment(body, -to, Quat::IDENTITY).unwrap();

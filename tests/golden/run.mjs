@@ -1,4 +1,4 @@
-// Prints what muslin-golden prints, computed in wasm: `node run.mjs MODULE.wasm [--every-tick]`.
+// Runs muslin-golden in wasm and prints its output: `node run.mjs MODULE.wasm [--every-tick]`.
 
 import { readFileSync } from 'node:fs';
 

@@ -1,7 +1,8 @@
-//! Scenes that use everything that a cloth has, each with one hash over all that can be seen of it.
+//! Golden scenes: together they use every feature of a cloth, and each gives one hash over all its
+//! outputs.
 //!
-//! `golden.txt` holds the hashes: one value a scene, the same on every platform. `cargo xtask test
-//! bits` plays the scenes natively, in wasm and under emulation, and compares.
+//! `golden.txt` holds one hash per scene, equal on every platform. `cargo xtask test bits` runs the
+//! scenes natively, in wasm and under emulation, and compares the hashes.
 
 mod scenes;
 mod trace;
@@ -10,32 +11,32 @@ mod web;
 use std::fmt::Write;
 
 pub use scenes::SCENES;
-pub use trace::{Mark, Trace};
+pub use trace::{TickHash, Trace};
 
-/// A play for one or more cloths.
+/// A scripted scene for one or more cloths.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
-    /// What it is called in the table.
+    /// Its name in the table.
     pub name: &'static str,
     play: fn(&mut Trace) -> muslin::Result<()>,
 }
 
 impl Scene {
-    /// Plays it from beginning to end.
+    /// Runs the scene from beginning to end.
     ///
     /// # Panics
-    /// If something that the scene is there for does not happen in it.
+    /// If the scene does not reach the effect that it tests.
     pub fn play(&self) -> Trace {
         self.play_into(Trace::default())
     }
 
-    /// Plays it with every tick cut up for so many threads, however small the cloth.
+    /// Runs the scene with every tick split over `threads` threads, however small the cloth.
     ///
     /// # Panics
     /// As [`Scene::play`].
     #[cfg(feature = "parallel")]
     pub fn play_on(&self, threads: u32) -> Trace {
-        self.play_into(Trace::on(threads))
+        self.play_into(Trace::with_threads(threads))
     }
 
     fn play_into(&self, mut trace: Trace) -> Trace {
@@ -45,7 +46,7 @@ impl Scene {
     }
 }
 
-/// The instructions that the cloth's kernels find here.
+/// Name of the instruction set that the kernels use on this machine.
 pub fn instructions() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
@@ -60,19 +61,19 @@ pub fn instructions() -> &'static str {
     if cfg!(target_feature = "simd128") { "simd128" } else { "scalar" }
 }
 
-/// What a player prints: the instructions, then the table.
+/// The output of the program: the instruction set, then the table.
 pub fn report(every_tick: bool) -> String {
     format!("instructions {}\n{}", instructions(), table(every_tick))
 }
 
-/// Plays all scenes: a line `name 0xhash` for each; or one for each tick, `name tick 0xhash`.
+/// Runs all scenes. Returns one line `name 0xhash` per scene, or one line `name tick 0xhash` per tick.
 pub fn table(every_tick: bool) -> String {
     let mut table = String::new();
     for scene in SCENES {
         let trace = scene.play();
         let name = scene.name;
         if every_tick {
-            for Mark { tick, hash } in trace.marks() {
+            for TickHash { tick, hash } in trace.tick_hashes() {
                 let _ = writeln!(table, "{name} {tick} {hash:#018x}");
             }
         } else {

@@ -1,4 +1,5 @@
-//! Prints the instructions in use and the table of hashes; with `--every-tick` how each stood after every tick.
+//! Prints the instruction set in use and the table of hashes; with `--every-tick` the hash after every
+//! tick.
 
 use std::process::ExitCode;
 

@@ -1,11 +1,12 @@
-//! Cloths that land.
+//! Scenes with moving planes.
 
 use super::along;
 use crate::Trace;
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, Material, PinMode, Result};
 
-/// A free sheet falls flat on a floor that bounces, tilts, rises and goes away over another one.
+/// A horizontal sheet falls on a plane with restitution that tilts, rises and is removed above another
+/// plane.
 pub fn dropped_on_a_tilting_floor(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 21,
@@ -29,17 +30,17 @@ pub fn dropped_on_a_tilting_floor(trace: &mut Trace) -> Result<()> {
         tangential_restitution: 0.875,
         ..ColliderDesc::default()
     })?;
-    trace.run(&mut cloth, 60);
+    trace.step(&mut cloth, 60);
     for i in 1..=80 {
-        // Near enough to length one; the cloth makes it exactly that.
+        // Nearly of unit length; the cloth normalises it.
         let tilt = Quat::from_xyzw(i as f32 * 0.0009765625, 0.0, i as f32 * -0.00048828125, 1.0);
         cloth.move_collider(tray, along(start, Vec3::new(0.0078125, 0.00390625, 0.0), i), tilt)?;
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
-    let touching = cloth.positions().iter().filter(|x| x.y > -1.0).count();
-    assert!(touching > 100, "only {touching} particles are still on the tray");
+    let on_tray = cloth.positions().iter().filter(|x| x.y > -1.0).count();
+    assert!(on_tray > 100, "only {on_tray} particles are still on the tray");
     cloth.remove_collider(tray)?;
-    trace.run(&mut cloth, 80);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 80);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }

@@ -1,12 +1,13 @@
-//! A garment as an artist exports it.
+//! A scene with a garment as an artist exports it.
 
 use super::along;
 use crate::Trace;
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, EventKind, Material, MeshDesc, Preset, Result};
 
-/// A vest: front and back laid out apart, sewn at both sides by vertices that lie within a weld of each other.
-/// Some triangles are there twice, some face inwards, one stands on an edge, a vertex has none.
+/// A vest: front and back are separate in the texture and are welded along both sides. The mesh has
+/// duplicate triangles, triangles that face inwards, a third triangle on an edge, and a vertex without
+/// triangles.
 fn vest() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0 / 1024.0, ..MeshDesc::default() };
     let (columns, rows) = (13, 16);
@@ -25,7 +26,7 @@ fn vest() -> MeshDesc {
             for column in 0..columns - 1 {
                 let a = first + row * columns + column;
                 let (b, c, d) = (a + 1, a + columns, a + columns + 1);
-                // Both wind the same way, so that the back faces inwards.
+                // Front and back have the same winding, so that the back faces inwards.
                 desc.indices.extend([a, c, d, a, d, b]);
             }
         }
@@ -38,7 +39,7 @@ fn vest() -> MeshDesc {
     desc
 }
 
-/// The vest is yanked at a side seam until it rips, then cut across.
+/// A grab pulls the vest at a side seam until it tears; then a cut crosses it.
 pub fn vest_ripped_at_a_seam(trace: &mut Trace) -> Result<()> {
     let mut desc = vest();
     desc.settings.tearing = true;
@@ -48,24 +49,24 @@ pub fn vest_ripped_at_a_seam(trace: &mut Trace) -> Result<()> {
     let report = *cloth.mesh_report();
     assert_eq!((report.welded_vertices, report.split_edges, report.pieces), (32, 1, 2));
     assert_eq!(report.turned_triangles, 360, "{report:?}");
-    trace.run(&mut cloth, 40);
+    trace.step(&mut cloth, 40);
     let seam = cloth.vertex_particles()[8 * 13 + 12];
     let grab = cloth.grab_particle(seam)?;
     for i in 1..=60 {
         let start = Vec3::new(0.75, -0.5, 0.0);
         cloth.move_grab(grab, along(start, Vec3::new(0.03125, 0.0, 0.015625), i))?;
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
     cloth.release(grab)?;
     let (from, to) = (Vec3::new(-1.0, -0.28125, -4.0), Vec3::new(2.0, -0.34375, -4.0));
-    trace.word(u64::from(cloth.cut(from, to, Vec3::Z * 8.0)?));
-    trace.run(&mut cloth, 40);
-    trace.look(&mut cloth);
-    cloth.vertex_particles().iter().for_each(|particle| trace.word(u64::from(*particle)));
+    trace.record_word(u64::from(cloth.cut(from, to, Vec3::Z * 8.0)?));
+    trace.step(&mut cloth, 40);
+    trace.record_outputs(&mut cloth);
+    cloth.vertex_particles().iter().for_each(|particle| trace.record_word(u64::from(*particle)));
     let torn = trace.count_of(EventKind::EdgeTorn);
     assert!(torn >= 5, "the grab and the blade opened only {torn} edges");
     let mut restored = Cloth::restore(&cloth.save())?;
-    trace.run(&mut restored, 20);
-    trace.look(&mut restored);
+    trace.step(&mut restored, 20);
+    trace.record_outputs(&mut restored);
     Ok(())
 }

@@ -1,13 +1,13 @@
-//! Cloths of any shape.
+//! Scenes with irregular meshes.
 
 use super::along;
 use crate::Trace;
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, EventKind, Material, MeshDesc, Preset, Result, Settings, Wind};
 
-/// A sheet of `columns` × `rows` vertices in disorder: nothing in line, diagonals this way and that,
-/// a third of the triangles seen from behind, and a hole with four vertices in it that have no triangle.
-pub(super) fn disorder(columns: u32, rows: u32) -> MeshDesc {
+/// An irregular sheet of `columns` × `rows` vertices: random offsets, diagonals in both directions, a
+/// third of the triangles wound the other way, and a hole with four vertices without triangles.
+pub(super) fn irregular_mesh(columns: u32, rows: u32) -> MeshDesc {
     let mut random = 0x2545_f491_u32;
     // Xorshift (Marsaglia, 2003): integers, so the same on any host.
     let mut next = move |below: u32| {
@@ -32,9 +32,9 @@ pub(super) fn disorder(columns: u32, rows: u32) -> MeshDesc {
             let halves = if next(2) == 0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
             let is_hole = (5..8).contains(&row) && (6..9).contains(&column);
             for [p, q, r] in halves {
-                let turned = next(3) == 0;
+                let is_flipped = next(3) == 0;
                 if !is_hole {
-                    desc.indices.extend(if turned { [q, p, r] } else { [p, q, r] });
+                    desc.indices.extend(if is_flipped { [q, p, r] } else { [p, q, r] });
                 }
             }
         }
@@ -43,9 +43,9 @@ pub(super) fn disorder(columns: u32, rows: u32) -> MeshDesc {
     desc
 }
 
-/// A piece of disorder hangs in the wind until a pointer rips it.
+/// An irregular mesh hangs in the wind until a grab tears it.
 pub fn patch_torn_by_a_grab(trace: &mut Trace) -> Result<()> {
-    let mut desc = disorder(16, 15);
+    let mut desc = irregular_mesh(16, 15);
     desc.settings.tearing = true;
     desc.material = Material {
         tear_stretch: 1.25,
@@ -56,22 +56,22 @@ pub fn patch_torn_by_a_grab(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::mesh(&desc)?;
     let velocity = Vec3::new(1.0, 0.0, 5.0);
     cloth.set_wind(Wind { velocity, gust: 0.5, turbulence: 0.5, ..Wind::default() })?;
-    trace.run(&mut cloth, 40);
+    trace.step(&mut cloth, 40);
     let grab = cloth.grab_particle(10 * 16 + 11)?;
     for i in 1..=60 {
         let start = Vec3::new(0.75, -0.75, 0.25);
         cloth.move_grab(grab, along(start, Vec3::new(0.015625, -0.03125, 0.03125), i))?;
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
     cloth.release(grab)?;
-    trace.run(&mut cloth, 40);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 40);
+    trace.record_outputs(&mut cloth);
     let torn = trace.count_of(EventKind::EdgeTorn);
     assert!(torn >= 5, "the grab tore only {torn} edges");
     Ok(())
 }
 
-/// A square tube without any border but its two ends, hung by one of them and swung.
+/// A square tube that is pinned at one end and swings, then falls.
 pub fn tube_of_leather(trace: &mut Trace) -> Result<()> {
     let (around, rings) = (20, 13);
     let mut desc = MeshDesc {
@@ -102,9 +102,9 @@ pub fn tube_of_leather(trace: &mut Trace) -> Result<()> {
     for i in 0..10 {
         cloth.set_velocity((rings - 1) * around + i, Vec3::new(3.0, 0.0, 1.5))?;
     }
-    trace.run(&mut cloth, 100);
+    trace.step(&mut cloth, 100);
     cloth.unpin_all();
-    trace.run(&mut cloth, 50);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 50);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Cloths that come apart.
+//! Scenes with tears and cuts.
 
 use super::along;
 use crate::Trace;
@@ -20,7 +20,7 @@ fn thin_sheet(columns: u32, rows: u32) -> GridDesc {
     }
 }
 
-/// Three grabs pull a sheet apart, a hand tears on, and what is left falls.
+/// Three grabs tear a sheet, `tear_edge` tears more edges, and the remaining pieces fall.
 pub fn sheet_torn_to_pieces(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&thin_sheet(23, 18))?;
     cloth.set_wind(Wind {
@@ -28,7 +28,7 @@ pub fn sheet_torn_to_pieces(trace: &mut Trace) -> Result<()> {
         turbulence: 0.5,
         ..Wind::default()
     })?;
-    trace.run(&mut cloth, 20);
+    trace.step(&mut cloth, 20);
     let starts = [(6, 5, 0.0625), (17, 9, -0.0625), (11, 14, 0.125)];
     let mut grabs = Vec::new();
     for (column, row, pull) in starts {
@@ -39,60 +39,61 @@ pub fn sheet_torn_to_pieces(trace: &mut Trace) -> Result<()> {
         for (grab, at, pull) in &grabs {
             cloth.move_grab(*grab, along(*at, Vec3::new(0.0, -0.0078125, *pull), i))?;
         }
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
     for (grab, ..) in grabs {
         cloth.release(grab)?;
     }
     for (a, b) in [(30, 53), (53, 76), (76, 99), (99, 122)] {
-        trace.word(cloth.tear_edge(a, b).map_or(2, u64::from));
+        trace.record_word(cloth.tear_edge(a, b).map_or(2, u64::from));
     }
-    trace.run(&mut cloth, 40);
+    trace.step(&mut cloth, 40);
     cloth.unpin_all();
-    trace.run(&mut cloth, 40);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 40);
+    trace.record_outputs(&mut cloth);
     let pieces = cloth.stats().pieces;
     assert!(pieces >= 3, "the sheet is in {pieces} pieces");
-    assert!(trace.count_of(EventKind::PieceDetached) >= 2, "no piece was told of");
+    assert!(trace.count_of(EventKind::PieceDetached) >= 2, "too few `PieceDetached` events");
     Ok(())
 }
 
-/// Blades go through a sheet and through a mesh in the wind, beside pins, ahead of tears and twice.
+/// Blades cut a grid and a mesh in the wind, next to pins and twice in the same place; then a grab tears
+/// them further.
 pub fn cut_by_blades(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&thin_sheet(19, 21))?;
-    let mut mesh = Cloth::mesh(&patch())?;
+    let mut mesh = Cloth::mesh(&uneven_mesh())?;
     for cloth in [&mut cloth, &mut mesh] {
         cloth.set_wind(Wind { velocity: Vec3::new(0.5, 0.0, 1.5), ..Wind::default() })?;
-        trace.run(cloth, 25);
+        trace.step(cloth, 25);
         let mut opened = 0;
         for (from, to) in [([0.28125, 0.5], [0.34375, -0.5]), ([-0.5, -0.40625], [0.875, -0.59375])]
         {
             let at = |[x, y]: [f32; 2]| Vec3::new(x, y, -4.0);
             for _ in 0..2 {
                 opened += cloth.cut(at(from), at(to), Vec3::Z * 8.0)?;
-                trace.word(u64::from(opened));
+                trace.record_word(u64::from(opened));
             }
-            trace.run(cloth, 15);
+            trace.step(cloth, 15);
         }
         assert!(opened > 20, "only {opened} edges were cut");
-        let held = cloth.grab_particle(40)?;
+        let grab = cloth.grab_particle(40)?;
         for i in 1..=30 {
             let start = Vec3::new(0.25, -0.25, 0.0);
-            cloth.move_grab(held, along(start, Vec3::new(0.0, -0.015625, 0.03125), i))?;
-            trace.run(cloth, 1);
+            cloth.move_grab(grab, along(start, Vec3::new(0.0, -0.015625, 0.03125), i))?;
+            trace.step(cloth, 1);
         }
-        cloth.release(held)?;
+        cloth.release(grab)?;
         cloth.unpin_all();
-        trace.run(cloth, 20);
-        trace.look(cloth);
+        trace.step(cloth, 20);
+        trace.record_outputs(cloth);
     }
-    assert!(trace.count_of(EventKind::EdgeDivided) > 20, "nothing was divided");
-    assert!(trace.count_of(EventKind::PieceDetached) >= 2, "nothing was cut off");
+    assert!(trace.count_of(EventKind::EdgeDivided) > 20, "too few edges were divided");
+    assert!(trace.count_of(EventKind::PieceDetached) >= 2, "too few pieces were cut off");
     Ok(())
 }
 
-/// A patch of nine by nine vertices that lie unevenly, wound to and fro, pinned by two corners.
-fn patch() -> MeshDesc {
+/// An uneven mesh of 9 × 9 vertices with alternating diagonals, pinned at two corners.
+fn uneven_mesh() -> MeshDesc {
     let uneven = |k: u32| (k * 37 % 16) as f32 * 0.0009765625;
     let at = |i: u32| {
         let (column, row) = ((i % 9) as f32, (i / 9) as f32);
@@ -113,7 +114,7 @@ fn patch() -> MeshDesc {
     }
 }
 
-/// Hundreds of tears and cuts of sheets and meshes, wherever chance has them.
+/// Hundreds of random tears and cuts of grids and meshes.
 pub fn tears_and_cuts_at_random(trace: &mut Trace) -> Result<()> {
     let mut random = 0x1f12_3bb5_u32;
     // Xorshift (Marsaglia, 2003): integers, so the same on any host.
@@ -129,44 +130,44 @@ pub fn tears_and_cuts_at_random(trace: &mut Trace) -> Result<()> {
             let desc = thin_sheet(4 + next(12), 4 + next(12));
             Cloth::grid(&GridDesc { extra_particles: 400, ..desc })?
         } else {
-            Cloth::mesh(&MeshDesc { extra_particles: 400, ..patch() })?
+            Cloth::mesh(&MeshDesc { extra_particles: 400, ..uneven_mesh() })?
         };
         let before = cloth.positions().len();
         for _ in 0..60 {
             if next(8) == 0 {
                 let [a, b, c, d] = [0; 4].map(|_| next(96) as f32 / 64.0 - 0.25);
                 let (from, to) = (Vec3::new(a, -b, -4.0), Vec3::new(c, -d, -4.0));
-                trace.word(cloth.cut(from, to, Vec3::Z * 8.0).map_or(1000, u64::from));
+                trace.record_word(cloth.cut(from, to, Vec3::Z * 8.0).map_or(1000, u64::from));
             } else {
                 let corner = next(cloth.indices().len() as u32) as usize;
                 let end = corner - corner % 3 + (corner + 1) % 3;
                 let ends = [cloth.indices()[corner], cloth.indices()[end]];
-                trace.word(cloth.tear_edge(ends[0], ends[1]).map_or(2, u64::from));
+                trace.record_word(cloth.tear_edge(ends[0], ends[1]).map_or(2, u64::from));
             }
             if next(3) == 0 {
-                trace.run(&mut cloth, 1);
+                trace.step(&mut cloth, 1);
             }
         }
-        trace.run(&mut cloth, 10);
-        trace.look(&mut cloth);
+        trace.step(&mut cloth, 10);
+        trace.record_outputs(&mut cloth);
         split += cloth.positions().len() - before;
     }
     assert!(split > 400, "only {split} vertices were split");
     Ok(())
 }
 
-/// With room for only so many new particles tearing stops, and says so.
+/// Tearing stops when the reserve of particles is used up, and reports an event.
 pub fn tears_use_up_their_room(trace: &mut Trace) -> Result<()> {
     let desc = GridDesc { extra_particles: 6, ..thin_sheet(9, 10) };
     let mut cloth = Cloth::grid(&desc)?;
     let grab = cloth.grab_particle(4 * 9 + 4)?;
     for i in 1..=80 {
         cloth.move_grab(grab, along(Vec3::new(0.25, -0.25, 0.0), Vec3::Z * 0.0625, i))?;
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
     cloth.release(grab)?;
-    trace.run(&mut cloth, 30);
-    trace.look(&mut cloth);
-    assert_eq!(trace.count_of(EventKind::ReserveUsedUp), 1, "the room was to be used up");
+    trace.step(&mut cloth, 30);
+    trace.record_outputs(&mut cloth);
+    assert_eq!(trace.count_of(EventKind::ReserveUsedUp), 1, "the reserve must be used up once");
     Ok(())
 }

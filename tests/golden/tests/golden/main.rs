@@ -1,5 +1,5 @@
-//! The table of golden hashes, compared: alone, under the floating-point modes of strange hosts, and on
-//! many threads at once.
+//! Compares the scenes with the golden hashes: on one thread, under other floating-point modes, and on
+//! several threads.
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod modes;
@@ -9,8 +9,8 @@ mod threads;
 
 use muslin_golden::{SCENES, Scene, Trace};
 
-/// The scenes, each with the hash that it is to end in.
-fn scenes() -> Vec<(&'static Scene, &'static str)> {
+/// Every scene with its golden hash.
+fn scenes_with_golden_hashes() -> Vec<(&'static Scene, &'static str)> {
     let golden = |scene: &Scene| {
         let mut lines = table::GOLDEN.lines().filter_map(|line| line.split_once(' '));
         let line = lines.find(|(name, _)| *name == scene.name);
@@ -19,7 +19,7 @@ fn scenes() -> Vec<(&'static Scene, &'static str)> {
     SCENES.iter().map(|scene| (scene, golden(scene))).collect()
 }
 
-/// The hash of a trace as the table writes it.
-fn written(trace: &Trace) -> String {
+/// The hash of a trace in the format of the table.
+fn hash_text(trace: &Trace) -> String {
     format!("{:#018x}", trace.hash())
 }

@@ -1,6 +1,7 @@
-//! Hosts that set other floating-point modes: flushing to zero, rounding up.
+//! Hosts with other floating-point modes: flush-to-zero and rounding up. The library must neither let
+//! them change a bit nor leave its own modes behind.
 
-use crate::{scenes, written};
+use crate::{hash_text, scenes_with_golden_hashes};
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, Material, Settings, Wind};
 use std::hint::black_box;
@@ -12,7 +13,7 @@ mod register {
     /// A host's modes: flush-to-zero with denormals-are-zero, rounding up, both at once.
     pub const MODES: [(&str, u64); 3] =
         [("flush to zero", 0x9fc0), ("round up", 0x5f80), ("flush and round up", 0xdfc0)];
-    /// The bits that are modes; the others tell what happened.
+    /// The mode bits; the other bits are exception flags.
     pub const MASK: u64 = 0xffc0;
 
     pub fn read() -> u64 {
@@ -25,8 +26,8 @@ mod register {
     pub fn write(modes: u64) {
         let modes = modes as u32;
         // SAFETY: `ldmxcsr` reads four bytes from `modes`, which came from the register itself or
-        // from `MODES`: no reserved bit is set and no exception is unmasked. What runs under them
-        // computes with numbers that are exact in any mode.
+        // from `MODES`: no reserved bit is set and no exception is unmasked. Code that runs under
+        // these modes computes only with numbers that are exact in any mode.
         unsafe {
             asm!("ldmxcsr [{}]", in(reg) &raw const modes, options(nostack, preserves_flags));
         }
@@ -54,41 +55,41 @@ mod register {
     }
 
     pub fn write(modes: u64) {
-        // SAFETY: the value came from the register itself or from `MODES`: nothing traps. What runs
-        // under them computes with numbers that are exact in any mode.
+        // SAFETY: the value came from the register itself or from `MODES`: nothing traps. Code
+        // that runs under these modes computes only with numbers that are exact in any mode.
         unsafe { asm!("msr fpcr, {}", in(reg) modes, options(nostack, preserves_flags)) };
     }
 }
 
-/// A host's modes, while it lives.
-struct Host {
-    own: u64,
+/// Guard that sets a host's floating-point modes and restores the previous ones on drop.
+struct HostModes {
+    previous: u64,
     set: u64,
 }
 
-impl Host {
+impl HostModes {
     fn enter(set: u64) -> Self {
-        let own = register::read();
+        let previous = register::read();
         register::write(set);
-        Self { own, set }
+        Self { previous, set }
     }
 
-    /// Whether the modes are as they were set.
-    fn is_as_set(&self) -> bool {
+    /// Whether the modes still have the values that were set.
+    fn is_unchanged(&self) -> bool {
         register::read() & register::MASK == self.set & register::MASK
     }
 }
 
-impl Drop for Host {
+impl Drop for HostModes {
     fn drop(&mut self) {
-        register::write(self.own);
+        register::write(self.previous);
     }
 }
 
 #[test]
-fn the_modes_of_this_test_are_real() {
+fn the_modes_of_this_test_take_effect() {
     for (name, modes) in register::MODES {
-        let host = Host::enter(modes);
+        let host = HostModes::enter(modes);
         let (tiny, one) = black_box((f32::MIN_POSITIVE, 1.0_f32));
         let (half, sum) = black_box((tiny * 0.5, one + tiny));
         drop(host);
@@ -98,39 +99,39 @@ fn the_modes_of_this_test_are_real() {
 }
 
 #[test]
-fn a_hosts_modes_change_no_bit_and_stay() {
-    let parts = scenes();
+fn host_floating_point_modes_change_no_bit_and_are_restored() {
+    let parts = scenes_with_golden_hashes();
     for (name, modes) in register::MODES {
         for (scene, hash) in &parts {
-            let host = Host::enter(modes);
+            let host = HostModes::enter(modes);
             let trace = scene.play();
-            let as_set = host.is_as_set();
+            let is_unchanged = host.is_unchanged();
             drop(host);
-            assert_eq!(written(&trace), *hash, "{} under {name}", scene.name);
-            assert!(as_set, "{} took the host's modes away: {name}", scene.name);
+            assert_eq!(hash_text(&trace), *hash, "{} under {name}", scene.name);
+            assert!(is_unchanged, "{} changed the host's modes: {name}", scene.name);
         }
     }
 }
 
-/// Threads of the host's with its modes, on which cloths are cut up beside the host's own work: a thread
-/// that waits for its part of a cloth may take up either.
+/// Cloths are split over the host's own threads, which run with its modes and also do other work. A thread
+/// that waits for its part of a cloth may execute either kind of job.
 #[cfg(feature = "parallel")]
 #[test]
-fn modes_of_the_hosts_threads_change_no_bit_and_stay_for_its_own_work() {
-    let parts = scenes();
+fn host_thread_modes_change_no_bit_and_are_restored_for_other_jobs() {
+    let parts = scenes_with_golden_hashes();
     for (name, modes) in register::MODES {
-        let is_as_set = move || register::read() & register::MASK == modes & register::MASK;
+        let is_unchanged = move || register::read() & register::MASK == modes & register::MASK;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(3);
         let pool = threads.start_handler(move |_| register::write(modes)).build().unwrap();
         pool.in_place_scope(|scope| {
             for (scene, hash) in &parts {
                 scope.spawn(move |_| {
                     let trace = scene.play_on(3);
-                    assert_eq!(written(&trace), *hash, "{} under {name}", scene.name);
-                    assert!(is_as_set(), "{} took the host's modes away: {name}", scene.name);
+                    assert_eq!(hash_text(&trace), *hash, "{} under {name}", scene.name);
+                    assert!(is_unchanged(), "{} changed the host's modes: {name}", scene.name);
                 });
                 for _ in 0..500 {
-                    scope.spawn(move |_| assert!(is_as_set(), "the host's work missed {name}"));
+                    scope.spawn(move |_| assert!(is_unchanged(), "a host job ran without {name}"));
                 }
             }
         });
@@ -139,7 +140,7 @@ fn modes_of_the_hosts_threads_change_no_bit_and_stay_for_its_own_work() {
 
 type Call = fn(&mut Cloth);
 
-/// Every call that computes, by its name.
+/// Every call that computes, with its name.
 const CALLS: &[(&str, Call)] = &[
     ("grid", |cloth| *cloth = Cloth::grid(&GridDesc::default()).unwrap()),
     ("set_settings", |cloth| {
@@ -189,27 +190,27 @@ const CALLS: &[(&str, Call)] = &[
 ];
 
 #[test]
-fn every_call_gives_the_hosts_modes_back_and_does_the_same_under_them() {
+fn every_call_restores_the_host_modes_and_gives_the_same_bits_under_them() {
     let start = Cloth::grid(&GridDesc::default()).unwrap();
-    let plain: Vec<_> = play_calls(&mut start.clone(), |_| ());
+    let plain: Vec<_> = hashes_after_calls(&mut start.clone(), |_| ());
     for (name, modes) in register::MODES {
-        let host = Host::enter(modes);
-        let mut taken = None;
-        let hashes = play_calls(&mut start.clone(), |call| {
-            if taken.is_none() && !host.is_as_set() {
-                taken = Some(call);
+        let host = HostModes::enter(modes);
+        let mut changed_by = None;
+        let hashes = hashes_after_calls(&mut start.clone(), |call| {
+            if changed_by.is_none() && !host.is_unchanged() {
+                changed_by = Some(call);
             }
         });
         drop(host);
-        assert_eq!(taken, None, "the call that took the host's modes away: {name}");
+        assert_eq!(changed_by, None, "a call changed the host's modes: {name}");
         for ((call, _), (hash, plain)) in CALLS.iter().zip(hashes.iter().zip(&plain)) {
             assert_eq!(hash, plain, "after {call} under {name}");
         }
     }
 }
 
-/// Makes all calls in turn: the hash after each.
-fn play_calls(cloth: &mut Cloth, mut after: impl FnMut(&'static str)) -> Vec<u64> {
+/// Makes all calls in order and returns the state hash after each.
+fn hashes_after_calls(cloth: &mut Cloth, mut after: impl FnMut(&'static str)) -> Vec<u64> {
     let mut hashes = Vec::new();
     for (name, call) in CALLS {
         call(cloth);

@@ -1,15 +1,16 @@
-//! One script in every language: Rust here, C in `tests/c/script.c`, JavaScript in `tests/js`. All of
-//! them must end in the hash that `tests/script.hash` holds.
+//! The same script in every language: Rust here, C in `tests/c/script.c`, JavaScript in `tests/js`.
+//! All must end with the hash in `tests/script.hash`.
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, EventKind, GridDesc, Wind};
 
-/// A new hash is a new simulation: say why in CHANGELOG.md, then replace the number in the file.
+/// A changed hash means a changed simulation: give the reason in CHANGELOG.md, then replace the number
+/// in the file.
 const GOLDEN: &str = include_str!("../../../script.hash");
 
-/// Six hundred and thirty ticks: hang in the wind, be grabbed and dragged until it rips, be torn by hand, let
-/// go, be cut, fall on the floor, be picked up by a corner.
-fn play_script() -> Cloth {
+/// Runs 630 ticks: a sheet hangs in the wind, is dragged by a grab until it tears, is torn by a call,
+/// released, cut, dropped on a floor and lifted by a corner.
+fn cloth_after_script() -> Cloth {
     let mut desc = GridDesc::default();
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.5;
@@ -40,7 +41,7 @@ fn play_script() -> Cloth {
     cloth.step(180);
     let (from, to) = (Vec3::new(-1.0, -0.59375, -9.0), Vec3::new(3.0, -0.78125, -9.0));
     let edges = cloth.cut(from, to, Vec3::Z * 18.0).unwrap();
-    assert!(edges > 40, "the blade is to cut all through, but opened {edges} edges");
+    assert!(edges > 40, "the blade must cut through the sheet, but opened {edges} edges");
     cloth.step(30);
 
     cloth.unpin_all();
@@ -52,24 +53,24 @@ fn play_script() -> Cloth {
 }
 
 #[test]
-fn the_script_ends_in_the_golden_bits() {
-    let mut cloth = play_script();
+fn the_script_ends_with_the_golden_hash() {
+    let mut cloth = cloth_after_script();
     let torn = core::iter::from_fn(|| cloth.next_event())
         .filter(|event| event.kind == EventKind::EdgeTorn)
         .count();
-    assert!(torn >= 10, "the script is to tear the cloth, but tore {torn} edges");
+    assert!(torn >= 10, "the script must tear the cloth, but tore {torn} edges");
     let (hash, golden) = (cloth.state_hash(), GOLDEN.trim());
-    assert_eq!(format!("{hash:#018x}"), golden, "a new hash is a new simulation");
+    assert_eq!(format!("{hash:#018x}"), golden, "a changed hash means a changed simulation");
 }
 
 #[test]
-fn the_same_bits_come_twice() {
-    assert_eq!(play_script().state_hash(), play_script().state_hash());
+fn the_script_gives_the_same_hash_twice() {
+    assert_eq!(cloth_after_script().state_hash(), cloth_after_script().state_hash());
 }
 
 #[test]
-fn a_restored_or_cloned_cloth_goes_on_in_the_same_bits() {
-    let mut straight = play_script();
+fn restored_and_cloned_cloths_continue_with_the_same_bits() {
+    let mut straight = cloth_after_script();
     let mut restored = Cloth::restore(&straight.save()).unwrap();
     let mut cloned = straight.clone();
     assert_eq!(restored.state_hash(), straight.state_hash());
@@ -85,8 +86,8 @@ fn a_restored_or_cloned_cloth_goes_on_in_the_same_bits() {
 }
 
 #[test]
-fn a_reset_cloth_plays_as_a_new_one() {
-    let mut old = play_script();
+fn a_reset_cloth_behaves_like_a_new_cloth() {
+    let mut old = cloth_after_script();
     old.reset();
     let mut new = Cloth::grid(&GridDesc {
         settings: old.settings().clone(),

@@ -1,6 +1,6 @@
-//! The table itself.
+//! The table of golden hashes.
 
-/// What it says.
+/// The text of `golden.txt`.
 pub const GOLDEN: &str = include_str!("../../golden.txt");
 
 #[test]

@@ -1,12 +1,12 @@
-//! Cloths that touch every shape there is.
+//! Scenes with colliders of every shape.
 
 use super::along;
 use crate::Trace;
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, GridDesc, Material, PinMode, Result, Shape};
 
-/// A free sheet that lies flat, with a corner at `origin`.
-fn flat(columns: u32, rows: u32, origin: Vec3) -> Result<Cloth> {
+/// A horizontal, unpinned sheet with a corner at `origin`.
+fn horizontal_sheet(columns: u32, rows: u32, origin: Vec3) -> Result<Cloth> {
     Cloth::grid(&GridDesc {
         columns,
         rows,
@@ -19,18 +19,18 @@ fn flat(columns: u32, rows: u32, origin: Vec3) -> Result<Cloth> {
     })
 }
 
-/// Tells what a cloth did to a collider.
-fn look_at(trace: &mut Trace, cloth: &Cloth, collider: Collider) -> Result<()> {
+/// Records the impulse of a cloth on a collider.
+fn record_impulse(trace: &mut Trace, cloth: &Cloth, collider: Collider) -> Result<()> {
     let impulse = cloth.collider_impulse(collider)?;
-    trace.floats(&impulse.linear.to_array());
-    trace.floats(&impulse.angular.to_array());
+    trace.record_floats(&impulse.linear.to_array());
+    trace.record_floats(&impulse.angular.to_array());
     Ok(())
 }
 
-/// A sheet falls on a ball that rises and turns, a tapered capsule, a slanted box and a pyramid, then on a
-/// floor when all go away.
+/// A sheet falls on a ball that rises and turns, a tapered capsule, a tilted box and a pyramid, then on a
+/// floor after these are removed.
 pub fn draped_over_solids(trace: &mut Trace) -> Result<()> {
-    let mut cloth = flat(25, 23, Vec3::new(-0.75, 0.5, -0.6875))?;
+    let mut cloth = horizontal_sheet(25, 23, Vec3::new(-0.75, 0.5, -0.6875))?;
     let start = Vec3::new(-0.375, 0.0, -0.25);
     let solids = [
         ColliderDesc { shape: Shape::Sphere, radius: 0.25, position: start, ..Default::default() },
@@ -80,29 +80,29 @@ pub fn draped_over_solids(trace: &mut Trace) -> Result<()> {
     for desc in &solids {
         handles.push(cloth.add_collider(desc)?);
     }
-    trace.run(&mut cloth, 60);
+    trace.step(&mut cloth, 60);
     for i in 1..=60 {
-        // Near enough to length one; the cloth makes it exactly that.
+        // Nearly of unit length; the cloth normalises it.
         let turn = Quat::from_xyzw(0.0, i as f32 * 0.0009765625, 0.0, 1.0);
         cloth.move_collider(handles[0], along(start, Vec3::Y * 0.00390625, i), turn)?;
-        trace.run(&mut cloth, 1);
-        look_at(trace, &cloth, handles[0])?;
+        trace.step(&mut cloth, 1);
+        record_impulse(trace, &cloth, handles[0])?;
     }
-    let touching = cloth.positions().iter().filter(|x| x.y > -0.5).count();
-    assert!(touching > 300, "only {touching} particles are still up");
+    let supported = cloth.positions().iter().filter(|x| x.y > -0.5).count();
+    assert!(supported > 300, "only {supported} particles are still up");
     let mut cloth = Cloth::restore(&cloth.save())?;
     for handle in handles.iter().take(4) {
-        look_at(trace, &cloth, *handle)?;
+        record_impulse(trace, &cloth, *handle)?;
         cloth.remove_collider(*handle)?;
-        trace.run(&mut cloth, 15);
+        trace.step(&mut cloth, 15);
     }
-    trace.look(&mut cloth);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// A sheet that is thrown on ground with hills, where a wedge of triangles comes along and a beam swings.
+/// A sheet is thrown on a heightfield, where a triangle mesh slides into it and a box rotates above it.
 pub fn thrown_on_hills(trace: &mut Trace) -> Result<()> {
-    let mut cloth = flat(19, 17, Vec3::new(-0.5, 0.5, -0.5))?;
+    let mut cloth = horizontal_sheet(19, 17, Vec3::new(-0.5, 0.5, -0.5))?;
     for particle in 0..19 * 17 {
         cloth.set_velocity(particle, Vec3::new(0.5, -6.0, 0.25))?;
     }
@@ -140,7 +140,7 @@ pub fn thrown_on_hills(trace: &mut Trace) -> Result<()> {
         position: Vec3::Y * 0.75,
         ..Default::default()
     })?;
-    trace.run(&mut cloth, 20);
+    trace.step(&mut cloth, 20);
     for i in 1..=80 {
         let at = along(from, Vec3::X * 0.015625, i);
         cloth.move_collider(wedge, at, Quat::IDENTITY)?;
@@ -148,11 +148,11 @@ pub fn thrown_on_hills(trace: &mut Trace) -> Result<()> {
         let is_unit = i * i <= 9;
         let turn = if is_unit { turn } else { Quat::from_xyzw(0.0, 0.28, 0.0, 0.96) };
         cloth.move_collider(beam, along(Vec3::Y * 0.75, Vec3::Y * -0.0078125, i), turn)?;
-        trace.run(&mut cloth, 1);
-        look_at(trace, &cloth, wedge)?;
+        trace.step(&mut cloth, 1);
+        record_impulse(trace, &cloth, wedge)?;
     }
     let up = cloth.positions().iter().filter(|x| x.y > -0.25).count();
     assert!(up > 200, "only {up} particles are still on the ground");
-    trace.look(&mut cloth);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }

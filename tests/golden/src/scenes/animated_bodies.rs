@@ -1,4 +1,4 @@
-//! Clothes on bodies: carried, led, and weighed down.
+//! Scenes with clothes on animated bodies: attachments, anchors, moving frames and mass scales.
 
 use super::along;
 use crate::Trace;
@@ -8,7 +8,7 @@ use muslin::{
     Wind,
 };
 
-/// Turns by exact numbers: all but unit quaternions, which a cloth makes whole.
+/// Exact components of nearly unit quaternions, which the cloth normalises.
 const TURNS: [[f32; 4]; 4] = [
     [0.0, 0.0, 0.0, 1.0],
     [0.0, 0.25, 0.0, 0.96875],
@@ -16,6 +16,7 @@ const TURNS: [[f32; 4]; 4] = [
     [0.0, 0.703125, 0.0625, 0.70703125],
 ];
 
+/// The rotation with the index `i`, modulo the number of rotations.
 fn turn(i: u32) -> Quat {
     Quat::from_array(TURNS[i as usize % 4])
 }
@@ -28,8 +29,8 @@ fn cape(pin_mode: PinMode, max_stretch: f32) -> GridDesc {
     desc
 }
 
-/// A cape runs and turns with a body, by a seam of hard and soft pins, with coins in its hem; it is cut to
-/// its collar, saved, and let go.
+/// A cape follows a body that moves and rotates, attached by hard and soft pins, with heavier particles in
+/// its hem. It is cut up to its collar, saved, teleported and detached.
 pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0))?;
     let collar: Vec<u32> = (0..12).collect();
@@ -39,36 +40,36 @@ pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
     cloth.set_mass_scales(&[204, 207, 211, 215], &[16.0, 0.25, 8.0, 16.0])?;
     let velocity = Vec3::new(0.5, 0.25, 3.0);
     cloth.set_wind(Wind { velocity, gust: 0.5, turbulence: 0.5, ..Wind::default() })?;
-    let way = Vec3::new(0.125, 0.0078125, 0.03125);
+    let step = Vec3::new(0.125, 0.0078125, 0.03125);
     for i in 1..=60 {
-        let to = along(Vec3::new(0.375, 0.0, -0.125), way, i);
+        let to = along(Vec3::new(0.375, 0.0, -0.125), step, i);
         cloth.move_attachment(body, to, turn(i / 8))?;
-        cloth.move_attachment(arm, along(Vec3::ZERO, way, i), turn(1 + i / 16))?;
-        trace.run(&mut cloth, 1);
+        cloth.move_attachment(arm, along(Vec3::ZERO, step, i), turn(1 + i / 16))?;
+        trace.step(&mut cloth, 1);
     }
-    let at = along(Vec3::new(0.375, 0.5, -8.0), way, 60);
-    trace.word(u64::from(cloth.cut(at, at - Vec3::Y * 1.5, Vec3::Z * 16.0)?));
-    cloth.attached(body)?.for_each(|particle| trace.word(u64::from(particle)));
+    let at = along(Vec3::new(0.375, 0.5, -8.0), step, 60);
+    trace.record_word(u64::from(cloth.cut(at, at - Vec3::Y * 1.5, Vec3::Z * 16.0)?));
+    cloth.attached(body)?.for_each(|particle| trace.record_word(u64::from(particle)));
     let mut restored = Cloth::restore(&cloth.save())?;
     for cloth in [&mut cloth, &mut restored] {
         cloth.detach(arm)?;
-        cloth.move_attachment(body, along(Vec3::new(0.375, 0.0, -0.125), way, 62), turn(3))?;
-        trace.run(cloth, 20);
+        cloth.move_attachment(body, along(Vec3::new(0.375, 0.0, -0.125), step, 62), turn(3))?;
+        trace.step(cloth, 20);
     }
     cloth.set_settings(Settings { substeps: 3, iterations: 1, ..cloth.settings().clone() })?;
-    trace.run(&mut cloth, 20);
-    cloth.set_frame(along(Vec3::ZERO, way, 62), turn(3))?;
+    trace.step(&mut cloth, 20);
+    cloth.set_frame(along(Vec3::ZERO, step, 62), turn(3))?;
     cloth.teleport(Vec3::new(-4.0, 1.0, 0.5), turn(2))?;
-    trace.run(&mut cloth, 20);
+    trace.step(&mut cloth, 20);
     cloth.detach(body)?;
-    trace.run(&mut cloth, 20);
-    trace.look(&mut cloth);
-    assert_eq!(trace.count_of(EventKind::Recovered), 0, "the cape ran away from its body");
+    trace.step(&mut cloth, 20);
+    trace.record_outputs(&mut cloth);
+    assert_eq!(trace.count_of(EventKind::Recovered), 0, "the cape must not trigger a recovery");
     Ok(())
 }
 
-/// A cape in the frame of a body that runs and turns over a floor, feeling all of its inertia, a quarter, none;
-/// a ball goes with the body.
+/// A cape in the frame of a body that moves and rotates over a floor, with an inertia share of 1, 1/4 and
+/// 0; a ball moves with the body.
 pub fn cape_in_a_running_frame(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0625))?;
     let shoulders: Vec<u32> = (0..12).collect();
@@ -81,8 +82,8 @@ pub fn cape_in_a_running_frame(trace: &mut Trace) -> Result<()> {
         position: Vec3::Y * -1.0,
         ..ColliderDesc::default()
     })?;
-    let led: Vec<u32> = (60..72).collect();
-    cloth.set_max_distances(&led, &[0.25; 12])?;
+    let anchored: Vec<u32> = (60..72).collect();
+    cloth.set_max_distances(&anchored, &[0.25; 12])?;
     for i in 1..=90 {
         let (to, turned) = (along(Vec3::ZERO, Vec3::new(0.125, 0.0, 0.0625), i), turn(i / 4));
         cloth.move_frame(to, turned, [1.0, 0.25, 0.0][i as usize / 31])?;
@@ -91,45 +92,47 @@ pub fn cape_in_a_running_frame(trace: &mut Trace) -> Result<()> {
         if i == 50 {
             cloth = Cloth::restore(&cloth.save())?;
         }
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
-    trace.look(&mut cloth);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// A skirt on leashes about an animated body, with backstops and the stretch bound, that a grab pulls at.
+/// A skirt with anchors, max distances, backstops and a strain limit, pulled by a grab.
 pub fn skirt_on_leashes(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&cape(PinMode::TopEdge, 0.0625))?;
-    let led: Vec<u32> = (12..216).collect();
-    let rest: Vec<Vec3> =
-        led.iter().map(|i| Vec3::new((i % 12) as f32, -((i / 12) as f32), 0.0) * 0.0625).collect();
-    let distances: Vec<f32> = led.iter().map(|i| (i / 12) as f32 / 64.0).collect();
-    cloth.set_max_distances(&led, &distances)?;
-    cloth.set_backstops(&led[24..], &[0.015625; 180], &[0.5; 180])?;
+    let anchored: Vec<u32> = (12..216).collect();
+    let rest: Vec<Vec3> = anchored
+        .iter()
+        .map(|i| Vec3::new((i % 12) as f32, -((i / 12) as f32), 0.0) * 0.0625)
+        .collect();
+    let distances: Vec<f32> = anchored.iter().map(|i| (i / 12) as f32 / 64.0).collect();
+    cloth.set_max_distances(&anchored, &distances)?;
+    cloth.set_backstops(&anchored[24..], &[0.015625; 180], &[0.5; 180])?;
     let waist: Vec<u32> = (0..12).collect();
     for i in 1..=80 {
         let to = along(Vec3::ZERO, Vec3::new(0.03125, 0.0, 0.0625), if i < 50 { i } else { 50 });
         let anchors: Vec<Vec3> = rest.iter().map(|x| *x + to).collect();
         let normal = if i % 16 < 8 { Vec3::new(0.25, 0.0, -2.0) } else { -Vec3::Z };
         let normals = vec![normal; if i % 4 == 0 { 0 } else { 204 }];
-        cloth.set_anchors(&led, &anchors, &normals)?;
+        cloth.set_anchors(&anchored, &anchors, &normals)?;
         let pins: Vec<Vec3> = waist.iter().map(|p| to + Vec3::X * (*p as f32 * 0.0625)).collect();
         cloth.set_pin_targets(&waist, &pins)?;
         if i == 40 {
             let grab = cloth.grab_particle(150)?;
             cloth.move_grab(grab, to + Vec3::new(0.5, -0.75, 0.75))?;
-            trace.run(&mut cloth, 10);
+            trace.step(&mut cloth, 10);
             cloth.release(grab)?;
         }
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
     let from = along(Vec3::new(0.34375, -0.28125, -8.0), Vec3::new(0.03125, 0.0, 0.0625), 50);
-    trace.word(u64::from(cloth.cut(from, from - Vec3::Y * 2.0, Vec3::Z * 16.0)?));
+    trace.record_word(u64::from(cloth.cut(from, from - Vec3::Y * 2.0, Vec3::Z * 16.0)?));
     let mut restored = Cloth::restore(&cloth.save())?;
-    trace.run(&mut cloth, 20);
-    trace.run(&mut restored, 20);
+    trace.step(&mut cloth, 20);
+    trace.step(&mut restored, 20);
     cloth.clear_leashes();
-    trace.run(&mut cloth, 20);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 20);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }

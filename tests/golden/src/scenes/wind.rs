@@ -1,10 +1,10 @@
-//! Cloths in the wind.
+//! Scenes with wind and aerodynamic forces.
 
 use crate::Trace;
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, PinMode, Preset, Result, Settings, Wind, WindModel};
 
-/// The sheet that everybody gets first, in a wind with all that a wind can have.
+/// The default sheet in a wind that uses every wind parameter.
 pub fn hanging_in_gusts(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc::default())?;
     cloth.set_wind(Wind {
@@ -15,13 +15,13 @@ pub fn hanging_in_gusts(trace: &mut Trace) -> Result<()> {
         seed: 7,
         ..Wind::default()
     })?;
-    trace.run(&mut cloth, 150);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 150);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// Hung by two corners: lifted by a wind on its surface, then rocked by the field of sine waves. Its
-/// size leaves rests of rows whatever the number of lanes.
+/// A sheet pinned at two corners, first with lift in turbulent wind, then in the sine field. Its size is
+/// no multiple of any SIMD width, so that the tails of rows are used too.
 pub fn two_corners_in_waves(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 23,
@@ -32,15 +32,15 @@ pub fn two_corners_in_waves(trace: &mut Trace) -> Result<()> {
     })?;
     let velocity = Vec3::new(3.0, 0.5, 1.0);
     cloth.set_wind(Wind { velocity, turbulence: 0.25, seed: 3, ..Wind::default() })?;
-    trace.run(&mut cloth, 80);
+    trace.step(&mut cloth, 80);
     let model = WindModel::SineField;
     cloth.set_wind(Wind { model, velocity: Vec3::new(0.0, 0.0, 4.0), ..Wind::default() })?;
-    trace.run(&mut cloth, 80);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 80);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// Soft links under a load that only the bound on stretch bears.
+/// Soft links under a load that only the strain limit can carry.
 pub fn cotton_in_a_storm(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 19,
@@ -58,8 +58,8 @@ pub fn cotton_in_a_storm(trace: &mut Trace) -> Result<()> {
         seed: 11,
         ..Wind::default()
     })?;
-    trace.run(&mut cloth, 150);
-    trace.look(&mut cloth);
-    assert!(cloth.stats().max_stretch > 0.01, "the storm hardly pulls at the cloth");
+    trace.step(&mut cloth, 150);
+    trace.record_outputs(&mut cloth);
+    assert!(cloth.stats().max_stretch > 0.01, "the wind hardly stretches the cloth");
     Ok(())
 }

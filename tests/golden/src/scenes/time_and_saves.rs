@@ -1,4 +1,4 @@
-//! Cloths whose time runs differently, or again.
+//! Scenes with other time steps, saves, resets and changes of settings.
 
 use super::along;
 use crate::Trace;
@@ -7,20 +7,20 @@ use muslin::{
     Cloth, ColliderDesc, GridDesc, Material, PinMode, Preset, Result, Settings, Wind, WindModel,
 };
 
-/// One sweep a substep: motion of first order, without tethers.
+/// One iteration per substep, without tethers.
 pub fn first_order(trace: &mut Trace) -> Result<()> {
     let settings = Settings { iterations: 1, substeps: 7, tethers: false, ..Settings::default() };
     let desc = GridDesc { columns: 11, rows: 20, settings, ..GridDesc::default() };
     let mut cloth = Cloth::grid(&desc)?;
     let velocity = Vec3::new(-1.0, 0.0, 2.0);
     cloth.set_wind(Wind { velocity, turbulence: 0.75, seed: 1, ..Wind::default() })?;
-    trace.run(&mut cloth, 150);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 150);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// The settings of the receipt: a hundred and twenty ticks a second, eight substeps of six sweeps,
-/// its wind and its floor.
+/// The settings of the receipt scene: 120 ticks per second, eight substeps of six iterations, its wind
+/// and its floor.
 pub fn receipt(trace: &mut Trace) -> Result<()> {
     let tick = 1.0 / 120.0;
     let settings =
@@ -36,15 +36,15 @@ pub fn receipt(trace: &mut Trace) -> Result<()> {
         tangential_restitution: 0.8,
         ..ColliderDesc::default()
     })?;
-    trace.run(&mut cloth, 20);
+    trace.step(&mut cloth, 20);
     cloth.unpin_all();
-    trace.run(&mut cloth, 20);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 20);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// Saved while it is torn, held and blown at; restored, copied, played on; then reset and played
-/// again. The bytes themselves are the same everywhere.
+/// A cloth is saved while it tears in the wind with a grab, restored, cloned and continued; then it is
+/// reset and runs again. The saved bytes are the same on every platform.
 pub fn saved_and_reset(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 17,
@@ -59,25 +59,25 @@ pub fn saved_and_reset(trace: &mut Trace) -> Result<()> {
     let grab = cloth.grab_particle(6 * 17 + 8)?;
     for i in 1..=50 {
         cloth.move_grab(grab, along(Vec3::new(0.375, -0.25, 0.0), Vec3::Z * 0.0625, i))?;
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
     }
     let bytes = cloth.save();
-    trace.bytes(&bytes);
+    trace.record_bytes(&bytes);
     let mut restored = Cloth::restore(&bytes)?;
     let mut copy = restored.clone();
     for one in [&mut cloth, &mut restored, &mut copy] {
         one.release(grab)?;
-        trace.run(one, 20);
-        trace.look(one);
+        trace.step(one, 20);
+        trace.record_outputs(one);
     }
-    assert_eq!(copy.state_hash(), cloth.state_hash(), "copies went another way");
+    assert_eq!(copy.state_hash(), cloth.state_hash(), "copies must continue with the same bits");
     cloth.reset();
-    trace.run(&mut cloth, 40);
-    trace.look(&mut cloth);
+    trace.step(&mut cloth, 40);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// Frames of uneven length, while settings and material change.
+/// Frames of uneven length while settings and material change.
 pub fn changed_in_flight(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 18,
@@ -101,12 +101,12 @@ pub fn changed_in_flight(trace: &mut Trace) -> Result<()> {
             trace.advance(&mut cloth, (i % 5) as f32 * 0.0078125)?;
         }
     }
-    trace.look(&mut cloth);
+    trace.record_outputs(&mut cloth);
     Ok(())
 }
 
-/// Motion that damping brings down through the subnormal numbers to nothing: a host that flushes
-/// them to zero sooner would end in other bits.
+/// Damping reduces the velocity through the subnormal range to zero. A host that flushes subnormal
+/// numbers to zero would get other bits.
 pub fn fading_to_nothing(trace: &mut Trace) -> Result<()> {
     let still = Settings { gravity: Vec3::ZERO, damping: 60.0, ..Settings::default() };
     let mut cloth = Cloth::grid(&GridDesc {
@@ -122,11 +122,11 @@ pub fn fading_to_nothing(trace: &mut Trace) -> Result<()> {
     }
     let mut subnormal = 0;
     for _ in 0..120 {
-        trace.run(&mut cloth, 1);
+        trace.step(&mut cloth, 1);
         let speed = cloth.velocity(31).map_or(0.0, |v| v.z);
         subnormal += u32::from(speed.is_subnormal());
     }
-    trace.look(&mut cloth);
-    assert!(subnormal > 0, "the motion skips the subnormal numbers");
+    trace.record_outputs(&mut cloth);
+    assert!(subnormal > 0, "the velocity must pass through the subnormal range");
     Ok(())
 }
