@@ -91,8 +91,8 @@ fn ticks_on_several_threads_allocate_nothing() {
             assert_eq!(allocation_count(|| step_and_read(&mut cloth, 100)), 0);
         });
         assert!(cloth.positions().len() > before, "nothing tore");
-        // A job from outside the pool takes a slot in its queue, which allocates about sixty slots at a
-        // time.
+        // A job from outside the pool takes a slot in its queue, which allocates about sixty slots
+        // at a time.
         step_and_read(&mut cloth, 20);
         let (job_count, count) = (2 * 150, allocation_count(|| step_and_read(&mut cloth, 150)));
         assert!(

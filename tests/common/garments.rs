@@ -145,8 +145,8 @@ pub fn defective_mesh() -> MeshDesc {
     // Vertices without triangles, and a separate piece.
     desc.positions.extend([Vec3::Y, Vec3::Y * 2.0]);
     desc.uvs.resize(desc.positions.len(), Vec2::ZERO);
-    let apart = push_grid_patch(&mut desc, [5, 5], 2.0, |x, y| place(20 + x, y));
-    desc.pinned = vec![left, left + 4, right + 2, right + 8, a, b, point, apart, apart + 4];
+    let separate = push_grid_patch(&mut desc, [5, 5], 2.0, |x, y| place(20 + x, y));
+    desc.pinned = vec![left, left + 4, right + 2, right + 8, a, b, point, separate, separate + 4];
     desc
 }
 

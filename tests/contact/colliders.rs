@@ -8,7 +8,6 @@ use crate::common::shapes::{
 use muslin::glam::{EulerRot, Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, Shape};
 
-/// How far triangles may be inside while a sheet lands [m]; particles may not at all.
 /// Largest penetration of triangles while a sheet lands [m]; particles must stay outside.
 const MAX_FACE_PENETRATION: f32 = 2.0e-3;
 

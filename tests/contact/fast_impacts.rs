@@ -9,8 +9,8 @@ fn impact_speeds() -> [f32; 4] {
     [2.0, 5.0, 10.0, 20.0]
 }
 
-/// Moves a sheet and the collider below it together at `speed` [m/s] and asserts that no particle
-/// passes through.
+/// Throws a sheet at the collider below it, or moves the collider into the sheet, at `speed` [m/s],
+/// and asserts that no particle passes through.
 fn assert_no_tunnelling(desc: &ColliderDesc, speed: f32, is_cloth_moving: bool) {
     let mut cloth = Cloth::grid(&free_sheet(12, 0.4, 0.3)).unwrap();
     let handle: Collider = cloth.add_collider(desc).unwrap();

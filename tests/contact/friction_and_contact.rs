@@ -290,7 +290,7 @@ fn restored_and_cloned_cloths_keep_all_colliders_and_the_same_bits() {
 }
 
 #[test]
-fn the_state_hash_depends_on_every_collider_property() {
+fn the_state_hash_depends_on_the_shape_and_thickness_of_a_collider() {
     let hash = |desc: &ColliderDesc| {
         let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
         cloth.add_collider(desc).unwrap();

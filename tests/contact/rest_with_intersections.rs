@@ -51,8 +51,8 @@ fn self_intersecting_cloth(mut desc: GridDesc, iterations: u32, seed: u32) -> Cl
     cloth
 }
 
-/// Asserts that cloths that were thrown about come to rest, and that at least one stays stretched by
-/// its intersections: a cloth that only swings would come to rest in any case.
+/// Asserts that cloths that were thrown about come to rest, and that at least one stays stretched
+/// by its intersections: a cloth that only swings would come to rest in any case.
 fn assert_intersecting_cloths_rest(side: u32, pin_mode: PinMode, iterations: u32) {
     let mut most_stretch: f32 = 0.0;
     for seed in 0..SEEDS {

@@ -34,8 +34,8 @@ fn bounds(cloth: &Cloth) -> (Vec3, Vec3) {
     all.fold((first, first), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
-/// Cuts through the whole heap from above, turned about the vertical by `turn` [rad] and offset from
-/// its centre by `beside` [m]; returns the number of opened edges.
+/// Cuts through the whole heap from above, turned about the vertical by `turn` [rad] and offset
+/// from its centre by `beside` [m]; returns the number of opened edges.
 fn cut_from_above(cloth: &mut Cloth, turn: f32, beside: f32) -> u32 {
     let (low, high) = bounds(cloth);
     let [along, across] = [Vec3::X, Vec3::Z].map(|axis| Quat::from_rotation_y(turn) * axis);
@@ -43,8 +43,8 @@ fn cut_from_above(cloth: &mut Cloth, turn: f32, beside: f32) -> u32 {
     cloth.cut(above - along * 0.45, above + along * 0.45, Vec3::NEG_Y * 3.0).unwrap()
 }
 
-/// Runs `act` and one step per tick, and asserts that no triangles intersect before or after any step.
-/// At two ticks it also asserts that a restored cloth continues with the same bits.
+/// Runs `act` and one step per tick, and asserts that no triangles intersect before or after any
+/// step. At two ticks it also asserts that a restored cloth continues with the same bits.
 fn run_without_crossings(
     name: &str,
     cloth: &mut Cloth,
@@ -136,14 +136,14 @@ fn ripping_a_crumpled_sheet_with_grabs_causes_no_self_intersection() {
         let (before, particle) = (cloth.positions().len(), side / 2);
         let grab = cloth.grab_particle(particle).unwrap();
         cloth.grab_particle(side * side - 1).unwrap();
-        let held = cloth.positions()[particle as usize];
+        let start = cloth.positions()[particle as usize];
         run_without_crossings(
             &format!("ripped {side} {seed} {at}"),
             &mut cloth,
             75,
             |cloth, tick| {
                 let by = Vec3::new(0.006, 0.01, 0.018) * tick as f32;
-                cloth.move_grab(grab, held + by).unwrap();
+                cloth.move_grab(grab, start + by).unwrap();
             },
         );
         let torn = cloth.positions().len() - before;
@@ -158,12 +158,12 @@ fn a_particle_pulled_through_a_heap_pushes_the_surfaces_in_its_path() {
     let mut cloth = crumpled_sheet(side, 0, 90);
     let grab = cloth.grab_particle(particle).unwrap();
     cloth.grab_particle(side * side - 1).unwrap();
-    let held = cloth.positions()[particle as usize];
+    let start = cloth.positions()[particle as usize];
     let by = |tick: u32| Vec3::new(0.006, 0.01, 0.018) * tick as f32;
     run_without_crossings("pulled", &mut cloth, 45, |cloth, tick| {
-        cloth.move_grab(grab, held + by(tick)).unwrap();
+        cloth.move_grab(grab, start + by(tick)).unwrap();
     });
-    assert_eq!(cloth.positions()[particle as usize], held + by(44));
+    assert_eq!(cloth.positions()[particle as usize], start + by(44));
 }
 
 /// A wrinkled sheet that rotates in free flight.

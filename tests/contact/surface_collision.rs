@@ -1,5 +1,5 @@
-//! Surface collision: triangles never intersect, sheets rest on each other at the rest gap, momentum
-//! is conserved, and pins and grabs keep their targets.
+//! Surface collision: triangles never intersect, sheets rest on each other at the rest gap,
+//! momentum is conserved, and pins and grabs keep their targets.
 
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings, Shape};
@@ -55,8 +55,8 @@ fn sphere_at(radius: f32, position: Vec3) -> ColliderDesc {
     ColliderDesc { shape: Shape::Sphere, radius, position, ..ColliderDesc::default() }
 }
 
-/// Runs `act` and one step per tick; returns the largest and the last number of intersecting triangle
-/// pairs, counted every fifth tick.
+/// Runs `act` and one step per tick; returns the largest and the last number of intersecting
+/// triangle pairs, counted every fifth tick.
 fn most_and_last_crossings(
     name: &str,
     cloth: &mut Cloth,
@@ -79,7 +79,7 @@ fn most_and_last_crossings(
         }
     }
     println!(
-        "{name}: {most} at most, {last} at the end; rms {:.2} mm/s, {:.2} ms a tick, {:.2} at worst",
+        "{name}: {most} at most, {last} at the end; rms {:.2} mm/s, {:.2} ms a tick, at most {:.2}",
         1.0e3 * rms_speed(cloth),
         1.0e3 * spent / f64::from(ticks),
         1.0e3 * worst

@@ -1,5 +1,5 @@
-//! Untangling: surfaces that already intersect are separated, whatever the kind of intersection, and
-//! come to rest.
+//! Untangling: surfaces that already intersect are separated, whatever the kind of intersection,
+//! and come to rest.
 
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Settings};
@@ -15,8 +15,8 @@ fn settings_with(self_collision: SelfCollision) -> Settings {
     Settings { self_collision, ..Settings::default() }
 }
 
-/// Two sheets in one mesh. The first lies at height 0, its border pinned if `is_pinned`; `place(u, v)`
-/// gives the positions of the second, with `u` and `v` from 0 to 1 along its sides.
+/// Two sheets in one mesh. The first lies at height 0, its border pinned if `is_pinned`. `place`
+/// gives the positions of the second from coordinates that run from 0 to 1 along its sides.
 fn two_sheets(is_pinned: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
     let settings = settings_with(SelfCollision::Surface);
     let mut desc = MeshDesc { settings, ..MeshDesc::default() };
@@ -40,8 +40,8 @@ fn two_sheets(is_pinned: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
     desc
 }
 
-/// Runs `ticks` ticks; asserts that the last intersection disappears before tick `most` and that none
-/// comes back, up to and including the last half second.
+/// Runs `ticks` ticks; asserts that the last intersection disappears before tick `most` and that
+/// none comes back, up to and including the last half second.
 fn assert_untangles(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
     let before = crossing_count(cloth);
     assert!(before >= 8, "{name}: only {before} intersections at the start");
@@ -126,7 +126,7 @@ fn centre_of_mass(cloth: &Cloth) -> Vec3 {
 fn interleaved_sheets_are_untangled_and_keep_their_centre_of_mass() {
     let mut cloth = Cloth::mesh(&interleaved_sheets()).unwrap();
     let before = centre_of_mass(&cloth);
-    assert_untangles("cards", &mut cloth, 60, 120);
+    assert_untangles("interleaved sheets", &mut cloth, 60, 120);
     let moved = centre_of_mass(&cloth).distance(before);
     assert!(moved < 1.0e-4, "the centre of mass moved by {moved} m");
 }
@@ -226,7 +226,7 @@ fn pinned_sheets_moved_through_each_other_are_untangled_after_unpinning() {
 #[test]
 fn a_cloth_restored_while_it_untangles_continues_with_the_same_bits() {
     let mut all = [
-        ("cards", Cloth::mesh(&interleaved_sheets()).unwrap()),
+        ("interleaved sheets", Cloth::mesh(&interleaved_sheets()).unwrap()),
         ("shirt", garment_with_late_collision(shirt())),
         ("heap", crumpled_heap(0, SelfCollision::Particles)),
     ];

@@ -31,8 +31,8 @@ fn a_sheet_at_the_slider_limits_stays_finite_and_comes_to_rest() {
         let mut grab = None;
         for tick in 0..10_000_u32 {
             if tick % 100 == 0 {
-                if let Some(held) = grab.take() {
-                    cloth.release(held).unwrap();
+                if let Some(previous) = grab.take() {
+                    cloth.release(previous).unwrap();
                 }
                 let particle = tick.wrapping_mul(2_654_435_761) % cloth.positions().len() as u32;
                 grab = Some(cloth.grab_particle(particle).unwrap());
@@ -43,8 +43,8 @@ fn a_sheet_at_the_slider_limits_stays_finite_and_comes_to_rest() {
             cloth.move_grab(grab.unwrap(), thrown).unwrap();
             cloth.step(1);
             assert!(cloth.positions().iter().all(|x| x.is_finite()), "tick {tick}");
-            // The sheet is 1.95 m high and wide; the grab moves up to 6·√3 m away. Torn pieces may fly
-            // farther.
+            // The sheet is 1.95 m high and wide; the grab moves up to 6·√3 m away. Torn pieces may
+            // fly farther.
             assert!(
                 tearing || largest_distance(&cloth) < 6.0 * 1.74 + 1.95,
                 "tick {tick}: {}",
@@ -88,8 +88,8 @@ fn a_grabbed_particle_reaches_its_target_exactly_within_the_speed_limit() {
     let mut cloth = Cloth::grid(&GridDesc::default()).unwrap();
     cloth.step(60);
     let grabs = [(420, Vec3::new(0.3, -0.5, 0.4)), (1430, Vec3::new(1.5, -1.6, -0.4))];
-    let held: Vec<_> = grabs.iter().map(|(i, _)| cloth.grab_particle(*i).unwrap()).collect();
-    for (grab, (_, target)) in held.iter().zip(grabs) {
+    let handles: Vec<_> = grabs.iter().map(|(i, _)| cloth.grab_particle(*i).unwrap()).collect();
+    for (grab, (_, target)) in handles.iter().zip(grabs) {
         cloth.move_grab(*grab, target).unwrap();
     }
     let most = 0.5 * 0.05 * cloth.settings().substeps as f32;
@@ -104,7 +104,7 @@ fn a_grabbed_particle_reaches_its_target_exactly_within_the_speed_limit() {
     for (i, target) in grabs {
         assert_eq!(cloth.positions()[i as usize], target);
     }
-    for grab in held {
+    for grab in handles {
         cloth.release(grab).unwrap();
     }
 }

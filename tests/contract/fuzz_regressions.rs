@@ -49,8 +49,8 @@ fn normals_are_finite_wherever_a_particle_is_placed() {
     }
 }
 
-/// The original cloth kept its pin distances over a teleport, while the restored cloth measured them
-/// again with other rounding.
+/// The original cloth kept its pin distances over a teleport, while the restored cloth measured
+/// them again with other rounding.
 #[test]
 fn a_cloth_saved_after_a_teleport_continues_with_the_same_bits() {
     let mut cloth = Cloth::grid(&small_grid()).unwrap();
@@ -63,8 +63,9 @@ fn a_cloth_saved_after_a_teleport_continues_with_the_same_bits() {
     assert_eq!(restored.state_hash(), cloth.state_hash());
 }
 
-/// A moved pin ends its tick at its target up to rounding. The original cloth kept the pin distances
-/// from that tick, while the restored cloth measured them from the positions of the next tick.
+/// A moved pin ends its tick at its target up to rounding. The original cloth kept the pin
+/// distances from that tick, while the restored cloth measured them from the positions of the next
+/// tick.
 #[test]
 fn a_cloth_saved_after_pins_moved_continues_with_the_same_bits() {
     for case in 0..40 {

@@ -82,7 +82,8 @@ fn attached_particles_stay_exact_on_a_body_that_moves_and_rotates() {
             fastest < BODY_SPEED + TURNS_PER_SECOND * core::f32::consts::TAU * 1.2 + 2.0,
             "{fastest} m/s"
         );
-        // Without a strain limit, 20 m/s of air speed and 14 g stretch the soft shear links of cotton.
+        // Without a strain limit, 20 m/s of air speed and 14 g stretch the soft shear links of
+        // cotton.
         let most = if max_stretch > 0.0 { max_stretch * 1.00001 } else { 0.8 };
         assert!(longest < most, "stretched by {longest}");
         assert!(core::iter::from_fn(|| cloth.next_event()).all(|e| e.kind != EventKind::Recovered));
@@ -128,10 +129,10 @@ fn grabs_set_position_and_pin_change_an_attachment_as_documented() {
     let body = cloth.attach(&top_edge(), Vec3::ZERO, Quat::IDENTITY).unwrap();
     // A grab overrides the attachment; after release the particle returns within one tick.
     let grab = cloth.grab_particle(3).unwrap();
-    let held = cloth.positions()[3] + Vec3::Y * 0.05;
-    cloth.move_grab(grab, held).unwrap();
+    let target = cloth.positions()[3] + Vec3::Y * 0.05;
+    cloth.move_grab(grab, target).unwrap();
     cloth.step(5);
-    assert!(cloth.positions()[3].distance(held) < 1e-6);
+    assert!(cloth.positions()[3].distance(target) < 1e-6);
     cloth.release(grab).unwrap();
     let (position, rotation) = (Vec3::new(0.1, 0.0, 0.0), Quat::from_rotation_y(0.1));
     cloth.move_attachment(body, position, rotation).unwrap();
@@ -383,7 +384,8 @@ fn teleporting_body_and_cape_together_does_not_disturb_the_cape() {
     let grab = cloth.grab_particle(599).unwrap();
     cloth.set_velocity(300, Vec3::new(0.5, 0.0, 0.25)).unwrap();
     cloth.step(30);
-    // The rotation is about the vertical, so gravity stays the same. One cloth teleports, one stays.
+    // The rotation is about the vertical, so gravity stays the same. One cloth teleports, one
+    // stays.
     let mut stays = cloth.clone();
     let (position, rotation) = (Vec3::new(30.0, 2.0, -7.0), Quat::from_rotation_y(2.5));
     cloth.set_frame(Vec3::ZERO, Quat::IDENTITY).unwrap();

@@ -66,7 +66,8 @@ pub fn report(every_tick: bool) -> String {
     format!("instructions {}\n{}", instructions(), table(every_tick))
 }
 
-/// Runs all scenes. Returns one line `name 0xhash` per scene, or one line `name tick 0xhash` per tick.
+/// Runs all scenes. Returns one line `name 0xhash` per scene, or one line `name tick 0xhash` per
+/// tick.
 pub fn table(every_tick: bool) -> String {
     let mut table = String::new();
     for scene in SCENES {

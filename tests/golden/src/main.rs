@@ -1,5 +1,5 @@
-//! Prints the instruction set in use and the table of hashes; with `--every-tick` the hash after every
-//! tick.
+//! Prints the instruction set in use and the table of hashes; with `--every-tick` the hash after
+//! every tick.
 
 use std::process::ExitCode;
 

@@ -1,7 +1,7 @@
 //! Trace of a scene: one hash over all outputs of its cloths, with an intermediate hash per tick.
 //!
-//! Reads cloths through their public interface. Invariant: the hash depends only on values that must
-//! be equal on every platform, so times and memory sizes are left out.
+//! Reads cloths through their public interface. Invariant: the hash depends only on values that
+//! must be equal on every platform, so times and memory sizes are left out.
 
 use muslin::{Cloth, Event, EventKind, Hit, Stats};
 
@@ -14,7 +14,8 @@ pub struct TickHash {
     pub hash: u64,
 }
 
-/// A running hash with its value after every tick, so that the first tick that differs can be found.
+/// A running hash with its value after every tick, so that the first tick that differs can be
+/// found.
 #[derive(Clone, Debug, Default)]
 pub struct Trace {
     hash: u64,
@@ -63,7 +64,8 @@ impl Trace {
         }
     }
 
-    /// Advances the cloth by `seconds` [s] and records the number of ticks, the blend and the state hash.
+    /// Advances the cloth by `seconds` [s] and records the number of ticks, the blend and the state
+    /// hash.
     ///
     /// # Errors
     /// As [`Cloth::advance`].
@@ -91,8 +93,8 @@ impl Trace {
         self.events.iter().filter(|event| **event == kind).count()
     }
 
-    /// Records everything that a host can read: vertex data, links, time, stats and events. Removes all
-    /// pending events from the cloth.
+    /// Records everything that a host can read: vertex data, links, time, stats and events. Removes
+    /// all pending events from the cloth.
     pub fn record_outputs(&mut self, cloth: &mut Cloth) {
         let view = cloth.view();
         for v in view.positions.iter().chain(view.normals) {
@@ -142,8 +144,8 @@ impl Trace {
         self.record_word(u64::from(value.to_bits()));
     }
 
-    /// Records a word: multiplies it by an odd number, then folds the high half onto the low half. Both
-    /// steps are invertible, so no bit is lost.
+    /// Records a word: multiplies it by an odd number, then folds the high half onto the low half.
+    /// Both steps are invertible, so no bit is lost.
     pub fn record_word(&mut self, word: u64) {
         let mixed = (self.hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         self.hash = (mixed ^ (mixed >> 32)).wrapping_add(0x632b_e59b_d9b4_e019);

@@ -29,8 +29,8 @@ fn cape(pin_mode: PinMode, max_stretch: f32) -> GridDesc {
     desc
 }
 
-/// A cape follows a body that moves and rotates, attached by hard and soft pins, with heavier particles in
-/// its hem. It is cut up to its collar, saved, teleported and detached.
+/// A cape follows a body that moves and rotates, attached by hard and soft pins, with heavier
+/// particles in its hem. It is cut up to its collar, saved, teleported and detached.
 pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0))?;
     let collar: Vec<u32> = (0..12).collect();
@@ -68,8 +68,8 @@ pub fn garment_on_a_moving_body(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// A cape in the frame of a body that moves and rotates over a floor, with an inertia share of 1, 1/4 and
-/// 0; a ball moves with the body.
+/// A cape in the frame of a body that moves and rotates over a floor, with an inertia share of 1,
+/// 1/4 and 0; a ball moves with the body.
 pub fn cape_in_a_running_frame(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0625))?;
     let shoulders: Vec<u32> = (0..12).collect();

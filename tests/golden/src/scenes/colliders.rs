@@ -27,8 +27,8 @@ fn record_impulse(trace: &mut Trace, cloth: &Cloth, collider: Collider) -> Resul
     Ok(())
 }
 
-/// A sheet falls on a ball that rises and turns, a tapered capsule, a tilted box and a pyramid, then on a
-/// floor after these are removed.
+/// A sheet falls on a ball that rises and turns, a tapered capsule, a tilted box and a pyramid,
+/// then on a floor after these are removed.
 pub fn draped_over_solids(trace: &mut Trace) -> Result<()> {
     let mut cloth = horizontal_sheet(25, 23, Vec3::new(-0.75, 0.5, -0.6875))?;
     let start = Vec3::new(-0.375, 0.0, -0.25);
@@ -100,7 +100,8 @@ pub fn draped_over_solids(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// A sheet is thrown on a heightfield, where a triangle mesh slides into it and a box rotates above it.
+/// A sheet is thrown on a heightfield, where a triangle mesh slides into it and a box rotates above
+/// it.
 pub fn thrown_on_hills(trace: &mut Trace) -> Result<()> {
     let mut cloth = horizontal_sheet(19, 17, Vec3::new(-0.5, 0.5, -0.5))?;
     for particle in 0..19 * 17 {

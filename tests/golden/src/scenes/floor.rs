@@ -5,8 +5,8 @@ use crate::Trace;
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, Material, PinMode, Result};
 
-/// A horizontal sheet falls on a plane with restitution that tilts, rises and is removed above another
-/// plane.
+/// A horizontal sheet falls on a plane with restitution that tilts, rises and is removed above
+/// another plane.
 pub fn dropped_on_a_tilting_floor(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 21,

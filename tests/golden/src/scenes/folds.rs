@@ -8,8 +8,8 @@ use muslin::{Cloth, EventKind, GridDesc, Material, PinMode, Preset, Result, Sett
 const COLUMNS: u32 = 24;
 const ROWS: u32 = 11;
 
-/// Paper without gravity is bent between two pinned edges, released, creased and torn, and finally gets
-/// the material cotton.
+/// Paper without gravity is bent between two pinned edges, released, creased and torn, and finally
+/// gets the material cotton.
 pub fn paper_folded_and_creased(trace: &mut Trace) -> Result<()> {
     let paper = Material { yield_angle: 0.25, drag: 0.25, ..Material::preset(Preset::Paper) };
     let mut cloth = Cloth::grid(&GridDesc {
@@ -79,7 +79,8 @@ pub fn patch_creased(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// A grid and an irregular mesh of paper harden and weaken where they are folded, creased, torn and cut.
+/// A grid and an irregular mesh of paper harden and weaken where they are folded, creased, torn and
+/// cut.
 pub fn folds_worn(trace: &mut Trace) -> Result<()> {
     let (yield_hardening, yield_weakening) = (0.5, 2.0);
     let paper = Material { yield_angle: 0.25, drag: 0.25, ..Material::preset(Preset::Paper) };

@@ -6,8 +6,8 @@ use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, EventKind, Material, MeshDesc, Preset, Result};
 
 /// A vest: front and back are separate in the texture and are welded along both sides. The mesh has
-/// duplicate triangles, triangles that face inwards, a third triangle on an edge, and a vertex without
-/// triangles.
+/// duplicate triangles, triangles that face inwards, a third triangle on an edge, and a vertex
+/// without triangles.
 fn vest() -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0 / 1024.0, ..MeshDesc::default() };
     let (columns, rows) = (13, 16);

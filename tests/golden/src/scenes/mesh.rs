@@ -5,8 +5,8 @@ use crate::Trace;
 use muslin::glam::{Vec2, Vec3};
 use muslin::{Cloth, EventKind, Material, MeshDesc, Preset, Result, Settings, Wind};
 
-/// An irregular sheet of `columns` × `rows` vertices: random offsets, diagonals in both directions, a
-/// third of the triangles wound the other way, and a hole with four vertices without triangles.
+/// An irregular sheet of `columns` × `rows` vertices: random offsets, diagonals in both directions,
+/// a third of the triangles wound the other way, and a hole with four vertices without triangles.
 pub(super) fn irregular_mesh(columns: u32, rows: u32) -> MeshDesc {
     let mut random = 0x2545_f491_u32;
     // Xorshift (Marsaglia, 2003): integers, so the same on any host.

@@ -5,8 +5,8 @@ use crate::Trace;
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, SelfCollision, Settings};
 
-/// A sheet falls on its lower edge and crumples, is cut and torn, and is lifted by a corner with a larger
-/// collision distance. The restored cloth falls again, at last without self-collision.
+/// A sheet falls on its lower edge and crumples, is cut and torn, and is lifted by a corner with a
+/// larger collision distance. The restored cloth falls again, at last without self-collision.
 pub fn crumpled_by_particles(trace: &mut Trace) -> Result<()> {
     let (columns, rows) = (19, 23);
     let colliding = Settings { self_collision: SelfCollision::Particles, ..Settings::default() };

@@ -5,8 +5,8 @@ use crate::Trace;
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, SelfCollision, Settings};
 
-/// A sheet falls on its lower edge and crumples, is cut and torn, and is lifted by a corner. The restored
-/// cloth falls again.
+/// A sheet falls on its lower edge and crumples, is cut and torn, and is lifted by a corner. The
+/// restored cloth falls again.
 pub fn crumpled_in_layers(trace: &mut Trace) -> Result<()> {
     let (columns, rows) = (15, 19);
     let mut desc = GridDesc { columns, rows, spacing: 0.0625, ..GridDesc::default() };
@@ -39,8 +39,8 @@ pub fn crumpled_in_layers(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// A sheet falls on its lower edge and intersects itself, is untangled, is saved meanwhile, and a corner
-/// is placed elsewhere.
+/// A sheet falls on its lower edge and intersects itself, is untangled, is saved meanwhile, and a
+/// corner is placed elsewhere.
 pub fn drawn_out_of_itself(trace: &mut Trace) -> Result<()> {
     let (columns, rows) = (13, 15);
     let mut desc = GridDesc { columns, rows, spacing: 0.0625, ..GridDesc::default() };

@@ -57,8 +57,8 @@ pub fn sheet_torn_to_pieces(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// Blades cut a grid and a mesh in the wind, next to pins and twice in the same place; then a grab tears
-/// them further.
+/// Blades cut a grid and a mesh in the wind, next to pins and twice in the same place; then a grab
+/// tears them further.
 pub fn cut_by_blades(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&thin_sheet(19, 21))?;
     let mut mesh = Cloth::mesh(&uneven_mesh())?;

@@ -19,8 +19,8 @@ pub fn first_order(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// The settings of the receipt scene: 120 ticks per second, eight substeps of six iterations, its wind
-/// and its floor.
+/// The settings of the receipt scene: 120 ticks per second, eight substeps of six iterations, its
+/// wind and its floor.
 pub fn receipt(trace: &mut Trace) -> Result<()> {
     let tick = 1.0 / 120.0;
     let settings =
@@ -43,8 +43,8 @@ pub fn receipt(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
-/// A cloth is saved while it tears in the wind with a grab, restored, cloned and continued; then it is
-/// reset and runs again. The saved bytes are the same on every platform.
+/// A cloth is saved while it tears in the wind with a grab, restored, cloned and continued; then it
+/// is reset and runs again. The saved bytes are the same on every platform.
 pub fn saved_and_reset(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 17,

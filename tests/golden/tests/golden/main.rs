@@ -1,5 +1,5 @@
-//! Compares the scenes with the golden hashes: on one thread, under other floating-point modes, and on
-//! several threads.
+//! Compares the scenes with the golden hashes: on one thread, under other floating-point modes, and
+//! on several threads.
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod modes;

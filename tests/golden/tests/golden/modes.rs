@@ -1,5 +1,5 @@
-//! Hosts with other floating-point modes: flush-to-zero and rounding up. The library must neither let
-//! them change a bit nor leave its own modes behind.
+//! Hosts with other floating-point modes: flush-to-zero and rounding up. The library must neither
+//! let them change a bit nor leave its own modes behind.
 
 use crate::{hash_text, scenes_with_golden_hashes};
 use muslin::glam::{Quat, Vec3};
@@ -113,8 +113,8 @@ fn host_floating_point_modes_change_no_bit_and_are_restored() {
     }
 }
 
-/// Cloths are split over the host's own threads, which run with its modes and also do other work. A thread
-/// that waits for its part of a cloth may execute either kind of job.
+/// Cloths are split over the host's own threads, which run with its modes and also do other work. A
+/// thread that waits for its part of a cloth may execute either kind of job.
 #[cfg(feature = "parallel")]
 #[test]
 fn host_thread_modes_change_no_bit_and_are_restored_for_other_jobs() {

@@ -4,12 +4,12 @@
 use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, EventKind, GridDesc, Wind};
 
-/// A changed hash means a changed simulation: give the reason in CHANGELOG.md, then replace the number
-/// in the file.
+/// A changed hash means a changed simulation: give the reason in CHANGELOG.md, then replace the
+/// number in the file.
 const GOLDEN: &str = include_str!("../../../script.hash");
 
-/// Runs 630 ticks: a sheet hangs in the wind, is dragged by a grab until it tears, is torn by a call,
-/// released, cut, dropped on a floor and lifted by a corner.
+/// Runs 630 ticks: a sheet hangs in the wind, is dragged by a grab until it tears, is torn by a
+/// call, released, cut, dropped on a floor and lifted by a corner.
 fn cloth_after_script() -> Cloth {
     let mut desc = GridDesc::default();
     desc.settings.tearing = true;
