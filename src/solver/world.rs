@@ -174,7 +174,7 @@ pub(crate) struct World {
     /// Data of particle collision, while `self_collision` is `Particles`. Written by
     /// `particle_contacts`.
     pub particle_collision: Option<Box<ParticleCollision>>,
-    /// Contact forces [N] of the last substep, which warm-start the next; empty without surface
+    /// Contact forces [N] of the last substep, used to warm-start the next; empty without surface
     /// collision. Written by `surface_stages`.
     pub warm_start: WarmStart,
     /// Whether the surface may intersect itself: each substep then tests all of it. Written by
@@ -213,11 +213,11 @@ pub(crate) struct TickScratch {
     /// Indices of the particles that anchors moved in this substep. Written by
     /// `kinematic::anchors`.
     pub anchor_moved: Vec<u32>,
-    /// Weights of both ends of each link, from inverse masses and compliances. Written by
+    /// Weights of both ends of each link, from inverse masses. Written by
     /// `stretch::inverse_masses`.
     pub end_weights: EndWeights,
-    /// Positions [m] and inverse masses [1/kg] as x, y, z, w, for kernels that gather particles.
-    /// Written by `mesh_kernel::gather` and the stages up to `mesh_kernel::scatter`.
+    /// Positions [m] as `[x, y, z, 0]`, and inverse masses [1/kg], for kernels that gather
+    /// particles. Written by `mesh_kernel::gather` and the stages up to `mesh_kernel::scatter`.
     pub interleaved: InterleavedParticles,
     /// Particles and elimination steps of the line solver. Written by `line_gather` and
     /// `line_solver`.
@@ -227,8 +227,8 @@ pub(crate) struct TickScratch {
     /// Rest lengths [m] and compliances [m/N] of the links without damping. Written by
     /// `stretch::damping`.
     pub damping: DampingScratch,
-    /// Nearby triangles, contacts and impulses of the colliders. Written by the stages in
-    /// `collide`.
+    /// Nearby blocks and candidate pairs, contacts, and impulses on the colliders. Written by the
+    /// stages in `collide`.
     pub contacts: ContactScratch,
     /// Tear candidates and fans. Written by stage `Tear`.
     pub tear: TearScratch,

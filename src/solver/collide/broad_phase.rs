@@ -52,9 +52,9 @@ pub(super) fn update_swept_bounds(world: &mut World) {
         let entry = &mut nearby.entries[count];
         let distance = contact_gap(body, thickness) + entry.sagitta_margin;
         entry.now = SweptBounds::of_body(body, shape, distance);
-        // Cloth that got deep between two edges of a shape is a candidate or not, depending on when
-        // the search ran. It therefore runs at the start of every tick, so that a restored cloth
-        // continues the same.
+        // For cloth that is deep between two edges of a shape, the candidates depend on when the
+        // search ran. So the search runs at the start of every tick, and a restored cloth gives the
+        // same result.
         nearby.is_stale |= shape.bends().is_some() || !entry.searched.contains(&entry.now);
         count += 1;
     }

@@ -136,8 +136,8 @@ fn project_all(world: &mut World, limit: f32) {
         // The last tick is no state to roll back to, and the contraction must not fling the cloth.
         stop_moved(world);
     } else {
-        // Anchors that hold the cloth apart held it apart in the last tick too; it contracts as
-        // they let it, without a rollback.
+        // If anchors hold the cloth apart now, they did so in the last tick too, and there is no
+        // valid state to roll back to. The cloth contracts as far as the anchors permit.
         if !(was_over && has_anchors) {
             roll_back(world, limit);
         }

@@ -147,8 +147,8 @@ impl UniformRows {
             return;
         }
         let mut cursor = self.row(rows.start).advance::<PATTERN>(chunks.start * S::LANES);
-        // From the end of the chunks of a row to their start in the next. It may be negative:
-        // wraps.
+        // The step from the end of the chunks of a row to their start in the next row. It may be
+        // negative, so it wraps around.
         let done = RowCursor::default().advance::<PATTERN>(count * S::LANES);
         let step = self.step.minus(done);
         // SAFETY: the caller guarantees it.
