@@ -64,7 +64,7 @@ fn every_input_that_changes_something_wakes_the_cloth() {
     let inputs: [(&str, Input); 18] = [
         ("a moved pin", |cloth| cloth.pin(0, Some(Vec3::Y * 0.1)).unwrap()),
         ("a pin moved by set_pin_targets", |cloth| {
-            cloth.set_pin_targets(&[0], &[Vec3::Y]).unwrap()
+            cloth.set_pin_targets(&[0], &[Vec3::Y]).unwrap();
         }),
         ("a new pin", |cloth| cloth.pin(50, None).unwrap()),
         ("a removed pin", |cloth| cloth.unpin(0).unwrap()),
