@@ -21,7 +21,7 @@ pub fn hanging_in_gusts(trace: &mut Trace) -> Result<()> {
 }
 
 /// A sheet pinned at two corners, first with lift in turbulent wind, then in the sine field. Its
-/// rows are no multiple of any SIMD width, so that the scalar tails of rows run too.
+/// row length is no multiple of any SIMD width, so that the scalar tails of rows run too.
 pub fn two_corners_in_waves(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&GridDesc {
         columns: 23,
