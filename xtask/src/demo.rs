@@ -99,7 +99,7 @@ const MANUAL_PICTURES: [(&str, &str); 6] = [
     ("drape", "--scene discs --size 640x270 --zoom 0.68 --frames 400"),
     ("tear", "--play yank --strip 4 --size 220x220"),
     ("cut", "--play cut --strip 4 --size 220x220"),
-    ("crumple", "--scene tender --play crumple --strip 4 --size 240x240 --zoom 0.5"),
+    ("crumple", "--scene tender --play crumple --strip 4 --size 240x240 --zoom 0.75"),
     ("folds", "--scene tender --play fold --strip 4 --size 240x240"),
 ];
 
