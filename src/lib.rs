@@ -112,23 +112,23 @@ pub use glam;
 #[cfg(doctest)]
 mod documents {
     #[doc = include_str!("../README.md")]
-    struct Readme;
+    struct ReadmePage;
     #[doc = include_str!("../docs/manual/concepts.md")]
-    struct Concepts;
+    struct ConceptsPage;
     #[doc = include_str!("../docs/manual/settings.md")]
-    struct Settings;
+    struct SettingsPage;
     #[doc = include_str!("../docs/manual/materials.md")]
-    struct Materials;
+    struct MaterialsPage;
     #[doc = include_str!("../docs/manual/tearing-and-cutting.md")]
-    struct TearingAndCutting;
+    struct TearingAndCuttingPage;
     #[doc = include_str!("../docs/manual/self-collision.md")]
-    struct SelfCollision;
+    struct SelfCollisionPage;
     #[doc = include_str!("../docs/manual/characters.md")]
-    struct Characters;
+    struct CharactersPage;
     #[doc = include_str!("../docs/manual/determinism.md")]
-    struct Determinism;
+    struct DeterminismPage;
     #[doc = include_str!("../docs/manual/performance.md")]
-    struct Performance;
+    struct PerformancePage;
     #[doc = include_str!("../docs/manual/integration.md")]
-    struct Integration;
+    struct IntegrationPage;
 }
