@@ -97,3 +97,15 @@ pub fn write(path: &Path, text: &str) -> Result {
 pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).during(|| format!("reading {}", path.display()))
 }
+
+/// Waits until no other process of xtask holds the lock `name`, and holds it until the file is
+/// dropped.
+///
+/// Steps that run side by side install things one after the other this way.
+pub fn lock(name: &str) -> Result<fs::File> {
+    let during = || format!("waiting for the lock {name}");
+    create_dir(&target())?;
+    let file = fs::File::create(target().join(format!("{name}.lock"))).during(during)?;
+    file.lock().during(during)?;
+    Ok(file)
+}

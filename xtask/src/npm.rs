@@ -18,13 +18,14 @@ pub fn install() -> Result {
 /// Installs the packages that the lock file of a folder lists, unless just these are installed.
 pub fn install_in(dir: &Path) -> Result {
     setup::ensure(&[&setup::NODE])?;
-    let lock = files::read(&dir.join("package-lock.json"))?;
+    let _lock = files::lock("npm")?;
+    let packages = files::read(&dir.join("package-lock.json"))?;
     let installed = dir.join("node_modules/.installed-lock.json");
-    if files::read(&installed).ok().as_ref() != Some(&lock) {
+    if files::read(&installed).ok().as_ref() != Some(&packages) {
         let mut npm = shell::command("npm");
         npm.current_dir(dir);
         shell::run(npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]))?;
-        files::write(&installed, &lock)?;
+        files::write(&installed, &packages)?;
     }
     Ok(())
 }

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{Failure, Result};
+use crate::files;
 use crate::shell::{self, which};
 
 /// A program or library that a chore needs.
@@ -173,6 +174,7 @@ pub fn print_state(needs: &[&Need]) {
 
 /// Installs the standard library of a target unless it is there.
 pub fn ensure_target(target: &str) -> Result {
+    let _lock = files::lock("rustup")?;
     let mut rustc = shell::command("rustc");
     let libraries = shell::output(rustc.args(["--print", "target-libdir", "--target", target]))?;
     if Path::new(libraries.trim()).is_dir() {
@@ -191,6 +193,7 @@ pub fn rustup(missing: &str, args: &[&str]) -> Result {
 
 /// Installs `component` unless cargo has the subcommand `part`, such as `fmt`.
 pub fn ensure_component(part: &str, component: &str) -> Result {
+    let _lock = files::lock("rustup")?;
     let mut probe = shell::cargo(&[part, "--version"]);
     let probe = probe.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::null());
     if probe.status().is_ok_and(|status| status.success()) {
@@ -329,16 +332,16 @@ mod tests {
 
     #[test]
     fn egl_without_a_driver_is_not_enough() {
-        let dir = crate::files::target().join("xtask-tests").join("egl");
-        crate::files::create_empty_dir(&dir).unwrap();
+        let dir = files::target().join("xtask-tests").join("egl");
+        files::create_empty_dir(&dir).unwrap();
         let dirs = [dir.clone()];
         assert!(!has_egl(&dirs));
         for name in ["libEGL.so.1", "libEGL_mesa.so.0"] {
-            crate::files::write(&dir.join(name), "").unwrap();
+            files::write(&dir.join(name), "").unwrap();
         }
         assert!(!has_egl(&dirs));
-        crate::files::create_dir(&dir.join("dri")).unwrap();
-        crate::files::write(&dir.join("dri").join("swrast_dri.so"), "").unwrap();
+        files::create_dir(&dir.join("dri")).unwrap();
+        files::write(&dir.join("dri").join("swrast_dri.so"), "").unwrap();
         assert!(has_egl(&dirs));
     }
 }
