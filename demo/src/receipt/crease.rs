@@ -1,42 +1,49 @@
-//! Creasing: a finger that runs along a bend and presses it flat. Paper that is only bent springs back.
+//! Creases: finds the bend under a finger and makes it permanent. Paper that is only bent springs
+//! back.
 //!
 //! ```text
-//!   bend    ╭─╮        crease   ╱╲        the line goes on as far as the bend does
+//!   bend    ╭─╮        crease   ╱╲        the crease is as long as the bend
 //!          ╱   ╲               ╱  ╲
 //! ```
+//! Method: the bend angle across a line is the sum of the angles between neighbouring normals; the
+//! direction with the most bending is searched in steps of 7.5°.
+//!
+//! Reads the positions of the cloth on its grid; writes rest angles through [`Cloth::crease`].
+//!
+//! Invariant: a repeated press does not deepen a crease.
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, GridDesc, Result};
 
-/// Cells to either side of a particle over which it is felt how the sheet bends.
+/// Half the distance over which the bend is measured to find its direction [cells].
 const FEEL: f32 = 3.0;
-/// Cells to either side over which all of the bending becomes one crease.
+/// Half the distance over which the whole bend angle is measured [cells].
 const GATHER: f32 = 9.0;
-/// A bend by less than this is no bend [rad].
+/// Least bend angle that counts as a bend [rad].
 const LEAST: f32 = 0.6;
-/// The sharpest crease [rad]: pressed flat, paper opens again by the rest.
+/// Greatest crease angle [rad]: even a flat press opens again by the rest.
 const MOST: f32 = 2.75;
-/// A bend by more than this is pressed flat [rad].
+/// Bend angle above which a press is flat [rad].
 const FLAT: f32 = 1.6;
-/// Bends that are nearer to a crease than this belong to it [cells].
+/// Greatest distance of a bend from a crease that it belongs to [cells].
 const NEAR: f32 = 4.0;
 
-/// A crease in cells of the sheet.
+/// A crease, in cells of the grid.
 #[derive(Clone, Copy, Debug)]
 struct Line {
     middle: Vec2,
     along: Vec2,
-    /// By how much it was creased [rad], towards the front if above 0.
+    /// Crease angle [rad]; positive towards the front.
     angle: f32,
 }
 
-/// The creases so far.
+/// All creases so far.
 #[derive(Clone, Debug, Default)]
 pub struct Creases {
     lines: Vec<Line>,
 }
 
-/// A cloth read as the grid that it was woven as: what tears have split off is not looked at.
+/// The cloth as its original grid, without the particles that tears have added.
 struct Sheet<'a> {
     positions: &'a [Vec3],
     columns: usize,
@@ -44,7 +51,7 @@ struct Sheet<'a> {
 }
 
 impl Creases {
-    /// Creases the bend at a particle and says whether there is one.
+    /// Creases the bend at a particle; returns whether there is one.
     ///
     /// # Errors
     /// As [`Cloth::crease`].
@@ -60,7 +67,7 @@ impl Creases {
             return Ok(false);
         };
         let bend = sheet.turn(middle, along.perp(), GATHER);
-        // A finger presses what is bent so far that both sides meet under it.
+        // In a sharp bend both sides meet under the finger, so that the press is flat.
         let angle = if bend.abs() > FLAT { MOST.copysign(bend) } else { bend };
         let [from, to] = [-1.0, 1.0].map(|way| sheet.end(middle, along * way));
         let is_known = |line: &&mut Line| {
@@ -68,7 +75,7 @@ impl Creases {
             off < NEAR && line.along.dot(along).abs() > 0.9
         };
         let more = match self.lines.iter_mut().find(is_known) {
-            // What is creased already is only pressed once more.
+            // The crease is sharp enough already.
             Some(line) if line.angle.abs() >= angle.abs() - 0.3 => return Ok(true),
             Some(line) => {
                 let more = angle - line.angle;
@@ -88,7 +95,7 @@ impl Creases {
 }
 
 impl Sheet<'_> {
-    /// Where a place of the sheet is, given in cells; what is past its border is as at the border.
+    /// Returns the interpolated position at a cell; the cell is clamped to the grid.
     fn place(&self, cell: Vec2) -> Vec3 {
         let most = Vec2::new((self.columns - 1) as f32, (self.rows - 1) as f32);
         let cell = cell.clamp(Vec2::ZERO, most);
@@ -100,7 +107,7 @@ impl Sheet<'_> {
         at(0, 0).lerp(at(1, 0), share.x).lerp(at(0, 1).lerp(at(1, 1), share.x), share.y)
     }
 
-    /// The front's unit normal around a place.
+    /// Returns the unit normal of the front near a cell.
     fn normal(&self, cell: Vec2) -> Vec3 {
         let most = Vec2::new((self.columns - 1) as f32, (self.rows - 1) as f32);
         let cell = cell.clamp(Vec2::ONE, most - 1.0);
@@ -109,8 +116,8 @@ impl Sheet<'_> {
         down.cross(across).normalize_or_zero()
     }
 
-    /// By how much the sheet turns from `reach` cells before a place to as many after it, towards its front
-    /// if above 0.
+    /// Returns the bend angle [rad] along `way`, from `reach` cells before a cell to `reach` after
+    /// it; positive towards the front.
     fn turn(&self, cell: Vec2, way: Vec2, reach: f32) -> f32 {
         let mut turned = 0.0;
         let steps = (2.0 * reach).ceil() as i32;
@@ -126,11 +133,11 @@ impl Sheet<'_> {
         turned
     }
 
-    /// The middle of the sharpest bend near a place and the direction that it runs in; `None` where the
-    /// sheet is flat.
+    /// Returns centre and direction of the sharpest bend near a cell; `None` if the sheet is flat
+    /// there.
     fn bend_near(&self, cell: Vec2) -> Option<(Vec2, Vec2)> {
         let directions = (0..24).map(|i| Vec2::from_angle(i as f32 * core::f32::consts::PI / 24.0));
-        // Along the line of a fold nothing bends, across it all.
+        // A fold does not bend along its line, only across it.
         let across = directions.max_by(|a, b| {
             let bend = |way: &Vec2| {
                 self.turn(cell, *way, FEEL).abs() - self.turn(cell, way.perp(), GATHER).abs()
@@ -146,7 +153,7 @@ impl Sheet<'_> {
         bends.then_some((middle, across.perp()))
     }
 
-    /// How far from a place the bend goes on in a direction.
+    /// Returns the end of the bend in a direction.
     fn end(&self, middle: Vec2, way: Vec2) -> Vec2 {
         let across = way.perp();
         let bends = |at: Vec2| self.turn(at, across, GATHER).abs() > LEAST;
@@ -164,7 +171,7 @@ mod tests {
     use super::*;
     use muslin_scenes::Sheet as Receipt;
 
-    /// Bends a sheet over its middle row around an arc of so many cells, forward if `front`.
+    /// Bends a sheet around its middle row, to the front or to the back.
     fn bent(front: bool) -> (Cloth, GridDesc) {
         let desc = Receipt::Paper.desc(true);
         let mut cloth = Cloth::grid(&desc).unwrap();
@@ -182,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bend_becomes_a_crease_that_stays_and_points_the_same_way() {
+    fn a_crease_keeps_the_angle_and_the_side_of_its_bend() {
         for front in [true, false] {
             let (mut cloth, desc) = bent(front);
             let mut creases = Creases::default();
@@ -193,7 +200,7 @@ mod tests {
                 (line.angle.abs() - 1.4).abs() < 0.2 && (line.angle > 0.0) == front,
                 "{line:?}"
             );
-            // Weightless and alone, it keeps about that angle.
+            // Without gravity and pins the sheet keeps about the crease angle.
             cloth.unpin_all();
             let mut settings = cloth.settings().clone();
             (settings.gravity, settings.damping) = (Vec3::ZERO, 5.0);
@@ -207,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn pressing_twice_is_pressing_once_and_flat_paper_has_nothing_to_press() {
+    fn a_second_press_changes_nothing_and_flat_paper_has_no_bend() {
         let (mut cloth, desc) = bent(true);
         let mut creases = Creases::default();
         creases.press(&mut cloth, &desc, 17 * 24 + 11).unwrap();

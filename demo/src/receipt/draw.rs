@@ -1,4 +1,10 @@
-//! The receipt handed to its picture, in the brief's units.
+//! Drawing of the receipt: converts its state from metres to units and passes it to the renderer.
+//!
+//! Method: one [`ClothSurface`] per frame with scaled positions.
+//!
+//! Reads [`ReceiptApp`]; writes the output target and the frame timing.
+//!
+//! Invariant: the simulation does not change.
 
 use glam::Vec3;
 use three_d::{CoreError, RenderTarget};
@@ -8,7 +14,7 @@ use crate::render::ClothSurface;
 use crate::render::receipt_renderer::{ReceiptFrame, ReceiptRenderer};
 
 impl ReceiptApp {
-    /// Draws the scene as it is now.
+    /// Draws the current state of the receipt.
     ///
     /// # Errors
     /// As [`ReceiptRenderer::draw`].
@@ -17,7 +23,7 @@ impl ReceiptApp {
         renderer: &mut ReceiptRenderer,
         output: &RenderTarget<'_>,
     ) -> Result<(), CoreError> {
-        // Asking for normals makes them, which belongs to the stages.
+        // This call computes the normals, so their time counts as time of the simulation.
         self.cloth.normals();
         if self.times_stages {
             self.meter.record_stages(&self.cloth.stats().seconds);

@@ -1,5 +1,11 @@
-//! What pointers do with the receipt in pictures and tests: gestures played by tick, through the same door as
-//! a person's pointers and keys.
+//! Scripted gestures on the receipt: pointer input by keyframes and actions by tick, for pictures
+//! and tests.
+//!
+//! Method: the input goes through the same functions as the pointers and keys of a user.
+//!
+//! Reads the script and the camera; writes pointer events and runs ticks.
+//!
+//! Invariant: the same gesture on the same state gives the same paper.
 
 use glam::Vec2;
 use muslin::Result;
@@ -8,28 +14,29 @@ use super::ReceiptApp;
 use super::pointers::PressKind;
 use super::settings::ReceiptAction;
 
-/// A gesture.
+/// A scripted gesture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReceiptGesture {
-    /// Two pointers lift the lower edge to the upper one; the bend is pressed into a crease; they let go.
+    /// Two pointers lift the lower edge to the upper one, a finger creases the bend, and the
+    /// pointers release it.
     Fold,
-    /// ReceiptPointers press the sheet to a ball, again and again, and drop it.
+    /// Many grabs press the sheet into a ball, several times, and release it.
     Crumple,
-    /// Two pointers fold it on the floor, in half and in half again, and let go.
+    /// Many grabs fold the sheet in half twice, lay it on the floor and release it.
     Letter,
-    /// A hand takes it off its pins and throws it across the floor.
+    /// One pointer takes the sheet off its pins and throws it across the floor.
     Toss,
 }
 
-/// A pointer's way: where it is at which tick, in shares of the sheet as it hangs, (0, 0) its top left
-/// corner; it eases from place to place.
+/// Keyframes of a pointer: tick and position, as a fraction of the hanging sheet; (0, 0) is the top
+/// left corner. Positions in between are eased.
 type PointerTrack = &'static [(u32, [f32; 2])];
 
-/// Something that is done at a tick.
+/// An action at a tick.
 #[derive(Clone, Copy)]
 enum ScriptedAction {
     Act(ReceiptAction),
-    /// A finger presses the bend at this place, in shares of the sheet as it hangs.
+    /// A finger creases the bend at this position, as a fraction of the hanging sheet.
     Crease([f32; 2]),
 }
 
@@ -76,7 +83,7 @@ const TOSS: GestureScript = GestureScript {
 };
 
 impl ReceiptGesture {
-    /// All of them, with the names that the command line knows.
+    /// All gestures with their names on the command line.
     pub const ALL: [(&'static str, Self); 4] = [
         ("fold", Self::Fold),
         ("letter", Self::Letter),
@@ -84,17 +91,18 @@ impl ReceiptGesture {
         ("toss", Self::Toss),
     ];
 
-    /// Ticks from its beginning until the receipt rests again.
+    /// Returns the number of ticks until the receipt is at rest again.
     pub fn ticks(self) -> u32 {
         self.script().ticks
     }
 
-    /// How far the camera is dragged to see it well, in heights of the screen, and what its distance is multiplied by.
+    /// Returns the camera drag (in screen heights) and the distance factor that show the gesture
+    /// best.
     pub fn view(self) -> (Vec2, f32) {
         match self {
-            // It ends flat on the floor.
+            // The letter ends flat on the floor.
             Self::Letter => (Vec2::new(-0.05, 0.22), 0.9),
-            // It flies to the right, out of a square picture otherwise.
+            // The receipt flies to the right and would leave a square picture.
             Self::Toss => (Vec2::new(0.0, 0.1), 1.45),
             Self::Fold | Self::Crumple => (Vec2::ZERO, 1.0),
         }
@@ -110,22 +118,23 @@ impl ReceiptGesture {
     }
 }
 
-/// A gesture while it is played.
+/// State of a gesture while it runs.
 pub struct ReceiptGesturePlayer {
     gesture: ReceiptGesture,
     tick: u32,
 }
 
 impl ReceiptGesturePlayer {
-    /// Begins on the sheet as it hangs.
+    /// Starts a gesture on the hanging sheet.
     pub fn new(gesture: ReceiptGesture) -> Self {
         Self { gesture, tick: 0 }
     }
 
-    /// Plays one tick.
+    /// Sends the input of one tick and runs the tick.
     ///
     /// # Errors
-    /// As [`ReceiptApp::press`], [`ReceiptApp::lift`], [`ReceiptApp::act`] and [`ReceiptApp::crease`].
+    /// As [`ReceiptApp::press`], [`ReceiptApp::lift`], [`ReceiptApp::act`] and
+    /// [`ReceiptApp::crease`].
     pub fn step(&mut self, tender: &mut ReceiptApp) -> Result<()> {
         let script = self.gesture.script();
         for (id, way) in (1..).zip(script.tracks) {
@@ -157,13 +166,14 @@ impl ReceiptGesturePlayer {
     }
 }
 
-/// Where on the screen a place of the sheet as it hangs is.
+/// Returns the screen position of a fraction of the hanging sheet.
 fn on_screen(tender: &ReceiptApp, [x, y]: [f32; 2]) -> Vec2 {
     let at = Vec2::new(x - 0.5, 0.5 - y) * tender.span();
     tender.on_screen(at.extend(0.0)).unwrap_or_default()
 }
 
-/// Where a way is at a tick: a hand speeds up and slows down, but the last stretch ends at full speed.
+/// Returns the position of a track at a tick: eased at both ends, but the last piece ends at full
+/// speed.
 fn place(way: PointerTrack, tick: u32) -> [f32; 2] {
     let after = way.iter().position(|(at, _)| *at >= tick);
     let to = after.unwrap_or(way.len() - 1);
@@ -180,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hand_passes_its_places_at_their_ticks() {
+    fn a_track_passes_its_keyframes_at_their_ticks() {
         for way in FOLD.tracks.iter().chain(TOSS.tracks) {
             for (tick, at) in *way {
                 let off = Vec2::from(place(way, *tick)).distance(Vec2::from(*at));

@@ -1,37 +1,43 @@
-//! The print: the bill set in type and inked, once, when the demo starts.
+//! Ink map: the text of the receipt, rasterised once at the start.
+//!
+//! Method: glyph outlines of `ab_glyph` on a monospaced grid; the bar code is Interleaved 2 of 5.
+//!
+//! Reads [`receipt_text`]; writes one ink value per texel.
+//!
+//! Invariant: the margins have no ink.
 
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 
 use super::receipt_text::{self, Face, Line, WIDTH};
 
-/// The brief's canvas.
+/// Size of the specified canvas [texels].
 const CANVAS: [u32; 2] = [512, 768];
-/// Texels of ours to one of the brief's, along a side.
+/// Texels along a side per texel of the specified canvas.
 const FINE: u32 = 3;
-/// Free paper at the left and right, and at the top, in the brief's texels.
+/// Left and top margins, in texels of the specified canvas.
 const MARGIN: [f32; 2] = [38.0, 46.0];
 
-/// How much ink there is: rows from the top, 0 is bare paper.
+/// Ink per texel, rows from the top: 0 is blank paper, 255 is full ink.
 pub struct InkMap {
-    /// Width and height in texels.
+    /// Width and height [texels].
     pub size: [u32; 2],
-    /// One a texel.
+    /// One value per texel.
     pub ink: Vec<u8>,
 }
 
-/// A printer that has come so far down the paper.
+/// State of typesetting: fonts, ink map and the position of the next line.
 struct Typesetter<'a> {
     plain: FontRef<'a>,
     heavy: FontRef<'a>,
     print: InkMap,
-    /// Width of a character of plain text, in texels.
+    /// Advance width of plain text [texels].
     pitch: f32,
-    /// Where the next line begins, in texels.
+    /// Top of the next line [texels].
     top: f32,
 }
 
 impl InkMap {
-    /// Prints the bill.
+    /// Rasterises the receipt.
     pub fn new() -> Self {
         let size = CANVAS.map(|side| side * FINE);
         let width = (CANVAS[0] as f32 - 2.0 * MARGIN[0]) * FINE as f32;
@@ -49,7 +55,7 @@ impl InkMap {
             top: MARGIN[1] * FINE as f32,
         };
         let lines = receipt_text::lines();
-        // As much space between the lines as there is.
+        // The line height fills the space between the margins.
         let free = size[1] as f32 - 2.0 * press.top;
         let high: f32 = lines.iter().map(height).sum();
         let line = free / high;
@@ -59,7 +65,7 @@ impl InkMap {
         press.print
     }
 
-    /// The ink at a place, in shares of the sheet.
+    /// Returns the ink at a position; `x` and `y` are fractions of the sheet.
     pub fn at(&self, x: f32, y: f32) -> u8 {
         let [wide, high] = self.size;
         let texel = |share: f32, side: u32| ((share * side as f32) as u32).min(side - 1);
@@ -73,7 +79,7 @@ impl Default for InkMap {
     }
 }
 
-/// How high a line is, in lines of plain text.
+/// Returns the height of a line, in lines of plain text.
 fn height(line: &Line) -> f32 {
     match line {
         Line::Centred(_, Face::Title) => 2.3,
@@ -86,11 +92,11 @@ fn height(line: &Line) -> f32 {
 }
 
 impl Typesetter<'_> {
-    /// Prints a line `high` texels high, where plain text has `line`.
+    /// Rasterises a line of `high` texels; `line` is the height of plain text [texels].
     fn line(&mut self, text: &Line, high: f32, line: f32) {
         let left = MARGIN[0] * FINE as f32;
         let right = self.print.size[0] as f32 - left;
-        // Where letters stand: the rest of the line is over and under them.
+        // The baseline; the rest of the line height is split above and below it.
         let base = self.top + 0.5 * high + 0.3 * line;
         let wide = |text: &str, pitch: f32| pitch * text.chars().count() as f32;
         match text {
@@ -123,7 +129,7 @@ impl Typesetter<'_> {
 
     fn text(&mut self, text: &str, [left, base]: [f32; 2], pitch: f32, apart: f32, face: Face) {
         let font = if face == Face::Plain { &self.plain } else { &self.heavy };
-        // A monospaced font advances by the same share of its size for every character.
+        // In a monospaced font all glyphs have the same advance width.
         let unit = font.as_scaled(PxScale::from(1000.0));
         let scale = PxScale::from(1000.0 * pitch / unit.h_advance(font.glyph_id('0')));
         let mut x = left + 0.5 * (apart - 1.0) * pitch;
@@ -140,7 +146,8 @@ impl Typesetter<'_> {
         }
     }
 
-    /// Interleaved two of five: wide and narrow bars for one digit, wide and narrow gaps for the next.
+    /// Rasterises an Interleaved 2 of 5 bar code: the bars encode one digit of a pair, the gaps
+    /// between them the other.
     fn bars(&mut self, number: u64, high: f32) {
         let digits: Vec<usize> =
             format!("{number:014}").bytes().map(|digit| usize::from(digit - b'0')).collect();
@@ -176,7 +183,7 @@ impl Typesetter<'_> {
     }
 }
 
-/// Which two of a digit's five bars are wide, the first the highest bit.
+/// Wide bars of each digit; the highest of the five bits is the first bar.
 const WIDE: [u8; 10] =
     [0b00110, 0b10001, 0b01001, 0b11000, 0b00101, 0b10100, 0b01100, 0b00011, 0b10010, 0b01010];
 
@@ -214,7 +221,7 @@ mod tests {
         ] {
             assert_eq!(inked(x, y), 0, "ink in the margin {x:?} {y:?}");
         }
-        // Text covers about a tenth of the paper, everywhere down the sheet.
+        // Text covers about a tenth of the paper, evenly from top to bottom.
         for part in 0..8 {
             let y = [0.07 + 0.108 * part as f32, 0.07 + 0.108 * (part + 1) as f32];
             let share = inked([0.0, 1.0], y) as f32 / (wide as f32 * 0.108 * high as f32);
@@ -223,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn every_character_of_the_bill_is_in_the_fonts() {
+    fn every_character_of_the_receipt_is_in_the_fonts() {
         for font in [
             &include_bytes!("../../fonts/JetBrainsMono-Medium.ttf")[..],
             &include_bytes!("../../fonts/JetBrainsMono-ExtraBold.ttf")[..],

@@ -1,10 +1,16 @@
-//! Folding a letter_fold: two pointers tip the sheet back, its print away from the eye, fold it in half towards the eye and
-//! in half again, press each crease, lay it on the floor and let go.
+//! Letter fold: an animation that folds the sheet in half twice, creases it, and lays it on the
+//! floor.
 //!
 //! ```text
 //!  end ──────── 1 ──────── top      1 ──────── end, top      ╭──── 1
 //!                                                            ╰──── end, top
 //! ```
+//! Method: a grid of grabs follows prescribed rotations about the two fold lines. The sheet is
+//! tilted first, with the print away from the eye.
+//!
+//! Reads the age of the animation; writes grab targets and creases.
+//!
+//! Invariant: when the animation ends, all its grabs are released.
 
 use core::f32::consts::{FRAC_PI_2, PI};
 
@@ -12,11 +18,11 @@ use glam::Vec3;
 use muslin::{Cloth, Error, Grab, GridDesc, Result};
 use muslin_scenes::receipt::FLOOR;
 
-/// Fingers across the sheet, and rows of them down its length.
+/// Grabs across the sheet, and rows of grabs along its length.
 const ACROSS: u32 = 6;
 const DOWN: u32 = 9;
-/// When the pointers have it all, when it is before the eye, when each half is begun to be folded over, when it is over, when
-/// its crease is pressed, when the letter lies, and when they let go [s].
+/// Times [s]: the grabs reach the sheet; it is in front of the camera; each fold starts; each fold
+/// is closed; each crease is done; the letter lies on the floor; the grabs are released.
 const TAKEN: f32 = 0.3;
 const TIPPED: f32 = 1.5;
 const BEGUN: [f32; 2] = [TIPPED, 3.7];
@@ -24,18 +30,19 @@ const FOLDED: [f32; 2] = [3.0, 5.2];
 const PRESSED: [f32; 2] = [3.6, 5.8];
 const LAID: f32 = 7.0;
 const RELEASED: f32 = 7.3;
-/// By how much it is tilted towards the eye [rad], and how high over the floor, in units.
+/// Tilt towards the camera [rad], and height over the floor, in units.
 const TILT: f32 = 0.6;
 const HEIGHT: f32 = 1.2;
-/// What a pressed crease is bent by [rad].
+/// Angle of a crease [rad].
 const CREASE: f32 = 0.3;
-/// Height of what lies, over the floor, and of every layer more, in units.
+/// Height of the first layer over the floor, and thickness of each further layer, in units.
 const LYING: f32 = 0.05;
 const LAYER: f32 = 0.07;
-/// ReceiptPointers that fold.
+/// State of the animation.
 #[derive(Debug)]
 pub struct LetterFold {
-    /// Each with where it takes hold [m], and which place of the sheet, in units from the middle of its top.
+    /// Each grab with its start position [m] and its place on the sheet, in units from the middle
+    /// of the top edge.
     fingers: Vec<(Grab, Vec3, [f32; 2])>,
     /// Length of the sheet, in units.
     length: f32,
@@ -45,7 +52,7 @@ pub struct LetterFold {
 }
 
 impl LetterFold {
-    /// Takes hold of a sheet as it was woven by `desc`, where a unit is so long [m].
+    /// Grabs a sheet that was created from `desc`; `unit` is the length of a unit [m].
     ///
     /// # Errors
     /// As [`Cloth::grab_particle`].
@@ -60,7 +67,7 @@ impl LetterFold {
                 let from = cloth.positions()[particle as usize];
                 let grab = match cloth.grab_particle(particle) {
                     Ok(grab) => grab,
-                    // Other pointers hold all that can be held.
+                    // Other pointers use all grabs of the cloth.
                     Err(Error::Full { .. }) => break,
                     Err(error) => return Err(error),
                 };
@@ -72,7 +79,8 @@ impl LetterFold {
         Ok(Self { fingers, length, desc, unit, age: 0.0 })
     }
 
-    /// Goes on for one tick, and says whether the pointers still hold; they have let go otherwise.
+    /// Advances by one tick; returns whether the animation still runs. At its end it releases the
+    /// grabs.
     ///
     /// # Errors
     /// As [`Cloth::move_grab`] and [`Cloth::crease`].
@@ -99,7 +107,7 @@ impl LetterFold {
         Ok(true)
     }
 
-    /// Lets go before the time.
+    /// Releases the grabs before the end.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -107,8 +115,8 @@ impl LetterFold {
         self.fingers.into_iter().try_for_each(|(grab, ..)| cloth.release(grab))
     }
 
-    /// Presses a crease by so much more: the first away from the print, and the second through two layers, of which
-    /// the one above lies the other way round.
+    /// Adds `angle` to a crease. The first fold has one crease; the second one has two, with
+    /// opposite signs, because one of the two layers is upside down.
     fn press(&self, fold: usize, angle: f32, cloth: &mut Cloth) -> Result<()> {
         let lines: &[(f32, f32)] =
             if fold == 0 { &[(0.5, -1.0)] } else { &[(0.25, -1.0), (0.75, 1.0)] };
@@ -121,15 +129,16 @@ impl LetterFold {
         Ok(())
     }
 
-    /// Where pointers have a place of the sheet now, in units.
+    /// Returns the current target of a place on the sheet, in units.
     fn place(&self, [across, down]: [f32; 2]) -> Vec3 {
         let half = 0.5 * self.length;
         let [first, second] = [0, 1].map(|fold| ease(self.age, BEGUN[fold], FOLDED[fold]));
-        // How far it is from the first crease towards the top, and how high; then the same from the second one.
+        // Distance to the first fold line (towards the top) and height; then the same for the
+        // second fold line.
         let [ahead, high] = turned([half - down, 0.0], first, 1.0);
         let [ahead, high] = turned([ahead - 0.5 * half, high], second, 3.0);
         let ahead = ahead - 0.25 * half;
-        // From where it hung to before the eye; and at last to the floor.
+        // The sheet moves from its hanging position to the camera, and later to the floor.
         let [up, low] = [ease(self.age, 0.0, TIPPED), ease(self.age, PRESSED[1], LAID)];
         let tilt = -FRAC_PI_2 + (TILT + FRAC_PI_2) * up - TILT * low;
         let hung = 0.75 * half;
@@ -139,8 +148,8 @@ impl LetterFold {
     }
 }
 
-/// A place so far ahead of a crease and so high; or behind it, and then turned over it as far as `share` says, so that
-/// in the end what was lowest is so many layers high.
+/// Rotates a point that is behind a fold line (`ahead` below zero) over it by `share` of a half
+/// turn; in the end it is `layers` layers higher.
 fn turned([ahead, high]: [f32; 2], share: f32, layers: f32) -> [f32; 2] {
     if ahead >= 0.0 {
         return [ahead, high];
@@ -149,7 +158,7 @@ fn turned([ahead, high]: [f32; 2], share: f32, layers: f32) -> [f32; 2] {
     [ahead * cos + high * sin, high * cos - ahead * sin + layers * LAYER * share]
 }
 
-/// From 0 to 1 between two times, slow at both ends.
+/// Smoothstep from 0 to 1 between two times.
 fn ease(age: f32, from: f32, to: f32) -> f32 {
     let share = ((age - from) / (to - from)).clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)

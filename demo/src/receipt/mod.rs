@@ -1,7 +1,13 @@
-//! ReceiptApp: a receipt that hangs from two pins, to fold, crumple and toss. The same behind a window, on a
-//! page and in a file, like [`crate::app`].
+//! The receipt scene ("Tender"): a paper receipt on two pins, to fold, crumple and toss. Like
+//! [`crate::app`], it is independent of the platform.
 //!
-//! What is drawn is measured in the brief's units, what moves in metres: [`Sheet::unit`] of them a unit.
+//! Method: fixed ticks of 1/120 s; frames that are too slow run in slow motion and drop the
+//! backlog.
+//!
+//! Reads events, frame times and [`ReceiptSettings`]; writes the cloth, the camera and the pixels
+//! of the render target.
+//!
+//! Invariant: drawing and camera use units, the simulation uses metres; [`Sheet::unit`] converts.
 
 pub mod crease;
 mod draw;
@@ -30,20 +36,20 @@ use pointers::{PressKind, ReceiptPickContext, ReceiptPointers};
 use return_animation::ReturnAnimation;
 pub use settings::{ReceiptAction, ReceiptControl, ReceiptSettings};
 
-/// Length of a tick [s], and the longest frame that ticks are run for.
+/// Duration of a tick [s], and longest frame time that ticks are run for [s].
 pub const TICK: f32 = 1.0 / 120.0;
 const LONGEST_FRAME: f32 = 0.033;
-/// What the ticks of a frame may take [s]: where they take longer, as paper does in a fist, time runs slower
-/// rather than in jerks.
+/// Time limit for the ticks of a frame [s]. When ticks take longer, as in crumpled paper, the scene
+/// runs in slow motion instead of dropping frames.
 const PATIENCE: f64 = 0.025;
 
-/// How much farther than the paper reaches a hand may pull until it comes off a pin.
+/// Factor of the rest distance to a pin; a grab that is farther away pulls the paper off the pin.
 const HOLD: f32 = 1.02;
 
-/// What the camera looks at, in units.
+/// Target of the camera, in units.
 pub const TARGET: Vec3 = Vec3::new(0.0, -1.0, 0.0);
 
-/// The running scene.
+/// The running receipt scene.
 pub struct ReceiptApp {
     settings: ReceiptSettings,
     small: bool,
@@ -56,7 +62,7 @@ pub struct ReceiptApp {
     letter_fold: Option<LetterFold>,
     return_animation: Option<ReturnAnimation>,
     screen: Screen,
-    /// Time that frames brought and no tick has run yet [s].
+    /// Frame time that no tick has used yet [s].
     unspent_time: f32,
     meter: Meter,
     resolution_scaler: ResolutionScaler,
@@ -67,7 +73,8 @@ pub struct ReceiptApp {
 }
 
 impl ReceiptApp {
-    /// Hangs the receipt, one of fewer particles if `small`. `clock` counts seconds from anywhere.
+    /// Creates the receipt on its pins; `small` selects the sheet with fewer particles. `clock`
+    /// returns seconds since any fixed time.
     ///
     /// # Errors
     /// As [`Sheet::hang`].
@@ -98,12 +105,12 @@ impl ReceiptApp {
         Ok(tender)
     }
 
-    /// The controls' values.
+    /// Returns the values of the controls.
     pub fn settings(&self) -> &ReceiptSettings {
         &self.settings
     }
 
-    /// Takes other values.
+    /// Applies new settings; a new sheet type rebuilds the cloth.
     ///
     /// # Errors
     /// As [`Sheet::hang`].
@@ -113,7 +120,7 @@ impl ReceiptApp {
         if rehang { self.rebuild_cloth() } else { self.apply_wind() }
     }
 
-    /// Does what a key does, and says whether it was one.
+    /// Runs the action of a key; returns whether it has one.
     ///
     /// # Errors
     /// As [`ReceiptApp::act`].
@@ -125,7 +132,7 @@ impl ReceiptApp {
         Ok(true)
     }
 
-    /// Does what a control says.
+    /// Runs the action of a control.
     ///
     /// # Errors
     /// As [`Sheet::hang`] and [`Cloth::grab_particle`].
@@ -144,7 +151,7 @@ impl ReceiptApp {
         self.set_settings(settings)
     }
 
-    /// Whether people ask for less motion: no wind, and no more than the smaller sheet.
+    /// Sets whether the user prefers reduced motion: no wind, and the smaller sheet.
     ///
     /// # Errors
     /// As [`Sheet::hang`].
@@ -157,7 +164,7 @@ impl ReceiptApp {
         self.apply_wind()
     }
 
-    /// The screen has this size, in the pixels that pointers count in.
+    /// Sets the size of the screen, in logical pixels.
     pub fn resize(&mut self, size: Vec2) {
         if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
             self.screen.size = size;
@@ -165,12 +172,12 @@ impl ReceiptApp {
         }
     }
 
-    /// A pointer comes down.
+    /// Handles a pressed pointer, in logical pixels.
     ///
     /// # Errors
     /// As [`ReceiptPointers::press`].
     pub fn press(&mut self, id: u32, at: Vec2, button: PressKind) -> Result<()> {
-        // What is on its way back cannot be held.
+        // The paper cannot be grabbed while the reset animation runs.
         if self.return_animation.is_some() && button == PressKind::Main {
             return Ok(());
         }
@@ -178,13 +185,13 @@ impl ReceiptApp {
         pointers.press(id, at, button, &mut pick)
     }
 
-    /// A pointer moves.
+    /// Handles a moved pointer, in logical pixels.
     pub fn drag(&mut self, id: u32, to: Vec2) {
         let (pointers, mut pick) = self.pick_context();
         pointers.drag(id, to, &mut pick);
     }
 
-    /// A pointer goes up, or is lost.
+    /// Handles a released or lost pointer.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -193,12 +200,13 @@ impl ReceiptApp {
         pointers.lift(id, &mut pick)
     }
 
-    /// The mouse has left the screen.
+    /// Handles a mouse that leaves the screen: there is no hover position any more.
     pub fn clear_hover(&mut self) {
         self.pointers.clear_hover();
     }
 
-    /// The key that leaves pointers where they are goes down, or up, and they let go.
+    /// Sets whether released pointers leave their grabs in place; switching it off releases those
+    /// grabs.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -207,8 +215,8 @@ impl ReceiptApp {
         pointers.set_leave_in_place(on, &mut pick)
     }
 
-    /// A finger runs along the bend under a point of the screen and makes it a crease; says whether there
-    /// was one. Only paper keeps it.
+    /// Creases the bend under a point of the screen; returns whether there is one. Only the paper
+    /// sheet keeps creases.
     ///
     /// # Errors
     /// As [`Cloth::crease`].
@@ -225,17 +233,17 @@ impl ReceiptApp {
         self.creases.press(&mut self.cloth, &desc, hit.particle)
     }
 
-    /// The wheel turns by so many pixels, away from the paper if positive.
+    /// Zooms by the wheel; positive `pixels` move the camera away from the paper.
     pub fn wheel(&mut self, pixels: f32) {
         self.camera.zoom((0.0012 * pixels.clamp(-400.0, 400.0)).exp());
     }
 
-    /// A trackpad's pinch: the camera comes nearer by `factor` above one.
+    /// Zooms by a pinch gesture; a `factor` above one moves the camera nearer.
     pub fn pinch(&mut self, factor: f32) {
         self.camera.zoom(1.0 / factor);
     }
 
-    /// What the cursor should say.
+    /// Returns the shape of the mouse cursor.
     ///
     /// # Errors
     /// As [`Cloth::raycast`].
@@ -244,7 +252,7 @@ impl ReceiptApp {
         pointers.cursor(&pick)
     }
 
-    /// Lets `seconds` pass.
+    /// Advances camera, grabs and cloth by a frame of `seconds` [s].
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
@@ -271,7 +279,7 @@ impl ReceiptApp {
         Ok(())
     }
 
-    /// Runs exactly so many ticks, whatever the clock says.
+    /// Runs exactly `ticks` ticks, independent of the clock.
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
@@ -279,7 +287,7 @@ impl ReceiptApp {
         self.run_ticks_while(ticks, || true)
     }
 
-    /// Runs so many ticks, one at least, as long as there is time.
+    /// Runs up to `ticks` ticks, at least one, while `has_time` returns true.
     fn run_ticks_while(&mut self, ticks: u32, has_time: impl Fn() -> bool) -> Result<()> {
         if ticks > 0 {
             let (pointers, mut pick) = self.pick_context();
@@ -306,65 +314,65 @@ impl ReceiptApp {
         Ok(())
     }
 
-    /// Times every stage of a frame from now on, or no longer.
+    /// Switches the timing of every stage of a frame on or off.
     pub fn time_stages(&mut self, on: bool) {
         self.times_stages = on;
         self.cloth.set_clock(on.then_some(self.clock));
     }
 
-    /// How long each stage takes, while [`ReceiptApp::time_stages`] is on.
+    /// Returns how long each stage takes in a frame, while [`ReceiptApp::time_stages`] is on.
     pub fn stage_times(&self) -> Vec<StageTime> {
         self.meter.stages()
     }
 
-    /// The numbers of the counter.
+    /// Returns the numbers that the counter shows.
     pub fn readout(&self) -> Readout {
         self.meter.readout(std::slice::from_ref(&self.cloth))
     }
 
-    /// The receipt.
+    /// Returns the cloth of the receipt.
     pub fn cloth(&self) -> &Cloth {
         &self.cloth
     }
 
-    /// The camera rig, in units.
+    /// Returns the camera, in units.
     pub fn camera(&mut self) -> &mut Camera {
         &mut self.camera
     }
 
-    /// Width and height of the sheet, in units.
+    /// Returns width and height of the sheet, in units.
     pub fn span(&self) -> Vec2 {
         self.settings.sheet.span(self.small)
     }
 
-    /// Particles across and down.
+    /// Returns the numbers of particles across and down.
     pub fn grid_size(&self) -> [u32; 2] {
         self.settings.sheet.grid_size(self.small)
     }
 
-    /// Where a particle is, in units.
+    /// Returns the position of a particle, in units.
     pub fn particle(&self, particle: u32) -> Option<Vec3> {
         let at = self.cloth.positions().get(particle as usize)?;
         Some(*at / self.settings.sheet.unit())
     }
 
-    /// Where on the screen a place appears that is given in units.
+    /// Projects a position in units to the screen [px].
     pub fn on_screen(&self, at: Vec3) -> Option<Vec2> {
         let normal = self.camera.view().project(at, self.screen.aspect())?;
         Some(self.screen.pixels(normal))
     }
 
-    /// Whether the receipt is on its way back to its pins.
+    /// Returns whether the reset animation runs.
     pub fn is_returning(&self) -> bool {
         self.return_animation.is_some()
     }
 
-    /// Whether it is being crumpled.
+    /// Returns whether the crumple animation runs.
     pub fn is_crumpling(&self) -> bool {
         self.squeeze.is_some()
     }
 
-    /// A fresh receipt.
+    /// Replaces the cloth by a new one on its pins.
     fn rebuild_cloth(&mut self) -> Result<()> {
         self.cloth = self.settings.sheet.hang(self.small)?;
         self.cloth.set_clock(self.times_stages.then_some(self.clock));
@@ -378,7 +386,7 @@ impl ReceiptApp {
         self.cloth.set_wind(self.settings.sheet.wind(blows))
     }
 
-    /// Half a second's way back to the pins, from wherever it is.
+    /// Starts the animation of half a second that brings the receipt back to its pins.
     fn reset(&mut self) -> Result<()> {
         let (pointers, mut pick) = self.pick_context();
         pointers.release_all(&mut pick)?;
@@ -393,11 +401,11 @@ impl ReceiptApp {
         Ok(())
     }
 
-    /// The way back is done: the receipt is as new.
+    /// Ends the reset animation: the receipt is in its initial state.
     fn finish_reset(&mut self) {
         self.cloth.reset();
         self.clear_actions();
-        // Creases are gone, those of the roll too, and the brief's masses.
+        // The reset of the cloth also removed the initial curl and the specified masses.
         if let Err(error) = self.settings.sheet.apply_initial_state(&mut self.cloth, self.small) {
             unreachable!("the scene's own sheet: {error}");
         }
@@ -437,12 +445,12 @@ impl ReceiptApp {
         Ok(())
     }
 
-    /// Whether pointers of its own do something with it.
+    /// Returns whether an animation moves the paper.
     fn is_busy(&self) -> bool {
         self.squeeze.is_some() || self.letter_fold.is_some() || self.return_animation.is_some()
     }
 
-    /// Paper comes off a pin that a hand pulls it away from.
+    /// Unpins the particles whose pin a grab pulls the paper away from.
     fn unpin_pulled(&mut self) -> Result<()> {
         if self.settings.sheet != Sheet::Paper || !self.pointers.holds_cloth() {
             return Ok(());
@@ -480,7 +488,7 @@ impl ReceiptApp {
     }
 }
 
-/// The camera of the brief, in units.
+/// Returns the specified camera, in units.
 fn rig() -> CameraRig {
     CameraRig {
         target: TARGET,

@@ -1,4 +1,11 @@
-//! The page's face of the receipt: what `demo/web/tender.js` calls.
+//! JavaScript interface of the receipt for `demo/web/tender.js`.
+//!
+//! Method: thin wasm-bindgen wrappers around [`ReceiptApp`].
+//!
+//! Reads events and frame times from the page; writes pixels, and JSON for the counter.
+//!
+//! Invariant: the page owns canvas, events and buttons; all decisions are in modules that the
+//! window uses too.
 
 use glam::Vec2;
 use three_d::RenderTarget;
@@ -9,7 +16,7 @@ use super::{ReceiptApp, ReceiptSettings, settings};
 use crate::render::receipt_renderer::ReceiptRenderer;
 use crate::web::{context_from_webgl, js_error, now};
 
-/// The running receipt, and what it has on the graphics card.
+/// The running receipt with its GPU resources.
 #[wasm_bindgen]
 pub struct Receipt {
     tender: ReceiptApp,
@@ -18,7 +25,7 @@ pub struct Receipt {
 
 #[wasm_bindgen]
 impl Receipt {
-    /// Hangs the receipt, one of fewer particles if `small`.
+    /// Creates the receipt; `small` selects the sheet with fewer particles.
     #[wasm_bindgen(constructor)]
     pub fn new(small: bool) -> Result<Receipt, JsError> {
         let tender = ReceiptApp::new(ReceiptSettings::default(), small, || now() * 1.0e-3)
@@ -26,105 +33,106 @@ impl Receipt {
         Ok(Self { tender, renderer: None })
     }
 
-    /// Takes a WebGL 2 context; again after one was lost.
+    /// Creates the renderer in a WebGL 2 context, also after a lost one.
     pub fn attach(&mut self, gl: web_sys::WebGl2RenderingContext) -> Result<(), JsError> {
         self.renderer = None;
         self.renderer = Some(ReceiptRenderer::new(&context_from_webgl(gl)?).map_err(js_error)?);
         Ok(())
     }
 
-    /// The context is lost: lets go of everything in it.
+    /// Drops the renderer: its context is lost.
     pub fn detach(&mut self) {
         self.renderer = None;
     }
 
-    /// The pick of controls as JSON.
+    /// Returns the table of controls as JSON.
     pub fn controls() -> String {
         settings::to_json()
     }
 
-    /// Whether a control is on; nothing for what only happens once.
+    /// Returns whether a control is on; nothing for an action without a state.
     #[wasm_bindgen(js_name = isOn)]
     pub fn is_on(&self, name: &str) -> Option<bool> {
         settings::find_control(name).and_then(|control| control.is_on(self.tender.settings()))
     }
 
-    /// Does what a control says; an unknown name does nothing.
+    /// Runs the action of a control; an unknown name does nothing.
     pub fn act(&mut self, name: &str) -> Result<(), JsError> {
         settings::find_control(name)
             .map_or(Ok(()), |control| self.tender.act(control.action).map_err(js_error))
     }
 
-    /// Does what a key does, and says whether it does anything.
+    /// Runs the action of a key; returns whether it has one.
     pub fn key(&mut self, key: char) -> Result<bool, JsError> {
         self.tender.key(key).map_err(js_error)
     }
 
-    /// Whether the visitor asks for reduced motion.
+    /// Sets whether the user prefers reduced motion.
     #[wasm_bindgen(js_name = setReducedMotion)]
     pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<(), JsError> {
         self.tender.set_reduced_motion(reduced_motion).map_err(js_error)
     }
 
-    /// The canvas has this size in CSS pixels.
+    /// Sets the size of the canvas in CSS pixels.
     pub fn resize(&mut self, width: f32, height: f32) {
         self.tender.resize(Vec2::new(width, height));
     }
 
-    /// A pointer comes down, in CSS pixels of the canvas; `turns` takes the camera, whatever is there.
+    /// Handles a pressed pointer, in CSS pixels of the canvas; `turns` orbits the camera in any
+    /// case.
     pub fn press(&mut self, id: u32, x: f32, y: f32, turns: bool) -> Result<(), JsError> {
         let button = if turns { PressKind::Turn } else { PressKind::Main };
         self.tender.press(id, Vec2::new(x, y), button).map_err(js_error)
     }
 
-    /// A pointer moves.
+    /// Handles a moved pointer.
     pub fn drag(&mut self, id: u32, x: f32, y: f32) {
         self.tender.drag(id, Vec2::new(x, y));
     }
 
-    /// A pointer goes up, or is lost.
+    /// Handles a released or lost pointer.
     pub fn lift(&mut self, id: u32) -> Result<(), JsError> {
         self.tender.lift(id).map_err(js_error)
     }
 
-    /// The mouse has left the canvas.
+    /// Handles a mouse that leaves the canvas.
     #[wasm_bindgen(js_name = clearHover)]
     pub fn clear_hover(&mut self) {
         self.tender.clear_hover();
     }
 
-    /// The key that leaves pointers where they are goes down or up.
+    /// Sets whether released pointers leave their grabs in place.
     #[wasm_bindgen(js_name = setLeaveInPlace)]
     pub fn set_leave_in_place(&mut self, on: bool) -> Result<(), JsError> {
         self.tender.set_leave_in_place(on).map_err(js_error)
     }
 
-    /// Makes the bend at a place a crease, and says whether there was one.
+    /// Creases the bend at a position; returns whether there is one.
     pub fn crease(&mut self, x: f32, y: f32) -> Result<bool, JsError> {
         self.tender.crease(Vec2::new(x, y)).map_err(js_error)
     }
 
-    /// The wheel turns, in CSS pixels.
+    /// Zooms by the wheel, in CSS pixels.
     pub fn wheel(&mut self, pixels: f32) {
         self.tender.wheel(pixels);
     }
 
-    /// Turns the camera as a drag would, in heights of the screen.
+    /// Orbits the camera by a drag, in screen heights.
     pub fn orbit(&mut self, x: f32, y: f32) {
         self.tender.camera().orbit(Vec2::new(x, y));
     }
 
-    /// Where the camera is, in units.
+    /// Returns the position of the camera, in units.
     pub fn eye(&mut self) -> Box<[f32]> {
         Box::new(self.tender.camera().view().eye.to_array())
     }
 
-    /// The CSS cursor that fits.
+    /// Returns the CSS name of the cursor.
     pub fn cursor(&mut self) -> Result<String, JsError> {
         self.tender.cursor().map(|cursor| cursor.css().into()).map_err(js_error)
     }
 
-    /// Lets `seconds` pass and draws into a canvas of so many device pixels.
+    /// Advances by `seconds` [s] and draws into a canvas of `width` × `height` device pixels.
     pub fn frame(&mut self, seconds: f32, width: u32, height: u32) -> Result<(), JsError> {
         self.tender.frame(seconds).map_err(js_error)?;
         if let Some(renderer) = &mut self.renderer {
@@ -135,23 +143,25 @@ impl Receipt {
         Ok(())
     }
 
-    /// Runs exactly so many ticks, whatever the clock says.
+    /// Runs exactly `ticks` ticks, independent of the clock.
     pub fn play(&mut self, ticks: u32) -> Result<(), JsError> {
         self.tender.play(ticks).map_err(js_error)
     }
 
-    /// The numbers of the counter as JSON.
+    /// Returns the numbers of the counter as JSON.
     pub fn readout(&self) -> String {
         serde_json::to_string(&self.tender.readout()).unwrap_or_default()
     }
 
-    /// The hash of the cloth's state, as the same hexadecimal number everywhere.
+    /// Returns the state hash of the cloth as a hexadecimal number; it is the same on every
+    /// platform.
     #[wasm_bindgen(js_name = stateHash)]
     pub fn state_hash(&self) -> String {
         format!("{:016x}", self.tender.cloth().state_hash())
     }
 
-    /// Where a particle appears, x and y in CSS pixels of the canvas; nothing if it does not.
+    /// Returns x and y of a particle in CSS pixels of the canvas; nothing if it is behind the
+    /// camera.
     #[wasm_bindgen(js_name = particleScreen)]
     pub fn particle_screen(&self, particle: u32) -> Option<Box<[f32]>> {
         let at = self.tender.on_screen(self.tender.particle(particle)?)?;

@@ -1,5 +1,12 @@
-//! ReceiptPointers on the receipt: each pointer holds the paper at one place, or the camera. ReceiptPointers may be left
-//! where they are, so that one pointer is as good as two.
+//! Pointers on the receipt: each one grabs the paper at one particle or orbits the camera.
+//!
+//! Method: a press grabs the particle nearest to the pick ray. The grab follows its pointer with
+//! exponential smoothing, in the plane through it that is parallel to the screen. A grab can be
+//! left in place, so that one pointer can hold several points.
+//!
+//! Reads pointer events; writes grabs and the goal of the camera through [`ReceiptPickContext`].
+//!
+//! Invariant: a released or lost pointer releases its grab, unless grabs are left in place.
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, Grab, Result};
@@ -9,34 +16,34 @@ use crate::camera::{Camera, CameraView};
 use crate::picking::Screen;
 use crate::pointer::{Cursor, orbit_and_pinch};
 
-/// How far beside a ray a particle may be that it takes hold of, in units.
+/// Greatest distance between a pick ray and the particle that it grabs, in units.
 const GRAB: f32 = 0.5;
-/// How quickly a hand follows its pointer [s]: smooth enough that a toss has the hand's speed whenever the
-/// last move of the pointer came.
+/// Time constant of the smoothing [s]: long enough that a toss does not depend on the time of the
+/// last pointer event.
 const FOLLOW: f32 = 0.02;
-/// How far from the middle of the scene a hand may go, and over the floor, in units.
+/// Limits of a grab target around the origin and over the floor, in units.
 const REACH: Vec3 = Vec3::new(7.0, 9.0, 7.0);
 const CLEARANCE: f32 = 0.04;
-/// How far in front of other paper a hand slides over it, in units, and from how many cells away along the
-/// sheet paper is other paper.
+/// Distance that a dragged grab keeps in front of other layers of paper, in units; and least
+/// distance along the sheet of another layer [cells].
 const SLIDE: f32 = 0.14;
 const OTHER: u32 = 9;
 
-/// What a pointer came down with.
+/// Type of a press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PressKind {
-    /// The left button of a mouse, a finger, a pen.
+    /// The left mouse button, a finger or a pen.
     Main,
-    /// The right button: it always takes the camera.
+    /// The right mouse button: it always orbits the camera.
     Turn,
 }
 
-/// A hand on the paper.
+/// A grab of one particle.
 #[derive(Debug)]
 struct ParticleGrab {
     grab: Grab,
     particle: u32,
-    /// Where it is, and where its pointer wants it [m].
+    /// Current and final position of the grab [m].
     now: Vec3,
     goal: Vec3,
 }
@@ -49,13 +56,13 @@ enum ReceiptHold {
 
 #[derive(Debug)]
 struct ReceiptPointer {
-    /// `None`: it has gone and left its hand.
+    /// `None` after the pointer has left its grab in place.
     id: Option<u32>,
     at: Vec2,
     hold: ReceiptHold,
 }
 
-/// All pointers.
+/// All pressed pointers and all grabs left in place.
 #[derive(Debug, Default)]
 pub struct ReceiptPointers {
     down: Vec<ReceiptPointer>,
@@ -63,36 +70,36 @@ pub struct ReceiptPointers {
     leave_in_place: bool,
 }
 
-/// What pointers act on.
+/// The objects that pointers act on, borrowed for one event.
 pub struct ReceiptPickContext<'a> {
-    /// The receipt.
+    /// Cloth of the receipt.
     pub cloth: &'a mut Cloth,
-    /// The camera rig, in units.
+    /// The orbit camera, in units.
     pub camera: &'a mut Camera,
-    /// Where the camera is in this frame, in metres.
+    /// Camera view of this frame, in metres.
     pub view: CameraView,
     /// The screen.
     pub screen: Screen,
     /// Particles across the sheet.
     pub columns: u32,
-    /// Whether pointers slide over paper that is in front of them, and not through it.
+    /// Whether a grab slides over paper in front of it instead of passing through.
     pub slides: bool,
     /// Length of a unit [m].
     pub unit: f32,
 }
 
 impl ReceiptPointers {
-    /// Whether any pointer is down.
+    /// Returns whether there is a pressed pointer or a grab left in place.
     pub fn is_any_down(&self) -> bool {
         !self.down.is_empty()
     }
 
-    /// Whether any hand holds paper.
+    /// Returns whether any pointer grabs the paper.
     pub fn holds_cloth(&self) -> bool {
         self.grabs().next().is_some()
     }
 
-    /// What pointers hold: which particle, and where the hand is [m].
+    /// Returns particle and position [m] of each grab.
     pub fn grabs(&self) -> impl Iterator<Item = (u32, Vec3)> + '_ {
         self.down.iter().filter_map(|pointer| match &pointer.hold {
             ReceiptHold::Paper(held) => Some((held.particle, held.now)),
@@ -100,9 +107,11 @@ impl ReceiptPointers {
         })
     }
 
-    /// A pointer comes down: on paper or near it it takes hold, elsewhere it takes the camera.
+    /// Handles a pressed pointer: it grabs the paper at or near it, and orbits the camera
+    /// elsewhere.
     ///
-    /// A second finger that lands beside the paper turns both into a pinch.
+    /// If a finger lands beside the paper, all pressed fingers start to orbit, so that two of them
+    /// pinch.
     ///
     /// # Errors
     /// As [`Cloth::grab_ray`].
@@ -129,7 +138,7 @@ impl ReceiptPointers {
         Ok(())
     }
 
-    /// A pointer moves, up or down.
+    /// Handles a pointer that moves, pressed or not.
     pub fn drag(&mut self, id: u32, to: Vec2, pick: &mut ReceiptPickContext<'_>) {
         if !to.is_finite() {
             return;
@@ -150,7 +159,8 @@ impl ReceiptPointers {
         }
     }
 
-    /// A pointer goes up, is cancelled or is lost: it lets go, or leaves its hand there.
+    /// Handles a pointer that is released, cancelled or lost: it releases its grab, or leaves it in
+    /// place.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -168,7 +178,8 @@ impl ReceiptPointers {
         }
     }
 
-    /// From now on pointers stay where their pointers leave them; or those that were left let go.
+    /// Sets whether released pointers leave their grabs in place; switching it off releases those
+    /// grabs.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -189,13 +200,13 @@ impl ReceiptPointers {
         Ok(())
     }
 
-    /// The pointer has left the screen.
+    /// Removes the hover position: the mouse has left the screen.
     pub fn clear_hover(&mut self) {
         self.hover = None;
     }
 
-    /// Sends every hand to where its pointer is, also when only the camera has moved: on the plane through
-    /// it that faces the camera, and not through paper that lies in front of it.
+    /// Updates the targets of all grabs from the pointers and the camera: in the plane through the
+    /// grab that is parallel to the screen, and in front of other layers of paper.
     ///
     /// # Errors
     /// As [`Cloth::raycast`].
@@ -208,7 +219,7 @@ impl ReceiptPointers {
         Ok(())
     }
 
-    /// Moves every hand for a tick.
+    /// Moves all grabs by one tick of `seconds` [s].
     ///
     /// # Errors
     /// As [`Cloth::move_grab`].
@@ -223,7 +234,7 @@ impl ReceiptPointers {
         Ok(())
     }
 
-    /// Every hand lets go.
+    /// Releases all grabs.
     ///
     /// # Errors
     /// As [`Cloth::release`].
@@ -236,12 +247,12 @@ impl ReceiptPointers {
         Ok(())
     }
 
-    /// Forgets every pointer without asking the cloth, which has been replaced.
+    /// Removes every pointer without releasing grabs: the cloth has been replaced.
     pub fn clear(&mut self) {
         self.down.clear();
     }
 
-    /// What the cursor should say.
+    /// Returns the shape of the mouse cursor.
     ///
     /// # Errors
     /// As [`Cloth::raycast`].
@@ -258,7 +269,8 @@ impl ReceiptPointers {
         }
     }
 
-    /// Fingers that held paper hold the camera now: a pinch begins. ReceiptPointers that were left stay.
+    /// Releases the grabs of all pressed fingers and lets them orbit the camera: a pinch begins.
+    /// Grabs left in place stay.
     fn turn_grabs_into_orbit(&mut self, pick: &mut ReceiptPickContext<'_>) -> Result<()> {
         for pointer in self.down.iter_mut().filter(|pointer| pointer.id.is_some()) {
             if let ReceiptHold::Paper(held) =
@@ -272,12 +284,12 @@ impl ReceiptPointers {
 }
 
 impl ReceiptPickContext<'_> {
-    /// The unit direction from the eye through a pixel.
+    /// Returns the unit direction from the eye through a pixel.
     pub fn ray(&self, at: Vec2) -> Vec3 {
         self.view.ray(self.screen.normal(at), self.screen.aspect())
     }
 
-    /// Takes hold of what is under a pixel, or near it.
+    /// Grabs the particle at or near a pixel.
     fn grab_at(&mut self, at: Vec2) -> Result<Option<ParticleGrab>> {
         let (eye, ray) = (self.view.eye, self.ray(at));
         let Some((grab, now)) = self.cloth.grab_ray(eye, ray, GRAB * self.unit)? else {
@@ -288,7 +300,7 @@ impl ReceiptPickContext<'_> {
         Ok(Some(ParticleGrab { grab, particle, now, goal: now }))
     }
 
-    /// Where a pointer wants a hand.
+    /// Returns the target of a grab for a pointer at `at`.
     fn goal(&self, at: Vec2, held: &ParticleGrab) -> Result<Vec3> {
         let (ray, forward) = (self.ray(at), self.view.forward());
         let mut depth = (held.goal - self.view.eye).dot(forward);

@@ -1,16 +1,22 @@
-//! What the receipt says: a shop, what was bought there, and what it came to. Money is counted in cents.
+//! Text of the receipt: shop, items, tax and total.
+//!
+//! Method: amounts are integers in cents; the lines are formatted for a monospaced font.
+//!
+//! Reads [`ITEMS`]; returns [`Line`]s.
+//!
+//! Invariant: the printed amounts add up to the cent, and no line is wider than [`WIDTH`].
 
-/// Columns of the print.
+/// Characters per line.
 pub const WIDTH: usize = 34;
 
-/// An item of the receipt.
+/// An item on the receipt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// What it is.
+    /// Name.
     pub name: &'static str,
-    /// How many.
+    /// Quantity.
     pub quantity: u32,
-    /// What one costs, in cents.
+    /// Price of one, in cents.
     pub price: u32,
 }
 
@@ -18,7 +24,7 @@ const fn item(name: &'static str, quantity: u32, price: u32) -> Item {
     Item { name, quantity, price }
 }
 
-/// What was bought.
+/// Items on the receipt.
 pub const ITEMS: [Item; 9] = [
     item("Muslin, unbleached, 1 m", 3, 745),
     item("Silk thread, 100 m", 2, 390),
@@ -31,21 +37,21 @@ pub const ITEMS: [Item; 9] = [
     item("Filter coffee", 2, 260),
 ];
 
-/// The tax, in hundredths of a percent of what is bought.
+/// Tax rate, in hundredths of a percent of the subtotal.
 pub const TAX_RATE: u32 = 825;
 
-/// What it comes to.
+/// Sums of the receipt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sums {
-    /// All items, in cents.
+    /// Sum of all items, in cents.
     pub subtotal: u32,
-    /// The tax on them, rounded to the nearest cent.
+    /// Tax, rounded to the nearest cent.
     pub tax: u32,
-    /// Both.
+    /// Subtotal and tax.
     pub total: u32,
 }
 
-/// Adds the items up.
+/// Adds up the items.
 pub fn sums() -> Sums {
     let subtotal = ITEMS.iter().map(Item::cost).sum();
     let tax = (subtotal * TAX_RATE + 5000) / 10_000;
@@ -53,39 +59,39 @@ pub fn sums() -> Sums {
 }
 
 impl Item {
-    /// What all of it costs, in cents.
+    /// Returns quantity times price, in cents.
     pub fn cost(&self) -> u32 {
         self.quantity * self.price
     }
 }
 
-/// How a line is set.
+/// Typeface of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
-    /// Plain.
+    /// Plain text.
     Plain,
-    /// Heavy.
+    /// Bold text.
     Heavy,
-    /// Heavy and large, spaced out.
+    /// Bold, large text with wide letter spacing.
     Title,
 }
 
 /// A line of the receipt.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Line {
-    /// Text in one of the faces, as wide as it is, in the middle.
+    /// Centred text.
     Centred(String, Face),
-    /// Text on the left and on the right.
+    /// Text at the left margin and at the right margin.
     Spread(String, String, Face),
-    /// A row of dashes.
+    /// A dashed line.
     Rule,
-    /// Half a line of nothing.
+    /// Half an empty line.
     Gap,
-    /// A code of bars for this number.
+    /// A bar code of this number.
     Bars(u64),
 }
 
-/// The receipt, line by line.
+/// Returns all lines of the receipt.
 pub fn lines() -> Vec<Line> {
     let centred = |text: &str| Line::Centred(text.into(), Face::Plain);
     let spread = |left: &str, right: &str| Line::Spread(left.into(), right.into(), Face::Plain);
@@ -127,7 +133,7 @@ pub fn lines() -> Vec<Line> {
     lines
 }
 
-/// Cents as people write them.
+/// Formats cents as an amount.
 fn money(cents: u32) -> String {
     format!("{}.{:02}", cents / 100, cents % 100)
 }
@@ -136,14 +142,14 @@ fn money(cents: u32) -> String {
 mod tests {
     use super::*;
 
-    /// The cents of a text that ends in a sum of money.
+    /// Parses the amount at the end of a text, in cents.
     fn cents(text: &str) -> u32 {
         let digits: String = text.chars().filter(char::is_ascii_digit).collect();
         digits.parse().unwrap()
     }
 
     #[test]
-    fn what_is_printed_adds_up_to_the_cent() {
+    fn the_printed_amounts_add_up_to_the_cent() {
         let lines = lines();
         let spread = |wanted: &str| {
             let found = lines.iter().find_map(|line| match line {
@@ -165,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn everything_that_a_receipt_has_is_there_and_fits() {
+    fn the_receipt_has_all_its_parts_and_they_fit() {
         let lines = lines();
         for line in &lines {
             let long = match line {
@@ -185,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn money_has_two_digits_after_the_point() {
+    fn amounts_have_two_decimal_places() {
         assert_eq!([5, 100, 12_345].map(money), ["0.05", "1.00", "123.45"]);
     }
 }

@@ -1,12 +1,22 @@
-//! The way back to the pins: every particle eases from where it is to where it was woven.
+//! Return animation: moves every particle from its current position to its initial position on the
+//! grid.
+//!
+//! ```text
+//! x(t) = x₀ + (x₁ − x₀) · (1 − (1 − t/T)³)        T = 0.5 s
+//! ```
+//! Method: cubic ease-out per particle.
+//!
+//! Reads the positions at the start; writes positions of the cloth.
+//!
+//! Invariant: no tick of the simulation runs during the animation.
 
 use glam::Vec3;
 use muslin::{Cloth, GridDesc, Result};
 
-/// How long it takes [s].
+/// Duration [s].
 pub const SECONDS: f32 = 0.5;
 
-/// A receipt on its way back.
+/// State of the animation.
 #[derive(Debug)]
 pub struct ReturnAnimation {
     from: Vec<Vec3>,
@@ -15,7 +25,8 @@ pub struct ReturnAnimation {
 }
 
 impl ReturnAnimation {
-    /// Begins where everything is now; what tears have added goes to where it was torn from.
+    /// Starts at the current positions; a particle that a tear has added moves to its source
+    /// vertex.
     pub fn new(cloth: &Cloth, desc: &GridDesc) -> Self {
         let place = |particle: &u32| {
             let [row, column] = [particle / desc.columns, particle % desc.columns];
@@ -26,7 +37,7 @@ impl ReturnAnimation {
         Self { from: cloth.positions().to_vec(), to, age: 0.0 }
     }
 
-    /// Goes on for `seconds`, and says whether there is any way left.
+    /// Advances by `seconds` [s]; returns whether the animation still runs.
     ///
     /// # Errors
     /// As [`Cloth::set_position`].
@@ -36,11 +47,11 @@ impl ReturnAnimation {
         for (particle, (from, to)) in (0..).zip(self.from.iter().zip(&self.to)) {
             cloth.set_position(particle, from.lerp(*to, share))?;
         }
-        // Half of a frame's rounding is no way left.
+        // The tolerance covers the rounding of the frame times.
         Ok(self.age < SECONDS - 1.0e-3)
     }
 
-    /// How far any particle is from where it goes [m].
+    /// Returns the greatest distance of a particle from its final position [m].
     #[cfg(test)]
     pub fn farthest(&self, cloth: &Cloth) -> f32 {
         let tracks = cloth.positions().iter().zip(&self.to).map(|(at, to)| at.distance(*to));
@@ -48,7 +59,7 @@ impl ReturnAnimation {
     }
 }
 
-/// Fast at first, slow at last: a cubic.
+/// Cubic ease-out.
 fn ease_out(share: f32) -> f32 {
     let left = 1.0 - share.clamp(0.0, 1.0);
     1.0 - left * left * left
@@ -59,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_starts_fast_and_ends_slowly_where_it_should() {
+    fn the_animation_starts_fast_and_ends_slowly() {
         assert_eq!((ease_out(0.0), ease_out(1.0), ease_out(7.0)), (0.0, 1.0, 1.0));
         let tracks: Vec<f32> =
             (0..10).map(|i| ease_out((i + 1) as f32 / 10.0) - ease_out(i as f32 / 10.0)).collect();

@@ -1,56 +1,62 @@
-//! What the user may change, and the one pick of controls: pills, rows and keys are looked up in it.
+//! Settings of the receipt, and the table of its controls for buttons and keys.
+//!
+//! Method: each control has an action; the table is a constant.
+//!
+//! Reads names and keys; returns [`ReceiptControl`]s and JSON for the page.
+//!
+//! Invariant: names and keys are unique.
 
 use muslin_scenes::Sheet;
 use serde::Serialize;
 
-/// The controls' values.
+/// Values of the controls.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReceiptSettings {
-    /// What the receipt is made of.
+    /// Type of the sheet.
     pub sheet: Sheet,
-    /// It blows.
+    /// Whether there is wind.
     pub wind: bool,
-    /// Time stands still.
+    /// Whether the simulation is paused.
     pub paused: bool,
-    /// The counter shows.
+    /// Whether the counter is shown.
     pub counter: bool,
 }
 
-/// What a control does.
+/// Actions of the controls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReceiptAction {
-    /// Wind on or off.
+    /// Switches the wind on or off.
     Wind,
-    /// Back to the pins.
+    /// Returns the receipt to its pins.
     Reset,
-    /// Off the pins.
+    /// Removes the pins.
     Drop,
-    /// Into a ball.
+    /// Crumples the receipt into a ball.
     Crumple,
-    /// In half, and in half again.
+    /// Folds the receipt in half twice.
     Fold,
-    /// The other sheet.
+    /// Selects the other type of sheet.
     Sheet,
-    /// Time stands still, or goes on.
+    /// Pauses or continues the simulation.
     Pause,
-    /// The counter, shown or hidden.
+    /// Shows or hides the counter.
     Counter,
 }
 
-/// A control.
+/// One control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReceiptControl {
-    /// Its name for code.
+    /// Name in code.
     pub name: &'static str,
-    /// Its name for people.
+    /// Label on its button.
     pub label: &'static str,
-    /// What it does, in a few words.
+    /// Short description.
     pub about: &'static str,
-    /// Its key.
+    /// Key.
     pub key: char,
-    /// What it does.
+    /// Action.
     pub action: ReceiptAction,
-    /// Whether it is a pill; the others are keys alone.
+    /// Whether it has a button; the others have only a key.
     pub is_pill: bool,
 }
 
@@ -65,7 +71,7 @@ const fn control(
     ReceiptControl { name, label, about, key, action, is_pill }
 }
 
-/// Every control, in the order of the pills.
+/// All controls, in the order of the buttons.
 pub const RECEIPT_CONTROLS: [ReceiptControl; 8] = [
     control("wind", "Wind", "Wind on or off", 'W', ReceiptAction::Wind, true),
     control("drop", "Drop", "Takes it off its pins", 'X', ReceiptAction::Drop, true),
@@ -91,18 +97,18 @@ pub const RECEIPT_CONTROLS: [ReceiptControl; 8] = [
     ),
 ];
 
-/// The control of this key, whatever its case.
+/// Finds a control by its key, upper or lower case.
 pub fn find_control_by_key(key: char) -> Option<&'static ReceiptControl> {
     RECEIPT_CONTROLS.iter().find(|control| control.key.eq_ignore_ascii_case(&key))
 }
 
-/// The control of this name.
+/// Finds a control by its name.
 pub fn find_control(name: &str) -> Option<&'static ReceiptControl> {
     RECEIPT_CONTROLS.iter().find(|control| control.name == name)
 }
 
 impl ReceiptControl {
-    /// Its key as it is printed.
+    /// Returns the name of the key.
     pub fn key_name(&self) -> String {
         match self.key {
             ' ' => "Space".into(),
@@ -110,7 +116,7 @@ impl ReceiptControl {
         }
     }
 
-    /// Whether it is on; `None` for what only happens once.
+    /// Returns whether the control is on; `None` for an action without a state.
     pub fn is_on(&self, settings: &ReceiptSettings) -> Option<bool> {
         match self.action {
             ReceiptAction::Wind => Some(settings.wind),
@@ -125,7 +131,7 @@ impl ReceiptControl {
     }
 }
 
-/// A control as the page gets it.
+/// One control in the JSON document for the page.
 #[derive(Serialize)]
 struct ReceiptControlRow {
     name: &'static str,
@@ -136,7 +142,7 @@ struct ReceiptControlRow {
     switch: bool,
 }
 
-/// The pick as JSON.
+/// Returns the table as JSON.
 pub fn to_json() -> String {
     let rows = RECEIPT_CONTROLS.map(|control| ReceiptControlRow {
         name: control.name,
@@ -146,7 +152,7 @@ pub fn to_json() -> String {
         pill: control.is_pill,
         switch: control.is_on(&ReceiptSettings::default()).is_some(),
     });
-    // Strings and booleans: there is nothing in it that JSON could not say.
+    // Strings and booleans only, so the conversion cannot fail.
     serde_json::to_string(&rows).unwrap_or_default()
 }
 
@@ -155,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_keys_are_each_used_once() {
+    fn names_and_keys_are_unique() {
         for (i, a) in RECEIPT_CONTROLS.iter().enumerate() {
             assert_eq!(find_control(a.name), Some(a));
             assert_eq!(find_control_by_key(a.key.to_ascii_lowercase()), Some(a));
@@ -166,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn the_briefs_keys_do_what_it_says() {
+    fn the_specified_keys_have_the_specified_actions() {
         for (key, action) in [
             ('r', ReceiptAction::Reset),
             (' ', ReceiptAction::Pause),

@@ -1,4 +1,4 @@
-//! Tests: what pointers, gestures and time do to the receipt.
+//! Tests of the effect of pointers, gestures and time on the receipt.
 
 #[path = "../../../tests/common/crossings.rs"]
 mod crossings;
@@ -33,21 +33,21 @@ fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
     cloth.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
 }
 
-/// The mean speed of all particles, in units a second.
+/// Mean speed of all particles, in units per second.
 fn speed(tender: &ReceiptApp) -> f32 {
     let count = tender.cloth().positions().len() as u32;
     let speeds = (0..count).filter_map(|i| tender.cloth().velocity(i)).map(|v| v.length());
     speeds.sum::<f32>() / count as f32 / tender.settings().sheet.unit()
 }
 
-/// Lowest and highest of all particles, in units.
+/// Least and greatest height of all particles, in units.
 fn heights(tender: &ReceiptApp) -> [f32; 2] {
     let unit = tender.settings().sheet.unit();
     let y = tender.cloth().positions().iter().map(|at| at.y / unit);
     y.fold([f32::MAX, f32::MIN], |[low, high], y| [low.min(y), high.max(y)])
 }
 
-/// How far from its pins' plane, as woven, any particle is, in units.
+/// Greatest distance of a particle from its initial position, in units.
 fn off(tender: &ReceiptApp) -> f32 {
     let desc = tender.settings().sheet.desc(true);
     let places = ReturnAnimation::new(tender.cloth(), &desc);
@@ -55,7 +55,7 @@ fn off(tender: &ReceiptApp) -> f32 {
 }
 
 #[test]
-fn a_hand_takes_what_is_within_half_a_unit_of_its_ray_and_nothing_farther() {
+fn a_pointer_grabs_within_half_a_unit_of_its_ray_only() {
     for sheet in Sheet::ALL {
         let mut tender = tender(sheet);
         let edge = 0.5 * tender.span().x;
@@ -69,7 +69,7 @@ fn a_hand_takes_what_is_within_half_a_unit_of_its_ray_and_nothing_farther() {
 }
 
 #[test]
-fn a_grabbed_particle_comes_along_on_the_plane_that_faces_the_camera() {
+fn a_grabbed_particle_moves_in_the_plane_parallel_to_the_screen() {
     for sheet in Sheet::ALL {
         let mut tender = tender(sheet);
         let [columns, rows] = tender.grid_size();
@@ -94,7 +94,7 @@ fn a_grabbed_particle_comes_along_on_the_plane_that_faces_the_camera() {
 }
 
 #[test]
-fn the_right_button_and_two_fingers_beside_the_paper_turn_the_camera() {
+fn the_right_button_orbits_and_two_fingers_beside_the_paper_pinch() {
     let mut tender = tender(Sheet::Paper);
     let settled = |tender: &mut ReceiptApp| {
         for _ in 0..300 {
@@ -118,7 +118,7 @@ fn the_right_button_and_two_fingers_beside_the_paper_turn_the_camera() {
 }
 
 #[test]
-fn two_fingers_on_the_paper_are_two_hands_and_a_key_leaves_a_hand_in_place() {
+fn two_fingers_grab_two_points_and_a_key_leaves_a_grab_in_place() {
     let mut tender = tender(Sheet::Paper);
     let half = 0.5 * tender.span();
     let low = |x: f32| Vec3::new(x * half.x, -half.y, 0.0);
@@ -144,7 +144,7 @@ fn two_fingers_on_the_paper_are_two_hands_and_a_key_leaves_a_hand_in_place() {
 }
 
 #[test]
-fn pause_stops_the_paper_and_wind_moves_it_unless_people_ask_for_calm() {
+fn pause_stops_the_paper_and_reduced_motion_stops_the_wind() {
     for sheet in Sheet::ALL {
         let mut tender = tender(sheet);
         tender.act(ReceiptAction::Pause).unwrap();
@@ -166,7 +166,7 @@ fn pause_stops_the_paper_and_wind_moves_it_unless_people_ask_for_calm() {
 }
 
 #[test]
-fn less_motion_means_fewer_particles() {
+fn reduced_motion_selects_the_smaller_sheet() {
     let mut tender = ReceiptApp::new(ReceiptSettings::default(), false, || 0.0).unwrap();
     assert_eq!(tender.readout().particles, 40 * 60);
     tender.set_reduced_motion(true).unwrap();
@@ -174,7 +174,7 @@ fn less_motion_means_fewer_particles() {
 }
 
 #[test]
-fn a_long_frame_runs_no_more_than_its_cap() {
+fn a_long_frame_runs_no_more_than_the_longest_frame_time() {
     let mut tender = tender(Sheet::Paper);
     let before = tender.cloth().time();
     tender.frame(5.0).unwrap();
@@ -183,8 +183,8 @@ fn a_long_frame_runs_no_more_than_its_cap() {
 }
 
 #[test]
-fn where_ticks_take_long_time_runs_slower_and_nothing_is_made_up_for() {
-    // A clock that is 20 ms on whenever it is asked.
+fn slow_ticks_run_in_slow_motion_and_drop_the_backlog() {
+    // A clock that advances by 20 ms at every call.
     fn slow() -> f64 {
         static ASKED: AtomicU32 = AtomicU32::new(0);
         0.02 * f64::from(ASKED.fetch_add(1, Ordering::Relaxed))
@@ -197,7 +197,7 @@ fn where_ticks_take_long_time_runs_slower_and_nothing_is_made_up_for() {
 }
 
 #[test]
-fn nothing_that_hands_do_takes_paper_through_itself() {
+fn no_gesture_moves_paper_through_itself() {
     for (name, gesture) in ReceiptGesture::ALL {
         let mut tender = tender(Sheet::Paper);
         tender.play(60).unwrap();
@@ -211,7 +211,7 @@ fn nothing_that_hands_do_takes_paper_through_itself() {
     }
 }
 
-/// By how much the lower half of the sheet is turned against the upper one [rad].
+/// Angle between the upper and the lower half of the sheet [rad].
 fn turned(tender: &ReceiptApp) -> f32 {
     let [columns, rows] = tender.grid_size();
     let row = |row: u32| {
@@ -222,12 +222,12 @@ fn turned(tender: &ReceiptApp) -> f32 {
 }
 
 #[test]
-fn folded_in_half_and_released_the_crease_stays() {
+fn a_crease_stays_after_the_sheet_is_released() {
     let flat = turned(&tender(Sheet::Paper));
     let mut tender = played(ReceiptGesture::Fold, Sheet::Paper);
     assert!(tender.cloth().pinned().count() == 2, "it fell");
     let folded = turned(&tender);
-    // Its own weight opens it, but not all the way.
+    // Gravity opens the fold partly.
     assert!(folded > flat + 0.35, "it is folded by {folded} rad");
     tender.play(360).unwrap();
     let later = turned(&tender);
@@ -235,7 +235,7 @@ fn folded_in_half_and_released_the_crease_stays() {
     assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
 }
 
-/// How much each quarter of the sheet's length is turned against the one before [rad].
+/// Angles between neighbouring quarters of the length of the sheet [rad].
 fn folds(tender: &ReceiptApp) -> [f32; 3] {
     let [columns, rows] = tender.grid_size();
     let middle = |share: f32| {
@@ -248,7 +248,7 @@ fn folds(tender: &ReceiptApp) -> [f32; 3] {
 }
 
 #[test]
-fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_go() {
+fn a_letter_stays_on_the_screen_and_keeps_its_creases_after_release() {
     let mut tender = tender(Sheet::Paper);
     tender.play(60).unwrap();
     let before = folds(&tender);
@@ -269,7 +269,7 @@ fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_
     let [low, high] = heights(&tender);
     assert!(low > FLOOR - 1.0e-3 && high < FLOOR + 0.8, "it lies from {low} to {high} units");
     assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
-    // It wants to stay so, too: alone in the air no crease opens far.
+    // Without gravity the creases do not open far either.
     let mut settings = tender.cloth.settings().clone();
     settings.gravity = Vec3::ZERO;
     tender.cloth.set_settings(settings).unwrap();
@@ -279,7 +279,7 @@ fn a_letter_is_folded_twice_in_view_of_all_and_keeps_its_creases_when_it_is_let_
 }
 
 #[test]
-fn a_toss_flies_lands_and_comes_to_rest_on_the_floor() {
+fn a_tossed_receipt_lands_and_comes_to_rest_on_the_floor() {
     for sheet in Sheet::ALL {
         let mut tender = played(ReceiptGesture::Toss, sheet);
         let middle = |tender: &ReceiptApp| {
@@ -298,14 +298,14 @@ fn a_toss_flies_lands_and_comes_to_rest_on_the_floor() {
 }
 
 #[test]
-fn crumpled_paper_is_a_ball_and_stays_one() {
+fn crumpled_paper_keeps_the_shape_of_a_ball() {
     let mut tender = played(ReceiptGesture::Crumple, Sheet::Paper);
     tender.play(120).unwrap();
     let unit = Sheet::Paper.unit();
     let x = tender.cloth().positions();
     let middle = x.iter().sum::<Vec3>() / x.len() as f32;
     let widest = x.iter().map(|at| at.distance(middle) / unit).fold(0.0, f32::max);
-    // Flat, its corners are 4.2 away.
+    // On a flat sheet the corners are 4.2 units away.
     assert!(widest < 1.9, "it reaches {widest} units from its middle");
     let size = x.iter().fold(Vec3::MIN, |high, at| high.max(*at))
         - x.iter().fold(Vec3::MAX, |low, at| low.min(*at));
@@ -317,9 +317,9 @@ fn crumpled_paper_is_a_ball_and_stays_one() {
 }
 
 #[test]
-fn reset_brings_everything_back_in_half_a_second_and_the_last_of_it_slowly() {
+fn reset_returns_the_receipt_in_half_a_second_with_an_ease_out() {
     for sheet in Sheet::ALL {
-        // Folded and held, crumpled and on the floor, in the air.
+        // Folded and grabbed, a letter, crumpled on the floor, in the air.
         for (gesture, ticks) in [
             (ReceiptGesture::Fold, 180),
             (ReceiptGesture::Letter, 620),
@@ -338,7 +338,7 @@ fn reset_brings_everything_back_in_half_a_second_and_the_last_of_it_slowly() {
 }
 
 fn comes_back(tender: &mut ReceiptApp) {
-    // Also while time stands still.
+    // The animation also runs while the simulation is paused.
     tender.act(ReceiptAction::Pause).unwrap();
     tender.act(ReceiptAction::Reset).unwrap();
     let mut tracks = vec![off(tender)];

@@ -1,4 +1,12 @@
-//! The cloth's own material: woven, two-sided, glossy or dull, and a little translucent.
+//! Cloth material: a two-sided woven surface with anisotropic gloss, sheen and transmission.
+//!
+//! Method: a forward pass with `cloth.frag`; the reflection on the floor is a second, mirrored
+//! pass.
+//!
+//! Reads a [`Mesh`], the shadow map, the lights and a fabric [`Appearance`]; writes colour and
+//! depth of the current target.
+//!
+//! Invariant: colours are linear here; [`ClothAlbedo`] converts them from sRGB.
 
 use glam::{Vec2, Vec3};
 use three_d::{Context, CoreError, Program, RenderStates};
@@ -9,7 +17,7 @@ use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 use crate::fabric::Appearance;
 
-/// A [`Appearance`] as light meets it: linear colours.
+/// The parameters of an [`Appearance`] with linear colours.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClothAlbedo {
     appearance: Appearance,
@@ -39,12 +47,12 @@ impl ClothAlbedo {
     }
 }
 
-/// The program that shades cloth.
+/// Shader program of the cloth.
 pub struct ClothMaterial {
     program: Program,
 }
 
-/// What the cloth is drawn as.
+/// Which image of the cloth a pass draws.
 #[derive(Clone, Copy, PartialEq)]
 enum As {
     Itself,
@@ -52,7 +60,7 @@ enum As {
 }
 
 impl ClothMaterial {
-    /// Compiles the material.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -67,7 +75,7 @@ impl ClothMaterial {
         })
     }
 
-    /// Draws the cloth; `dim` below one darkens it under a wireframe.
+    /// Draws the cloth; a `dim` below one darkens it, for the wireframe.
     pub(super) fn draw(
         &self,
         pass: &RenderPass,
@@ -81,7 +89,7 @@ impl ClothMaterial {
         self.program.draw_elements(RenderStates::default(), pass.viewport, &mesh.triangles);
     }
 
-    /// Draws the cloth upside down below the floor; the floor is blended over it afterwards.
+    /// Draws the mirror image below the floor; the floor is blended over it later.
     pub(super) fn draw_reflection(
         &self,
         pass: &RenderPass,

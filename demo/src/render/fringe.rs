@@ -1,12 +1,15 @@
-//! The fringe of torn borders: loose ends of warp and weft that stand out from where the cloth came
-//! apart. Hems have none.
+//! Frayed edges: loose warp and weft threads at torn and cut edges. Hems have none.
 //!
 //! ```text
-//!   cloth  ───┬──┬─┬──┬───  border      root + along · s, then droop, lift and curl · s²
-//!             │  ╲ │  ╰╮    threads     along follows the thread that crosses the border
+//!   cloth  ───┬──┬─┬──┬───  edge        root + along · s, then droop, lift and curl · s²
+//!             │  ╲ │  ╰╮    threads     along follows the thread that crosses the edge
 //! ```
-//! Which threads there are changes with the triangles; where they are is read off their triangle
-//! anew in each frame, so they ride on every fold.
+//! Method: threads are placed by a hash of the edge position whenever the topology changes; each
+//! frame computes their roots from the current triangle, so they follow every fold.
+//!
+//! Reads a [`ClothSurface`]; writes a texture of thread parameters, and the current colour target.
+//!
+//! Invariant: the same tear gives the same threads.
 
 use std::collections::HashMap;
 use std::f32::consts::TAU;
@@ -22,42 +25,42 @@ use super::mesh::ClothSurface;
 use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 
-/// Short fibres along a border [1/m].
+/// Density of short fibres along an edge [1/m].
 const FUZZ: f32 = 420.0;
-/// Long loose threads along a border [1/m].
+/// Density of long loose threads along an edge [1/m].
 const STRANDS: f32 = 75.0;
-/// No cloth gets more threads than this: one torn to shreds has thinner fringes.
+/// Approximate limit of threads per cloth; a cloth with many torn edges gets a lower density.
 const MAX_THREADS: f32 = 9000.0;
-/// Pieces that a thread bends in.
+/// Straight segments of a thread.
 const SEGMENTS: u32 = 4;
 
-/// A thread, as it is woven into its triangle.
+/// A thread, relative to its triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Thread {
-    /// The ends of the border edge, and the corner of its triangle inside.
+    /// The two ends of the edge, and the third corner of its triangle.
     corners: [u32; 3],
-    /// Where on the edge it comes out, as a share.
+    /// Position of the root along the edge, 0 to 1.
     at: f32,
-    /// Which direction it goes: so much of the edge, so much of the side that leads inside.
+    /// Direction, as coefficients of the edge and of the side from its start to the third corner.
     direction: [f32; 2],
-    /// Its length [m].
+    /// Length [m].
     length: f32,
-    /// Half its width [m], how it leans, sags and is coloured: see `fringe.vert`.
+    /// Half width [m], lean, phase of the curl, and colour: see `fringe.vert`.
     traits: [f32; 4],
 }
 
-/// The program that draws threads.
+/// Shader program of the threads.
 pub struct Fringe {
     program: Program,
 }
 
-/// The threads of a cloth.
+/// Threads of one cloth.
 ///
-/// They are thread_texture to the program by a texture and not as instances: to a rasteriser in software each instance
-/// is a draw call of its own.
+/// The shader reads their parameters from a texture. Instancing would be slow on software
+/// rasterisers, where each instance costs a draw call.
 pub struct FrayedThreads {
     context: Context,
-    /// Side, share of the direction to the tip, which thread.
+    /// Side, position along the thread (0 root, 1 tip), and index of the thread.
     ribbons: VertexBuffer<[f32; 3]>,
     thread_texture: Option<Texture2D>,
     threads: Vec<Thread>,
@@ -65,12 +68,12 @@ pub struct FrayedThreads {
     staging: Vec<[f32; 4]>,
 }
 
-/// Texels that tell of a thread, and threads in a row of them.
+/// Texels per thread, and threads per row of the texture.
 const TEXELS: usize = 4;
 const ROW: usize = 64;
 
 impl Fringe {
-    /// Compiles the threads.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -120,7 +123,7 @@ impl Fringe {
 }
 
 impl FrayedThreads {
-    /// Of a cloth that is whole.
+    /// Creates an empty list of threads.
     pub fn new(context: &Context) -> Self {
         Self {
             context: context.clone(),
@@ -132,7 +135,7 @@ impl FrayedThreads {
         }
     }
 
-    /// Follows the cloth.
+    /// Rebuilds the threads if the topology has changed, and uploads their parameters.
     pub fn update(&mut self, surface: &ClothSurface<'_>) {
         if self.revision != Some(surface.revision) {
             self.revision = Some(surface.revision);
@@ -162,7 +165,7 @@ impl FrayedThreads {
         thread_texture.fill(&self.staging);
     }
 
-    /// A texture and ribbons for as many threads as there are.
+    /// Resizes the texture and the ribbons to the number of threads.
     fn resize_buffers(&mut self) {
         let rows = self.threads.len().div_ceil(ROW) as u32;
         if rows == 0 {
@@ -172,7 +175,7 @@ impl FrayedThreads {
             .as_ref()
             .is_none_or(|thread_texture| thread_texture.height() != rows)
         {
-            // The old one goes first.
+            // The old texture is dropped first, to save GPU memory.
             self.thread_texture = None;
             self.thread_texture = Some(Texture2D::new_empty::<[f32; 4]>(
                 &self.context,
@@ -190,10 +193,10 @@ impl FrayedThreads {
     }
 }
 
-/// UnitQuad of a ribbon: two triangles a segment.
+/// Vertices of a ribbon: two triangles per segment.
 const CORNERS: u32 = 6 * SEGMENTS;
 
-/// The corners of a thread: x is the side, −1 or 1; y runs along it from 0 to 1; z is its number.
+/// Returns the vertices of a thread: side (−1 or 1), position along it (0 to 1), index.
 fn ribbon(thread: u32) -> impl Iterator<Item = [f32; 3]> {
     (0..SEGMENTS).flat_map(move |segment| {
         let [near, far] = [segment, segment + 1].map(|i| i as f32 / SEGMENTS as f32);
@@ -203,7 +206,7 @@ fn ribbon(thread: u32) -> impl Iterator<Item = [f32; 3]> {
     })
 }
 
-/// Finds the threads of every torn border.
+/// Rebuilds the threads of all torn and cut edges.
 fn rebuild_threads(surface: &ClothSurface<'_>, threads: &mut Vec<Thread>) {
     threads.clear();
     let borders = borders(surface);
@@ -219,7 +222,8 @@ fn rebuild_threads(surface: &ClothSurface<'_>, threads: &mut Vec<Thread>) {
         let into_triangle = plane.inverse();
         let outward = outward(a, b, c);
         let mut random = HashRandom::of(a + b);
-        // Weft threads cross a border by how much of it runs along the warp, and the other direction.
+        // The number of weft threads that cross an edge is proportional to its extent along the
+        // warp, and the other way round.
         let run = (b - a).abs();
         for (axis, extent) in [(Vec2::X, run.y), (Vec2::Y, run.x)] {
             let along = axis * if axis.dot(outward) < 0.0 { -1.0 } else { 1.0 };
@@ -231,7 +235,7 @@ fn rebuild_threads(surface: &ClothSurface<'_>, threads: &mut Vec<Thread>) {
                     let lean = (random.next_unit() - 0.5) * if is_strand { 0.7 } else { 1.5 };
                     let direction = into_triangle * Vec2::from_angle(lean).rotate(along);
                     let long = random.next_unit();
-                    // Few are much longer than the rest.
+                    // The square makes long threads rare.
                     let length =
                         if is_strand { 0.012 + 0.052 * long * long } else { 0.004 + 0.008 * long };
                     let width = if is_strand { 0.00055 } else { 0.0004 };
@@ -255,7 +259,8 @@ fn rebuild_threads(surface: &ClothSurface<'_>, threads: &mut Vec<Thread>) {
     }
 }
 
-/// The edges that one triangle alone has and that are no hems, with that triangle's third corner.
+/// Returns the torn or cut border edges: edges of one triangle only that lie on no hem, each with
+/// the third corner.
 fn borders(surface: &ClothSurface<'_>) -> Vec<[u32; 3]> {
     let torn = |corner: u32| surface.frayed[corner as usize];
     let mut open: HashMap<[u32; 2], [u32; 3]> = HashMap::new();
@@ -278,18 +283,18 @@ fn borders(surface: &ClothSurface<'_>) -> Vec<[u32; 3]> {
         .into_values()
         .filter(|[a, b, _]| !hem(surface.uvs[*a as usize], surface.uvs[*b as usize]))
         .collect();
-    // The table gives them in an order of its own.
+    // A `HashMap` has no fixed order, so the edges are sorted.
     borders.sort_unstable();
     borders
 }
 
-/// Square to the edge from `a` to `b`, away from `c`.
+/// Returns the unit normal of the edge from `a` to `b` in texture space that points away from `c`.
 fn outward(a: Vec2, b: Vec2, c: Vec2) -> Vec2 {
     let square = (b - a).perp().normalize_or_zero();
     if square.dot(c - a) > 0.0 { -square } else { square }
 }
 
-/// Numbers from 0 to 1 that look random, the same for the same place in the cloth.
+/// Pseudo-random numbers in 0 to 1, seeded by a position in texture space.
 struct HashRandom(u32);
 
 impl HashRandom {
@@ -338,10 +343,10 @@ mod tests {
     }
 
     #[test]
-    fn hems_have_no_threads_and_a_cut_has_them_on_both_of_its_sides() {
+    fn hems_have_no_threads_and_a_cut_has_threads_on_both_sides() {
         let mut cloth = sheet();
         assert_eq!(threads_of(&mut cloth), []);
-        // Across the sheet from its left hem, between two rows.
+        // The cut runs from the left hem across the sheet, between two rows.
         let (from, to) = (Vec3::new(-0.1, -0.55, -0.2), Vec3::new(0.7, -0.55, -0.2));
         assert!(cloth.cut(from, to, Vec3::Z * 0.4).unwrap() > 0);
         let threads = threads_of(&mut cloth);
@@ -351,7 +356,7 @@ mod tests {
             let root = a.lerp(b, thread.at);
             assert!((root.y + 0.55).abs() < 1.0e-3, "a thread grows at {root}");
             let direction = (b - a) * thread.direction[0] + (c - a) * thread.direction[1];
-            // Away from the triangle that it is woven into.
+            // Threads point away from their triangle.
             assert!(direction.y * (c.y - root.y) < 0.0, "a thread goes {direction} at {root}");
             if direction.y > 0.0 { up += 1 } else { down += 1 }
         }
@@ -360,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cloth_in_shreds_has_no_more_threads_than_it_may() {
+    fn the_number_of_threads_is_limited() {
         let desc = GridDesc { columns: 40, rows: 40, spacing: 1.0 / 39.0, ..GridDesc::default() };
         let mut cloth = Cloth::grid(&GridDesc { extra_particles: 4000, ..desc }).unwrap();
         for i in 1..16 {
@@ -373,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_tear_has_the_same_threads() {
+    fn the_same_tear_gives_the_same_threads() {
         let torn = || {
             let mut cloth = sheet();
             cloth.tear_edge(40, 41).unwrap();

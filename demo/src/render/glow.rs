@@ -1,4 +1,10 @@
-//! Halos behind the lights: additive sprites from one generated radial texture.
+//! Light halos: additive billboards with one radial texture.
+//!
+//! Method: one quad per halo, parallel to the screen, blended additively.
+//!
+//! Reads the camera view; writes the current colour target.
+//!
+//! Invariant: the texture is zero at its border, so that the quad is not visible.
 
 use glam::Vec3;
 use three_d::{
@@ -9,17 +15,17 @@ use three_d::{
 use super::light::{STAGE_CENTRE, linear};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 
-/// Texels along a side of the radial texture.
+/// Size of the radial texture [texels].
 const SIZE: u32 = 128;
 
-/// One halo.
+/// Centre [m], radius [m] and colour of a halo.
 struct Halo {
     centre: Vec3,
     radius: f32,
     tint: Vec3,
 }
 
-/// The halos, their texture and their program.
+/// The halos with their texture and shader program.
 pub struct Glow {
     program: Program,
     texture: Texture2D,
@@ -27,7 +33,7 @@ pub struct Glow {
 }
 
 impl Glow {
-    /// Generates the texture.
+    /// Generates the texture and compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -90,7 +96,7 @@ impl Glow {
     }
 }
 
-/// A disc that fades smoothly to nothing at its border.
+/// Returns a disc that fades smoothly to zero at its border.
 fn radial() -> Vec<u8> {
     let middle = 0.5 * (SIZE - 1) as f32;
     let texel = |i: u32| {
@@ -107,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_halo_is_bright_inside_and_gone_at_its_border() {
+    fn the_halo_is_bright_at_its_centre_and_zero_at_its_border() {
         let texture = radial();
         let (size, half) = (SIZE as usize, SIZE as usize / 2);
         assert!(texture[half * size + half] > 250);

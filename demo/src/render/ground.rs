@@ -1,4 +1,11 @@
-//! The stage floor: it takes the shadow, a breath of reflection, and fades into the backdrop.
+//! Floor of the cloth scenes: receives the shadow, lets the reflections through, and fades into the
+//! backdrop.
+//!
+//! Method: one quad, blended over the mirrored cloth.
+//!
+//! Reads the shadow map, the lights and the camera view; writes the current colour target.
+//!
+//! Invariant: it is drawn after the reflections and before the cloth.
 
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
@@ -6,16 +13,16 @@ use super::light::{FLOOR, STAGE_CENTRE};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 
-/// Half a side of the floor [m]; it has faded away long before.
+/// Half the side of the quad [m]; the floor fades out before its border.
 const REACH: f32 = 8.0;
 
-/// The program that shades the floor.
+/// Shader program of the floor.
 pub struct Ground {
     program: Program,
 }
 
 impl Ground {
-    /// Compiles the floor.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.

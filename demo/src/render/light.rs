@@ -1,35 +1,42 @@
-//! The lights of the scene, and the colours of the brief made ready for a linear, tone-mapped picture.
+//! Lights of a scene, and conversion of sRGB colours to linear values.
+//!
+//! Method: three directional lights (key, fill, rim); the sRGB transfer function of IEC 61966-2-1;
+//! the filmic curve of Narkowicz (2015), inverted by bisection.
+//!
+//! Reads colours `0xrrggbb`; returns linear RGB and light matrices.
+//!
+//! Invariant: light directions have unit length and point from the scene to the light.
 
 use std::ops::Range;
 
 use glam::camera::rh::{proj, view};
 use glam::{Mat4, Vec3};
 
-/// Where the middle of the hanging sheet is, and where the camera looks [m].
+/// Centre of the hanging sheet, and default target of the camera [m].
 pub const STAGE_CENTRE: Vec3 = Vec3::new(0.0, -0.08, 0.0);
 
 pub use muslin_scenes::FLOOR;
 
-/// How far from [`STAGE_CENTRE`] the shadow map reaches [m].
+/// Radius around [`STAGE_CENTRE`] that the shadow map covers [m].
 pub const STAGE_RADIUS: f32 = 2.7;
 
-/// A light so far away that all of its rays run the same way.
+/// A directional light.
 #[derive(Clone, Copy, Debug)]
 pub struct Light {
-    /// From the scene towards the light, of unit length.
+    /// Unit vector from the scene to the light.
     pub towards: Vec3,
     /// Linear colour times intensity.
     pub colour: Vec3,
 }
 
-/// The three lights of the stage.
+/// Key, fill and rim light.
 #[derive(Clone, Copy, Debug)]
 pub struct Lights {
-    /// Warm, from the upper left in front; the one that throws shadows.
+    /// Key light; the only one that casts shadows.
     pub key: Light,
-    /// Cool and dim, from the right.
+    /// Fill light, which brightens the shaded side.
     pub fill: Light,
-    /// Warm and dim, from behind: it draws the silhouette.
+    /// Rim light from behind, which brightens the silhouette.
     pub rim: Light,
 }
 
@@ -44,18 +51,19 @@ impl Default for Lights {
 }
 
 impl Light {
-    /// A light from a direction, of a colour `0xrrggbb` and so intense.
+    /// Creates a light from its direction, its colour `0xrrggbb` and its intensity.
     pub fn new(towards: Vec3, colour: u32, intensity: f32) -> Self {
         Self { towards: towards.normalize(), colour: linear(colour) * intensity }
     }
 
-    /// Maps the stage into the clip space of an orthographic camera that looks along the light.
+    /// Returns the orthographic light matrix that covers the stage.
     pub fn clip_from_world(&self) -> Mat4 {
         let r = STAGE_RADIUS;
         self.clip_around(STAGE_CENTRE, r, 2.0 * r, 0.5 * r..4.0 * r)
     }
 
-    /// The same for what is within `radius` of a place, seen from so far `away` [m].
+    /// Returns the orthographic light matrix that covers a sphere; the eye is `away` [m] from its
+    /// centre.
     pub fn clip_around(&self, centre: Vec3, radius: f32, away: f32, depth: Range<f32>) -> Mat4 {
         let eye = centre + self.towards * away;
         let up = if self.towards.y.abs() > 0.99 { Vec3::Z } else { Vec3::Y };
@@ -65,7 +73,7 @@ impl Light {
     }
 }
 
-/// The linear colour of an sRGB one written as `0xrrggbb`.
+/// Converts an sRGB colour `0xrrggbb` to linear RGB.
 pub fn linear(srgb: u32) -> Vec3 {
     let channel = |shift: u32| {
         let c = ((srgb >> shift) & 0xff) as f32 / 255.0;
@@ -74,9 +82,9 @@ pub fn linear(srgb: u32) -> Vec3 {
     Vec3::new(channel(16), channel(8), channel(0))
 }
 
-/// The linear light that comes out of the tone curve as the colour `0xrrggbb`.
+/// Returns the linear colour that the tone curve maps to the sRGB colour `0xrrggbb`.
 ///
-/// The backdrop is specified by what must be seen, so it has to be led through the curve backwards.
+/// The backdrop is specified by its final colour, so the curve must be inverted.
 pub fn before_tone_curve(srgb: u32) -> Vec3 {
     let wanted = linear(srgb).to_array();
     Vec3::from_array(wanted.map(|wanted| {
@@ -93,7 +101,7 @@ pub fn before_tone_curve(srgb: u32) -> Vec3 {
     }))
 }
 
-/// The filmic curve of `post.frag`: Narkowicz's fit of the ACES reference transform (2015).
+/// The filmic tone curve of `post.frag`: Narkowicz's fit of the ACES reference transform (2015).
 fn tone_curve(x: f32) -> f32 {
     let x = x * 0.62;
     ((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0)
@@ -104,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_colour_led_backwards_comes_out_of_the_curve_again() {
+    fn the_inverse_of_the_tone_curve_is_exact() {
         for colour in [0x05070d, 0x0b1020, 0x9fb6ff] {
             let out = before_tone_curve(colour).to_array().map(tone_curve);
             let wanted = linear(colour).to_array();

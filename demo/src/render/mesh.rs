@@ -1,34 +1,42 @@
-//! The cloth's vertices on the graphics card, kept up with the cloth.
+//! Vertex and index buffers of one cloth.
+//!
+//! Method: positions and normals are uploaded every frame; texture coordinates and indices only
+//! when the topology revision changes.
+//!
+//! Reads a [`ClothSurface`]; writes GPU buffers.
+//!
+//! Invariant: all vertex buffers have the same number of entries.
 
 use glam::{Vec2, Vec3};
 use three_d::{Context, ElementBuffer, VertexBuffer};
 
-/// A cloth as the renderer sees it: borrowed columns, one entry a vertex.
+/// The data of a cloth that the renderer needs: borrowed arrays with one entry per vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct ClothSurface<'a> {
-    /// Where the vertices are [m].
+    /// Positions [m].
     pub positions: &'a [Vec3],
-    /// Length of what is drawn as a metre [m].
+    /// Length in the simulation of one drawn metre [m].
     pub unit: f32,
-    /// Unit normals of the front face.
+    /// Unit normals of the front.
     pub normals: &'a [Vec3],
-    /// Where in the weave, 0 to 1 along each side.
+    /// Texture coordinates, 0 to 1 along each side.
     pub uvs: &'a [Vec2],
-    /// Whether a vertex is at a border that came about by tearing or cutting.
+    /// Whether a vertex lies on a torn or cut edge.
     pub frayed: &'a [bool],
-    /// Three a triangle.
+    /// Three vertex indices per triangle.
     pub indices: &'a [u32],
-    /// Two a line of the wireframe.
+    /// Two vertex indices per line of the wireframe.
     pub lines: &'a [u32],
-    /// What the weave's coordinates span, as it is drawn [m].
+    /// Size of the texture space, in drawn metres.
     pub span: Vec2,
-    /// Whether it is a disc: its hem runs around the middle of the weave's coordinates.
+    /// Whether the cloth is a disc, with a circular hem around the centre of the texture space.
     pub is_round: bool,
-    /// Another number says that uvs, frayed borders, indices or lines are others.
+    /// Revision of texture coordinates, frayed edges, indices and lines; a new value uploads them
+    /// again.
     pub revision: u64,
 }
 
-/// The buffers of one [`ClothSurface`].
+/// GPU buffers of one [`ClothSurface`].
 pub struct Mesh {
     pub(super) positions: VertexBuffer<[f32; 3]>,
     pub(super) normals: VertexBuffer<[f32; 3]>,
@@ -43,7 +51,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Empty buffers.
+    /// Creates empty buffers.
     pub fn new(context: &Context) -> Self {
         Self {
             positions: VertexBuffer::new(context),
@@ -59,7 +67,7 @@ impl Mesh {
         }
     }
 
-    /// Uploads what may have changed: positions and normals always, the rest with the revision.
+    /// Uploads positions and normals, and the other buffers if the revision has changed.
     pub fn update(&mut self, surface: &ClothSurface<'_>) {
         let staging = &mut self.staging;
         let mut upload = |buffer: &mut VertexBuffer<[f32; 3]>, values: &[Vec3], scale: f32| {

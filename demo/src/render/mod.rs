@@ -1,7 +1,15 @@
-//! The picture: cloths, their shadows and their reflections on a dark stage, from positions to pixels.
+//! Renderer of the cloth scenes: forward rendering with one shadow-casting light.
 //!
-//! Light is gathered in a linear, multisampled half-float target; [`post`] turns it into the
-//! picture. Every shader is written for both desktop GL 3.3 and WebGL 2.
+//! ```text
+//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, trail
+//!                                      (multisampled HDR target)           ─▶ resolve ─▶ post ─▶ output
+//! ```
+//! Method: passes write linear colours to a multisampled half-float target; [`post`] applies tone
+//! mapping. All shaders run on OpenGL 3.3 and on WebGL 2.
+//!
+//! Reads [`ClothSurface`]s and a [`FrameScene`]; writes the pixels of the output target.
+//!
+//! Invariant: child modules import shared types from `pass` and `hdr_target`, never from this file.
 
 mod canvas;
 pub mod cloth_material;
@@ -31,28 +39,28 @@ use hdr_target::HdrTarget;
 pub use mesh::ClothSurface;
 use pass::{RenderPass, UnitQuad};
 
-/// What a frame shows besides the cloths themselves.
+/// The contents of a frame, except for the cloths.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameScene<'a> {
-    /// From where, and how wide.
+    /// Camera view.
     pub view: CameraView,
-    /// How each of the cloths takes the light.
+    /// Appearance of each cloth.
     pub appearances: &'a [Appearance],
-    /// What they hang on.
+    /// Supports and obstacles.
     pub solids: &'a [solid::Solid],
-    /// The path of the blade.
+    /// Trail of the blade.
     pub trail: &'a [trail::TrailPoint],
-    /// Whether the links are drawn over the dimmed cloth.
+    /// Whether to draw the links over the dimmed cloth.
     pub wireframe: bool,
-    /// The resolution_scale of the output's pixels that are drawn along each side; the rest are blended.
+    /// Fraction of the output pixels to draw along each side; the result is scaled up.
     pub resolution_scale: f32,
 }
 
-/// Everything on the graphics card; dropped and made anew when a context is lost.
+/// All GPU resources of the cloth scenes; created again after a lost context.
 pub struct Renderer {
     context: Context,
     lights: light::Lights,
-    /// Those that were uploaded, then room for others.
+    /// Buffers of each cloth.
     cloths: Vec<ClothBuffers>,
     shadow: shadow::ShadowMap,
     floor_shadow: shadow::ShadowMap,
@@ -69,19 +77,19 @@ pub struct Renderer {
     target: Option<HdrTarget>,
 }
 
-/// A cloth on the graphics card.
+/// GPU buffers of a cloth and of its frayed edges.
 struct ClothBuffers {
     mesh: mesh::Mesh,
     threads: fringe::FrayedThreads,
 }
 
-/// Texels along a side of the shadow map that the cloth itself reads.
+/// Size of the shadow map for cloth and solids [texels].
 const SHARP: u32 = 1024;
-/// And of the one for the floor, whose shadows are far from what casts them and so softer.
+/// Size of the shadow map for the floor [texels]; it is coarser because these shadows are softer.
 const SOFT: u32 = 320;
 
 impl Renderer {
-    /// Compiles the shaders and makes the textures.
+    /// Compiles the shaders and creates the textures.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses a shader.
@@ -106,7 +114,7 @@ impl Renderer {
         })
     }
 
-    /// There are so many cloths.
+    /// Sets the number of cloths; new ones are empty.
     pub fn set_cloth_count(&mut self, count: usize) {
         let made = || ClothBuffers {
             mesh: mesh::Mesh::new(&self.context),
@@ -115,7 +123,7 @@ impl Renderer {
         self.cloths.resize_with(count, made);
     }
 
-    /// Takes the cloth of this number as it is now.
+    /// Uploads the current state of the cloth with this index.
     pub fn upload_cloth(&mut self, cloth: usize, surface: &ClothSurface<'_>) {
         if let Some(uploaded) = self.cloths.get_mut(cloth) {
             uploaded.mesh.update(surface);
@@ -123,7 +131,7 @@ impl Renderer {
         }
     }
 
-    /// Draws one picture of what it was given into `output`, filling it.
+    /// Draws all cloths and `frame` into the whole of `output`.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
@@ -188,7 +196,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// The context that everything here lives in.
+    /// Returns the context of the GPU resources.
     pub fn context(&self) -> &Context {
         &self.context
     }

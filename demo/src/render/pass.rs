@@ -1,4 +1,12 @@
-//! PASS DOC
+//! Shared state of the render passes: camera, lights, a unit quad, and conversions to three-d's
+//! types.
+//!
+//! Method: one [`RenderPass`] per frame that all child modules of `render` read.
+//!
+//! Reads the camera view and the lights; writes nothing but shader uniforms.
+//!
+//! Invariant: this file imports no other pass, so that passes can share it without an import
+//! circle.
 
 use glam::{Mat4, Vec3};
 use three_d::{
@@ -9,7 +17,7 @@ use three_d::{
 use super::light::Lights;
 use crate::camera::CameraView;
 
-/// How what the floor mirrors is blended over the backdrop.
+/// Blending of the reflection over the backdrop.
 pub(super) const REFLECTION_BLEND: Blend = Blend::Enabled {
     source_rgb_multiplier: BlendMultiplierType::SrcAlpha,
     source_alpha_multiplier: BlendMultiplierType::Zero,
@@ -19,7 +27,7 @@ pub(super) const REFLECTION_BLEND: Blend = Blend::Enabled {
     alpha_equation: BlendEquationType::Add,
 };
 
-/// What every draw call of one picture shares.
+/// State that all draw calls of a frame share.
 pub(super) struct RenderPass {
     pub(super) viewport: Viewport,
     pub(super) clip_from_world: Mat4,
@@ -33,7 +41,7 @@ impl RenderPass {
     }
 }
 
-/// Two triangles over the square from -1 to 1.
+/// Two triangles that cover the square from -1 to 1.
 pub(super) struct UnitQuad(VertexBuffer<[f32; 2]>);
 
 impl UnitQuad {
@@ -51,12 +59,12 @@ impl UnitQuad {
     }
 }
 
-/// glam's matrix as three-d takes it.
+/// Converts a matrix of glam to three-d's type.
 pub(super) fn to_gl_matrix(m: Mat4) -> three_d::Mat4 {
     m.to_cols_array_2d().into()
 }
 
-/// glam's vector as three-d takes it.
+/// Converts a vector of glam to three-d's type.
 pub(super) fn to_gl_vector(v: Vec3) -> three_d::Vec3 {
     v.to_array().into()
 }

@@ -1,4 +1,10 @@
-//! From linear light to pixels: vignette, filmic curve, sRGB, dither.
+//! Post-processing: vignette, filmic tone mapping, sRGB conversion and ordered dither.
+//!
+//! Method: one full-screen pass with `post.frag`.
+//!
+//! Reads the resolved HDR texture; writes the output target.
+//!
+//! Invariant: it is the last pass of a frame.
 
 use three_d::{
     Context, CoreError, DepthTest, Program, RenderStates, Texture2D, Viewport, WriteMask,
@@ -6,13 +12,13 @@ use three_d::{
 
 use super::pass::UnitQuad;
 
-/// The last pass.
+/// Shader program of the post-processing pass.
 pub struct Post {
     program: Program,
 }
 
 impl Post {
-    /// Compiles the pass.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.

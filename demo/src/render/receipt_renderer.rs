@@ -1,4 +1,15 @@
-//! The receipt's picture: paper over a plain ground in daylight, in the brief's units and colours.
+//! Renderer of the receipt: paper over a matt ground in daylight, in the units and colours of the
+//! receipt's specification.
+//!
+//! ```text
+//! shadow map, coarse depth map, sky maps ─▶ ground ─▶ pins ─▶ paper ─▶ resolve ─▶ tone curve ─▶ output
+//! ```
+//! Method: one key light with a filtered shadow map; ambient light with occlusion from four sky
+//! maps.
+//!
+//! Reads a [`ClothSurface`] and a [`ReceiptFrame`]; writes the pixels of the output target.
+//!
+//! Invariant: lengths are in scene units, not in metres.
 
 use glam::{Mat4, Vec3};
 use muslin_scenes::receipt;
@@ -18,33 +29,34 @@ use super::solid::{Solid, Solids};
 use crate::camera::CameraView;
 use crate::receipt::ink_map::InkMap;
 
-/// What fills the picture where nothing is.
+/// Colour of the background.
 const BACKDROP: u32 = 0xe8e8e8;
-/// Height of the ground: a little under the floor, in units.
+/// Height of the ground, slightly below the floor, in units.
 pub const GROUND: f32 = receipt::FLOOR - 0.02;
-/// Half a side of the ground, in units.
+/// Half the side of the ground, in units.
 const REACH: f32 = 50.0;
-/// Light of one that comes out as one: the brief's lights together are brighter than a screen.
+/// Exposure that maps the sum of the specified lights to the range of a screen.
 const EXPOSURE: f32 = 1.0 / 1.4;
-/// Texels along a side of the key light's shadow map, and of the one that tells how far shadows fall.
+/// Sizes [texels] of the key light's shadow map, and of the coarse depth map that measures how far
+/// shadows fall.
 const SHARP: u32 = 2048;
 const COARSE: u32 = 256;
-/// What the shadow maps show around the middle of the paper, at least, in units; and how deep they are.
+/// Least radius and depth of the volume that the shadow maps cover, in units.
 const RADIUS: f32 = 5.0;
 const DEPTH: f32 = 60.0;
 
-/// What a frame shows besides the paper.
+/// The contents of a frame, except for the paper.
 #[derive(Clone, Copy, Debug)]
 pub struct ReceiptFrame<'a> {
-    /// From where, in units.
+    /// Camera view, in units.
     pub view: CameraView,
-    /// Where pins are, in units.
+    /// Positions of the pins, in units.
     pub pins: &'a [Vec3],
-    /// The resolution_scale of the output's pixels that are drawn along each side.
+    /// Fraction of the output pixels to draw along each side.
     pub resolution_scale: f32,
 }
 
-/// Everything on the graphics card; dropped and made anew when a context is lost.
+/// All GPU resources of the receipt; created again after a lost context.
 pub struct ReceiptRenderer {
     context: Context,
     lights: Lights,
@@ -59,13 +71,13 @@ pub struct ReceiptRenderer {
     daylight: Program,
     quad: UnitQuad,
     target: Option<HdrTarget>,
-    /// The middle of the paper, and how far it reaches from there, in units.
+    /// Centre and radius of the paper, in units.
     middle: Vec3,
     radius: f32,
 }
 
 impl ReceiptRenderer {
-    /// Compiles the shaders, prints the receipt and makes the textures.
+    /// Compiles the shaders, prints the receipt and creates the textures.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses a shader.
@@ -103,7 +115,7 @@ impl ReceiptRenderer {
         })
     }
 
-    /// Takes the paper as it is now.
+    /// Uploads the current state of the paper.
     pub fn upload_paper(&mut self, surface: &ClothSurface<'_>) {
         self.mesh.update(surface);
         let count = surface.positions.len().max(1) as f32;
@@ -112,7 +124,7 @@ impl ReceiptRenderer {
         self.radius = far.fold(RADIUS, f32::max);
     }
 
-    /// Draws one picture of it into `output`, filling it.
+    /// Draws the paper and `frame` into the whole of `output`.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
@@ -167,7 +179,7 @@ impl ReceiptRenderer {
         Ok(())
     }
 
-    /// The context that everything here lives in.
+    /// Returns the context of the GPU resources.
     pub fn context(&self) -> &Context {
         &self.context
     }
@@ -201,8 +213,8 @@ impl ReceiptRenderer {
         p.use_vertex_attribute("normal", &self.mesh.normals);
         p.use_vertex_attribute("texcoord", &self.mesh.uvs);
         p.use_vertex_attribute("frayed", &self.mesh.frayed);
-        // SAFETY: plain GL state, set back right after the one draw call that it is for: the saw of the
-        // paper's ends is cut out of a pixel's samples.
+        // SAFETY: plain GL state, reset directly after the one draw call that needs it. Alpha to
+        // coverage cuts the sawtooth ends of the paper out of the samples of a pixel.
         unsafe { self.context.enable(context::SAMPLE_ALPHA_TO_COVERAGE) };
         p.draw_elements(RenderStates::default(), pass.viewport, &self.mesh.triangles);
         // SAFETY: as above.
@@ -210,7 +222,7 @@ impl ReceiptRenderer {
     }
 }
 
-/// The brief's lights; what comes from around is in `sky_light.glsl`.
+/// The specified directional lights; the ambient light is in `sky_light.glsl`.
 fn lights() -> Lights {
     Lights {
         key: Light::new(Vec3::new(6.0, 12.0, 8.0), 0xfff8ee, 1.2),
@@ -219,13 +231,13 @@ fn lights() -> Lights {
     }
 }
 
-/// A push pin through the paper at a place.
+/// A push pin at a position of the paper.
 fn pin(at: Vec3) -> Solid {
     let [from, to] = [0.02, 0.10].map(|out| at + Vec3::Z * out);
     Solid::capsule(from, to, 0.075, 0xc8402f)
 }
 
-/// The print as a texture that stays sharp when seen askew.
+/// Returns the print as a mipmapped texture with anisotropic filtering.
 fn ink(context: &Context) -> Texture2D {
     let print = InkMap::new();
     let texture = Texture2D::new_empty::<u8>(
@@ -242,7 +254,7 @@ fn ink(context: &Context) -> Texture2D {
     texture
 }
 
-/// The light that `daylight.frag` makes the colour `0xrrggbb` of.
+/// Returns the linear colour that `daylight.frag` maps to the sRGB colour `0xrrggbb`.
 fn before_daylight(srgb: u32) -> Vec3 {
     let unbent = |y: f32| if y < 0.7 { y } else { 0.7 - 0.3 * (1.0 - (y - 0.7) / 0.3).ln() };
     Vec3::from_array(linear(srgb).to_array().map(unbent)) / EXPOSURE
@@ -253,7 +265,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_backdrop_comes_out_as_the_brief_has_it() {
+    fn the_backdrop_has_the_specified_colour_after_the_tone_curve() {
         let shoulder = |x: f32| x.min(0.7) + 0.3 * (1.0 - (-(x - 0.7).max(0.0) / 0.3).exp());
         for colour in [BACKDROP, 0x808080] {
             let wanted = linear(colour).to_array();
@@ -264,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn the_key_light_is_the_briefs() {
+    fn the_key_light_has_the_specified_direction_and_colour() {
         let key = lights().key;
         assert!(key.towards.distance(Vec3::new(6.0, 12.0, 8.0).normalize()) < 1.0e-6);
         assert!(key.colour.distance(linear(0xfff8ee) * 1.2) < 1.0e-6);

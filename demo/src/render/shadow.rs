@@ -1,6 +1,12 @@
-//! The shadow of the key light: a depth map of the stage, compared and filtered by the card.
+//! Shadow map of the key light: a depth texture with hardware comparison and filtering.
 //!
-//! The map never moves, so that still shadows stay still.
+//! Method: depth-only pass from the light, then percentage-closer filtering in `light.glsl`
+//! (Reeves, Salesin, Cook, SIGGRAPH 1987).
+//!
+//! Reads meshes and a light matrix; writes a depth texture.
+//!
+//! Invariant: for the cloth scenes the light matrix is constant, so that shadows at rest do not
+//! flicker.
 
 use glam::Mat4;
 use three_d::context::{self, HasContext};
@@ -13,7 +19,7 @@ use super::light::{Light, Lights};
 use super::mesh::Mesh;
 use super::pass::{to_gl_matrix, to_gl_vector};
 
-/// The map, and what fills it.
+/// Depth texture of one light, and the program that fills it.
 pub struct ShadowMap {
     context: Context,
     depths: DepthProgram,
@@ -21,7 +27,7 @@ pub struct ShadowMap {
 }
 
 impl ShadowMap {
-    /// An empty map of `size` texels a side.
+    /// Creates an empty map of `size` × `size` texels.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -33,7 +39,8 @@ impl ShadowMap {
         })
     }
 
-    /// Fills the map with the cloth and the solids as the key light sees it.
+    /// Draws the depth of `meshes`, and of other objects through `draw_others`, as the light sees
+    /// them.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
@@ -54,12 +61,12 @@ impl ShadowMap {
         Ok(())
     }
 
-    /// Hands map and key light to a program that includes `light.glsl`.
+    /// Binds the map and the key light to a program that includes `light.glsl`.
     pub(super) fn bind(&self, program: &Program, lights: &Lights) {
         self.bind_with_clip(program, &lights.key, lights.key.clip_from_world());
     }
 
-    /// The same for any light, and the clip space that the map was drawn in.
+    /// Binds the map with any light, and with the light matrix that the map was drawn with.
     pub(super) fn bind_with_clip(&self, program: &Program, key: &Light, clip: Mat4) {
         program.use_uniform("shadowFromWorld", to_gl_matrix(clip));
         program.use_uniform("keyTowards", to_gl_vector(key.towards));
@@ -68,17 +75,17 @@ impl ShadowMap {
         enable_depth_compare(&self.context);
     }
 
-    /// Hands the bare depths to a program.
+    /// Binds the map as a plain depth texture.
     pub(super) fn bind_depths(&self, program: &Program, name: &str) {
         program.use_depth_texture(name, &self.map);
     }
 }
 
-/// The program that draws how far cloth is from a light.
+/// Depth-only program for cloth.
 pub(super) struct DepthProgram(Program);
 
 impl DepthProgram {
-    /// Compiles it.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -88,7 +95,7 @@ impl DepthProgram {
         Program::from_source(context, vertex, fragment).map(Self)
     }
 
-    /// Draws a cloth into the part of a depth map that `viewport` is.
+    /// Draws a cloth into the part of a depth map that `viewport` covers.
     pub fn draw(&self, mesh: &Mesh, clip: Mat4, viewport: Viewport) {
         self.0.use_uniform("shadowFromWorld", to_gl_matrix(clip));
         self.0.use_vertex_attribute("position", &mesh.positions);
@@ -97,15 +104,16 @@ impl DepthProgram {
     }
 }
 
-/// An empty depth map of `size` texels a side.
+/// Creates an empty depth map of `size` × `size` texels.
 pub(super) fn depth_map(context: &Context, size: u32) -> DepthTexture2D {
     let edge = Wrapping::ClampToEdge;
     DepthTexture2D::new::<f32>(context, size, size, edge, edge)
 }
 
-/// Has the depth texture that was just bound enable_depth_compare and blend what a shadow sampler asks of it.
+/// Enables comparison and linear filtering of the depth texture that was bound last, as shadow
+/// samplers need it.
 pub(super) fn enable_depth_compare(context: &Context) {
-    // three-d binds the map for plain reads; a shadow sampler compares and blends instead.
+    // three-d sets the texture up for plain reads.
     let parameters = [
         (context::TEXTURE_COMPARE_MODE, context::COMPARE_REF_TO_TEXTURE),
         (context::TEXTURE_COMPARE_FUNC, context::LEQUAL),

@@ -1,17 +1,23 @@
-//! The backdrop: the brief's gradient, with light gathered behind the cloth.
+//! Backdrop of the cloth scenes: a vertical gradient with a soft light behind the cloth.
+//!
+//! Method: one full-screen pass without depth test.
+//!
+//! Reads the aspect ratio; writes the current colour target.
+//!
+//! Invariant: the darkest and the brightest colour are the specified ones after tone mapping.
 
 use three_d::{Context, CoreError, DepthTest, Program, RenderStates, WriteMask};
 
 use super::light::before_tone_curve;
 use super::pass::{RenderPass, UnitQuad, to_gl_vector};
 
-/// The program that fills the screen with the backdrop.
+/// Shader program of the backdrop.
 pub struct Sky {
     program: Program,
 }
 
 impl Sky {
-    /// Compiles the backdrop.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.

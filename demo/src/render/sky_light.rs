@@ -1,5 +1,11 @@
-//! Light of the sky: how open a place is to a few directions of it, each with a small depth map of the cloth.
-//! It darkens what is hollow, and grounds what lies on the floor.
+//! Ambient occlusion from the sky: visibility of four directions, each by a small depth map.
+//!
+//! Method: a 2 × 2 atlas of orthographic depth maps; `sky_light.glsl` weights them by the surface
+//! normal. Concave parts and contacts with the floor get darker.
+//!
+//! Reads a [`Mesh`]; writes the depth atlas.
+//!
+//! Invariant: the light matrices in the shader are the ones that the maps were drawn with.
 
 use glam::{Mat4, Vec3};
 use three_d::{ClearState, Context, CoreError, DepthTexture2D, Program, Viewport};
@@ -9,13 +15,13 @@ use super::mesh::Mesh;
 use super::pass::{to_gl_matrix, to_gl_vector};
 use super::shadow::{DepthProgram, depth_map, enable_depth_compare};
 
-/// Directions, in a square of maps.
+/// Maps per side of the atlas.
 const SIDE: u32 = 2;
 const COUNT: usize = (SIDE * SIDE) as usize;
-/// Texels along a side of a map.
+/// Size of one map [texels].
 const TEXELS: u32 = 384;
 
-/// The maps, and what fills them.
+/// Depth atlas with its directions and light matrices.
 pub struct SkyLight {
     context: Context,
     depths: DepthProgram,
@@ -25,12 +31,12 @@ pub struct SkyLight {
 }
 
 impl SkyLight {
-    /// Empty maps.
+    /// Creates empty maps.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        // Straight up, and three ways around at a third of that height.
+        // One direction straight up, and three inclined ones around it.
         let around = |turn: f32| Vec3::new(turn.sin(), 0.62, turn.cos()).normalize();
         Ok(Self {
             context: context.clone(),
@@ -41,7 +47,7 @@ impl SkyLight {
         })
     }
 
-    /// Fills the maps with a cloth that is within `radius` of a place.
+    /// Draws the maps for a cloth within `radius` of `centre`.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses.
@@ -65,7 +71,7 @@ impl SkyLight {
         Ok(())
     }
 
-    /// Hands the maps to a program that includes `sky_light.glsl`.
+    /// Binds the maps to a program that includes `sky_light.glsl`.
     pub(super) fn bind(&self, program: &Program) {
         program.use_uniform_array("skyFromWorld", &self.clips.map(to_gl_matrix));
         program.use_uniform_array("skyTowards", &self.towards.map(to_gl_vector));

@@ -1,5 +1,12 @@
-//! What cloth hangs on and lies over: rods, balls and pedestals, which are one shape. A ball is a rod without
-//! length, a pedestal a rod with flat ends.
+//! Solids: supports and obstacles of the cloth, drawn as capsules, spheres and cylinders with
+//! bevelled edges.
+//!
+//! Method: one shared mesh of two hemispheres that `capsule.glsl` places; a sphere is a capsule of
+//! length zero, a cylinder a capsule with flattened ends.
+//!
+//! Reads [`Solid`]s, the shadow map and the lights; writes colour and depth of the current target.
+//!
+//! Invariant: the mesh is closed, and its triangles face outwards.
 
 use std::f32::consts::{PI, TAU};
 
@@ -12,55 +19,55 @@ use super::light::{FLOOR, linear};
 use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 
-/// A rod with round or flat ends.
+/// A capsule, or a cylinder with bevelled edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid {
-    /// The middle of one end [m].
+    /// Centre of the first end [m].
     pub from: Vec3,
-    /// The middle of the other [m].
+    /// Centre of the second end [m].
     pub to: Vec3,
-    /// Its radius [m].
+    /// Radius [m].
     pub radius: f32,
-    /// Flat ends, whose edges are round by this radius [m]; round ends if none.
+    /// Radius of the bevelled edges of a cylinder [m]; `None` for a capsule.
     pub bevel: Option<f32>,
-    /// Its colour, `0xrrggbb`.
+    /// Colour, `0xrrggbb`.
     pub colour: u32,
 }
 
 impl Solid {
-    /// A ball.
+    /// Creates a sphere.
     pub fn sphere(centre: Vec3, radius: f32, colour: u32) -> Self {
         Self::capsule(centre, centre, radius, colour)
     }
 
-    /// A rod with round ends.
+    /// Creates a capsule: a rod with round ends.
     pub fn capsule(from: Vec3, to: Vec3, radius: f32, colour: u32) -> Self {
         Self { from, to, radius, bevel: None, colour }
     }
 
-    /// A rod with flat ends, whose edges are round by a radius of `bevel`.
+    /// Creates a cylinder whose edges are rounded by `bevel` [m].
     pub fn cylinder(from: Vec3, to: Vec3, radius: f32, bevel: f32, colour: u32) -> Self {
-        // What is round of the edges lies within its length.
+        // The rounded edges are part of the length.
         let round = (to - from).normalize_or(Vec3::Y) * bevel;
         Self { from: from + round, to: to - round, radius, bevel: Some(bevel), colour }
     }
 }
 
-/// The shape, and the programs that draw it.
+/// The mesh, and the programs that draw it.
 pub struct Solids {
     program: Program,
     depth: Program,
-    /// Direction from the middle of its end, and which end: 0 or 1.
+    /// Unit direction from the centre of an end, and the index of this end (0 or 1).
     shell: VertexBuffer<[f32; 4]>,
     triangles: ElementBuffer<u32>,
 }
 
-/// UnitQuad around, and from the middle to a pole.
+/// Vertices around the axis, and rings per hemisphere.
 const AROUND: u32 = 48;
 const UP: u32 = 12;
 
 impl Solids {
-    /// Makes the shape.
+    /// Creates the mesh and compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses a shader.
@@ -84,7 +91,7 @@ impl Solids {
         self.draw_with(pass, shadow, pass.lights.key.clip_from_world(), solids, dim);
     }
 
-    /// Draws them upside down below the floor; the floor is blended over them afterwards.
+    /// Draws the mirror images below the floor; the floor is blended over them later.
     pub(super) fn draw_reflection(&self, pass: &RenderPass, shadow: &ShadowMap, solids: &[Solid]) {
         let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
         let eye = pass.view.eye.with_y(2.0 * FLOOR - pass.view.eye.y);
@@ -92,7 +99,7 @@ impl Solids {
         self.draw_from(eye, pass, shadow, clip, solids, states, [0.45, 1.0]);
     }
 
-    /// The same where the shadow map was drawn in another clip space.
+    /// Draws the solids with a shadow map that was drawn with the light matrix `clip`.
     pub(super) fn draw_with(
         &self,
         pass: &RenderPass,
@@ -132,7 +139,7 @@ impl Solids {
         }
     }
 
-    /// Draws them into a shadow map.
+    /// Draws the solids into a depth map.
     pub(super) fn draw_depth(&self, clip_from_world: Mat4, viewport: Viewport, solids: &[Solid]) {
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
         for solid in solids {
@@ -155,7 +162,7 @@ impl Solids {
     }
 }
 
-/// Two half balls, whose rims are joined.
+/// Returns vertices and triangles of two hemispheres with joined rims.
 fn shell() -> (Vec<[f32; 4]>, Vec<u32>) {
     let mut corners = Vec::new();
     for ring in 0..2 * (UP + 1) {
@@ -185,7 +192,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_shell_is_round_and_closed() {
+    fn the_capsule_mesh_is_round_and_closed() {
         let (corners, triangles) = shell();
         for [x, y, z, end] in &corners {
             assert!((x * x + y * y + z * z - 1.0).abs() < 1.0e-5);
@@ -196,7 +203,7 @@ mod tests {
                 let [x, y, z, _] = corners[triangle[i] as usize];
                 Vec3::new(x, y, z)
             });
-            // Seen from outside; at the poles and between the rims there is nothing to see.
+            // Triangles face outwards; those at the poles and between the rims are degenerate.
             let normal = (b - a).cross(c - a);
             assert!(normal.dot(a + b + c) > -1.0e-6);
         }

@@ -1,4 +1,10 @@
-//! The path of the blade: a fine line that glows and fades.
+//! Trail of the blade: a thin line on the screen that glows and fades.
+//!
+//! Method: a triangle strip with mitred joints, blended additively.
+//!
+//! Reads [`TrailPoint`]s; writes the current colour target.
+//!
+//! Invariant: two paths are never connected.
 
 use glam::Vec2;
 use three_d::{
@@ -8,28 +14,28 @@ use three_d::{
 use super::light::linear;
 use super::pass::{RenderPass, to_gl_vector};
 
-/// Half the width of the glow, as a resolution_scale of the picture's height.
+/// Half the width of the glow, as a fraction of the height of the picture.
 const REACH: f32 = 0.016;
 
-/// Where the blade was.
+/// A point of the trail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrailPoint {
-    /// On the screen, x and y from -1 to 1, y up.
+    /// Normalised device coordinates (-1 to 1, y up).
     pub at: Vec2,
-    /// How much of its glow is left: 1 is fresh, 0 has gone out.
+    /// Brightness, 1 (new) to 0 (dark).
     pub glow: f32,
     /// Whether a new path begins here.
     pub first: bool,
 }
 
-/// The program that draws the path.
+/// Shader program of the trail.
 pub struct Trail {
     program: Program,
     ribbon: VertexBuffer<[f32; 4]>,
 }
 
 impl Trail {
-    /// Compiles the glow.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -63,11 +69,11 @@ impl Trail {
     }
 }
 
-/// Two triangles a piece of the path: x, y on the screen, side from -1 to 1, glow.
+/// Returns two triangles per piece: x and y on the screen, side (-1 to 1), brightness.
 fn ribbon(trail_points: &[TrailPoint], aspect: f32) -> Vec<[f32; 4]> {
     let wide = Vec2::new(aspect, 1.0);
     let mut ribbon = Vec::new();
-    // Pieces meet in the middle of their directions, so that no bend shows a gap.
+    // Neighbouring pieces share the mean direction at their joint, so that there is no gap.
     let direction = |i: usize| {
         let (before, after) = (trail_points[..=i].iter().rev(), trail_points[i + 1..].iter());
         let from = before.take(2).take_while(|s| !s.first || s.at == trail_points[i].at).last();
@@ -112,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_is_as_wide_as_it_should_be_and_straight_where_it_is_straight() {
+    fn a_straight_path_is_straight_and_has_the_set_width() {
         for vertex in ribbon(&[spark(-0.5, true), spark(0.5, false)], 2.0) {
             let [x, y, side, _] = vertex;
             assert!((x.abs() - 0.5).abs() < 1.0e-6);

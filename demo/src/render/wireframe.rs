@@ -1,4 +1,10 @@
-//! The links of the cloth as fine lines over it.
+//! Wireframe: the links of a cloth as thin lines over it.
+//!
+//! Method: indexed `GL_LINES` with a small depth offset towards the eye.
+//!
+//! Reads the line indices of a [`Mesh`]; writes the current colour target.
+//!
+//! Invariant: a mesh without lines draws nothing.
 
 use three_d::context::{self, HasContext};
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
@@ -7,14 +13,14 @@ use super::light::linear;
 use super::mesh::Mesh;
 use super::pass::{RenderPass, to_gl_matrix};
 
-/// The program that draws lines.
+/// Shader program of the lines.
 pub struct Wireframe {
     context: Context,
     program: Program,
 }
 
 impl Wireframe {
-    /// Compiles the lines.
+    /// Compiles the shaders.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
@@ -44,8 +50,8 @@ impl Wireframe {
             ..RenderStates::default()
         };
         p.draw_elements_with(states, pass.viewport, &mesh.lines, || {
-            // SAFETY: three-d has bound the program, the vertices and this element buffer, whose
-            // count it knows; only its choice of triangles is replaced by lines.
+            // SAFETY: three-d has bound the program, the vertices and this element buffer, and
+            // knows the count; only its primitive type is replaced by lines.
             unsafe {
                 self.context.draw_elements(
                     context::LINES,
