@@ -120,7 +120,7 @@ impl App {
             return Ok(());
         };
         if let Kind::Button(action) = control.kind {
-            return self.act(action);
+            return self.run_action(action);
         }
         let mut settings = self.settings.clone();
         control.set(&mut settings, value);
@@ -137,7 +137,7 @@ impl App {
         };
         let mut settings = self.settings.clone();
         match control.press(&mut settings, shift) {
-            Some(action) => self.act(action)?,
+            Some(action) => self.run_action(action)?,
             None => self.set_settings(settings)?,
         }
         Ok(true)
@@ -147,7 +147,7 @@ impl App {
     ///
     /// # Errors
     /// As [`scene::build`].
-    pub fn act(&mut self, action: Action) -> Result<()> {
+    pub fn run_action(&mut self, action: Action) -> Result<()> {
         match action {
             Action::Reset => {
                 let settings = self.settings.clone();

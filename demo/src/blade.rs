@@ -50,14 +50,14 @@ impl Swipe {
     /// As [`muslin::Cloth::cut`]. A cloth without free particles is no error: it is not cut any
     /// further.
     pub fn cut_to(&mut self, to: Vec2, last: bool, pick: &mut PickContext<'_>) -> Result<()> {
-        let ahead = self.from(pick);
+        let start = self.start(pick);
         let edge = pick.edge_pixels();
-        if ahead.distance(to) < if last { 1.0 } else { MIN_EDGES * edge } {
+        if start.distance(to) < if last { 1.0 } else { MIN_EDGES * edge } {
             return Ok(());
         }
-        let way = (to - ahead).normalize_or_zero();
+        let direction = (to - start).normalize_or_zero();
         // The piece starts a little earlier, so that it passes through the end of the cut.
-        let from = if self.end.is_some() { ahead - way * (0.1 * edge) } else { ahead };
+        let from = if self.end.is_some() { start - direction * (0.1 * edge) } else { start };
         let end = cut(from, to, pick)?;
         let over_cloth = pick.depth(to)?.is_some();
         if !over_cloth {
@@ -68,7 +68,7 @@ impl Swipe {
         Ok(())
     }
 
-    fn from(&self, pick: &PickContext<'_>) -> Vec2 {
+    fn start(&self, pick: &PickContext<'_>) -> Vec2 {
         let end = self
             .end
             .and_then(|end| pick.cloths.get(end.cloth)?.positions().get(end.particle as usize));
@@ -91,7 +91,7 @@ fn cut(from: Vec2, to: Vec2, pick: &mut PickContext<'_>) -> Result<Option<CutEnd
     let (a, b) = (pick.at_depth(from, first.1), pick.at_depth(to, last.1));
     let into = ((a + b) * 0.5 - pick.view.eye).normalize_or_zero();
     let depth = into * (DEPTH * pick.unit);
-    let way = to - from;
+    let direction = to - from;
     let mut end: Option<(f32, CutEnd)> = None;
     for cloth in 0..pick.cloths.len() {
         let cut = &mut pick.cloths[cloth];
@@ -111,7 +111,7 @@ fn cut(from: Vec2, to: Vec2, pick: &mut PickContext<'_>) -> Result<Option<CutEnd
             for particle in touched {
                 let at = pick.cloths[cloth].positions().get(particle as usize).copied();
                 if let Some(at) = at.and_then(|at| pick.pixels(at)) {
-                    let far = (at - from).dot(way);
+                    let far = (at - from).dot(direction);
                     if end.is_none_or(|(farthest, _)| far > farthest) {
                         end = Some((far, CutEnd { cloth, particle }));
                     }

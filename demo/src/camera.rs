@@ -4,7 +4,7 @@
 //! eye = target + radius · (sin φ · sin θ, cos θ, cos φ · sin θ)      φ azimuth, θ polar angle
 //! ```
 //! Method: drags and zooms change a goal pose; each frame moves the current pose by the share 1 −
-//! exp(−[`EASE`] · dt) of its distance to the goal, so the motion does not depend on the frame
+//! exp(−[`EASE_RATE`] · dt) of its distance to the goal, so the motion does not depend on the frame
 //! rate.
 //!
 //! Reads drags, zoom factors and frame times; writes the pose, from which [`CameraView`] is
@@ -49,13 +49,13 @@ impl Default for CameraRig {
 }
 
 /// Vertical field of view [rad].
-const FIELD: f32 = 0.60;
+const FIELD_OF_VIEW: f32 = 0.60;
 /// Rate at which the pose approaches its goal [1/s].
-const EASE: f32 = 9.0;
+const EASE_RATE: f32 = 9.0;
 /// Angle of a drag across the height of the screen [rad].
-const TURN: f32 = 3.6;
+const DRAG_ANGLE: f32 = 3.6;
 /// Time without input after which the camera starts to drift [s].
-const PATIENCE: f32 = 6.0;
+const IDLE_SECONDS: f32 = 6.0;
 
 /// Pose in spherical coordinates around the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,8 +101,8 @@ impl Camera {
     /// Orbits by a drag, in screen heights; right and down are positive.
     pub fn orbit(&mut self, drag: Vec2) {
         if drag.is_finite() {
-            self.goal.azimuth -= drag.x * TURN;
-            self.goal.polar -= drag.y * TURN * 0.6;
+            self.goal.azimuth -= drag.x * DRAG_ANGLE;
+            self.goal.polar -= drag.y * DRAG_ANGLE * 0.6;
             self.clamp_goal();
         }
     }
@@ -119,7 +119,7 @@ impl Camera {
     /// height).
     pub fn fit_to_aspect(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
-            let across = self.rig.half_width / ((FIELD * 0.5).tan() * aspect);
+            let across = self.rig.half_width / ((FIELD_OF_VIEW * 0.5).tan() * aspect);
             self.goal.radius = across.max(self.rig.start[2]);
             self.clamp_goal();
             self.now.radius = self.goal.radius;
@@ -140,12 +140,12 @@ impl Camera {
     /// Eases towards the goal for `dt` [s]; `touched` says whether a pointer is down.
     pub fn advance(&mut self, dt: f32, touched: bool) {
         self.idle = if touched { 0.0 } else { self.idle + dt };
-        if self.drift && self.idle > PATIENCE {
-            let time = self.idle - PATIENCE;
+        if self.drift && self.idle > IDLE_SECONDS {
+            let time = self.idle - IDLE_SECONDS;
             // The drift starts at rest and swings to both sides of the last pose.
             self.goal.azimuth += 0.035 * (0.25 * time).cos() * time.min(1.0) * dt;
         }
-        let share = 1.0 - (-EASE * dt).exp();
+        let share = 1.0 - (-EASE_RATE * dt).exp();
         self.now.azimuth += (self.goal.azimuth - self.now.azimuth) * share;
         self.now.polar += (self.goal.polar - self.now.polar) * share;
         self.now.radius += (self.goal.radius - self.now.radius) * share;
@@ -175,7 +175,7 @@ impl CameraView {
     /// Returns the focal length [px] on a screen of `height` pixels: the pixels that 1 m covers at
     /// a distance of 1 m.
     pub fn focal_length_pixels(&self, height: f32) -> f32 {
-        0.5 * height / (FIELD * 0.5).tan()
+        0.5 * height / (FIELD_OF_VIEW * 0.5).tan()
     }
 
     /// Returns the unit vector along the view.
@@ -195,14 +195,14 @@ impl CameraView {
 
     /// Returns the matrix from world space to clip space for this aspect ratio (width over height).
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
-        proj::opengl::perspective(FIELD, aspect, 0.1, 60.0)
+        proj::opengl::perspective(FIELD_OF_VIEW, aspect, 0.1, 60.0)
             * view::look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 
     /// Returns the unit direction from the eye through a point in normalised device coordinates (y
     /// up).
     pub fn ray(&self, screen: Vec2, aspect: f32) -> Vec3 {
-        let half = (FIELD * 0.5).tan();
+        let half = (FIELD_OF_VIEW * 0.5).tan();
         (self.forward() + self.right() * (screen.x * half * aspect) + self.up() * (screen.y * half))
             .normalize()
     }

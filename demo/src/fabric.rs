@@ -33,7 +33,7 @@ pub struct Appearance {
     /// Colour of the back.
     pub back: u32,
     /// Saturation of the colours, 0 (grey) to 1; coloured lights add the rest.
-    pub kept: f32,
+    pub saturation: f32,
     /// Colours of loose warp and weft threads.
     pub threads: [u32; 2],
     /// Colour of the seam along the hem, and its opacity.
@@ -50,7 +50,7 @@ pub struct Appearance {
     /// Strength of the sheen of loose fibres at grazing angles.
     pub fuzz: f32,
     /// Strength of the transmitted light.
-    pub through: f32,
+    pub transmission: f32,
     /// Whether the flag is printed on it.
     pub printed: bool,
 }
@@ -95,7 +95,7 @@ impl Fabric {
             Self::Silk => Appearance {
                 front: 0x9fb6ff,
                 back: 0xc0c8ff,
-                kept: 0.72,
+                saturation: 0.72,
                 threads: [0xb4c2ff, 0xd6dcff],
                 seam: (0x6f7fbf, 0.30),
                 count: 220.0,
@@ -103,13 +103,13 @@ impl Fabric {
                 weave: 0.0,
                 gloss: [0.21, 0.46, 0.15, 1.0],
                 fuzz: 0.20,
-                through: 1.0,
+                transmission: 1.0,
                 printed: false,
             },
             Self::Cotton => Appearance {
                 front: 0xe9dfcf,
                 back: 0xdcd3c6,
-                kept: 0.85,
+                saturation: 0.85,
                 threads: [0xf2eadc, 0xe6dccb],
                 seam: (0xb9ab95, 0.55),
                 count: 130.0,
@@ -117,13 +117,13 @@ impl Fabric {
                 weave: 0.0,
                 gloss: [0.62, 0.70, 0.035, 0.10],
                 fuzz: 0.34,
-                through: 1.35,
+                transmission: 1.35,
                 printed: false,
             },
             Self::Denim => Appearance {
                 front: 0x3d5283,
                 back: 0xb4bfd2,
-                kept: 1.0,
+                saturation: 1.0,
                 threads: [0x3d5fa8, 0xd9dde6],
                 seam: (0xffa640, 1.0),
                 count: 150.0,
@@ -131,13 +131,13 @@ impl Fabric {
                 weave: 1.0,
                 gloss: [0.55, 0.65, 0.035, 0.08],
                 fuzz: 0.16,
-                through: 0.10,
+                transmission: 0.10,
                 printed: false,
             },
             Self::Flag => Appearance {
                 front: 0xf2ead8,
                 back: 0xf2ead8,
-                kept: 1.0,
+                saturation: 1.0,
                 threads: [0xf2ead8, 0xff8a5c],
                 seam: (0xf7f2e6, 0.8),
                 count: 260.0,
@@ -145,7 +145,7 @@ impl Fabric {
                 weave: 2.0,
                 gloss: [0.26, 0.30, 0.11, 0.75],
                 fuzz: 0.05,
-                through: 1.5,
+                transmission: 1.5,
                 printed: true,
             },
         }

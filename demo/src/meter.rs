@@ -11,7 +11,7 @@ use muslin::{Cloth, Stage};
 use serde::Serialize;
 
 /// Weight of one frame in the moving average.
-const FOLLOW: f64 = 0.06;
+const SMOOTHING: f64 = 0.06;
 
 /// Stages of the simulation, and two more for upload and draw calls.
 const STAGES: usize = Stage::COUNT + 2;
@@ -117,9 +117,9 @@ pub struct ResolutionScaler {
 }
 
 /// Frame rate below which a frame counts as slow [1/s].
-const SLOW: f32 = 40.0;
+const SLOW_RATE: f32 = 40.0;
 /// Time of slow frames before the scale changes [s].
-const PATIENCE: f32 = 2.0;
+const SLOW_SECONDS: f32 = 2.0;
 /// Longer frames are pauses of the window and do not count [s].
 const PAUSE: f32 = 0.5;
 
@@ -130,13 +130,13 @@ impl Default for ResolutionScaler {
 }
 
 impl ResolutionScaler {
-    /// Adds the duration of a frame [s]; lowers the scale after [`PATIENCE`] of slow frames.
+    /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames.
     pub fn record_frame(&mut self, seconds: f32) {
         if seconds > PAUSE {
             return;
         }
-        self.slow = if seconds * SLOW > 1.0 { self.slow + seconds } else { 0.0 };
-        if self.slow > PATIENCE {
+        self.slow = if seconds * SLOW_RATE > 1.0 { self.slow + seconds } else { 0.0 };
+        if self.slow > SLOW_SECONDS {
             self.slow = 0.0;
             self.scale = (self.scale * 0.8).max(0.5);
         }
@@ -150,7 +150,7 @@ impl ResolutionScaler {
 }
 
 fn blend(figure: &mut f64, value: f64) {
-    *figure = if *figure == 0.0 { value } else { *figure + (value - *figure) * FOLLOW };
+    *figure = if *figure == 0.0 { value } else { *figure + (value - *figure) * SMOOTHING };
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use crate::picking::{PickContext, Screen};
 use crate::render::light::{FLOOR, STAGE_CENTRE};
 
 /// Greatest distance of a grabbed particle from the centre of the stage, in drawn metres.
-const REACH: f32 = 4.0;
+const MAX_PULL: f32 = 4.0;
 /// Least height of a grabbed particle over the floor, in drawn metres.
 const CLEARANCE: f32 = 0.02;
 
@@ -246,7 +246,7 @@ fn grab_at(pick: &mut PickContext<'_>, at: Vec2) -> Result<Option<(usize, PatchG
 }
 
 fn clamp_to_stage(at: Vec3) -> Vec3 {
-    let mut near = STAGE_CENTRE + (at - STAGE_CENTRE).clamp_length_max(REACH);
+    let mut near = STAGE_CENTRE + (at - STAGE_CENTRE).clamp_length_max(MAX_PULL);
     near.y = near.y.max(FLOOR + CLEARANCE);
     near
 }
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn grab_targets_stay_on_the_stage_and_above_the_floor() {
         let far = clamp_to_stage(Vec3::new(5.0, -300.0, 2.0));
-        assert!(far.distance(STAGE_CENTRE) <= REACH + 1.0e-3 && far.y >= FLOOR);
+        assert!(far.distance(STAGE_CENTRE) <= MAX_PULL + 1.0e-3 && far.y >= FLOOR);
         let near = Vec3::new(0.3, 0.4, 0.5);
         assert!(clamp_to_stage(near).distance(near) < 1.0e-6);
     }

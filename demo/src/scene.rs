@@ -23,24 +23,24 @@ use crate::scene_kind::SceneKind;
 use crate::settings::{Pinning, Settings};
 
 /// Air speed of the hanging sheet at wind 1 [m/s].
-const BREEZE: f32 = 1.3;
+const SHEET_WIND: f32 = 1.3;
 /// Air speed of the flag at wind 1 [m/s].
-const STIFF_BREEZE: f32 = 7.0;
+const FLAG_WIND: f32 = 7.0;
 /// Air speed of the sheet on the ball and of the curtain at wind 1 [m/s].
-const BREATH: f32 = 0.6;
+const DRAPED_WIND: f32 = 0.6;
 /// Air speed of the discs at wind 1 [m/s].
-const DRAUGHT: f32 = 0.25;
+const DISC_WIND: f32 = 0.25;
 /// Height of the floor collider over the drawn floor, which avoids z-fighting [m].
 const CLEARANCE: f32 = 0.006;
 /// Difference between the collision radius and the drawn radius of the ball: the triangles of the
 /// cloth cut the corners of the round shape [m].
-const SKIN: f32 = 0.009;
+const BALL_INSET: f32 = 0.009;
 /// Fabrics of the discs.
-const DISCS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
+const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
 /// Colour of knobs and rings.
 const BRASS: u32 = 0xd9a04a;
 /// Radius of the flag pole [m].
-const POLE: f32 = 0.016;
+const POLE_RADIUS: f32 = 0.016;
 
 /// Returns the numbers of particles across and down; `None` for the discs, which are no grid.
 pub fn grid_size(settings: &Settings) -> Option<[u32; 2]> {
@@ -63,7 +63,7 @@ pub fn unit(scene: SceneKind) -> f32 {
 /// Returns the appearance of each cloth.
 pub fn appearances(settings: &Settings) -> Vec<Appearance> {
     match settings.scene {
-        SceneKind::Discs => DISCS.map(Fabric::appearance).to_vec(),
+        SceneKind::Discs => DISC_FABRICS.map(Fabric::appearance).to_vec(),
         _ => vec![settings.fabric.appearance()],
     }
 }
@@ -114,7 +114,7 @@ pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
         SceneKind::Sheet => Vec::new(),
         SceneKind::Ball => {
             let centre = SheetOnBall::CENTRE;
-            let radius = SheetOnBall::RADIUS - SKIN;
+            let radius = SheetOnBall::RADIUS - BALL_INSET;
             let foot = centre.with_y(FLOOR);
             vec![
                 Solid::sphere(centre, radius, 0x6f7f9c),
@@ -122,16 +122,16 @@ pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
             ]
         }
         SceneKind::Flag => {
-            let foot = Vec3::new(Flag::HOIST.x - POLE, FLOOR, 0.0);
+            let foot = Vec3::new(Flag::HOIST.x - POLE_RADIUS, FLOOR, 0.0);
             let top = foot.with_y(Flag::HOIST.y + 0.09);
-            let pole = Solid::capsule(foot, top, POLE, 0x8d93a3);
+            let pole = Solid::capsule(foot, top, POLE_RADIUS, 0x8d93a3);
             vec![pole, Solid::sphere(top + Vec3::Y * 0.02, 0.034, BRASS)]
         }
         SceneKind::Discs => Drapes::CENTRES.iter().flat_map(|place| pedestal(*place)).collect(),
         SceneKind::Curtain => {
             let ball = instance
                 .ball()
-                .map(|(centre, radius)| Solid::sphere(centre, radius - SKIN, 0xc9563f));
+                .map(|(centre, radius)| Solid::sphere(centre, radius - BALL_INSET, 0xc9563f));
             ball.into_iter().chain(rod()).collect()
         }
     }
@@ -179,7 +179,7 @@ pub fn build(settings: &Settings, reduced_motion: bool) -> Result<SceneInstance>
             let mut desc = Curtain::desc(settings.resolution);
             desc.material = settings.fabric.material();
             let mut curtain = Curtain::hang_on_rings(&desc)?;
-            put_floor(&mut curtain)?;
+            add_floor(&mut curtain)?;
             SceneInstance::with_ball(curtain, Curtain::BALL)?
         }
         _ => SceneInstance::from(sheet(settings)?),
@@ -202,7 +202,7 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
         SceneKind::Flag => Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?,
         _ => Cloth::grid(&desc)?,
     };
-    put_floor(&mut cloth)?;
+    add_floor(&mut cloth)?;
     if settings.scene == SceneKind::Ball {
         SheetOnBall::add_ball(&mut cloth)?;
     } else {
@@ -223,7 +223,7 @@ fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
         Drapes::add_floor(&mut cloth, CLEARANCE)?;
         Ok(cloth)
     };
-    DISCS.into_iter().zip(Drapes::CENTRES).map(disc).collect()
+    DISC_FABRICS.into_iter().zip(Drapes::CENTRES).map(disc).collect()
 }
 
 /// Number of particles across a disc: two thirds of the resolution, because there are three discs.
@@ -231,7 +231,7 @@ fn across_disc(settings: &Settings) -> u32 {
     (2 * settings.resolution).div_ceil(3)
 }
 
-fn put_floor(cloth: &mut Cloth) -> Result<()> {
+fn add_floor(cloth: &mut Cloth) -> Result<()> {
     let position = Vec3::Y * (FLOOR + CLEARANCE);
     cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).map(|_| ())
 }
@@ -310,11 +310,11 @@ fn apply_settings_to(cloth: &mut Cloth, settings: &Settings, reduced_motion: boo
     cloth.set_settings(live)?;
     let restless = if reduced_motion { 0.3 } else { 1.0 };
     let wind = match settings.scene {
-        SceneKind::Sheet => HangingSheet::wind(BREEZE * settings.wind),
-        SceneKind::Flag => Flag::wind(STIFF_BREEZE * settings.wind),
-        SceneKind::Ball => SheetOnBall::wind(BREATH * settings.wind),
-        SceneKind::Discs => SheetOnBall::wind(DRAUGHT * settings.wind),
-        SceneKind::Curtain => HangingSheet::wind(BREATH * settings.wind),
+        SceneKind::Sheet => HangingSheet::wind(SHEET_WIND * settings.wind),
+        SceneKind::Flag => Flag::wind(FLAG_WIND * settings.wind),
+        SceneKind::Ball => SheetOnBall::wind(DRAPED_WIND * settings.wind),
+        SceneKind::Discs => SheetOnBall::wind(DISC_WIND * settings.wind),
+        SceneKind::Curtain => HangingSheet::wind(DRAPED_WIND * settings.wind),
     };
     cloth.set_wind(Wind {
         gust: wind.gust * restless,

@@ -97,9 +97,9 @@ impl Shot {
     pub fn take(&self) -> Result<Picture, Failure> {
         let headless = Headless::new()?;
         let mut subject: Box<dyn ShotSubject> = match &self.receipt {
-            None => Box::new(self.begin(Renderer::new(&headless.context)?)?),
+            None => Box::new(self.start_cloth(Renderer::new(&headless.context)?)?),
             Some(receipt) => {
-                Box::new(self.begin_receipt(receipt, ReceiptRenderer::new(&headless.context)?)?)
+                Box::new(self.start_receipt(receipt, ReceiptRenderer::new(&headless.context)?)?)
             }
         };
         let [width, height] = self.size;
@@ -116,7 +116,7 @@ impl Shot {
         let start = native::clock();
         let mut ticks = 0;
         for i in 0..self.strip {
-            let until = self.moment(i);
+            let until = self.ticks_before_frame(i);
             while ticks < until {
                 subject.tick()?;
                 ticks += 1;
@@ -132,7 +132,7 @@ impl Shot {
             *subject.camera() = self.view(&hands_view);
             subject.draw(&canvas)?;
             *subject.camera() = hands_view.clone();
-            strip.put(i * width, self.size, &canvas.pixels());
+            strip.copy_frame(i * width, self.size, &canvas.pixels());
         }
         if self.times {
             strip.times = subject.times();
@@ -141,25 +141,25 @@ impl Shot {
     }
 
     /// Creates the cloth scene, runs the ticks before the gesture, and starts the gesture.
-    fn begin(&self, renderer: Renderer) -> Result<ClothSubject, Failure> {
+    fn start_cloth(&self, renderer: Renderer) -> Result<ClothSubject, Failure> {
         let mut settings = self.settings.clone();
         settings.tearing |= matches!(self.play, Some(Gesture::Tear | Gesture::Yank));
         let mut app = App::new(settings, native::clock)?;
         app.camera().set_drift(false);
-        app.play(self.ticks - self.played());
+        app.play(self.ticks - self.gesture_ticks());
         app.time_stages(self.times);
         let play = self.play.map(|gesture| GesturePlayer::new(gesture, &mut app));
         Ok(ClothSubject { app, play, renderer })
     }
 
     /// Does the same for the receipt.
-    fn begin_receipt(
+    fn start_receipt(
         &self,
         receipt: &ReceiptShot,
         desk: ReceiptRenderer,
     ) -> Result<ReceiptSubject, Failure> {
         let mut tender = ReceiptApp::new(receipt.settings.clone(), receipt.small, native::clock)?;
-        tender.play(self.ticks - self.played())?;
+        tender.play(self.ticks - self.gesture_ticks())?;
         tender.time_stages(self.times);
         let play = receipt.play.map(receipt::gestures::ReceiptGesturePlayer::new);
         Ok(ReceiptSubject { tender, play, desk })
@@ -167,7 +167,7 @@ impl Shot {
 
     /// Returns the number of ticks with a gesture, or between the first and the last frame of a
     /// strip.
-    fn played(&self) -> u32 {
+    fn gesture_ticks(&self) -> u32 {
         let gesture = match &self.receipt {
             None => self.play.map(Gesture::ticks),
             Some(receipt) => receipt.play.map(receipt::gestures::ReceiptGesture::ticks),
@@ -183,8 +183,8 @@ impl Shot {
     }
 
     /// Returns the number of these ticks before frame `i`.
-    fn moment(&self, i: u32) -> u32 {
-        self.played() * (i + 1) / self.strip
+    fn ticks_before_frame(&self, i: u32) -> u32 {
+        self.gesture_ticks() * (i + 1) / self.strip
     }
 
     /// Returns the camera of the picture.
@@ -278,7 +278,7 @@ impl Picture {
     }
 
     /// Copies the pixels of a frame into this picture, `left` pixels from its left side.
-    fn put(&mut self, left: u32, size: [u32; 2], pixels: &[[u8; 4]]) {
+    fn copy_frame(&mut self, left: u32, size: [u32; 2], pixels: &[[u8; 4]]) {
         let [width, height] = size.map(|side| side as usize);
         for row in 0..height {
             let start = 3 * (row * self.size[0] as usize + left as usize);

@@ -111,7 +111,7 @@ fn pause_stops_the_cloth_and_without_pins_it_falls() {
     assert_eq!(app.state_hash(), hash);
     app.set("paused", 0.0).unwrap();
     let corner = app.particle(0).unwrap();
-    app.act(Action::DropPins).unwrap();
+    app.run_action(Action::DropPins).unwrap();
     app.play(15);
     let fallen = corner.y - app.particle(0).unwrap().y;
     assert!(fallen > 0.15, "fell {fallen} m");

@@ -29,13 +29,13 @@ use crate::receipt::pointers::PressKind;
 use window_app::WindowApp;
 
 /// Pointer id of the left mouse button; fingers count from one.
-const MOUSE: u32 = 0;
+const LEFT_BUTTON: u32 = 0;
 /// Pointer id of the right mouse button.
-const RIGHT: u32 = u32::MAX;
+const RIGHT_BUTTON: u32 = u32::MAX;
 /// Longest time between the two presses of a double press [s].
-const DOUBLE: f64 = 0.35;
+const DOUBLE_PRESS_SECONDS: f64 = 0.35;
 /// Pixels per notch of a mouse wheel.
-const NOTCH: f32 = 100.0;
+const NOTCH_PIXELS: f32 = 100.0;
 
 /// Reason why there is no window; its message names the alternatives.
 #[derive(Debug)]
@@ -87,9 +87,9 @@ pub fn run(mut app: impl WindowApp + 'static) -> Result<(), NoWindow> {
         context,
         window,
     };
-    window_state.fit();
+    window_state.update_size();
     event_loop.run(move |event, _, flow| match event {
-        Event::WindowEvent { event, .. } => window_state.take(&event, flow),
+        Event::WindowEvent { event, .. } => window_state.handle_event(&event, flow),
         Event::MainEventsCleared => window_state.window.request_redraw(),
         Event::RedrawRequested(_) => {
             *flow = ControlFlow::Poll;
@@ -131,12 +131,12 @@ struct WindowState<A> {
 
 impl<A: WindowApp> WindowState<A> {
     /// Passes the size of the window in logical pixels to the application.
-    fn fit(&mut self) {
+    fn update_size(&mut self) {
         let size = self.window.inner_size().to_logical(self.window.scale_factor());
         self.app.resize(Vec2::new(size.width, size.height));
     }
 
-    fn take(&mut self, event: &WindowEvent<'_>, flow: &mut ControlFlow) {
+    fn handle_event(&mut self, event: &WindowEvent<'_>, flow: &mut ControlFlow) {
         self.input.handle_winit_window_event(event);
         let scale = self.window.scale_factor();
         let done = match event {
@@ -146,19 +146,19 @@ impl<A: WindowApp> WindowState<A> {
             }
             WindowEvent::Resized(size) => {
                 self.context.resize(*size);
-                self.fit();
+                self.update_size();
                 Ok(())
             }
             WindowEvent::ScaleFactorChanged { new_inner_size, .. } => {
                 self.context.resize(**new_inner_size);
-                self.fit();
+                self.update_size();
                 Ok(())
             }
             WindowEvent::CursorMoved { position, .. } => {
                 let at = position.to_logical::<f32>(scale);
                 self.mouse = Vec2::new(at.x, at.y);
-                let dragged = self.app.drag(MOUSE, self.mouse);
-                dragged.and_then(|()| self.app.drag(RIGHT, self.mouse))
+                let dragged = self.app.drag(LEFT_BUTTON, self.mouse);
+                dragged.and_then(|()| self.app.drag(RIGHT_BUTTON, self.mouse))
             }
             WindowEvent::CursorLeft { .. } => {
                 self.app.clear_hover();
@@ -166,8 +166,8 @@ impl<A: WindowApp> WindowState<A> {
             }
             WindowEvent::MouseInput { state, button, .. } => {
                 let (id, press) = match button {
-                    MouseButton::Left => (MOUSE, PressKind::Main),
-                    MouseButton::Right => (RIGHT, PressKind::Turn),
+                    MouseButton::Left => (LEFT_BUTTON, PressKind::Main),
+                    MouseButton::Right => (RIGHT_BUTTON, PressKind::Turn),
                     _ => return,
                 };
                 match state {
@@ -178,7 +178,7 @@ impl<A: WindowApp> WindowState<A> {
             }
             WindowEvent::MouseWheel { delta, .. } if !self.app.covers(self.mouse) => {
                 let pixels = match delta {
-                    MouseScrollDelta::LineDelta(_, lines) => lines * NOTCH,
+                    MouseScrollDelta::LineDelta(_, lines) => lines * NOTCH_PIXELS,
                     MouseScrollDelta::PixelDelta(by) => by.to_logical::<f32>(scale).y,
                 };
                 self.app.wheel(-pixels);
@@ -191,7 +191,7 @@ impl<A: WindowApp> WindowState<A> {
             WindowEvent::Touch(touch) => {
                 let at = touch.location.to_logical::<f32>(scale);
                 let at = Vec2::new(at.x, at.y);
-                let finger = (touch.id as u32 % (RIGHT - 1)) + 1;
+                let finger = (touch.id as u32 % (RIGHT_BUTTON - 1)) + 1;
                 match touch.phase {
                     TouchPhase::Started if self.app.covers(at) => Ok(()),
                     TouchPhase::Started => self.press(finger, at, PressKind::Main),
@@ -201,8 +201,8 @@ impl<A: WindowApp> WindowState<A> {
             }
             WindowEvent::ModifiersChanged(keys) => self.app.shift(keys.shift()),
             WindowEvent::Focused(false) => {
-                let let_go = self.app.shift(false).and_then(|()| self.app.lift(MOUSE));
-                let_go.and_then(|()| self.app.lift(RIGHT))
+                let let_go = self.app.shift(false).and_then(|()| self.app.lift(LEFT_BUTTON));
+                let_go.and_then(|()| self.app.lift(RIGHT_BUTTON))
             }
             WindowEvent::ReceivedCharacter(key) => self.key(*key),
             _ => Ok(()),
@@ -224,7 +224,10 @@ impl<A: WindowApp> WindowState<A> {
     fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> muslin::Result<()> {
         let now = clock();
         let (then, there) = std::mem::replace(&mut self.pressed, (now, at));
-        if press == PressKind::Main && now - then < DOUBLE && at.distance(there) < 12.0 {
+        if press == PressKind::Main
+            && now - then < DOUBLE_PRESS_SECONDS
+            && at.distance(there) < 12.0
+        {
             self.app.press_twice(at)?;
         }
         self.app.press(id, at, press)

@@ -27,30 +27,30 @@ const PILL: Color32 = Color32::from_rgba_premultiplied(140, 142, 144, 140);
 const HAIRLINE: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 26);
 
 /// Time that the instructions stay [s], and time that they take to fade [s].
-const STAY: f32 = 3.0;
-const FADE: f32 = 0.8;
+const INSTRUCTION_SECONDS: f32 = 3.0;
+const FADE_SECONDS: f32 = 0.8;
 
 /// Instructions for actions without a button.
 const INSTRUCTIONS: &str = "Click and drag to grab the paper";
-const MORE: &str = "Right-drag to orbit  ·  hold Shift to leave a hand in place  ·  double-click a bend to crease it";
+const MORE_INSTRUCTIONS: &str = "Right-drag to orbit  ·  hold Shift to leave a hand in place  ·  double-click a bend to crease it";
 
 /// The receipt with its overlay.
 pub struct ReceiptWindow {
     tender: ReceiptApp,
     renderer: Option<ReceiptRenderer>,
     commands: Vec<ReceiptAction>,
-    pills: Vec<Rect>,
+    buttons: Vec<Rect>,
     age: f32,
 }
 
 impl ReceiptWindow {
     /// Creates the window state for a receipt.
     pub fn new(tender: ReceiptApp) -> Self {
-        Self { tender, renderer: None, commands: Vec::new(), pills: Vec::new(), age: 0.0 }
+        Self { tender, renderer: None, commands: Vec::new(), buttons: Vec::new(), age: 0.0 }
     }
 
-    fn pills(&mut self, ctx: &Egui) {
-        self.pills.clear();
+    fn buttons(&mut self, ctx: &Egui) {
+        self.buttons.clear();
         let area = Area::new(Id::new("pills")).anchor(Align2::LEFT_BOTTOM, vec2(20.0, -20.0));
         area.show(ctx, |ui| {
             ui.horizontal(|ui| {
@@ -65,7 +65,7 @@ impl ReceiptWindow {
                         .min_size(vec2(0.0, 36.0));
                     let hint = format!("{} ({})", control.about, control.key_name());
                     let response = ui.add(pill).on_hover_text(hint);
-                    self.pills.push(response.rect);
+                    self.buttons.push(response.rect);
                     if response.clicked() {
                         self.commands.push(control.action);
                     }
@@ -90,7 +90,7 @@ impl WindowApp for ReceiptWindow {
     }
 
     fn covers(&self, at: Vec2) -> bool {
-        self.pills.iter().any(|rect| rect.contains(pos2(at.x, at.y)))
+        self.buttons.iter().any(|rect| rect.contains(pos2(at.x, at.y)))
     }
 
     fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> Result<()> {
@@ -149,9 +149,15 @@ impl WindowApp for ReceiptWindow {
         // The title is in small capitals with a large initial.
         write(pos2(24.0, 18.0), Align2::LEFT_TOP, "T", 25.0, TEXT);
         write(pos2(40.0, 24.5), Align2::LEFT_TOP, "E N D E R", 17.0, TEXT);
-        let left = 1.0 - ((self.age - STAY) / FADE).clamp(0.0, 1.0);
+        let left = 1.0 - ((self.age - INSTRUCTION_SECONDS) / FADE_SECONDS).clamp(0.0, 1.0);
         write(pos2(24.0, 54.0), Align2::LEFT_TOP, INSTRUCTIONS, 15.0, MUTED.gamma_multiply(left));
-        write(pos2(24.0, 76.0), Align2::LEFT_TOP, MORE, 13.0, MUTED.gamma_multiply(left));
+        write(
+            pos2(24.0, 76.0),
+            Align2::LEFT_TOP,
+            MORE_INSTRUCTIONS,
+            13.0,
+            MUTED.gamma_multiply(left),
+        );
         if self.tender.settings().counter {
             let r = self.tender.readout();
             let text = format!(
@@ -164,12 +170,12 @@ impl WindowApp for ReceiptWindow {
             let text = "PAUSED — press Space";
             write(screen.center(), Align2::CENTER_CENTER, text, 38.0, TEXT.gamma_multiply(0.75));
         }
-        self.pills(ctx);
+        self.buttons(ctx);
     }
 
     fn run_commands(&mut self) -> Result<()> {
         let commands = std::mem::take(&mut self.commands);
-        commands.into_iter().try_for_each(|action| self.tender.act(action))
+        commands.into_iter().try_for_each(|action| self.tender.run_action(action))
     }
 
     fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError> {

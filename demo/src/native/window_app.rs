@@ -157,7 +157,7 @@ impl WindowApp for ClothWindow {
         for command in self.commands.drain(..) {
             match command {
                 PanelCommand::Set(name, value) => self.app.set(name, value)?,
-                PanelCommand::Act(action) => self.app.act(action)?,
+                PanelCommand::Act(action) => self.app.run_action(action)?,
                 PanelCommand::TimeStages(on) => self.app.time_stages(on),
             }
         }

@@ -16,21 +16,21 @@ use glam::{Vec2, Vec3};
 use muslin::{Cloth, GridDesc, Result};
 
 /// Half the distance over which the bend is measured to find its direction [cells].
-const FEEL: f32 = 3.0;
+const DIRECTION_REACH: f32 = 3.0;
 /// Half the distance over which the whole bend angle is measured [cells].
-const GATHER: f32 = 9.0;
+const ANGLE_REACH: f32 = 9.0;
 /// Least bend angle that counts as a bend [rad].
-const LEAST: f32 = 0.6;
+const MIN_BEND: f32 = 0.6;
 /// Greatest crease angle [rad]: even a flat press opens again by the rest.
-const MOST: f32 = 2.75;
+const MAX_CREASE: f32 = 2.75;
 /// Bend angle above which a press is flat [rad].
-const FLAT: f32 = 1.6;
+const FLAT_PRESS_BEND: f32 = 1.6;
 /// Greatest distance of a bend from a crease that it belongs to [cells].
-const NEAR: f32 = 4.0;
+const MERGE_DISTANCE: f32 = 4.0;
 
 /// A crease, in cells of the grid.
 #[derive(Clone, Copy, Debug)]
-struct Line {
+struct Crease {
     middle: Vec2,
     along: Vec2,
     /// Crease angle [rad]; positive towards the front.
@@ -40,11 +40,11 @@ struct Line {
 /// All creases so far.
 #[derive(Clone, Debug, Default)]
 pub struct Creases {
-    lines: Vec<Line>,
+    lines: Vec<Crease>,
 }
 
 /// The cloth as its original grid, without the particles that tears have added.
-struct Sheet<'a> {
+struct GridSheet<'a> {
     positions: &'a [Vec3],
     columns: usize,
     rows: usize,
@@ -56,23 +56,23 @@ impl Creases {
     /// # Errors
     /// As [`Cloth::crease`].
     pub fn press(&mut self, cloth: &mut Cloth, desc: &GridDesc, particle: u32) -> Result<bool> {
-        let sheet = Sheet {
+        let sheet = GridSheet {
             positions: cloth.positions(),
             columns: desc.columns as usize,
             rows: desc.rows as usize,
         };
         let source = cloth.source_vertices()[particle as usize];
         let at = Vec2::new((source % desc.columns) as f32, (source / desc.columns) as f32);
-        let Some((middle, along)) = sheet.bend_near(at) else {
+        let Some((middle, along)) = sheet.find_bend(at) else {
             return Ok(false);
         };
-        let bend = sheet.turn(middle, along.perp(), GATHER);
+        let bend = sheet.bend_angle(middle, along.perp(), ANGLE_REACH);
         // In a sharp bend both sides meet under the finger, so that the press is flat.
-        let angle = if bend.abs() > FLAT { MOST.copysign(bend) } else { bend };
-        let [from, to] = [-1.0, 1.0].map(|way| sheet.end(middle, along * way));
-        let is_known = |line: &&mut Line| {
+        let angle = if bend.abs() > FLAT_PRESS_BEND { MAX_CREASE.copysign(bend) } else { bend };
+        let [from, to] = [-1.0, 1.0].map(|way| sheet.find_end(middle, along * way));
+        let is_known = |line: &&mut Crease| {
             let off = (middle - line.middle).perp_dot(line.along).abs();
-            off < NEAR && line.along.dot(along).abs() > 0.9
+            off < MERGE_DISTANCE && line.along.dot(along).abs() > 0.9
         };
         let more = match self.lines.iter_mut().find(is_known) {
             // The crease is sharp enough already.
@@ -83,20 +83,20 @@ impl Creases {
                 more
             }
             None => {
-                self.lines.push(Line { middle, along, angle });
+                self.lines.push(Crease { middle, along, angle });
                 angle
             }
         };
-        let place =
+        let position =
             |cell: Vec2| desc.origin + (desc.right * cell.x + desc.down * cell.y) * desc.spacing;
-        cloth.crease(place(from), place(to), more.clamp(-3.0, 3.0))?;
+        cloth.crease(position(from), position(to), more.clamp(-3.0, 3.0))?;
         Ok(true)
     }
 }
 
-impl Sheet<'_> {
+impl GridSheet<'_> {
     /// Returns the interpolated position at a cell; the cell is clamped to the grid.
-    fn place(&self, cell: Vec2) -> Vec3 {
+    fn position(&self, cell: Vec2) -> Vec3 {
         let most = Vec2::new((self.columns - 1) as f32, (self.rows - 1) as f32);
         let cell = cell.clamp(Vec2::ZERO, most);
         let low = cell.floor().min(most - 1.0);
@@ -111,14 +111,14 @@ impl Sheet<'_> {
     fn normal(&self, cell: Vec2) -> Vec3 {
         let most = Vec2::new((self.columns - 1) as f32, (self.rows - 1) as f32);
         let cell = cell.clamp(Vec2::ONE, most - 1.0);
-        let across = self.place(cell + Vec2::X) - self.place(cell - Vec2::X);
-        let down = self.place(cell + Vec2::Y) - self.place(cell - Vec2::Y);
+        let across = self.position(cell + Vec2::X) - self.position(cell - Vec2::X);
+        let down = self.position(cell + Vec2::Y) - self.position(cell - Vec2::Y);
         down.cross(across).normalize_or_zero()
     }
 
     /// Returns the bend angle [rad] along `way`, from `reach` cells before a cell to `reach` after
     /// it; positive towards the front.
-    fn turn(&self, cell: Vec2, way: Vec2, reach: f32) -> f32 {
+    fn bend_angle(&self, cell: Vec2, way: Vec2, reach: f32) -> f32 {
         let mut turned = 0.0;
         let steps = (2.0 * reach).ceil() as i32;
         let step = 2.0 * reach / steps as f32;
@@ -126,7 +126,7 @@ impl Sheet<'_> {
             let from = cell + way * (-reach + i as f32 * step);
             let to = from + way * step;
             let (a, b) = (self.normal(from), self.normal(to));
-            let ahead = self.place(to) - self.place(from);
+            let ahead = self.position(to) - self.position(from);
             let towards_front = (b - a).dot(ahead) < 0.0;
             turned += if towards_front { a.angle_between(b) } else { -a.angle_between(b) };
         }
@@ -135,28 +135,29 @@ impl Sheet<'_> {
 
     /// Returns centre and direction of the sharpest bend near a cell; `None` if the sheet is flat
     /// there.
-    fn bend_near(&self, cell: Vec2) -> Option<(Vec2, Vec2)> {
+    fn find_bend(&self, cell: Vec2) -> Option<(Vec2, Vec2)> {
         let directions = (0..24).map(|i| Vec2::from_angle(i as f32 * core::f32::consts::PI / 24.0));
         // A fold does not bend along its line, only across it.
         let across = directions.max_by(|a, b| {
             let bend = |way: &Vec2| {
-                self.turn(cell, *way, FEEL).abs() - self.turn(cell, way.perp(), GATHER).abs()
+                self.bend_angle(cell, *way, DIRECTION_REACH).abs()
+                    - self.bend_angle(cell, way.perp(), ANGLE_REACH).abs()
             };
             bend(a).total_cmp(&bend(b))
         })?;
         let places = (-6..=6).map(|i| cell + across * i as f32);
         let middle = places.max_by(|a, b| {
-            let bend = |at: &Vec2| self.turn(*at, across, FEEL).abs();
+            let bend = |at: &Vec2| self.bend_angle(*at, across, DIRECTION_REACH).abs();
             bend(a).total_cmp(&bend(b))
         })?;
-        let bends = self.turn(middle, across, GATHER).abs() > LEAST;
+        let bends = self.bend_angle(middle, across, ANGLE_REACH).abs() > MIN_BEND;
         bends.then_some((middle, across.perp()))
     }
 
     /// Returns the end of the bend in a direction.
-    fn end(&self, middle: Vec2, way: Vec2) -> Vec2 {
+    fn find_end(&self, middle: Vec2, way: Vec2) -> Vec2 {
         let across = way.perp();
-        let bends = |at: Vec2| self.turn(at, across, GATHER).abs() > LEAST;
+        let bends = |at: Vec2| self.bend_angle(at, across, ANGLE_REACH).abs() > MIN_BEND;
         let mut far = 0.0;
         let longest = (self.columns + self.rows) as f32;
         while far < longest && bends(middle + way * far) {
@@ -169,11 +170,11 @@ impl Sheet<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use muslin_scenes::Sheet as Receipt;
+    use muslin_scenes::Sheet;
 
     /// Bends a sheet around its middle row, to the front or to the back.
-    fn bent(front: bool) -> (Cloth, GridDesc) {
-        let desc = Receipt::Paper.desc(true);
+    fn bent_sheet(front: bool) -> (Cloth, GridDesc) {
+        let desc = Sheet::Paper.desc(true);
         let mut cloth = Cloth::grid(&desc).unwrap();
         let side = if front { 1.0 } else { -1.0 };
         let (mut at, mut angle) = (desc.origin, 0.0_f32);
@@ -191,7 +192,7 @@ mod tests {
     #[test]
     fn a_crease_keeps_the_angle_and_the_side_of_its_bend() {
         for front in [true, false] {
-            let (mut cloth, desc) = bent(front);
+            let (mut cloth, desc) = bent_sheet(front);
             let mut creases = Creases::default();
             assert!(creases.press(&mut cloth, &desc, 17 * 24 + 11).unwrap());
             let line = creases.lines[0];
@@ -215,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_second_press_changes_nothing_and_flat_paper_has_no_bend() {
-        let (mut cloth, desc) = bent(true);
+        let (mut cloth, desc) = bent_sheet(true);
         let mut creases = Creases::default();
         creases.press(&mut cloth, &desc, 17 * 24 + 11).unwrap();
         let hash = cloth.state_hash();

@@ -133,7 +133,7 @@ impl ReceiptGesturePlayer {
     /// Sends the input of one tick and runs the tick.
     ///
     /// # Errors
-    /// As [`ReceiptApp::press`], [`ReceiptApp::lift`], [`ReceiptApp::act`] and
+    /// As [`ReceiptApp::press`], [`ReceiptApp::lift`], [`ReceiptApp::run_action`] and
     /// [`ReceiptApp::crease`].
     pub fn step(&mut self, tender: &mut ReceiptApp) -> Result<()> {
         let script = self.gesture.script();
@@ -153,7 +153,7 @@ impl ReceiptGesturePlayer {
         }
         for (_, action) in script.actions.iter().filter(|(tick, _)| *tick == self.tick) {
             match action {
-                ScriptedAction::Act(action) => tender.act(*action)?,
+                ScriptedAction::Act(action) => tender.run_action(*action)?,
                 ScriptedAction::Crease(share) => {
                     let at = on_screen(tender, *share);
                     tender.crease(at)?;

@@ -13,7 +13,7 @@ use super::receipt_text::{self, Face, Line, WIDTH};
 /// Size of the specified canvas [texels].
 const CANVAS: [u32; 2] = [512, 768];
 /// Texels along a side per texel of the specified canvas.
-const FINE: u32 = 3;
+const SCALE: u32 = 3;
 /// Left and top margins, in texels of the specified canvas.
 const MARGIN: [f32; 2] = [38.0, 46.0];
 
@@ -39,30 +39,30 @@ struct Typesetter<'a> {
 impl InkMap {
     /// Rasterises the receipt.
     pub fn new() -> Self {
-        let size = CANVAS.map(|side| side * FINE);
-        let width = (CANVAS[0] as f32 - 2.0 * MARGIN[0]) * FINE as f32;
+        let size = CANVAS.map(|side| side * SCALE);
+        let width = (CANVAS[0] as f32 - 2.0 * MARGIN[0]) * SCALE as f32;
         let (Ok(plain), Ok(heavy)) = (
             FontRef::try_from_slice(include_bytes!("../../fonts/JetBrainsMono-Medium.ttf")),
             FontRef::try_from_slice(include_bytes!("../../fonts/JetBrainsMono-ExtraBold.ttf")),
         ) else {
             unreachable!("the demo's own fonts");
         };
-        let mut press = Typesetter {
+        let mut typesetter = Typesetter {
             plain,
             heavy,
             print: Self { size, ink: vec![0; (size[0] * size[1]) as usize] },
             pitch: width / WIDTH as f32,
-            top: MARGIN[1] * FINE as f32,
+            top: MARGIN[1] * SCALE as f32,
         };
         let lines = receipt_text::lines();
         // The line height fills the space between the margins.
-        let free = size[1] as f32 - 2.0 * press.top;
+        let free = size[1] as f32 - 2.0 * typesetter.top;
         let high: f32 = lines.iter().map(height).sum();
         let line = free / high;
         for text in &lines {
-            press.line(text, line * height(text), line);
+            typesetter.line(text, line * height(text), line);
         }
-        press.print
+        typesetter.print
     }
 
     /// Returns the ink at a position; `x` and `y` are fractions of the sheet.
@@ -94,27 +94,33 @@ fn height(line: &Line) -> f32 {
 impl Typesetter<'_> {
     /// Rasterises a line of `high` texels; `line` is the height of plain text [texels].
     fn line(&mut self, text: &Line, high: f32, line: f32) {
-        let left = MARGIN[0] * FINE as f32;
+        let left = MARGIN[0] * SCALE as f32;
         let right = self.print.size[0] as f32 - left;
         // The baseline; the rest of the line height is split above and below it.
         let base = self.top + 0.5 * high + 0.3 * line;
         let wide = |text: &str, pitch: f32| pitch * text.chars().count() as f32;
         match text {
             Line::Centred(text, face) => {
-                let grown = if *face == Face::Title { 2.1 } else { 1.0 };
-                let pitch = self.pitch * grown;
-                let apart = if *face == Face::Title { 1.18 } else { 1.0 };
-                let start = 0.5 * (left + right - wide(text, pitch * apart));
-                self.text(text, [start, base + 0.25 * line * (grown - 1.0)], pitch, apart, *face);
+                let size_factor = if *face == Face::Title { 2.1 } else { 1.0 };
+                let pitch = self.pitch * size_factor;
+                let spacing = if *face == Face::Title { 1.18 } else { 1.0 };
+                let start = 0.5 * (left + right - wide(text, pitch * spacing));
+                self.text(
+                    text,
+                    [start, base + 0.25 * line * (size_factor - 1.0)],
+                    pitch,
+                    spacing,
+                    *face,
+                );
             }
             Line::Spread(a, b, face) => {
-                let grown = if *face == Face::Heavy { 1.35 } else { 1.0 };
-                let pitch = self.pitch * grown;
+                let size_factor = if *face == Face::Heavy { 1.35 } else { 1.0 };
+                let pitch = self.pitch * size_factor;
                 self.text(a, [left, base], pitch, 1.0, *face);
                 self.text(b, [right - wide(b, pitch), base], pitch, 1.0, *face);
             }
             Line::Rule => {
-                let (dash, thick) = (self.pitch, 0.45 * FINE as f32);
+                let (dash, thick) = (self.pitch, 0.45 * SCALE as f32);
                 let middle = self.top + 0.5 * high;
                 for i in 0..WIDTH {
                     let from = left + (i as f32 + 0.18) * dash;
@@ -127,12 +133,12 @@ impl Typesetter<'_> {
         self.top += high;
     }
 
-    fn text(&mut self, text: &str, [left, base]: [f32; 2], pitch: f32, apart: f32, face: Face) {
+    fn text(&mut self, text: &str, [left, base]: [f32; 2], pitch: f32, spacing: f32, face: Face) {
         let font = if face == Face::Plain { &self.plain } else { &self.heavy };
         // In a monospaced font all glyphs have the same advance width.
         let unit = font.as_scaled(PxScale::from(1000.0));
         let scale = PxScale::from(1000.0 * pitch / unit.h_advance(font.glyph_id('0')));
-        let mut x = left + 0.5 * (apart - 1.0) * pitch;
+        let mut x = left + 0.5 * (spacing - 1.0) * pitch;
         for character in text.chars() {
             let glyph = font.glyph_id(character).with_scale_and_position(scale, point(x, base));
             if let Some(outline) = font.outline_glyph(glyph) {
@@ -142,7 +148,7 @@ impl Typesetter<'_> {
                     print.ink_in([x as f32 + dx, y as f32 + dy], (cover.min(1.0) * 255.0) as u8);
                 });
             }
-            x += pitch * apart;
+            x += pitch * spacing;
         }
     }
 
@@ -161,7 +167,7 @@ impl Typesetter<'_> {
         }
         widths.extend([3, 1, 1]);
         let modules: u32 = widths.iter().sum();
-        let module = 2 * FINE;
+        let module = 2 * SCALE;
         let mut x = (self.print.size[0] - modules * module) / 2;
         let (top, bottom) = (self.top + 0.16 * high, self.top + 0.84 * high);
         for (i, width) in widths.into_iter().enumerate() {

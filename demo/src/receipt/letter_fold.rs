@@ -23,9 +23,9 @@ const ACROSS: u32 = 6;
 const DOWN: u32 = 9;
 /// Times [s]: the grabs reach the sheet; it is in front of the camera; each fold starts; each fold
 /// is closed; each crease is done; the letter lies on the floor; the grabs are released.
-const TAKEN: f32 = 0.3;
+const REACHED: f32 = 0.3;
 const TIPPED: f32 = 1.5;
-const BEGUN: [f32; 2] = [TIPPED, 3.7];
+const FOLD_STARTED: [f32; 2] = [TIPPED, 3.7];
 const FOLDED: [f32; 2] = [3.0, 5.2];
 const PRESSED: [f32; 2] = [3.6, 5.8];
 const LAID: f32 = 7.0;
@@ -36,14 +36,14 @@ const HEIGHT: f32 = 1.2;
 /// Angle of a crease [rad].
 const CREASE: f32 = 0.3;
 /// Height of the first layer over the floor, and thickness of each further layer, in units.
-const LYING: f32 = 0.05;
+const FIRST_LAYER: f32 = 0.05;
 const LAYER: f32 = 0.07;
 /// State of the animation.
 #[derive(Debug)]
 pub struct LetterFold {
     /// Each grab with its start position [m] and its place on the sheet, in units from the middle
     /// of the top edge.
-    fingers: Vec<(Grab, Vec3, [f32; 2])>,
+    grabs: Vec<(Grab, Vec3, [f32; 2])>,
     /// Length of the sheet, in units.
     length: f32,
     desc: GridDesc,
@@ -58,7 +58,7 @@ impl LetterFold {
     /// As [`Cloth::grab_particle`].
     pub fn new(cloth: &mut Cloth, desc: GridDesc, unit: f32) -> Result<Self> {
         let spacing = desc.spacing / unit;
-        let mut fingers = Vec::new();
+        let mut grabs = Vec::new();
         for i in 0..DOWN {
             for j in 0..ACROSS {
                 let row = i * (desc.rows - 1) / (DOWN - 1);
@@ -72,11 +72,11 @@ impl LetterFold {
                     Err(error) => return Err(error),
                 };
                 let across = column as f32 - 0.5 * (desc.columns - 1) as f32;
-                fingers.push((grab, from, [across * spacing, row as f32 * spacing]));
+                grabs.push((grab, from, [across * spacing, row as f32 * spacing]));
             }
         }
         let length = (desc.rows - 1) as f32 * spacing;
-        Ok(Self { fingers, length, desc, unit, age: 0.0 })
+        Ok(Self { grabs, length, desc, unit, age: 0.0 })
     }
 
     /// Advances by one tick; returns whether the animation still runs. At its end it releases the
@@ -88,14 +88,14 @@ impl LetterFold {
         let before = self.age;
         self.age += seconds;
         if self.age > RELEASED {
-            for (grab, ..) in self.fingers.drain(..) {
+            for (grab, ..) in self.grabs.drain(..) {
                 cloth.release(grab)?;
             }
             return Ok(false);
         }
-        let taken = ease(self.age, 0.0, TAKEN);
-        for (grab, from, place) in &self.fingers {
-            cloth.move_grab(*grab, from.lerp(self.place(*place) * self.unit, taken))?;
+        let taken = ease(self.age, 0.0, REACHED);
+        for (grab, from, target) in &self.grabs {
+            cloth.move_grab(*grab, from.lerp(self.target(*target) * self.unit, taken))?;
         }
         for fold in 0..2 {
             let share = |age| ease(age, FOLDED[fold], PRESSED[fold]);
@@ -112,7 +112,7 @@ impl LetterFold {
     /// # Errors
     /// As [`Cloth::release`].
     pub fn release(self, cloth: &mut Cloth) -> Result<()> {
-        self.fingers.into_iter().try_for_each(|(grab, ..)| cloth.release(grab))
+        self.grabs.into_iter().try_for_each(|(grab, ..)| cloth.release(grab))
     }
 
     /// Adds `angle` to a crease. The first fold has one crease; the second one has two, with
@@ -130,19 +130,19 @@ impl LetterFold {
     }
 
     /// Returns the current target of a place on the sheet, in units.
-    fn place(&self, [across, down]: [f32; 2]) -> Vec3 {
+    fn target(&self, [across, down]: [f32; 2]) -> Vec3 {
         let half = 0.5 * self.length;
-        let [first, second] = [0, 1].map(|fold| ease(self.age, BEGUN[fold], FOLDED[fold]));
+        let [first, second] = [0, 1].map(|fold| ease(self.age, FOLD_STARTED[fold], FOLDED[fold]));
         // Distance to the first fold line (towards the top) and height; then the same for the
         // second fold line.
-        let [ahead, high] = turned([half - down, 0.0], first, 1.0);
-        let [ahead, high] = turned([ahead - 0.5 * half, high], second, 3.0);
+        let [ahead, high] = rotated_over([half - down, 0.0], first, 1.0);
+        let [ahead, high] = rotated_over([ahead - 0.5 * half, high], second, 3.0);
         let ahead = ahead - 0.25 * half;
         // The sheet moves from its hanging position to the camera, and later to the floor.
         let [up, low] = [ease(self.age, 0.0, TIPPED), ease(self.age, PRESSED[1], LAID)];
         let tilt = -FRAC_PI_2 + (TILT + FRAC_PI_2) * up - TILT * low;
         let hung = 0.75 * half;
-        let height = hung + (FLOOR + HEIGHT - hung) * up + (LYING - HEIGHT) * low;
+        let height = hung + (FLOOR + HEIGHT - hung) * up + (FIRST_LAYER - HEIGHT) * low;
         let (sin, cos) = tilt.sin_cos();
         Vec3::new(across, height + high * cos - ahead * sin, high * sin + ahead * cos)
     }
@@ -150,7 +150,7 @@ impl LetterFold {
 
 /// Rotates a point that is behind a fold line (`ahead` below zero) over it by `share` of a half
 /// turn; in the end it is `layers` layers higher.
-fn turned([ahead, high]: [f32; 2], share: f32, layers: f32) -> [f32; 2] {
+fn rotated_over([ahead, high]: [f32; 2], share: f32, layers: f32) -> [f32; 2] {
     if ahead >= 0.0 {
         return [ahead, high];
     }

@@ -41,10 +41,10 @@ pub const TICK: f32 = 1.0 / 120.0;
 const LONGEST_FRAME: f32 = 0.033;
 /// Time limit for the ticks of a frame [s]. When ticks take longer, as in crumpled paper, the scene
 /// runs in slow motion instead of dropping frames.
-const PATIENCE: f64 = 0.025;
+const MAX_TICK_SECONDS: f64 = 0.025;
 
 /// Factor of the rest distance to a pin; a grab that is farther away pulls the paper off the pin.
-const HOLD: f32 = 1.02;
+const PULL_OFF_FACTOR: f32 = 1.02;
 
 /// Target of the camera, in units.
 pub const TARGET: Vec3 = Vec3::new(0.0, -1.0, 0.0);
@@ -123,12 +123,12 @@ impl ReceiptApp {
     /// Runs the action of a key; returns whether it has one.
     ///
     /// # Errors
-    /// As [`ReceiptApp::act`].
+    /// As [`ReceiptApp::run_action`].
     pub fn key(&mut self, key: char) -> Result<bool> {
         let Some(control) = settings::find_control_by_key(key) else {
             return Ok(false);
         };
-        self.act(control.action)?;
+        self.run_action(control.action)?;
         Ok(true)
     }
 
@@ -136,7 +136,7 @@ impl ReceiptApp {
     ///
     /// # Errors
     /// As [`Sheet::hang`] and [`Cloth::grab_particle`].
-    pub fn act(&mut self, action: ReceiptAction) -> Result<()> {
+    pub fn run_action(&mut self, action: ReceiptAction) -> Result<()> {
         let mut settings = self.settings.clone();
         match action {
             ReceiptAction::Wind => settings.wind = !settings.wind,
@@ -271,7 +271,7 @@ impl ReceiptApp {
             let ticks = (self.unspent_time / TICK) as u32;
             self.unspent_time -= ticks as f32 * TICK;
             let (clock, start) = (self.clock, (self.clock)());
-            self.run_ticks_while(ticks, || clock() - start < PATIENCE)?;
+            self.run_ticks_while(ticks, || clock() - start < MAX_TICK_SECONDS)?;
             self.meter.record_simulation(clock() - start);
         }
         self.meter.record_frame(seconds);
@@ -464,7 +464,8 @@ impl ReceiptApp {
         for pin in pins {
             let at = self.cloth.positions()[pin as usize];
             let pulled = self.pointers.grabs().any(|(particle, to)| {
-                particle == pin || to.distance(at) > HOLD * place(particle).distance(place(pin))
+                particle == pin
+                    || to.distance(at) > PULL_OFF_FACTOR * place(particle).distance(place(pin))
             });
             if pulled {
                 self.cloth.unpin(pin)?;

@@ -59,7 +59,7 @@ impl Receipt {
     /// Runs the action of a control; an unknown name does nothing.
     pub fn act(&mut self, name: &str) -> Result<(), JsError> {
         settings::find_control(name)
-            .map_or(Ok(()), |control| self.tender.act(control.action).map_err(js_error))
+            .map_or(Ok(()), |control| self.tender.run_action(control.action).map_err(js_error))
     }
 
     /// Runs the action of a key; returns whether it has one.

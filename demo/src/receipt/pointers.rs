@@ -17,17 +17,17 @@ use crate::picking::Screen;
 use crate::pointer::{Cursor, orbit_and_pinch};
 
 /// Greatest distance between a pick ray and the particle that it grabs, in units.
-const GRAB: f32 = 0.5;
+const GRAB_RADIUS: f32 = 0.5;
 /// Time constant of the smoothing [s]: long enough that a toss does not depend on the time of the
 /// last pointer event.
-const FOLLOW: f32 = 0.02;
+const SMOOTHING_TIME: f32 = 0.02;
 /// Limits of a grab target around the origin and over the floor, in units.
-const REACH: Vec3 = Vec3::new(7.0, 9.0, 7.0);
+const TARGET_LIMITS: Vec3 = Vec3::new(7.0, 9.0, 7.0);
 const CLEARANCE: f32 = 0.04;
 /// Distance that a dragged grab keeps in front of other layers of paper, in units; and least
 /// distance along the sheet of another layer [cells].
-const SLIDE: f32 = 0.14;
-const OTHER: u32 = 9;
+const LAYER_DISTANCE: f32 = 0.14;
+const LAYER_CELLS: u32 = 9;
 
 /// Type of a press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -224,7 +224,7 @@ impl ReceiptPointers {
     /// # Errors
     /// As [`Cloth::move_grab`].
     pub fn tick(&mut self, seconds: f32, cloth: &mut Cloth) -> Result<()> {
-        let share = 1.0 - (-seconds / FOLLOW).exp();
+        let share = 1.0 - (-seconds / SMOOTHING_TIME).exp();
         for pointer in &mut self.down {
             if let ReceiptHold::Paper(held) = &mut pointer.hold {
                 held.now = held.now.lerp(held.goal, share);
@@ -292,7 +292,7 @@ impl ReceiptPickContext<'_> {
     /// Grabs the particle at or near a pixel.
     fn grab_at(&mut self, at: Vec2) -> Result<Option<ParticleGrab>> {
         let (eye, ray) = (self.view.eye, self.ray(at));
-        let Some((grab, now)) = self.cloth.grab_ray(eye, ray, GRAB * self.unit)? else {
+        let Some((grab, now)) = self.cloth.grab_ray(eye, ray, GRAB_RADIUS * self.unit)? else {
             return Ok(None);
         };
         let particle = self.cloth.positions().iter().position(|x| *x == now);
@@ -313,13 +313,13 @@ impl ReceiptPickContext<'_> {
             };
             let (held, met) = (cell(held.particle), cell(hit.particle));
             let away = held[0].abs_diff(met[0]).max(held[1].abs_diff(met[1]));
-            let over = (hit.position - self.view.eye).dot(forward) - SLIDE * self.unit;
-            if away > OTHER && over < depth {
+            let over = (hit.position - self.view.eye).dot(forward) - LAYER_DISTANCE * self.unit;
+            if away > LAYER_CELLS && over < depth {
                 depth = over;
             }
         }
         let to = self.view.eye + ray * (depth / ray.dot(forward));
-        let near = (to / self.unit).clamp(-REACH, REACH);
+        let near = (to / self.unit).clamp(-TARGET_LIMITS, TARGET_LIMITS);
         Ok(near.with_y(near.y.max(FLOOR + CLEARANCE)) * self.unit)
     }
 }

@@ -53,7 +53,7 @@ impl ReturnAnimation {
 
     /// Returns the greatest distance of a particle from its final position [m].
     #[cfg(test)]
-    pub fn farthest(&self, cloth: &Cloth) -> f32 {
+    pub fn greatest_distance(&self, cloth: &Cloth) -> f32 {
         let tracks = cloth.positions().iter().zip(&self.to).map(|(at, to)| at.distance(*to));
         tracks.fold(0.0, f32::max)
     }

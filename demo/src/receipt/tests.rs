@@ -34,7 +34,7 @@ fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
 }
 
 /// Mean speed of all particles, in units per second.
-fn speed(tender: &ReceiptApp) -> f32 {
+fn mean_speed(tender: &ReceiptApp) -> f32 {
     let count = tender.cloth().positions().len() as u32;
     let speeds = (0..count).filter_map(|i| tender.cloth().velocity(i)).map(|v| v.length());
     speeds.sum::<f32>() / count as f32 / tender.settings().sheet.unit()
@@ -48,10 +48,10 @@ fn heights(tender: &ReceiptApp) -> [f32; 2] {
 }
 
 /// Greatest distance of a particle from its initial position, in units.
-fn off(tender: &ReceiptApp) -> f32 {
+fn greatest_offset(tender: &ReceiptApp) -> f32 {
     let desc = tender.settings().sheet.desc(true);
     let places = ReturnAnimation::new(tender.cloth(), &desc);
-    places.farthest(tender.cloth()) / tender.settings().sheet.unit()
+    places.greatest_distance(tender.cloth()) / tender.settings().sheet.unit()
 }
 
 #[test]
@@ -107,14 +107,14 @@ fn the_right_button_orbits_and_two_fingers_beside_the_paper_pinch() {
     tender.press(1, middle, PressKind::Turn).unwrap();
     tender.drag(1, middle + Vec2::X * 150.0);
     tender.lift(1).unwrap();
-    let turned = settled(&mut tender);
-    assert!(turned.distance(before) > 2.0);
-    assert!((turned.distance(TARGET) - before.distance(TARGET)).abs() < 1.0e-3);
+    let fold_angle = settled(&mut tender);
+    assert!(fold_angle.distance(before) > 2.0);
+    assert!((fold_angle.distance(TARGET) - before.distance(TARGET)).abs() < 1.0e-3);
     tender.press(1, Vec2::new(60.0, 600.0), PressKind::Main).unwrap();
     tender.press(2, Vec2::new(1200.0, 600.0), PressKind::Main).unwrap();
     tender.drag(2, Vec2::new(800.0, 600.0));
     let pinched = settled(&mut tender);
-    assert!(pinched.distance(TARGET) > 1.2 * turned.distance(TARGET));
+    assert!(pinched.distance(TARGET) > 1.2 * fold_angle.distance(TARGET));
 }
 
 #[test]
@@ -147,14 +147,14 @@ fn two_fingers_grab_two_points_and_a_key_leaves_a_grab_in_place() {
 fn pause_stops_the_paper_and_reduced_motion_stops_the_wind() {
     for sheet in Sheet::ALL {
         let mut tender = tender(sheet);
-        tender.act(ReceiptAction::Pause).unwrap();
+        tender.run_action(ReceiptAction::Pause).unwrap();
         let hash = tender.cloth().state_hash();
         tender.frame(0.03).unwrap();
         assert_eq!(tender.cloth().state_hash(), hash);
-        tender.act(ReceiptAction::Pause).unwrap();
+        tender.run_action(ReceiptAction::Pause).unwrap();
         let swing = |tender: &mut ReceiptApp| {
             tender.play(240).unwrap();
-            speed(tender)
+            mean_speed(tender)
         };
         let still = swing(&mut tender);
         tender.key('w').unwrap();
@@ -212,7 +212,7 @@ fn no_gesture_moves_paper_through_itself() {
 }
 
 /// Angle between the upper and the lower half of the sheet [rad].
-fn turned(tender: &ReceiptApp) -> f32 {
+fn fold_angle(tender: &ReceiptApp) -> f32 {
     let [columns, rows] = tender.grid_size();
     let row = |row: u32| {
         let places = (0..columns).map(|column| tender.particle(row * columns + column).unwrap());
@@ -223,20 +223,20 @@ fn turned(tender: &ReceiptApp) -> f32 {
 
 #[test]
 fn a_crease_stays_after_the_sheet_is_released() {
-    let flat = turned(&tender(Sheet::Paper));
+    let flat = fold_angle(&tender(Sheet::Paper));
     let mut tender = played(ReceiptGesture::Fold, Sheet::Paper);
     assert!(tender.cloth().pinned().count() == 2, "it fell");
-    let folded = turned(&tender);
+    let folded = fold_angle(&tender);
     // Gravity opens the fold partly.
     assert!(folded > flat + 0.35, "it is folded by {folded} rad");
     tender.play(360).unwrap();
-    let later = turned(&tender);
+    let later = fold_angle(&tender);
     assert!((later - folded).abs() < 0.1, "three seconds later it is folded by {later} rad");
-    assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
+    assert!(mean_speed(&tender) < 0.1, "it still moves at {} units/s", mean_speed(&tender));
 }
 
 /// Angles between neighbouring quarters of the length of the sheet [rad].
-fn folds(tender: &ReceiptApp) -> [f32; 3] {
+fn fold_angles(tender: &ReceiptApp) -> [f32; 3] {
     let [columns, rows] = tender.grid_size();
     let middle = |share: f32| {
         let row = (share * (rows - 1) as f32).round() as u32;
@@ -251,8 +251,8 @@ fn folds(tender: &ReceiptApp) -> [f32; 3] {
 fn a_letter_stays_on_the_screen_and_keeps_its_creases_after_release() {
     let mut tender = tender(Sheet::Paper);
     tender.play(60).unwrap();
-    let before = folds(&tender);
-    assert!(before.iter().all(|turned| *turned < 0.4), "it hangs folded by {before:?}");
+    let before = fold_angles(&tender);
+    assert!(before.iter().all(|fold_angle| *fold_angle < 0.4), "it hangs folded by {before:?}");
     let mut play = ReceiptGesturePlayer::new(ReceiptGesture::Letter);
     for tick in 0..ReceiptGesture::Letter.ticks() {
         play.step(&mut tender).unwrap();
@@ -264,18 +264,18 @@ fn a_letter_stays_on_the_screen_and_keeps_its_creases_after_release() {
     }
     assert!(!tender.pointers.is_any_down() && tender.letter_fold.is_none(), "hands still hold it");
     tender.play(240).unwrap();
-    let creased = folds(&tender);
-    assert!(creased.iter().all(|turned| *turned > 2.6), "it is folded by {creased:?}");
+    let creased = fold_angles(&tender);
+    assert!(creased.iter().all(|fold_angle| *fold_angle > 2.6), "it is folded by {creased:?}");
     let [low, high] = heights(&tender);
     assert!(low > FLOOR - 1.0e-3 && high < FLOOR + 0.8, "it lies from {low} to {high} units");
-    assert!(speed(&tender) < 0.1, "it still moves at {} units/s", speed(&tender));
+    assert!(mean_speed(&tender) < 0.1, "it still moves at {} units/s", mean_speed(&tender));
     // Without gravity the creases do not open far either.
     let mut settings = tender.cloth.settings().clone();
     settings.gravity = Vec3::ZERO;
     tender.cloth.set_settings(settings).unwrap();
     tender.play(360).unwrap();
-    let alone = folds(&tender);
-    assert!(alone.iter().all(|turned| *turned > 2.0), "alone it is folded by {alone:?}");
+    let alone = fold_angles(&tender);
+    assert!(alone.iter().all(|fold_angle| *fold_angle > 2.0), "alone it is folded by {alone:?}");
 }
 
 #[test]
@@ -293,7 +293,11 @@ fn a_tossed_receipt_lands_and_comes_to_rest_on_the_floor() {
         let [low, high] = heights(&tender);
         assert!(low > FLOOR - 1.0e-3, "{sheet:?} is {} units under the floor", FLOOR - low);
         assert!(high < FLOOR + 4.0, "{sheet:?} stands {} units high", high - FLOOR);
-        assert!(speed(&tender) < 0.3, "{sheet:?} still moves at {} units/s", speed(&tender));
+        assert!(
+            mean_speed(&tender) < 0.3,
+            "{sheet:?} still moves at {} units/s",
+            mean_speed(&tender)
+        );
     }
 }
 
@@ -312,7 +316,7 @@ fn crumpled_paper_keeps_the_shape_of_a_ball() {
     let round = size.min_element() / size.max_element();
     assert!(round > 0.6, "it lies in a box of {size} m");
     assert!(heights(&tender)[0] > FLOOR - 1.0e-3);
-    assert!(speed(&tender) < 0.05, "it still moves at {} units/s", speed(&tender));
+    assert!(mean_speed(&tender) < 0.05, "it still moves at {} units/s", mean_speed(&tender));
     assert_eq!(crossing_count(tender.cloth()), 0);
 }
 
@@ -326,25 +330,25 @@ fn reset_returns_the_receipt_in_half_a_second_with_an_ease_out() {
             (ReceiptGesture::Crumple, 240),
             (ReceiptGesture::Toss, 170),
         ] {
-            comes_back(&mut played_for(gesture, sheet, ticks));
+            assert_reset_returns(&mut played_for(gesture, sheet, ticks));
         }
         let mut torn = tender(sheet);
         let cut = Vec3::new(-3.0, 0.4, -1.0) * sheet.unit();
         torn.cloth.cut(cut, cut.with_x(-cut.x), Vec3::Z * (2.0 * sheet.unit())).unwrap();
         torn.play(60).unwrap();
         assert!(torn.readout().particles > 24 * 36 && torn.readout().pieces > 1);
-        comes_back(&mut torn);
+        assert_reset_returns(&mut torn);
     }
 }
 
-fn comes_back(tender: &mut ReceiptApp) {
+fn assert_reset_returns(tender: &mut ReceiptApp) {
     // The animation also runs while the simulation is paused.
-    tender.act(ReceiptAction::Pause).unwrap();
-    tender.act(ReceiptAction::Reset).unwrap();
-    let mut tracks = vec![off(tender)];
+    tender.run_action(ReceiptAction::Pause).unwrap();
+    tender.run_action(ReceiptAction::Reset).unwrap();
+    let mut tracks = vec![greatest_offset(tender)];
     while tender.is_returning() {
         tender.frame(FRAME).unwrap();
-        tracks.push(off(tender));
+        tracks.push(greatest_offset(tender));
         assert!(tracks.len() < 40, "it does not arrive: {tracks:?}");
     }
     assert_eq!(tracks.len(), 31, "it took {} frames", tracks.len() - 1);
@@ -353,7 +357,7 @@ fn comes_back(tender: &mut ReceiptApp) {
     assert!(tracks[30] < 1.0e-3, "it is {} units off", tracks[30]);
     let fresh = {
         let mut fresh = ReceiptApp::new(tender.settings().clone(), true, || 0.0).unwrap();
-        fresh.act(ReceiptAction::Pause).unwrap();
+        fresh.run_action(ReceiptAction::Pause).unwrap();
         fresh.play(30).unwrap();
         fresh.cloth().positions().to_vec()
     };

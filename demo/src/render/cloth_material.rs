@@ -30,17 +30,17 @@ pub(super) struct ClothAlbedo {
 
 impl ClothAlbedo {
     pub(super) fn new(appearance: Appearance) -> Self {
-        let kept = |colour: u32| {
+        let saturation = |colour: u32| {
             let pure = linear(colour);
             let grey = pure.dot(Vec3::new(0.2126, 0.7152, 0.0722));
-            Vec3::splat(grey).lerp(pure, appearance.kept)
+            Vec3::splat(grey).lerp(pure, appearance.saturation)
         };
-        let [warp, weft] = appearance.threads.map(kept);
+        let [warp, weft] = appearance.threads.map(saturation);
         Self {
             appearance,
-            front: kept(appearance.front),
-            back: kept(appearance.back),
-            seam: kept(appearance.seam.0),
+            front: saturation(appearance.front),
+            back: saturation(appearance.back),
+            seam: saturation(appearance.seam.0),
             warp,
             weft,
         }
@@ -147,7 +147,7 @@ impl ClothMaterial {
             three_d::Vec4::new(appearance.count, relief, slub, appearance.weave),
         );
         p.use_uniform("gloss", three_d::Vec4::new(across, along, strength, mirror));
-        p.use_uniform("fibres", three_d::Vec2::new(appearance.fuzz, appearance.through));
+        p.use_uniform("fibres", three_d::Vec2::new(appearance.fuzz, appearance.transmission));
         p.use_uniform("printed", if appearance.printed { 1.0_f32 } else { 0.0 });
     }
 }

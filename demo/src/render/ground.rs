@@ -14,7 +14,7 @@ use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 
 /// Half the side of the quad [m]; the floor fades out before its border.
-const REACH: f32 = 8.0;
+const HALF_SIDE: f32 = 8.0;
 
 /// Shader program of the floor.
 pub struct Ground {
@@ -37,7 +37,7 @@ impl Ground {
     pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad, shadow: &ShadowMap) {
         let p = &self.program;
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
-        p.use_uniform("reach", REACH);
+        p.use_uniform("reach", HALF_SIDE);
         p.use_uniform("floorHeight", FLOOR);
         p.use_uniform("eye", to_gl_vector(pass.view.eye));
         p.use_uniform("centre", to_gl_vector(STAGE_CENTRE));

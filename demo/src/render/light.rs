@@ -85,7 +85,7 @@ pub fn linear(srgb: u32) -> Vec3 {
 /// Returns the linear colour that the tone curve maps to the sRGB colour `0xrrggbb`.
 ///
 /// The backdrop is specified by its final colour, so the curve must be inverted.
-pub fn before_tone_curve(srgb: u32) -> Vec3 {
+pub fn invert_tone_curve(srgb: u32) -> Vec3 {
     let wanted = linear(srgb).to_array();
     Vec3::from_array(wanted.map(|wanted| {
         let (mut low, mut high) = (0.0_f32, 64.0_f32);
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn the_inverse_of_the_tone_curve_is_exact() {
         for colour in [0x05070d, 0x0b1020, 0x9fb6ff] {
-            let out = before_tone_curve(colour).to_array().map(tone_curve);
+            let out = invert_tone_curve(colour).to_array().map(tone_curve);
             let wanted = linear(colour).to_array();
             for (out, wanted) in out.iter().zip(wanted) {
                 assert!((out - wanted).abs() < 1.0e-4, "{out} for {wanted}");

@@ -84,9 +84,9 @@ struct ClothBuffers {
 }
 
 /// Size of the shadow map for cloth and solids [texels].
-const SHARP: u32 = 1024;
+const CLOTH_SHADOW_SIZE: u32 = 1024;
 /// Size of the shadow map for the floor [texels]; it is coarser because these shadows are softer.
-const SOFT: u32 = 320;
+const FLOOR_SHADOW_SIZE: u32 = 320;
 
 impl Renderer {
     /// Compiles the shaders and creates the textures.
@@ -98,8 +98,8 @@ impl Renderer {
             context: context.clone(),
             lights: light::Lights::default(),
             cloths: Vec::new(),
-            shadow: shadow::ShadowMap::new(context, SHARP)?,
-            floor_shadow: shadow::ShadowMap::new(context, SOFT)?,
+            shadow: shadow::ShadowMap::new(context, CLOTH_SHADOW_SIZE)?,
+            floor_shadow: shadow::ShadowMap::new(context, FLOOR_SHADOW_SIZE)?,
             sky: sky::Sky::new(context)?,
             cloth: cloth_material::ClothMaterial::new(context)?,
             ground: ground::Ground::new(context)?,

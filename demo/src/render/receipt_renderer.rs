@@ -34,13 +34,13 @@ const BACKDROP: u32 = 0xe8e8e8;
 /// Height of the ground, slightly below the floor, in units.
 pub const GROUND: f32 = receipt::FLOOR - 0.02;
 /// Half the side of the ground, in units.
-const REACH: f32 = 50.0;
+const HALF_SIDE: f32 = 50.0;
 /// Exposure that maps the sum of the specified lights to the range of a screen.
 const EXPOSURE: f32 = 1.0 / 1.4;
 /// Sizes [texels] of the key light's shadow map, and of the coarse depth map that measures how far
 /// shadows fall.
-const SHARP: u32 = 2048;
-const COARSE: u32 = 256;
+const SHADOW_SIZE: u32 = 2048;
+const DEPTH_SIZE: u32 = 256;
 /// Least radius and depth of the volume that the shadow maps cover, in units.
 const RADIUS: f32 = 5.0;
 const DEPTH: f32 = 60.0;
@@ -68,11 +68,11 @@ pub struct ReceiptRenderer {
     paper: Program,
     ground: Program,
     solids: Solids,
-    daylight: Program,
+    tone_curve: Program,
     quad: UnitQuad,
     target: Option<HdrTarget>,
     /// Centre and radius of the paper, in units.
-    middle: Vec3,
+    centre: Vec3,
     radius: f32,
 }
 
@@ -96,21 +96,21 @@ impl ReceiptRenderer {
             context: context.clone(),
             lights: lights(),
             mesh: Mesh::new(context),
-            shadow: ShadowMap::new(context, SHARP)?,
-            depths: ShadowMap::new(context, COARSE)?,
+            shadow: ShadowMap::new(context, SHADOW_SIZE)?,
+            depths: ShadowMap::new(context, DEPTH_SIZE)?,
             sky: SkyLight::new(context)?,
             ink: ink(context),
             paper: Program::from_source(context, include_str!("shaders/cloth.vert"), lit)?,
             ground: Program::from_source(context, include_str!("shaders/ground.vert"), ground)?,
             solids: Solids::new(context)?,
-            daylight: Program::from_source(
+            tone_curve: Program::from_source(
                 context,
                 include_str!("shaders/screen.vert"),
                 include_str!("shaders/daylight.frag"),
             )?,
             quad: UnitQuad::new(context),
             target: None,
-            middle: Vec3::ZERO,
+            centre: Vec3::ZERO,
             radius: RADIUS,
         })
     }
@@ -119,8 +119,8 @@ impl ReceiptRenderer {
     pub fn upload_paper(&mut self, surface: &ClothSurface<'_>) {
         self.mesh.update(surface);
         let count = surface.positions.len().max(1) as f32;
-        self.middle = surface.positions.iter().sum::<Vec3>() / count;
-        let far = surface.positions.iter().map(|at| at.distance(self.middle));
+        self.centre = surface.positions.iter().sum::<Vec3>() / count;
+        let far = surface.positions.iter().map(|at| at.distance(self.centre));
         self.radius = far.fold(RADIUS, f32::max);
     }
 
@@ -138,13 +138,13 @@ impl ReceiptRenderer {
         HdrTarget::resize(&mut self.target, &self.context, width, height);
         let pins: Vec<Solid> = view.pins.iter().map(|at| pin(*at)).collect();
         let key = self.lights.key;
-        let clip = key.clip_around(self.middle, self.radius, 0.5 * DEPTH, 0.0..DEPTH);
+        let clip = key.clip_around(self.centre, self.radius, 0.5 * DEPTH, 0.0..DEPTH);
         for shadow in [&self.shadow, &self.depths] {
             shadow.draw(std::iter::once(&self.mesh), clip, |viewport| {
                 self.solids.draw_depth(clip, viewport, &pins);
             })?;
         }
-        self.sky.draw(&self.mesh, self.middle, self.radius)?;
+        self.sky.draw(&self.mesh, self.centre, self.radius)?;
         let Some(target) = &self.target else {
             return Ok(());
         };
@@ -154,7 +154,7 @@ impl ReceiptRenderer {
             view: view.view,
             lights: self.lights,
         };
-        let backdrop = before_daylight(BACKDROP);
+        let backdrop = invert_daylight_curve(BACKDROP);
         target
             .samples
             .clear(ClearState::color_and_depth(backdrop.x, backdrop.y, backdrop.z, 1.0, 1.0))
@@ -166,14 +166,14 @@ impl ReceiptRenderer {
             })?;
         target.samples.resolve_color_to(&target.resolved.as_color_target(None));
         output.write::<CoreError>(|| {
-            self.daylight.use_texture("scene", &target.resolved);
-            self.daylight.use_uniform("exposure", EXPOSURE);
+            self.tone_curve.use_texture("scene", &target.resolved);
+            self.tone_curve.use_uniform("exposure", EXPOSURE);
             let states = RenderStates {
                 depth_test: DepthTest::Always,
                 write_mask: WriteMask::COLOR,
                 ..RenderStates::default()
             };
-            self.quad.draw(&self.daylight, states, output.viewport());
+            self.quad.draw(&self.tone_curve, states, output.viewport());
             Ok(())
         })?;
         Ok(())
@@ -187,12 +187,12 @@ impl ReceiptRenderer {
     fn draw_ground(&self, pass: &RenderPass, clip: Mat4, backdrop: Vec3) {
         let p = &self.ground;
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
-        p.use_uniform("reach", REACH);
+        p.use_uniform("reach", HALF_SIDE);
         p.use_uniform("floorHeight", GROUND);
         p.use_uniform("backdrop", to_gl_vector(backdrop));
         p.use_uniform("depthRange", DEPTH);
         p.use_uniform("radius", self.radius);
-        p.use_uniform("middle", to_gl_vector(self.middle));
+        p.use_uniform("middle", to_gl_vector(self.centre));
         self.depths.bind_depths(p, "depths");
         self.shadow.bind_with_clip(p, &self.lights.key, clip);
         self.sky.bind(p);
@@ -255,7 +255,7 @@ fn ink(context: &Context) -> Texture2D {
 }
 
 /// Returns the linear colour that `daylight.frag` maps to the sRGB colour `0xrrggbb`.
-fn before_daylight(srgb: u32) -> Vec3 {
+fn invert_daylight_curve(srgb: u32) -> Vec3 {
     let unbent = |y: f32| if y < 0.7 { y } else { 0.7 - 0.3 * (1.0 - (y - 0.7) / 0.3).ln() };
     Vec3::from_array(linear(srgb).to_array().map(unbent)) / EXPOSURE
 }
@@ -269,7 +269,8 @@ mod tests {
         let shoulder = |x: f32| x.min(0.7) + 0.3 * (1.0 - (-(x - 0.7).max(0.0) / 0.3).exp());
         for colour in [BACKDROP, 0x808080] {
             let wanted = linear(colour).to_array();
-            for (light, wanted) in before_daylight(colour).to_array().into_iter().zip(wanted) {
+            for (light, wanted) in invert_daylight_curve(colour).to_array().into_iter().zip(wanted)
+            {
                 assert!((shoulder(light * EXPOSURE) - wanted).abs() < 1.0e-5);
             }
         }
@@ -280,6 +281,6 @@ mod tests {
         let key = lights().key;
         assert!(key.towards.distance(Vec3::new(6.0, 12.0, 8.0).normalize()) < 1.0e-6);
         assert!(key.colour.distance(linear(0xfff8ee) * 1.2) < 1.0e-6);
-        assert_eq!((SHARP, GROUND), (2048, -4.02));
+        assert_eq!((SHADOW_SIZE, GROUND), (2048, -4.02));
     }
 }

@@ -8,7 +8,7 @@
 
 use three_d::{Context, CoreError, DepthTest, Program, RenderStates, WriteMask};
 
-use super::light::before_tone_curve;
+use super::light::invert_tone_curve;
 use super::pass::{RenderPass, UnitQuad, to_gl_vector};
 
 /// Shader program of the backdrop.
@@ -33,8 +33,8 @@ impl Sky {
 
     pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad) {
         let p = &self.program;
-        p.use_uniform("lowColour", to_gl_vector(before_tone_curve(0x05070d)));
-        p.use_uniform("highColour", to_gl_vector(before_tone_curve(0x0b1020)));
+        p.use_uniform("lowColour", to_gl_vector(invert_tone_curve(0x05070d)));
+        p.use_uniform("highColour", to_gl_vector(invert_tone_curve(0x0b1020)));
         p.use_uniform("aspect", pass.aspect());
         let states = RenderStates {
             depth_test: DepthTest::Always,

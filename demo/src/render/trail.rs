@@ -15,7 +15,7 @@ use super::light::linear;
 use super::pass::{RenderPass, to_gl_vector};
 
 /// Half the width of the glow, as a fraction of the height of the picture.
-const REACH: f32 = 0.016;
+const HALF_WIDTH: f32 = 0.016;
 
 /// A point of the trail.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +87,7 @@ fn ribbon(trail_points: &[TrailPoint], aspect: f32) -> Vec<[f32; 4]> {
         }
         let ends = [i - 1, i].map(|i| {
             let spark = trail_points[i];
-            let across = direction(i).perp() * REACH * 2.0 * (0.35 + 0.65 * spark.glow) / wide;
+            let across = direction(i).perp() * HALF_WIDTH * 2.0 * (0.35 + 0.65 * spark.glow) / wide;
             [-1.0, 1.0].map(|side| {
                 let at = spark.at + across * side;
                 [at.x, at.y, side, spark.glow]
@@ -122,7 +122,7 @@ mod tests {
         for vertex in ribbon(&[spark(-0.5, true), spark(0.5, false)], 2.0) {
             let [x, y, side, _] = vertex;
             assert!((x.abs() - 0.5).abs() < 1.0e-6);
-            assert!((y - 0.2 - side * REACH * 2.0).abs() < 1.0e-6, "{y} at side {side}");
+            assert!((y - 0.2 - side * HALF_WIDTH * 2.0).abs() < 1.0e-6, "{y} at side {side}");
         }
     }
 }
