@@ -30,8 +30,8 @@ fn main() -> std::process::ExitCode {
                 native::run(ClothWindow::new(App::new(settings, native::clock)?))?;
             }
             Task::ReceiptWindow(receipt) => {
-                let tender = ReceiptApp::new(receipt.settings, receipt.small, native::clock)?;
-                native::run(ReceiptWindow::new(tender))?;
+                let app = ReceiptApp::new(receipt.settings, receipt.small, native::clock)?;
+                native::run(ReceiptWindow::new(app))?;
             }
         }
         Ok(())

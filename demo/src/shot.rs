@@ -158,11 +158,11 @@ impl Shot {
         receipt: &ReceiptShot,
         desk: ReceiptRenderer,
     ) -> Result<ReceiptSubject, Failure> {
-        let mut tender = ReceiptApp::new(receipt.settings.clone(), receipt.small, native::clock)?;
-        tender.play(self.ticks - self.gesture_ticks())?;
-        tender.time_stages(self.times);
+        let mut app = ReceiptApp::new(receipt.settings.clone(), receipt.small, native::clock)?;
+        app.play(self.ticks - self.gesture_ticks())?;
+        app.time_stages(self.times);
         let play = receipt.play.map(receipt::gestures::ReceiptGesturePlayer::new);
-        Ok(ReceiptSubject { tender, play, desk })
+        Ok(ReceiptSubject { app, play, desk })
     }
 
     /// Returns the number of ticks with a gesture, or between the first and the last frame of a
@@ -240,7 +240,7 @@ impl ShotSubject for ClothSubject {
 
 /// The receipt with its gesture.
 struct ReceiptSubject {
-    tender: ReceiptApp,
+    app: ReceiptApp,
     play: Option<receipt::gestures::ReceiptGesturePlayer>,
     desk: ReceiptRenderer,
 }
@@ -248,22 +248,22 @@ struct ReceiptSubject {
 impl ShotSubject for ReceiptSubject {
     fn tick(&mut self) -> Result<(), Failure> {
         match &mut self.play {
-            Some(play) => play.step(&mut self.tender)?,
-            None => self.tender.play(1)?,
+            Some(play) => play.step(&mut self.app)?,
+            None => self.app.play(1)?,
         }
         Ok(())
     }
 
     fn draw(&mut self, canvas: &OffscreenCanvas) -> Result<(), Failure> {
-        Ok(self.tender.draw(&mut self.desk, &canvas.target())?)
+        Ok(self.app.draw(&mut self.desk, &canvas.target())?)
     }
 
     fn camera(&mut self) -> &mut Camera {
-        self.tender.camera()
+        self.app.camera()
     }
 
     fn times(&self) -> Vec<StageTime> {
-        self.tender.stage_times()
+        self.app.stage_times()
     }
 }
 

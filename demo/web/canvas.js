@@ -1,19 +1,20 @@
-// What every page of the demo does with its canvas: a context, frames, pointers. The demo itself is in the wasm.
+// Canvas of a demo page: WebGL context, frame loop, pointers and keys for the camera.
+// Reads browser events; calls the demo in WebAssembly, which makes all decisions.
 
 export const by = (id) => document.getElementById(id);
 
-/** What the page is doing, for its style sheet and its tests: running, lost or failed. */
-export function enter(state) {
+/** Sets the state of the page for its style sheet and its tests: running, lost or failed. */
+export function setPageState(state) {
   document.documentElement.dataset.state = state;
 }
 
 export function fail(reason) {
   by("reason").textContent = reason;
   by("failure").hidden = false;
-  enter("failed");
+  setPageState("failed");
 }
 
-/** The canvas's context; nothing where it cannot draw what the demo draws. */
+/** Returns the WebGL 2 context of the canvas; null if it cannot render to half-float textures. */
 export function context(canvas) {
   const gl = canvas.getContext("webgl2", {
     alpha: false,
@@ -24,7 +25,7 @@ export function context(canvas) {
   return gl?.getExtension("EXT_color_buffer_float") ? gl : null;
 }
 
-/** Draws frame after frame while the page is seen; `updateReadout` is called four times a second. */
+/** Draws frames while the page is visible, and calls `updateReadout` four times a second. */
 export function loop(canvas, demo, updateReadout) {
   const gl = canvas.getContext("webgl2");
   let last = 0;
@@ -69,17 +70,20 @@ export function loop(canvas, demo, updateReadout) {
     event.preventDefault();
     stop();
     demo.detach();
-    enter("lost");
+    setPageState("lost");
   });
   canvas.addEventListener("webglcontextrestored", () => {
     demo.attach(context(canvas));
-    enter("running");
+    setPageState("running");
     start();
   });
   start();
 }
 
-/** Hands pointers and wheel to the demo; `press(event, x, y)` says what a pointer that comes down does. */
+/**
+ * Passes pointer and wheel events to the demo. `press(event, x, y)` handles a pressed pointer and
+ * returns whether the demo uses it.
+ */
 export function listenToPointers(canvas, demo, press) {
   const at = (event) => {
     const box = canvas.getBoundingClientRect();
@@ -95,7 +99,7 @@ export function listenToPointers(canvas, demo, press) {
     }
   });
   canvas.addEventListener("pointermove", (event) => {
-    // The last of the moves since the frame before is where the pointer is.
+    // Browsers merge the moves since the last frame; the event has the latest position.
     demo.drag(event.pointerId, ...at(event));
     cursor();
   });
@@ -112,13 +116,13 @@ export function listenToPointers(canvas, demo, press) {
     (event) => {
       event.preventDefault();
       const unit = [1, 33, canvas.clientHeight][event.deltaMode];
-      // A trackpad's pinch arrives as a wheel with Ctrl held, in much smaller steps.
+      // A pinch on a trackpad arrives as a wheel event with Ctrl, in much smaller steps.
       demo.wheel(event.deltaY * unit * (event.ctrlKey ? 6 : 1));
     },
     { passive: false },
   );
   for (const name of ["touchstart", "touchmove", "gesturestart"]) {
-    // A scroll that is under way cannot be stopped, and the browser complains of attempts.
+    // A running scroll cannot be cancelled, and the browser logs an error for an attempt.
     const stop = (event) => event.cancelable && event.preventDefault();
     canvas.addEventListener(name, stop, { passive: false });
   }
@@ -131,7 +135,10 @@ const ARROWS = {
   ArrowDown: [0, 0.04],
 };
 
-/** Arrows orbit while the canvas or nothing has the focus, plus and minus zoom; says whether it was one. */
+/**
+ * Moves the camera by keys: arrows orbit while no control has the focus, plus and minus zoom.
+ * Returns whether the key was one of these.
+ */
 export function moveCamera(event, canvas, demo) {
   if (isFree(event, canvas) && ARROWS[event.key]) {
     demo.orbit(...ARROWS[event.key]);
@@ -145,5 +152,5 @@ export function moveCamera(event, canvas, demo) {
   return false;
 }
 
-/** Whether no control has the focus, which would take keys like the space bar for itself. */
+/** Returns whether no control has the focus; a focused control uses keys such as the space bar. */
 export const isFree = (event, canvas) => event.target === canvas || event.target === document.body;

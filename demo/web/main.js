@@ -1,6 +1,7 @@
-// The page: canvas, events, storage and clock. What any of it means is decided in the wasm.
+// Page of the cloth scenes: canvas, events, storage and clock. The demo in WebAssembly makes all
+// decisions.
 
-import { by, context, enter, fail, listenToPointers, isFree, loop, moveCamera } from "./canvas.js";
+import { by, context, fail, isFree, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
 import init, { Demo } from "./muslin_demo.js";
 import { drawPanel } from "./panel.js";
 
@@ -9,7 +10,7 @@ const NARROW = matchMedia("(max-width: 640px)");
 const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
 const canvas = by("stage");
 
-// A private window may refuse storage; the demo runs without it.
+// A private window may refuse storage; the demo then runs without it.
 function readSettings() {
   try {
     return localStorage.getItem(KEY) ?? undefined;
@@ -22,7 +23,7 @@ function saveSettings(settings) {
   try {
     localStorage.setItem(KEY, settings);
   } catch {
-    // Nothing is kept then.
+    // The settings are not saved.
   }
 }
 
@@ -38,7 +39,7 @@ function run(demo) {
       saveNow();
     },
   });
-  // What was corrupt or out of range is put right in the storage too.
+  // The demo has corrected invalid values; this corrects them in the storage too.
   saveNow();
 
   const applyReducedMotion = () => demo.setReducedMotion(REDUCED_MOTION.matches);
@@ -47,7 +48,7 @@ function run(demo) {
 
   by("stages").addEventListener("toggle", () => demo.timeStages(by("stages").open));
   loop(canvas, demo, () => {
-    show(JSON.parse(demo.readout()));
+    showReadout(JSON.parse(demo.readout()));
     if (by("stages").open) showStages(JSON.parse(demo.stageTimes()));
   });
   listenToPointers(canvas, demo, (event, x, y) => {
@@ -61,7 +62,7 @@ function run(demo) {
     refresh();
     saveNow();
   });
-  overlays();
+  connectOverlays();
   for (const id of ["panel", "help", "ask"]) by(id).hidden = false;
 
   window.muslinDemo = {
@@ -75,17 +76,17 @@ function run(demo) {
     },
     eye: () => Array.from(demo.eye()),
   };
-  enter("running");
+  setPageState("running");
 }
 
-function show(stats) {
+function showReadout(stats) {
   by("stat-particles").textContent = stats.particles.toLocaleString("en");
   by("stat-constraints").textContent = stats.constraints.toLocaleString("en");
   by("stat-fps").textContent = `${stats.fps.toFixed(0)} fps`;
   by("stat-milliseconds").textContent = `${stats.milliseconds.toFixed(2)} ms`;
 }
 
-// Bars are drawn against the longest stage.
+// The bars are relative to the longest stage.
 function showStages(stages) {
   const list = by("stage-times");
   const longest = Math.max(0.05, ...stages.map((stage) => stage.milliseconds));
@@ -106,14 +107,14 @@ function showStages(stages) {
 }
 
 function listenToKeys(demo, changed) {
-  const blade = (event) => {
+  const updateBlade = (event) => {
     demo.holdBlade(event.shiftKey === true);
     canvas.style.cursor = demo.cursor();
   };
-  addEventListener("keyup", blade);
-  addEventListener("blur", blade);
+  addEventListener("keyup", updateBlade);
+  addEventListener("blur", updateBlade);
   addEventListener("keydown", (event) => {
-    if (event.key === "Shift") blade(event);
+    if (event.key === "Shift") updateBlade(event);
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (moveCamera(event, canvas, demo)) return;
     if (event.key === "?" || event.key === "h") {
@@ -131,24 +132,24 @@ function listenToKeys(demo, changed) {
   });
 }
 
-function overlays() {
+function connectOverlays() {
   const [panel, collapse, help, ask] = ["panel", "collapse", "help", "ask"].map(by);
-  const open = (on) => {
+  const setPanelOpen = (on) => {
     panel.classList.toggle("closed", !on);
     collapse.setAttribute("aria-expanded", String(on));
   };
-  collapse.addEventListener("click", () => open(panel.classList.contains("closed")));
-  NARROW.addEventListener("change", () => open(!NARROW.matches));
-  open(!NARROW.matches);
+  collapse.addEventListener("click", () => setPanelOpen(panel.classList.contains("closed")));
+  NARROW.addEventListener("change", () => setPanelOpen(!NARROW.matches));
+  setPanelOpen(!NARROW.matches);
 
-  const explain = (on) => {
+  const showHelp = (on) => {
     help.classList.toggle("gone", !on);
     ask.setAttribute("aria-expanded", String(on));
   };
-  ask.addEventListener("click", () => explain(help.classList.contains("gone")));
-  by("dismiss").addEventListener("click", () => explain(false));
-  help.addEventListener("touched", () => explain(false));
-  explain(true);
+  ask.addEventListener("click", () => showHelp(help.classList.contains("gone")));
+  by("dismiss").addEventListener("click", () => showHelp(false));
+  help.addEventListener("touched", () => showHelp(false));
+  showHelp(true);
 }
 
 try {

@@ -1,4 +1,4 @@
-// The panel: real HTML controls, drawn from the demo's own table.
+// Panel of the page: HTML controls, created from the demo's table of controls.
 
 function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
@@ -6,22 +6,23 @@ function element(tag, properties = {}, ...children) {
   return made;
 }
 
-function named(control, made) {
+function withTooltip(control, made) {
   made.title = `${control.about} (${control.key})`;
   return made;
 }
 
 /**
- * Fills `form` with a row a control. `get(name)` and `text(name)` read the demo, `isEnabled(name)` says whether the
- * control changes anything now, `set(name, value)` changes it. Returns a function that shows the values as they are now.
+ * Fills `form` with one row per control. `get(name)` and `text(name)` read a value, `isEnabled(name)`
+ * returns whether the control has an effect now, `set(name, value)` changes a value. Returns a
+ * function that updates all rows.
  */
 export function drawPanel(form, table, { get, text, isEnabled, set }) {
   const refreshers = [];
   for (const control of table) {
     const { row, refresh } = builders[control.kind](control, { get, text, set });
-    form.append(named(control, row));
+    form.append(withTooltip(control, row));
     if (refresh) refreshers.push(refresh);
-    // Rows of several inputs and buttons can be switched off as one.
+    // Rows with several inputs, and buttons, can be disabled as a whole.
     if ("disabled" in row) refreshers.push(() => (row.disabled = !isEnabled(control.name)));
   }
   const refresh = () => refreshers.forEach((each) => each());

@@ -1,22 +1,22 @@
-// The receipt's page: canvas, events and pills. What any of it means is decided in the wasm.
+// Page of the receipt: canvas, events and buttons. The demo in WebAssembly makes all decisions.
 
-import { by, context, enter, fail, listenToPointers, isFree, loop, moveCamera } from "./canvas.js";
+import { by, context, fail, isFree, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
 import init, { Receipt } from "./muslin_demo.js";
 
 const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
-/** Fewer particles do on small and touch screens, and where people ask for less motion. */
+/** Small and touch screens, and reduced motion, get the sheet with fewer particles. */
 const USE_SMALL_SHEET = navigator.maxTouchPoints > 0 || innerWidth < 768 || REDUCED_MOTION.matches;
-/** The instructions stay so long, and two presses are one double press within so much [ms]. */
+/** Time that the instructions stay, and longest time between the presses of a double press [ms]. */
 const INSTRUCTIONS_MS = 3000;
 const DOUBLE_PRESS_MS = 350;
 const canvas = by("stage");
 
 function run(receipt) {
-  const refresh = drawPills(receipt);
+  const refresh = drawButtons(receipt);
   const applyReducedMotion = () => receipt.setReducedMotion(REDUCED_MOTION.matches);
   REDUCED_MOTION.addEventListener("change", applyReducedMotion);
   applyReducedMotion();
-  loop(canvas, receipt, () => show(JSON.parse(receipt.readout())));
+  loop(canvas, receipt, () => showReadout(JSON.parse(receipt.readout())));
   listenToPointers(canvas, receipt, pressHandler(receipt));
   listenToKeys(receipt, refresh);
   by("loading").hidden = true;
@@ -34,11 +34,11 @@ function run(receipt) {
     },
     eye: () => Array.from(receipt.eye()),
   };
-  enter("running");
+  setPageState("running");
 }
 
-/** The pills of the table; returns what shows everything as it is now. */
-function drawPills(receipt) {
+/** Creates the buttons of the table of controls; returns a function that updates them. */
+function drawButtons(receipt) {
   const table = JSON.parse(Receipt.controls());
   const pills = table.filter(({ pill }) => pill).map((control) => {
     const made = document.createElement("button");
@@ -96,7 +96,7 @@ function listenToKeys(receipt, changed) {
   });
 }
 
-function show(stats) {
+function showReadout(stats) {
   by("stat-fps").textContent = stats.fps.toFixed(0);
   by("stat-particles").textContent = stats.particles.toLocaleString("en");
   by("stat-constraints").textContent = stats.constraints.toLocaleString("en");

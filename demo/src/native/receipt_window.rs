@@ -36,7 +36,7 @@ const MORE_INSTRUCTIONS: &str = "Right-drag to orbit  ·  hold Shift to leave a 
 
 /// The receipt with its overlay.
 pub struct ReceiptWindow {
-    tender: ReceiptApp,
+    app: ReceiptApp,
     renderer: Option<ReceiptRenderer>,
     commands: Vec<ReceiptAction>,
     buttons: Vec<Rect>,
@@ -45,8 +45,8 @@ pub struct ReceiptWindow {
 
 impl ReceiptWindow {
     /// Creates the window state for a receipt.
-    pub fn new(tender: ReceiptApp) -> Self {
-        Self { tender, renderer: None, commands: Vec::new(), buttons: Vec::new(), age: 0.0 }
+    pub fn new(app: ReceiptApp) -> Self {
+        Self { app, renderer: None, commands: Vec::new(), buttons: Vec::new(), age: 0.0 }
     }
 
     fn buttons(&mut self, ctx: &Egui) {
@@ -56,7 +56,7 @@ impl ReceiptWindow {
             ui.horizontal(|ui| {
                 ui.spacing_mut().button_padding = vec2(16.0, 8.0);
                 for control in RECEIPT_CONTROLS.iter().filter(|control| control.is_pill) {
-                    let on = control.is_on(self.tender.settings()) == Some(true);
+                    let on = control.is_on(self.app.settings()) == Some(true);
                     let [fill, text] = if on { [TEXT, Color32::WHITE] } else { [PILL, TEXT] };
                     let pill = Button::new(RichText::new(control.label).size(14.0).color(text))
                         .fill(fill)
@@ -86,7 +86,7 @@ impl WindowApp for ReceiptWindow {
     }
 
     fn resize(&mut self, size: Vec2) {
-        self.tender.resize(size);
+        self.app.resize(size);
     }
 
     fn covers(&self, at: Vec2) -> bool {
@@ -94,49 +94,49 @@ impl WindowApp for ReceiptWindow {
     }
 
     fn press(&mut self, id: u32, at: Vec2, press: PressKind) -> Result<()> {
-        self.tender.press(id, at, press)
+        self.app.press(id, at, press)
     }
 
     fn press_twice(&mut self, at: Vec2) -> Result<()> {
-        self.tender.crease(at).map(|_| ())
+        self.app.crease(at).map(|_| ())
     }
 
     fn drag(&mut self, id: u32, to: Vec2) -> Result<()> {
-        self.tender.drag(id, to);
+        self.app.drag(id, to);
         Ok(())
     }
 
     fn lift(&mut self, id: u32) -> Result<()> {
-        self.tender.lift(id)
+        self.app.lift(id)
     }
 
     fn clear_hover(&mut self) {
-        self.tender.clear_hover();
+        self.app.clear_hover();
     }
 
     fn wheel(&mut self, pixels: f32) {
-        self.tender.wheel(pixels);
+        self.app.wheel(pixels);
     }
 
     fn pinch(&mut self, factor: f32) {
-        self.tender.pinch(factor);
+        self.app.pinch(factor);
     }
 
     fn shift(&mut self, held: bool) -> Result<()> {
-        self.tender.set_leave_in_place(held)
+        self.app.set_leave_in_place(held)
     }
 
     fn key(&mut self, key: char) -> Result<()> {
-        self.tender.key(key).map(|_| ())
+        self.app.key(key).map(|_| ())
     }
 
     fn cursor(&mut self) -> Result<Cursor> {
-        self.tender.cursor()
+        self.app.cursor()
     }
 
     fn frame(&mut self, seconds: f32) -> Result<()> {
         self.age += seconds;
-        self.tender.frame(seconds)
+        self.app.frame(seconds)
     }
 
     fn draw_overlay(&mut self, ctx: &Egui) {
@@ -158,15 +158,15 @@ impl WindowApp for ReceiptWindow {
             13.0,
             MUTED.gamma_multiply(left),
         );
-        if self.tender.settings().counter {
-            let r = self.tender.readout();
+        if self.app.settings().counter {
+            let r = self.app.readout();
             let text = format!(
                 "{:.0} fps\n{} particles\n{} constraints\n{:.2} ms simulation",
                 r.fps, r.particles, r.constraints, r.milliseconds
             );
             write(screen.right_top() + vec2(-24.0, 22.0), Align2::RIGHT_TOP, &text, 13.0, MUTED);
         }
-        if self.tender.settings().paused {
+        if self.app.settings().paused {
             let text = "PAUSED — press Space";
             write(screen.center(), Align2::CENTER_CENTER, text, 38.0, TEXT.gamma_multiply(0.75));
         }
@@ -175,12 +175,12 @@ impl WindowApp for ReceiptWindow {
 
     fn run_commands(&mut self) -> Result<()> {
         let commands = std::mem::take(&mut self.commands);
-        commands.into_iter().try_for_each(|action| self.tender.run_action(action))
+        commands.into_iter().try_for_each(|action| self.app.run_action(action))
     }
 
     fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError> {
         match &mut self.renderer {
-            Some(renderer) => self.tender.draw(renderer, screen),
+            Some(renderer) => self.app.draw(renderer, screen),
             None => Ok(()),
         }
     }

@@ -135,41 +135,41 @@ impl ReceiptGesturePlayer {
     /// # Errors
     /// As [`ReceiptApp::press`], [`ReceiptApp::lift`], [`ReceiptApp::run_action`] and
     /// [`ReceiptApp::crease`].
-    pub fn step(&mut self, tender: &mut ReceiptApp) -> Result<()> {
+    pub fn step(&mut self, app: &mut ReceiptApp) -> Result<()> {
         let script = self.gesture.script();
         for (id, way) in (1..).zip(script.tracks) {
             let [(begin, _), .., (end, _)] = way else {
                 continue;
             };
-            let at = on_screen(tender, place(way, self.tick));
+            let at = on_screen(app, place(way, self.tick));
             if self.tick == *begin {
-                tender.press(id, at, PressKind::Main)?;
+                app.press(id, at, PressKind::Main)?;
             } else if self.tick > *begin && self.tick <= *end {
-                tender.drag(id, at);
+                app.drag(id, at);
             }
             if self.tick == *end {
-                tender.lift(id)?;
+                app.lift(id)?;
             }
         }
         for (_, action) in script.actions.iter().filter(|(tick, _)| *tick == self.tick) {
             match action {
-                ScriptedAction::Act(action) => tender.run_action(*action)?,
+                ScriptedAction::Act(action) => app.run_action(*action)?,
                 ScriptedAction::Crease(share) => {
-                    let at = on_screen(tender, *share);
-                    tender.crease(at)?;
+                    let at = on_screen(app, *share);
+                    app.crease(at)?;
                 }
             }
         }
-        tender.play(1)?;
+        app.play(1)?;
         self.tick += 1;
         Ok(())
     }
 }
 
 /// Returns the screen position of a fraction of the hanging sheet.
-fn on_screen(tender: &ReceiptApp, [x, y]: [f32; 2]) -> Vec2 {
-    let at = Vec2::new(x - 0.5, 0.5 - y) * tender.span();
-    tender.on_screen(at.extend(0.0)).unwrap_or_default()
+fn on_screen(app: &ReceiptApp, [x, y]: [f32; 2]) -> Vec2 {
+    let at = Vec2::new(x - 0.5, 0.5 - y) * app.span();
+    app.on_screen(at.extend(0.0)).unwrap_or_default()
 }
 
 /// Returns the position of a track at a tick: eased at both ends, but the last piece ends at full

@@ -80,7 +80,7 @@ impl ReceiptApp {
     /// As [`Sheet::hang`].
     pub fn new(settings: ReceiptSettings, small: bool, clock: fn() -> f64) -> Result<Self> {
         let cloth = settings.sheet.hang(small)?;
-        let mut tender = Self {
+        let mut app = Self {
             camera: Camera::new(rig()),
             cloth,
             settings,
@@ -100,9 +100,9 @@ impl ReceiptApp {
             generation: 0,
             times_stages: false,
         };
-        tender.camera.set_drift(false);
-        tender.apply_wind()?;
-        Ok(tender)
+        app.camera.set_drift(false);
+        app.apply_wind()?;
+        Ok(app)
     }
 
     /// Returns the values of the controls.

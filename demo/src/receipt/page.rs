@@ -19,7 +19,7 @@ use crate::web::{context_from_webgl, js_error, now};
 /// The running receipt with its GPU resources.
 #[wasm_bindgen]
 pub struct Receipt {
-    tender: ReceiptApp,
+    app: ReceiptApp,
     renderer: Option<ReceiptRenderer>,
 }
 
@@ -28,9 +28,9 @@ impl Receipt {
     /// Creates the receipt; `small` selects the sheet with fewer particles.
     #[wasm_bindgen(constructor)]
     pub fn new(small: bool) -> Result<Receipt, JsError> {
-        let tender = ReceiptApp::new(ReceiptSettings::default(), small, || now() * 1.0e-3)
+        let app = ReceiptApp::new(ReceiptSettings::default(), small, || now() * 1.0e-3)
             .map_err(js_error)?;
-        Ok(Self { tender, renderer: None })
+        Ok(Self { app, renderer: None })
     }
 
     /// Creates the renderer in a WebGL 2 context, also after a lost one.
@@ -53,118 +53,118 @@ impl Receipt {
     /// Returns whether a control is on; nothing for an action without a state.
     #[wasm_bindgen(js_name = isOn)]
     pub fn is_on(&self, name: &str) -> Option<bool> {
-        settings::find_control(name).and_then(|control| control.is_on(self.tender.settings()))
+        settings::find_control(name).and_then(|control| control.is_on(self.app.settings()))
     }
 
     /// Runs the action of a control; an unknown name does nothing.
     pub fn act(&mut self, name: &str) -> Result<(), JsError> {
         settings::find_control(name)
-            .map_or(Ok(()), |control| self.tender.run_action(control.action).map_err(js_error))
+            .map_or(Ok(()), |control| self.app.run_action(control.action).map_err(js_error))
     }
 
     /// Runs the action of a key; returns whether it has one.
     pub fn key(&mut self, key: char) -> Result<bool, JsError> {
-        self.tender.key(key).map_err(js_error)
+        self.app.key(key).map_err(js_error)
     }
 
     /// Sets whether the user prefers reduced motion.
     #[wasm_bindgen(js_name = setReducedMotion)]
     pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<(), JsError> {
-        self.tender.set_reduced_motion(reduced_motion).map_err(js_error)
+        self.app.set_reduced_motion(reduced_motion).map_err(js_error)
     }
 
     /// Sets the size of the canvas in CSS pixels.
     pub fn resize(&mut self, width: f32, height: f32) {
-        self.tender.resize(Vec2::new(width, height));
+        self.app.resize(Vec2::new(width, height));
     }
 
     /// Handles a pressed pointer, in CSS pixels of the canvas; `turns` orbits the camera in any
     /// case.
     pub fn press(&mut self, id: u32, x: f32, y: f32, turns: bool) -> Result<(), JsError> {
         let button = if turns { PressKind::Turn } else { PressKind::Main };
-        self.tender.press(id, Vec2::new(x, y), button).map_err(js_error)
+        self.app.press(id, Vec2::new(x, y), button).map_err(js_error)
     }
 
     /// Handles a moved pointer.
     pub fn drag(&mut self, id: u32, x: f32, y: f32) {
-        self.tender.drag(id, Vec2::new(x, y));
+        self.app.drag(id, Vec2::new(x, y));
     }
 
     /// Handles a released or lost pointer.
     pub fn lift(&mut self, id: u32) -> Result<(), JsError> {
-        self.tender.lift(id).map_err(js_error)
+        self.app.lift(id).map_err(js_error)
     }
 
     /// Handles a mouse that leaves the canvas.
     #[wasm_bindgen(js_name = clearHover)]
     pub fn clear_hover(&mut self) {
-        self.tender.clear_hover();
+        self.app.clear_hover();
     }
 
     /// Sets whether released pointers leave their grabs in place.
     #[wasm_bindgen(js_name = setLeaveInPlace)]
     pub fn set_leave_in_place(&mut self, on: bool) -> Result<(), JsError> {
-        self.tender.set_leave_in_place(on).map_err(js_error)
+        self.app.set_leave_in_place(on).map_err(js_error)
     }
 
     /// Creases the bend at a position; returns whether there is one.
     pub fn crease(&mut self, x: f32, y: f32) -> Result<bool, JsError> {
-        self.tender.crease(Vec2::new(x, y)).map_err(js_error)
+        self.app.crease(Vec2::new(x, y)).map_err(js_error)
     }
 
     /// Zooms by the wheel, in CSS pixels.
     pub fn wheel(&mut self, pixels: f32) {
-        self.tender.wheel(pixels);
+        self.app.wheel(pixels);
     }
 
     /// Orbits the camera by a drag, in screen heights.
     pub fn orbit(&mut self, x: f32, y: f32) {
-        self.tender.camera().orbit(Vec2::new(x, y));
+        self.app.camera().orbit(Vec2::new(x, y));
     }
 
     /// Returns the position of the camera, in units.
     pub fn eye(&mut self) -> Box<[f32]> {
-        Box::new(self.tender.camera().view().eye.to_array())
+        Box::new(self.app.camera().view().eye.to_array())
     }
 
     /// Returns the CSS name of the cursor.
     pub fn cursor(&mut self) -> Result<String, JsError> {
-        self.tender.cursor().map(|cursor| cursor.css().into()).map_err(js_error)
+        self.app.cursor().map(|cursor| cursor.css().into()).map_err(js_error)
     }
 
     /// Advances by `seconds` [s] and draws into a canvas of `width` × `height` device pixels.
     pub fn frame(&mut self, seconds: f32, width: u32, height: u32) -> Result<(), JsError> {
-        self.tender.frame(seconds).map_err(js_error)?;
+        self.app.frame(seconds).map_err(js_error)?;
         if let Some(renderer) = &mut self.renderer {
             let context = renderer.context().clone();
             let screen = RenderTarget::screen(&context, width, height);
-            self.tender.draw(renderer, &screen).map_err(js_error)?;
+            self.app.draw(renderer, &screen).map_err(js_error)?;
         }
         Ok(())
     }
 
     /// Runs exactly `ticks` ticks, independent of the clock.
     pub fn play(&mut self, ticks: u32) -> Result<(), JsError> {
-        self.tender.play(ticks).map_err(js_error)
+        self.app.play(ticks).map_err(js_error)
     }
 
     /// Returns the numbers of the counter as JSON.
     pub fn readout(&self) -> String {
-        serde_json::to_string(&self.tender.readout()).unwrap_or_default()
+        serde_json::to_string(&self.app.readout()).unwrap_or_default()
     }
 
     /// Returns the state hash of the cloth as a hexadecimal number; it is the same on every
     /// platform.
     #[wasm_bindgen(js_name = stateHash)]
     pub fn state_hash(&self) -> String {
-        format!("{:016x}", self.tender.cloth().state_hash())
+        format!("{:016x}", self.app.cloth().state_hash())
     }
 
     /// Returns x and y of a particle in CSS pixels of the canvas; nothing if it is behind the
     /// camera.
     #[wasm_bindgen(js_name = particleScreen)]
     pub fn particle_screen(&self, particle: u32) -> Option<Box<[f32]>> {
-        let at = self.tender.on_screen(self.tender.particle(particle)?)?;
+        let at = self.app.on_screen(self.app.particle(particle)?)?;
         Some(Box::new([at.x, at.y]))
     }
 }

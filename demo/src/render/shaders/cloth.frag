@@ -1,25 +1,25 @@
-// Woven cloth: two faces, a highlight stretched across the threads, sheen at grazing angles, and key
-// light that comes through from behind. How much of each is the fabric's own.
+// Woven cloth: two-sided, with anisotropic specular reflection, sheen at grazing angles and
+// transmission of the key light. The parameters come from the appearance of the fabric.
 
 uniform vec3 eye;
 uniform vec3 fillTowards;
 uniform vec3 fillColour;
 uniform vec3 rimTowards;
 uniform vec3 rimColour;
-uniform vec4 gloss;  // width across and along, strength, what it mirrors
-uniform vec2 fibres; // fuzz, share of light that comes through
+uniform vec4 gloss;  // roughness across and along, strength, strength of reflections
+uniform vec2 fibres; // strength of sheen, strength of transmission
 uniform float dim;      // 1.0, less under the wireframe
-uniform float mirrored; // 1.0: this is the floor's picture of the cloth
+uniform float mirrored; // 1.0: reflection on the floor
 uniform float floorHeight;
 
 in vec3 at;
 in vec3 facing;
 in vec2 uv;
-in float loose; // 1.0 at a torn border, 0.0 a triangle further in
+in float loose; // 1.0 at a torn edge, 0.0 one triangle further in
 
 layout (location = 0) out vec4 colour;
 
-// The studio as the satin mirrors it: a graded dome and two soft boxes.
+// Analytic environment for reflections: a graded dome with three soft lights.
 vec3 studio(vec3 d) {
     vec3 dome = mix(vec3(0.010, 0.014, 0.030), vec3(0.055, 0.075, 0.150), smoothstep(-0.35, 0.95, d.y));
     float key = pow(max(dot(d, keyTowards), 0.0), 7.0);
@@ -28,8 +28,8 @@ vec3 studio(vec3 d) {
     return dome + 0.34 * keyColour * key + 0.5 * fillColour * fill + 0.5 * rimColour * rim;
 }
 
-// GGX with one width along the weft and another along the warp (Burley, "Physically Based Shading
-// at Disney", 2012), visibility by Kelemen's approximation.
+// Anisotropic GGX with roughness along weft and warp (Burley, "Physically Based Shading
+// at Disney", 2012); visibility by Kelemen's approximation.
 float satin(vec3 n, vec3 t, vec3 b, vec3 l, vec3 v, vec2 width) {
     vec3 h = normalize(l + v);
     float nh = dot(n, h);
@@ -40,14 +40,14 @@ float satin(vec3 n, vec3 t, vec3 b, vec3 l, vec3 v, vec2 width) {
     return spread * 0.25 / (vh * vh);
 }
 
-// The fuzz of loose fibres: an inverted Gaussian lobe (Estevez and Kulla, 2017, simplified).
+// Sheen of loose fibres: inverted Gaussian lobe (Estevez and Kulla, 2017, simplified).
 float fuzz(float nh, float nl, float nv) {
     float s2 = max(1.0 - nh * nh, 0.0);
     float spread = (2.0 + 1.0 / 0.32) * pow(s2, 0.5 / 0.32) / (2.0 * PI);
     return spread / (4.0 * (nl + nv - nl * nv) + 0.02);
 }
 
-// A unit vector, also where a triangle is seen so edge-on that nothing is left to normalise.
+// Normalises a vector; returns `otherwise` if it is too short, as for triangles seen edge-on.
 vec3 direction(vec3 a, vec3 otherwise) {
     float length2 = dot(a, a);
     return length2 > 1.0e-20 ? a * inversesqrt(length2) : otherwise;
@@ -58,11 +58,11 @@ void main() {
     vec3 v = normalize(eye - at);
     vec3 smoothN = direction(facing, v);
     if (!front) smoothN = -smoothN;
-    // An interpolated normal may lean away from the eye at a fold; bring it back to the horizon.
+    // At a fold an interpolated normal may point away from the eye; it is bent back to the horizon.
     float away = dot(smoothN, v);
     if (away < 0.02) smoothN = normalize(smoothN + v * (0.02 - away));
 
-    // Warp and weft directions from how the position changes with the weave's own coordinates.
+    // Warp and weft directions from the screen derivatives of position and texture coordinates.
     vec3 px = dFdx(at);
     vec3 py = dFdy(at);
     vec2 ux = dFdx(uv);
@@ -71,7 +71,7 @@ void main() {
     vec3 t = (px * uy.y - py * ux.y) * flip;
     t = direction(t - smoothN * dot(smoothN, t), cross(smoothN, v.yzx));
     vec3 b = cross(smoothN, t);
-    // How many metres of cloth a pixel covers, and how much of the weave has come undone here.
+    // Metres of cloth per pixel, and how frayed the weave is here.
     float footprint = max(length(ux * span), length(uy * span));
     float undone = smoothstep(0.35, 1.0, loose);
 
@@ -79,18 +79,18 @@ void main() {
     vec3 n = normalize(smoothN + t * tilt.x + b * tilt.y);
 
     float hem;
-    vec3 albedo = dyed(front, uv, footprint, hem);
+    vec3 albedo = fabricColour(front, uv, footprint, hem);
 
-    float nv = clamp(dot(n, v), 0.03, 1.0); // above one, `pow` of the rest would be no number
+    float nv = clamp(dot(n, v), 0.03, 1.0); // above one, `pow` would return NaN
     float nl = dot(n, keyTowards);
     float side = dot(smoothN, keyTowards) >= 0.0 ? 1.0 : -1.0;
     float slope = sqrt(max(1.0 - nl * nl, 0.0));
     float lit = keyVisibility(at + smoothN * side * (0.010 + 0.030 * slope), 2, 1.5, 0.0008);
 
     vec3 light = vec3(0.0);
-    // Key: soft-edged diffuse, satin and fuzz on the lit face; what comes through on the other.
+    // Key light: wrapped diffuse, specular and sheen on the lit face; transmission on the other.
     float soft = max(nl, 0.0);
-    // How open to the studio a point is: what turns away or lies in shadow is hollow.
+    // Approximate openness: points that face away from the key light or lie in shadow are occluded.
     float open = lit * smoothstep(-0.15, 0.55, nl);
     vec3 h = normalize(keyTowards + v);
     float lobe = satin(n, t, b, keyTowards, v, gloss.xy) * max(nl, 0.0);
@@ -100,14 +100,14 @@ void main() {
     through = 0.30 * through + 0.55 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
     light += keyColour * lit * through * (1.0 - 0.30 * hem) * albedo * fibres.y * (1.0 + 0.4 * undone) * 0.80;
 
-    // Fill and rim throw no shadow, so they are kept off faces that turn away.
+    // Fill and rim light cast no shadow, so faces that point away from them get none of their light.
     float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);
     light += fillColour * albedo * fl / PI * 1.6;
     float rl = max(dot(n, rimTowards), 0.0);
     light += rimColour * (albedo * rl / PI * 0.35 + 0.5 * pow(1.0 - nv, 3.0) * max(dot(smoothN, rimTowards) + 0.35, 0.0) * 0.6);
     light += rimColour * max(-dot(n, rimTowards), 0.0) * albedo * 0.07 * fibres.y;
 
-    // Sky and floor, and what the satin mirrors of the studio.
+    // Ambient light of sky and floor, and reflections of the environment.
     vec3 dome = mix(vec3(0.050, 0.054, 0.074), vec3(0.165, 0.190, 0.265), 0.5 + 0.5 * n.y);
     float hollow = 0.5 + 0.5 * open;
     light += albedo * dome * hollow * 1.05;

@@ -1,5 +1,5 @@
 uniform mat4 clipFromWorld;
-uniform float mirrored; // 1.0: drawn upside down, as the polished floor shows it
+uniform float mirrored; // 1.0: reflection on the floor, drawn below it
 uniform float floorHeight;
 
 in vec3 position;

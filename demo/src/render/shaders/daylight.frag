@@ -1,4 +1,4 @@
-// From light to pixels: exposure, a soft shoulder, sRGB, and half a step of dither against banding.
+// Post-processing in daylight: exposure, shoulder curve, sRGB, and ordered dither of half a step.
 uniform sampler2D scene;
 uniform float exposure;
 in vec2 screen;

@@ -1,5 +1,5 @@
-// Light on a thread: bright where it runs across the light, whichever side that comes from (after
-// Kajiya and Kay, "Rendering fur with three dimensional textures", 1989), and more so against it.
+// Shading of a thread: brightest across the light direction, from both sides (after Kajiya and
+// Kay, "Rendering fur with three dimensional textures", 1989), and brighter against the light.
 uniform vec3 eye;
 uniform vec3 fillTowards;
 uniform vec3 fillColour;
@@ -25,7 +25,7 @@ void main() {
     vec3 t = normalize(along + vec3(0.0, 1.0e-7, 0.0));
     vec3 v = normalize(eye - at);
     vec3 albedo = mix(weft, warp, step(0.5, look.x)) * mix(0.72, 1.12, look.y);
-    // Read a little towards the light, out of the shadow of the border itself.
+    // The shadow map is read a little towards the light, outside the shadow of the edge itself.
     float lit = keyVisibility(at + keyTowards * 0.018, 1, 1.2, 0.0010);
     float against = pow(max(dot(-v, keyTowards), 0.0), 3.0);
     vec3 light = keyColour * lit * albedo * across(t, keyTowards) * (0.24 + 0.5 * against);

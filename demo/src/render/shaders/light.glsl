@@ -1,4 +1,4 @@
-// Shared by everything that is lit: the three lights and the shadow of the key light.
+// Shared by all lit shaders: key light and its shadow map.
 #ifdef GL_ES
 precision highp sampler2DShadow;
 #endif
@@ -8,8 +8,8 @@ uniform vec3 keyColour;
 uniform mat4 shadowFromWorld;
 uniform sampler2DShadow shadowMap;
 
-// The share of the key light that arrives at a point: a tent over (2n+1)² taps, `spread` texels apart.
-// Every tap is already a blend of four texels, so up to two texels apart no gap shows.
+// Visibility of the key light: percentage-closer filter with a tent of (2n+1)² taps, `spread` texels apart.
+// Each tap is bilinear over four texels, so there are no gaps up to a spread of two texels.
 float keyVisibility(vec3 at, int n, float spread, float bias) {
     vec3 s = (shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5;
     vec2 border = min(s.xy, 1.0 - s.xy);
@@ -27,6 +27,6 @@ float keyVisibility(vec3 at, int n, float spread, float bias) {
         }
     }
     lit /= total;
-    // The map ends softly.
+    // Fades out towards the border of the map.
     return mix(1.0, lit, smoothstep(0.0, 0.06, min(border.x, border.y)));
 }

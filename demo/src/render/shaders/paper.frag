@@ -1,4 +1,4 @@
-// Printed paper: matt, with a tooth, a little light through it, and ink on one side.
+// Printed paper: matt, with fibre texture, some transmission, and ink on one side.
 
 uniform vec3 eye;
 uniform vec2 span;
@@ -7,7 +7,7 @@ uniform sampler2D ink;
 in vec3 at;
 in vec3 facing;
 in vec2 uv;
-in float loose; // 1.0 at a torn border, 0.0 a triangle further in
+in float loose; // 1.0 at a torn edge, 0.0 one triangle further in
 
 layout (location = 0) out vec4 colour;
 
@@ -32,13 +32,13 @@ float noise(vec2 p) {
         f.y);
 }
 
-// Fibres lie this way and that, a few tenths of a millimetre apart.
-float tooth(vec2 m) {
+// Fibre texture of the paper, a few tenths of a millimetre in size.
+float fibreTexture(vec2 m) {
     return noise(m * 31.0) + 0.6 * noise(m.yx * 67.0 + 40.0) + 0.4 * noise(vec2(m.x * 140.0, m.y * 23.0)) - 1.0;
 }
 
-// How much of a pixel is paper: a till cuts along a saw, above and below.
-float cover(vec2 m, float footprint) {
+// Coverage of a pixel by paper: the upper and the lower end are cut in a sawtooth.
+float paperCoverage(vec2 m, float footprint) {
     float end = min(m.y, span.y - m.y);
     float saw = 0.052 * abs(2.0 * fract(m.x / 0.104) - 1.0);
     return clamp(0.5 + (end - saw) / max(footprint, 1.0e-4), 0.0, 1.0);
@@ -49,7 +49,7 @@ void main() {
     vec2 ux = dFdx(m);
     vec2 uy = dFdy(m);
     float footprint = max(length(ux), length(uy));
-    float covered = cover(m, min(footprint, 0.05));
+    float covered = paperCoverage(m, min(footprint, 0.05));
 
     bool front = gl_FrontFacing;
     vec3 v = normalize(eye - at);
@@ -58,23 +58,23 @@ void main() {
     float away = dot(n, v);
     if (away < 0.02) n = normalize(n + v * (0.02 - away));
 
-    // The print, through the paper it is soft and pale.
+    // The print; from behind it is soft and pale.
     float here = texture(ink, uv).r;
     float behind = texture(ink, uv, 2.6).r;
     float inked = front ? 0.96 * pow(here, 0.8) : 0.10 * behind;
     float fine = 1.0 - smoothstep(0.006, 0.03, footprint);
-    float fibre = tooth(m);
-    // Heat prints a little unevenly.
+    float fibre = fibreTexture(m);
+    // Thermal print is slightly uneven.
     inked *= 1.0 - fine * 0.10 * noise(m * 57.0 + 9.0);
     vec3 albedo = mix(PAPER * (1.0 + 0.022 * fine * fibre + 0.014 * (noise(m * 1.7) - 0.5)), INK, inked);
-    // What the cut edge keeps for itself.
+    // The cut edge is darker.
     float rim = min(min(m.x, span.x - m.x), min(m.y, span.y - m.y));
     albedo *= 1.0 - 0.10 * (1.0 - smoothstep(0.0, max(0.03, footprint), rim));
 
-    // Where it is torn, bare fibres stand out.
+    // Bare fibres at a torn edge are brighter.
     albedo = mix(albedo, vec3(0.95, 0.93, 0.89), 0.8 * smoothstep(0.72, 1.0, loose + 0.12 * fibre));
 
-    // The tooth as a relief.
+    // The fibre texture as a bump map.
     vec3 px = dFdx(at);
     vec3 py = dFdy(at);
     vec3 relief = cross(py, n) * dFdx(fibre) + cross(n, px) * dFdy(fibre);
@@ -88,11 +88,11 @@ void main() {
     float open = skyLight(at + n * 0.07, n, 1.6);
     open = 0.30 + 0.70 * smoothstep(0.0, 1.0, open);
 
-    vec3 light = albedo * (around(rough, open) + keyColour * lit * max(nl, 0.0));
-    // Through the paper: warmer, less where there is ink on either side.
+    vec3 light = albedo * (ambientLight(rough, open) + keyColour * lit * max(nl, 0.0));
+    // Transmitted light: warmer, and less where there is ink on either side.
     float through = max(-dot(n, keyTowards), 0.0) * lit;
     light += mix(PAPER, INK, 0.45 * max(here, behind)) * keyColour * through * vec3(0.36, 0.33, 0.28);
-    // A breath of gloss.
+    // Weak specular reflection.
     vec3 h = normalize(keyTowards + v);
     light += keyColour * lit * max(nl, 0.0) * (0.035 + 0.03 * inked) * pow(max(dot(rough, h), 0.0), 14.0);
     colour = vec4(light, covered);

@@ -1,4 +1,4 @@
-// From light to pixels: vignette, filmic curve, sRGB, and half a step of dither against banding.
+// Post-processing: vignette, filmic tone curve, sRGB, and ordered dither of half a step against banding.
 uniform sampler2D scene;
 uniform float aspect;
 uniform float exposure;
@@ -14,7 +14,7 @@ vec3 srgb(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(max(c, 0.0), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
-// Ordered steps of a sixteenth (Bayer 1973): they hide banding, and still pack well in a file.
+// Ordered dither in steps of 1/16 (Bayer 1973): hides banding, and compresses well as PNG.
 float steps(ivec2 p) {
     ivec2 low = p & 1;
     ivec2 high = (p >> 1) & 1;
@@ -27,7 +27,7 @@ void main() {
     vec2 p = (screen - 0.5) * vec2(mix(1.0, aspect, 0.45), 1.0);
     light *= 1.0 - 0.62 * smoothstep(0.25, 0.95, length(p));
     vec3 c = srgb(filmic(light));
-    // Only the dark hides nothing; where there is cloth there is no band to break.
+    // Only dark areas show banding; the texture of cloth hides it.
     float dark = 1.0 - smoothstep(0.15, 0.35, c.b);
     colour = vec4(c + dark * (steps(ivec2(gl_FragCoord.xy)) - 0.5) / 255.0, 1.0);
 }

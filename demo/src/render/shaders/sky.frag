@@ -4,7 +4,7 @@ uniform float aspect;
 in vec2 screen;
 layout (location = 0) out vec4 colour;
 void main() {
-    // Light gathers behind the cloth, a third of the way down, and falls off to every side.
+    // Soft light behind the cloth, centred above the middle of the screen.
     vec2 p = (screen - vec2(0.5, 0.60)) * vec2(min(aspect, 1.6), 1.0);
     float halo = exp(-dot(p, p) * 4.2);
     float rise = smoothstep(0.0, 1.0, screen.y);

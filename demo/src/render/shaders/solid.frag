@@ -1,4 +1,4 @@
-// Brushed and lacquered: a plain body under a soft gloss.
+// Lacquered solid: diffuse reflection with a soft specular lobe.
 uniform vec3 eye;
 uniform vec3 albedo;
 uniform vec3 fillTowards;
@@ -29,7 +29,7 @@ void main() {
     light += rimColour * (albedo * max(dot(n, rimTowards), 0.0) * 0.18 + 0.5 * lobe(n, v, rimTowards, 40.0) + 0.35 * fresnel * max(dot(n, rimTowards) + 0.2, 0.0));
     vec3 dome = mix(vec3(0.030, 0.034, 0.054), vec3(0.145, 0.170, 0.255), 0.5 + 0.5 * n.y);
     light += dome * (albedo * 0.6 + fresnel * 0.5);
-    // The higher it is, the less of it the floor shows.
+    // The reflection fades with height over the floor.
     float cover = mirrored > 0.5 ? 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0)) : 1.0;
     colour = vec4(light * dim, cover);
 }

@@ -1,3 +1,3 @@
 void main() {
-    gl_Position = clipFromWorld * vec4(spot(), 1.0);
+    gl_Position = clipFromWorld * vec4(surfacePosition(), 1.0);
 }

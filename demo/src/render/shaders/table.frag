@@ -1,18 +1,18 @@
-// The ground: plain and matt, out to where it is one with the backdrop.
+// Matt ground that fades into the background colour.
 uniform vec3 eye;
 uniform vec3 backdrop;
 uniform sampler2D depths;
-uniform float depthRange; // of the map of depths
-uniform float radius;     // half of what it shows
-uniform vec3 middle;      // of the paper
+uniform float depthRange; // depth of the volume of the depth map
+uniform float radius;     // half the width of this volume
+uniform vec3 middle;      // centre of the paper
 
 in vec3 at;
 layout (location = 0) out vec4 colour;
 
 const vec3 GROUND = vec3(0.631, 0.658, 0.694); // #d0d4d8
 
-// How far it is from here to what keeps the key light away; 0 where nothing does.
-float way(vec3 at) {
+// Mean distance to the occluders of the key light; 0 if there are none.
+float occluderDistance(vec3 at) {
     vec3 s = (shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5;
     float sum = 0.0;
     float count = 0.0;
@@ -31,10 +31,10 @@ float way(vec3 at) {
 
 void main() {
     vec3 edge = abs((shadowFromWorld * vec4(at, 1.0)).xyz);
-    float far = max(edge.x, edge.y) < 1.0 ? way(at) : 0.0;
+    float far = max(edge.x, edge.y) < 1.0 ? occluderDistance(at) : 0.0;
     float lit = 1.0;
     if (far > 0.0) {
-        // The farther, the softer.
+        // Penumbra: the farther the occluder, the softer the shadow.
         float soft = clamp(0.012 + 0.045 * far, 0.014, 0.30);
         float texels = soft / (2.0 * radius) * float(textureSize(shadowMap, 0).x) / 3.0;
         lit = keyVisibility(at, 3, max(texels, 0.6), 0.0002);
@@ -43,7 +43,7 @@ void main() {
     if (length(at - middle) < radius + 2.0) {
         open = 0.28 + 0.72 * skyLight(at + vec3(0.0, 0.03, 0.0), vec3(0.0, 1.0, 0.0), 3.0);
     }
-    vec3 light = GROUND * (around(vec3(0.0, 1.0, 0.0), open) + keyColour * lit * keyTowards.y);
+    vec3 light = GROUND * (ambientLight(vec3(0.0, 1.0, 0.0), open) + keyColour * lit * keyTowards.y);
     float fade = smoothstep(9.0, 34.0, length(at.xz));
     colour = vec4(mix(light, backdrop, fade), 1.0);
 }

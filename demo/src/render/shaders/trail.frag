@@ -1,4 +1,4 @@
-// A white-hot core in a coloured halo.
+// White core with a coloured halo.
 uniform vec3 glow;
 in vec2 spark;
 layout (location = 0) out vec4 colour;

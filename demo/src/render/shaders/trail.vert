@@ -1,4 +1,4 @@
-in vec4 place; // x, y, side, glow
+in vec4 place; // x, y, side, brightness
 out vec2 spark;
 void main() {
     spark = place.zw;

@@ -1,14 +1,14 @@
-// How a fabric is woven, printed and hemmed. `m` is the place in the weave in metres, `footprint`
-// how many of them a pixel covers.
+// Weave, print and hem of a fabric. `m` is a position in texture space in metres, `footprint` the
+// metres of cloth per pixel.
 
 uniform vec2 span;
-uniform vec4 cloth; // threads a metre, relief, slub, weave: 0 plain, 1 twill, 2 ripstop
+uniform vec4 cloth; // threads per metre, relief, slub, weave: 0 plain, 1 twill, 2 ripstop
 uniform vec3 frontAlbedo;
 uniform vec3 backAlbedo;
 uniform vec3 seamAlbedo;
 uniform float seamCover;
 uniform float printed;
-uniform float roundHem; // 1.0: a disc, whose hem is a circle
+uniform float roundHem; // 1.0: a disc with a circular hem
 
 const float PI = 3.14159265;
 
@@ -30,15 +30,15 @@ float noise(vec2 p) {
         f.y);
 }
 
-// Tilts of the surface along weft and warp: the threads pass over and under each other, and no
-// thread is evenly thick. All of it fades before it could flicker.
+// Bump of the surface along weft and warp: crossing threads, and uneven yarn (slub). Both fade out
+// before they alias.
 vec2 weave(vec2 m, float footprint) {
     vec2 t = m * cloth.x;
     float near = 1.0 - smoothstep(0.24, 0.56, footprint * cloth.x);
     vec2 bump = vec2(0.0);
     if (near > 0.0) {
         if (cloth.w == 1.0) {
-            // Each weft thread passes one warp thread further along: ridges run up to the right.
+            // In twill each weft thread is shifted by one warp thread: diagonal ridges to the upper right.
             float ridge = t.x + t.y;
             bump = near * cloth.y * (0.75 * cos(PI * ridge) * vec2(1.0)
                  + 0.35 * vec2(cos(2.0 * PI * t.x) * sin(PI * t.y), 0.0));
@@ -49,7 +49,7 @@ vec2 weave(vec2 m, float footprint) {
         }
     }
     if (cloth.w == 2.0) {
-        // A stouter thread every 9 mm, both ways.
+        // Ripstop: a thicker thread every 9 mm in both directions.
         float fine = 1.0 - smoothstep(0.0015, 0.0045, footprint);
         vec2 cell = fract(m / 0.009) - 0.5;
         bump += fine * 0.25 * cell * exp(-cell * cell * 160.0) * 12.0;
@@ -61,34 +61,34 @@ vec2 weave(vec2 m, float footprint) {
     return bump + fine * cloth.z * slub;
 }
 
-// A softened step that is as wide as a pixel.
-float over(float edge, float x, float footprint) {
+// Step that is smoothed over the width of a pixel.
+float smoothedStep(float edge, float x, float footprint) {
     return smoothstep(edge - footprint, edge + footprint, x);
 }
 
-// Three waves, and a ring at the hoist.
+// Print of the flag: three waves, and a ring at the hoist.
 vec3 flag(vec2 p, float footprint) {
     vec3 night = vec3(0.022, 0.052, 0.235);
     vec3 ivory = frontAlbedo;
     vec3 coral = vec3(0.86, 0.135, 0.055);
     float swing = 0.035 * sin(2.0 * PI * (1.25 * p.x + 0.1));
     float w = footprint / span.y;
-    vec3 c = mix(night, ivory, over(0.40 + swing, p.y, w));
-    c = mix(c, coral, over(0.62 + swing, p.y, w));
+    vec3 c = mix(night, ivory, smoothedStep(0.40 + swing, p.y, w));
+    c = mix(c, coral, smoothedStep(0.62 + swing, p.y, w));
     vec2 q = (p - vec2(0.21, 0.20)) * span / span.y;
     float ring = abs(length(q) - 0.085);
-    c = mix(ivory, c, over(0.026, ring, w));
+    c = mix(ivory, c, smoothedStep(0.026, ring, w));
     return c;
 }
 
-// The colour of a face, hem and seam included. `hem` says how much of a hem it is.
-vec3 dyed(bool front, vec2 uv, float footprint, out float hem) {
+// Colour of a face, with hem and seam. `hem` returns the weight of the hem.
+vec3 fabricColour(bool front, vec2 uv, float footprint, out float hem) {
     vec2 m = uv * span;
     vec3 c = front ? frontAlbedo : backAlbedo;
-    // The weave counts upwards, a flag is read downwards.
+    // Texture coordinates count upwards, but the flag is defined from the top.
     if (printed > 0.5) c = flag(vec2(uv.x, 1.0 - uv.y), footprint);
     if (cloth.w == 1.0) {
-        // Indigo takes unevenly along the warp, and the white weft shows between the ridges.
+        // Denim: uneven indigo along the warp, and white weft between the ridges.
         float streak = noise(vec2(m.x * 210.0, m.y * 3.0)) - 0.5;
         float fade = noise(m * 2.6 + 11.0) - 0.5;
         c *= 1.0 + 0.30 * streak * (1.0 - smoothstep(0.002, 0.02, footprint)) + 0.22 * fade;
@@ -100,19 +100,19 @@ vec3 dyed(bool front, vec2 uv, float footprint, out float hem) {
         float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 65.0);
         c *= 1.0 + fine * cloth.z * (noise(vec2(m.x * 65.0, m.y * 2.5)) + noise(vec2(m.x * 2.0 + 71.0, m.y * 65.0)) - 1.0);
     }
-    // A hem: folded over twice, so a little deeper in colour and lighter-tight, with a seam.
+    // Hem: folded twice, so its colour is deeper and less light passes; with a seam.
     vec2 inside = min(m, span - m);
     float edge = min(inside.x, inside.y);
-    vec2 spoke = m - 0.5 * span;
-    if (roundHem > 0.5) edge = 0.5 * span.x - length(spoke);
+    vec2 fromCentre = m - 0.5 * span;
+    if (roundHem > 0.5) edge = 0.5 * span.x - length(fromCentre);
     hem = 1.0 - smoothstep(0.025, 0.025 + max(footprint, 0.0008), edge);
     c *= 1.0 - 0.07 * hem;
     float seam = 1.0 - smoothstep(0.0, 0.0016 + 0.7 * footprint, abs(edge - 0.0225));
     if (cloth.w == 1.0) {
-        // Topstitching comes in pairs, stitch by stitch.
+        // Topstitching: two seams of separate stitches.
         seam = max(seam, 1.0 - smoothstep(0.0, 0.0016 + 0.7 * footprint, abs(edge - 0.0125)));
         float run = (inside.x < inside.y ? m.y : m.x) / 0.011;
-        if (roundHem > 0.5) run = atan(spoke.y, spoke.x) * 0.5 * span.x / 0.011;
+        if (roundHem > 0.5) run = atan(fromCentre.y, fromCentre.x) * 0.5 * span.x / 0.011;
         float gap = smoothstep(0.30, 0.42, abs(fract(run) - 0.5));
         seam *= 1.0 - gap * (1.0 - smoothstep(0.15, 0.6, footprint / 0.011));
     }
