@@ -1,14 +1,14 @@
 //! The receipt scene ("Tender"): a paper receipt on two pins, to fold, crumple and toss. Like
 //! [`crate::app`], it is independent of the platform.
 //!
-//! Method: fixed ticks of 1/120 s; frames that are too slow run in slow motion and drop the
-//! backlog.
+//! Method: fixed ticks of 1/120 s; slow frames run in slow motion and drop the backlog.
 //!
 //! Reads events, frame times and [`ReceiptSettings`]; writes the cloth, the camera and the pixels
 //! of the render target.
 //!
 //! Invariant: drawing and camera use units, the simulation uses metres; [`Sheet::unit`] converts.
 
+pub mod camera_rig;
 pub mod crease;
 mod draw;
 pub mod gestures;
@@ -26,10 +26,12 @@ use muslin::{Cloth, Result};
 use muslin_scenes::receipt::Sheet;
 use muslin_scenes::squeeze::Squeeze;
 
-use crate::camera::{Camera, CameraRig};
+use crate::camera::Camera;
 use crate::meter::{Meter, Readout, ResolutionScaler, StageTime};
 use crate::picking::Screen;
 use crate::pointer::Cursor;
+pub use camera_rig::TARGET;
+use camera_rig::rig;
 use crease::Creases;
 use letter_fold::LetterFold;
 use pointers::{PressKind, ReceiptPickContext, ReceiptPointers};
@@ -39,15 +41,11 @@ pub use settings::{ReceiptAction, ReceiptControl, ReceiptSettings};
 /// Duration of a tick [s], and longest frame time that ticks are run for [s].
 pub const TICK: f32 = 1.0 / 120.0;
 const LONGEST_FRAME: f32 = 0.033;
-/// Time limit for the ticks of a frame [s]. When ticks take longer, as in crumpled paper, the scene
-/// runs in slow motion instead of dropping frames.
+/// Time limit for the ticks of a frame [s]; beyond it the scene runs in slow motion.
 const MAX_TICK_SECONDS: f64 = 0.025;
 
 /// Factor of the rest distance to a pin; a grab that is farther away pulls the paper off the pin.
 const PULL_OFF_FACTOR: f32 = 1.02;
-
-/// Target of the camera, in units.
-pub const TARGET: Vec3 = Vec3::new(0.0, -1.0, 0.0);
 
 /// The running receipt scene.
 pub struct ReceiptApp {
@@ -73,8 +71,7 @@ pub struct ReceiptApp {
 }
 
 impl ReceiptApp {
-    /// Creates the receipt on its pins; `small` selects the sheet with fewer particles. `clock`
-    /// returns seconds since any fixed time.
+    /// Creates the receipt on its pins, with fewer particles if `small`. `clock` returns seconds.
     ///
     /// # Errors
     /// As [`Sheet::hang`].
@@ -424,9 +421,7 @@ impl ReceiptApp {
         if self.is_busy() {
             return Ok(());
         }
-        let (pointers, mut pick) = self.pick_context();
-        pointers.release_all(&mut pick)?;
-        self.cloth.unpin_all();
+        self.free_paper()?;
         let unit = self.settings.sheet.unit();
         self.squeeze = Some(Squeeze::new(&mut self.cloth, unit)?);
         Ok(())
@@ -436,12 +431,18 @@ impl ReceiptApp {
         if self.is_busy() {
             return Ok(());
         }
-        let (pointers, mut pick) = self.pick_context();
-        pointers.release_all(&mut pick)?;
-        self.cloth.unpin_all();
+        self.free_paper()?;
         let sheet = self.settings.sheet;
         let desc = sheet.desc(self.small);
         self.letter_fold = Some(LetterFold::new(&mut self.cloth, desc, sheet.unit())?);
+        Ok(())
+    }
+
+    /// Releases all grabs and pins.
+    fn free_paper(&mut self) -> Result<()> {
+        let (pointers, mut pick) = self.pick_context();
+        pointers.release_all(&mut pick)?;
+        self.cloth.unpin_all();
         Ok(())
     }
 
@@ -486,17 +487,6 @@ impl ReceiptApp {
             camera: &mut self.camera,
         };
         (&mut self.pointers, pick)
-    }
-}
-
-/// Returns the specified camera, in units.
-fn rig() -> CameraRig {
-    CameraRig {
-        target: TARGET,
-        polar: 0.15..=1.56,
-        radius: 4.0..=30.0,
-        start: [0.26, 1.43, 17.4],
-        half_width: 2.9,
     }
 }
 

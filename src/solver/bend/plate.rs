@@ -7,14 +7,12 @@
 //! Method: K couples so widely that Gauss–Seidel sweeps over elements would take thousands of
 //! iterations for a sheet as stiff as paper. K_weft and K_warp are pentadiagonal along rows and
 //! columns, so their factors are cheap (`banded`), and the product above removes most of the error
-//! in all directions at any stiffness: this is the alternating direction implicit method (ADI;
-//! Peaceman and Rachford 1955; Wachspress on the shifts µ). At equilibrium the right side is zero,
-//! so the rest shape does not depend on the number of solves. The twist has a solver of its own
-//! (`twist`). A soft sheet takes a few explicit Chebyshev steps instead (`chebyshev`).
+//! at any stiffness: the alternating direction implicit method (ADI; Peaceman and Rachford 1955;
+//! Wachspress on the shifts µ). At equilibrium the right side is zero, so the rest shape does not
+//! depend on the number of solves. `twist` solves the twist, and `chebyshev` soft sheets.
 //!
 //! Reads plate elements, folds, masses and positions; writes positions and `PlateScratch`.
-//! Invariant: factors and bound are recomputed exactly when pins, masses, elements or stiffness
-//! change.
+//! Invariant: factors and bound are recomputed when pins, masses, elements or stiffness change.
 
 use crate::math::columns::Columns;
 use crate::math::same_bits;
