@@ -1,6 +1,6 @@
 //! Builds the npm package `muslin` into `dist/js`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
 use crate::{files, no_wasm, npm, shell, tools, wasm};
@@ -38,6 +38,7 @@ pub fn build() -> Result {
         std::fs::copy(from, dir().join(name)).during(|| format!("writing {name}"))?;
     }
     files::copy_dir(&scripts, &dir())?;
+    minify_scripts(&scripts)?;
     for license in ["LICENSE-MIT", "LICENSE-APACHE"] {
         let text = files::read(&files::root().join(license))?;
         files::write(&dir().join(license), &text)?;
@@ -45,6 +46,20 @@ pub fn build() -> Result {
     write_inline_module()?;
     write_build_info()?;
     println!("the package is in dist/js");
+    Ok(())
+}
+
+/// Removes comments and white space from the scripts in `dist/js` that came from `sources`: the
+/// type declarations carry the documentation, and a page loads the scripts. Scripts with
+/// annotations for bundlers stay as they are, because esbuild removes these too.
+fn minify_scripts(sources: &Path) -> Result {
+    for source in files::with_suffix(sources, ".js")? {
+        let text = files::read(&source)?;
+        if !["@vite-ignore", "@__PURE__"].iter().any(|annotation| text.contains(annotation)) {
+            let name = source.file_name().unwrap_or_default();
+            tools::minify(&source, &dir().join(name), "--minify-whitespace")?;
+        }
+    }
     Ok(())
 }
 
