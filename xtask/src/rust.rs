@@ -3,8 +3,11 @@
 use crate::failure::{During, Failure, Result};
 use crate::{setup, shell, wasm};
 
-/// The parts of `cargo xtask check`, each with its name.
-pub const CHECKS: [(&str, fn() -> Result); 4] = [
+/// A part of `cargo xtask check`: its name, and what runs it.
+pub type Check = (&'static str, fn() -> Result);
+
+/// The parts of `cargo xtask check`.
+pub const CHECKS: [Check; 4] = [
     ("fmt", check_format),
     ("clippy", lint_library),
     ("unit tests", test_units),
