@@ -82,7 +82,7 @@ test("the package contains every file that it names, and no other", async () => 
   const named = new Set(targets.map((target) => target.replace("./", "")));
   for (const file of files.filter((name) => /\.(js|d\.ts)$/.test(name))) {
     const text = await readFile(join(dir, file), "utf8");
-    for (const [, name] of text.matchAll(/^(?:import|export|\}).* from "\.\/([^"]+)"/gm)) {
+    for (const [, name] of text.matchAll(/\bfrom\s*"\.\/([^"]+)"/g)) {
       const isTypes = file.endsWith(".d.ts");
       const wanted = isTypes ? name.replace(/\.js$/, ".d.ts") : name;
       assert.ok(files.includes(wanted), `${file} names ${wanted}`);
