@@ -227,6 +227,8 @@ fn build_world(
         reserve_reported: false,
         over_stretched: 0,
         over_stretch_reported: false,
+        stiffness_step: settings.scheme().h,
+        has_no_history: false,
         pin_order: PinOrder::default(),
         tether_slack: f32::INFINITY,
         pin_stretch: 1.0,

@@ -29,7 +29,8 @@ impl Cloth {
         settings.check()?;
         let world = &mut self.world;
         world.check_self_distance(&settings)?;
-        let changes_scheme = settings.scheme() != world.settings.scheme();
+        let (before, after) = (world.settings.scheme(), settings.scheme());
+        let changes_scheme = after != before;
         let self_collision =
             |settings: &Settings| (settings.self_collision, settings.self_distance);
         let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
@@ -56,7 +57,11 @@ impl Cloth {
         }
         if changes_scheme {
             with_float_env(|| {
-                world.reset_history();
+                if after.extrapolation == before.extrapolation {
+                    world.drop_history();
+                } else {
+                    world.reset_history();
+                }
                 world.refresh_soft_pin_masses();
             });
         }

@@ -52,7 +52,7 @@ use std::borrow::Cow;
 /// Signature at the start of a save.
 const MAGIC: &[u8; 8] = b"MUSLINSV";
 /// Version of the format; a change of `SaveData` raises it.
-const FORMAT: u32 = 9;
+const FORMAT: u32 = 10;
 /// Bytes before the body.
 const HEADER: usize = 20;
 
@@ -92,6 +92,8 @@ struct SaveData<'a> {
     over_stretched: u32,
     over_stretch_reported: bool,
     sleep: SleepTimer,
+    stiffness_step: f32,
+    has_no_history: bool,
     backlog: f64,
     topology_revision: u32,
     state_revision: u32,
@@ -151,6 +153,8 @@ impl Cloth {
             over_stretched: world.over_stretched,
             over_stretch_reported: world.over_stretch_reported,
             sleep: world.sleep,
+            stiffness_step: world.stiffness_step,
+            has_no_history: world.has_no_history,
             backlog: self.backlog,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
@@ -308,6 +312,9 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.rebuild_pin_order();
     world.tether_slack = saved.tether_slack;
     world.sleep = saved.sleep;
+    require(saved.stiffness_step > 0.0 && saved.stiffness_step <= 1.0)?;
+    world.stiffness_step = saved.stiffness_step;
+    world.has_no_history = saved.has_no_history;
     let mut outputs = Outputs::new(&world);
     outputs.set_uvs(&desc);
     outputs.update_topology(&world);

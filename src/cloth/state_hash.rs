@@ -83,6 +83,10 @@ impl Cloth {
         if world.surface_collision.is_some() && world.is_tangled {
             hasher.write_u32(1);
         }
+        if world.correction_share() != 1.0 || world.has_no_history {
+            hasher.write_f32s(&[world.stiffness_step]);
+            hasher.write_u32(u32::from(world.has_no_history));
+        }
         hasher.write_f32s(&[world.tether_slack]);
         hasher.write_u32(world.tick);
         hasher.finish()

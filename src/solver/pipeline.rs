@@ -14,7 +14,7 @@
 //! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
 //! │  │    odd    Bend ▶ Shear ▶ Stretch ▶ Tethers        (backward)
 //! │  ├─ Stretch       end of damping         Limit  one sweep of strain limiting
-//! │  ├─ SelfContacts  particle collision, then angular momentum of a free piece
+//! │  ├─ SelfContacts  particle collision, then momentum of free pieces
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
 //! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass
@@ -76,6 +76,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         return false;
     }
     world.particles.x_prev_tick.copy_from(&world.particles.x);
+    world.raise_stiffness_step();
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, strain_limit::store_initial_velocities(world));
     }
@@ -107,10 +108,14 @@ pub(crate) fn tick(world: &mut World) -> bool {
         }
         timed!(world, Hold, anchors::project_at_end(world));
         timed!(world, SelfContacts, surface_stages::enforce_non_crossing_at_tick_end(world));
+        if is_bounded {
+            timed!(world, Limit, strain_limit::report(world));
+        }
         // Corrections of particles near the largest f32 overflow, so check once more.
         timed!(world, Guard, recover::restore_invalid(world));
     }
     targets::finish_tick(world);
+    world.relax_stiffness_step();
     sleep::update_timer(world);
     true
 }
@@ -142,13 +147,13 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Bend, mesh_kernel::scatter(world));
     timed!(world, Pairs, particle_contacts::refresh_pairs(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
-    timed!(world, SelfContacts, momentum::remove_rigid_motion(world));
+    timed!(world, SelfContacts, momentum::remove_internal_momentum(world));
     timed!(world, Pairs, collide::broad_phase::refresh(world));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::project(world, number));
     timed!(world, Pairs, surface_stages::detect_contacts(world));
     timed!(world, SelfContacts, surface_stages::solve_contacts(world));
-    timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world));
+    timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, surface_stages::damp_velocities(world));
 }

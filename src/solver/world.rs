@@ -17,6 +17,7 @@
 
 use crate::geometry::triangle::corner_areas;
 use crate::math::columns::Columns;
+use crate::math::max;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
@@ -55,7 +56,7 @@ use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
-use crate::state::settings::Settings;
+use crate::state::settings::{BdfScheme, Settings};
 use crate::state::wind::Wind;
 use glam::Vec3;
 
@@ -158,6 +159,11 @@ pub(crate) struct World {
     pub over_stretched: u32,
     /// Whether an event has reported these links. Written by `strain_limit`.
     pub over_stretch_reported: bool,
+    /// Substep length whose effective stiffness the links have [s], see
+    /// [`World::correction_share`]; at least the current substep length.
+    pub stiffness_step: f32,
+    /// Whether the next substep has no history, so that it is one of BDF1.
+    pub has_no_history: bool,
     /// Events since the host last read them. Stages append.
     pub events: Events,
     /// Instruction set that the kernels may use.
@@ -205,11 +211,13 @@ pub(crate) struct TickScratch {
     /// without a strain limit.
     pub initial_velocity: Columns,
     /// Position of the pin to which each particle is tethered [m], if there are several pins.
-    /// Written by `tethers`; `momentum` uses it as a buffer for displacements [m].
+    /// Written by `tethers`.
     pub tether_pins: Columns,
     /// Mass plus soft-pin term of each particle [kg]; empty without soft pins. Written by
     /// `kinematic::targets`, for the bending solve.
     pub effective_mass: Vec<f32>,
+    /// What internal stages moved each particle by in this substep [m]. Written by `momentum`.
+    pub correction: Columns,
     /// Indices of the particles that anchors moved in this substep. Written by
     /// `kinematic::anchors`.
     pub anchor_moved: Vec<u32>,
@@ -254,6 +262,7 @@ impl TickScratch {
             predicted: Columns::with_capacity(capacity),
             initial_velocity: Columns::with_capacity(capacity),
             tether_pins: Columns::with_capacity(capacity),
+            correction: Columns::with_capacity(capacity),
             effective_mass: Vec::new(),
             anchor_moved: Vec::new(),
             end_weights: EndWeights::default(),
@@ -443,4 +452,47 @@ impl World {
             self.pin_order.rebuild(&self.tethers, self.particles.len(), &self.constraints.links);
         }
     }
+
+    /// The time integration scheme of the next substep.
+    pub fn scheme(&self) -> BdfScheme {
+        let scheme = self.settings.scheme();
+        if self.has_no_history { scheme.without_history() } else { scheme }
+    }
+
+    /// Drops the history of every particle after the substep length changed: the next substep is
+    /// one of BDF1. Positions and velocities stay.
+    pub fn drop_history(&mut self) {
+        self.particles.drop_history();
+        self.has_no_history = true;
+    }
+
+    /// Share of a position correction that counts as velocity; 1 while ticks have one length.
+    ///
+    /// A rigid link that stops before it converges acts like a spring whose stiffness grows with
+    /// 1 / h². Where h jumps down and up again, so does that stiffness, and it pumps energy into
+    /// every vibration. So after a jump down the corrections count as those of a spring of the old
+    /// stiffness, which approaches the new one tick by tick. Substeps below
+    /// [`MIN_STIFFNESS_STEP`] count as if they had that length for ever: they would turn the
+    /// rounding of positions into velocities.
+    pub fn correction_share(&self) -> f32 {
+        let ratio = self.settings.scheme().h / max(self.stiffness_step, MIN_STIFFNESS_STEP);
+        ratio * ratio
+    }
+
+    /// Starts a tick: longer substeps make the links softer at once.
+    pub fn raise_stiffness_step(&mut self) {
+        self.stiffness_step = max(self.stiffness_step, self.settings.scheme().h);
+    }
+
+    /// Ends a tick: the stiffness approaches that of the current substep length.
+    pub fn relax_stiffness_step(&mut self) {
+        let h = self.settings.scheme().h;
+        self.stiffness_step = max(h, self.stiffness_step * STIFFNESS_STEP_DECAY);
+    }
 }
+
+/// Share of `stiffness_step` that a tick keeps.
+const STIFFNESS_STEP_DECAY: f32 = 0.9;
+
+/// Shortest substep whose stiffness links take on [s].
+const MIN_STIFFNESS_STEP: f32 = 2.5e-5;

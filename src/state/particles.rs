@@ -123,6 +123,12 @@ impl Particles {
         self.v_extrapolated.set(i, saturate(v + gravity * (h * (1.0 / 3.0))));
     }
 
+    /// Drops the history of every particle, for a next substep of BDF1. Velocities stay.
+    pub fn drop_history(&mut self) {
+        self.v_extrapolated.copy_from(&self.v);
+        self.displacement.fill(Vec3::ZERO);
+    }
+
     /// Resets the history of all particles, for a new substep length or scheme. Positions and
     /// velocities stay.
     pub fn reset_history(&mut self, gravity: Vec3, h: f32) {

@@ -193,6 +193,12 @@ impl BdfScheme {
         Self { h, velocity_step: h, extrapolation: 0.0, new_weight: 1.0, old_weight: 0.0 }
     }
 
+    /// The scheme of a substep without history: BDF1, with the extrapolation that the next substep
+    /// needs.
+    pub fn without_history(self) -> Self {
+        Self { velocity_step: self.h, new_weight: 1.0, old_weight: 0.0, ..self }
+    }
+
     fn second_order(h: f32) -> Self {
         Self {
             h,

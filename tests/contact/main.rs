@@ -6,6 +6,7 @@ mod common;
 mod colliders;
 mod fast_impacts;
 mod friction_and_contact;
+mod hard_constraints;
 mod particle_collision;
 mod rest_with_intersections;
 mod split_separation;

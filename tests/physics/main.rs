@@ -5,6 +5,7 @@ mod common;
 
 mod bending;
 mod closed_forms;
+mod conservation;
 mod crumpling;
 mod drape;
 mod fold_hardening;

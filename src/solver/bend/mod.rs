@@ -44,14 +44,6 @@ fn is_elastic(world: &World) -> bool {
     world.material.bend_stiffness > 0.0 && world.material.bend_stiffness < 1.0
 }
 
-/// Whether this stage may change the angular momentum of a free piece.
-///
-/// An implicit solve with few iterations leaves a residual, and damping measures from the start of
-/// the substep. Both exert a torque once folds or damping are in use.
-pub(crate) fn may_add_spin(world: &World) -> bool {
-    is_elastic(world) && (world.folds.has_any || world.material.bend_damping > 0.0)
-}
-
 /// Runs the first bending solve of a substep.
 pub(crate) fn solve_first(world: &mut World) {
     if is_elastic(world) {
@@ -80,7 +72,7 @@ pub(crate) fn solve_in_sweep(world: &mut World, order: SweepOrder, iteration: u3
 /// Solves all bending elements once. Each solver is a function of its own that is never inlined,
 /// for the reason given in `pipeline`.
 fn solve_elements(world: &mut World, order: SweepOrder) {
-    let scheme = world.settings.scheme();
+    let scheme = world.scheme();
     // Damping acts on the change of curvature since the start of the substep.
     let lag = world.material.bend_damping / scheme.h;
     let stiffness =

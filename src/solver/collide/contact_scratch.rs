@@ -19,6 +19,10 @@ pub(crate) struct ContactScratch {
     /// The contacts of this substep, by collider, then in the order of detection. Contacts beyond
     /// its capacity are dropped: their particles neither bounce nor push the collider.
     pub collider_contacts: Vec<ColliderContact>,
+    /// Scratch: the particles that another stage moved into a collider, as contacts.
+    pub(super) projections: Vec<ColliderContact>,
+    /// Scratch: their indices.
+    pub projected: Vec<u32>,
     /// The impulse on each live collider in this tick, about the world origin.
     pub impulses: Vec<Impulse>,
     /// A lower bound of the distance of each particle from one collider, over its path in this
@@ -40,6 +44,8 @@ impl ContactScratch {
         self.nearby.reserve(bodies, particles, triangles);
         let contacts = particles.saturating_sub(self.collider_contacts.len());
         self.collider_contacts.reserve_exact(contacts);
+        self.projections.reserve_exact(particles.saturating_sub(self.projections.len()));
+        self.projected.reserve_exact(particles.saturating_sub(self.projected.len()));
         self.impulses.reserve_exact(bodies.saturating_sub(self.impulses.len()));
         self.clearance.reserve_exact(particles.saturating_sub(self.clearance.len()));
         self.pushes.reserve(particles);

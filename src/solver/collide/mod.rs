@@ -34,6 +34,7 @@ mod triangle_vs_round;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::transform::Transform;
 use crate::math::saturate;
+use crate::math::wide4::{Float4, xyz};
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
 use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, LocalParticles};
@@ -57,6 +58,9 @@ const DEEP: [f32; 2] = [0.25, 0.75];
 
 /// The fraction of the gap that the last round may leave to the next substep.
 const ROUND_TOLERANCE: f32 = 0.1;
+
+/// Depths below this are rounding, and are left [m].
+const MIN_PROJECTION: f32 = 1.0e-6;
 
 impl World {
     /// Allocates the contact buffers for all live colliders; without colliders it changes nothing.
@@ -100,6 +104,50 @@ pub(crate) fn project_out(world: &mut World) {
     world.scratch.contacts.collider_contacts.clear();
 }
 
+/// Pushes particles out of every collider in its pose at the end of this substep, without friction,
+/// restitution or triangle tests, and lists those that penetrated in `pushed`. The contacts of the
+/// substep stay.
+///
+/// With `starts`, the positions at the start of the substep, these particles go back to their start
+/// instead, as it moves along with the collider.
+pub(crate) fn project_out_in_substep(
+    world: &mut World,
+    substep: u32,
+    starts: Option<&[Float4]>,
+    pushed: &mut Vec<u32>,
+) {
+    pushed.clear();
+    if world.scratch.contacts.impulses.is_empty() {
+        return;
+    }
+    let substeps = world.settings.substeps;
+    let contacts = &mut world.scratch.contacts;
+    core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
+    contacts.collider_contacts.clear();
+    broad_phase::refresh(world);
+    solve_colliders(world, &|body| substep_frames(body, substep, substeps), true);
+    let contacts = &mut world.scratch.contacts;
+    core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
+    let x = &mut world.particles.x;
+    contacts.projections.retain(|projection| {
+        let is_deep = projection.correction.length_squared() > MIN_PROJECTION * MIN_PROJECTION;
+        if !is_deep {
+            x.add(projection.particle as usize, -projection.correction);
+        }
+        is_deep
+    });
+    pushed.extend(contacts.projections.iter().map(|projection| projection.particle));
+    let Some(starts) = starts else { return };
+    for projection in &contacts.projections {
+        let Some(body) = world.colliders.iter().nth(projection.body as usize) else { continue };
+        let [from, to] = substep_frames(body, substep, substeps);
+        let start = xyz(&starts[projection.particle as usize]);
+        let carried =
+            if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
+        world.particles.x.set(projection.particle as usize, carried);
+    }
+}
+
 /// Pushes free particles, edges and triangles out of every collider in its pose at the end of this
 /// substep.
 pub(crate) fn solve(world: &mut World, substep: u32) {
@@ -116,7 +164,7 @@ fn solve_colliders(
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],
     particles_only: bool,
 ) {
-    let scheme = world.settings.scheme();
+    let scheme = world.scheme();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
     for (at, body) in world.colliders.iter().enumerate() {

@@ -40,7 +40,7 @@ struct ResponseParameters {
 /// Resolves the velocities of all contacts, after the velocity update. `decay` is the factor that
 /// damping applied to velocities in this substep.
 pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
-    let (scheme, gravity) = (world.settings.scheme(), world.settings.gravity);
+    let (scheme, gravity) = (world.scheme(), world.settings.gravity);
     let parameters = ResponseParameters {
         h: scheme.h,
         gravity,

@@ -1,34 +1,36 @@
-//! Removes the net rigid motion that internal stages add to a free cloth of one piece.
+//! Momentum conservation: removes the rigid motion that internal stages add.
 //!
 //! ```text
-//! Δ = x − x before the stage        Σ m Δ = 0,   Σ m (r − c) × Δ = 0
+//! d = x − x before the stage        Σ m d = 0,   Σ m (r − c) × d = 0
 //! r: the position that velocities count from          c: the centre of mass of all r
 //! ```
-//! Internal forces change neither linear nor angular momentum. Position-based stages change angular
-//! momentum slightly: they move particles along lines between current positions, but velocities
-//! count from earlier positions r (see `BdfScheme`). So each move has a small torque about r. Most
-//! of these torques cancel. In cloth that presses against itself, such as crumpled paper, they do
-//! not, and the cloth would turn without end. Therefore the rigid motion with the momenta of Δ is
-//! subtracted from all positions.
+//! Internal forces change neither the linear nor the angular momentum of a cloth that nothing
+//! holds. A cloth with one fixed particle keeps its angular momentum about that particle, a cloth
+//! with two its angular momentum about the line through both. Position-based stages break this by
+//! a little in every substep: rounding, solvers that stop early, and constraints that act along
+//! lines of the current positions while velocities count from earlier positions r (see
+//! `BdfScheme`). So the rigid motion with the momenta of d is subtracted from the positions.
+//! Velocities count the exact difference, so rounding of positions adds no momentum either.
 //!
-//! Two stages use it: bending and particle collision ([`remove_rigid_motion`]), and contacts of
-//! surface collision ([`remove_rigid_motion_since`]). In the latter, particles on a collider count
-//! as heavy, because the collider takes up their impulse. A floor takes up no impulse along its
-//! surface, and crumpled paper would turn on it without end. So on a floor the motion along the
-//! surface is removed as well; the motion towards the floor stays.
+//! Two stages use it: all internal stages before contacts ([`remove_internal_momentum`]), and
+//! contacts of surface collision ([`remove_rigid_motion_since`]). The latter counts particles on a
+//! collider as heavy, as if the collider took the impulse. Along a floor no collider does, and
+//! crumpled paper would turn on it for ever. So on a floor the motion along it is removed as well;
+//! the motion against the floor stays.
 //!
-//! Reads predicted positions and the displacement history; writes positions, and the scratch lists
-//! `relative_wind` and `tether_pins`, which are free at that time.
+//! Reads predicted positions and the displacement history; writes positions, predicted
+//! displacements, and the scratch lists `relative_wind` and `correction`, which are free at that
+//! time.
 //!
-//! Invariant: no particle moves if the cloth has several pieces, if a pin or a grab holds it, or if
-//! its collider contacts have several directions.
+//! Invariant: no particle moves if the cloth has several pieces, three or more fixed particles, or
+//! soft pins; `remove_rigid_motion_since` moves free cloth only.
 
 use crate::math::wide4::Float4;
-use crate::solver::bend;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
+use crate::solver::integrate::rigid_motion::{FreeParticles, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
+use crate::state::particles::Particles;
 use glam::Vec3;
 
 /// Least cosine between contact normals of one floor.
@@ -43,32 +45,79 @@ pub(crate) enum Support {
     Floor(Vec3),
 }
 
-/// Removes the rigid motion that bending and particle collision added since prediction.
-pub(crate) fn remove_rigid_motion(world: &mut World) {
-    let may_add_spin = world.particle_collision.is_some() || bend::may_add_spin(world);
-    if !may_add_spin || world.pieces != 1 || is_held(world) {
+/// Fixed particles of a piece: with more than two, their reactions may change every momentum.
+const MAX_FIXED: usize = 2;
+
+/// The first fixed particles and their number, of which one more than [`MAX_FIXED`] are counted.
+fn fixed_particles(w: &[f32]) -> ([usize; MAX_FIXED + 1], usize) {
+    let (mut fixed, mut count) = ([0; MAX_FIXED + 1], 0);
+    for i in (0..w.len()).filter(|i| w[*i] <= 0.0).take(MAX_FIXED + 1) {
+        fixed[count] = i;
+        count += 1;
+    }
+    (fixed, count)
+}
+
+/// What the first `count` of some fixed particles hold a piece with.
+fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
+    let [a, b] = [fixed[0], fixed[1]].map(|i| p.x.get(i));
+    match count {
+        0 => Pivot::Nothing,
+        1 => Pivot::Point(a),
+        _ => Pivot::Axis(a, b - a),
+    }
+}
+
+/// Removes the momentum that internal stages added since prediction, from a cloth of one piece.
+pub(crate) fn remove_internal_momentum(world: &mut World) {
+    if world.pieces != 1 || world.pins.has_soft() {
+        return;
+    }
+    let (fixed, count) = fixed_particles(&world.particles.w);
+    if count > MAX_FIXED || !compute_corrections(world) {
         return;
     }
     compute_velocity_origins(world);
-    let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    let displacements = &mut scratch.tether_pins;
-    displacements.resize(p.len());
-    let all =
-        p.x.slices().into_iter().zip(scratch.predicted.slices()).zip(displacements.slices_mut());
-    for ((x, predicted), displacements) in all {
-        for ((x, predicted), displacement) in x.iter().zip(predicted).zip(displacements) {
-            *displacement = x - predicted;
-        }
-    }
+    let (p, scratch) = (&world.particles, &world.scratch);
     let free = FreeParticles {
         x: scratch.relative_wind.slices(),
-        displacement: displacements.slices(),
+        displacement: scratch.correction.slices(),
         mass: &p.mass,
         w: &p.w,
     };
-    let rigid = RigidMotion::of_free(world.level, free);
-    for i in 0..p.len() {
-        p.x.add(i, -rigid.displacement_at(p.x.get(i)));
+    let rigid = RigidMotion::about(world.level, free, pivot(p, fixed, count));
+    subtract(world, &rigid);
+}
+
+/// Fills `correction` with what stages moved each particle by since prediction [m]. Returns whether
+/// any particle moved.
+fn compute_corrections(world: &mut World) -> bool {
+    let (p, scratch) = (&world.particles, &mut world.scratch);
+    let corrections = &mut scratch.correction;
+    corrections.resize(p.len());
+    let mut has_moved = false;
+    let all =
+        p.x.slices().into_iter().zip(scratch.predicted.slices()).zip(corrections.slices_mut());
+    for ((x, predicted), corrections) in all {
+        for ((x, predicted), correction) in x.iter().zip(predicted).zip(corrections) {
+            *correction = x - predicted;
+            has_moved |= *correction != 0.0;
+        }
+    }
+    has_moved
+}
+
+/// Subtracts a rigid motion from the positions of all free particles. The predicted
+/// displacement takes the rounding error of that, so that velocities count the exact difference.
+fn subtract(world: &mut World, rigid: &RigidMotion) {
+    let share = world.correction_share();
+    let (p, scratch) = (&mut world.particles, &mut world.scratch);
+    for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
+        // The momenta are those about the velocity origins, so the motion is taken there too.
+        let (x, by) = (p.x.get(i), rigid.displacement_at(scratch.relative_wind.get(i)));
+        p.x.set(i, x - by);
+        let lost = (p.x.get(i) - x) + by;
+        scratch.displacement.add(i, lost * -share);
     }
 }
 
@@ -82,10 +131,10 @@ pub(crate) fn remove_rigid_motion_since(
 ) {
     compute_velocity_origins(world);
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    interleaved::compute_displacements(before, now, &mut scratch.tether_pins);
+    interleaved::compute_displacements(before, now, &mut scratch.correction);
     let free = FreeParticles {
         x: scratch.relative_wind.slices(),
-        displacement: scratch.tether_pins.slices(),
+        displacement: scratch.correction.slices(),
         mass: &p.mass,
         w: &p.w,
     };
@@ -119,7 +168,7 @@ fn is_held(world: &World) -> bool {
 /// Fills `relative_wind` with the positions that velocities count from: predicted − displacement +
 /// last displacement · (old weight / new weight) [m].
 fn compute_velocity_origins(world: &mut World) {
-    let scheme = world.settings.scheme();
+    let scheme = world.scheme();
     let ratio = scheme.old_weight / scheme.new_weight;
     let (p, scratch) = (&world.particles, &mut world.scratch);
     let displacements = scratch.displacement.slices().into_iter().zip(p.displacement.slices());

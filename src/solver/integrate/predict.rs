@@ -28,7 +28,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Moves every free particle to its predicted position, and stores displacement and position.
 pub(crate) fn predict_positions(world: &mut World) {
-    let scheme = world.settings.scheme();
+    let scheme = world.scheme();
     let max_length = world.max_displacement();
     // A vector longer than `max_length` has a component longer than this: 0.577 < 1 / √3.
     let limit = max_length * 0.577;

@@ -39,50 +39,71 @@ impl RigidMotion {
 
     /// As `fit`, for points given as position, displacement and mass.
     pub fn of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(points: impl Fn() -> I) -> Self {
+        let Self { center, translation, .. } = Self::translation_of_points(&points);
+        let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
+        for (x, displacement, mass) in points() {
+            let r = x - center;
+            spin += r.cross(displacement - translation) * mass;
+            add_inertia(&mut inertia, r, mass);
+        }
+        Self { center, translation, rotation: solve(&inertia, spin) }
+    }
+
+    /// The centre of mass of points, and the translation with their momentum.
+    fn translation_of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(
+        points: &impl Fn() -> I,
+    ) -> Self {
         let (mut total, mut center, mut translation) = (0.0, Vec3::ZERO, Vec3::ZERO);
         for (x, displacement, mass) in points() {
             total += mass;
             center += x * mass;
             translation += displacement * mass;
         }
+        Self::translation(total, center, translation)
+    }
+
+    /// The centre of mass and the translation, from sums over particles: of masses, of positions
+    /// and of displacements times mass.
+    fn translation(total: f32, center: Vec3, momentum: Vec3) -> Self {
         if total <= 0.0 {
             return Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO };
         }
-        (center, translation) = (center * (1.0 / total), translation * (1.0 / total));
-        let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
-        for (x, displacement, mass) in points() {
-            let r = x - center;
-            spin += r.cross(displacement - translation) * mass;
-            let r2 = r.length_squared();
-            let columns = [r * r.x, r * r.y, r * r.z];
-            let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-            let solid = |axis: usize| (axes[axis] * r2 - columns[axis]) * mass;
-            inertia.x_axis += solid(0);
-            inertia.y_axis += solid(1);
-            inertia.z_axis += solid(2);
-        }
-        Self { center, translation, rotation: solve(&inertia, spin) }
+        let (center, translation) = (center * (1.0 / total), momentum * (1.0 / total));
+        Self { center, translation, rotation: Vec3::ZERO }
+    }
+
+    /// The centre of mass of all free particles, and the translation with their momentum, in SIMD
+    /// lanes.
+    fn translation_of_free(level: Level, free: FreeParticles<'_>) -> Self {
+        let mut sums = [[0.0; LANES]; 7];
+        sum_momentum(level, free, &mut sums);
+        let [total, x, y, z, dx, dy, dz] = sums.map(sum_of_lanes);
+        Self::translation(total, Vec3::new(x, y, z), Vec3::new(dx, dy, dz))
     }
 
     /// As `fit`, for all free particles, in SIMD lanes.
     pub fn of_free(level: Level, free: FreeParticles<'_>) -> Self {
-        let mut sums = [[0.0; LANES]; 7];
-        sum_momentum(level, free, &mut sums);
-        let [total, x, y, z, dx, dy, dz] = sums.map(sum_of_lanes);
-        let (center, translation) = (Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
-        if total <= 0.0 {
-            return Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO };
-        }
-        let (center, translation) = (center * (1.0 / total), translation * (1.0 / total));
+        let Self { center, translation, .. } = Self::translation_of_free(level, free);
         let mut sums = [[0.0; LANES]; 9];
         sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
-        let [spin_x, spin_y, spin_z, xx, yy, zz, xy, yz, zx] = sums.map(sum_of_lanes);
-        let inertia = Mat3::from_cols(
-            Vec3::new(yy + zz, -xy, -zx),
-            Vec3::new(-xy, zz + xx, -yz),
-            Vec3::new(-zx, -yz, xx + yy),
-        );
-        Self { center, translation, rotation: solve(&inertia, Vec3::new(spin_x, spin_y, spin_z)) }
+        let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
+        Self { center, translation, rotation: solve(&inertia, spin) }
+    }
+
+    /// The rigid motion that `pivot` lets a body make, with the momenta of the displacements of all
+    /// free particles, in SIMD lanes. Rotation about axes with little inertia is damped.
+    pub fn about(level: Level, free: FreeParticles<'_>, pivot: Pivot) -> Self {
+        let (center, translation) = match pivot {
+            Pivot::Nothing => {
+                let Self { center, translation, .. } = Self::translation_of_free(level, free);
+                (center, translation)
+            }
+            Pivot::Point(point) | Pivot::Axis(point, _) => (point, Vec3::ZERO),
+        };
+        let mut sums = [[0.0; LANES]; 9];
+        sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
+        let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
+        Self { center, translation, rotation: pivot.rotation(inertia, spin) }
     }
 
     /// The part of the motion that keeps a body on a floor with this normal: translation in the
@@ -279,6 +300,60 @@ fn add_angular_momentum<F: Float>(
 /// Sum of all lanes.
 fn sum_of_lanes(lanes: LaneArray) -> f32 {
     lanes.into_iter().sum()
+}
+
+/// What holds a body: it leaves free the rotation about itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Pivot {
+    /// The body translates and rotates freely.
+    Nothing,
+    /// A fixed point [m].
+    Point(Vec3),
+    /// A line through a fixed point [m] with this direction.
+    Axis(Vec3, Vec3),
+}
+
+/// Share of the mean moment of inertia that is added about every axis. A strip that is folded to a
+/// line has nearly no inertia about it; a small error would turn it by a large angle.
+const INERTIA_SHARE: f32 = 1.0e-4;
+
+impl Pivot {
+    /// The rotation [rad] of a body with this moment of inertia and angular momentum, both about
+    /// the pivot.
+    fn rotation(self, mut inertia: Mat3, spin: Vec3) -> Vec3 {
+        let added = INERTIA_SHARE * (inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z);
+        inertia.x_axis.x += added;
+        inertia.y_axis.y += added;
+        inertia.z_axis.z += added;
+        let Self::Axis(_, direction) = self else {
+            return solve(&inertia, spin);
+        };
+        let length = direction.length();
+        let axis = if length > 0.0 { direction * (1.0 / length) } else { Vec3::ZERO };
+        let moment = axis.dot(inertia * axis);
+        if moment > 0.0 { axis * (axis.dot(spin) / moment) } else { Vec3::ZERO }
+    }
+}
+
+/// The angular momentum and the moment of inertia from the sums of [`sum_angular_momentum`].
+fn spin_and_inertia([x, y, z, xx, yy, zz, xy, yz, zx]: [f32; 9]) -> (Vec3, Mat3) {
+    let inertia = Mat3::from_cols(
+        Vec3::new(yy + zz, -xy, -zx),
+        Vec3::new(-xy, zz + xx, -yz),
+        Vec3::new(-zx, -yz, xx + yy),
+    );
+    (Vec3::new(x, y, z), inertia)
+}
+
+/// Adds the moment of inertia of a point of `mass` [kg] at `r` [m] from the centre.
+fn add_inertia(inertia: &mut Mat3, r: Vec3, mass: f32) {
+    let r2 = r.length_squared();
+    let products = [r * r.x, r * r.y, r * r.z];
+    let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+    let column = |axis: usize| (axes[axis] * r2 - products[axis]) * mass;
+    inertia.x_axis += column(0);
+    inertia.y_axis += column(1);
+    inertia.z_axis += column(2);
 }
 
 /// Solves m y = v by Cramer's rule; zero if the matrix is close to singular.

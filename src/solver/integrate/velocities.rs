@@ -1,7 +1,7 @@
 //! Stage `Velocities`: velocities and history from the corrected positions.
 //!
 //! ```text
-//! d = displacement + (x − predicted)     v = (new_weight · d − old_weight · d₋) / h     d₋ ← d
+//! d = displacement + share · (x − predicted)     v = (new_weight · d − old_weight · d₋) / h     d₋ ← d
 //! ```
 //! Method: the corrector of `state::settings::BdfScheme`. Damping scales the velocity and its whole
 //! history alike, so a free particle slows down by exactly exp(−damping · h). Particles in contact
@@ -20,7 +20,7 @@ use crate::state::settings::BdfScheme;
 
 /// Updates velocities and history at the end of a substep.
 pub(crate) fn update(world: &mut World) {
-    let scheme = world.settings.scheme();
+    let (scheme, share) = (world.scheme(), world.correction_share());
     let decay = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
     let p = &mut world.particles;
     let (displacement, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
@@ -41,18 +41,20 @@ pub(crate) fn update(world: &mut World) {
                     [x, predicted, displacement],
                     [previous, v, v_extrapolated],
                     scheme,
-                    decay,
+                    [decay, share],
                 );
             }
         },
     );
     resolve_velocities(world, decay);
     anchors::reset_history(world, decay);
+    world.has_no_history = false;
 }
 
 leveled! {
-    /// Updates one component of velocity and history.
-    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: BdfScheme, decay: f32)
+    /// Updates one component of velocity and history. `factors`: the decay by damping, and the
+    /// share of corrections that counts as velocity ([`World::correction_share`]).
+    fn update_column(read: [&[f32]; 3], write: [&mut [f32]; 3], scheme: BdfScheme, factors: [f32; 2])
         = update_column_lanes
 }
 
@@ -61,14 +63,14 @@ fn update_column_lanes(
     [x, predicted, displacement]: [&[f32]; 3],
     [previous, v, v_extrapolated]: [&mut [f32]; 3],
     scheme: BdfScheme,
-    decay: f32,
+    [decay, share]: [f32; 2],
 ) {
     let (new_weight, old_weight) = (scheme.new_weight / scheme.h, scheme.old_weight / scheme.h);
     let read = x.iter().zip(predicted).zip(displacement);
     let write = previous.iter_mut().zip(v).zip(v_extrapolated);
     for (((x, predicted), displacement), ((previous, v), v_extrapolated)) in read.zip(write) {
         // The correction is small, so this difference is exact in f32.
-        let step = displacement + (x - predicted);
+        let step = displacement + (x - predicted) * share;
         let v_new = step * new_weight - *previous * old_weight;
         *v_extrapolated = (v_new + (v_new - *v) * scheme.extrapolation) * decay;
         *v = v_new * decay;

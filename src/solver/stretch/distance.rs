@@ -45,7 +45,7 @@ pub(crate) fn solve(world: &mut World, kind: LinkKind, order: SweepOrder) {
         sweep::<RIGID>(world, kind, order, 0.0);
     } else {
         // A correction changes the velocity through `step`, so the compliance is divided by step².
-        let step = world.settings.scheme().velocity_step;
+        let step = world.scheme().velocity_step;
         sweep::<SOFT>(world, kind, order, 1.0 / (step * step));
     }
 }

@@ -85,7 +85,7 @@ pub(crate) fn is_needed(world: &World) -> bool {
 /// Solves all chains.
 pub(crate) fn solve(world: &mut World) {
     let is_rigid = is_rigid(&world.material, LinkKind::Stretch);
-    let step = world.settings.scheme().velocity_step;
+    let step = world.scheme().velocity_step;
     let scale = if is_rigid { None } else { Some(1.0 / (step * step)) };
     world.constraints.chains.blocks.rebuild_stale(&world.constraints.links);
     let are_in_columns = world.level != Level::Scalar && !world.scratch.interleaved.is_current;

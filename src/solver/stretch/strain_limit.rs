@@ -81,16 +81,21 @@ pub(crate) fn project_once(world: &mut World) {
         .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Forward, target));
 }
 
-/// Enforces the limit at the end of a tick.
-///
-/// Where pins, grabs or anchors hold the cloth apart the limit cannot hold. One event reports that,
-/// and not again until the limit has held in between.
+/// Enforces the limit at the end of a tick, as far as colliders, pins, grabs and anchors allow.
 pub(crate) fn enforce(world: &mut World) {
     let max_stretch = world.settings.max_stretch;
-    let (limit, inner) = (1.0 + max_stretch, 1.0 + max_stretch * (1.0 - ROUNDING_MARGIN));
+    let inner = 1.0 + max_stretch * (1.0 - ROUNDING_MARGIN);
     if find_over_stretched(world, inner).is_some() {
         project_all(world, inner);
     }
+}
+
+/// Counts the links that exceed the limit when the tick ends, and reports them.
+///
+/// Where pins, grabs, anchors, colliders or other layers of the cloth hold it apart the limit
+/// cannot hold. That is reported by one event, and again only after it held in between.
+pub(crate) fn report(world: &mut World) {
+    let limit = 1.0 + world.settings.max_stretch;
     world.over_stretched = over_stretched_links(world, limit).count() as u32;
     if world.over_stretched == 0 {
         world.over_stretch_reported = false;
@@ -140,6 +145,8 @@ fn project_all(world: &mut World, limit: f32) {
         // valid state to roll back to. The cloth contracts as far as the anchors permit.
         if !(was_over && has_anchors) {
             roll_back(world, limit);
+            // Colliders take precedence: what they swept over cannot stay where it was.
+            collide::project_out(world);
         }
         anchors::project_at_end(world);
         update_velocities(world);

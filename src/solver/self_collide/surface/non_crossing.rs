@@ -171,7 +171,7 @@ pub(crate) fn roll_back(
     graph: &mut ContactGraph,
     leaders: &mut Vec<u32>,
 ) {
-    let SweptParticles { start, now: x, mean_displacement, .. } = motion;
+    let SweptParticles { start, now: x, rollback_displacement, .. } = motion;
     leaders.clear();
     leaders.resize(x.len(), FREE);
     for (i, (leader, x)) in leaders.iter_mut().zip(x.iter()).enumerate() {
@@ -197,7 +197,7 @@ pub(crate) fn roll_back(
                 leaders[i] = leader;
                 graph.mark_moved(id);
                 let displacement = if leader == ROLLED_BACK {
-                    *mean_displacement
+                    *rollback_displacement
                 } else {
                     xyz(&x[leader as usize]) - xyz(&start[leader as usize])
                 };

@@ -17,6 +17,7 @@
 
 use crate::math::wide4::xyz;
 use crate::math::{max, min};
+use crate::solver::collide;
 use crate::solver::integrate::momentum;
 use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
 use crate::solver::particle_stage::interleaved;
@@ -39,6 +40,9 @@ const TICK_SLACK: f32 = 0.2;
 
 /// Largest number of repeats of the non-crossing pass, each with the pairs of escaped particles.
 const MAX_REPEATS: u32 = 8;
+
+/// Rounds in which colliders and the non-crossing pass alternate.
+const COLLIDER_ROUNDS: u32 = 6;
 
 impl World {
     /// Rebuilds the data of surface collision, or drops it, by `settings.self_collision`.
@@ -86,7 +90,8 @@ impl SurfaceCollision {
             gap,
             ..
         } = self;
-        motion.reset_bounds(world.mean_edge, *gap);
+        let touches_collider = !world.scratch.contacts.collider_contacts.is_empty();
+        motion.reset_bounds(world.mean_edge, *gap, touches_collider);
         let is_valid = tick_bounds.is_valid;
         if is_valid {
             tick_bounds.update_mean_displacements(motion);
@@ -278,7 +283,7 @@ pub(crate) fn detect_contacts(world: &mut World) {
 
 /// Solves the contacts of a substep: impulses, friction, penetration, untangling.
 pub(crate) fn solve_contacts(world: &mut World) {
-    let (scheme, friction) = (world.settings.scheme(), world.material.friction);
+    let (scheme, friction) = (world.scheme(), world.material.friction);
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
@@ -327,18 +332,58 @@ fn gather_positions(world: &mut World) {
     }
 }
 
-/// Final non-penetration pass of a substep: no surface passes through another.
-pub(crate) fn enforce_non_crossing(world: &mut World) {
+/// Runs the non-crossing pass of substep `substep`, after all other stages moved particles. What it
+/// moves ends outside all colliders.
+pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
-    if surface.enforce_non_crossing(world) {
+    let has_moved = surface.enforce_non_crossing(world);
+    if has_moved {
         interleaved::scatter(&surface.motion.now, &mut world.particles.x);
+    }
+    if has_moved || !surface.active.is_empty() {
+        project_out_of_colliders(&mut surface, world, substep);
     }
     // The next substep starts here; it gathers `now` anew.
     let SweptParticles { start, now, .. } = &mut surface.motion;
     core::mem::swap(start, now);
     world.surface_collision = Some(surface);
+}
+
+/// Alternates between colliders and the non-crossing pass until both hold.
+///
+/// Particles that surface contacts or the non-crossing pass moved into a collider are projected out
+/// of it and count as supported by it while others give way. If that does not end, they go back to
+/// where the substep began, where they were outside and nothing crossed. What a moving collider
+/// still penetrates after that is projected out: colliders take precedence over non-crossing.
+fn project_out_of_colliders(surface: &mut SurfaceCollision, world: &mut World, substep: u32) {
+    let mut pushed = core::mem::take(&mut world.scratch.contacts.projected);
+    for round in 0..=COLLIDER_ROUNDS {
+        let is_last = round == COLLIDER_ROUNDS;
+        let starts = is_last.then_some(&surface.motion.start[..]);
+        collide::project_out_in_substep(world, substep, starts, &mut pushed);
+        if pushed.is_empty() {
+            break;
+        }
+        let share = if is_last { 0.0 } else { SUPPORTED_SHARE };
+        copy_positions(surface, world, &pushed, share);
+        surface.enforce_non_crossing(world);
+        interleaved::scatter(&surface.motion.now, &mut world.particles.x);
+    }
+    if !pushed.is_empty() {
+        collide::project_out_in_substep(world, substep, None, &mut pushed);
+        copy_positions(surface, world, &pushed, 0.0);
+    }
+    world.scratch.contacts.projected = pushed;
+}
+
+/// Copies the positions of some particles to `motion.now`, with a share of their inverse masses.
+fn copy_positions(surface: &mut SurfaceCollision, world: &World, particles: &[u32], share: f32) {
+    for i in particles.iter().map(|i| *i as usize) {
+        let x = world.particles.x.get(i);
+        surface.motion.now[i] = [x.x, x.y, x.z, world.particles.w[i] * share];
+    }
 }
 
 /// Runs the non-crossing pass after the strain limit and anchors moved particles at the end of a
@@ -349,7 +394,8 @@ pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
     if let Some(surface) = &mut world.surface_collision {
         anchor_moved.iter().for_each(|i| surface.motion.now[*i as usize][3] = 0.0);
     }
-    enforce_non_crossing(world);
+    let last = world.settings.substeps - 1;
+    enforce_non_crossing(world, last);
 }
 
 /// Corrects derived velocities: impacts become inelastic, relative motion at contacts is damped,
@@ -403,7 +449,8 @@ pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = 
             world.particles.x_prev_tick.add(*vertex as usize, *displacement);
         }
         gather_positions(world);
-        enforce_non_crossing(world);
+        let last = world.settings.substeps - 1;
+        enforce_non_crossing(world, last);
     }
     if let Some(surface) = &mut world.surface_collision {
         let split = &mut surface.split_separation;

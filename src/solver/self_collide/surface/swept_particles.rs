@@ -37,6 +37,9 @@ pub(crate) struct SweptParticles {
     pub now: Vec<Float4>,
     /// Mean displacement of all particles in the substep [m].
     pub mean_displacement: Vec3,
+    /// Displacement of particles that roll back [m]: the mean, or 0 where colliders touch the
+    /// cloth, since only the start positions are known to lie outside them.
+    pub rollback_displacement: Vec3,
     /// Motion bounds: the lower and the upper corner of the box of displacements from the start
     /// [m].
     bound_low: Vec<Float4>,
@@ -57,7 +60,15 @@ impl SweptParticles {
     pub fn new(capacity: usize) -> Self {
         let [start, now, bound_low, bound_high] = [(); 4].map(|()| Vec::with_capacity(capacity));
         let escaped = Vec::with_capacity(capacity);
-        Self { start, now, mean_displacement: Vec3::ZERO, bound_low, bound_high, escaped }
+        Self {
+            start,
+            now,
+            mean_displacement: Vec3::ZERO,
+            rollback_displacement: Vec3::ZERO,
+            bound_low,
+            bound_high,
+            escaped,
+        }
     }
 
     /// Heap memory [bytes].
@@ -69,10 +80,13 @@ impl SweptParticles {
 
     /// Resets the motion bound of each particle to a box around its current displacement.
     ///
-    /// `spacing` is the mean rest length, `gap` the gap between layers [m].
-    pub fn reset_bounds(&mut self, spacing: f32, gap: f32) {
+    /// `spacing` is the mean rest length, `gap` the gap between layers [m]; `touches_collider` says
+    /// whether any particle touches a collider.
+    pub fn reset_bounds(&mut self, spacing: f32, gap: f32, touches_collider: bool) {
         let Self { start, now, bound_low, bound_high, .. } = self;
         self.mean_displacement = mean_displacement(start, now);
+        self.rollback_displacement =
+            if touches_collider { Vec3::ZERO } else { self.mean_displacement };
         bound_low.resize(start.len(), [0.0; 4]);
         bound_high.resize(start.len(), [0.0; 4]);
         let slack = min(spacing * SLACK, gap * SLACK_OF_GAP);
@@ -85,18 +99,17 @@ impl SweptParticles {
     }
 
     /// Widens the motion bounds of escaped particles to contain their current displacement; with
-    /// `may_roll_back`, every bound is widened to contain the mean displacement as well, which a
-    /// roll-back moves particles to.
+    /// `may_roll_back`, every bound is widened to contain `rollback_displacement` as well.
     pub fn widen_bounds(&mut self, spacing: f32, gap: f32, may_roll_back: bool) -> Widened {
         let slack = min(spacing * SLACK, gap * SLACK_OF_GAP);
-        let mean = Wide4::from_vec3(self.mean_displacement);
+        let rollback = Wide4::from_vec3(self.rollback_displacement);
         let (mut any, mut are_all_within) = (false, true);
         self.escaped.clear();
         self.escaped.resize(self.now.len(), false);
         let bounds = self.bound_low.iter_mut().zip(&mut self.bound_high).zip(&mut self.escaped);
         for ((start, now), ((low, high), escaped)) in self.start.iter().zip(&self.now).zip(bounds) {
             if surely_contains(low, high, Wide4::load(now) - Wide4::load(start))
-                && (!may_roll_back || surely_contains(low, high, mean))
+                && (!may_roll_back || surely_contains(low, high, rollback))
             {
                 continue;
             }
@@ -106,8 +119,8 @@ impl SweptParticles {
                 let relative = displacement.distance(self.mean_displacement);
                 widen(low, high, displacement, relative * SLACK_OF_DISPLACEMENT + slack);
             }
-            if may_roll_back && !contains(low, high, self.mean_displacement) {
-                widen(low, high, self.mean_displacement, slack);
+            if may_roll_back && !contains(low, high, self.rollback_displacement) {
+                widen(low, high, self.rollback_displacement, slack);
                 *escaped = true;
             }
             any |= *escaped;
