@@ -23,6 +23,8 @@ pub(crate) struct ColliderContact {
     pub approach_velocity: Vec3,
     /// The sum of all position corrections of the substep [m].
     pub correction: Vec3,
+    /// The distance that the particle keeps from the collider [m].
+    pub gap: f32,
     pub restitution: f32,
     pub tangential_restitution: f32,
 }

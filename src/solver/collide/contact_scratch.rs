@@ -38,6 +38,11 @@ pub(crate) struct ContactScratch {
 }
 
 impl ContactScratch {
+    /// What the last projection of particles moved, as contacts.
+    pub fn projections(&self) -> &[ColliderContact] {
+        &self.projections
+    }
+
     /// Allocates for `bodies` colliders and a cloth of at most `particles` particles and
     /// `triangles` triangles.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {

@@ -83,6 +83,8 @@ pub(super) struct Depenetration {
     /// and slides without friction. So cloth that starts inside a shape leaves it on the side to
     /// which most of its points are pushed, and does not tear.
     pub deep: f32,
+    /// Whether a deep point does not rise at all, but also does not sink.
+    pub holds_deep: bool,
 }
 
 impl Depenetration {
@@ -90,8 +92,9 @@ impl Depenetration {
     /// substep and `end` [m] now, with contact distance `gap` [m]; `None` if it needs no
     /// correction.
     pub fn penetration(&self, normal: Vec3, gap: f32, start: f32, end: f32) -> Option<Penetration> {
-        let depth = min(gap, start + self.max_step) - end;
         let is_frictionless = start < -self.deep;
+        let rise = if is_frictionless && self.holds_deep { 0.0 } else { self.max_step };
+        let depth = min(gap, start + rise) - end;
         let depth = if is_frictionless { min(depth, self.max_step) } else { depth };
         (depth > 0.0).then_some(Penetration { normal, depth, is_frictionless })
     }
@@ -196,6 +199,7 @@ impl LocalParticles<'_> {
                 surface_velocity: self.surface_velocity(at),
                 approach_velocity: self.v.get(i),
                 correction,
+                gap: self.gap,
                 restitution: self.material.restitution,
                 tangential_restitution: self.material.tangential_restitution,
             });

@@ -59,6 +59,10 @@ const DEEP: [f32; 2] = [0.25, 0.75];
 /// The fraction of the gap that the last round may leave to the next substep.
 const ROUND_TOLERANCE: f32 = 0.1;
 
+/// The fraction of the contact gap that projections after other stages restore. The next substep
+/// restores the whole; demanding it at once would let constraints alternate more often.
+pub(crate) const PROJECTION_GAP: f32 = 0.5;
+
 /// Depths below this are rounding, and are left [m].
 const MIN_PROJECTION: f32 = 1.0e-6;
 
@@ -117,6 +121,7 @@ pub(crate) fn project_out_in_substep(
     pushed: &mut Vec<u32>,
 ) {
     pushed.clear();
+    world.scratch.contacts.projections.clear();
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
@@ -173,7 +178,8 @@ fn solve_colliders(
         if neighbours.particle_blocks.is_empty() {
             continue;
         }
-        let gap = contact_gap(body, world.material.thickness);
+        let gap_share = if particles_only { PROJECTION_GAP } else { 1.0 };
+        let gap = contact_gap(body, world.material.thickness) * gap_share;
         let mut particles = LocalParticles {
             x: &mut p.x,
             v: &p.v,
@@ -189,7 +195,12 @@ fn solve_colliders(
             gap,
             depenetration: Depenetration {
                 max_step: MAX_DEPENETRATION_SPEED * scheme.h,
-                deep: DEEP[usize::from(shape.bends().is_some())] * world.mean_edge,
+                deep: if particles_only {
+                    2.0 * gap
+                } else {
+                    DEEP[usize::from(shape.bends().is_some())] * world.mean_edge
+                },
+                holds_deep: particles_only,
             },
             scheme,
             body: at as u32,

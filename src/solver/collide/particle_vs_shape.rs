@@ -198,6 +198,9 @@ fn solid_contact(
         return depenetration.penetration(normal, gap, start_distance, end_distance);
     }
     if start_distance < -depenetration.deep {
+        if depenetration.holds_deep {
+            return None;
+        }
         let depth = depenetration.max_step;
         return Some(Penetration { normal: outward, depth, is_frictionless: true });
     }
@@ -259,8 +262,14 @@ mod tests {
 
     /// Returns where a particle ends that moves from `before` to `now`.
     fn end(solid: &impl SignedDistance, before: Vec3, now: Vec3) -> Vec3 {
-        solid_contact(solid, before, now, GAP, Depenetration { max_step: 9.0, deep: 9.0 })
-            .map_or(now, |one| now + one.normal * one.depth)
+        solid_contact(
+            solid,
+            before,
+            now,
+            GAP,
+            Depenetration { max_step: 9.0, deep: 9.0, holds_deep: false },
+        )
+        .map_or(now, |one| now + one.normal * one.depth)
     }
 
     #[test]
@@ -338,7 +347,7 @@ mod tests {
         let end = end(&HalfSpace, Vec3::Y * -3.0, Vec3::Y * -3.0);
         assert!((end - Vec3::Y * GAP).length() < 1.0e-6, "{end}");
         let depth = |deep| {
-            let depenetration = Depenetration { max_step: 0.25, deep };
+            let depenetration = Depenetration { max_step: 0.25, deep, holds_deep: false };
             let (start, end) = (Vec3::Y * -3.0, Vec3::Y * -3.5);
             solid_contact(&HalfSpace, start, end, GAP, depenetration).unwrap().depth
         };

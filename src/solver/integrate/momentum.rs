@@ -31,6 +31,7 @@ use crate::solver::integrate::rigid_motion::{FreeParticles, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
 use crate::state::particles::Particles;
+use crate::state::settings::BdfScheme;
 use glam::Vec3;
 
 /// Least cosine between contact normals of one floor.
@@ -77,7 +78,12 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
     if count > MAX_FIXED || !compute_corrections(world) {
         return;
     }
-    compute_velocity_origins(world);
+    let pivot = pivot(&world.particles, fixed, count);
+    let translation = match pivot {
+        Pivot::Nothing => mean_correction(world),
+        Pivot::Point(_) | Pivot::Axis(..) => Vec3::ZERO,
+    };
+    compute_angular_errors(world);
     let (p, scratch) = (&world.particles, &world.scratch);
     let free = FreeParticles {
         x: scratch.relative_wind.slices(),
@@ -85,8 +91,40 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
         mass: &p.mass,
         w: &p.w,
     };
-    let rigid = RigidMotion::about(world.level, free, pivot(p, fixed, count));
+    let rigid = RigidMotion::about(world.level, free, pivot).with_translation(translation);
     subtract(world, &rigid);
+}
+
+/// The mean of `correction` by mass [m].
+fn mean_correction(world: &World) -> Vec3 {
+    let (p, correction) = (&world.particles, world.scratch.correction.slices());
+    let free = FreeParticles { x: correction, displacement: correction, mass: &p.mass, w: &p.w };
+    RigidMotion::translation_of_free(world.level, free).translation()
+}
+
+/// Fills `relative_wind` with the positions in the middle of the substep, and `correction` with the
+/// displacements [m] whose angular momentum about these positions is the error of the substep:
+/// what changes the angular momentum besides the acceleration.
+///
+/// ```text
+/// v' = (new_weight · d − old_weight · d₋) / h       d = displacement + share · (x − predicted)
+/// Σ m x × v' − Σ m x₀ × v = Σ m (x₀ + x) / 2 × (v' − v)      if x − x₀ = h (v + v') / 2
+/// error = (v' − v − h a) · h / (new_weight · share)
+/// ```
+fn compute_angular_errors(world: &mut World) {
+    let (BdfScheme { h, new_weight, old_weight, .. }, share) =
+        (world.scheme(), world.correction_share());
+    let to_position = 1.0 / (new_weight * share);
+    let (p, scratch) = (&world.particles, &mut world.scratch);
+    for i in 0..p.len() {
+        let (x, displacement) = (p.x.get(i), scratch.displacement.get(i));
+        let start = scratch.predicted.get(i) - displacement;
+        let moved = displacement + scratch.correction.get(i) * share;
+        let step = moved * new_weight - p.displacement.get(i) * old_weight;
+        let expected = (p.v.get(i) + scratch.acceleration.get(i) * h) * h;
+        scratch.relative_wind.set(i, (start + x) * 0.5);
+        scratch.correction.set(i, (step - expected) * to_position);
+    }
 }
 
 /// Fills `correction` with what stages moved each particle by since prediction [m]. Returns whether
@@ -113,7 +151,7 @@ fn subtract(world: &mut World, rigid: &RigidMotion) {
     let share = world.correction_share();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
-        // The momenta are those about the velocity origins, so the motion is taken there too.
+        // The momenta are those about the middle positions, so the motion is taken there too.
         let (x, by) = (p.x.get(i), rigid.displacement_at(scratch.relative_wind.get(i)));
         p.x.set(i, x - by);
         let lost = (p.x.get(i) - x) + by;

@@ -59,12 +59,12 @@ impl RigidMotion {
             center += x * mass;
             translation += displacement * mass;
         }
-        Self::translation(total, center, translation)
+        Self::translation_from_sums(total, center, translation)
     }
 
     /// The centre of mass and the translation, from sums over particles: of masses, of positions
     /// and of displacements times mass.
-    fn translation(total: f32, center: Vec3, momentum: Vec3) -> Self {
+    fn translation_from_sums(total: f32, center: Vec3, momentum: Vec3) -> Self {
         if total <= 0.0 {
             return Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO };
         }
@@ -74,11 +74,11 @@ impl RigidMotion {
 
     /// The centre of mass of all free particles, and the translation with their momentum, in SIMD
     /// lanes.
-    fn translation_of_free(level: Level, free: FreeParticles<'_>) -> Self {
+    pub fn translation_of_free(level: Level, free: FreeParticles<'_>) -> Self {
         let mut sums = [[0.0; LANES]; 7];
         sum_momentum(level, free, &mut sums);
         let [total, x, y, z, dx, dy, dz] = sums.map(sum_of_lanes);
-        Self::translation(total, Vec3::new(x, y, z), Vec3::new(dx, dy, dz))
+        Self::translation_from_sums(total, Vec3::new(x, y, z), Vec3::new(dx, dy, dz))
     }
 
     /// As `fit`, for all free particles, in SIMD lanes.
@@ -104,6 +104,16 @@ impl RigidMotion {
         sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
         let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
         Self { center, translation, rotation: pivot.rotation(inertia, spin) }
+    }
+
+    /// The translation [m].
+    pub fn translation(&self) -> Vec3 {
+        self.translation
+    }
+
+    /// The same rotation with another translation [m].
+    pub fn with_translation(self, translation: Vec3) -> Self {
+        Self { translation, ..self }
     }
 
     /// The part of the motion that keeps a body on a floor with this normal: translation in the

@@ -20,6 +20,8 @@
 //! Invariant: only particles move, and each move is marked in the contact graph, so no contact
 //! stays unchecked.
 
+use core::cmp::max;
+
 use crate::math::simd::Level;
 use crate::math::wide4::{Float4, xyz};
 use crate::solver::particle_stage::interleaved::translate;
@@ -28,10 +30,11 @@ use crate::solver::self_collide::surface::contact::{
 };
 use crate::solver::self_collide::surface::contact_graph::{ContactGraph, WORD_BITS};
 use crate::solver::self_collide::surface::speculative::{SpeculativeContact, test_separated};
+use crate::solver::self_collide::surface::support_planes::SupportPlanes;
 use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 
 /// Rounds of pushing before particles roll back.
-const MAX_ROUNDS: u32 = 48;
+const MAX_ROUNDS: u32 = 96;
 
 /// Rounds that demand the minimum separation; later rounds accept the tolerated one.
 const STRICT_ROUNDS: u32 = 8;
@@ -39,13 +42,20 @@ const STRICT_ROUNDS: u32 = 8;
 /// Number of rounds after which a contact that is still open gets a new normal.
 const NORMAL_ROUNDS: u32 = 4;
 
+/// Share of its inverse mass with which a particle moves towards a plane that supports it.
+const BLOCKED_SHARE: f32 = 0.01;
+
 /// Share of the minimum separation that counts as reached.
 const REACHED_SHARE: f32 = 0.99;
 
 /// Leader of a particle that may move freely, and of one that rolled back. Other values are fixed
 /// particles whose displacement the particle takes.
 const FREE: u32 = u32::MAX;
-const ROLLED_BACK: u32 = u32::MAX - 1;
+const ROLLED_BACK: u32 = u32::MAX - 4;
+
+/// The share of its motion that a particle keeps whose leader is `FREE`, one less, and so on down
+/// to `ROLLED_BACK`.
+const KEPT: [f32; 5] = [1.0, 0.5, 0.25, 0.125, 0.0];
 
 /// Pushes the sides of pending contacts apart until all are separated. Returns true on success;
 /// else the contacts that are not separated, or not checked, are pending. `open` is scratch.
@@ -53,6 +63,7 @@ pub(crate) fn separate(
     contacts: &mut [Contact],
     motion: &mut SweptParticles,
     graph: &mut ContactGraph,
+    planes: &SupportPlanes,
     open: &mut Vec<u32>,
 ) -> bool {
     let SweptParticles { start, now, .. } = motion;
@@ -100,7 +111,7 @@ pub(crate) fn separate(
                     contact.refresh_normal(positions(start, contact.ids), now);
                 }
                 is_done = false;
-                push_sides(contact, now, graph);
+                push_sides(contact, now, planes, graph);
             }
         }
     }
@@ -139,21 +150,35 @@ fn is_separated(contact: &Contact, x: &[Float4], least: f32) -> bool {
 }
 
 /// Separates each particle of the first side from each of the second by the minimum separation, in
-/// proportion to inverse masses.
-fn push_sides(contact: &Contact, x: &mut [Float4], graph: &mut ContactGraph) {
+/// proportion to inverse masses, and keeps them in front of their support planes.
+fn push_sides(
+    contact: &Contact,
+    x: &mut [Float4],
+    planes: &SupportPlanes,
+    graph: &mut ContactGraph,
+) {
     let (one, other) = contact.ids.split_at(contact.kind as usize);
     for a in one {
         for b in other {
             let (particle_a, particle_b) = (x[*a as usize], x[*b as usize]);
             let distance = contact.n.dot(xyz(&particle_a) - xyz(&particle_b));
             let missing = contact.min_separation - distance;
-            let sum = particle_a[3] + particle_b[3];
+            let [mut w_a, mut w_b] = [particle_a[3], particle_b[3]];
+            if planes.blocks(*a as usize, &particle_a, contact.n) {
+                w_a *= BLOCKED_SHARE;
+            }
+            if planes.blocks(*b as usize, &particle_b, -contact.n) {
+                w_b *= BLOCKED_SHARE;
+            }
+            let sum = w_a + w_b;
             if missing <= 0.0 || sum <= 0.0 {
                 continue;
             }
             let impulse = contact.n * (missing / sum);
-            translate(&mut x[*a as usize], impulse * particle_a[3]);
-            translate(&mut x[*b as usize], impulse * -particle_b[3]);
+            translate(&mut x[*a as usize], impulse * w_a);
+            translate(&mut x[*b as usize], impulse * -w_b);
+            planes.project(*a as usize, &mut x[*a as usize]);
+            planes.project(*b as usize, &mut x[*b as usize]);
             graph.mark_moved(*a);
             graph.mark_moved(*b);
         }
@@ -170,8 +195,10 @@ pub(crate) fn roll_back(
     motion: &mut SweptParticles,
     graph: &mut ContactGraph,
     leaders: &mut Vec<u32>,
+    before: &mut Vec<Float4>,
 ) {
     let SweptParticles { start, now: x, rollback_displacement, .. } = motion;
+    before.clone_from(x);
     leaders.clear();
     leaders.resize(x.len(), FREE);
     for (i, (leader, x)) in leaders.iter_mut().zip(x.iter()).enumerate() {
@@ -188,7 +215,11 @@ pub(crate) fn roll_back(
             }
             let of_contact = contact.ids.map(|id| leaders[id as usize]);
             let fixed = of_contact.into_iter().find(|leader| *leader < ROLLED_BACK);
-            let leader = fixed.unwrap_or(ROLLED_BACK);
+            // Contacts are linear in the shares, so all corners of one keep the same share.
+            let most = of_contact.into_iter().min().unwrap_or(FREE);
+            let is_same = of_contact.into_iter().all(|leader| leader == most);
+            let next = max(if is_same { most - 1 } else { most }, ROLLED_BACK);
+            let leader = fixed.unwrap_or(next);
             for id in contact.ids {
                 let i = id as usize;
                 if leaders[i] <= leader || leaders[i] < ROLLED_BACK {
@@ -196,8 +227,9 @@ pub(crate) fn roll_back(
                 }
                 leaders[i] = leader;
                 graph.mark_moved(id);
-                let displacement = if leader == ROLLED_BACK {
-                    *rollback_displacement
+                let displacement = if leader >= ROLLED_BACK {
+                    let own = xyz(&before[i]) - xyz(&start[i]) - *rollback_displacement;
+                    *rollback_displacement + own * KEPT[(FREE - leader) as usize]
                 } else {
                     xyz(&x[leader as usize]) - xyz(&start[leader as usize])
                 };

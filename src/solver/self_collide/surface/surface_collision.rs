@@ -22,6 +22,7 @@ use crate::solver::self_collide::surface::narrow_phase::NarrowPhase;
 use crate::solver::self_collide::surface::separation_test::CandidatePairs;
 use crate::solver::self_collide::surface::speculative::SpeculativeContact;
 use crate::solver::self_collide::surface::split_separation::SplitSeparation;
+use crate::solver::self_collide::surface::support_planes::SupportPlanes;
 use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use crate::solver::self_collide::surface::tick_bounds::TickBounds;
 use crate::solver::self_collide::surface::untangle::SurfaceIntersections;
@@ -54,6 +55,8 @@ pub(crate) struct SurfaceCollision {
     /// Contacts that the contact solver works on in this substep.
     pub active: Vec<ActiveContact>,
     pub graph: ContactGraph,
+    /// Planes of the colliders that particles touch in this substep.
+    pub planes: SupportPlanes,
     /// Scratch of the non-crossing pass: leader of each particle that rolled back.
     pub leaders: Vec<u32>,
     /// Scratch: open contacts of the non-crossing pass, or impacts.
@@ -90,6 +93,7 @@ impl SurfaceCollision {
             has_detected: false,
             active: Vec::with_capacity(24 * count),
             graph: ContactGraph::new(capacity, 24 * count),
+            planes: SupportPlanes::new(capacity),
             leaders: Vec::with_capacity(capacity),
             open: Vec::with_capacity(24 * count),
             warm_start_index: WarmStartIndex::new(count),
@@ -113,6 +117,7 @@ impl SurfaceCollision {
             + self.split_separation.bytes()
             + self.intersections.bytes()
             + self.graph.bytes()
+            + self.planes.bytes()
             + self.escaped_candidates.bytes()
             + self.candidates.bytes()
             + self.narrow_phase.iter().map(NarrowPhase::bytes).sum::<usize>()

@@ -202,6 +202,8 @@ impl SurfaceCollision {
                 leaders,
                 open,
                 graph,
+                planes,
+                vectors,
                 intersections,
                 gap,
                 ..
@@ -216,9 +218,9 @@ impl SurfaceCollision {
                 non_crossing::unschedule_separated(world.level, contacts, known, now, graph);
             }
             known = contacts.len();
-            let is_done = !is_last && non_crossing::separate(contacts, motion, graph, open);
+            let is_done = !is_last && non_crossing::separate(contacts, motion, graph, planes, open);
             if !is_done && (may_roll_back || is_last) {
-                non_crossing::roll_back(contacts, motion, graph, leaders);
+                non_crossing::roll_back(contacts, motion, graph, leaders, vectors);
                 has_rolled_back = true;
             }
             let are_within = || {
@@ -256,6 +258,7 @@ pub(crate) fn begin_tick(world: &mut World) {
         surface.bvh.update_topology(&world.mesh);
     }
     interleaved::gather(&mut motion.start, &p.x, &p.w);
+    surface.planes.reset(p.len());
     surface.has_detected = false;
     surface.is_new_tick = true;
     surface.tick_bounds.is_valid &= is_same_count;
@@ -271,10 +274,16 @@ pub(crate) fn detect_contacts(world: &mut World) {
     surface.masses.clear();
     let masses = world.particles.w.iter().map(|w| ContactMass { w: *w, mobility: 1.0 });
     surface.masses.extend(masses);
+    surface.planes.reset(world.particles.len());
     for contact in &world.scratch.contacts.collider_contacts {
         let i = contact.particle as usize;
         surface.motion.now[i][3] = world.particles.w[i] * SUPPORTED_SHARE;
         surface.masses[i].mobility = SUPPORTED_SHARE;
+        if contact.weight == 1.0 {
+            let slack = contact.gap * (1.0 - collide::PROJECTION_GAP);
+            let at = world.particles.x.get(i) - contact.normal * slack;
+            surface.planes.insert(contact.particle, contact.body, contact.normal, at);
+        }
     }
     surface.detect(world, world.settings.substeps);
     world.is_tangled = !surface.intersections.is_empty();
@@ -338,13 +347,19 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
-    let has_moved = surface.enforce_non_crossing(world);
-    if has_moved {
+    let mut pushed = core::mem::take(&mut world.scratch.contacts.projected);
+    pushed.clear();
+    if !surface.active.is_empty() {
+        // Contacts moved particles; those that are in a collider now get planes.
+        collide::project_out_in_substep(world, substep, None, &mut pushed);
+        support_projected(&mut surface, world, &pushed, SUPPORTED_SHARE);
+    }
+    let was_behind = surface.planes.project_all(&mut surface.motion.now) || !pushed.is_empty();
+    if surface.enforce_non_crossing(world) || was_behind {
         interleaved::scatter(&surface.motion.now, &mut world.particles.x);
+        project_out_of_colliders(&mut surface, world, substep, &mut pushed);
     }
-    if has_moved || !surface.active.is_empty() {
-        project_out_of_colliders(&mut surface, world, substep);
-    }
+    world.scratch.contacts.projected = pushed;
     // The next substep starts here; it gathers `now` anew.
     let SweptParticles { start, now, .. } = &mut surface.motion;
     core::mem::swap(start, now);
@@ -353,36 +368,42 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
 
 /// Alternates between colliders and the non-crossing pass until both hold.
 ///
-/// Particles that surface contacts or the non-crossing pass moved into a collider are projected out
-/// of it and count as supported by it while others give way. If that does not end, they go back to
-/// where the substep began, where they were outside and nothing crossed. What a moving collider
-/// still penetrates after that is projected out: colliders take precedence over non-crossing.
-fn project_out_of_colliders(surface: &mut SurfaceCollision, world: &mut World, substep: u32) {
-    let mut pushed = core::mem::take(&mut world.scratch.contacts.projected);
+/// Particles that the non-crossing pass moved into a collider are projected out of it and get a
+/// plane there, which the next pass respects. If that does not end, they go back to where the
+/// substep began, where they were outside and nothing crossed. What a moving collider still
+/// penetrates after that is projected out: colliders take precedence over non-crossing.
+fn project_out_of_colliders(
+    surface: &mut SurfaceCollision,
+    world: &mut World,
+    substep: u32,
+    pushed: &mut Vec<u32>,
+) {
     for round in 0..=COLLIDER_ROUNDS {
         let is_last = round == COLLIDER_ROUNDS;
         let starts = is_last.then_some(&surface.motion.start[..]);
-        collide::project_out_in_substep(world, substep, starts, &mut pushed);
+        collide::project_out_in_substep(world, substep, starts, pushed);
         if pushed.is_empty() {
-            break;
+            return;
         }
         let share = if is_last { 0.0 } else { SUPPORTED_SHARE };
-        copy_positions(surface, world, &pushed, share);
+        support_projected(surface, world, pushed, share);
         surface.enforce_non_crossing(world);
         interleaved::scatter(&surface.motion.now, &mut world.particles.x);
     }
-    if !pushed.is_empty() {
-        collide::project_out_in_substep(world, substep, None, &mut pushed);
-        copy_positions(surface, world, &pushed, 0.0);
-    }
-    world.scratch.contacts.projected = pushed;
+    collide::project_out_in_substep(world, substep, None, pushed);
+    support_projected(surface, world, pushed, 0.0);
 }
 
-/// Copies the positions of some particles to `motion.now`, with a share of their inverse masses.
-fn copy_positions(surface: &mut SurfaceCollision, world: &World, particles: &[u32], share: f32) {
-    for i in particles.iter().map(|i| *i as usize) {
+/// Copies the positions of particles that colliders have just projected out to `motion.now`, with a
+/// share of their inverse masses, and gives each the plane that it was projected onto.
+fn support_projected(surface: &mut SurfaceCollision, world: &World, pushed: &[u32], share: f32) {
+    for i in pushed.iter().map(|i| *i as usize) {
         let x = world.particles.x.get(i);
         surface.motion.now[i] = [x.x, x.y, x.z, world.particles.w[i] * share];
+    }
+    for projection in world.scratch.contacts.projections() {
+        let at = world.particles.x.get(projection.particle as usize);
+        surface.planes.insert(projection.particle, projection.body, projection.normal, at);
     }
 }
 
