@@ -63,7 +63,7 @@ impl Cloth {
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             let pose = Pose::new(position, rotation);
-            let motion = AttachmentPose { last: pose, next: pose };
+            let motion = AttachmentPose { last: pose, next: pose, ..AttachmentPose::default() };
             let handle = self.world.attachments.insert(motion, "another attachment")?;
             let frame = pose.to_transform();
             for particle in particles {

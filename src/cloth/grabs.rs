@@ -25,8 +25,8 @@ impl Cloth {
     pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
         check_index(particle, self.world.particles.len(), "particle")?;
         let target = self.world.particles.x.get(particle as usize);
-        let handle =
-            self.world.grabs.insert(GrabbedParticle { particle, target }, "another grab")?;
+        let grabbed = GrabbedParticle { particle, target, final_target: target };
+        let handle = self.world.grabs.insert(grabbed, "another grab")?;
         with_float_env(|| self.world.refresh_inverse_mass(particle));
         Ok(Grab(handle))
     }
