@@ -60,7 +60,8 @@ impl Cloth {
         Ok(Some((grab, self.world.particles.x.get(particle as usize))))
     }
 
-    /// Sets the target of a grab [m].
+    /// Sets the target of a grab [m]. Within the speed limit the particle reaches it evenly over the
+    /// ticks of the next [`Cloth::advance`], or in the next tick of [`Cloth::step`].
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released;
@@ -73,7 +74,8 @@ impl Cloth {
     }
 
     /// Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
-    /// returns to its pin over the next tick.
+    /// returns to its pin evenly over the ticks of the next [`Cloth::advance`], or in the next tick
+    /// of [`Cloth::step`].
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released before.

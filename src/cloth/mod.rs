@@ -265,6 +265,10 @@ impl Cloth {
     /// dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
     /// change nothing.
     ///
+    /// Poses that were given since the last tick (targets of pins and grabs, attachments, anchors,
+    /// colliders, the frame of [`Cloth::move_frame`]) are reached evenly over the ticks of this
+    /// call, and exactly at the end of the last one. If no tick runs, they wait for the next call.
+    ///
     /// ```
     /// use muslin::{Cloth, GridDesc};
     ///
@@ -293,7 +297,7 @@ impl Cloth {
     }
 
     /// Runs exactly `ticks` ticks. The time that [`Cloth::advance`] keeps for the next frame does
-    /// not change.
+    /// not change. Poses that were given before the call are reached in the first of these ticks.
     pub fn step(&mut self, ticks: u32) {
         self.run(ticks, pipeline::ticks);
     }

@@ -1,7 +1,7 @@
 //! Colliders: kinematic bodies that a cloth collides with.
 //!
 //! A collider moves from its pose at the end of the last tick to the pose that the host has set,
-//! evenly over the substeps, so that contacts are swept.
+//! evenly over the ticks of an `advance` and their substeps, so that contacts are swept.
 
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};

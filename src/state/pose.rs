@@ -136,3 +136,47 @@ fn quat_product(a: Quat, b: Quat) -> Quat {
         aw * bw - ax * bx - ay * by - az * bz,
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn first_steps_divide_a_motion_into_equal_parts_and_end_exactly() {
+        // About a half turn the quaternions are nearly perpendicular.
+        for degrees in [0.01_f32, 1.0, 30.0, 120.0, 179.0] {
+            let start = Pose::new(Vec3::new(1.0, 2.0, 3.0), Quat::from_rotation_y(0.4));
+            let turn = Quat::from_rotation_x(degrees.to_radians());
+            let end = Pose::new(Vec3::new(2.0, 0.0, -1.0), turn * start.rotation);
+            let mut now = start;
+            for count in (1..=5).rev() {
+                let next = now.first_step(&end, count);
+                let angle = now.rotation.angle_between(next.rotation).to_degrees();
+                assert!((angle - degrees / 5.0).abs() < 0.02 + degrees * 1.0e-4, "{angle}°");
+                let step = next.position - now.position;
+                assert!(step.distance((end.position - start.position) / 5.0) < 1.0e-6);
+                now = next;
+            }
+            assert_eq!(now, end);
+        }
+    }
+
+    #[test]
+    fn first_steps_take_the_shorter_way_and_keep_poses_at_rest() {
+        let start = Pose::new(Vec3::ONE, Quat::from_rotation_z(0.7));
+        assert_eq!(start.first_step(&start, 3), start);
+        let end = Pose::new(Vec3::ONE, -Quat::from_rotation_z(1.0));
+        let third = start.first_step(&end, 3).rotation;
+        let right = Quat::from_rotation_z(0.8);
+        assert!(third.dot(right).abs() > 1.0 - 1.0e-6, "{third}");
+        let moved = Pose { position: Vec3::ZERO, ..start };
+        assert_eq!(
+            start.first_step(&moved, 3).rotation,
+            start.rotation,
+            "no rounding of rotations"
+        );
+        let far = Pose { position: Vec3::splat(f32::MAX), ..start };
+        let start = Pose { position: Vec3::splat(-f32::MAX), ..start };
+        assert!(start.first_step(&far, 3).position.is_finite());
+    }
+}
