@@ -80,7 +80,8 @@ impl Cloth {
     /// [`Cloth::set_max_distances`] and [`Cloth::set_backstops`]. Call it once per frame.
     ///
     /// Anchors move to the new positions evenly over the ticks of the next [`Cloth::advance`], or in
-    /// the next tick of [`Cloth::step`]; a particle's first anchor is in place at once. Normals need not have length 1. An empty `normals` keeps the previous normals.
+    /// the next tick of [`Cloth::step`]; a particle's first anchor is in place at once. Normals
+    /// need not have length 1. An empty `normals` keeps the previous normals.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) unless there is one position per particle, and

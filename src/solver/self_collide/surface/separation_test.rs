@@ -323,7 +323,7 @@ mod tests {
         motion.start.extend(start.map(|[x, y, z]: [f32; 3]| [x, y, z, 1.0]));
         motion.now.clone_from(&motion.start);
         motion.now[0][1] -= down;
-        motion.reset_bounds(0.01, 0.01);
+        motion.reset_bounds(0.01, 0.01, false);
         motion
     }
 
@@ -348,7 +348,7 @@ mod tests {
         let particle = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2), 1.0];
         motion.start.extend((0..64).map(particle));
         motion.now.extend(motion.start.iter().map(|[x, y, z, w]| [*x, y - z, z + x, *w]));
-        motion.reset_bounds(0.1, 0.01);
+        motion.reset_bounds(0.1, 0.01, false);
         let test = |level| {
             let mut kinds = [(); 2].map(|()| CandidatePairs::new(60));
             for (k, candidates) in kinds.iter_mut().enumerate() {
