@@ -1186,6 +1186,10 @@ MuslinStatus muslin_cloth_set_wind(MuslinCloth cloth, const MuslinWind *wind);
  * dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
  * change nothing.
  *
+ * Poses that were given since the last tick (targets of pins and grabs, attachments, anchors,
+ * colliders, the frame of muslin_cloth_move_frame) are reached evenly over the ticks of this call,
+ * and exactly at the end of the last one. If no tick runs, they wait for the next call.
+ *
  * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
  */
 MuslinStatus muslin_cloth_advance(MuslinCloth cloth,
@@ -1194,15 +1198,16 @@ MuslinStatus muslin_cloth_advance(MuslinCloth cloth,
 
 /**
  * Runs exactly `ticks` ticks. The time that muslin_cloth_advance keeps for the next frame does not
- * change.
+ * change. Poses that were given before the call are reached in the first of these ticks.
  */
 MuslinStatus muslin_cloth_step(MuslinCloth cloth, uint32_t ticks);
 
 /**
  * Pins a particle at `target` [m], or at its current position if `target` is NULL.
  *
- * The particle reaches the target over the next tick. If it is already pinned, the target changes
- * and the stiffness stays; an attached particle leaves its attachment.
+ * The particle reaches the target evenly over the ticks of the next muslin_cloth_advance, or in
+ * the next tick of muslin_cloth_step. If it is already pinned, the target changes and the
+ * stiffness stays; an attached particle leaves its attachment.
  *
  * @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
  * target is not finite
@@ -1224,7 +1229,7 @@ MuslinStatus muslin_cloth_unpin_all(MuslinCloth cloth);
 
 /**
  * Sets the targets [m] of `count` pins at once, e.g. every frame for an animated edge. Particles
- * that are not pinned yet become pinned.
+ * that are not pinned yet become pinned. They reach their targets as those of muslin_cloth_pin.
  *
  * Targets are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a multiple
  * of 4). With `count` 0 both pointers may be NULL.
@@ -1322,8 +1327,9 @@ MuslinStatus muslin_cloth_attach(MuslinCloth cloth,
                                  MuslinAttachment *out_attachment);
 
 /**
- * Moves an attachment: its particles reach the new pose over the next tick, rotating with the
- * transform, and are exactly there at the end of the tick.
+ * Moves an attachment: its particles reach the new pose evenly over the ticks of the next
+ * muslin_cloth_advance, or in the next tick of muslin_cloth_step. They rotate with the transform
+ * on the way, and are exactly there at the end.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE if `position` is
  * not finite or `rotation` is not a unit quaternion
@@ -1384,10 +1390,11 @@ MuslinStatus muslin_cloth_set_backstops(MuslinCloth cloth,
  * Sets the animated positions [m] and outward normals of `count` particles, for
  * muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it once per frame.
  *
- * Anchors move to the new positions over the next tick; a particle's first anchor is in place at
- * once. Positions and normals are 3 floats each; consecutive ones start `stride` bytes apart in
- * both lists (0 means 12; a multiple of 4). Normals need not have length 1; NULL keeps the
- * previous normals. With `count` 0 all pointers may be NULL.
+ * Anchors move to the new positions evenly over the ticks of the next muslin_cloth_advance, or in
+ * the next tick of muslin_cloth_step; a particle's first anchor is in place at once. Positions and
+ * normals are 3 floats each; consecutive ones start `stride` bytes apart in both lists (0 means
+ * 12; a multiple of 4). Normals need not have length 1; NULL keeps the previous normals. With
+ * `count` 0 all pointers may be NULL.
  *
  * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
  * number is not finite, a normal has length 0, `stride` is invalid, or `count` exceeds the number
@@ -1450,7 +1457,8 @@ MuslinStatus muslin_cloth_grab_particle(MuslinCloth cloth,
                                         MuslinGrab *out_grab);
 
 /**
- * Sets the target of a grab [m].
+ * Sets the target of a grab [m]. Within the speed limit the particle reaches it evenly over the
+ * ticks of the next muslin_cloth_advance, or in the next tick of muslin_cloth_step.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE if the target
  * is not finite
@@ -1461,7 +1469,8 @@ MuslinStatus muslin_cloth_move_grab(MuslinCloth cloth,
 
 /**
  * Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
- * returns to its pin over the next tick.
+ * returns to its pin evenly over the ticks of the next muslin_cloth_advance, or in the next tick of
+ * muslin_cloth_step.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
  */
@@ -1562,8 +1571,9 @@ MuslinStatus muslin_cloth_add_collider(MuslinCloth cloth,
                                        MuslinCollider *out_collider);
 
 /**
- * Moves a collider to a new pose, which it reaches over the next tick. The motion is swept, so a
- * fast collider does not jump through the cloth.
+ * Moves a collider to a new pose, which it reaches evenly over the ticks of the next
+ * muslin_cloth_advance, or in the next tick of muslin_cloth_step. The motion is swept, so a fast
+ * collider does not jump through the cloth.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE if `position` is not
  * finite or `rotation` is not a unit quaternion
@@ -1625,8 +1635,9 @@ MuslinStatus muslin_cloth_teleport(MuslinCloth cloth,
                                    MuslinQuat rotation);
 
 /**
- * Moves the cloth with the body that wears it to a new pose over the next tick; the cloth feels
- * only the share `inertia` of the motion.
+ * Moves the cloth with the body that wears it to a new pose over the ticks of the next
+ * muslin_cloth_advance, or in the next tick of muslin_cloth_step; the cloth feels only the share
+ * `inertia` of the motion.
  *
  * - 1: the cloth feels the whole motion, as without this call.
  * - 0: the cloth feels nothing, as if the body stood still and the world moved.
@@ -1634,9 +1645,9 @@ MuslinStatus muslin_cloth_teleport(MuslinCloth cloth,
  *
  * The motion starts at the pose of the last muslin_cloth_set_frame, muslin_cloth_teleport or
  * muslin_cloth_move_frame. The part that is not felt moves particles at once, as a rigid body.
- * Pins, attachments and anchors reach the body's new pose over the tick. Colliders and grabs stay
- * at the poses that you give; the cloth meets them with the velocity that they have relative to
- * the body. The air moves with the body by the share that is not felt.
+ * Pins, attachments and anchors reach the body's new pose evenly over these ticks. Colliders and
+ * grabs stay at the poses that you give; the cloth meets them with the velocity that they have
+ * relative to the body. The air moves with the body by the share that is not felt.
  *
  * In a frame, call this before muslin_cloth_move_attachment, muslin_cloth_move_collider and
  * muslin_cloth_set_anchors.

@@ -79,8 +79,9 @@ impl Cloth {
     /// Sets the animated positions [m] and outward normals of particles, for
     /// [`Cloth::set_max_distances`] and [`Cloth::set_backstops`]. Call it once per frame.
     ///
-    /// Anchors move to the new positions over the next tick; a particle's first anchor is in place
-    /// at once. Normals need not have length 1. An empty `normals` keeps the previous normals.
+    /// Anchors move to the new positions evenly over the ticks of the next [`Cloth::advance`], or in
+    /// the next tick of [`Cloth::step`]; a particle's first anchor is in place at once. Normals
+    /// need not have length 1. An empty `normals` keeps the previous normals.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) unless there is one position per particle, and

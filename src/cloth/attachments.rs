@@ -2,7 +2,7 @@
 //! body).
 //!
 //! Each attached pin stores its position in the frame of the transform; a moved transform gives
-//! `target = pose · local`. The solver interpolates the pose over the tick.
+//! `target = pose · local`. The solver interpolates the pose over the ticks of an `advance`.
 //!
 //! Reads the caller's poses; writes `World::attachments` and `World::pins`.
 //! Invariant: the target of a carried pin is always `AttachmentPose::next` applied to `pin.local`.
@@ -63,7 +63,7 @@ impl Cloth {
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             let pose = Pose::new(position, rotation);
-            let motion = AttachmentPose { last: pose, next: pose };
+            let motion = AttachmentPose { last: pose, next: pose, ..AttachmentPose::default() };
             let handle = self.world.attachments.insert(motion, "another attachment")?;
             let frame = pose.to_transform();
             for particle in particles {
@@ -78,8 +78,9 @@ impl Cloth {
         })
     }
 
-    /// Moves an attachment: its particles reach the new pose over the next tick, rotating with the
-    /// transform, and are exactly there at the end of the tick.
+    /// Moves an attachment: its particles reach the new pose evenly over the ticks of the next
+    /// [`Cloth::advance`], or in the next tick of [`Cloth::step`]. They rotate with the transform
+    /// on the way, and are exactly there at the end.
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was detached;

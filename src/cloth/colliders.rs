@@ -26,8 +26,9 @@ impl Cloth {
         Ok(Collider(handle))
     }
 
-    /// Moves a collider to a new pose [m], which it reaches over the next tick. The motion is
-    /// swept, so a fast collider does not jump through the cloth.
+    /// Moves a collider to a new pose [m], which it reaches evenly over the ticks of the next
+    /// [`Cloth::advance`], or in the next tick of [`Cloth::step`]. The motion is swept, so a fast
+    /// collider does not jump through the cloth.
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed;

@@ -25,8 +25,8 @@ impl Cloth {
     pub fn grab_particle(&mut self, particle: u32) -> Result<Grab> {
         check_index(particle, self.world.particles.len(), "particle")?;
         let target = self.world.particles.x.get(particle as usize);
-        let handle =
-            self.world.grabs.insert(GrabbedParticle { particle, target }, "another grab")?;
+        let grabbed = GrabbedParticle { particle, target, final_target: target };
+        let handle = self.world.grabs.insert(grabbed, "another grab")?;
         with_float_env(|| self.world.refresh_inverse_mass(particle));
         Ok(Grab(handle))
     }
@@ -60,7 +60,8 @@ impl Cloth {
         Ok(Some((grab, self.world.particles.x.get(particle as usize))))
     }
 
-    /// Sets the target of a grab [m].
+    /// Sets the target of a grab [m]. Within the speed limit the particle reaches it evenly over the
+    /// ticks of the next [`Cloth::advance`], or in the next tick of [`Cloth::step`].
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released;
@@ -73,7 +74,8 @@ impl Cloth {
     }
 
     /// Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
-    /// returns to its pin over the next tick.
+    /// returns to its pin evenly over the ticks of the next [`Cloth::advance`], or in the next tick
+    /// of [`Cloth::step`].
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released before.

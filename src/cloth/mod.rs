@@ -265,6 +265,10 @@ impl Cloth {
     /// dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
     /// change nothing.
     ///
+    /// Poses that were given since the last tick (targets of pins and grabs, attachments, anchors,
+    /// colliders, the frame of [`Cloth::move_frame`]) are reached evenly over the ticks of this
+    /// call, and exactly at the end of the last one. If no tick runs, they wait for the next call.
+    ///
     /// ```
     /// use muslin::{Cloth, GridDesc};
     ///
@@ -288,13 +292,18 @@ impl Cloth {
             (ticks, backlog - whole * tick)
         });
         self.backlog = if backlog > 0.0 { backlog } else { 0.0 };
-        self.step(ticks);
+        self.run(ticks, pipeline::ticks_of_frame);
         Ok(ticks)
     }
 
     /// Runs exactly `ticks` ticks. The time that [`Cloth::advance`] keeps for the next frame does
-    /// not change.
+    /// not change. Poses that were given before the call are reached in the first of these ticks.
     pub fn step(&mut self, ticks: u32) {
+        self.run(ticks, pipeline::ticks);
+    }
+
+    /// Runs `ticks` ticks by `run_ticks`, which returns whether the cloth was awake.
+    fn run(&mut self, ticks: u32, run_ticks: fn(&mut World, u32) -> bool) {
         self.world.profile.reset();
         if ticks == 0 {
             return;
@@ -306,7 +315,7 @@ impl Cloth {
                 if pins_changed {
                     world.rebuild_tethers();
                 }
-                (0..ticks).fold(false, |has_moved, _| pipeline::tick(world) || has_moved)
+                run_ticks(world, ticks)
             })
         });
         if self.world.mesh.vertex_count() != vertices {

@@ -11,8 +11,9 @@ use glam::Vec3;
 impl Cloth {
     /// Pins a particle at `target` [m], or at its current position if that is `None`.
     ///
-    /// The particle reaches the target over the next tick. If it is already pinned, the target
-    /// changes and the stiffness stays; an attached particle leaves its attachment.
+    /// The particle reaches the target evenly over the ticks of the next [`Cloth::advance`], or in
+    /// the next tick of [`Cloth::step`]. If it is already pinned, the target changes and the
+    /// stiffness stays; an attached particle leaves its attachment.
     ///
     /// # Errors
     /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
@@ -51,7 +52,7 @@ impl Cloth {
     }
 
     /// Sets the targets [m] of many pins at once, e.g. every frame for an animated edge. Particles
-    /// that are not pinned yet become pinned.
+    /// that are not pinned yet become pinned. They reach their targets as those of [`Cloth::pin`].
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) unless there is one finite target per particle;

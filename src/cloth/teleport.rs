@@ -57,8 +57,9 @@ impl Cloth {
         Ok(())
     }
 
-    /// Moves the cloth with the body that wears it to a new pose over the next tick; the cloth
-    /// feels only the share `inertia` of the motion.
+    /// Moves the cloth with the body that wears it to a new pose over the ticks of the next
+    /// [`Cloth::advance`], or in the next tick of [`Cloth::step`]; the cloth feels only the share
+    /// `inertia` of the motion.
     ///
     /// | `inertia` | effect |
     /// | --- | --- |
@@ -68,12 +69,12 @@ impl Cloth {
     ///
     /// The motion starts at the pose of the last [`Cloth::set_frame`], [`Cloth::teleport`] or
     /// `move_frame`. The part that is not felt moves particles at once, as a rigid body. Pins,
-    /// attachments and anchors reach the body's new pose over the tick. Colliders and grabs stay at
-    /// the poses that the caller gives; the cloth meets them with the velocity that they have
-    /// relative to the body. The air moves with the body by the share that is not felt.
+    /// attachments and anchors reach the body's new pose evenly over these ticks. Colliders and
+    /// grabs stay at the poses that the caller gives; the cloth meets them with the velocity that
+    /// they have relative to the body. The air moves with the body by the share that is not felt.
     ///
     /// In a frame, call this before [`Cloth::move_attachment`], [`Cloth::move_collider`] and
-    /// [`Cloth::set_anchors`], which set the poses for the end of the tick.
+    /// [`Cloth::set_anchors`], which set the poses for the end of the frame.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite, `rotation` is not a

@@ -37,7 +37,7 @@
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};
-use crate::solver::kinematic::{anchors, targets};
+use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::self_collide::particle_contacts;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::stage::Stage;
@@ -66,6 +66,27 @@ macro_rules! timed {
 #[inline(never)]
 fn run_stage(world: &mut World, work: impl FnOnce(&mut World)) {
     work(world);
+}
+
+/// Runs the ticks of one `advance`, over which kinematic targets move evenly. Returns whether the
+/// cloth was awake in any of them.
+pub(crate) fn ticks_of_frame(world: &mut World, ticks: u32) -> bool {
+    if ticks == 1 {
+        return tick(world);
+    }
+    tick_targets::store_final(world);
+    let mut has_moved = false;
+    for ticks_left in (1..=ticks).rev() {
+        timed!(world, Hold, tick_targets::update(world, ticks_left));
+        has_moved |= tick(world);
+    }
+    has_moved
+}
+
+/// Runs `ticks` ticks; the first one takes the whole motion of kinematic targets. Returns whether
+/// the cloth was awake in any of them.
+pub(crate) fn ticks(world: &mut World, ticks: u32) -> bool {
+    (0..ticks).fold(false, |has_moved, _| tick(world) || has_moved)
 }
 
 /// Runs one tick. Returns false if the cloth sleeps through it; then only the clock advances.

@@ -122,22 +122,22 @@ pub(crate) struct World {
     pub particles: Particles,
     /// Factor of the mass of each particle that the host set. Tears and cuts append entries.
     pub mass_scales: MassScales,
-    /// Pinned particles and their targets [m]. Written by the host, at the end of the tick by
-    /// `pipeline`, and by tears and cuts, which copy the pin of a split vertex.
+    /// Pinned particles and their targets [m]. Written by the host, by `tick_targets`, at the end of
+    /// the tick by `pipeline`, and by tears and cuts, which copy the pin of a split vertex.
     pub pins: Pins,
-    /// Moving bodies that carry pins: last and next pose [m]. Written by the host and by
-    /// `kinematic::targets`.
+    /// Moving bodies that carry pins: last and next pose [m]. Written by the host, by
+    /// `kinematic::targets` and by `tick_targets`.
     pub attachments: Attachments,
-    /// Particles that the host holds at a target [m]. Written by the host.
+    /// Particles that the host holds at a target [m]. Written by the host and by `tick_targets`.
     pub grabs: Grabs,
     /// Animated targets [m] with a max distance and a backstop. Written by the host, by
-    /// `kinematic::targets`, and by tears and cuts.
+    /// `kinematic::targets`, by `tick_targets`, and by tears and cuts.
     pub anchors: AnchorConstraints,
     /// Pose [m] of the body that the cloth follows when that body teleports. Written by
     /// `cloth::teleport`.
     pub reference_pose: Pose,
-    /// Collider bodies: shapes, poses [m] and impulses [N s]. Written by the host and by stage
-    /// `Colliders`.
+    /// Collider bodies: shapes, poses [m] and impulses [N s]. Written by the host, by stage
+    /// `Colliders` and by `tick_targets`.
     pub colliders: Colliders,
     /// Parameters of the simulation. Written by the host.
     pub settings: Settings,

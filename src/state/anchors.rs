@@ -36,6 +36,10 @@ pub(crate) struct AnchorConstraint {
     pub backstop_distance: f32,
     /// Radius of the backstop sphere [m]; 0 = none.
     pub backstop_radius: f32,
+    /// Anchor [m] and normal at the end of an `advance`, while its ticks run; see
+    /// `solver::kinematic::tick_targets`.
+    #[serde(skip)]
+    pub final_anchor: [Vec3; 2],
 }
 
 impl AnchorConstraint {
@@ -50,6 +54,7 @@ impl AnchorConstraint {
             max_distance: f32::INFINITY,
             backstop_distance: 0.0,
             backstop_radius: 0.0,
+            final_anchor: [anchor, Vec3::ZERO],
         }
     }
 
@@ -68,6 +73,7 @@ impl AnchorConstraint {
             max_distance: number(a.max_distance, b.max_distance),
             backstop_distance: number(a.backstop_distance, b.backstop_distance),
             backstop_radius: number(a.backstop_radius, b.backstop_radius),
+            final_anchor: [Vec3::ZERO; 2],
         }
     }
 

@@ -21,13 +21,20 @@ impl Attachment {
     }
 }
 
-/// The motion of an attachment over one tick.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// The motion of an attachment over the next tick. The default is at rest at the origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AttachmentPose {
     /// Pose at the end of the last tick.
     pub last: Pose,
     /// Pose at the end of the next tick.
     pub next: Pose,
+    /// Pose at the end of an `advance`, while its ticks run; see `solver::kinematic::tick_targets`.
+    #[serde(skip)]
+    pub final_pose: Pose,
+    /// Share of the initial offset of a pin from its place on the attachment that is left at the
+    /// end of the next tick; 0 except between the ticks of an `advance`.
+    #[serde(skip)]
+    pub offset_left: f32,
 }
 
 /// Maximum number of attachments of a cloth.

@@ -1,7 +1,7 @@
 //! Colliders: kinematic bodies that a cloth collides with.
 //!
 //! A collider moves from its pose at the end of the last tick to the pose that the host has set,
-//! evenly over the substeps, so that contacts are swept.
+//! evenly over the ticks of an `advance` and their substeps, so that contacts are swept.
 
 use crate::arena::Arena;
 use crate::error::{Result, check_finite};
@@ -50,6 +50,9 @@ pub(crate) struct ColliderBody {
     pub next: Pose,
     /// Impulse received during the last tick.
     pub impulse: Impulse,
+    /// Pose at the end of an `advance`, while its ticks run; see `solver::kinematic::tick_targets`.
+    #[serde(skip)]
+    pub final_pose: Pose,
     /// Shape built from the descriptor; `None` between reading a save and `restore`.
     #[serde(skip)]
     collision_shape: Option<Arc<CollisionShape>>,
@@ -60,7 +63,8 @@ impl ColliderBody {
         desc.check()?;
         let pose = Pose::new(desc.position, desc.rotation);
         let collision_shape = Some(Arc::new(desc.collision_shape()?));
-        Ok(Self { desc, last: pose, next: pose, impulse: Impulse::default(), collision_shape })
+        let impulse = Impulse::default();
+        Ok(Self { desc, last: pose, next: pose, impulse, final_pose: pose, collision_shape })
     }
 
     /// Validates a collider from a save and builds its shape.

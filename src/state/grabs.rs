@@ -27,6 +27,10 @@ pub(crate) struct GrabbedParticle {
     pub particle: u32,
     /// Position of the pointer [m]; the particle moves towards it with limited speed.
     pub target: Vec3,
+    /// Target at the end of an `advance` [m], while its ticks run; see
+    /// `solver::kinematic::tick_targets`.
+    #[serde(skip)]
+    pub final_target: Vec3,
 }
 
 /// Maximum number of grabs of a cloth.

@@ -22,12 +22,24 @@ pub(crate) struct Pin {
     pub attachment: u32,
     /// Target in the frame of that attachment [m].
     pub local: Vec3,
+    /// Target at the end of an `advance` [m], while its ticks run; see
+    /// `solver::kinematic::tick_targets`.
+    #[serde(skip)]
+    pub final_target: Vec3,
 }
 
 impl Pin {
     /// A hard pin that moves between two positions.
     fn new(particle: u32, from: Vec3, target: Vec3) -> Self {
-        Self { particle, from, target, stiffness: 0.0, attachment: 0, local: Vec3::ZERO }
+        Self {
+            particle,
+            from,
+            target,
+            stiffness: 0.0,
+            attachment: 0,
+            local: Vec3::ZERO,
+            final_target: target,
+        }
     }
 
     /// Returns whether the pin has a finite stiffness.

@@ -9,6 +9,7 @@ mod conservation;
 mod crumpling;
 mod drape;
 mod fold_hardening;
+mod frame_poses;
 mod masses;
 mod material_laws;
 mod momentum;

@@ -78,11 +78,18 @@ export class Cloth {
    * frame. The remainder, less than a tick, is kept for the next call; see `blend`. If more than
    * `maxTicksPerAdvance` ticks are due, the rest is dropped.
    *
+   * Poses that were given since the last tick (targets of pins and grabs, attachments, anchors,
+   * colliders, the frame of `moveFrame`) are reached evenly over the ticks of this call, and
+   * exactly at the end of the last one. If no tick runs, they wait for the next call.
+   *
    * @param seconds time since the last frame [s]
    * @throws if `seconds` is negative or not finite
    */
   advance(seconds: number): number;
-  /** Runs exactly `ticks` ticks; default 1. */
+  /**
+   * Runs exactly `ticks` ticks; default 1. Poses that were given before the call are reached in the
+   * first of them.
+   */
   step(ticks?: number): void;
   /**
    * Puts the cloth back into its initial state: rest shape, untorn, at rest, with its initial pins,
@@ -263,7 +270,7 @@ export class Cloth {
   readonly pinned: Uint32Array;
   /**
    * Pins a particle: holds it at `target` [m], or at its current position. A new target is reached
-   * at the end of the next tick.
+   * evenly over the ticks of the next `advance`, or in the next tick of `step`.
    */
   pin(particle: number, target?: Vec3Like): void;
   /** Removes the pin of a particle. If it is not pinned, nothing changes. */
@@ -272,7 +279,7 @@ export class Cloth {
   unpinAll(): void;
   /**
    * Sets the targets of many pins at once, x y z x y z … [m]. Particles that are not pinned yet
-   * become so. Use it for animated pins.
+   * become so. Use it for animated pins. Targets are reached as those of `pin`.
    *
    * @throws if there are not three numbers for each particle; nothing changes then
    */
@@ -360,7 +367,8 @@ export class Cloth {
    * Sets the anchors of particles: the positions x y z x y z … [m] and outward normals that
    * animation gives them, for `setMaxDistances` and `setBackstops`. Call it each frame.
    *
-   * Anchors reach the new positions at the end of the next tick; new anchors are there at once.
+   * Anchors reach the new positions evenly over the ticks of the next `advance`, or in the next
+   * tick of `step`; new anchors are there at once.
    *
    * @param normals of any length but 0; without this argument the previous normals stay
    * @throws if the lists differ in length, or if a number is not finite
@@ -389,15 +397,16 @@ export class Cloth {
    */
   teleport(position: Vec3Like, rotation?: QuatLike): void;
   /**
-   * Moves the frame of the body over the next tick, from the last frame to this one, and chooses
-   * how much of that motion the cloth feels. Use it to tame the cloth of a fast character.
+   * Moves the frame of the body from the last frame to this one, over the ticks of the next
+   * `advance` or in the next tick of `step`, and chooses how much of that motion the cloth feels.
+   * Use it to tame the cloth of a fast character.
    *
    * With an `inertia` of 1 the cloth feels all of the motion, as if you had not called this. With 0
    * it feels none, as if the body stood still and the world moved past. Numbers between apply that
    * share of the translation and rotation.
    *
    * The share that is not felt moves the particles at once, as a rigid body. Pins, attachments and
-   * anchors reach their places on the body at the end of the tick. Colliders and grabs stay where
+   * anchors reach their places on the body evenly over these ticks. Colliders and grabs stay where
    * you put them, and the cloth meets them with their velocity relative to the body. The air moves
    * along with the share that is not felt. Call it before `moveTo` and `setAnchors` of the same
    * frame.
@@ -504,7 +513,7 @@ export class Cloth {
    * @example
    * ```js
    * const ball = cloth.addCollider({ shape: "sphere", position: [0, 1, 0], radius: 0.3 });
-   * ball.moveTo([0.1, 1, 0]); // sweeps there during the next tick
+   * ball.moveTo([0.1, 1, 0]); // sweeps there during the next advance()
    * ```
    */
   addCollider(collider?: ColliderDesc): Collider;

@@ -11,8 +11,9 @@ export interface Grab {
   /** Position of the particle when it was grabbed [m]. */
   readonly position: Vec3;
   /**
-   * Sets the target [m] that the particle is pulled to. It follows at most as fast as
-   * `maxDisplacement` of the settings allows.
+   * Sets the target [m] that the particle is pulled to, and reaches evenly over the ticks of the
+   * next `advance`, or in the next tick of `step`. It follows at most as fast as `maxDisplacement`
+   * of the settings allows.
    *
    * @throws if the grab has ended, or if `target` is not finite
    */
@@ -34,8 +35,8 @@ export interface Attachment {
   /** The attached particles, in ascending order. */
   readonly particles: Uint32Array;
   /**
-   * Moves the transform to a new pose [m]. The particles are there at the end of the next tick, and
-   * follow the rotation on the way.
+   * Moves the transform to a new pose [m]. The particles reach it evenly over the ticks of the next
+   * `advance`, or in the next tick of `step`, and follow the rotation on the way.
    *
    * @param rotation unit quaternion; default: the last one
    * @throws if the attachment has ended, or if the pose is wrong
@@ -67,8 +68,8 @@ export interface Impulse {
  */
 export interface Collider {
   /**
-   * Moves the collider to a new pose [m], which it reaches at the end of the next tick. It sweeps
-   * the cloth along on the way.
+   * Moves the collider to a new pose [m], which it reaches evenly over the ticks of the next
+   * `advance`, or in the next tick of `step`. It sweeps the cloth along on the way.
    *
    * @param rotation unit quaternion; default: the last one
    * @throws if the collider was removed, or if the pose is wrong

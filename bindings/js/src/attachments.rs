@@ -18,8 +18,8 @@ impl RawCloth {
             .map_err(to_js_error)
     }
 
-    /// Moves the transform of an attachment over the next tick. `pose` holds its position and
-    /// rotation.
+    /// Moves the transform of an attachment over the ticks of the next `advance`. `pose` holds
+    /// its position and rotation.
     pub fn move_attachment(&mut self, attachment: u32, pose: &[f64]) -> Result<()> {
         let (position, rotation) = packing::to_pose(pose);
         let attachment = Attachment::from_bits(attachment);

@@ -39,7 +39,8 @@ impl RawCloth {
         self.cloth.add_collider(&desc).map(Collider::to_bits).map_err(to_js_error)
     }
 
-    /// Moves a collider over the next tick. `pose` holds its position and rotation.
+    /// Moves a collider over the ticks of the next `advance`. `pose` holds its position and
+    /// rotation.
     pub fn move_collider(&mut self, collider: u32, pose: &[f64]) -> Result<()> {
         let (position, rotation) = packing::to_pose(pose);
         let collider = Collider::from_bits(collider);

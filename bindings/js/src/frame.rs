@@ -19,7 +19,8 @@ impl RawCloth {
         self.cloth.teleport(position, rotation).map_err(to_js_error)
     }
 
-    /// Moves the frame over the next tick; the cloth feels the share `inertia` of the motion.
+    /// Moves the frame over the ticks of the next `advance`; the cloth feels the share
+    /// `inertia` of the motion.
     pub fn move_frame(&mut self, pose: &[f64], inertia: f64) -> Result<()> {
         let (position, rotation) = packing::to_pose(pose);
         self.cloth.move_frame(position, rotation, inertia as f32).map_err(to_js_error)

@@ -69,6 +69,8 @@ pub(crate) fn finish_tick(world: &mut World) {
 struct AttachmentFrames {
     attachment: u32,
     frames: Option<[Transform; 2]>,
+    /// See `AttachmentPose::offset_left`.
+    offset_left: f32,
 }
 
 impl AttachmentFrames {
@@ -80,6 +82,7 @@ impl AttachmentFrames {
         }
         let pose = attachments.get(attachment, "attachment").ok();
         self.attachment = attachment;
+        self.offset_left = pose.map_or(0.0, |pose| pose.offset_left);
         self.frames = pose.map(|pose| {
             [
                 pose.last.to_transform(),
@@ -89,11 +92,11 @@ impl AttachmentFrames {
     }
 
     /// Target of a pin after a `share` of the tick [m]. The initial offset of a pin from its place
-    /// on the attachment decreases to zero over the tick.
+    /// on the attachment decreases evenly, to zero in the last tick of an `advance`.
     fn target(&self, pin: &Pin, share: f32) -> Vec3 {
         let Some([last, now]) = &self.frames else { return pin.target };
         let offset = pin.from - last.point_to_world(pin.local);
-        now.point_to_world(pin.local) + offset * (1.0 - share)
+        now.point_to_world(pin.local) + offset * (1.0 - share * (1.0 - self.offset_left))
     }
 }
 

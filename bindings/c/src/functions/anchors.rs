@@ -73,10 +73,11 @@ pub unsafe extern "C" fn muslin_cloth_set_backstops(
 /// Sets the animated positions [m] and outward normals of `count` particles, for
 /// muslin_cloth_set_max_distances and muslin_cloth_set_backstops. Call it once per frame.
 ///
-/// Anchors move to the new positions over the next tick; a particle's first anchor is in place at
-/// once. Positions and normals are 3 floats each; consecutive ones start `stride` bytes apart in
-/// both lists (0 means 12; a multiple of 4). Normals need not have length 1; NULL keeps the
-/// previous normals. With `count` 0 all pointers may be NULL.
+/// Anchors move to the new positions evenly over the ticks of the next muslin_cloth_advance, or in
+/// the next tick of muslin_cloth_step; a particle's first anchor is in place at once. Positions and
+/// normals are 3 floats each; consecutive ones start `stride` bytes apart in both lists (0 means
+/// 12; a multiple of 4). Normals need not have length 1; NULL keeps the previous normals. With
+/// `count` 0 all pointers may be NULL.
 ///
 /// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
 /// number is not finite, a normal has length 0, `stride` is invalid, or `count` exceeds the number

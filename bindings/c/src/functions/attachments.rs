@@ -44,8 +44,9 @@ pub unsafe extern "C" fn muslin_cloth_attach(
     })
 }
 
-/// Moves an attachment: its particles reach the new pose over the next tick, rotating with the
-/// transform, and are exactly there at the end of the tick.
+/// Moves an attachment: its particles reach the new pose evenly over the ticks of the next
+/// muslin_cloth_advance, or in the next tick of muslin_cloth_step. They rotate with the transform
+/// on the way, and are exactly there at the end.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if it was detached; MUSLIN_STATUS_BAD_VALUE if `position` is
 /// not finite or `rotation` is not a unit quaternion

@@ -30,8 +30,9 @@ pub unsafe extern "C" fn muslin_cloth_add_collider(
     })
 }
 
-/// Moves a collider to a new pose, which it reaches over the next tick. The motion is swept, so a
-/// fast collider does not jump through the cloth.
+/// Moves a collider to a new pose, which it reaches evenly over the ticks of the next
+/// muslin_cloth_advance, or in the next tick of muslin_cloth_step. The motion is swept, so a fast
+/// collider does not jump through the cloth.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if it was removed; MUSLIN_STATUS_BAD_VALUE if `position` is not
 /// finite or `rotation` is not a unit quaternion

@@ -9,8 +9,9 @@ use muslin_core::{Cloth, Error};
 
 /// Pins a particle at `target` [m], or at its current position if `target` is NULL.
 ///
-/// The particle reaches the target over the next tick. If it is already pinned, the target changes
-/// and the stiffness stays; an attached particle leaves its attachment.
+/// The particle reaches the target evenly over the ticks of the next muslin_cloth_advance, or in
+/// the next tick of muslin_cloth_step. If it is already pinned, the target changes and the
+/// stiffness stays; an attached particle leaves its attachment.
 ///
 /// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
 /// target is not finite
@@ -44,7 +45,7 @@ pub extern "C" fn muslin_cloth_unpin_all(cloth: MuslinCloth) -> MuslinStatus {
 }
 
 /// Sets the targets [m] of `count` pins at once, e.g. every frame for an animated edge. Particles
-/// that are not pinned yet become pinned.
+/// that are not pinned yet become pinned. They reach their targets as those of muslin_cloth_pin.
 ///
 /// Targets are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a multiple
 /// of 4). With `count` 0 both pointers may be NULL.

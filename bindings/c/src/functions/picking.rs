@@ -91,7 +91,8 @@ pub unsafe extern "C" fn muslin_cloth_grab_particle(
     })
 }
 
-/// Sets the target of a grab [m].
+/// Sets the target of a grab [m]. Within the speed limit the particle reaches it evenly over the
+/// ticks of the next muslin_cloth_advance, or in the next tick of muslin_cloth_step.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if the grab was released; MUSLIN_STATUS_BAD_VALUE if the target
 /// is not finite
@@ -105,7 +106,8 @@ pub extern "C" fn muslin_cloth_move_grab(
 }
 
 /// Releases a grabbed particle, which keeps its velocity. A pinned particle stays pinned and
-/// returns to its pin over the next tick.
+/// returns to its pin evenly over the ticks of the next muslin_cloth_advance, or in the next tick of
+/// muslin_cloth_step.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if the grab was released before
 #[unsafe(no_mangle)]

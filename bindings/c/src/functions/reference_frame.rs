@@ -40,8 +40,9 @@ pub extern "C" fn muslin_cloth_teleport(
     with_cloth(cloth, |cloth| Ok(cloth.teleport(position.into(), rotation.into())?))
 }
 
-/// Moves the cloth with the body that wears it to a new pose over the next tick; the cloth feels
-/// only the share `inertia` of the motion.
+/// Moves the cloth with the body that wears it to a new pose over the ticks of the next
+/// muslin_cloth_advance, or in the next tick of muslin_cloth_step; the cloth feels only the share
+/// `inertia` of the motion.
 ///
 /// - 1: the cloth feels the whole motion, as without this call.
 /// - 0: the cloth feels nothing, as if the body stood still and the world moved.
@@ -49,9 +50,9 @@ pub extern "C" fn muslin_cloth_teleport(
 ///
 /// The motion starts at the pose of the last muslin_cloth_set_frame, muslin_cloth_teleport or
 /// muslin_cloth_move_frame. The part that is not felt moves particles at once, as a rigid body.
-/// Pins, attachments and anchors reach the body's new pose over the tick. Colliders and grabs stay
-/// at the poses that you give; the cloth meets them with the velocity that they have relative to
-/// the body. The air moves with the body by the share that is not felt.
+/// Pins, attachments and anchors reach the body's new pose evenly over these ticks. Colliders and
+/// grabs stay at the poses that you give; the cloth meets them with the velocity that they have
+/// relative to the body. The air moves with the body by the share that is not felt.
 ///
 /// In a frame, call this before muslin_cloth_move_attachment, muslin_cloth_move_collider and
 /// muslin_cloth_set_anchors.

@@ -13,6 +13,10 @@ use crate::types::value::MuslinCloth;
 /// dropped, so a slow machine shows slow motion instead of falling further behind. Zero seconds
 /// change nothing.
 ///
+/// Poses that were given since the last tick (targets of pins and grabs, attachments, anchors,
+/// colliders, the frame of muslin_cloth_move_frame) are reached evenly over the ticks of this call,
+/// and exactly at the end of the last one. If no tick runs, they wait for the next call.
+///
 /// @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_cloth_advance(
@@ -32,7 +36,7 @@ pub unsafe extern "C" fn muslin_cloth_advance(
 }
 
 /// Runs exactly `ticks` ticks. The time that muslin_cloth_advance keeps for the next frame does not
-/// change.
+/// change. Poses that were given before the call are reached in the first of these ticks.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_step(cloth: MuslinCloth, ticks: u32) -> MuslinStatus {
     with_cloth(cloth, |cloth| {

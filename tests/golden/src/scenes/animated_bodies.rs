@@ -98,6 +98,40 @@ pub fn cape_in_a_running_frame(trace: &mut Trace) -> Result<()> {
     Ok(())
 }
 
+/// A cape on a body that gets one pose per frame, while frames run 0 to 5 ticks. Attachments, pins,
+/// anchors, a grab, a collider and the frame move; the cape tears.
+pub fn cape_at_low_frame_rates(trace: &mut Trace) -> Result<()> {
+    let mut cloth = Cloth::grid(&cape(PinMode::None, 0.0))?;
+    let body = cloth.attach(&[0, 1, 2, 3, 8, 9, 10, 11], Vec3::ZERO, turn(0))?;
+    let anchored: Vec<u32> = (96..108).collect();
+    cloth.set_max_distances(&anchored, &[0.125; 12])?;
+    cloth.set_backstops(&anchored, &[0.015625; 12], &[0.5; 12])?;
+    let ball = ColliderDesc { shape: Shape::Sphere, radius: 0.1875, ..ColliderDesc::default() };
+    let back = cloth.add_collider(&ColliderDesc { shape: Shape::Box, ..ball })?;
+    let grab = cloth.grab_particle(210)?;
+    let step = Vec3::new(0.0625, 0.0078125, 0.03125);
+    for i in 1..=60 {
+        let (to, turned) = (along(Vec3::ZERO, step, i), turn(i / 4));
+        if i % 3 == 0 {
+            cloth.move_frame(to, turned, 0.5)?;
+        }
+        cloth.move_attachment(body, to, turned)?;
+        cloth.set_pin_targets(&[5, 6], &[5.0, 6.0].map(|x| to + Vec3::X * (x * 0.0625)))?;
+        let anchors: Vec<Vec3> =
+            (0..12).map(|x| to + Vec3::new(x as f32 * 0.0625, -0.5, 0.0)).collect();
+        let normal = if i % 16 < 8 { Vec3::new(0.25, 0.0, -2.0) } else { -Vec3::Z };
+        cloth.set_anchors(&anchored, &anchors, &[normal; 12])?;
+        cloth.move_collider(back, to + Vec3::new(0.34375, -0.75, -0.375), turned)?;
+        cloth.move_grab(grab, to + Vec3::new(0.5, -1.5, 0.25))?;
+        if i == 30 {
+            cloth = Cloth::restore(&cloth.save())?;
+        }
+        trace.advance(&mut cloth, (i % 6) as f32 / 64.0)?;
+    }
+    trace.record_outputs(&mut cloth);
+    Ok(())
+}
+
 /// A skirt with anchors, max distances, backstops and a strain limit, pulled by a grab.
 pub fn skirt_on_leashes(trace: &mut Trace) -> Result<()> {
     let mut cloth = Cloth::grid(&cape(PinMode::TopEdge, 0.0625))?;

@@ -45,6 +45,7 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "rays-and-grabs", play: pins_and_grabs::rays_and_grabs },
     Scene { name: "garment-on-a-moving-body", play: animated_bodies::garment_on_a_moving_body },
     Scene { name: "cape-in-a-running-frame", play: animated_bodies::cape_in_a_running_frame },
+    Scene { name: "cape-at-low-frame-rates", play: animated_bodies::cape_at_low_frame_rates },
     Scene { name: "skirt-on-leashes", play: animated_bodies::skirt_on_leashes },
     Scene { name: "first-order", play: time_and_saves::first_order },
     Scene { name: "receipt", play: time_and_saves::receipt },
