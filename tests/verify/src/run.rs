@@ -1,0 +1,199 @@
+//! Runs a scene and applies every check after each tick.
+
+use crate::checks::bodies::Penetration;
+use crate::checks::crossings::count_self_crossings;
+use crate::checks::momentum::Momentum;
+use crate::checks::surface::Surface;
+use crate::play::{Play, Scene, Setup};
+use cpu_time::ThreadTime;
+use muslin::SelfCollision;
+use muslin::glam::DVec3;
+use std::time::Duration;
+
+/// Depth of a particle in a collider that fails [m].
+pub const MAX_DEPTH: f64 = 1.0e-4;
+/// Unexplained change of the mean velocity in one tick that fails [m/s].
+pub const MAX_VELOCITY_ERROR: f64 = 1.0e-3;
+/// Unexplained change of the angular velocity in one tick that fails [rad/s].
+pub const MAX_SPIN_ERROR: f64 = 2.0e-2;
+
+/// The worst value of a measure and the tick in which it occurred.
+#[derive(Clone, Copy, Debug)]
+pub struct Worst {
+    pub value: f64,
+    pub tick: u32,
+}
+
+impl Worst {
+    fn new() -> Self {
+        Self { value: f64::NEG_INFINITY, tick: 0 }
+    }
+
+    fn update(&mut self, value: f64, tick: u32) {
+        if value > self.value {
+            *self = Self { value, tick };
+        }
+    }
+}
+
+/// What the checks measured over a scene.
+#[derive(Debug)]
+pub struct Report {
+    pub name: String,
+    pub ticks: u32,
+    pub particles: u32,
+    /// Whether the surface collides with itself, so that crossings fail.
+    pub is_surface: bool,
+    /// Ticks that ended with a crossing, and the most pairs that crossed.
+    pub crossing_ticks: u32,
+    pub crossings: Worst,
+    /// Ticks with a particle in a collider, and the greatest depth [m].
+    pub penetration_ticks: u32,
+    pub depth: Worst,
+    /// Greatest depth of a triangle in a primitive [m], and the most pairs with a mesh that cross.
+    pub triangle_depth: Worst,
+    pub mesh_pairs: Worst,
+    /// Ticks that ended past the bound of stretch, reported and not.
+    pub told: u32,
+    pub untold: u32,
+    pub strain: Worst,
+    /// The bound; 0 = none.
+    pub bound: f32,
+    /// Ticks that ended with a number that is not finite.
+    pub not_finite: u32,
+    /// Residuals of the momentum, if the piece is free: the worst tick, and the sum of all.
+    pub velocity_error: Option<Worst>,
+    pub spin_error: Option<Worst>,
+    pub drift: f64,
+    /// Processor time of the ticks, mean and worst.
+    pub mean: Duration,
+    pub worst: Duration,
+    /// What the scene's own check found first.
+    pub own: Option<String>,
+}
+
+impl Report {
+    fn new(scene: &Scene, setup: &Setup, ticks: u32) -> Self {
+        let (settings, is_free) = (setup.play.cloth.settings(), setup.is_free);
+        Self {
+            name: scene.name.clone(),
+            ticks,
+            particles: setup.play.cloth.particle_count(),
+            is_surface: settings.self_collision == SelfCollision::Surface,
+            crossing_ticks: 0,
+            crossings: Worst { value: 0.0, tick: 0 },
+            penetration_ticks: 0,
+            depth: Worst::new(),
+            triangle_depth: Worst::new(),
+            mesh_pairs: Worst { value: 0.0, tick: 0 },
+            told: 0,
+            untold: 0,
+            strain: Worst::new(),
+            bound: settings.max_stretch,
+            not_finite: 0,
+            velocity_error: is_free.then(Worst::new),
+            spin_error: is_free.then(Worst::new),
+            drift: 0.0,
+            mean: Duration::ZERO,
+            worst: Duration::ZERO,
+            own: None,
+        }
+    }
+
+    /// What failed, in a few words.
+    pub fn failures(&self) -> Vec<String> {
+        let mut failures = Vec::new();
+        let mut fail = |is_failed: bool, what: &str| {
+            if is_failed {
+                failures.push(what.to_string());
+            }
+        };
+        fail(self.is_surface && self.crossings.value > 0.0, "crossings");
+        fail(self.penetration_ticks > 0, "penetrations");
+        fail(self.mesh_pairs.value > 0.0, "mesh pairs");
+        fail(self.untold > 0, "untold breaks");
+        fail(self.not_finite > 0, "not finite");
+        let exceeds = |worst: &Option<Worst>, most: f64| worst.is_some_and(|w| w.value > most);
+        fail(exceeds(&self.velocity_error, MAX_VELOCITY_ERROR), "momentum");
+        fail(exceeds(&self.spin_error, MAX_SPIN_ERROR), "angular momentum");
+        failures.extend(self.own.clone());
+        failures
+    }
+}
+
+/// Runs a scene for `ticks` ticks.
+///
+/// # Errors
+/// A sentence if the scene makes a call that the library refuses.
+pub fn run(scene: &Scene, ticks: u32) -> Result<Report, String> {
+    let refused =
+        |error: muslin::Error| format!("scene {} was refused a call: {error}", scene.name);
+    let mut setup = (scene.build)().map_err(refused)?;
+    let mut report = Report::new(scene, &setup, ticks);
+    let start = Surface::of(&setup.play.cloth);
+    let crossings = count_self_crossings(&start.tree, &start.corners);
+    if crossings > 0 {
+        return Err(format!("scene {} starts with {crossings} crossings", scene.name));
+    }
+    let (mut total, mut drift) = (Duration::ZERO, DVec3::ZERO);
+    for tick in 0..ticks {
+        (setup.drive)(&mut setup.play, tick).map_err(refused)?;
+        let before = setup.is_free.then(|| Momentum::of(&setup.play.cloth));
+        let clock = ThreadTime::now();
+        setup.play.cloth.step(1);
+        let time = clock.elapsed();
+        total += time;
+        report.worst = report.worst.max(time);
+        if !is_finite(&setup.play) {
+            report.not_finite += 1;
+            continue;
+        }
+        if let Some(before) = before {
+            let residual = before.residual(&setup.play);
+            drift += residual.velocity;
+            let update = |worst: &mut Option<Worst>, value: f64| {
+                worst.iter_mut().for_each(|worst| worst.update(value, tick));
+            };
+            update(&mut report.velocity_error, residual.velocity.length());
+            update(&mut report.spin_error, residual.spin.length());
+        }
+        check(&mut report, &mut setup.play, tick);
+        if report.own.is_none() {
+            let failure = (setup.watch)(&setup.play, tick).err();
+            report.own = failure.map(|what| format!("tick {tick}: {what}"));
+        }
+    }
+    report.drift = drift.length();
+    report.mean = total / ticks.max(1);
+    report.particles = report.particles.max(setup.play.cloth.particle_count());
+    Ok(report)
+}
+
+/// Checks crossings, penetrations and stretch after a tick.
+fn check(report: &mut Report, play: &mut Play, tick: u32) {
+    play.rest.read_events(&mut play.cloth);
+    let surface = Surface::of(&play.cloth);
+    let crossings = count_self_crossings(&surface.tree, &surface.corners);
+    report.crossing_ticks += u32::from(crossings > 0);
+    report.crossings.update(crossings as f64, tick);
+    let held = play.held();
+    let all = play.bodies.iter().map(|body| body.penetration(&play.cloth, &surface, &held));
+    let penetration = all.fold(Penetration::default(), Penetration::max);
+    report.penetration_ticks += u32::from(penetration.particles > MAX_DEPTH);
+    report.depth.update(penetration.particles, tick);
+    report.triangle_depth.update(penetration.triangles, tick);
+    report.mesh_pairs.update(penetration.pairs as f64, tick);
+    let strain = play.rest.strain(&play.cloth);
+    report.strain.update(strain.greatest, tick);
+    report.told += u32::from(strain.is_broken && strain.is_told);
+    report.untold += u32::from(strain.is_broken && !strain.is_told);
+}
+
+fn is_finite(play: &Play) -> bool {
+    let cloth = &play.cloth;
+    let finite = |i: u32| {
+        cloth.position(i).is_some_and(|x| x.is_finite())
+            && cloth.velocity(i).is_some_and(|v| v.is_finite())
+    };
+    (0..cloth.particle_count()).all(finite)
+}
