@@ -5,7 +5,7 @@ use std::time::Duration;
 
 pub const HEADER: &str = "\
 scene                          ticks particles crossings@tick  inside mm@tick  triangles mm   pairs \
- strain %/bound  told untold  not-finite  mm/s tick, sum  rad/s  ms mean  worst  verdict";
+ strain %/bound  told untold  not-finite  mm/s tick      sum/impulses    rad/s  ms mean  worst  verdict";
 
 /// One line for a scene.
 pub fn row(report: &Report) -> String {
@@ -29,19 +29,20 @@ pub fn row(report: &Report) -> String {
         0.0 => strain,
         bound => format!("{strain}/{}", percent(f64::from(bound))),
     };
-    let (momentum, spin) = match (&report.velocity_error, &report.spin_error) {
-        (Some(velocity), Some(spin)) => (
-            format!("{}, {}", millimetres(velocity.value), millimetres(report.drift)),
-            format!("{:.4}", spin.value),
-        ),
-        _ => ("-".into(), "-".into()),
+    let [momentum, drift, spin] = match &report.budget {
+        Some(budget) => [
+            millimetres(budget.velocity.value),
+            format!("{}/{:.0}", millimetres(budget.drift()), budget.pushes * 1.0e3),
+            format!("{:.4}", budget.spin.value),
+        ],
+        None => ["-".into(), "-".into(), "-".into()],
     };
     let failures = report.failures();
     let verdict =
         if failures.is_empty() { "ok".into() } else { format!("FAILS: {}", failures.join("; ")) };
     format!(
         "{:30} {:5} {:9} {crossings:>14} {depth:>15} {triangles:>13} {:>7} {strain:>16} {:5} {:6} \
-         {:>11} {momentum:>15} {spin:>6} {:>8} {:>6}  {verdict}",
+         {:>11} {momentum:>10} {drift:>20} {spin:>8} {:>8} {:>6}  {verdict}",
         report.name,
         report.ticks,
         report.particles,

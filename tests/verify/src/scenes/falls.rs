@@ -96,7 +96,7 @@ fn heap_of_strips() -> Result<Setup> {
     let mut play = Play::mesh(&desc)?;
     play.add(floor(0.0))?;
     for side in [-1.0, 1.0] {
-        play.add(cuboid(Vec3::new(0.05, 0.3, 0.5), Vec3::new(0.25 * side, 0.3, 0.0)))?;
+        play.add(cuboid(Vec3::new(0.05, 0.3, 0.5), Vec3::new(0.4 * side, 0.3, 0.0)))?;
     }
     Ok(play.into())
 }
