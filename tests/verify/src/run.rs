@@ -259,3 +259,70 @@ fn is_finite(play: &Play) -> bool {
     };
     (0..cloth.particle_count()).all(finite)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::{Drive, Setup};
+    use crate::shapes::{floor, upright_sheet, with_bound, with_surface};
+    use muslin::glam::{Quat, Vec3};
+
+    /// What fails in a scene of a small sheet over a floor in which `plant` spoils something.
+    fn failures(is_free: bool, plant: fn() -> Drive) -> Vec<String> {
+        let scene = Scene::new("planted", 3, move || {
+            let mut desc = with_bound(with_surface(upright_sheet(6, 0.25)), 0.05);
+            desc.settings.damping = if is_free { 0.5 } else { 0.0 };
+            let mut play = Play::grid(&desc)?;
+            play.add(floor(-1.0))?;
+            Ok(Setup { drive: plant(), is_free, ..Setup::from(play) })
+        });
+        run(&scene, 3).unwrap().failures()
+    }
+
+    #[test]
+    fn a_scene_without_a_mistake_passes() {
+        assert!(failures(false, || Box::new(|_, _| Ok(()))).is_empty());
+    }
+
+    #[test]
+    fn rows_that_are_placed_through_the_sheet_are_found_as_crossings() {
+        let plant: fn() -> Drive = || {
+            Box::new(|play, tick| match tick {
+                // The first two rows are placed on both sides of a cell between the next two. All are
+                // held, so the solver cannot separate them.
+                1 => (0..12).try_for_each(|i| {
+                    let x = play.cloth.position(i).unwrap_or_default().x;
+                    let target = Vec3::new(x + 0.017, 0.003, if i < 6 { 0.03 } else { -0.03 });
+                    play.cloth.set_position(i, target)?;
+                    play.cloth.pin(i, Some(target))?;
+                    play.cloth.pin(12 + i, None)
+                }),
+                _ => Ok(()),
+            })
+        };
+        assert!(failures(false, plant).contains(&"crossings".to_string()));
+    }
+
+    #[test]
+    fn a_floor_that_jumps_above_the_sheet_is_found_as_penetrations() {
+        let plant: fn() -> Drive = || {
+            Box::new(|play, tick| match tick {
+                1 => {
+                    let body = &mut play.bodies[0];
+                    body.desc.position = Vec3::ZERO;
+                    play.cloth.teleport_collider(body.collider, Vec3::ZERO, Quat::IDENTITY)
+                }
+                _ => Ok(()),
+            })
+        };
+        assert_eq!(failures(false, plant), ["penetrations"]);
+    }
+
+    #[test]
+    fn damping_is_found_as_a_change_of_momentum_without_a_cause() {
+        let plant: fn() -> Drive =
+            || Box::new(|play, _| play.set_velocities(|_| Vec3::new(1.0, 0.0, 0.0)));
+        let found = failures(true, plant);
+        assert!(found.contains(&"momentum of the scene".to_string()), "{found:?}");
+    }
+}

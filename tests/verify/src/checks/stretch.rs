@@ -11,7 +11,7 @@ const TOLERANCE: f64 = 1.0e-3;
 #[derive(Debug)]
 pub struct RestShape {
     positions: Vec<DVec3>,
-    /// Particles that a cut added.
+    /// Particles that a cut added on an edge, and those that were split off from them.
     added: HashSet<u32>,
 }
 
@@ -36,8 +36,12 @@ impl RestShape {
     /// Reads the events of a tick, and notes the particles that cuts added.
     pub fn read_events(&mut self, cloth: &mut Cloth) {
         while let Some(event) = cloth.next_event() {
-            if event.kind == EventKind::EdgeDivided {
-                self.added.insert(cloth.vertex_particles()[event.vertex as usize]);
+            let particle = |vertex: u32| cloth.vertex_particles()[vertex as usize];
+            let (new, source) = (particle(event.vertex), particle(event.source));
+            let is_added = event.kind == EventKind::EdgeDivided
+                || event.kind == EventKind::VertexSplit && self.added.contains(&source);
+            if is_added {
+                self.added.insert(new);
             }
         }
     }

@@ -19,7 +19,7 @@ pub fn scenes() -> Vec<Scene> {
     ];
     for (name, stiffness) in [("2.5e-5", 2.5e-5), ("1e-3", 1.0e-3), ("1e-2", 1.0e-2), ("0.1", 0.1)]
     {
-        scenes.push(Scene::new(format!("shell-{name}"), 60, move || shell(stiffness)));
+        scenes.push(Scene::new(format!("shell-{name}"), 60, move || shell(stiffness)).short(60));
     }
     scenes
 }

@@ -20,7 +20,7 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("drop-silk", 180, || drop(of_material(Preset::Silk), floor(0.0))),
         Scene::new("drop-paper", 180, || drop(of_material(Preset::Paper), floor(0.0))),
         Scene::new("drop-bound", 180, || drop(with_bound(drop_desc(), 0.02), floor(0.0))),
-        Scene::new("unpinned-over-plane", 120, unpinned),
+        Scene::new("unpinned-over-plane", 120, unpinned).short(60),
         Scene::new("heap-of-strips", 300, heap_of_strips),
         Scene::new("folded-sheets", 240, folded_sheets),
     ]

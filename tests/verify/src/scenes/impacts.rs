@@ -58,8 +58,8 @@ pub fn scenes() -> Vec<Scene> {
         for sheet in SHEETS {
             let ball = || sphere(0.3, Vec3::ZERO);
             let scene = scene("sphere", speed, sheet, ball);
-            let is_short = speed == 5 && !sheet.is_hung && sheet.is_bounded;
-            scenes.push(if is_short { scene.short(18) } else { scene });
+            let is_short = speed == 5 && sheet.is_hung && sheet.is_bounded;
+            scenes.push(if is_short { scene.short(40) } else { scene });
         }
     }
     let bodies: [(&str, fn() -> ColliderDesc); 3] = [
