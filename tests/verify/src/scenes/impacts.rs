@@ -11,6 +11,9 @@ use muslin::{ColliderDesc, GridDesc, PinMode, Result};
 /// Distance between the start and the end of a body's way against a hung sheet [m].
 const WAY: f32 = 1.1;
 
+/// The name of a body, and what makes it at the origin.
+type NamedBody = (&'static str, fn() -> ColliderDesc);
+
 /// What a body flies against.
 #[derive(Clone, Copy, Debug)]
 struct Sheet {
@@ -62,7 +65,7 @@ pub fn scenes() -> Vec<Scene> {
             scenes.push(if is_short { scene.short(40) } else { scene });
         }
     }
-    let bodies: [(&str, fn() -> ColliderDesc); 3] = [
+    let bodies: [NamedBody; 3] = [
         ("box", || cuboid(Vec3::new(0.3, 0.2, 0.25), Vec3::ZERO)),
         ("capsule", || capsule(0.2, 0.3, Vec3::ZERO)),
         ("mesh", || round_mesh(16, 32, |_, _| Vec3::splat(0.3))),
