@@ -10,7 +10,7 @@ use muslin_scenes::Curtain;
 
 pub fn scenes() -> Vec<Scene> {
     vec![
-        Scene::new("mesh-body", 120, || drape(level_sheet(40, 1.17, 0.4), lumpy_mesh())),
+        Scene::new("mesh-body", 120, || drape(level_sheet(40, 1.17, 0.4), lumpy_mesh())).short(40),
         Scene::new("mesh-body-surface", 120, || {
             drape(with_surface(level_sheet(40, 1.17, 0.4)), lumpy_mesh())
         }),

@@ -12,14 +12,15 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("switching-tick", 360, switching_tick).short(360),
         Scene::new("small-ticks", 1000, small_ticks).short(1000),
         Scene::new("stiff-irregular-mesh", 60, irregular_fall).short(60),
-        Scene::new("free-crumple", 240, || free_crumple(0.0)),
+        Scene::new("free-crumple", 240, || free_crumple(0.0)).short(120),
         Scene::new("free-crumple-bound", 240, || free_crumple(0.05)),
         Scene::new("rest-at-100-m", 660, || far(100.0, false)),
         Scene::new("far-5000-m-surface", 180, || far(5000.0, true)),
     ];
     for (name, stiffness) in [("2.5e-5", 2.5e-5), ("1e-3", 1.0e-3), ("1e-2", 1.0e-2), ("0.1", 0.1)]
     {
-        scenes.push(Scene::new(format!("shell-{name}"), 60, move || shell(stiffness)).short(60));
+        let scene = Scene::new(format!("shell-{name}"), 60, move || shell(stiffness));
+        scenes.push(if stiffness < 0.1 { scene } else { scene.short(60) });
     }
     scenes
 }

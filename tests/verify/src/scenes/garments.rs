@@ -13,7 +13,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 pub fn scenes() -> Vec<Scene> {
     vec![
         Scene::new("skirt-walk", 240, || skirt(25.0, 1.0, false)),
-        Scene::new("skirt-walk-surface", 240, || skirt(25.0, 1.0, true)),
+        Scene::new("skirt-walk-surface", 240, || skirt(25.0, 1.0, true)).short(60),
         Scene::new("skirt-kick", 120, || skirt(44.0, 2.5, false)),
         Scene::new("shirt-on-torso", 180, shirt),
         Scene::new("sleeve-on-arm", 180, sleeve),

@@ -12,7 +12,7 @@ pub fn scenes() -> Vec<Scene> {
     vec![
         Scene::new("fist-of-spheres", 180, fist_of_spheres),
         Scene::new("fist-of-fingers", 180, fist_of_fingers),
-        Scene::new("fist-of-grabs", 180, || fist_of_grabs(0.0)),
+        Scene::new("fist-of-grabs", 180, || fist_of_grabs(0.0)).short(120),
         Scene::new("fist-of-grabs-bound", 180, || fist_of_grabs(0.05)),
         Scene::new("two-grabs-apart-bound", 120, grabs_apart),
         Scene::new("through-a-gap", 240, through_a_gap),

@@ -101,9 +101,9 @@ fn impact(mut body: ColliderDesc, speed: f32, sheet: Sheet) -> Result<Setup> {
             }
             play.move_body(0, Vec3::Z * z, Quat::IDENTITY)
         })
-        .watch(move |play, _| {
+        .watch(move |play, tick| {
             // When the body has stopped, a hung sheet may swing on beside it.
-            let has_stopped = sheet.is_hung && play.bodies[0].desc.position.z >= WAY - 0.5;
+            let has_stopped = sheet.is_hung && tick as f32 * speed / 60.0 > WAY;
             if has_stopped { Ok(()) } else { is_ahead(play, Vec3::Z) }
         });
     Ok(if sheet.is_hung { setup } else { setup.free() })

@@ -8,7 +8,7 @@ use muslin::{GridDesc, PinMode, Result};
 pub fn scenes() -> Vec<Scene> {
     vec![
         Scene::new("cut-while-crumpling", 180, cuts),
-        Scene::new("tear-while-crumpling", 180, tears),
+        Scene::new("tear-while-crumpling", 180, tears).short(90),
         Scene::new("tear-by-grabs-bound", 180, torn_by_grabs),
     ]
 }
