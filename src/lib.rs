@@ -123,6 +123,8 @@ mod documents {
     struct TearingAndCuttingPage;
     #[doc = include_str!("../docs/manual/self-collision.md")]
     struct SelfCollisionPage;
+    #[doc = include_str!("../docs/manual/guarantees.md")]
+    struct GuaranteesPage;
     #[doc = include_str!("../docs/manual/characters.md")]
     struct CharactersPage;
     #[doc = include_str!("../docs/manual/determinism.md")]

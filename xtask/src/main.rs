@@ -36,6 +36,7 @@ mod sources;
 mod steps;
 mod test;
 mod tools;
+mod verify;
 mod wasm;
 mod web;
 
@@ -66,6 +67,9 @@ cargo xtask examples                serve the example pages of the npm package
 cargo xtask bench [TABLE…]          time native code and node, or the tables that are named: kernels,
                                     ticks, shreds, layers, scenes, receipt, node, page, peers
   --test                            once and with small meshes, as a test
+cargo xtask verify [SCENE…]         check the guarantees of cloth after every tick of many scenes
+  --short                           of a few scenes, for a few ticks
+  --list                            only print the names of the scenes
 cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or for these seconds
 cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer
 cargo xtask miri                    run the tests of the C library's boundary under Miri
@@ -99,6 +103,7 @@ fn run(args: &[String]) -> Result {
         "js" => alone(chore, rest, js::build),
         "race" => race::run(rest),
         "miri" => miri::run(rest),
+        "verify" => verify::run(rest),
         "fuzz" => fuzz::run(rest),
         "c" => alone(chore, rest, c_tests::check),
         "package" if rest == ["--js"] => clients::pack(),

@@ -221,6 +221,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["package", "--js"] => Action::Step("clients"),
         ["examples"] => Action::Step("examples"),
         ["web" | "setup" | "manual-pictures"] => Action::Chore(rest.to_vec()),
+        ["verify", "--short"] => Action::Step("verify"),
         ["bench", tables @ ..] => Action::Bench(tables.to_vec()),
         _ => Action::Unknown,
     }
@@ -295,6 +296,7 @@ mod tests {
             Action::Shot(vec!["--tear"])
         );
         assert_eq!(action("cargo xtask bench node", is_step), Action::Bench(vec!["node"]));
+        assert_eq!(action("cargo xtask verify --short", is_step), Action::Step("verify"));
         assert_eq!(action("cargo xtask fly", is_step), Action::Unknown);
         assert_eq!(action("cc -Iinclude a.c", is_step), Action::Shell);
     }

@@ -3,7 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, readme, rust, web,
+    bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, readme, rust, verify,
+    web,
 };
 
 /// One part of the tests.
@@ -66,6 +67,14 @@ pub const STEPS: &[Step] = &[
         writes: &[DebugBuild],
         is_default: true,
         run: rust::test,
+    },
+    Step {
+        name: "verify",
+        about: "the guarantees of cloth after every tick, in a few scenes",
+        needs: &[],
+        writes: &[],
+        is_default: true,
+        run: verify::test_briefly,
     },
     Step {
         name: "clippy",
