@@ -38,7 +38,7 @@ pub fn run(arguments: &[String]) -> Result {
         let tables = ["bench", "--package=muslin", "--features=parallel", "--bench=tables", "--"];
         let mut cargo = shell::cargo(&tables);
         if words.contains(&AVX2) {
-            cargo.env("RUSTFLAGS", "--cfg muslin_at_most_avx2");
+            cargo.env("RUSTFLAGS", "--cfg muslin_simd_limit").env("MUSLIN_SIMD_LIMIT", AVX2);
             cargo.env("CARGO_TARGET_DIR", files::root().join("target/avx2"));
         }
         shell::run(cargo.args(wanted).args(options))?;
