@@ -1,5 +1,15 @@
 //! Compares golden hashes: the scenes of `muslin-golden`, simulated on every platform that this
 //! machine is or can emulate, must end in the hashes of `tests/golden/golden.txt`.
+//!
+//! | platform | how it runs |
+//! | --- | --- |
+//! | native | on this machine, with the widest instructions that it has |
+//! | sse2, avx2 | on this machine, limited by `MUSLIN_SIMD_LIMIT`; where it lacks them, under qemu |
+//! | neon | under qemu |
+//! | wasm, simd128 | in node |
+//!
+//! Where a limit takes the place of qemu, qemu still plays one scene without the limit: the program
+//! must detect the instructions of that processor, and needs no others.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -15,11 +25,17 @@ const AARCH64: &str = "aarch64-unknown-linux-musl";
 const X86_64: &str = "x86_64-unknown-linux-musl";
 /// These targets contain a C library, and Rust ships a linker, so that no cross compiler is needed.
 const LINK: &str = "-C linker=rust-lld";
+/// The same, for a program that obeys [`LIMIT`].
+const LINK_LIMITED: &str = "-C linker=rust-lld --cfg muslin_simd_limit";
+/// The environment variable that limits the instructions: `sse2` or `avx2`.
+const LIMIT: &str = "MUSLIN_SIMD_LIMIT";
+/// The scene that qemu plays where a limit takes its place.
+const EMULATED_SCENE: &str = "receipt";
 
 /// The profile of the tests and of emulated platforms: optimised as a user's own release build is,
 /// without link-time optimisation. Shipped forms are built in profile `release`: the native
 /// program and both wasm modules.
-const TEST_PROFILE: &str = "release-test";
+pub const TEST_PROFILE: &str = "release-test";
 
 /// What comparing needs.
 pub const NEEDS: &[&Need] = &[&setup::NODE, &setup::QEMU];
@@ -62,14 +78,14 @@ const PLATFORMS: &[Platform] = &[
     },
     Platform {
         name: "sse2",
-        target: Some((X86_64, LINK)),
+        target: Some((X86_64, LINK_LIMITED)),
         profile: TEST_PROFILE,
         runner: Runner::Qemu("qemu-x86_64", &["-cpu", "Nehalem"]),
         instructions: Some("sse2"),
     },
     Platform {
         name: "avx2",
-        target: Some((X86_64, LINK)),
+        target: Some((X86_64, LINK_LIMITED)),
         profile: TEST_PROFILE,
         runner: Runner::Qemu("qemu-x86_64", &["-cpu", "Nehalem,+xsave,+avx,+avx2"]),
         instructions: Some("avx2"),
@@ -109,13 +125,11 @@ pub fn run(options: &[String]) -> Result {
 /// Step `bits`: the script and the scenes in optimised builds, also under other floating-point
 /// modes and on several threads, natively and on the other kind of processor; then the table.
 pub fn test() -> Result {
-    let tests = ["test", "--profile", TEST_PROFILE, "--test", "golden", "--package", PACKAGE];
-    shell::run(&mut shell::cargo(&tests))?;
-    let threads =
-        ["test", "--profile", TEST_PROFILE, "--lib", "--test", "golden", "--test", "*threads"];
-    let packages = ["--package", "muslin", "--package", PACKAGE];
-    let features = ["--features", "muslin/parallel,muslin-golden/parallel"];
-    shell::run(shell::cargo(&threads).args(packages).args(features).args(["--", "threads"]))?;
+    // With the feature a cloth still runs on one thread unless a test asks for more.
+    let tests = ["test", "--profile", TEST_PROFILE, "--lib", "--test=golden", "--test=*threads"];
+    let packages = ["--package=muslin", "--package=muslin-golden"];
+    let features = "--features=muslin/parallel,muslin-golden/parallel";
+    shell::run(shell::cargo(&tests).args(packages).arg(features))?;
     if can_emulate() {
         setup::ensure_target(AARCH64)?;
         let modes = ["test", "--profile", TEST_PROFILE, "--package", PACKAGE, "--test", "golden"];
@@ -189,7 +203,11 @@ fn run_all(platforms: &[&Platform]) -> Result<Vec<Report>> {
         let mut runs = Vec::new();
         for platform in platforms {
             let program = platform.build()?;
-            runs.push(scope.spawn(move || platform.run(&program, false)));
+            runs.push(scope.spawn(move || {
+                let report = platform.run(&program, false)?;
+                platform.check_detection(&program, &report.table)?;
+                Ok(report)
+            }));
         }
         let join = |run: thread::ScopedJoinHandle<_>| match run.join() {
             Ok(report) => report,
@@ -209,7 +227,13 @@ impl Platform {
     /// folder.
     fn build(&self) -> Result<PathBuf> {
         let build = ["build", "--profile", self.profile, "--bin", PACKAGE, "--package", PACKAGE];
-        shell::run(&mut cargo_for(&build, self.target))?;
+        let mut cargo = cargo_for(&build, self.target);
+        if self.target.is_none() {
+            // With the features that the demo gives to dependencies, step `shot` finds the library
+            // compiled.
+            cargo.args(["--package", "muslin-demo"]);
+        }
+        shell::run(&mut cargo)?;
         let suffix = match self.runner {
             Runner::Node => ".wasm",
             Runner::Native => std::env::consts::EXE_SUFFIX,
@@ -224,20 +248,62 @@ impl Platform {
         Ok(copy)
     }
 
-    /// Runs the program; with `every_tick` it prints a hash after each tick.
-    fn run(&self, program: &Path, every_tick: bool) -> Result<Report> {
-        let mut command = match self.runner {
-            Runner::Native => shell::command(program),
-            Runner::Node => shell::command("node"),
-            Runner::Qemu(qemu, _) => shell::command(qemu),
+    /// The instructions that the program is limited to while it runs on this machine itself; none
+    /// if it obeys no limit or this machine lacks them.
+    fn limit(&self) -> Option<&'static str> {
+        let obeys = self.target.is_some_and(|(_, flags)| flags == LINK_LIMITED);
+        self.instructions.filter(|instructions| obeys && can_run(instructions))
+    }
+
+    /// What runs the program, with its first arguments.
+    fn command(&self, program: &Path) -> Command {
+        let with = |runner: &str, first: &[&str]| {
+            let mut command = shell::command(runner);
+            command.args(first).arg(program);
+            command
         };
         match self.runner {
-            Runner::Native => &mut command,
-            Runner::Node => command.arg("tests/golden/run.mjs").arg(program),
-            Runner::Qemu(_, options) => command.args(options).arg(program),
+            Runner::Native => shell::command(program),
+            Runner::Node => with("node", &["tests/golden/run.mjs"]),
+            Runner::Qemu(qemu, options) => with(qemu, options),
+        }
+    }
+
+    /// Runs the program; with `every_tick` it prints a hash after each tick.
+    fn run(&self, program: &Path, every_tick: bool) -> Result<Report> {
+        let mut command = match self.limit() {
+            None => self.command(program),
+            Some(limit) => {
+                let mut command = shell::command(program);
+                command.env(LIMIT, limit);
+                command
+            }
         };
+        self.report(command.args(every_tick.then_some("--every-tick")))
+    }
+
+    /// Where a limit takes the place of qemu, plays one scene under qemu without the limit.
+    ///
+    /// # Errors
+    /// Fails unless the program detects the right instructions and prints a row of `table`, which it
+    /// printed with the limit.
+    fn check_detection(&self, program: &Path, table: &str) -> Result {
+        if self.limit().is_none() {
+            return Ok(());
+        }
+        let mut command = self.command(program);
+        let row = self.report(command.args(["--scene", EMULATED_SCENE]))?.table;
+        if table.contains(&row) {
+            return Ok(());
+        }
+        let command = shell::typed(&command);
+        Err(Failure::new(format!("`{command}` ends in other bits than this machine: {row}")))
+    }
+
+    /// Runs a command of this platform, and checks the instructions that it reports.
+    fn report(&self, command: &mut Command) -> Result<Report> {
         let start = Instant::now();
-        let output = shell::output(command.args(every_tick.then_some("--every-tick")))?;
+        let output = shell::output(command)?;
         let time = start.elapsed();
         let Some((first, table)) = output.split_once('\n') else {
             return Err(Failure::new(format!("{} printed nothing", self.name)));
@@ -245,9 +311,9 @@ impl Platform {
         let instructions = first.trim_start_matches("instructions ").to_string();
         if let Some(expected) = self.instructions.filter(|expected| *expected != instructions) {
             return Err(Failure::new(format!(
-                "{} must run with {expected}, but {} detects {instructions}",
+                "{} must run with {expected}, but {} reports {instructions}",
                 self.name,
-                shell::typed(&command)
+                shell::typed(command)
             )));
         }
         Ok(Report { instructions, table: table.into(), time })
@@ -258,8 +324,24 @@ impl Platform {
         match self.runner {
             Runner::Native => "this machine".into(),
             Runner::Node => "node".into(),
+            Runner::Qemu(..) if self.limit().is_some() => "this machine, limited to it".into(),
             Runner::Qemu(qemu, options) => format!("{qemu} {}", options.join(" ")).trim().into(),
         }
+    }
+}
+
+/// Whether this machine runs programs for x86-64 Linux and has these instructions.
+fn can_run(instructions: &str) -> bool {
+    #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+    return match instructions {
+        "sse2" => true,
+        "avx2" => std::is_x86_feature_detected!("avx2"),
+        _ => false,
+    };
+    #[cfg(not(all(target_os = "linux", target_arch = "x86_64")))]
+    {
+        let _ = instructions;
+        false
     }
 }
 
@@ -368,6 +450,21 @@ mod tests {
         assert_eq!(rows[1], ["rag", "0xa", "same", "DIFFERS"]);
         assert_eq!(rows[2], ["gone", "0xd", "MISSING", "MISSING"]);
         assert!(rows[3].starts_with(&["new", "is", "not"]), "{text}");
+    }
+
+    #[test]
+    fn only_programs_that_obey_the_limit_run_with_it() {
+        for platform in PLATFORMS {
+            let is_limited = ["sse2", "avx2"].contains(&platform.name);
+            assert_eq!(platform.limit().is_some(), is_limited && can_run(platform.name));
+            assert!(matches!(platform.runner, Runner::Qemu(..)) || platform.limit().is_none());
+        }
+        assert!(!can_run("neon"));
+    }
+
+    #[test]
+    fn the_scene_that_qemu_plays_has_a_golden_hash() {
+        assert!(lines(&golden().unwrap()).any(|(scene, _)| scene == EMULATED_SCENE));
     }
 
     #[test]

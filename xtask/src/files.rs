@@ -98,6 +98,25 @@ pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).during(|| format!("reading {}", path.display()))
 }
 
+/// The environment variable that names a run of several steps of the tests.
+pub const RUN: &str = "MUSLIN_RUN";
+
+/// Calls `build`, unless another step of the same run of the tests has built the same.
+///
+/// Steps that run side by side wait for each other here.
+pub fn once_in_run(name: &str, build: impl FnOnce() -> Result) -> Result {
+    let Ok(run) = std::env::var(RUN) else { return build() };
+    let _lock = lock(name)?;
+    let stamp = target().join(format!("{name}.run"));
+    if read(&stamp).is_ok_and(|last| last == run) {
+        println!("{name}: built by an earlier step");
+        return Ok(());
+    }
+    fs::remove_file(&stamp).ok(); // it may be missing
+    build()?;
+    write(&stamp, &run)
+}
+
 /// Waits until no other process of xtask holds the lock `name`, and holds it until the file is
 /// dropped.
 ///

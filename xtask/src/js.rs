@@ -10,9 +10,13 @@ pub fn dir() -> PathBuf {
     files::root().join("dist/js")
 }
 
-/// Builds the package: three modules (with vectors, without, and as JavaScript), scripts and
-/// licences.
+/// Builds the package, once in a run of the tests.
 pub fn build() -> Result {
+    files::once_in_run("npm-package", build_package)
+}
+
+/// Builds three modules (with vectors, without, and as JavaScript), scripts and licences.
+fn build_package() -> Result {
     let scripts = files::root().join("bindings/js/package");
     if !scripts.is_dir() {
         return Err(Failure::new(
@@ -112,6 +116,8 @@ pub fn install_for_tests() -> Result {
     npm::install()?;
     // A copy, as an installation is: in its own folder it finds the packages that it imports.
     let copy = npm::modules().join("muslin");
-    files::create_empty_dir(&copy)?;
-    files::copy_dir(&dir(), &copy)
+    files::once_in_run("npm-copy", || {
+        files::create_empty_dir(&copy)?;
+        files::copy_dir(&dir(), &copy)
+    })
 }

@@ -1,10 +1,10 @@
 //! Runs steps side by side, each in a process of its own.
 //!
 //! ```text
-//! lane 1:  fmt | rust ───────────────────── | clippy ───── | readme ──
-//! lane 2:  bits ────────── | c ──── | js ── | page | web ────────
+//! lane 1:  fmt | rust ──────────────── | clippy ── | web ────── | readme ──
+//! lane 2:  bits ───────── | js ────── | c ── | shot ── | clients | fuzz ──
 //! ```
-//! A lane that is free takes the first step left that writes nothing that a running step writes. A step's
+//! A lane that is free takes the first step left that writes nothing that a running step uses. A step's
 //! output goes to `target/steps/NAME.log` and is printed as a whole when the step ends. The first
 //! failure ends the other lane's step.
 
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::process::{Child, ExitStatus, Stdio};
 use std::sync::mpsc;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crate::failure::{During, Failure, Result};
 use crate::steps::Step;
@@ -45,6 +45,8 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
     files::create_dir(&log_dir())?;
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let lanes = LANES.min(cores);
+    let since_epoch = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let run_name = format!("{}-{}", std::process::id(), since_epoch.as_millis());
     let (sender, ended) = mpsc::channel();
     let mut left = steps.to_vec();
     let mut running: Vec<Running> = Vec::new();
@@ -56,7 +58,7 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
             let Some(at) = next(&left, &busy) else { break };
             let step = left.remove(at);
             println!("-- {}: started", step.name);
-            let (mut child, start) = (start(step)?, Instant::now());
+            let (mut child, start) = (start(step, &run_name)?, Instant::now());
             running.push(Running { step, start, stdin: child.stdin.take() });
             let sender = sender.clone();
             thread::spawn(move || {
@@ -97,11 +99,13 @@ fn log_file(step: &Step) -> PathBuf {
     log_dir().join(step.name).with_extension("log")
 }
 
-/// Starts a step in a process group of its own, with its output in its log file.
-fn start(step: &Step) -> Result<Child> {
+/// Starts a step in a process group of its own, with its output in its log file. Steps of the same
+/// `run` share the npm package.
+fn start(step: &Step, run: &str) -> Result<Child> {
     let during = || format!("starting step {}", step.name);
     let log = File::create(log_file(step)).during(during)?;
     let mut command = shell::xtask(&["step", step.name])?;
+    command.env(files::RUN, run);
     command.stdin(Stdio::piped()).stdout(log.try_clone().during(during)?).stderr(log);
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
@@ -159,5 +163,13 @@ mod tests {
         assert_eq!(next(&left, &[step("rust")]), Some(1));
         assert_eq!(next(&left, &[step("rust"), step("package")]), Some(2));
         assert_eq!(next(&left[..2], &[step("rust"), step("package")]), None);
+    }
+
+    #[test]
+    fn steps_that_read_the_same_run_side_by_side_but_not_beside_the_one_that_writes_it() {
+        let left = [step("page"), step("clients")];
+        assert_eq!(next(&left, &[step("js")]), None);
+        assert_eq!(next(&left, &[step("examples")]), Some(0));
+        assert_eq!(next(&[step("js")], &[step("page")]), None);
     }
 }

@@ -15,8 +15,10 @@ pub struct Step {
     pub about: &'static str,
     /// What must be installed.
     pub needs: &'static [&'static Need],
-    /// What it writes: two steps that write the same do not run side by side.
+    /// What it writes: beside it, no step runs that writes or reads the same.
     pub writes: &'static [Output],
+    /// What it reads and another step writes. Alone, the step builds it itself.
+    pub reads: &'static [Output],
     /// Whether `cargo xtask test` runs it, or only `cargo xtask test --all`.
     pub is_default: bool,
     /// Runs it to its end.
@@ -28,8 +30,10 @@ pub struct Step {
 pub enum Output {
     /// `target/debug`, which cargo locks while it builds.
     DebugBuild,
-    /// `target/release` and the folders of other targets in release, which cargo locks too.
-    ReleaseBuild,
+    /// `libmuslin` in `target/release`.
+    CLibrary,
+    /// `target/release-test`, which cargo locks while it builds.
+    TestBuild,
     /// `dist/js` and the copy of it that tests import.
     NpmPackage,
     /// `dist/web`.
@@ -40,7 +44,7 @@ pub enum Output {
     Fuzzer,
 }
 
-use Output::{CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, ReleaseBuild};
+use Output::{CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, TestBuild};
 
 /// All steps. Those that take longest come early, so that the last ones end together.
 pub const STEPS: &[Step] = &[
@@ -49,6 +53,7 @@ pub const STEPS: &[Step] = &[
         about: "the Rust code is formatted",
         needs: &[],
         writes: &[],
+        reads: &[],
         is_default: true,
         run: rust::check_format,
     },
@@ -56,7 +61,8 @@ pub const STEPS: &[Step] = &[
         name: "bits",
         about: "the same bits in release, in wasm and on other processors",
         needs: bits::NEEDS,
-        writes: &[],
+        writes: &[TestBuild],
+        reads: &[],
         is_default: true,
         run: bits::test,
     },
@@ -65,6 +71,7 @@ pub const STEPS: &[Step] = &[
         about: "tests and examples in Rust, with overflow checks and debug assertions",
         needs: &[&setup::EGL],
         writes: &[DebugBuild],
+        reads: &[],
         is_default: true,
         run: rust::test,
     },
@@ -73,14 +80,25 @@ pub const STEPS: &[Step] = &[
         about: "the guarantees of cloth after every tick, in a few scenes",
         needs: &[],
         writes: &[],
+        reads: &[],
         is_default: true,
         run: verify::test_briefly,
+    },
+    Step {
+        name: "js",
+        about: "the npm package in node",
+        needs: &[&setup::NODE],
+        writes: &[NpmPackage],
+        reads: &[],
+        is_default: true,
+        run: js_tests::test_in_node,
     },
     Step {
         name: "clippy",
         about: "no lint reports anything, and no link of the documentation is broken",
         needs: &[],
         writes: &[DebugBuild],
+        reads: &[],
         is_default: true,
         run: rust::lint,
     },
@@ -88,63 +106,17 @@ pub const STEPS: &[Step] = &[
         name: "c",
         about: "header, tests and examples in C and C++",
         needs: &[&setup::CXX, &setup::VALGRIND],
-        writes: &[ReleaseBuild],
+        writes: &[CLibrary],
+        reads: &[],
         is_default: true,
         run: c_tests::check,
-    },
-    Step {
-        name: "fuzz",
-        about: "a few calls of the C library in random order with random arguments",
-        needs: fuzz::NEEDS,
-        writes: &[Fuzzer],
-        is_default: true,
-        run: fuzz::test_briefly,
-    },
-    Step {
-        name: "package",
-        about: "the C library as users install it",
-        needs: package::NEEDS,
-        writes: &[ReleaseBuild, CPackage],
-        is_default: true,
-        run: package::test,
-    },
-    Step {
-        name: "js",
-        about: "the npm package in node",
-        needs: &[&setup::NODE],
-        writes: &[NpmPackage],
-        is_default: true,
-        run: js_tests::test_in_node,
-    },
-    Step {
-        name: "page",
-        about: "the npm package in a browser",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        writes: &[NpmPackage],
-        is_default: true,
-        run: js_tests::test_in_browser,
-    },
-    Step {
-        name: "clients",
-        about: "the npm package as users install it: a page, Vite, webpack, node",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        writes: &[NpmPackage],
-        is_default: true,
-        run: clients::test,
-    },
-    Step {
-        name: "examples",
-        about: "the npm package's example pages in a browser",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
-        writes: &[NpmPackage],
-        is_default: true,
-        run: examples::test,
     },
     Step {
         name: "web",
         about: "the demo's page in a browser",
         needs: &[&setup::NODE, &setup::CHROMIUM],
-        writes: &[ReleaseBuild, DemoPage],
+        writes: &[DemoPage],
+        reads: &[],
         is_default: true,
         run: web::test,
     },
@@ -152,23 +124,71 @@ pub const STEPS: &[Step] = &[
         name: "shot",
         about: "the demo's pictures, drawn without a screen",
         needs: &[&setup::EGL],
-        writes: &[ReleaseBuild],
+        writes: &[TestBuild],
+        reads: &[],
         is_default: true,
         run: demo::test_shot,
+    },
+    Step {
+        name: "package",
+        about: "the C library as users install it",
+        needs: package::NEEDS,
+        writes: &[CLibrary, CPackage],
+        reads: &[],
+        is_default: true,
+        run: package::test,
+    },
+    Step {
+        name: "clients",
+        about: "the npm package as users install it: a page, Vite, webpack, node",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[],
+        reads: &[NpmPackage],
+        is_default: true,
+        run: clients::test,
     },
     Step {
         name: "readme",
         about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
         needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON],
-        writes: &[ReleaseBuild, NpmPackage, DemoPage, CPackage],
+        writes: &[CLibrary, TestBuild, DemoPage],
+        reads: &[NpmPackage],
         is_default: true,
         run: || readme::test(is_step),
+    },
+    Step {
+        name: "fuzz",
+        about: "a few calls of the C library in random order with random arguments",
+        needs: fuzz::NEEDS,
+        writes: &[Fuzzer],
+        reads: &[],
+        is_default: true,
+        run: fuzz::test_briefly,
+    },
+    Step {
+        name: "examples",
+        about: "the npm package's example pages in a browser",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[],
+        reads: &[NpmPackage],
+        is_default: true,
+        run: examples::test,
+    },
+    Step {
+        name: "page",
+        about: "the npm package in a browser",
+        needs: &[&setup::NODE, &setup::CHROMIUM],
+        writes: &[],
+        reads: &[NpmPackage],
+        is_default: true,
+        run: js_tests::test_in_browser,
     },
     Step {
         name: "engines",
         about: "the C library's examples in engines, and their pictures",
         needs: engines::NEEDS,
-        writes: &[ReleaseBuild],
+        writes: &[CLibrary],
+        reads: &[],
         is_default: false,
         run: engines::test,
     },
@@ -177,6 +197,7 @@ pub const STEPS: &[Step] = &[
         about: "hundreds of sequences of calls, and a planted mistake that the fuzzer must find",
         needs: fuzz::NEEDS,
         writes: &[Fuzzer],
+        reads: &[],
         is_default: false,
         run: fuzz::test,
     },
@@ -188,8 +209,11 @@ pub fn is_step(name: &str) -> bool {
 }
 
 impl Step {
-    /// Whether both write the same, so that they must not run side by side.
+    /// Whether one writes what the other writes or reads, so that they must not run side by side.
     pub fn conflicts_with(&self, other: &Self) -> bool {
-        self.writes.iter().any(|output| other.writes.contains(output))
+        let clash = |writer: &Self, user: &Self| {
+            writer.writes.iter().any(|out| user.writes.contains(out) || user.reads.contains(out))
+        };
+        clash(self, other) || clash(other, self)
     }
 }

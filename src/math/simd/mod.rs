@@ -83,13 +83,25 @@ impl Level {
         not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
     ));
 
-    /// Returns the widest level that this CPU has.
+    /// Returns the widest level that this CPU has. With `--cfg muslin_simd_limit`, for tests and
+    /// measurements, the environment variable `MUSLIN_SIMD_LIMIT` limits it; other builds never
+    /// read the environment.
     pub fn best() -> Self {
+        let widest = Self::widest();
+        #[cfg(all(muslin_simd_limit, target_arch = "x86_64"))]
+        if let Some(limit) = std::env::var_os("MUSLIN_SIMD_LIMIT") {
+            return widest.limited_to(&limit.to_string_lossy());
+        }
+        widest
+    }
+
+    /// Detects the widest level of this CPU.
+    fn widest() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
             let is_widest = std::is_x86_feature_detected!("avx512f")
                 && std::is_x86_feature_detected!("avx512vl");
-            if is_widest && cfg!(not(muslin_at_most_avx2)) {
+            if is_widest {
                 return Self::Avx512;
             }
             if std::is_x86_feature_detected!("avx2") {
@@ -104,6 +116,20 @@ impl Level {
             target_feature = "simd128"
         )))]
         Self::Scalar
+    }
+
+    /// Returns the narrower one of this level and the level named `limit`: `sse2` or `avx2`.
+    ///
+    /// # Panics
+    /// If `limit` is another name.
+    #[cfg(all(any(test, muslin_simd_limit), target_arch = "x86_64"))]
+    fn limited_to(self, limit: &str) -> Self {
+        match (limit, self) {
+            ("sse2", _) => Self::Baseline,
+            ("avx2", Self::Avx512) => Self::Avx2,
+            ("avx2", narrower) => narrower,
+            _ => panic!("MUSLIN_SIMD_LIMIT must be sse2 or avx2, not {limit:?}"),
+        }
     }
 
     /// Returns all levels that this CPU has, narrowest first.
@@ -235,3 +261,21 @@ macro_rules! vectored {
     }};
 }
 pub(crate) use vectored;
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::Level;
+
+    #[test]
+    fn a_limit_narrows_the_level_and_never_widens_it() {
+        assert_eq!(Level::Avx512.limited_to("avx2"), Level::Avx2);
+        assert_eq!(Level::Avx512.limited_to("sse2"), Level::Baseline);
+        assert_eq!(Level::Baseline.limited_to("avx2"), Level::Baseline);
+    }
+
+    #[test]
+    #[should_panic(expected = "sse2 or avx2")]
+    fn an_unknown_limit_is_refused() {
+        Level::Avx512.limited_to("sse4");
+    }
+}

@@ -2,7 +2,7 @@
 //! outputs.
 //!
 //! `golden.txt` holds one hash per scene, equal on every platform. `cargo xtask test bits` runs the
-//! scenes natively, in wasm and under emulation, and compares the hashes.
+//! scenes natively, in wasm and on emulated processors, and compares the hashes.
 
 mod scenes;
 mod trace;
@@ -46,10 +46,17 @@ impl Scene {
     }
 }
 
-/// Name of the instruction set that the kernels use on this machine.
+/// Name of the instruction set that the kernels use on this machine, within the limit of
+/// `MUSLIN_SIMD_LIMIT` in builds with `--cfg muslin_simd_limit`.
 pub fn instructions() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
+        let limit = std::env::var("MUSLIN_SIMD_LIMIT").ok().filter(|_| cfg!(muslin_simd_limit));
+        match limit.as_deref() {
+            Some("sse2") => return "sse2",
+            Some("avx2") if std::is_x86_feature_detected!("avx2") => return "avx2",
+            _ => {}
+        }
         if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512vl") {
             return "avx512";
         }
@@ -64,6 +71,13 @@ pub fn instructions() -> &'static str {
 /// The output of the program: the instruction set, then the table.
 pub fn report(every_tick: bool) -> String {
     format!("instructions {}\n{}", instructions(), table(every_tick))
+}
+
+/// The output of the program for one scene; none if no scene has this name.
+pub fn report_of(name: &str) -> Option<String> {
+    let scene = SCENES.iter().find(|scene| scene.name == name)?;
+    let hash = scene.play().hash();
+    Some(format!("instructions {}\n{name} {hash:#018x}\n", instructions()))
 }
 
 /// Runs all scenes. Returns one line `name 0xhash` per scene, or one line `name tick 0xhash` per
