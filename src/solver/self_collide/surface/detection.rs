@@ -59,7 +59,7 @@ pub(crate) struct CandidateLists {
 impl CandidateLists {
     /// Allocates for a cloth of `count` particles.
     pub fn new(count: usize) -> Self {
-        let kinds = [4, 12].map(|each| CandidatePairs::new(each * count));
+        let kinds = [8, 24].map(|each| CandidatePairs::new(each * count));
         Self { kinds, offsets: Vec::with_capacity(8 * count) }
     }
 
