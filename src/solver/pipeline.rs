@@ -17,12 +17,13 @@
 //! │  ├─ SelfContacts  particle collision, then momentum of free pieces
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
-//! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass
+//! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders
 //! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
 //! ├─ Guard        restore particles with invalid numbers
 //! ├─ Tear         split vertices of overstretched links
-//! ├─ last pass    Limit ▶ Hold ▶ SelfContacts ▶ Guard     (with a strain limit or anchors)
+//! ├─ last pass    Limit ▶ colliders ▶ Hold ▶ SelfContacts and colliders ▶ report ▶ Guard
+//! │                                                       (with a strain limit or anchors)
 //! └─ finish       targets reach the end of the tick, sleep timer
 //! ```
 //! Method: extended position-based dynamics with small substeps (Macklin, Müller, Chentanez,
@@ -32,8 +33,8 @@
 //!
 //! Reads and writes `World`. Each line of the code below is one stage, timed under its `Stage`.
 //! Invariant: the order of the stages is part of the result; the same input gives the same bits.
-//! With a strain limit or anchors, the last pass moves particles last, so these bounds hold when
-//! the tick ends.
+//! Where hard constraints contradict each other, pins and grabs hold before colliders, colliders
+//! before non-crossing surfaces, and these before the strain limit, whose excess is reported.
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};

@@ -39,6 +39,14 @@ use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{distance, mesh_kernel};
 use crate::solver::world::World;
 
+/// Whether this stage may change the angular momentum of a free piece.
+///
+/// An implicit solve with few iterations leaves a residual, and damping measures from the start of
+/// the substep. Both exert a torque once folds or damping are in use.
+pub(crate) fn may_add_spin(world: &World) -> bool {
+    is_elastic(world) && (world.folds.has_any || world.material.bend_damping > 0.0)
+}
+
 /// Whether plates and hinges bend the cloth; otherwise bend links do.
 fn is_elastic(world: &World) -> bool {
     world.material.bend_stiffness > 0.0 && world.material.bend_stiffness < 1.0

@@ -1,16 +1,19 @@
 //! Momentum conservation: removes the rigid motion that internal stages add.
 //!
 //! ```text
-//! d = x − x before the stage        Σ m d = 0,   Σ m (r − c) × d = 0
-//! r: the position that velocities count from          c: the centre of mass of all r
+//! linear     Σ m d = 0                          d = x − x before the stage
+//! angular    Σ m r × e = 0                      r = (x₀ + x) / 2 − c, e = (v' − v − h a) · h
 //! ```
-//! Internal forces change neither the linear nor the angular momentum of a cloth that nothing
-//! holds. A cloth with one fixed particle keeps its angular momentum about that particle, a cloth
-//! with two its angular momentum about the line through both. Position-based stages break this by
-//! a little in every substep: rounding, solvers that stop early, and constraints that act along
-//! lines of the current positions while velocities count from earlier positions r (see
-//! `BdfScheme`). So the rigid motion with the momenta of d is subtracted from the positions.
-//! Velocities count the exact difference, so rounding of positions adds no momentum either.
+//! x₀, v: position and velocity at the start of the substep; x, v': at its end; a: acceleration by
+//! gravity and air; c: the centre of mass of all r. Internal forces change neither the linear nor
+//! the angular momentum of a cloth that nothing holds. A cloth with one fixed particle keeps its
+//! angular momentum about that particle, a cloth with two its angular momentum about the line
+//! through both. Position-based stages break this by a little in every substep: rounding, solvers
+//! that stop early, and multistep time integration, which extrapolates velocities along straight
+//! lines. So the rigid motion with the momenta of these errors is subtracted from the positions.
+//! The angular momentum is compared with that at the start of the substep, since the corrections
+//! that turn velocities along a circle are no error. Velocities count the exact difference, so
+//! rounding of positions adds no momentum either.
 //!
 //! Two stages use it: all internal stages before contacts ([`remove_internal_momentum`]), and
 //! contacts of surface collision ([`remove_rigid_motion_since`]). The latter counts particles on a
@@ -22,14 +25,19 @@
 //! displacements, and the scratch lists `relative_wind` and `correction`, which are free at that
 //! time.
 //!
+//! While the cloth touches colliders, [`remove_internal_momentum`] compares with the start of the
+//! corrections only, and only where folds, damping or particle collision exert a torque.
+//!
 //! Invariant: no particle moves if the cloth has several pieces, three or more fixed particles, or
 //! soft pins; `remove_rigid_motion_since` moves free cloth only.
 
 use crate::math::wide4::Float4;
+use crate::solver::bend;
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::integrate::rigid_motion::{FreeParticles, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
+use crate::state::colliders::Impulse;
 use crate::state::particles::Particles;
 use crate::state::settings::BdfScheme;
 use glam::Vec3;
@@ -78,6 +86,12 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
     if count > MAX_FIXED || !compute_corrections(world) {
         return;
     }
+    if has_collider_impulse(world) {
+        if count == 0 && may_add_spin(world) {
+            remove_correction_momentum(world);
+        }
+        return;
+    }
     let pivot = pivot(&world.particles, fixed, count);
     let translation = match pivot {
         Pivot::Nothing => mean_correction(world),
@@ -92,6 +106,37 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
         w: &p.w,
     };
     let rigid = RigidMotion::about(world.level, free, pivot).with_translation(translation);
+    subtract(world, &rigid);
+}
+
+/// Whether the cloth pushed a collider in this tick or in the last one.
+///
+/// The second-order scheme spreads an impulse over the following substeps, so the angular momentum
+/// changes in substeps without contact too, and must.
+fn has_collider_impulse(world: &World) -> bool {
+    let last = world.colliders.iter().map(|body| &body.impulse);
+    let mut all = last.chain(&world.scratch.contacts.impulses);
+    all.any(|impulse| *impulse != Impulse::default())
+}
+
+/// Whether particle collision, folds or damping of bending may exert a large torque on free cloth.
+fn may_add_spin(world: &World) -> bool {
+    world.particle_collision.is_some() || bend::may_add_spin(world)
+}
+
+/// Subtracts the rigid motion with the momenta of `correction` about the positions that velocities
+/// count from. It also removes the part of the corrections that turns velocities along a circle.
+fn remove_correction_momentum(world: &mut World) {
+    compute_velocity_origins(world);
+    let (p, scratch) = (&world.particles, &world.scratch);
+    let free = FreeParticles {
+        x: scratch.relative_wind.slices(),
+        displacement: scratch.correction.slices(),
+        mass: &p.mass,
+        w: &p.w,
+    };
+    let rigid = RigidMotion::of_free(world.level, free);
+    world.scratch.relative_wind.copy_from(&world.particles.x);
     subtract(world, &rigid);
 }
 
@@ -145,13 +190,12 @@ fn compute_corrections(world: &mut World) -> bool {
     has_moved
 }
 
-/// Subtracts a rigid motion from the positions of all free particles. The predicted
+/// Subtracts a rigid motion at the points `relative_wind` from all free particles. The predicted
 /// displacement takes the rounding error of that, so that velocities count the exact difference.
 fn subtract(world: &mut World, rigid: &RigidMotion) {
     let share = world.correction_share();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
-        // The momenta are those about the middle positions, so the motion is taken there too.
         let (x, by) = (p.x.get(i), rigid.displacement_at(scratch.relative_wind.get(i)));
         p.x.set(i, x - by);
         let lost = (p.x.get(i) - x) + by;

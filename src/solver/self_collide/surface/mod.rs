@@ -26,7 +26,10 @@
 //!     │   └─ untangle: intersections that exist        substep    untangle
 //!     ▼
 //! non-crossing pass ◀── pairs of escaped particles,    substep    non_crossing, contact_graph
-//!     │                 promoted speculative contacts
+//!     │    ▲            promoted speculative contacts
+//!     ▼    └─ tangent planes of colliders              substep    support_planes
+//! projection out of colliders, until both hold
+//!     │
 //!     ▼
 //! positions at the end of the substep
 //! ```

@@ -5,12 +5,19 @@
 //!        ▲                      │ no
 //!        │               new normal, else push the sides apart by inverse masses
 //!        └── contacts of particles that moved
-//! after MAX_ROUNDS rounds: roll back particles to where they started, until all are separated
+//! after MAX_ROUNDS rounds: roll back particles by degrees, until all are separated
 //! ```
 //! At the start of the substep all contacts are separated at the same time. So rolling back to the
 //! start always succeeds, unless fixed particles move against each other and leave no space.
-//! Particles roll back to their start plus the mean displacement, so that a falling cloth does not
-//! stop. A fixed particle does not roll back; the particles in its path move along with it. This
+//! Particles lose half of their motion, three quarters, seven eighths, then all of it: separation
+//! along a normal is linear in that share, so a small conflict costs little motion. Motion is counted
+//! from the start plus the mean displacement, so that a falling cloth does not stop; where colliders
+//! touch the cloth, from the start, which lies outside them.
+//!
+//! Particles that touch a collider have a plane there ([`SupportPlanes`]). Each push ends with a
+//! projection onto these planes, and a plane counts as heavy against pushes towards it.
+//!
+//! A fixed particle does not roll back; the particles in its path move along with it. This
 //! has the role of the rigid impact zones of Provot, "Collision and self-collision handling in
 //! cloth model dedicated to design garments", 1997, and of Bridson, Fedkiw, Anderson, "Robust
 //! Treatment of Collisions, Contact and Friction for Cloth Animation", SIGGRAPH 2002.
@@ -188,8 +195,8 @@ fn push_sides(
 /// Rolls back the particles of pending contacts that are not separated, and of the contacts that
 /// this breaks, until all are separated.
 ///
-/// A particle rolls back to its start plus the mean displacement, or plus the displacement of a
-/// fixed particle that is in the contact. `leaders` is scratch.
+/// A particle keeps a share of its motion relative to the rollback displacement ([`KEPT`]), or moves
+/// with a fixed particle that is in the contact. `leaders` and `before` are scratch.
 pub(crate) fn roll_back(
     contacts: &[Contact],
     motion: &mut SweptParticles,
