@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{files, js, npm, setup, shell, wasm};
+use crate::{bits, files, js, npm, setup, shell, wasm};
 
 /// The tables of native code; in node all tables have one name.
 const NATIVE: [&str; 6] = ["kernels", "ticks", "shreds", "layers", "scenes", "receipt"];
@@ -35,8 +35,12 @@ pub fn run(arguments: &[String]) -> Result {
     let wanted: Vec<_> = wanted.collect();
     if !wanted.is_empty() {
         // The feature does not change the cost of a single thread.
-        let tables = ["bench", "--package=muslin", "--features=parallel", "--bench=tables", "--"];
-        let mut cargo = shell::cargo(&tables);
+        let mut cargo = shell::cargo(&["bench", "--package=muslin", "--features=parallel"]);
+        if words.contains(&TEST) {
+            // Nobody reads times of a test; step `bits` has built the library in this profile.
+            cargo.args(["--profile", bits::TEST_PROFILE]);
+        }
+        cargo.args(["--bench=tables", "--"]);
         if words.contains(&AVX2) {
             cargo.env("RUSTFLAGS", "--cfg muslin_simd_limit").env("MUSLIN_SIMD_LIMIT", AVX2);
             cargo.env("CARGO_TARGET_DIR", files::root().join("target/avx2"));

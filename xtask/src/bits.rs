@@ -227,7 +227,13 @@ impl Platform {
     /// folder.
     fn build(&self) -> Result<PathBuf> {
         let build = ["build", "--profile", self.profile, "--bin", PACKAGE, "--package", PACKAGE];
-        shell::run(&mut cargo_for(&build, self.target))?;
+        let mut cargo = cargo_for(&build, self.target);
+        if self.target.is_none() {
+            // With the features that the demo gives to dependencies, step `shot` finds the library
+            // compiled.
+            cargo.args(["--package", "muslin-demo"]);
+        }
+        shell::run(&mut cargo)?;
         let suffix = match self.runner {
             Runner::Node => ".wasm",
             Runner::Native => std::env::consts::EXE_SUFFIX,

@@ -75,20 +75,31 @@ fn open_browser(url: &str) {
     }
 }
 
+/// The pictures of step `shot`: the name of each, and the options of the demo that draw it. Film
+/// strips show gestures: tearing and cutting the sheet, handling the receipt.
+const TEST_PICTURES: [(&str, &str); 7] = [
+    ("shot", ""),
+    ("yank", "--play yank --strip 5 --size 400x400"),
+    ("cut", "--play cut --strip 5 --size 400x400"),
+    ("tender-fold", "--scene tender --play fold --strip 5 --size 400x400"),
+    ("tender-letter", "--scene tender --play letter --strip 5 --size 400x400"),
+    ("tender-crumple", "--scene tender --play crumple --strip 5 --size 400x400"),
+    ("tender-toss", "--scene tender --play toss --strip 5 --size 400x400"),
+];
+
+/// Whether step `shot` draws a picture with these options.
+pub fn is_test_picture(options: &[&str]) -> bool {
+    TEST_PICTURES.iter().any(|(_, words)| words.split_whitespace().eq(options.iter().copied()))
+}
+
 /// Draws pictures with `cargo xtask demo --shot` and checks them; then checks the error without a
 /// display.
 pub fn test_shot() -> Result {
     let shots = files::target().join("shots");
     files::create_dir(&shots)?;
-    shoot(&shots.join("shot.png"), &[])?;
-    // Film strips of gestures: tearing and cutting the sheet, handling the receipt.
-    for gesture in ["yank", "cut"] {
-        let options = ["--play", gesture, "--strip", "5", "--size", "400x400"];
-        shoot(&shots.join(gesture).with_extension("png"), &options)?;
-    }
-    for gesture in ["fold", "letter", "crumple", "toss"] {
-        let options = ["--scene", "tender", "--play", gesture, "--strip", "5", "--size", "400x400"];
-        shoot(&shots.join(format!("tender-{gesture}.png")), &options)?;
+    for (name, options) in TEST_PICTURES {
+        let options: Vec<_> = options.split_whitespace().collect();
+        shoot(&shots.join(name).with_extension("png"), &options)?;
     }
     check_error_without_display()
 }

@@ -215,6 +215,9 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         // Step `shot` tests what it prints without a display.
         ["demo"] => Action::Step("shot"),
         ["demo", "--web"] => Action::Step("web"),
+        ["demo", "--shot", _file, options @ ..] if demo::is_test_picture(options) => {
+            Action::Step("shot")
+        }
         ["demo", "--shot", _file, options @ ..] => Action::Shot(options.to_vec()),
         ["js"] => Action::Step("js"),
         ["c"] => Action::Step("c"),
@@ -294,6 +297,8 @@ mod tests {
             action("cargo xtask demo --shot a.png --tear", is_step),
             Action::Shot(vec!["--tear"])
         );
+        let strip = "cargo xtask demo --shot a.png --play cut --strip 5 --size 400x400";
+        assert_eq!(action(strip, is_step), Action::Step("shot"));
         assert_eq!(action("cargo xtask bench node", is_step), Action::Bench(vec!["node"]));
         assert_eq!(action("cargo xtask fly", is_step), Action::Unknown);
         assert_eq!(action("cc -Iinclude a.c", is_step), Action::Shell);
