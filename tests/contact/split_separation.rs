@@ -140,7 +140,7 @@ fn ripping_a_crumpled_sheet_with_grabs_causes_no_self_intersection() {
         run_without_crossings(
             &format!("ripped {side} {seed} {at}"),
             &mut cloth,
-            75,
+            100,
             |cloth, tick| {
                 let by = Vec3::new(0.006, 0.01, 0.018) * tick as f32;
                 cloth.move_grab(grab, start + by).unwrap();
