@@ -225,7 +225,7 @@ pub(crate) fn roll_back(
             // Contacts are linear in the shares, so all corners of one keep the same share.
             let most = of_contact.into_iter().min().unwrap_or(FREE);
             let is_same = of_contact.into_iter().all(|leader| leader == most);
-            let next = max(if is_same { most - 1 } else { most }, ROLLED_BACK);
+            let next = max(if is_same { most.saturating_sub(1) } else { most }, ROLLED_BACK);
             let leader = fixed.unwrap_or(next);
             for id in contact.ids {
                 let i = id as usize;
