@@ -134,9 +134,11 @@ impl SupportPlanes {
 
     /// Projects all particles that have planes. Returns whether any moved.
     pub fn project_all(&self, now: &mut [Float4]) -> bool {
-        self.particles.iter().fold(false, |has_moved, i| {
-            self.project(*i as usize, &mut now[*i as usize]) || has_moved
-        })
+        let mut has_moved = false;
+        for i in self.particles.iter().map(|i| *i as usize) {
+            has_moved |= self.project(i, &mut now[i]);
+        }
+        has_moved
     }
 }
 
