@@ -79,6 +79,9 @@ mod cloth;
 mod error;
 mod geometry;
 mod math;
+#[cfg(all(muslin_simd_limit, target_arch = "x86_64"))]
+#[doc(hidden)]
+pub use math::simd::best_level_name;
 mod mesh;
 mod model;
 mod solver;

@@ -262,6 +262,16 @@ macro_rules! vectored {
 }
 pub(crate) use vectored;
 
+/// Name of the level that new cloths use, for the program that compares platforms.
+#[cfg(all(muslin_simd_limit, target_arch = "x86_64"))]
+pub fn best_level_name() -> &'static str {
+    match Level::best() {
+        Level::Avx512 => "avx512",
+        Level::Avx2 => "avx2",
+        _ => "sse2",
+    }
+}
+
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests {
     use super::Level;

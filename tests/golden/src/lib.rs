@@ -46,17 +46,13 @@ impl Scene {
     }
 }
 
-/// Name of the instruction set that the kernels use on this machine, within the limit of
-/// `MUSLIN_SIMD_LIMIT` in builds with `--cfg muslin_simd_limit`.
+/// Name of the instruction set that the kernels use on this machine. In builds with
+/// `--cfg muslin_simd_limit` the library itself names the level that it chose within the limit.
 pub fn instructions() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(muslin_simd_limit, target_arch = "x86_64"))]
+    return muslin::best_level_name();
+    #[cfg(all(not(muslin_simd_limit), target_arch = "x86_64"))]
     {
-        let limit = std::env::var("MUSLIN_SIMD_LIMIT").ok().filter(|_| cfg!(muslin_simd_limit));
-        match limit.as_deref() {
-            Some("sse2") => return "sse2",
-            Some("avx2") if std::is_x86_feature_detected!("avx2") => return "avx2",
-            _ => {}
-        }
         if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512vl") {
             return "avx512";
         }
