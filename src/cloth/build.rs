@@ -227,7 +227,7 @@ fn build_world(
         reserve_reported: false,
         over_stretched: 0,
         over_stretch_reported: false,
-        stiffness_step: settings.scheme().h,
+        stiffness_step: 0.0,
         has_no_history: false,
         pin_order: PinOrder::default(),
         tether_slack: f32::INFINITY,

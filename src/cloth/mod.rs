@@ -230,7 +230,6 @@ impl Cloth {
         };
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
         fresh.settings = self.world.settings.clone();
-        fresh.stiffness_step = fresh.settings.scheme().h;
         fresh.material = self.world.material.clone();
         fresh.folds.reserve_hardening(&fresh.material);
         fresh.wind = self.world.wind.clone();

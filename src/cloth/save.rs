@@ -312,7 +312,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.rebuild_pin_order();
     world.tether_slack = saved.tether_slack;
     world.sleep = saved.sleep;
-    require(saved.stiffness_step > 0.0 && saved.stiffness_step <= 1.0)?;
+    require(saved.stiffness_step >= 0.0 && saved.stiffness_step <= 1.0)?;
     world.stiffness_step = saved.stiffness_step;
     world.has_no_history = saved.has_no_history;
     let mut outputs = Outputs::new(&world);

@@ -5,6 +5,7 @@
 //! Invariant: the order of the hashed fields is fixed, since golden tests compare the values.
 
 use crate::cloth::Cloth;
+use crate::math::float_env::with_float_env;
 use crate::math::hasher::StateHasher;
 
 impl Cloth {
@@ -83,7 +84,8 @@ impl Cloth {
         if world.surface_collision.is_some() && world.is_tangled {
             hasher.write_u32(1);
         }
-        if world.correction_share() != 1.0 || world.has_no_history {
+        let share = with_float_env(|| world.correction_share());
+        if share != 1.0 || world.has_no_history {
             hasher.write_f32s(&[world.stiffness_step]);
             hasher.write_u32(u32::from(world.has_no_history));
         }

@@ -160,7 +160,7 @@ pub(crate) struct World {
     /// Whether an event has reported these links. Written by `strain_limit`.
     pub over_stretch_reported: bool,
     /// Substep length whose effective stiffness the links have [s], see
-    /// [`World::correction_share`]; at least the current substep length.
+    /// [`World::correction_share`]; 0 before the first tick, then at least the substep length.
     pub stiffness_step: f32,
     /// Whether the next substep has no history, so that it is one of BDF1.
     pub has_no_history: bool,

@@ -31,10 +31,12 @@
 //! Invariant: no particle moves if the cloth has several pieces, three or more fixed particles, or
 //! soft pins; `remove_rigid_motion_since` moves free cloth only.
 
+use crate::math::columns::Columns;
+use crate::math::simd::leveled;
 use crate::math::wide4::Float4;
 use crate::solver::bend;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::integrate::rigid_motion::{FreeParticles, Pivot, RigidMotion};
+use crate::solver::integrate::rigid_motion::{Component, FreeParticles, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
@@ -157,18 +159,52 @@ fn mean_correction(world: &World) -> Vec3 {
 /// error = (v' − v − h a) · h / (new_weight · share)
 /// ```
 fn compute_angular_errors(world: &mut World) {
-    let (BdfScheme { h, new_weight, old_weight, .. }, share) =
-        (world.scheme(), world.correction_share());
-    let to_position = 1.0 / (new_weight * share);
+    let (scheme, share, level) = (world.scheme(), world.correction_share(), world.level);
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    for i in 0..p.len() {
-        let (x, displacement) = (p.x.get(i), scratch.displacement.get(i));
-        let start = scratch.predicted.get(i) - displacement;
-        let moved = displacement + scratch.correction.get(i) * share;
-        let step = moved * new_weight - p.displacement.get(i) * old_weight;
-        let expected = (p.v.get(i) + scratch.acceleration.get(i) * h) * h;
-        scratch.relative_wind.set(i, (start + x) * 0.5);
-        scratch.correction.set(i, (step - expected) * to_position);
+    let [x, predicted, displacement] =
+        [&p.x, &scratch.predicted, &scratch.displacement].map(Columns::slices);
+    let [last, v, a] = [&p.displacement, &p.v, &scratch.acceleration].map(Columns::slices);
+    let middles = scratch.relative_wind.slices_mut();
+    for (axis, (middle, error)) in
+        middles.into_iter().zip(scratch.correction.slices_mut()).enumerate()
+    {
+        let from = [x[axis], predicted[axis], displacement[axis], last[axis], v[axis], a[axis]];
+        compute_error(level, middle, error, from, scheme, share);
+    }
+}
+
+leveled! {
+    /// Computes one component of the positions and errors of [`compute_angular_errors`]. On entry
+    /// `error` holds the correction.
+    fn compute_error(
+        middle: &mut [f32],
+        error: &mut [f32],
+        from: [&[f32]; 6],
+        scheme: BdfScheme,
+        share: f32,
+    ) = compute_error_column
+}
+
+#[inline(always)]
+fn compute_error_column(
+    middle: &mut [f32],
+    error: &mut [f32],
+    [x, predicted, displacement, last, v, a]: [&[f32]; 6],
+    BdfScheme { h, new_weight, old_weight, .. }: BdfScheme,
+    share: f32,
+) {
+    let to_position = 1.0 / (new_weight * share);
+    let current = x.iter().zip(predicted).zip(displacement);
+    let before = last.iter().zip(v).zip(a);
+    for ((middle, error), (((x, predicted), displacement), ((last, v), a))) in
+        middle.iter_mut().zip(error).zip(current.zip(before))
+    {
+        let start = predicted - displacement;
+        let moved = displacement + *error * share;
+        let step = moved * new_weight - last * old_weight;
+        let expected = (v + a * h) * h;
+        *middle = (start + x) * 0.5;
+        *error = (step - expected) * to_position;
     }
 }
 
@@ -193,13 +229,43 @@ fn compute_corrections(world: &mut World) -> bool {
 /// Subtracts a rigid motion at the points `relative_wind` from all free particles. The predicted
 /// displacement takes the rounding error of that, so that velocities count the exact difference.
 fn subtract(world: &mut World, rigid: &RigidMotion) {
-    let share = world.correction_share();
+    let (share, level) = (world.correction_share(), world.level);
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
-    for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
-        let (x, by) = (p.x.get(i), rigid.displacement_at(scratch.relative_wind.get(i)));
-        p.x.set(i, x - by);
-        let lost = (p.x.get(i) - x) + by;
-        scratch.displacement.add(i, lost * -share);
+    let at = scratch.relative_wind.slices();
+    let [dx, dy, dz] = scratch.displacement.slices_mut();
+    for (axis, (x, displacement)) in p.x.slices_mut().into_iter().zip([dx, dy, dz]).enumerate() {
+        let motion = rigid.component(axis, at);
+        subtract_component(level, x, displacement, motion, &p.w, share);
+    }
+}
+
+leveled! {
+    /// Subtracts one component of a rigid motion.
+    fn subtract_component(
+        x: &mut [f32],
+        displacement: &mut [f32],
+        motion: Component<'_>,
+        w: &[f32],
+        share: f32,
+    ) = subtract_column
+}
+
+#[inline(always)]
+fn subtract_column(
+    x: &mut [f32],
+    displacement: &mut [f32],
+    motion: Component<'_>,
+    w: &[f32],
+    share: f32,
+) {
+    let Component { translation, rotation, center, at } = motion;
+    let points = at[0].iter().zip(at[1]).zip(w);
+    for ((x, displacement), ((a, b), w)) in x.iter_mut().zip(displacement).zip(points) {
+        let turned = rotation[0] * (b - center[1]) - (a - center[0]) * rotation[1];
+        let by = if *w > 0.0 { translation + turned } else { 0.0 };
+        let before = *x;
+        *x = before - by;
+        *displacement += ((*x - before) + by) * -share;
     }
 }
 

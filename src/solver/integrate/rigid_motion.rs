@@ -140,6 +140,17 @@ impl RigidMotion {
         ]
     }
 
+    /// What [`Self::displacement_at`] computes one component from, for points in columns.
+    pub fn component<'a>(&self, axis: usize, at: [&'a [f32]; 3]) -> Component<'a> {
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        Component {
+            translation: self.translation[axis],
+            rotation: [self.rotation[a], self.rotation[b]],
+            center: [self.center[a], self.center[b]],
+            at: [at[a], at[b]],
+        }
+    }
+
     /// Displacement of a point with the body [m], linear in the rotation.
     pub fn displacement_at(&self, point: Vec3) -> Vec3 {
         self.translation + self.rotation.cross(point - self.center)
@@ -156,6 +167,16 @@ impl RigidMotion {
         }
         self.center + self.translation + turned
     }
+}
+
+/// One component of a rigid motion: `translation + rotation[0] · (at[1] − center[1]) −
+/// rotation[1] · (at[0] − center[0])`, where 0 and 1 are the next axes in cyclic order.
+#[derive(Clone, Copy)]
+pub(crate) struct Component<'a> {
+    pub translation: f32,
+    pub rotation: [f32; 2],
+    pub center: [f32; 2],
+    pub at: [&'a [f32]; 2],
 }
 
 /// All particles: positions, displacements, masses and inverse masses. The sums skip those with
