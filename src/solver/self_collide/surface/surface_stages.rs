@@ -353,6 +353,13 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
         // Contacts moved particles; those that are in a collider now get planes.
         collide::project_out_in_substep(world, substep, None, &mut pushed);
         support_projected(&mut surface, world, &pushed, SUPPORTED_SHARE);
+        if world.is_tangled {
+            // Untangling gives no velocity, so the way back out of a collider must not either.
+            let scratch = &mut world.scratch;
+            for projection in scratch.contacts.projections() {
+                scratch.predicted.add(projection.particle as usize, projection.correction);
+            }
+        }
     }
     let was_behind = surface.planes.project_all(&mut surface.motion.now) || !pushed.is_empty();
     if surface.enforce_non_crossing(world) || was_behind {
