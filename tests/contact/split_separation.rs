@@ -129,7 +129,7 @@ fn tearing_edges_of_a_crumpled_sheet_causes_no_self_intersection() {
 /// tears.
 #[test]
 fn ripping_a_crumpled_sheet_with_grabs_causes_no_self_intersection() {
-    for (side, seed, at) in [(16, 0, 90), (20, 4, 60), (20, 5, 60), (24, 0, 90)] {
+    for (side, seed, at) in [(16, 2, 90), (20, 4, 60), (20, 5, 60), (24, 0, 90)] {
         let mut cloth = crumpled_sheet(side, seed, at);
         cloth.set_settings(Settings { tearing: true, ..*cloth.settings() }).unwrap();
         cloth.set_material(Material { tear_stretch: 1.15, ..*cloth.material() }).unwrap();
@@ -140,14 +140,14 @@ fn ripping_a_crumpled_sheet_with_grabs_causes_no_self_intersection() {
         run_without_crossings(
             &format!("ripped {side} {seed} {at}"),
             &mut cloth,
-            100,
+            75,
             |cloth, tick| {
                 let by = Vec3::new(0.006, 0.01, 0.018) * tick as f32;
                 cloth.move_grab(grab, start + by).unwrap();
             },
         );
         let torn = cloth.positions().len() - before;
-        assert!(torn > 3, "only {torn} more particles");
+        assert!(torn > 4, "only {torn} more particles");
     }
 }
 

@@ -98,13 +98,14 @@ pub(crate) fn finish_tick(world: &mut World) {
 
 /// Pushes particles out of every collider in its pose at the end of the tick, without friction,
 /// restitution or triangle tests. For stages that moved particles after the last substep; paths
-/// start at `scratch.predicted` minus `scratch.displacement`.
-pub(crate) fn project_out(world: &mut World) {
+/// start at `scratch.predicted` minus `scratch.displacement`. `gap_share`: the fraction of the contact
+/// gap that is restored.
+pub(crate) fn project_out(world: &mut World, gap_share: f32) {
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
     broad_phase::refresh(world);
-    solve_colliders(world, &|body| [body.next.to_transform(); 2], true);
+    solve_colliders(world, &|body| [body.next.to_transform(); 2], Some(gap_share));
     world.scratch.contacts.collider_contacts.clear();
 }
 
@@ -130,7 +131,7 @@ pub(crate) fn project_out_in_substep(
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
     broad_phase::refresh(world);
-    solve_colliders(world, &|body| substep_frames(body, substep, substeps), true);
+    solve_colliders(world, &|body| substep_frames(body, substep, substeps), Some(PROJECTION_GAP));
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     let x = &mut world.particles.x;
@@ -158,18 +159,19 @@ pub(crate) fn project_out_in_substep(
 pub(crate) fn solve(world: &mut World, substep: u32) {
     world.scratch.contacts.collider_contacts.clear();
     let substeps = world.settings.substeps;
-    solve_colliders(world, &|body| substep_frames(body, substep, substeps), false);
+    solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }
 
 /// Solves the contacts of all colliders, one after the other. `frames` gives the frames of a
-/// collider at the start and at the end; `particles_only` leaves out friction and everything but
-/// particles.
+/// collider at the start and at the end. With `projection`, only particles are pushed, without
+/// friction, as far as this share of the contact gap.
 fn solve_colliders(
     world: &mut World,
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],
-    particles_only: bool,
+    projection: Option<f32>,
 ) {
     let scheme = world.scheme();
+    let is_projection = projection.is_some();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
     for (at, body) in world.colliders.iter().enumerate() {
@@ -178,8 +180,7 @@ fn solve_colliders(
         if neighbours.particle_blocks.is_empty() {
             continue;
         }
-        let gap_share = if particles_only { PROJECTION_GAP } else { 1.0 };
-        let gap = contact_gap(body, world.material.thickness) * gap_share;
+        let gap = contact_gap(body, world.material.thickness) * projection.unwrap_or(1.0);
         let mut particles = LocalParticles {
             x: &mut p.x,
             v: &p.v,
@@ -187,7 +188,7 @@ fn solve_colliders(
             displacement: &scratch.displacement,
             predicted: &scratch.predicted,
             frames: frames(body),
-            material: if particles_only {
+            material: if is_projection {
                 ContactMaterial::FRICTIONLESS
             } else {
                 ContactMaterial::of(body, world.material.friction, world.material.restitution)
@@ -195,12 +196,12 @@ fn solve_colliders(
             gap,
             depenetration: Depenetration {
                 max_step: MAX_DEPENETRATION_SPEED * scheme.h,
-                deep: if particles_only {
+                deep: if is_projection {
                     2.0 * gap
                 } else {
                     DEEP[usize::from(shape.bends().is_some())] * world.mean_edge
                 },
-                holds_deep: particles_only,
+                holds_deep: is_projection,
             },
             scheme,
             body: at as u32,
@@ -222,7 +223,7 @@ fn solve_colliders(
             &neighbours.candidates,
             clearance,
         );
-        if particles_only {
+        if is_projection {
             continue;
         }
         if shape.bends().is_some() {

@@ -41,7 +41,7 @@
 
 use crate::math::columns::Columns;
 use crate::model::links::{LinkKind, Links};
-use crate::solver::collide;
+use crate::solver::collide::{self, PROJECTION_GAP};
 use crate::solver::kinematic::anchors;
 use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
@@ -131,7 +131,7 @@ fn project_all(world: &mut World, limit: f32) {
                 .rev()
                 .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, target));
         }
-        collide::project_out(world);
+        collide::project_out(world, 1.0);
         anchors::project_at_end(world);
         if find_over_stretched(world, limit).is_none() {
             break;
@@ -145,8 +145,9 @@ fn project_all(world: &mut World, limit: f32) {
         // valid state to roll back to. The cloth contracts as far as the anchors permit.
         if !(was_over && has_anchors) {
             roll_back(world, limit);
-            // Colliders take precedence: what they swept over cannot stay where it was.
-            collide::project_out(world);
+            // Colliders take precedence: what they swept over cannot stay where it was. What rests on
+            // them may: pushing it farther out in every tick would never let it rest.
+            collide::project_out(world, PROJECTION_GAP);
         }
         anchors::project_at_end(world);
         update_velocities(world);
