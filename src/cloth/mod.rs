@@ -52,6 +52,7 @@ use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
 use crate::solver::world::World;
+use crate::state::colliders::Impulse;
 use crate::state::events::Event;
 use glam::Vec3;
 
@@ -221,14 +222,15 @@ impl Cloth {
     /// descriptor, time zero, all mass scales 1. Removes all grabs, attachments, anchors, creases
     /// and events.
     ///
-    /// Settings, material, wind and colliders stay as they are now. Handles of grabs and
-    /// attachments become stale; handles of colliders stay valid.
+    /// Settings, material, wind and colliders stay as they are now; the impulses of colliders are
+    /// zero again. Handles of grabs and attachments become stale; handles of colliders stay valid.
     pub fn reset(&mut self) {
         // Building succeeded for this descriptor before, so it succeeds again.
         let Ok((mut fresh, _)) = with_float_env(|| self.desc.build_world()) else {
             return;
         };
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
+        fresh.colliders.iter_mut().for_each(|body| body.impulse = Impulse::default());
         fresh.settings = self.world.settings.clone();
         fresh.material = self.world.material.clone();
         fresh.folds.reserve_hardening(&fresh.material);

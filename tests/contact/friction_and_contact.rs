@@ -367,3 +367,21 @@ fn invalid_colliders_are_refused_and_change_nothing() {
     }
     assert_eq!(cloth.state_hash(), before);
 }
+
+#[test]
+fn a_cloth_that_is_reset_while_it_pushes_a_collider_moves_like_a_new_one() {
+    let mut cloth = Cloth::grid(&free_sheet(8, 0.2, 0.5)).unwrap();
+    let half_extents = Vec3::new(1.0, 0.1, 1.0);
+    let desc = ColliderDesc { shape: Shape::Box, half_extents, ..Default::default() };
+    let table = cloth.add_collider(&desc).unwrap();
+    let fall = |cloth: &mut Cloth| {
+        (0..8).for_each(|i| cloth.set_velocity(i * 7, Vec3::new(0.5, 0.3, -0.2)).unwrap());
+        cloth.step(60);
+        cloth.positions().to_vec()
+    };
+    let new = fall(&mut cloth);
+    assert!(cloth.collider_impulse(table).unwrap().linear.y < 0.0);
+    cloth.reset();
+    assert_eq!(cloth.collider_impulse(table).unwrap().linear, Vec3::ZERO);
+    assert_eq!(fall(&mut cloth), new);
+}
