@@ -10,7 +10,7 @@
 //!      every round                  a sweep as in 1 (forward, backward in turn),
 //!                                   then colliders and anchors
 //! 3. Repeat: both ends of every l > (1 + 0.996 e) r go to their rollback         roll_back
-//!    positions, until none moves
+//!    positions, until none moves; then colliders
 //! 4. Velocities follow the corrections                                           update_velocities
 //! ```
 //! The sweeps are those of Provot, "Deformation constraints in a mass-spring model", Graphics
