@@ -34,16 +34,43 @@ pub(crate) struct SurfaceBend {
     pub curvature: f32,
 }
 
+/// The diameter of the circle around a face in widths of the face: between that of an equilateral
+/// triangle, 1.33, and that of a square cut in two, 1.41 to 2.
+const FACE_SIZE: f32 = 1.5;
+
 impl SurfaceBend {
-    /// Returns how far a chord of `length` [m] over such bends lies below the surface [m].
+    /// Returns how much farther from the faces the ends of a chord of `length` [m] must be, so that
+    /// its middle stays as far from the surface as they are [m].
     ///
     /// ```text
-    /// one bend in the middle: angle L / 4    many, close together: curvature L² / 8
+    /// one bend in the middle: angle L / 4    many, close together: curvature (L² + F²) / 8
     /// ```
+    /// With many bends the ends may lie over the middles of faces, which are lower than the edges
+    /// by the sagitta of the size F of a face.
     pub fn sagitta(&self, length: f32) -> f32 {
         let one = self.angle * length * 0.25;
-        let many = self.curvature * length * length * 0.125;
+        let face = self.face_size();
+        let face = if face < length { face } else { length };
+        let many = self.curvature * (length * length + face * face) * 0.125;
         if one > many { one } else { many }
+    }
+
+    /// Returns the longest chord with at most this sagitta [m]; infinity for a plane.
+    pub fn longest_chord(&self, sagitta: f32) -> f32 {
+        if self.angle <= 0.0 {
+            return f32::INFINITY;
+        }
+        let one = sagitta * 4.0 / self.angle;
+        let face = self.face_size();
+        let both2 = sagitta * 8.0 / self.curvature;
+        let many2 = both2 - face * face;
+        let many2 = if many2 > face * face { many2 } else { both2 * 0.5 };
+        if one * one < many2 { one } else { many2.sqrt() }
+    }
+
+    /// Returns the diameter of the circle around a face between such bends [m].
+    fn face_size(&self) -> f32 {
+        FACE_SIZE * self.angle / self.curvature
     }
 
     /// Takes the larger angle and the larger curvature of both.

@@ -13,7 +13,10 @@
 use crate::geometry::aabb::Aabb;
 use crate::math::max;
 use crate::math::simd::leveled;
-use crate::solver::collide::contact_distance::{contact_gap, needs_triangle_tests, smoothing};
+use crate::solver::collide::contact_distance::{
+    contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
+};
+use crate::solver::collide::long_triangles::{self, longest_edge_squared};
 use crate::solver::collide::mid_phase::{CandidateRange, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
 use crate::solver::world::World;
@@ -43,6 +46,7 @@ pub(super) fn update_swept_bounds(world: &mut World) {
                 searched: SweptBounds::EMPTY,
                 smooth,
                 sagitta_margin,
+                longest_free_edge: 0.0,
                 candidates: CandidateRange::default(),
                 first_particles: 0,
                 first_triangles: 0,
@@ -50,7 +54,9 @@ pub(super) fn update_swept_bounds(world: &mut World) {
             });
         }
         let entry = &mut nearby.entries[count];
-        let distance = contact_gap(body, thickness) + entry.sagitta_margin;
+        let gap = contact_gap(body, thickness);
+        entry.longest_free_edge = longest_free_edge(shape, entry.smooth, gap, entry.sagitta_margin);
+        let distance = gap + entry.sagitta_margin;
         entry.now = SweptBounds::of_body(body, shape, distance);
         // For cloth that is deep between two edges of a shape, the candidates depend on when the
         // search ran. So the search runs at the start of every tick, and a restored cloth gives the
@@ -68,11 +74,12 @@ pub(crate) fn refresh(world: &mut World) {
     }
     let margin = MARGIN * world.mean_edge;
     let has_topology_changed = nearby.positions_at_rebuild.x.len() != world.particles.len()
-        || nearby.longest_rest_edge.1 != world.mesh.triangles.len();
+        || nearby.triangles_at_rebuild != world.mesh.triangles.len();
     let is_stale = nearby.is_stale || has_topology_changed;
     if is_stale || has_particle_moved(world, margin * REBUILD_AT) {
         rebuild(world, margin);
     }
+    long_triangles::refresh(world);
 }
 
 /// Returns whether a particle is farther than `limit` [m] from where it was at the last rebuild.
@@ -86,7 +93,7 @@ fn has_particle_moved(world: &World, limit: f32) -> bool {
 
 leveled! {
     /// Sets `has_moved` if the squared distance of two positions is above `limit2` [m²] or NaN.
-    fn any_moved(x: [&[f32]; 3], from: [&[f32]; 3], limit2: f32, has_moved: &mut bool)
+    pub(super) fn any_moved(x: [&[f32]; 3], from: [&[f32]; 3], limit2: f32, has_moved: &mut bool)
         = any_moved_lanes
 }
 
@@ -112,10 +119,10 @@ fn any_moved_lanes(
 /// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle moves by
 /// `margin` [m].
 fn rebuild(world: &mut World, margin: f32) {
-    update_longest_rest_edge(world);
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
     nearby.positions_at_rebuild.copy_from(x);
+    nearby.triangles_at_rebuild = world.mesh.triangles.len();
     nearby.is_stale = false;
     // The position now and at the start of the substep: a fast particle is already far from there.
     let both = |i: usize| [x.get(i), scratch.predicted.get(i) - scratch.displacement.get(i)];
@@ -145,9 +152,7 @@ fn rebuild(world: &mut World, margin: f32) {
         entry.first_triangles = nearby.blocks.len() as u32;
         let gap = contact_gap(body, world.material.thickness);
         let has_features = shape.bends().is_some() && entry.first_triangles > entry.first_particles;
-        let longest_rest_edge = nearby.longest_rest_edge.0;
-        let needs_triangles =
-            needs_triangle_tests(shape, longest_rest_edge, gap, entry.sagitta_margin);
+        let needs_triangles = needs_triangle_tests(shape, entry.longest_free_edge, world.mean_edge);
         if (has_features || needs_triangles) && nearby.longest_edge == 0.0 {
             let triangles = world.mesh.triangles.iter();
             nearby.longest_edge = longest_edge(triangles, |i| x.get(i)) + 2.0 * margin;
@@ -187,16 +192,6 @@ fn rebuild(world: &mut World, margin: f32) {
     }
 }
 
-/// Measures the longest edge at rest again if the number of triangles has changed.
-fn update_longest_rest_edge(world: &mut World) {
-    let triangles = &world.mesh.triangles;
-    let nearby = &mut world.scratch.contacts.nearby;
-    if nearby.longest_rest_edge.1 != triangles.len() {
-        let at = |i: usize| world.rest[world.mesh.source[i] as usize];
-        nearby.longest_rest_edge = (longest_edge(triangles.iter(), at), triangles.len());
-    }
-}
-
 /// Returns the length of the longest edge of some triangles [m].
 fn longest_edge<'a>(
     triangles: impl Iterator<Item = &'a [u32; 3]>,
@@ -204,10 +199,7 @@ fn longest_edge<'a>(
 ) -> f32 {
     let mut longest2 = 0.0;
     for triangle in triangles {
-        let [a, b, c] = triangle.map(|i| at(i as usize));
-        for edge in [b - a, c - b, a - c] {
-            longest2 = max(edge.length_squared(), longest2);
-        }
+        longest2 = max(longest_edge_squared(triangle.map(|i| at(i as usize))), longest2);
     }
     longest2.sqrt()
 }

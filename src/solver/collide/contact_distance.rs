@@ -29,6 +29,9 @@ const STRETCH_ALLOWANCE: f32 = 1.25;
 /// The diagonal of a cell, stretched, in mean edge lengths.
 const DIAGONAL: f32 = 1.5;
 
+/// The diagonal of a cell at rest, in mean edge lengths, and a little more.
+const LONGEST_EDGE: f32 = 1.25;
+
 /// The largest margin at shapes with flat faces, in mean edge lengths.
 const MAX_MARGIN: f32 = 0.1;
 
@@ -66,19 +69,32 @@ pub(super) fn smoothing(shape: &CollisionShape, spacing: f32) -> (SurfaceBend, f
     (SurfaceBend::default(), margin)
 }
 
-/// Returns whether triangles can touch a round shape where no particle does: the sagitta of the
-/// longest edge is more than the gap of triangles and the margin allow.
-pub(super) fn needs_triangle_tests(
+/// Returns the longest edge of a triangle that stays outside a shape if its corners keep the
+/// contact distance [m]: `gap` [m] and `margin` [m]. Features that bend no more than `smooth` count
+/// as smooth. Infinity for planes.
+///
+/// The sagitta of that edge uses up the margin and what triangles may leave of the gap.
+pub(super) fn longest_free_edge(
     shape: &CollisionShape,
-    longest_edge: f32,
+    smooth: SurfaceBend,
     gap: f32,
     margin: f32,
-) -> bool {
-    let sagitta = |radius: f32| longest_edge * longest_edge * 0.125 / radius;
+) -> f32 {
     let allowed = gap * TRIANGLE_GAP + margin;
     match shape {
-        CollisionShape::Sphere(sphere) => sagitta(sphere.radius) > allowed,
-        CollisionShape::Capsule(capsule) => sagitta(capsule.min_radius()) > allowed,
-        _ => false,
+        CollisionShape::HalfSpace(_) => f32::INFINITY,
+        CollisionShape::Sphere(sphere) => (8.0 * sphere.radius * allowed).sqrt(),
+        CollisionShape::Capsule(capsule) => (8.0 * capsule.min_radius() * allowed).sqrt(),
+        _ => smooth.longest_chord(allowed),
     }
+}
+
+/// Returns whether most triangles can touch a round shape where no particle does, even if the cloth
+/// is not stretched. `spacing` is the mean edge length [m].
+pub(super) fn needs_triangle_tests(
+    shape: &CollisionShape,
+    longest_free_edge: f32,
+    spacing: f32,
+) -> bool {
+    shape.bends().is_none() && longest_free_edge < spacing * LONGEST_EDGE
 }

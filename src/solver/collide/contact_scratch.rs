@@ -7,6 +7,8 @@
 //! pairs grows when there are more pairs than ever before.
 
 use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::collide::long_pairs::LongPairs;
+use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::state::colliders::Impulse;
@@ -16,6 +18,7 @@ use glam::Vec3;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactScratch {
     pub nearby: NearbyBlocks,
+    pub(super) long: LongTriangles,
     /// The contacts of this substep, by collider, then in the order of detection. Contacts beyond
     /// its capacity are dropped: their particles neither bounce nor push the collider.
     pub collider_contacts: Vec<ColliderContact>,
@@ -31,6 +34,7 @@ pub(crate) struct ContactScratch {
     pub(super) pushes: PushAccumulator,
     /// The candidate pairs that are close in this substep.
     pub(super) close_pairs: Vec<u32>,
+    pub(super) long_pairs: LongPairs,
     /// The positions of all particles in the local frame of one collider [m].
     pub(super) local_positions: Vec<Vec3>,
     /// For each particle the index of its last contact in `collider_contacts`.
@@ -47,6 +51,7 @@ impl ContactScratch {
     /// `triangles` triangles.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.nearby.reserve(bodies, particles, triangles);
+        self.long.reserve(particles, triangles);
         let contacts = particles.saturating_sub(self.collider_contacts.len());
         self.collider_contacts.reserve_exact(contacts);
         self.projections.reserve_exact(particles.saturating_sub(self.projections.len()));
@@ -55,6 +60,7 @@ impl ContactScratch {
         self.clearance.reserve_exact(particles.saturating_sub(self.clearance.len()));
         self.pushes.reserve(particles);
         self.close_pairs.reserve(triangles);
+        self.long_pairs.reserve(triangles);
         self.local_positions.reserve_exact(particles.saturating_sub(self.local_positions.len()));
         self.contact_slots.resize(particles, 0);
     }

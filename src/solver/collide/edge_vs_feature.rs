@@ -19,7 +19,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, FeatureSides, Features, VertexFeature};
 use crate::math::{TINY, max, min};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
-use crate::solver::collide::mid_phase::{Candidates, EdgeEdgePair, VertexTrianglePair};
+use crate::solver::collide::mid_phase::{EdgeEdgePair, VertexTrianglePair};
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::collide::triangle_vs_round::{TriangleContact, point_crossing};
 use glam::Vec3;
@@ -38,29 +38,32 @@ const CLOSE_GAPS: f32 = 4.0;
 #[derive(Clone, Copy)]
 pub(super) struct FeatureQuery<'a> {
     pub shape: &'a CollisionShape,
-    pub candidates: Candidates<'a>,
+    pub features: &'a Features,
+    pub edges: &'a [EdgeEdgePair],
+    pub vertices: &'a [VertexTrianglePair],
     /// The distance to keep from features [m].
     pub gap: f32,
     /// A penetration deeper than this [m] cannot result from motion in small steps.
     pub max_depth: f32,
 }
 
+impl FeatureQuery<'_> {
+    /// Returns whether there are no pairs.
+    pub fn is_empty(&self) -> bool {
+        self.edges.is_empty() && self.vertices.is_empty()
+    }
+}
+
 /// Collects the indices of the pairs that are close enough to touch in this substep: edge pairs
-/// first, then vertex pairs, numbered after all edge pairs. `local_positions` is a buffer.
+/// first, then vertex pairs, numbered after all edge pairs. `local_positions` are those
+/// of all particles now.
 pub(super) fn collect_close_pairs(
     query: &FeatureQuery<'_>,
-    particles: &LocalParticles<'_>,
-    local_positions: &mut Vec<Vec3>,
+    local_positions: &[Vec3],
     close_pairs: &mut Vec<u32>,
 ) {
-    let Candidates { edges, vertices, .. } = query.candidates;
-    let features = query.candidates.features(query.shape);
+    let FeatureQuery { features, edges, vertices, .. } = *query;
     close_pairs.clear();
-    if edges.is_empty() && vertices.is_empty() {
-        return;
-    }
-    local_positions.clear();
-    local_positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
     let distance = query.gap * CLOSE_GAPS;
     // Height and normal both have the length of the unnormalised normal as a factor; NaN counts as
     // close.
@@ -88,24 +91,22 @@ pub(super) fn collect_close_pairs(
     }
 }
 
-/// Pushes the close pairs out of the shape once. Returns the depth of the deepest penetration [m],
-/// 0 if there was none.
-pub(super) fn solve(
+/// Accumulates the pushes of the close pairs out of the shape. Returns the depth of the deepest
+/// penetration [m], 0 if there was none.
+pub(super) fn push(
     query: &FeatureQuery<'_>,
-    particles: &mut LocalParticles<'_>,
+    particles: &LocalParticles<'_>,
     close_pairs: &[u32],
     pushes: &mut PushAccumulator,
 ) -> f32 {
-    let candidates = query.candidates;
-    let features = candidates.features(query.shape);
+    let FeatureQuery { features, edges, vertices, .. } = *query;
     let mut deepest = 0.0;
-    pushes.reset(particles.w.len());
     for at in close_pairs {
         let at = *at as usize;
-        let contact = match candidates.edges.get(at) {
+        let contact = match edges.get(at) {
             Some(pair) => edge_contact(query, features, particles, pair),
             None => {
-                let pair = &candidates.vertices[at - candidates.edges.len()];
+                let pair = &vertices[at - edges.len()];
                 vertex_contact(query, features, particles, pair)
             }
         };
@@ -117,7 +118,6 @@ pub(super) fn solve(
         let w = corners.map(|i| particles.w[i]);
         pushes.add(corners, weights, w, correction, penetration);
     }
-    pushes.apply(particles);
     deepest
 }
 

@@ -118,7 +118,7 @@ impl MotionBound {
 
 /// Returns the features that a shape stores; `None` for smooth shapes, and for heightfields, whose
 /// features are made on the fly.
-fn features_of(shape: &CollisionShape) -> Option<&ShapeFeatures> {
+pub(super) fn features_of(shape: &CollisionShape) -> Option<&ShapeFeatures> {
     match shape {
         CollisionShape::Cuboid(_, features)
         | CollisionShape::ConvexHull(_, features)
@@ -137,7 +137,7 @@ pub(super) struct PairSearch {
 }
 
 impl PairSearch {
-    fn is_smooth(&self, bend: &SurfaceBend) -> bool {
+    pub fn is_smooth(&self, bend: &SurfaceBend) -> bool {
         bend.angle <= self.smooth.angle && bend.curvature <= self.smooth.curvature
     }
 }

@@ -24,6 +24,8 @@ pub(crate) mod contact_scratch;
 mod distance_cull;
 mod edge_vs_feature;
 mod local_particles;
+mod long_pairs;
+mod long_triangles;
 mod mid_phase;
 mod nearby_blocks;
 mod particle_vs_shape;
@@ -33,11 +35,12 @@ mod triangle_vs_round;
 
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::transform::Transform;
-use crate::math::saturate;
 use crate::math::wide4::{Float4, xyz};
+use crate::math::{max, saturate};
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
 use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, LocalParticles};
+use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::world::World;
@@ -80,6 +83,7 @@ impl World {
 pub(crate) fn begin_tick(world: &mut World) {
     let scratch = &mut world.scratch.contacts;
     scratch.collider_contacts.clear();
+    scratch.long.begin_tick();
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
     broad_phase::update_swept_bounds(world);
@@ -210,11 +214,13 @@ fn solve_colliders(
         };
         particles.gap += neighbours.sagitta_margin;
         let (clearance, pushes) = (&mut contacts.clearance, &mut contacts.pushes);
-        if !neighbours.triangle_blocks.is_empty() || clearance.len() != particles.w.len() {
+        let has_triangles = neighbours.longest_free_edge < f32::INFINITY;
+        if has_triangles || clearance.len() != particles.w.len() {
             // Corners of triangles that lie in no listed particle block count as near.
             clearance.clear();
             clearance.resize(particles.w.len(), 0.0);
         }
+        let first_contact = particles.contacts.len();
         particle_vs_shape::solve_blocks(
             world.level,
             shape,
@@ -226,25 +232,55 @@ fn solve_colliders(
         if is_projection {
             continue;
         }
+        if has_triangles {
+            let new = &particles.contacts[first_contact..];
+            let surface = (&*particles.x, &world.mesh.triangles[..]);
+            contacts.long.measure_after_pushes(new, world.mean_edge, surface, world.level);
+        }
+        let long = contacts.long.list();
         if shape.bends().is_some() {
+            let triangle_gap = gap * TRIANGLE_GAP;
+            let pairs = &mut contacts.long_pairs;
+            let own = mid_phase::features_of(shape);
+            match own.filter(|_| !long.is_empty()) {
+                Some(own) => {
+                    let long = (long, neighbours.longest_free_edge);
+                    let search = PairSearch { distance: triangle_gap, smooth: neighbours.smooth };
+                    pairs.collect(own, search, &particles, &world.mesh, long);
+                }
+                None => pairs.clear(),
+            }
             let features = FeatureQuery {
                 shape,
-                candidates: neighbours.candidates,
-                gap: gap * TRIANGLE_GAP,
+                features: neighbours.candidates.features(shape),
+                edges: neighbours.candidates.edges,
+                vertices: neighbours.candidates.vertices,
+                gap: triangle_gap,
                 max_depth: neighbours.longest_edge * 0.5,
             };
+            let long_features =
+                FeatureQuery { edges: &pairs.edges, vertices: &pairs.vertices, ..features };
             let (positions, close_pairs) =
                 (&mut contacts.local_positions, &mut contacts.close_pairs);
-            edge_vs_feature::collect_close_pairs(&features, &particles, positions, close_pairs);
+            positions.clear();
+            if !(features.is_empty() && long_features.is_empty()) {
+                positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
+            }
+            edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
+            edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
             solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
-                edge_vs_feature::solve(&features, particles, &contacts.close_pairs, pushes)
+                pushes.reset(particles.w.len());
+                let sharp = edge_vs_feature::push(&features, particles, close_pairs, pushes);
+                let smooth = edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
+                pushes.apply(particles);
+                max(sharp, smooth)
             });
-        } else if !neighbours.triangle_blocks.is_empty() {
+        } else if !(neighbours.triangle_blocks.is_empty() && long.is_empty()) {
             solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
                 triangle_vs_round::solve(
                     shape,
                     particles,
-                    &world.mesh.triangles,
+                    (&world.mesh.triangles, long),
                     &neighbours,
                     gap,
                     clearance,

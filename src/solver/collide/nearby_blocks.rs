@@ -31,10 +31,10 @@ pub(crate) struct NearbyBlocks {
     pub(super) blocks: Vec<u32>,
     /// The positions of all particles at the last rebuild [m].
     pub(super) positions_at_rebuild: Columns,
+    /// The number of triangles at the last rebuild.
+    pub(super) triangles_at_rebuild: usize,
     pub(super) particle_bounds: Vec<Aabb>,
     pub(super) triangle_bounds: Vec<Aabb>,
-    /// The longest edge at rest [m], and the number of triangles when it was measured.
-    pub(super) longest_rest_edge: (f32, usize),
     /// Upper bound of the edge lengths until the next rebuild [m]; 0 while it is not needed.
     pub(super) longest_edge: f32,
     /// Whether the next refresh must rebuild.
@@ -52,6 +52,8 @@ pub(super) struct ColliderEntry {
     /// that [m].
     pub smooth: SurfaceBend,
     pub sagitta_margin: f32,
+    /// Triangles with a longer edge may dip into the shape between their corners [m].
+    pub longest_free_edge: f32,
     pub candidates: CandidateRange,
     /// Its entries of `blocks`: particle blocks from `first_particles` to `first_triangles`,
     /// triangle blocks from there to `end`.
@@ -74,10 +76,14 @@ pub(super) enum SweptBounds {
 pub(super) struct Neighbours<'a> {
     pub particle_blocks: &'a [u32],
     pub triangle_blocks: &'a [u32],
+    /// Triangles with a longer edge may dip into the shape between their corners [m].
+    pub longest_free_edge: f32,
     /// Upper bound of the edge lengths [m].
     pub longest_edge: f32,
     /// The margin on top of the gap that particles keep [m].
     pub sagitta_margin: f32,
+    /// Features that bend no more than this count as smooth.
+    pub smooth: SurfaceBend,
     pub candidates: Candidates<'a>,
 }
 
@@ -108,15 +114,17 @@ impl NearbyBlocks {
 
     /// Returns what is near the live collider with this index.
     pub(super) fn of_collider(&self, body: usize) -> Neighbours<'_> {
-        let ColliderEntry { first_particles, first_triangles, end, sagitta_margin, .. } =
-            self.entries[body];
+        let entry = &self.entries[body];
+        let ColliderEntry { first_particles, first_triangles, end, .. } = *entry;
         let range = |from: u32, end: u32| &self.blocks[from as usize..end as usize];
         Neighbours {
             particle_blocks: range(first_particles, first_triangles),
             triangle_blocks: range(first_triangles, end),
+            longest_free_edge: entry.longest_free_edge,
             longest_edge: self.longest_edge,
-            sagitta_margin,
-            candidates: self.candidates.of_range(&self.entries[body].candidates),
+            sagitta_margin: entry.sagitta_margin,
+            smooth: entry.smooth,
+            candidates: self.candidates.of_range(&entry.candidates),
         }
     }
 }

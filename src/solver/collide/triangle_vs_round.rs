@@ -22,6 +22,7 @@ use crate::geometry::signed_distance::SignedDistance;
 use crate::math::{TINY, max, min};
 use crate::solver::collide::contact_distance::TRIANGLE_GAP;
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
+use crate::solver::collide::long_triangles::longest_edge_squared;
 use crate::solver::collide::nearby_blocks::{BLOCK, Neighbours};
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use glam::Vec3;
@@ -29,6 +30,10 @@ use glam::Vec3;
 /// Largest number of alternations between the closest point of a triangle and the closest sphere of
 /// a capsule.
 const MAX_STEPS: u32 = 8;
+
+/// No point of a triangle is farther from its nearest corner than this fraction of its longest
+/// edge.
+const REACH: f32 = 0.58;
 
 /// Bisections of the substep that find when a triangle passed a point.
 const BISECTIONS: u32 = 20;
@@ -48,12 +53,12 @@ struct TriangleMotion {
     end: [Vec3; 3],
 }
 
-/// Pushes the triangles of the nearby blocks out of a shape once, with contact distance `gap` [m]
+/// Pushes the nearby triangles, and all long ones, out of a shape once, with contact distance `gap` [m]
 /// of particles. Returns the depth of the deepest penetration [m], 0 if there was none.
 pub(super) fn solve(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,
-    triangles: &[[u32; 3]],
+    (triangles, long_triangles): (&[[u32; 3]], &[u32]),
     neighbours: &Neighbours<'_>,
     gap: f32,
     clearance: &[f32],
@@ -61,33 +66,52 @@ pub(super) fn solve(
 ) -> f32 {
     let (gap, mut deepest) = (gap * TRIANGLE_GAP, 0.0);
     pushes.reset(particles.w.len());
-    // No point of a triangle is farther from its nearest corner than this fraction of its longest
-    // edge.
-    let limit = gap + 0.58 * neighbours.longest_edge;
+    let mut push = |corners: [usize; 3], motion: TriangleMotion| {
+        let Some(contact) = find_contact(shape, &motion, gap) else { return };
+        let TriangleContact { weights, penetration } = contact;
+        let from = interpolate(motion.start, weights);
+        let to = interpolate(motion.end, weights);
+        // A point that started inside comes out step by step.
+        let start_distance = round_distance(shape, from);
+        let end_distance = gap - penetration.depth;
+        let normal = penetration.normal;
+        let penetration =
+            particles.depenetration.penetration(normal, gap, start_distance, end_distance);
+        let Some(penetration) = penetration else { return };
+        let correction = particles.correction(from, to, penetration);
+        deepest = max(penetration.depth, deepest);
+        let w = corners.map(|i| particles.w[i]);
+        pushes.add(corners, weights, w, correction, penetration);
+    };
+    let is_far = |corners: [usize; 3], limit: f32| corners.iter().all(|i| clearance[*i] > limit);
+    let motion = |corners: [usize; 3]| TriangleMotion {
+        start: corners.map(|i| particles.start_position(i)),
+        end: corners.map(|i| particles.end_position(i)),
+    };
+    let limit = gap + REACH * neighbours.longest_edge;
     for block in neighbours.triangle_blocks {
         let first = *block as usize * BLOCK;
         for corners in &triangles[first..(first + BLOCK).min(triangles.len())] {
             let corners = corners.map(|i| i as usize);
-            if corners.iter().all(|i| clearance[*i] > limit) {
-                continue;
+            if !is_far(corners, limit) {
+                push(corners, motion(corners));
             }
-            let start = corners.map(|i| particles.start_position(i));
-            let motion = TriangleMotion { start, end: corners.map(|i| particles.end_position(i)) };
-            let Some(contact) = find_contact(shape, &motion, gap) else { continue };
-            let TriangleContact { weights, penetration } = contact;
-            let from = interpolate(start, weights);
-            let to = interpolate(motion.end, weights);
-            // A point that started inside comes out step by step.
-            let start_distance = round_distance(shape, from);
-            let end_distance = gap - penetration.depth;
-            let normal = penetration.normal;
-            let penetration =
-                particles.depenetration.penetration(normal, gap, start_distance, end_distance);
-            let Some(penetration) = penetration else { continue };
-            let correction = particles.correction(from, to, penetration);
-            deepest = max(penetration.depth, deepest);
-            let w = corners.map(|i| particles.w[i]);
-            pushes.add(corners, weights, w, correction, penetration);
+        }
+    }
+    // The limit covers the triangles of the blocks up to `longest_edge`.
+    let longest_tested =
+        if neighbours.triangle_blocks.is_empty() { 0.0 } else { neighbours.longest_edge };
+    let free = max(neighbours.longest_free_edge, longest_tested);
+    for triangle in long_triangles {
+        let corners = triangles[*triangle as usize].map(|i| i as usize);
+        let motion = motion(corners);
+        let edge2 = longest_edge_squared(motion.end);
+        if edge2 <= free * free {
+            continue;
+        }
+        let longest = max(edge2, longest_edge_squared(motion.start)).sqrt();
+        if !is_far(corners, gap + REACH * longest) {
+            push(corners, motion);
         }
     }
     pushes.apply(particles);

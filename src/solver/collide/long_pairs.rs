@@ -1,0 +1,85 @@
+//! Candidate pairs of long triangles and smooth features, anew in each substep.
+//!
+//! Smooth features of a shape with flat faces are not among the candidates of the mid phase, as
+//! particles keep a margin to them. That margin is not enough for the triangles of
+//! `long_triangles`, so these query the BVH of features themselves.
+//!
+//! Reads local particles, long triangles and features; writes its lists.
+//! Invariant: every edge of the cloth is listed once per feature.
+
+use crate::geometry::aabb::Aabb;
+use crate::geometry::features::{Feature, ShapeFeatures};
+use crate::mesh::{Mesh, NONE};
+use crate::solver::collide::local_particles::LocalParticles;
+use crate::solver::collide::long_triangles::longest_edge_squared;
+use crate::solver::collide::mid_phase::{EdgeEdgePair, PairSearch, VertexTrianglePair};
+
+/// The pairs of one collider.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LongPairs {
+    pub edges: Vec<EdgeEdgePair>,
+    pub vertices: Vec<VertexTrianglePair>,
+    /// The pairs that are close.
+    pub close: Vec<u32>,
+}
+
+impl LongPairs {
+    /// Allocates for the usual number of pairs; more allocate when they are first found.
+    pub fn reserve(&mut self, triangles: usize) {
+        self.edges.reserve(4 * triangles);
+        self.vertices.reserve(triangles);
+        self.close.reserve(triangles);
+    }
+
+    pub fn clear(&mut self) {
+        self.edges.clear();
+        self.vertices.clear();
+    }
+
+    /// Lists the pairs of the triangles whose longest edge is above the longest free edge.
+    /// `search.distance` [m] is added to the bounds of their motion.
+    pub fn collect(
+        &mut self,
+        own: &ShapeFeatures,
+        search: PairSearch,
+        particles: &LocalParticles<'_>,
+        mesh: &Mesh,
+        (long_triangles, longest_free_edge): (&[u32], f32),
+    ) {
+        self.clear();
+        let free2 = longest_free_edge * longest_free_edge;
+        let is_long = |triangle: u32| {
+            let corners = mesh.triangles[triangle as usize];
+            longest_edge_squared(corners.map(|i| particles.end_position(i as usize))) > free2
+        };
+        for triangle in long_triangles {
+            if !is_long(*triangle) {
+                continue;
+            }
+            let corners = mesh.triangles[*triangle as usize];
+            let across = mesh.across[*triangle as usize];
+            let path =
+                |i: u32| [particles.start_position(i as usize), particles.end_position(i as usize)];
+            let motion = Aabb::from_points(corners.into_iter().flat_map(path));
+            let bounds = motion.expanded(search.distance);
+            let all = own.overlapping(bounds);
+            for id in all.filter(|id| search.is_smooth(&own.features.bend(*id))) {
+                match own.features.get(id) {
+                    Feature::Edge(_) => {
+                        for k in 0..3 {
+                            let is_own =
+                                across[k] == NONE || across[k] > *triangle || !is_long(across[k]);
+                            if is_own {
+                                let particles = [corners[k], corners[(k + 1) % 3]];
+                                self.edges.push(EdgeEdgePair { edge: id, particles });
+                            }
+                        }
+                    }
+                    Feature::Vertex(vertex, _) => {
+                        self.vertices.push(VertexTrianglePair { vertex, particles: corners });
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Triangles that are long enough to dip into a collider between their corners.
+//!
+//! Particles keep a margin to smooth shapes (see `contact_distance`), which keeps triangles outside
+//! up to some length of their edges: the longest free edge of the collider. Cloth that is stretched
+//! beyond it, and the longest edges of an irregular mesh, are tested as triangles.
+//!
+//! Edges are measured in the first substep of a tick, and again whenever a collider has pushed a
+//! particle far.
+//!
+//! Reads positions and the mesh; writes the list.
+//! Invariant: the list depends only on the positions at these times and on the colliders.
+
+use crate::geometry::aabb::Aabb;
+use crate::math::columns::Columns;
+use crate::math::max;
+use crate::math::simd::Level;
+use crate::solver::collide::broad_phase::any_moved;
+use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::world::World;
+use glam::Vec3;
+
+/// The fraction of a bound that counts; the rest covers rounding.
+const SAFETY: f32 = 0.99;
+
+/// Edges are measured if a collider comes this near to the bounds of the cloth, in mean edge
+/// lengths.
+const NEAR: f32 = 2.0;
+
+/// Edges are measured again if a collider has pushed a particle farther than this, in mean edge
+/// lengths.
+const FAR_PUSH: f32 = 0.2;
+
+/// The triangles with an edge longer than a limit.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LongTriangles {
+    list: Vec<u32>,
+    /// The least longest free edge of the colliders near the cloth in this tick [m]; infinity if
+    /// there is none.
+    limit: f32,
+    /// Whether edges have been measured in this tick.
+    is_current: bool,
+    /// The positions when the edges were last measured [m], and the longest edge then [m].
+    measured: Columns,
+    longest: f32,
+    /// The number of triangles then.
+    triangles: usize,
+}
+
+impl LongTriangles {
+    /// Allocates for `particles` particles and `triangles` triangles.
+    pub fn reserve(&mut self, particles: usize, triangles: usize) {
+        self.list.reserve_exact(triangles.saturating_sub(self.list.len()));
+        self.measured.reserve(particles);
+    }
+
+    /// Begins a tick.
+    pub fn begin_tick(&mut self) {
+        self.is_current = false;
+    }
+
+    /// Returns the indices of the triangles, in ascending order.
+    pub fn list(&self) -> &[u32] {
+        &self.list
+    }
+
+    /// Measures the edges again if one of these contacts has pushed a particle far.
+    pub fn measure_after_pushes(
+        &mut self,
+        contacts: &[ColliderContact],
+        mean_edge: f32,
+        (x, triangles): (&Columns, &[[u32; 3]]),
+        level: Level,
+    ) {
+        let far = FAR_PUSH * mean_edge;
+        let is_far = |contact: &ColliderContact| contact.correction.length_squared() > far * far;
+        if self.limit < f32::INFINITY && contacts.iter().any(is_far) {
+            self.measure(x, triangles, level);
+        }
+    }
+
+    /// Lists the triangles with an edge above the limit.
+    #[inline(never)]
+    fn measure(&mut self, x: &Columns, triangles: &[[u32; 3]], level: Level) {
+        let is_known = self.triangles == triangles.len() && self.measured.x.len() == x.x.len();
+        // An edge grows by no more than what its two ends move.
+        let slack = (self.limit * SAFETY - self.longest) * 0.5;
+        if is_known && slack > 0.0 {
+            let mut has_moved = false;
+            let (now, then) = (x.slices(), self.measured.slices());
+            any_moved(level, now, then, slack * slack, &mut has_moved);
+            if !has_moved {
+                self.list.clear();
+                return;
+            }
+        }
+        self.measured.copy_from(x);
+        self.triangles = triangles.len();
+        self.list.clear();
+        let (limit2, mut longest2) = (self.limit * self.limit, 0.0);
+        for (at, corners) in triangles.iter().enumerate() {
+            let edge2 = longest_edge_squared(corners.map(|i| x.get(i as usize)));
+            longest2 = max(edge2, longest2);
+            // NaN is not listed: there is no contact with it.
+            if edge2 > limit2 {
+                self.list.push(at as u32);
+            }
+        }
+        self.longest = longest2.sqrt();
+    }
+}
+
+/// Measures the edges if they have not been measured in this tick.
+pub(super) fn refresh(world: &mut World) {
+    let contacts = &mut world.scratch.contacts;
+    let (long, x) = (&mut contacts.long, &world.particles.x);
+    if core::mem::replace(&mut long.is_current, true) {
+        return;
+    }
+    let bounds = Aabb::from_points(x.iter());
+    let entries = contacts.nearby.entries.iter();
+    let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
+    long.limit = near.fold(f32::INFINITY, |least, entry| -max(-entry.longest_free_edge, -least));
+    if long.limit < f32::INFINITY {
+        long.measure(x, &world.mesh.triangles, world.level);
+    } else {
+        long.list.clear();
+    }
+}
+
+/// Returns the squared length of the longest edge of a triangle [m²].
+pub(super) fn longest_edge_squared([a, b, c]: [Vec3; 3]) -> f32 {
+    max(max((b - a).length_squared(), (c - b).length_squared()), (a - c).length_squared())
+}
