@@ -37,7 +37,7 @@ pub(crate) struct LongTriangles {
     /// The least longest free edge of the colliders near the cloth in this tick [m]; infinity if
     /// there is none.
     limit: f32,
-    /// Whether edges have been measured in this tick.
+    /// Whether the edges need no measuring at the next refresh.
     is_current: bool,
     /// The positions when the edges were last measured [m], and the longest edge then [m].
     measured: Columns,
@@ -53,8 +53,9 @@ impl LongTriangles {
         self.measured.reserve(particles);
     }
 
-    /// Begins a tick.
-    pub fn begin_tick(&mut self) {
+    /// Lets the next refresh measure the edges: at the start of a tick, and after other stages moved
+    /// particles far.
+    pub fn invalidate(&mut self) {
         self.is_current = false;
     }
 
@@ -109,7 +110,7 @@ impl LongTriangles {
     }
 }
 
-/// Measures the edges if they have not been measured in this tick.
+/// Measures the edges if the list is not current.
 pub(super) fn refresh(world: &mut World) {
     let contacts = &mut world.scratch.contacts;
     let (long, x) = (&mut contacts.long, &world.particles.x);

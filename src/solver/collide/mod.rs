@@ -50,6 +50,9 @@ use crate::state::colliders::{ColliderBody, Impulse};
 /// penetrates, and the largest number while one is too deep.
 const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 
+/// The largest number of rounds that roll triangles back.
+const MAX_ROLLBACK_ROUNDS: u32 = 16;
+
 /// The largest speed at which cloth that started inside a shape comes out [m/s]. A larger speed
 /// would overstretch the cloth around it and fling it away.
 const MAX_DEPENETRATION_SPEED: f32 = 0.05;
@@ -62,8 +65,7 @@ const DEEP: [f32; 2] = [0.25, 0.75];
 /// The fraction of the gap that the last round may leave to the next substep.
 const ROUND_TOLERANCE: f32 = 0.1;
 
-/// The fraction of the contact gap that projections after other stages restore. The next substep
-/// restores the whole; demanding it at once would let constraints alternate more often.
+/// The fraction of the contact gap that the last projections restore.
 pub(crate) const PROJECTION_GAP: f32 = 0.5;
 
 /// Depths below this are rounding, and are left [m].
@@ -83,7 +85,7 @@ impl World {
 pub(crate) fn begin_tick(world: &mut World) {
     let scratch = &mut world.scratch.contacts;
     scratch.collider_contacts.clear();
-    scratch.long.begin_tick();
+    scratch.long.invalidate();
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
     broad_phase::update_swept_bounds(world);
@@ -100,22 +102,41 @@ pub(crate) fn finish_tick(world: &mut World) {
     }
 }
 
-/// Pushes particles out of every collider in its pose at the end of the tick, without friction,
-/// restitution or triangle tests. For stages that moved particles after the last substep; paths
-/// start at `scratch.predicted` minus `scratch.displacement`. `gap_share`: the fraction of the contact
-/// gap that is restored.
-pub(crate) fn project_out(world: &mut World, gap_share: f32) {
+/// What a projection pushes out of colliders, without friction and restitution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Projection {
+    /// Particles, as far as the whole contact gap.
+    Particles,
+    /// Particles and triangles, as far as a part of the gap. The next substep restores the whole;
+    /// demanding it at once would let constraints alternate more often.
+    Surface,
+}
+
+impl Projection {
+    /// Returns the fraction of the contact gap that is restored.
+    fn gap_share(self) -> f32 {
+        if self == Self::Particles { 1.0 } else { PROJECTION_GAP }
+    }
+}
+
+/// Pushes the cloth out of every collider in its pose at the end of the tick. For stages that moved
+/// particles after the last substep; paths start at `scratch.predicted` minus
+/// `scratch.displacement`.
+pub(crate) fn project_out(world: &mut World, projection: Projection) {
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
+    if projection == Projection::Surface {
+        world.scratch.contacts.long.invalidate();
+    }
     broad_phase::refresh(world);
-    solve_colliders(world, &|body| [body.next.to_transform(); 2], Some(gap_share));
+    solve_colliders(world, &|body| [body.next.to_transform(); 2], Some(projection));
     world.scratch.contacts.collider_contacts.clear();
 }
 
-/// Pushes particles out of every collider in its pose at the end of this substep, without friction,
-/// restitution or triangle tests, and lists those that penetrated in `pushed`. The contacts of the
-/// substep stay.
+/// Pushes particles and triangles out of every collider in its pose at the end of this substep,
+/// without friction and restitution, and lists the particles that this moved in `pushed`. The
+/// contacts of the substep stay.
 ///
 /// With `starts`, the positions at the start of the substep, these particles go back to their start
 /// instead, as it moves along with the collider.
@@ -135,7 +156,7 @@ pub(crate) fn project_out_in_substep(
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
     broad_phase::refresh(world);
-    solve_colliders(world, &|body| substep_frames(body, substep, substeps), Some(PROJECTION_GAP));
+    solve_colliders(world, &|body| substep_frames(body, substep, substeps), Some(Projection::Surface));
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     let x = &mut world.particles.x;
@@ -167,12 +188,11 @@ pub(crate) fn solve(world: &mut World, substep: u32) {
 }
 
 /// Solves the contacts of all colliders, one after the other. `frames` gives the frames of a
-/// collider at the start and at the end. With `projection`, only particles are pushed, without
-/// friction, as far as this share of the contact gap.
+/// collider at the start and at the end.
 fn solve_colliders(
     world: &mut World,
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],
-    projection: Option<f32>,
+    projection: Option<Projection>,
 ) {
     let scheme = world.scheme();
     let is_projection = projection.is_some();
@@ -184,7 +204,7 @@ fn solve_colliders(
         if neighbours.particle_blocks.is_empty() {
             continue;
         }
-        let gap = contact_gap(body, world.material.thickness) * projection.unwrap_or(1.0);
+        let gap = contact_gap(body, world.material.thickness) * projection.map_or(1.0, Projection::gap_share);
         let mut particles = LocalParticles {
             x: &mut p.x,
             v: &p.v,
@@ -229,7 +249,7 @@ fn solve_colliders(
             &neighbours.candidates,
             clearance,
         );
-        if is_projection {
+        if projection == Some(Projection::Particles) {
             continue;
         }
         if has_triangles {
@@ -293,6 +313,9 @@ fn solve_colliders(
 
 /// Calls `push`, which pushes triangles out and returns the largest depth [m], until none is too
 /// deep. After each round the corners that it moved are pushed out as particles.
+///
+/// If that does not end, the corners of triangles that are still too deep go back to where the
+/// substep began, as the collider carries it along: there no triangle penetrated.
 fn solve_rounds(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,
@@ -304,7 +327,7 @@ fn solve_rounds(
     for round in 1..=TRIANGLE_ROUNDS[1] {
         let deepest = push(particles, pushes);
         if deepest == 0.0 {
-            break;
+            return;
         }
         // A push of a triangle may push its corners into the shape elsewhere.
         for i in pushes.pushed() {
@@ -312,9 +335,17 @@ fn solve_rounds(
             particle_vs_shape::solve_particle(shape, particles, candidates, *i as usize);
         }
         if round >= TRIANGLE_ROUNDS[0] && deepest <= gap * ROUND_TOLERANCE {
+            return;
+        }
+    }
+    pushes.set_rollback(Some(particles.depenetration.max_step + gap * ROUND_TOLERANCE));
+    for _ in 0..MAX_ROLLBACK_ROUNDS {
+        push(particles, pushes);
+        if !pushes.has_moved() {
             break;
         }
     }
+    pushes.set_rollback(None);
 }
 
 /// Returns the frames of a collider at the start and at the end of a substep.

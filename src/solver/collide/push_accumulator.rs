@@ -23,6 +23,10 @@ pub(super) struct PushAccumulator {
     sums: Vec<AccumulatedPush>,
     /// The particles with a correction, in the order of their first contacts.
     pushed: Vec<u32>,
+    /// While corners roll back: penetrations up to this depth do not count [m].
+    rollback_depth: Option<f32>,
+    /// Whether the last round moved a particle.
+    has_moved: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +52,17 @@ impl PushAccumulator {
         self.pushed.reserve_exact(particles.saturating_sub(self.pushed.len()));
     }
 
+    /// From now on corners are not corrected but go back to where the substep began, if a
+    /// penetration is deeper than this [m]. `None`: they are corrected, as at first.
+    pub fn set_rollback(&mut self, depth: Option<f32>) {
+        self.rollback_depth = depth;
+    }
+
+    /// Returns whether the last round moved a particle.
+    pub fn has_moved(&self) -> bool {
+        self.has_moved
+    }
+
     /// Begins a round with `count` particles and no corrections.
     pub fn reset(&mut self, count: usize) {
         self.sums.resize(count, AccumulatedPush::NONE);
@@ -70,7 +85,8 @@ impl PushAccumulator {
         Penetration { normal, depth, .. }: Penetration,
     ) {
         let denominator: f32 = (0..3).map(|k| weights[k] * weights[k] * w[k]).sum();
-        if denominator <= 0.0 {
+        let is_ignored = self.rollback_depth.is_some_and(|ignored| depth <= ignored);
+        if denominator <= 0.0 || is_ignored {
             return;
         }
         for k in 0..3 {
@@ -92,8 +108,9 @@ impl PushAccumulator {
         }
     }
 
-    /// Moves all particles that have corrections, and sets their sums back to zero.
+    /// Moves all particles that have corrections, or rolls them back, and sets their sums to zero.
     pub fn apply(&mut self, particles: &mut LocalParticles<'_>) {
+        self.has_moved = false;
         for i in &self.pushed {
             let i = *i as usize;
             let sum = core::mem::replace(&mut self.sums[i], AccumulatedPush::NONE);
@@ -101,8 +118,14 @@ impl PushAccumulator {
             if length > 0.0 {
                 let frame = particles.frames[1];
                 let normal = frame.vector_to_world(sum.normal * (1.0 / length));
-                let correction = frame.vector_to_world(sum.correction * (1.0 / sum.weight));
                 let at = particles.end_position(i);
+                let correction = if self.rollback_depth.is_some() {
+                    particles.start_position(i) - at
+                } else {
+                    sum.correction * (1.0 / sum.weight)
+                };
+                self.has_moved |= correction != Vec3::ZERO;
+                let correction = frame.vector_to_world(correction);
                 particles.apply_correction(i, at, normal, correction, sum.max_barycentric);
             }
         }

@@ -41,7 +41,7 @@
 
 use crate::math::columns::Columns;
 use crate::model::links::{LinkKind, Links};
-use crate::solver::collide::{self, PROJECTION_GAP};
+use crate::solver::collide::{self, Projection};
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::kinematic::anchors;
 use crate::solver::stretch::distance::project_upper_bound;
@@ -132,7 +132,7 @@ fn project_all(world: &mut World, limit: f32) {
                 .rev()
                 .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, target));
         }
-        collide::project_out(world, 1.0);
+        collide::project_out(world, Projection::Particles);
         anchors::project_at_end(world);
         if find_over_stretched(world, limit).is_none() {
             break;
@@ -141,6 +141,7 @@ fn project_all(world: &mut World, limit: f32) {
     if is_free_again {
         // The last tick is no state to roll back to, and the contraction must not fling the cloth.
         rollback::compute(world);
+        collide::project_out(world, Projection::Surface);
         world.scratch.correction.copy_from(&world.particles.v);
         stop_moved(world);
         restore_momentum(world);
@@ -151,7 +152,7 @@ fn project_all(world: &mut World, limit: f32) {
             roll_back(world, limit);
             // Colliders take precedence: what they swept over cannot stay where it was. What rests on
             // them may: pushing it farther out in every tick would never let it rest.
-            collide::project_out(world, PROJECTION_GAP);
+            collide::project_out(world, Projection::Surface);
         }
         anchors::project_at_end(world);
         update_velocities(world);
