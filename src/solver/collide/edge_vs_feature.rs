@@ -147,6 +147,11 @@ fn edge_contact(
         let fraction = edge_crossing(edge, end, normal)?;
         let from = start[0] + (start[1] - start[0]) * fraction;
         let start_height = (from - edge.ends[0]).dot(normal);
+        // An edge that has turned was not below the plane through the feature that it is below now.
+        let start_height = match outward_normal(edge, start) {
+            Some(own) => max((start[0] - edge.ends[0]).dot(own), start_height),
+            None => start_height,
+        };
         if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
             return None;
         }
@@ -171,6 +176,14 @@ fn edge_contact(
 /// Returns the normal perpendicular to an edge feature and a cloth edge, and the height of the
 /// cloth edge along it [m]; `None` if the normal lies outside the normal cone of the feature.
 fn edge_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
+    let normal = outward_normal(edge, [a, b])?;
+    let is_in_cone = edge.inward.iter().all(|inward| normal.dot(*inward) <= CONE_TOLERANCE);
+    is_in_cone.then(|| (normal, (a - edge.ends[0]).dot(normal)))
+}
+
+/// Returns the normal perpendicular to an edge feature and a cloth edge, on the outward side;
+/// `None` if they are parallel.
+fn outward_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<Vec3> {
     let (along, span) = (edge.ends[1] - edge.ends[0], b - a);
     let normal = along.cross(span);
     let length2 = normal.length_squared();
@@ -178,9 +191,7 @@ fn edge_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
         return None;
     }
     let normal = normal * (1.0 / length2.sqrt());
-    let normal = if normal.dot(edge.outward) < 0.0 { -normal } else { normal };
-    let is_in_cone = edge.inward.iter().all(|inward| normal.dot(*inward) <= CONE_TOLERANCE);
-    is_in_cone.then(|| (normal, (a - edge.ends[0]).dot(normal)))
+    Some(if normal.dot(edge.outward) < 0.0 { -normal } else { normal })
 }
 
 /// Returns where a cloth edge crosses an edge feature, seen along `normal`, as a fraction of the
@@ -219,6 +230,12 @@ fn vertex_contact(
         }
         let weights = projected_weights(end, vertex.position, normal)?;
         let start_height = (interpolate(start, weights) - vertex.position).dot(normal);
+        // A triangle that has turned was not below the plane that it is below now.
+        let [p, q, r] = start.map(|x| x - vertex.position);
+        let own = (q - p).cross(r - p);
+        let length = own.length().copysign(own.dot(vertex.outward));
+        let start_height =
+            if length.abs() > TINY { max(p.dot(own) / length, start_height) } else { start_height };
         let depenetration = particles.depenetration;
         let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
