@@ -17,6 +17,7 @@
 //! ends it inside. Each round tests particles last, so a correction of a triangle does not leave a
 //! particle inside.
 
+mod body_motion;
 pub(crate) mod broad_phase;
 pub(crate) mod collider_contact;
 mod contact_distance;
@@ -28,6 +29,7 @@ mod mid_phase;
 mod nearby_blocks;
 mod particle_vs_shape;
 mod push_accumulator;
+pub(crate) mod relative_motion;
 pub(crate) mod response;
 mod triangle_vs_round;
 
@@ -126,7 +128,7 @@ pub(crate) fn project_out_in_substep(
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
-    let substeps = world.settings.substeps;
+    let substeps = world.substeps;
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
@@ -158,7 +160,7 @@ pub(crate) fn project_out_in_substep(
 /// substep.
 pub(crate) fn solve(world: &mut World, substep: u32) {
     world.scratch.contacts.collider_contacts.clear();
-    let substeps = world.settings.substeps;
+    let substeps = world.substeps;
     solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }
 
