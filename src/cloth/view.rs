@@ -76,8 +76,8 @@ pub struct Stats {
     /// Speed of the fastest particle [m/s].
     pub max_speed: f32,
     /// Number of substeps of the last tick: [`Settings::substeps`](crate::Settings), or more where
-    /// cloth and colliders moved fast relative to each other. Before the first tick, that of the
-    /// settings.
+    /// cloth and colliders moved fast relative to each other. A cloth that sleeps runs none and
+    /// keeps the number.
     pub substeps: u32,
     /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,

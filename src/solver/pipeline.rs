@@ -3,7 +3,7 @@
 //! ```text
 //! tick
 //! ├─ asleep?      advance the clock and return
-//! ├─ Limit        store the velocities at the start of the tick
+//! ├─ Colliders    number of substeps         Limit  store the velocities at the start of the tick
 //! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
 //! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
 //! ├─ substep × substeps

@@ -404,11 +404,14 @@ impl World {
 
     /// Sets the position `x` [m] and the velocity `v` [m/s] of a particle, and wakes the cloth.
     ///
-    /// The history of the particle becomes that of free fall.
+    /// The history of the particle becomes that of free fall, if there is a history.
     pub fn set_particle_state(&mut self, particle: usize, x: Vec3, v: Vec3) {
         self.wake();
         let (h, gravity) = (self.regular_scheme().h, self.settings.gravity);
         self.particles.set_motion(particle, x, v, gravity, h);
+        if self.has_no_history {
+            self.particles.drop_history_of(particle);
+        }
         self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
     }
@@ -418,6 +421,7 @@ impl World {
     pub fn reset_history(&mut self) {
         let (h, gravity) = (self.regular_scheme().h, self.settings.gravity);
         self.particles.reset_history(gravity, h);
+        self.has_no_history = false;
     }
 
     /// Largest displacement of a particle per substep relative to the rigid motion of the

@@ -1,6 +1,7 @@
 //! Stage `Contacts`: collisions of the cloth with colliders, with Coulomb friction.
 //!
 //! ```text
+//! motion        cloth relative to colliders: substeps of the tick           every tick
 //! broad phase   collider × blocks of particles and triangles, by AABB       when particles moved
 //! mid phase     particle × face, edge × edge feature, triangle × vertex     with the broad phase
 //! narrow phase  distance cull, then particles, then triangles or features   every substep

@@ -43,6 +43,10 @@ pub(crate) fn begin_tick(world: &mut World) {
         world.drop_history();
         world.refresh_soft_pin_masses();
     }
+    if factor > 1 {
+        // The pull of the links must carry the cloth along with the body at once.
+        world.stiffness_step = 0.0;
+    }
     world.raise_stiffness_step();
 }
 
@@ -69,7 +73,7 @@ impl World {
     ///
     /// A rigid link that stops before it converges acts like a spring whose stiffness grows with
     /// 1 / h². Where h jumps down and up again, so does that stiffness, and it pumps energy into
-    /// every vibration. So after a jump down the corrections count as those of a spring of the old
+    /// every vibration. So after a jump down by other settings the corrections count as those of a spring of the old
     /// stiffness, which approaches the new one tick by tick. Substeps below
     /// [`MIN_STIFFNESS_STEP`] count as if they had that length for ever: they would turn the
     /// rounding of positions into velocities.
