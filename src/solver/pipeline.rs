@@ -178,6 +178,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, surface_stages::damp_velocities(world));
+    time_step::end_substep(world);
 }
 
 /// Runs solver sweep `iteration` of a substep: forward if even, backward if odd.

@@ -56,6 +56,17 @@ pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
     needed
 }
 
+/// Returns whether a particle met a collider in this substep at a speed that needs more substeps
+/// than the settings ask for.
+pub(crate) fn has_fast_impact(world: &World) -> bool {
+    let settings = &world.settings;
+    let speed = settings.substeps as f32 * STEP * world.mean_edge / settings.tick;
+    world.scratch.contacts.collider_contacts.iter().any(|contact| {
+        let relative = contact.approach_velocity - contact.surface_velocity;
+        relative.length_squared() > speed * speed
+    })
+}
+
 /// Returns whether a particle moves farther than `length` [m] in the next tick.
 fn has_longer_displacement(world: &World, length: f32) -> bool {
     if length < 0.0 {

@@ -2,10 +2,12 @@
 //! does to history and stiffness.
 //!
 //! ```text
-//! substeps = settings.substeps · factor        factor = ⌈substeps needed / settings.substeps⌉
+//! substeps = settings.substeps · factor     factor = max(⌈substeps needed / settings.substeps⌉,
+//!                                                         factor of the last tick − 1)
 //! ```
 //! A tick in which cloth and colliders move fast relative to each other runs more substeps (see
-//! `collide::relative_motion`). After a change of the length the history of the second-order scheme
+//! `collide::relative_motion`); the number falls slowly, so that a body that shakes does not change
+//! it in every tick, which would drive vibrations. After a change of the length the history of the second-order scheme
 //! (BDF2) is dropped, so the next substep is one of BDF1, and velocities stay as they are.
 //!
 //! Reads settings, colliders and velocities; writes `world.substeps`, the history, `stiffness_step`
@@ -37,17 +39,28 @@ pub(crate) fn begin_tick(world: &mut World) {
     let most = (MAX_SUBSTEPS / least).clamp(1, MAX_FACTOR);
     // The conversion saturates; NaN becomes 0.
     let factor = ((needed / least as f32).ceil() as u32).clamp(1, most);
+    let last_factor = (world.substeps / least).min(most);
+    let factor = factor.max(last_factor.saturating_sub(1));
     let substeps = least * factor;
     if substeps != world.substeps {
         world.substeps = substeps;
         world.drop_history();
         world.refresh_soft_pin_masses();
     }
-    if factor > 1 {
-        // The pull of the links must carry the cloth along with the body at once.
-        world.stiffness_step = 0.0;
-    }
     world.raise_stiffness_step();
+}
+
+/// Ends a substep: after a fast impact the links take on the stiffness of short substeps at once,
+/// because their pull must carry the cloth along with the body. Elsewhere they take it on as slowly
+/// as after a change of the settings.
+pub(crate) fn end_substep(world: &mut World) {
+    let h = world.regular_scheme().h;
+    if world.substeps > world.settings.substeps
+        && world.stiffness_step > h
+        && relative_motion::has_fast_impact(world)
+    {
+        world.stiffness_step = h;
+    }
 }
 
 impl World {
@@ -73,7 +86,7 @@ impl World {
     ///
     /// A rigid link that stops before it converges acts like a spring whose stiffness grows with
     /// 1 / h². Where h jumps down and up again, so does that stiffness, and it pumps energy into
-    /// every vibration. So after a jump down by other settings the corrections count as those of a spring of the old
+    /// every vibration. So after a jump down the corrections count as those of a spring of the old
     /// stiffness, which approaches the new one tick by tick. Substeps below
     /// [`MIN_STIFFNESS_STEP`] count as if they had that length for ever: they would turn the
     /// rounding of positions into velocities.
