@@ -452,7 +452,12 @@ typedef struct MuslinSettings {
   uint32_t struct_size;
   /** Length of a tick [s]. Default 1/60. Above 0, at most 1. */
   float tick;
-  /** Substeps per tick. Default 4. From 1 to 1000. */
+  /**
+   * Least number of substeps per tick. Default 4. From 1 to 1000.
+   *
+   * Where cloth and colliders move fast relative to each other, a tick runs up to 8 times as
+   * many, but not more than 64 unless this is larger. See `substeps` of MuslinStats.
+   */
   uint32_t substeps;
   /**
    * Solver iterations per substep, in alternating order. Default 2. From 1 to 1000.
@@ -994,6 +999,14 @@ typedef struct MuslinStats {
   uint32_t asleep;
   /** Speed of the fastest particle [m/s]. */
   float max_speed;
+  /**
+   * Number of substeps of the last tick: `substeps` of MuslinSettings, or more where cloth and
+   * colliders moved fast relative to each other. A cloth that sleeps runs none and keeps the
+   * number.
+   */
+  uint32_t substeps;
+  /** Always 0. It fills the struct up to a multiple of 8 bytes. */
+  uint32_t reserved;
 } MuslinStats;
 
 /**

@@ -227,6 +227,7 @@ fn build_world(
         reserve_reported: false,
         over_stretched: 0,
         over_stretch_reported: false,
+        substeps: settings.substeps,
         stiffness_step: 0.0,
         has_no_history: false,
         pin_order: PinOrder::default(),

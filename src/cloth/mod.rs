@@ -232,6 +232,7 @@ impl Cloth {
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
         fresh.colliders.iter_mut().for_each(|body| body.impulse = Impulse::default());
         fresh.settings = self.world.settings.clone();
+        fresh.substeps = fresh.settings.substeps;
         fresh.material = self.world.material.clone();
         fresh.folds.reserve_hardening(&fresh.material);
         fresh.wind = self.world.wind.clone();

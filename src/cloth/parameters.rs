@@ -29,8 +29,6 @@ impl Cloth {
         settings.check()?;
         let world = &mut self.world;
         world.check_self_distance(&settings)?;
-        let (before, after) = (world.settings.scheme(), settings.scheme());
-        let changes_scheme = after != before;
         let self_collision =
             |settings: &Settings| (settings.self_collision, settings.self_distance);
         let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
@@ -40,7 +38,10 @@ impl Cloth {
         if settings != world.settings {
             world.wake();
         }
+        let before = world.regular_scheme();
         world.settings = settings;
+        // A new number of substeps takes effect when the next tick begins.
+        let after = world.regular_scheme();
         if was_unlimited {
             world.rebuild_pin_order();
         }
@@ -55,7 +56,7 @@ impl Cloth {
                 }
             });
         }
-        if changes_scheme {
+        if after != before {
             with_float_env(|| {
                 if after.extrapolation == before.extrapolation {
                     world.drop_history();

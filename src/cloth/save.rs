@@ -92,6 +92,7 @@ struct SaveData<'a> {
     over_stretched: u32,
     over_stretch_reported: bool,
     sleep: SleepTimer,
+    substeps: u32,
     stiffness_step: f32,
     has_no_history: bool,
     backlog: f64,
@@ -153,6 +154,7 @@ impl Cloth {
             over_stretched: world.over_stretched,
             over_stretch_reported: world.over_stretch_reported,
             sleep: world.sleep,
+            substeps: world.substeps,
             stiffness_step: world.stiffness_step,
             has_no_history: world.has_no_history,
             backlog: self.backlog,
@@ -266,6 +268,8 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
     world.wind = saved.wind.into_owned();
+    require((1..=Settings::MAX_SUBSTEPS).contains(&saved.substeps))?;
+    world.substeps = saved.substeps;
     world.check_self_distance(&world.settings)?;
     world.reserve(capacity);
     require(world.constraints.apply_changes(&world.mesh, &saved.links, &world.material))?;

@@ -89,6 +89,9 @@ impl Cloth {
             hasher.write_f32s(&[world.stiffness_step]);
             hasher.write_u32(u32::from(world.has_no_history));
         }
+        if world.substeps != world.settings.substeps {
+            hasher.write_u32(world.substeps);
+        }
         hasher.write_f32s(&[world.tether_slack]);
         hasher.write_u32(world.tick);
         hasher.finish()

@@ -75,6 +75,10 @@ pub struct Stats {
     pub kinetic_energy: f32,
     /// Speed of the fastest particle [m/s].
     pub max_speed: f32,
+    /// Number of substeps of the last tick: [`Settings::substeps`](crate::Settings), or more where
+    /// cloth and colliders moved fast relative to each other. A cloth that sleeps runs none and
+    /// keeps the number.
+    pub substeps: u32,
     /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,
     /// Approximate memory use [bytes].
@@ -221,6 +225,7 @@ impl Cloth {
             over_stretched: world.over_stretched,
             kinetic_energy,
             max_speed: with_float_env(|| stats::max_speed(world)),
+            substeps: world.substeps,
             asleep: world.is_asleep(),
             bytes: self.bytes(),
             seconds: world.profile.seconds(),

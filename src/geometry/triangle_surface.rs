@@ -62,6 +62,11 @@ impl TriangleSurface {
         self.tree.bounds()
     }
 
+    /// Returns whether a triangle, or one that is close to it in the BVH, overlaps `bounds`.
+    pub fn has_triangle_near(&self, bounds: Aabb) -> bool {
+        self.tree.overlapping(bounds).next().is_some()
+    }
+
     /// Pushes the triangles within `radius` [m] of a point. A distance of NaN counts as near.
     pub fn push_triangles_near(&self, point: Vec3, radius: f32, triangles: &mut Vec<u32>) {
         let bounds = Aabb { low: point - Vec3::splat(radius), high: point + Vec3::splat(radius) };

@@ -3,7 +3,7 @@
 //! ```text
 //! tick
 //! ├─ asleep?      advance the clock and return
-//! ├─ Limit        store the velocities at the start of the tick
+//! ├─ Colliders    number of substeps         Limit  store the velocities at the start of the tick
 //! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
 //! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
 //! ├─ substep × substeps
@@ -37,7 +37,7 @@
 //! before non-crossing surfaces, and these before the strain limit, whose excess is reported.
 
 use crate::model::links::LinkKind;
-use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};
+use crate::solver::integrate::{forces, momentum, predict, recover, sleep, time_step, velocities};
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::self_collide::particle_contacts;
 use crate::solver::self_collide::surface::surface_stages;
@@ -98,7 +98,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         return false;
     }
     world.particles.x_prev_tick.copy_from(&world.particles.x);
-    world.raise_stiffness_step();
+    timed!(world, Colliders, time_step::begin_tick(world));
     if world.settings.max_stretch > 0.0 {
         timed!(world, Limit, strain_limit::store_initial_velocities(world));
     }
@@ -110,7 +110,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     } else {
         world.tether_slack = f32::INFINITY;
     }
-    for substep in 0..world.settings.substeps {
+    for substep in 0..world.substeps {
         run_substep(world, substep);
     }
     timed!(world, Bend, bend::update_folds(world));
@@ -178,6 +178,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, surface_stages::damp_velocities(world));
+    time_step::end_substep(world);
 }
 
 /// Runs solver sweep `iteration` of a substep: forward if even, backward if odd.

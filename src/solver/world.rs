@@ -17,7 +17,6 @@
 
 use crate::geometry::triangle::corner_areas;
 use crate::math::columns::Columns;
-use crate::math::max;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
@@ -56,7 +55,7 @@ use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
-use crate::state::settings::{BdfScheme, Settings};
+use crate::state::settings::Settings;
 use crate::state::wind::Wind;
 use glam::Vec3;
 
@@ -159,6 +158,9 @@ pub(crate) struct World {
     pub over_stretched: u32,
     /// Whether an event has reported these links. Written by `strain_limit`.
     pub over_stretch_reported: bool,
+    /// Number of substeps of the last tick, or of the current one while it runs; at first that of
+    /// the settings. The history has the length of such a substep. Written by `time_step`.
+    pub substeps: u32,
     /// Substep length whose effective stiffness the links have [s], see
     /// [`World::correction_share`]; 0 before the first tick, then at least the substep length.
     pub stiffness_step: f32,
@@ -360,7 +362,7 @@ impl World {
         self.particles.w[at] = if held || mass <= 0.0 {
             0.0
         } else if let Some(pin) = pin {
-            pin.effective_inverse_mass(mass, self.settings.scheme().velocity_step)
+            pin.effective_inverse_mass(mass, self.regular_scheme().velocity_step)
         } else {
             1.0 / mass
         };
@@ -402,11 +404,14 @@ impl World {
 
     /// Sets the position `x` [m] and the velocity `v` [m/s] of a particle, and wakes the cloth.
     ///
-    /// The history of the particle becomes that of free fall.
+    /// The history of the particle becomes that of free fall, if there is a history.
     pub fn set_particle_state(&mut self, particle: usize, x: Vec3, v: Vec3) {
         self.wake();
-        let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
+        let (h, gravity) = (self.regular_scheme().h, self.settings.gravity);
         self.particles.set_motion(particle, x, v, gravity, h);
+        if self.has_no_history {
+            self.particles.drop_history_of(particle);
+        }
         self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
     }
@@ -414,8 +419,9 @@ impl World {
     /// Resets the history of every particle to free fall, after the length or the order of the
     /// substep changed. Positions and velocities stay.
     pub fn reset_history(&mut self) {
-        let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
+        let (h, gravity) = (self.regular_scheme().h, self.settings.gravity);
         self.particles.reset_history(gravity, h);
+        self.has_no_history = false;
     }
 
     /// Largest displacement of a particle per substep relative to the rigid motion of the
@@ -452,47 +458,4 @@ impl World {
             self.pin_order.rebuild(&self.tethers, self.particles.len(), &self.constraints.links);
         }
     }
-
-    /// The time integration scheme of the next substep.
-    pub fn scheme(&self) -> BdfScheme {
-        let scheme = self.settings.scheme();
-        if self.has_no_history { scheme.without_history() } else { scheme }
-    }
-
-    /// Drops the history of every particle after the substep length changed: the next substep is
-    /// one of BDF1. Positions and velocities stay.
-    pub fn drop_history(&mut self) {
-        self.particles.drop_history();
-        self.has_no_history = true;
-    }
-
-    /// Share of a position correction that counts as velocity; 1 while ticks have one length.
-    ///
-    /// A rigid link that stops before it converges acts like a spring whose stiffness grows with
-    /// 1 / h². Where h jumps down and up again, so does that stiffness, and it pumps energy into
-    /// every vibration. So after a jump down the corrections count as those of a spring of the old
-    /// stiffness, which approaches the new one tick by tick. Substeps below
-    /// [`MIN_STIFFNESS_STEP`] count as if they had that length for ever: they would turn the
-    /// rounding of positions into velocities.
-    pub fn correction_share(&self) -> f32 {
-        let ratio = self.settings.scheme().h / max(self.stiffness_step, MIN_STIFFNESS_STEP);
-        ratio * ratio
-    }
-
-    /// Starts a tick: longer substeps make the links softer at once.
-    pub fn raise_stiffness_step(&mut self) {
-        self.stiffness_step = max(self.stiffness_step, self.settings.scheme().h);
-    }
-
-    /// Ends a tick: the stiffness approaches that of the current substep length.
-    pub fn relax_stiffness_step(&mut self) {
-        let h = self.settings.scheme().h;
-        self.stiffness_step = max(h, self.stiffness_step * STIFFNESS_STEP_DECAY);
-    }
 }
-
-/// Share of `stiffness_step` that a tick keeps.
-const STIFFNESS_STEP_DECAY: f32 = 0.9;
-
-/// Shortest substep whose stiffness links take on [s].
-const MIN_STIFFNESS_STEP: f32 = 2.5e-5;

@@ -129,6 +129,12 @@ impl Particles {
         self.displacement.fill(Vec3::ZERO);
     }
 
+    /// Drops the history of one particle.
+    pub fn drop_history_of(&mut self, i: usize) {
+        self.v_extrapolated.set(i, self.v.get(i));
+        self.displacement.set(i, Vec3::ZERO);
+    }
+
     /// Resets the history of all particles, for a new substep length or scheme. Positions and
     /// velocities stay.
     pub fn reset_history(&mut self, gravity: Vec3, h: f32) {

@@ -16,7 +16,11 @@ use serde::{Deserialize, Serialize};
 pub struct Settings {
     /// Length of a tick [s], above 0, at most 1. Default: 1/60.
     pub tick: f32,
-    /// Substeps per tick, 1 to 1000. Default: 4.
+    /// Least number of substeps per tick, 1 to 1000. Default: 4.
+    ///
+    /// Where cloth and colliders move fast relative to each other, a tick runs up to 8 times as
+    /// many, but not more than 64 unless this is larger. [`Stats::substeps`](crate::Stats) tells
+    /// the number of the last tick.
     pub substeps: u32,
     /// Sweeps over the links per substep, alternating in direction, 1 to 1000. Default: 2.
     ///
@@ -120,10 +124,13 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Largest number of substeps per tick, and of iterations per substep.
+    pub(crate) const MAX_SUBSTEPS: u32 = 1000;
+
     /// Refuses settings that are out of range.
     pub(crate) fn check(&self) -> Result<()> {
         check(self.tick > 0.0 && self.tick <= 1.0, "settings.tick", "be above 0 and at most 1")?;
-        let few = |n: u32| (1..=1000).contains(&n);
+        let few = |n: u32| (1..=Self::MAX_SUBSTEPS).contains(&n);
         check(few(self.substeps), "settings.substeps", "be from 1 to 1000")?;
         check(few(self.iterations), "settings.iterations", "be from 1 to 1000")?;
         check(self.max_ticks_per_advance >= 1, "settings.max_ticks_per_advance", "be at least 1")?;
@@ -152,9 +159,10 @@ impl Settings {
         (self.max_tears_per_tick as usize).min(4 * triangles)
     }
 
-    /// The time integration scheme of these settings: BDF2, or BDF1 with a single iteration.
-    pub(crate) fn scheme(&self) -> BdfScheme {
-        let h = self.tick / self.substeps as f32;
+    /// The time integration scheme of a tick with `substeps` substeps: BDF2, or BDF1 with a single
+    /// iteration.
+    pub(crate) fn scheme(&self, substeps: u32) -> BdfScheme {
+        let h = self.tick / substeps as f32;
         if self.iterations >= 2 { BdfScheme::second_order(h) } else { BdfScheme::first_order(h) }
     }
 }

@@ -116,8 +116,30 @@ static void a_cloth_on_a_floor_falls_asleep_and_wakes_when_the_floor_moves(void)
   DONE(muslin_cloth_destroy(cloth));
 }
 
+static void a_fast_collider_adds_substeps_and_stats_tell_their_number(void) {
+  make_cloth(0.0f);
+  MuslinColliderDesc desc;
+  MuslinCollider floor = {0};
+  MuslinStats stats;
+  MuslinQuat straight = {0, 0, 0, 1};
+  muslin_collider_desc_init(&desc);
+  muslin_stats_init(&stats);
+  desc.position.y = -8.0f;
+  DONE(muslin_cloth_add_collider(cloth, &desc, &floor));
+  DONE(muslin_cloth_step(cloth, 1));
+  DONE(muslin_cloth_get_stats(cloth, &stats));
+  CHECK(stats.substeps == 4);
+  desc.position.y = 1.0f;
+  DONE(muslin_cloth_move_collider(cloth, floor, desc.position, straight));
+  DONE(muslin_cloth_step(cloth, 1));
+  DONE(muslin_cloth_get_stats(cloth, &stats));
+  CHECK(stats.substeps == 32);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
 int main(void) {
   TEST(colliders_are_refused_by_field);
   TEST(a_cloth_on_a_floor_falls_asleep_and_wakes_when_the_floor_moves);
+  TEST(a_fast_collider_adds_substeps_and_stats_tell_their_number);
   return failures != 0;
 }

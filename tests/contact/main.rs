@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod added_substeps;
 mod colliders;
 mod fast_impacts;
 mod friction_and_contact;

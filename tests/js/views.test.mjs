@@ -220,6 +220,7 @@ test("settings, material and wind read as frozen copies", () => {
   assert.deepEqual([stats.particles, stats.triangles, stats.pieces, stats.ticks], [1600, 3042, 1, 0]);
   assert.equal(stats.constraints, stats.activeConstraints);
   assert.equal(stats.asleep, false);
+  assert.equal(stats.substeps, 4);
   assert.ok(stats.bytes > 100_000);
 });
 

@@ -12,7 +12,11 @@ import type { QuatLike, Vec3Like } from "./check.js";
 export interface Settings {
   /** Length of a tick [s]. Above 0, at most 1. @defaultValue 1/60 */
   tick: number;
-  /** Substeps per tick, 1 to 1000. @defaultValue 4 */
+  /**
+   * Least number of substeps per tick, 1 to 1000. Where cloth and colliders move fast relative to
+   * each other, a tick runs up to 8 times as many, but not more than 64 unless this is larger; see
+   * `substeps` of the stats. @defaultValue 4
+   */
   substeps: number;
   /**
    * Solver sweeps per substep, 1 to 1000. With 1, integration is first order and damps all motion;

@@ -136,6 +136,11 @@ export interface Stats {
   overStretched: number;
   /** Speed of the fastest particle [m/s]. */
   maxSpeed: number;
+  /**
+   * Number of substeps of the last tick: `substeps` of the settings, or more where cloth and
+   * colliders moved fast relative to each other. A cloth that sleeps runs none and keeps the number.
+   */
+  substeps: number;
   /** Whether the cloth is asleep, see `sleepSpeed` of the settings. */
   asleep: boolean;
   /** Memory that the cloth occupies, approximately [bytes]. */

@@ -41,6 +41,7 @@ const STATS = [
   "overStretched",
   "asleep",
   "maxSpeed",
+  "substeps",
   "bytes",
 ];
 

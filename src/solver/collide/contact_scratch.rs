@@ -6,6 +6,7 @@
 //! Invariant: after [`ContactScratch::reserve`] no stage allocates, except that a list of candidate
 //! pairs grows when there are more pairs than ever before.
 
+use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::LongTriangles;
@@ -19,6 +20,8 @@ use glam::Vec3;
 pub(crate) struct ContactScratch {
     pub nearby: NearbyBlocks,
     pub(super) long: LongTriangles,
+    /// The motion of each live collider over this tick.
+    pub(super) body_motions: Vec<BodyMotion>,
     /// The contacts of this substep, by collider, then in the order of detection. Contacts beyond
     /// its capacity are dropped: their particles neither bounce nor push the collider.
     pub collider_contacts: Vec<ColliderContact>,
@@ -52,6 +55,7 @@ impl ContactScratch {
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.nearby.reserve(bodies, particles, triangles);
         self.long.reserve(particles, triangles);
+        self.body_motions.reserve_exact(bodies.saturating_sub(self.body_motions.len()));
         let contacts = particles.saturating_sub(self.collider_contacts.len());
         self.collider_contacts.reserve_exact(contacts);
         self.projections.reserve_exact(particles.saturating_sub(self.projections.len()));

@@ -1,6 +1,7 @@
 //! Stage `Contacts`: collisions of the cloth with colliders, with Coulomb friction.
 //!
 //! ```text
+//! motion        cloth relative to colliders: substeps of the tick           every tick
 //! broad phase   collider × blocks of particles and triangles, by AABB       when particles moved
 //! mid phase     particle × face, edge × edge feature, triangle × vertex     with the broad phase
 //! narrow phase  distance cull, then particles, then triangles or features   every substep
@@ -17,6 +18,7 @@
 //! ends it inside. Each round tests particles last, so a correction of a triangle does not leave a
 //! particle inside.
 
+mod body_motion;
 pub(crate) mod broad_phase;
 pub(crate) mod collider_contact;
 mod contact_distance;
@@ -30,6 +32,7 @@ mod mid_phase;
 mod nearby_blocks;
 mod particle_vs_shape;
 mod push_accumulator;
+pub(crate) mod relative_motion;
 pub(crate) mod response;
 mod triangle_vs_round;
 
@@ -151,7 +154,7 @@ pub(crate) fn project_out_in_substep(
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
-    let substeps = world.settings.substeps;
+    let substeps = world.substeps;
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
@@ -183,7 +186,7 @@ pub(crate) fn project_out_in_substep(
 /// substep.
 pub(crate) fn solve(world: &mut World, substep: u32) {
     world.scratch.contacts.collider_contacts.clear();
-    let substeps = world.settings.substeps;
+    let substeps = world.substeps;
     solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }
 

@@ -183,7 +183,7 @@ impl SweptBounds {
 
 /// Returns the world bounds of local bounds in a pose of a body; of all orientations if the body
 /// rotates in this tick.
-fn world_bounds(local: &Aabb, pose: &Pose, body: &ColliderBody) -> Aabb {
+pub(super) fn world_bounds(local: &Aabb, pose: &Pose, body: &ColliderBody) -> Aabb {
     let frame = pose.to_transform();
     if body.last.rotation == body.next.rotation {
         let (center, half) = (frame.point_to_world(local.center()), local.half_extents());

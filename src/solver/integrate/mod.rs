@@ -1,8 +1,9 @@
-//! Time integration: forces, prediction, velocities, momentum of free pieces, recovery, sleep.
+//! Time integration: substeps, forces, prediction, velocities, momentum of free pieces, recovery,
+//! sleep.
 //!
-//! `forces` runs once per tick; `predict` starts and `velocities` ends each substep. `momentum`
-//! removes spurious spin, `recover` replaces invalid numbers, and `sleep` skips the ticks of a
-//! cloth at rest.
+//! `time_step` sets the number of substeps and `forces` runs once per tick; `predict` starts and
+//! `velocities` ends each substep. `momentum` removes spurious spin, `recover` replaces invalid
+//! numbers, and `sleep` skips the ticks of a cloth at rest.
 
 pub(crate) mod forces;
 pub(crate) mod momentum;
@@ -11,4 +12,5 @@ pub(crate) mod recover;
 pub(crate) mod rigid_motion;
 pub(crate) mod sleep;
 pub(crate) mod sleep_timer;
+pub(crate) mod time_step;
 pub(crate) mod velocities;

@@ -20,7 +20,7 @@ pub(crate) fn restore_invalid(world: &mut World) {
     if is_all_valid(world) {
         return;
     }
-    let (h, gravity) = (world.settings.scheme().h, world.settings.gravity);
+    let (h, gravity) = (world.regular_scheme().h, world.settings.gravity);
     let p = &mut world.particles;
     let (mut restored, mut first) = (0, Vec3::ZERO);
     for i in 0..p.len() {

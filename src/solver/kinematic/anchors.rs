@@ -21,7 +21,7 @@ pub(crate) fn project(world: &mut World, number: u32) {
     if world.anchors.is_empty() {
         return;
     }
-    let share = (number + 1) as f32 / world.settings.substeps as f32;
+    let share = (number + 1) as f32 / world.substeps as f32;
     project_at(world, share);
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn reset_history(world: &mut World, decay: f32) {
     if world.anchors.is_empty() {
         return;
     }
-    let h = world.settings.scheme().h;
+    let h = world.regular_scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in scratch.anchor_moved.iter().map(|i| *i as usize) {
         let step = scratch.displacement.get(i) + (p.x.get(i) - scratch.predicted.get(i));

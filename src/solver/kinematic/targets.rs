@@ -23,10 +23,10 @@ use glam::Vec3;
 
 /// Moves pinned and grabbed particles to their targets after substep `number` of the tick.
 pub(crate) fn apply(world: &mut World, number: u32) {
-    let count = world.settings.substeps;
+    let count = world.substeps;
     let share = (number + 1) as f32 / count as f32;
     let share_of_rest = 1.0 / (count - number) as f32;
-    let step = world.settings.scheme().velocity_step;
+    let step = world.regular_scheme().velocity_step;
     let mut frames = AttachmentFrames::default();
     let p = &mut world.particles;
     for pin in world.pins.iter() {
@@ -110,7 +110,7 @@ impl World {
             return None;
         }
         let mut effective_mass = core::mem::take(&mut self.scratch.effective_mass);
-        let step = self.settings.scheme().velocity_step;
+        let step = self.regular_scheme().velocity_step;
         effective_mass.clone_from(&self.particles.mass);
         for pin in self.pins.iter().filter(|pin| pin.is_soft()) {
             effective_mass[pin.particle as usize] += pin.stiffness * step * step;
@@ -130,7 +130,7 @@ impl World {
     /// Updates the inverse masses of particles with soft pins, after the length of a substep
     /// changed.
     pub fn refresh_soft_pin_masses(&mut self) {
-        let step = self.settings.scheme().velocity_step;
+        let step = self.regular_scheme().velocity_step;
         let (pins, grabs, p) = (&self.pins, &self.grabs, &mut self.particles);
         for pin in pins.iter().filter(|pin| pin.is_soft()) {
             let at = pin.particle as usize;

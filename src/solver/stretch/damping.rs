@@ -29,7 +29,7 @@ pub(crate) fn apply(world: &mut World) {
     if !is_on(world) {
         return;
     }
-    let ratio = world.material.stretch_damping / world.settings.scheme().h;
+    let ratio = world.material.stretch_damping / world.regular_scheme().h;
     let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
     let start = |i: u32| predicted.get(i as usize) - displacement.get(i as usize);
     let Constraints { links, dynamic, .. } = &mut world.constraints;

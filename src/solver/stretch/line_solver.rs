@@ -75,7 +75,7 @@ const MAX_SWEEP_STRAIN: f32 = 1.0e-3;
 /// mean strain g h² N / (2 n rest).
 pub(crate) fn is_needed(world: &World) -> bool {
     let settings = &world.settings;
-    let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
+    let (h, sweeps) = (world.regular_scheme().h, settings.iterations as f32);
     let load = max(settings.gravity.length(), MIN_LOAD);
     let strain =
         load * h * h * world.constraints.chains.longest as f32 / (2.0 * sweeps * world.mean_edge);

@@ -244,7 +244,7 @@ fn restore_momentum(world: &mut World) {
     if world.pins.has_soft() || !world.anchors.is_empty() {
         return;
     }
-    let h = world.settings.scheme().h;
+    let h = world.regular_scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for piece in scratch.rollback.pieces() {
         let particles = || piece.iter().map(|i| *i as usize);
@@ -265,7 +265,7 @@ fn restore_momentum(world: &mut World) {
 /// Adds the corrections since `scratch.predicted` to the velocities.
 fn add_corrections(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
-    let h = world.settings.scheme().h;
+    let h = world.regular_scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
     for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
         let mean = (p.x.get(i) - p.x_prev_tick.get(i)) * inv_tick;

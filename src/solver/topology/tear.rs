@@ -161,7 +161,7 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
 /// ratio · g · n · h² / (2 · sweeps · edge), with n the number of links on the longest line.
 fn residual_tip_strain(world: &World) -> f32 {
     let settings = &world.settings;
-    let (h, sweeps) = (settings.scheme().h, settings.iterations as f32);
+    let (h, sweeps) = (world.regular_scheme().h, settings.iterations as f32);
     let load = settings.gravity.length() * world.constraints.chains.longest as f32;
     TIP_RESIDUAL_RATIO * load * h * h / (2.0 * sweeps * world.mean_edge)
 }

@@ -43,7 +43,10 @@ pub struct MuslinSettings {
     pub struct_size: u32,
     /// Length of a tick [s]. Default 1/60. Above 0, at most 1.
     pub tick: f32,
-    /// Substeps per tick. Default 4. From 1 to 1000.
+    /// Least number of substeps per tick. Default 4. From 1 to 1000.
+    ///
+    /// Where cloth and colliders move fast relative to each other, a tick runs up to 8 times as
+    /// many, but not more than 64 unless this is larger. See `substeps` of MuslinStats.
     pub substeps: u32,
     /// Solver iterations per substep, in alternating order. Default 2. From 1 to 1000.
     ///

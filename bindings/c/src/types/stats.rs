@@ -49,6 +49,12 @@ pub struct MuslinStats {
     pub asleep: u32,
     /// Speed of the fastest particle [m/s].
     pub max_speed: f32,
+    /// Number of substeps of the last tick: `substeps` of MuslinSettings, or more where cloth and
+    /// colliders moved fast relative to each other. A cloth that sleeps runs none and keeps the
+    /// number.
+    pub substeps: u32,
+    /// Always 0. It fills the struct up to a multiple of 8 bytes.
+    pub reserved: u32,
 }
 
 const _: () = assert!(Stage::COUNT <= MUSLIN_STAGE_SLOTS);
@@ -75,6 +81,8 @@ impl From<Stats> for MuslinStats {
             over_stretched: stats.over_stretched,
             asleep: stats.asleep.into(),
             max_speed: stats.max_speed,
+            substeps: stats.substeps,
+            reserved: 0,
         }
     }
 }

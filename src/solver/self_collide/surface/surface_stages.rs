@@ -126,7 +126,7 @@ impl SurfaceCollision {
         intersections.clear();
         let scans = core::mem::take(&mut self.is_new_tick);
         if world.is_tangled || scans && intersections.scan(mesh, bvh, pairs, start, world.tick) {
-            let sizes = [*gap, world.mean_edge, world.settings.scheme().h];
+            let sizes = [*gap, world.mean_edge, world.regular_scheme().h];
             intersections.detect(mesh, (bvh, pairs), start, sizes);
             intersections.disable_contacts(contacts, speculative);
         }
@@ -285,7 +285,7 @@ pub(crate) fn detect_contacts(world: &mut World) {
             surface.planes.insert(contact.particle, contact.body, contact.normal, at);
         }
     }
-    surface.detect(world, world.settings.substeps);
+    surface.detect(world, world.substeps);
     world.is_tangled = !surface.intersections.is_empty();
     world.surface_collision = Some(surface);
 }
@@ -422,14 +422,14 @@ pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
     if let Some(surface) = &mut world.surface_collision {
         anchor_moved.iter().for_each(|i| surface.motion.now[*i as usize][3] = 0.0);
     }
-    let last = world.settings.substeps - 1;
+    let last = world.substeps - 1;
     enforce_non_crossing(world, last);
 }
 
 /// Corrects derived velocities: impacts become inelastic, relative motion at contacts is damped,
 /// and intersections do not deepen.
 pub(crate) fn damp_velocities(world: &mut World) {
-    let h = world.settings.scheme().h;
+    let h = world.regular_scheme().h;
     let fall_speed = world.settings.gravity.length() * h;
     let Some(mut surface) = world.surface_collision.take() else {
         return;
@@ -477,7 +477,7 @@ pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = 
             world.particles.x_prev_tick.add(*vertex as usize, *displacement);
         }
         gather_positions(world);
-        let last = world.settings.substeps - 1;
+        let last = world.substeps - 1;
         enforce_non_crossing(world, last);
     }
     if let Some(surface) = &mut world.surface_collision {
