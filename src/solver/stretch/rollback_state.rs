@@ -31,6 +31,12 @@ impl RollbackState {
         self.ends.reserve_exact(triangles.saturating_sub(self.ends.len()));
     }
 
+    /// The particles of each piece.
+    pub fn pieces(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = core::iter::once(&0).chain(&self.ends);
+        starts.zip(&self.ends).map(|(start, end)| &self.order[*start as usize..*end as usize])
+    }
+
     /// Sorts the particles `0..particles` by their piece; those without a piece are left out.
     pub fn sort_by_piece(
         &mut self,

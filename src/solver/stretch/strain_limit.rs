@@ -42,6 +42,7 @@
 use crate::math::columns::Columns;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::collide::{self, PROJECTION_GAP};
+use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::kinematic::anchors;
 use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
@@ -139,7 +140,10 @@ fn project_all(world: &mut World, limit: f32) {
     }
     if is_free_again {
         // The last tick is no state to roll back to, and the contraction must not fling the cloth.
+        rollback::compute(world);
+        world.scratch.correction.copy_from(&world.particles.v);
         stop_moved(world);
+        restore_momentum(world);
     } else {
         // If anchors hold the cloth apart now, they did so in the last tick too, and there is no
         // valid state to roll back to. The cloth contracts as far as the anchors permit.
@@ -225,8 +229,40 @@ fn roll_back(world: &mut World, limit: f32) {
 }
 
 /// Adds the corrections since `scratch.predicted` to the velocities, as the module doc describes
-/// (4).
+/// (4). Free pieces keep their momentum.
 fn update_velocities(world: &mut World) {
+    world.scratch.correction.copy_from(&world.particles.v);
+    add_corrections(world);
+    restore_momentum(world);
+}
+
+/// Gives each free piece the momentum and the angular momentum back that it had with the velocities
+/// `scratch.correction`: the bounds of [`add_corrections`] take some of it, and what a collider gave
+/// to a few particles belongs to the whole piece.
+fn restore_momentum(world: &mut World) {
+    if world.pins.has_soft() || !world.anchors.is_empty() {
+        return;
+    }
+    let h = world.settings.scheme().h;
+    let (p, scratch) = (&mut world.particles, &world.scratch);
+    for piece in scratch.rollback.pieces() {
+        let particles = || piece.iter().map(|i| *i as usize);
+        if particles().any(|i| p.w[i] <= 0.0) {
+            continue;
+        }
+        let lost = |i: usize| scratch.correction.get(i) - p.v.get(i);
+        let motion = RigidMotion::fit(particles, &p.x, lost, &p.mass);
+        for i in particles() {
+            let change = motion.displacement_at(p.x.get(i));
+            p.v.add(i, change);
+            p.v_extrapolated.add(i, change);
+            p.displacement.add(i, change * h);
+        }
+    }
+}
+
+/// Adds the corrections since `scratch.predicted` to the velocities.
+fn add_corrections(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
     let h = world.settings.scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
