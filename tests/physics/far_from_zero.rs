@@ -37,9 +37,9 @@ fn sheet_on_a_sphere(x: f32, self_collision: SelfCollision) -> Cloth {
     cloth
 }
 
-/// The largest speed of a particle in the next second [m/s].
-fn max_speed_in_a_second(cloth: &mut Cloth) -> f32 {
-    (0..60).fold(0.0, |most, _| {
+/// The largest speed of a particle in the next seconds [m/s].
+fn max_speed_in(seconds: u32, cloth: &mut Cloth) -> f32 {
+    (0..seconds * 60).fold(0.0, |most, _| {
         cloth.step(1);
         cloth.stats().max_speed.max(most)
     })
@@ -58,13 +58,19 @@ fn exact_positions(cloth: &mut Cloth) -> Vec<DVec3> {
 
 #[test]
 fn a_sheet_rests_on_a_sphere_100_m_away_as_calmly_as_at_zero() {
-    let speeds = [0.0, 100.0, 104.5, 5000.0].map(|x| {
+    // A sheet near zero creeps for a while too, and for how long depends on where it lies.
+    let speed_at_rest = |x: f32| {
         let mut cloth = sheet_on_a_sphere(x, SelfCollision::None);
-        cloth.step(600);
-        max_speed_in_a_second(&mut cloth)
-    });
-    let [at_zero, far @ ..] = speeds;
-    assert!(far.iter().all(|speed| *speed <= 1.5 * at_zero), "{speeds:?} m/s");
+        cloth.step(1800);
+        max_speed_in(10, &mut cloth)
+    };
+    // 104.5 m is 0.5 m from the origin of its sheet, so it has the resolution of -0.5 m.
+    let [at_zero, at_half] = [0.0, -0.5].map(speed_at_rest);
+    for (x, near) in [(100.0, at_zero), (104.5, at_half), (5000.0, at_zero)] {
+        let far = speed_at_rest(x);
+        println!("{x} {far} {near}");
+        assert!(far <= 1.5 * near, "{far} m/s at {x} m, and {near} m/s near zero");
+    }
 }
 
 #[test]
@@ -75,7 +81,7 @@ fn a_sheet_5_km_away_does_not_cross_itself() {
         far.step(60);
         assert_eq!(crossing_count(&mut far), 0, "after {second} s");
     }
-    let speeds = [near, far].each_mut().map(max_speed_in_a_second);
+    let speeds = [near, far].each_mut().map(|cloth| max_speed_in(1, cloth));
     assert!(speeds[1] <= 2.0 * speeds[0] + 1.0e-3, "{speeds:?} m/s");
 }
 
@@ -129,7 +135,7 @@ fn a_sheet_rests_calmly_on_colliders_whose_frames_are_far_away() {
                 let mut cloth = Cloth::grid(&level_sheet(center, settings)).unwrap();
                 cloth.add_collider(&desc(x)).unwrap();
                 cloth.step(600);
-                max_speed_in_a_second(&mut cloth)
+                max_speed_in(1, &mut cloth)
             });
             let [at_zero, far @ ..] = speeds;
             let are_calm = far.iter().all(|speed| *speed <= 2.0 * at_zero + 2.0e-5);
@@ -281,7 +287,7 @@ fn a_sheet_falls_600_m_without_deforming_and_lands_on_the_floor() {
     let lowest = exact_positions(&mut cloth).iter().fold(f64::INFINITY, |low, x| low.min(x.y));
     let gap = lowest - f64::from(ground);
     assert!(gap > 0.9 * f64::from(cloth.material().thickness) && gap < 0.05, "a gap of {gap} m");
-    let speed = max_speed_in_a_second(&mut cloth);
+    let speed = max_speed_in(1, &mut cloth);
     assert!(speed < 0.02, "{speed} m/s");
 }
 
@@ -310,7 +316,7 @@ fn a_flag_rides_200_m_and_comes_to_rest_as_one_that_stays() {
             most_stretch = most_stretch.max(cloth.stats().max_stretch);
         }
         cloth.step(600);
-        (cloth.origin().x, most_stretch, max_speed_in_a_second(&mut cloth))
+        (cloth.origin().x, most_stretch, max_speed_in(1, &mut cloth))
     };
     let (origin, stretch, speed) = ride(200.0);
     let (_, _, speed_of_one_that_stays) = ride(0.0);
