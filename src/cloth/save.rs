@@ -166,8 +166,7 @@ impl Cloth {
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&FORMAT.to_le_bytes());
         bytes.extend_from_slice(&[0; 8]);
-        // Encoding cannot fail for the types in `SaveData`.
-        bytes = postcard::write(&saved, bytes).unwrap_or_default();
+        bytes = postcard::write(&saved, bytes);
         let sum = checksum(&bytes[HEADER..]).to_le_bytes();
         bytes[HEADER - 8..HEADER].copy_from_slice(&sum);
         bytes
@@ -195,8 +194,7 @@ impl Cloth {
         if header[12..] != checksum(body).to_le_bytes() {
             return Err(bad("the data is damaged (its checksum does not match)"));
         }
-        let saved: SaveData<'_> =
-            postcard::read(body).map_err(|_| bad("the data cannot be decoded"))?;
+        let saved: SaveData<'_> = postcard::read(body).ok_or(bad("the data cannot be decoded"))?;
         with_float_env(|| restore_from(saved))
     }
 }
