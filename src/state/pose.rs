@@ -133,6 +133,9 @@ impl Pose {
     }
 
     /// Converts to a transform with axes, for use on many points.
+    ///
+    /// `#[inline(never)]`: many cold callers would contain it.
+    #[inline(never)]
     pub fn to_transform(self) -> Transform {
         Transform {
             origin: self.position,
