@@ -1,7 +1,7 @@
 //! The error type of the postcard encoder and decoder. It has no values.
 //!
 //! Serde's traits return a `Result` for every field. With an error that cannot exist, the compiler
-//! removes the code that handles it: for a save that is a third of the code of decoding.
+//! removes the code that handles it.
 //! Invariant: nothing that the bytes contain makes serde create an error. The decoder marks damaged
 //! bytes in `ByteReader::has_failed` and continues with zeros.
 
