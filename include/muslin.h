@@ -1055,8 +1055,9 @@ typedef struct MuslinWriteDesc {
   float blend;
   /**
    * Transform of the positions, applied after the offset: three rows of four numbers, so that x
-   * becomes t[0] x + t[1] y + t[2] z + t[3]. Default: identity. Normals stay perpendicular to
-   * the surface and on their side of it; tangents stay in the surface.
+   * becomes t[0] x + t[1] y + t[2] z + t[3]. Default: identity. A transform that takes a cloth
+   * far from zero to a place near zero loses no digits. Normals stay perpendicular to the
+   * surface and on their side of it; tangents stay in the surface.
    */
   float transform[12];
   /** 1 if normals point to the other side, e.g. for the back of the cloth. Default 0. */
@@ -1066,6 +1067,11 @@ typedef struct MuslinWriteDesc {
    * thickness on either side gives the cloth a visible thickness.
    */
   float offset;
+  /**
+   * 1 if positions are relative to the origin of muslin_cloth_get_origin, also those that
+   * `transform` applies to. Default 0: they are absolute.
+   */
+  uint32_t relative;
 } MuslinWriteDesc;
 
 #ifdef __cplusplus
@@ -1693,6 +1699,17 @@ MuslinStatus muslin_cloth_teleport_collider(MuslinCloth cloth,
  * muslin_view_init.
  */
 MuslinStatus muslin_cloth_view(MuslinCloth cloth, MuslinView *out_view);
+
+/**
+ * Returns the origin of the cloth [m]: the point that it is simulated relative to, a whole number
+ * of metres along each axis.
+ *
+ * It is zero while most of the cloth stays within 16 m of zero along each axis. Beyond, it follows
+ * the cloth, so that positions far from zero are as exact as near it. All positions that you pass
+ * or read are absolute, except for those that muslin_cloth_write_vertices writes with `relative`.
+ * Only ticks and calls that place particles move the origin.
+ */
+MuslinStatus muslin_cloth_get_origin(MuslinCloth cloth, MuslinVec3 *out_origin);
 
 /**
  * Returns the vertex and index ranges that changed after the view's `topology_revision` was

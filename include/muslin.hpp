@@ -373,6 +373,12 @@ class Cloth {
     const MuslinStatus status = muslin_cloth_view(cloth_, &view);
     return {status, view};
   }
+  /** The point that the cloth is simulated relative to, in whole metres. */
+  Result<MuslinVec3> origin() const noexcept {
+    MuslinVec3 origin{};
+    const MuslinStatus status = muslin_cloth_get_origin(cloth_, &origin);
+    return {status, origin};
+  }
   /** Output ranges that changed after the given topology revision. */
   Result<MuslinChanges> changes(std::uint32_t since_topology_revision) const noexcept {
     MuslinChanges changes;

@@ -132,6 +132,31 @@ fn a_cut_grid_allocates_nothing_until_the_next_cut() {
 }
 
 #[test]
+fn a_cloth_whose_origin_moves_allocates_nothing() {
+    for self_collision in [SelfCollision::Particles, SelfCollision::Surface] {
+        let mut desc = GridDesc { columns: 16, rows: 16, ..GridDesc::default() };
+        (desc.pin_mode, desc.settings.self_collision) = (PinMode::None, self_collision);
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        cloth.add_collider(&ColliderDesc { position: Vec3::NEG_Y, ..Default::default() }).unwrap();
+        let edge: Vec<u32> = (0..16).collect();
+        let train = cloth.attach(&edge, Vec3::ZERO, Quat::IDENTITY).unwrap();
+        cloth.relative_positions();
+        // The flag flutters in the first part, in which lists of pairs grow.
+        let mut ride = |ticks: core::ops::Range<u32>| {
+            for tick in ticks {
+                let to = Vec3::X * (0.5 * tick as f32);
+                cloth.move_attachment(train, to, Quat::IDENTITY).unwrap();
+                cloth.step(1);
+                assert_eq!(cloth.relative_positions().len(), 256);
+            }
+        };
+        ride(1..180);
+        assert_eq!(allocation_count(|| ride(180..360)), 0, "{self_collision:?}");
+        assert!(cloth.origin().x > 160.0);
+    }
+}
+
+#[test]
 fn a_sheet_that_crumples_with_particle_collision_allocates_nothing() {
     let mut cloth = standing_sheet(SelfCollision::Particles);
     assert_eq!(allocation_count(|| cloth.step(90)), 0);

@@ -110,8 +110,9 @@ impl Cloth {
         check(are_nonzero, "normals", "have a length above 0")?;
         let world = &mut self.world;
         for (at, particle) in particles.iter().enumerate() {
-            let constraint = world.anchors.get_or_insert(*particle, positions[at]);
-            constraint.anchor = positions[at];
+            let position = world.to_relative(positions[at]);
+            let constraint = world.anchors.get_or_insert(*particle, position);
+            constraint.anchor = position;
             if let Some(normal) = normals.get(at) {
                 constraint.normal = *normal;
                 if constraint.normal_from == Vec3::ZERO {

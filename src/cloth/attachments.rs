@@ -62,8 +62,11 @@ impl Cloth {
         }
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
-            let pose = Pose::new(position, rotation);
-            let motion = AttachmentPose { last: pose, next: pose, ..AttachmentPose::default() };
+            let mut pose = Pose::new(self.world.to_relative(position), rotation);
+            let center = self.world.local_center(&pose);
+            pose.position = pose.offset(pose.position.as_dvec3(), center);
+            let motion =
+                AttachmentPose { last: pose, next: pose, center, ..AttachmentPose::default() };
             let handle = self.world.attachments.insert(motion, "another attachment")?;
             let frame = pose.to_transform();
             for particle in particles {
@@ -92,10 +95,13 @@ impl Cloth {
         position: Vec3,
         rotation: Quat,
     ) -> Result<()> {
+        let origin = self.world.origin;
         let motion = self.world.attachments.get_mut(attachment.0, "attachment")?;
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             motion.next = Pose::new(position, rotation);
+            let position = position.as_dvec3() - origin.as_dvec3();
+            motion.next.position = motion.next.offset(position, motion.center);
             let frame = motion.next.to_transform();
             for pin in self.world.pins.iter_mut().filter(|pin| pin.attachment == attachment.0) {
                 pin.target = saturate(frame.point_to_world(pin.local));
@@ -134,8 +140,8 @@ impl Cloth {
 }
 
 impl World {
-    /// Moves the pin of `particle`, if it has one, to `position` [m] at once. A carried pin stays
-    /// attached, with a new local position.
+    /// Moves the pin of `particle`, if it has one, to `position` relative to the origin [m] at
+    /// once. A carried pin stays attached, with a new local position.
     pub(super) fn move_pin(&mut self, particle: u32, position: Vec3) {
         let Some(pin) = self.pins.get_mut(particle) else { return };
         (pin.from, pin.target) = (position, position);

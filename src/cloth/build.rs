@@ -47,6 +47,7 @@ use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
 use crate::state::grabs::MAX_GRABS;
 use crate::state::mass_scales::MassScales;
+use crate::state::origin::{Samples, shift_to_cloth};
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
@@ -93,14 +94,19 @@ impl ClothDesc {
 /// Builds the world of a grid.
 fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
     let unit = |v: Vec3| v * (1.0 / v.length());
-    let frame = GridFrame {
+    let mut frame = GridFrame {
         origin: desc.origin,
         right: unit(desc.right),
         down: unit(desc.down),
         spacing: desc.spacing,
     };
+    let mut rest = grid::positions(desc.columns, desc.rows, &frame);
+    let origin = initial_origin(&rest);
+    if origin != Vec3::ZERO {
+        frame.origin -= origin;
+        rest = grid::positions(desc.columns, desc.rows, &frame);
+    }
     let grid = DetectedGrid { columns: desc.columns, rows: desc.rows, frame };
-    let rest = grid::positions(desc.columns, desc.rows, &frame);
     let capacity = desc.capacity();
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
     let (count, triangles) = (rest.len() as u32, mesh.triangles.len() as u32);
@@ -114,7 +120,8 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
         ..MeshReport::default()
     };
     let rest_model = RestModel::from_grid(&grid, mesh, rest, capacity);
-    (build_world(rest_model, desc.pinned(), capacity, &desc.material, &desc.settings), report)
+    let (material, settings) = (&desc.material, &desc.settings);
+    (build_world(rest_model, origin, desc.pinned(), capacity, material, settings), report)
 }
 
 /// Repairs the mesh, detects a regular grid, and builds the world.
@@ -123,8 +130,10 @@ fn world_from_mesh(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     let capacity_for = |particles: usize| desc.capacity(particles);
     let RepairedMesh { mesh, source_vertices, seams, mut report } =
         intake::repair(positions, indices, desc.weld_distance, capacity_for)?;
-    let rest: Vec<Vec3> =
+    let mut rest: Vec<Vec3> =
         source_vertices.iter().map(|vertex| positions[*vertex as usize]).collect();
+    let origin = initial_origin(&rest);
+    rest.iter_mut().for_each(|x| *x -= origin);
     let capacity = desc.capacity(rest.len())?;
     let rest_model = match DetectedGrid::detect(&mesh.triangles, &rest) {
         Some(grid) => {
@@ -137,7 +146,8 @@ fn world_from_mesh(desc: &MeshDesc) -> Result<(World, MeshReport)> {
         Some(seams) => seams.particles_of(&desc.pinned),
         None => desc.pinned.clone(),
     };
-    let mut world = build_world(rest_model, pinned, capacity, &desc.material, &desc.settings);
+    let mut world =
+        build_world(rest_model, origin, pinned, capacity, &desc.material, &desc.settings);
     world.seams = seams;
     let extra = capacity - world.particles.len();
     if let Some(seams) = &mut world.seams {
@@ -188,9 +198,15 @@ impl RestModel {
     }
 }
 
+/// The origin of a cloth with these absolute positions [m].
+fn initial_origin(positions: &[Vec3]) -> Vec3 {
+    shift_to_cloth(Vec3::ZERO, &Samples::of(positions.len(), &|i| positions[i]), &|| 0.0)
+}
+
 /// Builds the world around a rest model and prepares its first tick.
 fn build_world(
     rest_model: RestModel,
+    origin: Vec3,
     pinned: Vec<u32>,
     capacity: usize,
     material: &Material,
@@ -243,6 +259,8 @@ fn build_world(
         seams: None,
         constraints,
         rest,
+        rest_origin: origin,
+        origin,
         cut_sites: Vec::new(),
         crack_tips: Vec::with_capacity(capacity),
         corner_area: areas,

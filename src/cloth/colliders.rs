@@ -19,7 +19,7 @@ impl Cloth {
     /// names the invalid field of `desc` and its rule; [`Error::Full`](crate::Error::Full) if there
     /// are 1024 colliders already. The cloth is unchanged.
     pub fn add_collider(&mut self, desc: &ColliderDesc) -> Result<Collider> {
-        let body = with_float_env(|| ColliderBody::new(desc.clone()))?;
+        let body = with_float_env(|| ColliderBody::new(desc.clone(), self.world.origin))?;
         let handle = self.world.colliders.insert(Box::new(body), "another collider")?;
         self.world.reserve_contacts();
         self.world.wake();
@@ -40,8 +40,9 @@ impl Cloth {
         position: Vec3,
         rotation: Quat,
     ) -> Result<()> {
+        let origin = self.world.origin;
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
-        with_float_env(|| body.move_to(position, rotation))
+        with_float_env(|| body.move_to(position, rotation, origin))
     }
 
     /// Places a collider at a new pose [m] at once, without a sweep and without dragging the cloth
@@ -57,8 +58,9 @@ impl Cloth {
         position: Vec3,
         rotation: Quat,
     ) -> Result<()> {
+        let origin = self.world.origin;
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
-        with_float_env(|| body.teleport(position, rotation))?;
+        with_float_env(|| body.teleport(position, rotation, origin))?;
         self.world.scratch.contacts.nearby.invalidate();
         self.world.wake();
         Ok(())

@@ -30,6 +30,7 @@ impl Cloth {
         check(from != to, "to", "differ from `from`")?;
         check((-3.0..=3.0).contains(&angle), "angle", "be from -3 to 3")?;
         self.world.wake();
+        let [from, to] = [from, to].map(|point| point - self.world.rest_origin);
         with_float_env(|| match self.world.grid_frame {
             Some(GridFrame { origin, right, down, .. }) => {
                 let flat = |p: Vec3| [(p - origin).dot(right), (p - origin).dot(down)];

@@ -53,6 +53,7 @@ impl Cloth {
         check_finite(sweep, "sweep")?;
         check(from != to, "to", "differ from `from`")?;
         check(sweep != Vec3::ZERO, "sweep", "not be zero")?;
+        let [from, to] = [from, to].map(|point| self.world.to_relative(point));
         let blade = with_float_env(|| Blade::new(from, to, sweep));
         let Some(blade) = blade else {
             return Err(Error::BadValue {

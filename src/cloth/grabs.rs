@@ -6,7 +6,7 @@
 //! particles.
 //! Invariant: a handle is stale once its grab is released; it never refers to another grab.
 
-use crate::cloth::{Cloth, query};
+use crate::cloth::Cloth;
 use crate::error::{Result, check, check_finite, check_index};
 use crate::math::float_env::with_float_env;
 use crate::state::grabs::{Grab, GrabbedParticle};
@@ -48,7 +48,7 @@ impl Cloth {
         radius: f32,
     ) -> Result<Option<(Grab, Vec3)>> {
         check(radius.is_finite() && radius >= 0.0, "radius", "be at least 0 and finite")?;
-        let ray = query::ray(origin, direction)?;
+        let ray = self.relative_ray(origin, direction)?;
         let picked = with_float_env(|| {
             let hit = self.first_hit(&ray, f32::INFINITY).map(|hit| hit.particle);
             hit.or_else(|| self.nearest_to(&ray, radius))
@@ -57,7 +57,7 @@ impl Cloth {
             return Ok(None);
         };
         let grab = self.grab_particle(particle)?;
-        Ok(Some((grab, self.world.particles.x.get(particle as usize))))
+        Ok(self.position(particle).map(|x| (grab, x)))
     }
 
     /// Sets the target of a grab [m]. Within the speed limit the particle reaches it evenly over the
@@ -69,6 +69,7 @@ impl Cloth {
     /// unchanged.
     pub fn move_grab(&mut self, grab: Grab, target: Vec3) -> Result<()> {
         check_finite(target, "target")?;
+        let target = self.world.to_relative(target);
         self.world.grabs.get_mut(grab.0, "grab")?.target = target;
         Ok(())
     }

@@ -229,6 +229,7 @@ impl Cloth {
         let Ok((mut fresh, _)) = with_float_env(|| self.desc.build_world()) else {
             return;
         };
+        self.world.set_origin(fresh.origin);
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
         fresh.colliders.iter_mut().for_each(|body| body.impulse = Impulse::default());
         fresh.settings = self.world.settings.clone();
@@ -354,6 +355,8 @@ impl Cloth {
         check_finite(position, "position")?;
         let (at, world) = (particle as usize, &mut self.world);
         with_float_env(|| {
+            world.move_origin_near(position);
+            let position = world.to_relative(position);
             let v = world.particles.v.get(at);
             world.set_particle_state(at, position, v);
             world.particles.x_prev_tick.set(at, position);

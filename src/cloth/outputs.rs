@@ -22,6 +22,10 @@ use glam::{Vec2, Vec3};
 pub(crate) struct Outputs {
     /// One entry per vertex [m].
     pub positions: Vec<Vec3>,
+    /// `positions` relative to the origin; allocated at the first request, valid if
+    /// `are_relative_positions_current`.
+    relative_positions: Vec<Vec3>,
+    are_relative_positions_current: bool,
     /// One unit normal per vertex; valid if `are_normals_current`.
     pub normals: Vec<Vec3>,
     /// Whether `normals` belong to the current positions.
@@ -63,6 +67,8 @@ impl Outputs {
         let (particles, capacity) = (world.capacity(), world.vertex_capacity());
         Self {
             positions: Vec::with_capacity(capacity),
+            relative_positions: Vec::new(),
+            are_relative_positions_current: false,
             normals: Vec::with_capacity(capacity),
             are_normals_current: false,
             surface: InterpolatedSurface::with_capacity(particles),
@@ -92,8 +98,29 @@ impl Outputs {
     /// Copies the current positions and marks the normals as out of date.
     pub fn update_positions(&mut self, world: &World) {
         normals::positions(world, &mut self.positions);
+        self.are_relative_positions_current = false;
         self.are_normals_current = false;
         self.surface.invalidate_positions();
+    }
+
+    /// Returns the positions relative to the origin [m], one per vertex.
+    pub fn relative_positions(&mut self, world: &World) -> &[Vec3] {
+        if !self.are_relative_positions_current {
+            self.relative_positions.reserve_exact(self.positions.capacity());
+            normals::scatter_to_vertices(world, &world.particles.x, &mut self.relative_positions);
+            self.are_relative_positions_current = true;
+        }
+        &self.relative_positions
+    }
+
+    /// Returns the memory of the relative positions [bytes].
+    pub fn relative_bytes(&self) -> usize {
+        size_of::<Vec3>() * self.relative_positions.capacity()
+    }
+
+    /// Returns all lists of positions and normals.
+    pub fn vector_lists(&self) -> [&Vec<Vec3>; 3] {
+        [&self.positions, &self.relative_positions, &self.normals]
     }
 
     /// Rebuilds indices and per-vertex attributes, and returns the ranges that changed.

@@ -22,9 +22,8 @@ impl Cloth {
     pub fn pin(&mut self, particle: u32, target: Option<Vec3>) -> Result<()> {
         check_index(particle, self.world.particles.len(), "particle")?;
         let x = self.world.particles.x.get(particle as usize);
-        let target = target.unwrap_or(x);
-        check_finite(target, "target")?;
-        self.set_pin(particle, target);
+        check_finite(target.unwrap_or(x), "target")?;
+        self.set_pin(particle, target.map_or(x, |target| self.world.to_relative(target)));
         Ok(())
     }
 
@@ -65,12 +64,12 @@ impl Cloth {
             check_finite(*target, "targets")?;
         }
         for (particle, target) in particles.iter().zip(targets) {
-            self.set_pin(*particle, *target);
+            self.set_pin(*particle, self.world.to_relative(*target));
         }
         Ok(())
     }
 
-    /// Pins `particle` at `target`, or changes the target of its pin.
+    /// Pins `particle` at `target` relative to the origin [m], or changes the target of its pin.
     pub(super) fn set_pin(&mut self, particle: u32, target: Vec3) {
         let x = self.world.particles.x.get(particle as usize);
         if self.world.pins.insert(particle, x, target) {

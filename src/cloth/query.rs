@@ -65,11 +65,18 @@ impl Cloth {
     /// `direction` is zero, or `max_distance` is negative.
     pub fn raycast(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Result<Option<Hit>> {
         check(max_distance >= 0.0, "max_distance", "be at least 0")?;
-        let ray = ray(origin, direction)?;
+        let ray = self.relative_ray(origin, direction)?;
         Ok(with_float_env(|| self.first_hit(&ray, max_distance)))
     }
 
-    /// Returns the nearest hit within `max_distance`.
+    /// Checks the arguments, in absolute coordinates, and returns a ray relative to the origin of
+    /// the cloth.
+    pub(super) fn relative_ray(&self, origin: Vec3, direction: Vec3) -> Result<Ray> {
+        let Ray { origin, direction } = ray(origin, direction)?;
+        Ok(Ray { origin: self.world.to_relative(origin), direction })
+    }
+
+    /// Returns the nearest hit of a relative ray within `max_distance`.
     pub(super) fn first_hit(&self, ray: &Ray, max_distance: f32) -> Option<Hit> {
         let x = &self.world.particles.x;
         let mut first: Option<Hit> = None;
@@ -101,14 +108,14 @@ impl Cloth {
                 u: intersection.u,
                 v: intersection.v,
                 distance: intersection.distance,
-                position,
+                position: self.world.to_absolute(position),
                 normal: normal * (facing / normal.length()),
             });
         }
         first
     }
 
-    /// Returns the particle nearest to the ray, within `radius`.
+    /// Returns the particle nearest to a relative ray, within `radius`.
     pub(super) fn nearest_to(&self, ray: &Ray, radius: f32) -> Option<u32> {
         let mut nearest = None;
         let mut least = radius;
@@ -123,7 +130,7 @@ impl Cloth {
 }
 
 /// Checks the arguments and returns a ray with a unit direction.
-pub(super) fn ray(origin: Vec3, direction: Vec3) -> Result<Ray> {
+fn ray(origin: Vec3, direction: Vec3) -> Result<Ray> {
     check_finite(origin, "origin")?;
     check_finite(direction, "direction")?;
     with_float_env(|| {

@@ -40,6 +40,7 @@ use crate::state::colliders::{Colliders, MAX_COLLIDERS};
 use crate::state::events::{Events, MAX_EVENTS};
 use crate::state::grabs::{Grabs, MAX_GRABS};
 use crate::state::mass_scales::MassScales;
+use crate::state::origin::is_valid_origin;
 use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::{Pose, check_pose};
@@ -52,7 +53,7 @@ use std::borrow::Cow;
 /// Signature at the start of a save.
 const MAGIC: &[u8; 8] = b"MUSLINSV";
 /// Version of the format; a change of `SaveData` raises it.
-const FORMAT: u32 = 10;
+const FORMAT: u32 = 11;
 /// Bytes before the body.
 const HEADER: usize = 20;
 
@@ -83,6 +84,7 @@ struct SaveData<'a> {
     warm_start: Cow<'a, WarmStart>,
     is_tangled: bool,
     reference_pose: Pose,
+    origin: Vec3,
     colliders: Cow<'a, Colliders>,
     events: Cow<'a, Events>,
     time: f64,
@@ -145,6 +147,7 @@ impl Cloth {
             warm_start: Cow::Borrowed(&world.warm_start),
             is_tangled: world.is_tangled,
             reference_pose: world.reference_pose,
+            origin: world.origin,
             colliders: Cow::Borrowed(&world.colliders),
             events: Cow::Borrowed(&world.events),
             time: world.time,
@@ -165,8 +168,7 @@ impl Cloth {
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&FORMAT.to_le_bytes());
         bytes.extend_from_slice(&[0; 8]);
-        // Encoding cannot fail for the types in `SaveData`.
-        bytes = postcard::write(&saved, bytes).unwrap_or_default();
+        bytes = postcard::write(&saved, bytes);
         let sum = checksum(&bytes[HEADER..]).to_le_bytes();
         bytes[HEADER - 8..HEADER].copy_from_slice(&sum);
         bytes
@@ -194,8 +196,7 @@ impl Cloth {
         if header[12..] != checksum(body).to_le_bytes() {
             return Err(bad("the data is damaged (its checksum does not match)"));
         }
-        let saved: SaveData<'_> =
-            postcard::read(body).map_err(|_| bad("the data cannot be decoded"))?;
+        let saved: SaveData<'_> = postcard::read(body).ok_or(bad("the data cannot be decoded"))?;
         with_float_env(|| restore_from(saved))
     }
 }
@@ -287,6 +288,8 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.is_tangled = saved.is_tangled;
     require(is_valid_pose(&saved.reference_pose))?;
     world.reference_pose = saved.reference_pose;
+    require(is_valid_origin(saved.origin))?;
+    world.origin = saved.origin;
     require(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_pins_and_grabs(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
@@ -343,7 +346,10 @@ fn is_valid_pose(pose: &Pose) -> bool {
 
 /// Sets the attachments, and returns whether they are valid.
 fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
-    let is_sound = |pose: &AttachmentPose| is_valid_pose(&pose.last) && is_valid_pose(&pose.next);
+    let is_sound = |motion: &AttachmentPose| {
+        [&motion.last, &motion.next].into_iter().all(is_valid_pose)
+            && is_valid_origin(motion.center)
+    };
     let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
     world.attachments = attachments;

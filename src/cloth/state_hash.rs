@@ -7,6 +7,7 @@
 use crate::cloth::Cloth;
 use crate::math::float_env::with_float_env;
 use crate::math::hasher::StateHasher;
+use glam::Vec3;
 
 impl Cloth {
     /// Returns a hash of all state that the next tick depends on. Equal calls give equal hashes on
@@ -14,7 +15,7 @@ impl Cloth {
     ///
     /// The hash covers positions, history, velocities, masses, triangles, folds with their
     /// accumulated yield, pins, attachments, anchors, grabs, colliders, tethers, warm-start
-    /// impulses of self-collision, the flag for unresolved intersections, and time.
+    /// impulses of self-collision, the flag for unresolved intersections, origin, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut hasher) = (&self.world, StateHasher::new(0));
         let p = &world.particles;
@@ -91,6 +92,9 @@ impl Cloth {
         }
         if world.substeps != world.settings.substeps {
             hasher.write_u32(world.substeps);
+        }
+        if world.origin != Vec3::ZERO {
+            hasher.write_f32s(&world.origin.to_array());
         }
         hasher.write_f32s(&[world.tether_slack]);
         hasher.write_u32(world.tick);

@@ -3,6 +3,9 @@
 //! A teleport applies the rigid motion `to · from⁻¹` to all state at once. `move_frame` applies
 //! only the part of the motion that inertia does not cover, and leaves the rest to the tick.
 //!
+//! The origin moves along with a cloth that a motion takes far away, so that the motion does not
+//! round positions.
+//!
 //! Reads the caller's poses; writes `World::reference_pose`, particles, pins, attachments, anchors
 //! and grabs.
 //! Invariant: nothing moves if any transformed value would not be finite.
@@ -12,6 +15,7 @@ use crate::error::{Result, check};
 use crate::geometry::transform::Transform;
 use crate::math::float_env::with_float_env;
 use crate::solver::world::World;
+use crate::state::origin::shift_with_cloth;
 use crate::state::pose::{Pose, check_pose};
 use glam::{Quat, Vec3};
 
@@ -100,6 +104,7 @@ struct FrameMove {
 }
 
 impl FrameMove {
+    #[inline(never)]
     fn new(from: Pose, to: Pose) -> Self {
         Self { from, to, frames: [from.to_transform(), to.to_transform()] }
     }
@@ -118,33 +123,69 @@ impl FrameMove {
 }
 
 impl World {
-    /// Moves everything but colliders with the reference frame, to the pose `to`.
+    /// Moves everything but colliders with the reference frame, to the absolute pose `to`.
     fn teleport_frame(&mut self, to: Pose) -> Result<()> {
-        let all = FrameMove::new(self.reference_pose, to);
+        let [from, end] = self.near_poses([self.reference_pose, to]);
+        let shift = self.shift_with_frame(&FrameMove::new(from, end));
+        let all = FrameMove::new(from, end.translated(-shift));
         self.check_stays_finite(&all, &all)?;
         self.transform_with_frame(&all, &all);
         self.grabs.iter_mut().for_each(|grab| grab.target = all.point(grab.target));
+        self.set_origin_if_moved(shift);
         self.reference_pose = to;
         Ok(())
     }
 
-    /// Moves the reference frame to `to` for the next tick. The share of the motion that is not
-    /// felt is applied at once; the rest is left to the tick. Colliders' last poses are moved too,
-    /// so that their velocities are relative to the frame.
+    /// Converts absolute poses of the reference frame to poses relative to the origin of a point of
+    /// the frame that is near the cloth at the first pose.
+    fn near_poses<const COUNT: usize>(&self, poses: [Pose; COUNT]) -> [Pose; COUNT] {
+        let relative = poses.map(|pose| Pose { position: self.to_relative(pose.position), ..pose });
+        let center = self.local_center(&relative[0]);
+        relative.map(|pose| {
+            let position = pose.offset(pose.position.as_dvec3(), center);
+            Pose { position, ..pose }
+        })
+    }
+
+    /// By how much the origin moves with a cloth that moves at once [m].
+    fn shift_with_frame(&self, by: &FrameMove) -> Vec3 {
+        if by.from == by.to {
+            return Vec3::ZERO;
+        }
+        let center = self.sample_positions().median();
+        shift_with_cloth(self.origin, [center, by.point(center)])
+    }
+
+    /// Sets the origin after particles and what holds them moved to it.
+    fn set_origin_if_moved(&mut self, shift: Vec3) {
+        if shift != Vec3::ZERO {
+            self.set_origin(self.origin + shift);
+        }
+    }
+
+    /// Moves the reference frame to the absolute pose `to` for the next tick. The share of the
+    /// motion that is not felt is applied at once; the rest is left to the tick. Colliders' last
+    /// poses are moved too, so that their velocities are relative to the frame.
     fn advance_frame(&mut self, to: Pose, inertia: f32) -> Result<()> {
-        let from = self.reference_pose;
-        if from == to {
+        if self.reference_pose == to {
             return Ok(());
         }
+        let from = self.reference_pose;
         let unfelt = match inertia {
             1.0 => from,
             0.0 => to,
             felt => to.interpolate(&from, felt),
         };
-        let (unfelt, all) = (FrameMove::new(from, unfelt), FrameMove::new(from, to));
+        let [from, unfelt, end] = self.near_poses([from, unfelt, to]);
+        let shift = self.shift_with_frame(&FrameMove::new(from, unfelt));
+        let move_to = |end: Pose| FrameMove::new(from, end.translated(-shift));
+        let (unfelt, all) = (move_to(unfelt), move_to(end));
         self.check_stays_finite(&unfelt, &all)?;
         self.reference_pose = to;
         self.transform_with_frame(&unfelt, &all);
+        self.grabs.iter_mut().for_each(|grab| grab.target -= shift);
+        self.set_origin_if_moved(shift);
+        let unfelt = FrameMove::new(from.translated(-shift), unfelt.to);
         if unfelt.from != unfelt.to {
             self.colliders.iter_mut().for_each(|body| body.last = unfelt.pose(&body.last));
         }

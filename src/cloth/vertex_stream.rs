@@ -146,7 +146,9 @@ pub struct WriteDesc {
     /// [`Cloth::blend`](crate::Cloth::blend) for smooth motion. Normals and tangents belong to the
     /// interpolated surface.
     pub blend: f32,
-    /// Transform of the positions, applied after the offset; default: identity. Normals stay
+    /// Transform of the positions, applied after the offset; default: identity. A transform that
+    /// takes a cloth far from zero to a place near zero, e.g. to the space of a camera, loses no
+    /// digits of the positions. Normals stay
     /// perpendicular to the surface and on their side of it; tangents stay in the surface.
     pub transform: Affine3,
     /// Whether normals point to the other side, e.g. for the back of the cloth. Default: no.
@@ -154,6 +156,9 @@ pub struct WriteDesc {
     /// Distance by which positions are moved along the written normals [m]; default 0. Half of the
     /// thickness on either side gives the cloth a visible thickness.
     pub offset: f32,
+    /// Whether positions are relative to [`Cloth::origin`](crate::Cloth::origin), also those that
+    /// `transform` applies to. Default: no, they are absolute.
+    pub relative: bool,
 }
 
 impl Default for WriteDesc {
@@ -165,6 +170,7 @@ impl Default for WriteDesc {
             transform: Affine3::IDENTITY,
             flip_normals: false,
             offset: 0.0,
+            relative: false,
         }
     }
 }

@@ -130,6 +130,27 @@ impl Cloth {
         &self.outputs.positions
     }
 
+    /// Returns the origin of the cloth [m]: the point that it is simulated relative to, in whole
+    /// metres.
+    ///
+    /// It is zero while most of the cloth stays within 16 m of zero along each axis. Beyond, it
+    /// follows the cloth, so that positions far from zero are as exact as near it. Every other
+    /// position that the cloth takes or returns is absolute, except for
+    /// [`Cloth::relative_positions`] and [`WriteDesc::relative`](crate::WriteDesc). Only ticks and
+    /// calls that place particles move the origin.
+    pub fn origin(&self) -> Vec3 {
+        self.world.origin
+    }
+
+    /// Returns the positions of the vertices relative to [`Cloth::origin`] [m]. They are exact
+    /// where [`Cloth::positions`], an f32 far from zero, are rounded: by up to 0.25 mm at 5 km.
+    ///
+    /// A renderer adds `origin − camera`, in f64 or relative to an origin of its own. The first
+    /// call allocates the list; later ones copy to it if positions changed.
+    pub fn relative_positions(&mut self) -> &[Vec3] {
+        self.outputs.relative_positions(&self.world)
+    }
+
     /// Returns the unit normals of the vertices. Computes them if positions changed since they were
     /// last read.
     pub fn normals(&mut self) -> &[Vec3] {
@@ -167,7 +188,8 @@ impl Cloth {
     /// Returns the position of a particle [m]; `None` if it does not exist.
     pub fn position(&self, particle: u32) -> Option<Vec3> {
         let at = particle as usize;
-        (at < self.world.particles.len()).then(|| self.world.particles.x.get(at))
+        let world = &self.world;
+        (at < world.particles.len()).then(|| world.to_absolute(world.particles.x.get(at)))
     }
 
     /// Returns the velocity of a particle [m/s]; `None` if it does not exist.
@@ -189,7 +211,7 @@ impl Cloth {
             start < addresses.end && addresses.start < start + size_of::<T>() * list.capacity()
         }
         let outputs = &self.outputs;
-        [&outputs.positions, &outputs.normals].into_iter().any(|list| meets(list, addresses))
+        outputs.vector_lists().into_iter().any(|list| meets(list, addresses))
             || [&outputs.sources, &outputs.indices].into_iter().any(|list| meets(list, addresses))
             || meets(&outputs.uvs, addresses)
             || meets(&outputs.frayed, addresses)
@@ -262,6 +284,7 @@ impl Cloth {
             + world.plate_elements.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()
             + self.outputs.surface.bytes()
+            + self.outputs.relative_bytes()
             + world.particle_collision.as_ref().map_or(0, |pairs| pairs.bytes())
             + world.warm_start.bytes()
             + world.surface_collision.as_ref().map_or(0, |surface| surface.bytes());

@@ -21,7 +21,7 @@ use crate::solver::output::vertex_transform;
 use crate::solver::output::vertex_transform::{VertexBlock, VertexTransform};
 use crate::solver::stage::Stage;
 use core::ops::Range;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// Width of the indices in a buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,7 +105,9 @@ impl Cloth {
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
         let transform = with_float_env(|| {
-            VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, desc.transform)
+            let origin = if desc.relative { Vec3::ZERO } else { world.origin };
+            let transform = vertex_transform::from_origin(desc.transform, origin);
+            VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, transform)
         });
         let is_usable = transform.can_transform_directions() || !(needs_normals || needs_tangents);
         check(

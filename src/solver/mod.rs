@@ -6,6 +6,7 @@
 //! kinematic       pins, grabs, attachments, anchors
 //! stretch, bend   constraints of the cloth      vertex_sums, particle_stage   shared kernels
 //! collide         collision with colliders      self_collide                 with itself
+//! rebase          moves the origin along with the cloth
 //! topology        tears and cuts                output     normals, tangents, vertices, stats
 //! ```
 //! Start reading at `pipeline`.
@@ -18,6 +19,7 @@ pub(crate) mod output;
 pub(crate) mod particle_stage;
 pub(crate) mod pipeline;
 pub(crate) mod profile;
+pub(crate) mod rebase;
 pub(crate) mod self_collide;
 pub(crate) mod stage;
 pub(crate) mod stretch;

@@ -3,6 +3,7 @@
 //! ```text
 //! tick
 //! ├─ asleep?      advance the clock and return
+//! ├─ rebase       the origin moves along with the cloth
 //! ├─ Colliders    number of substeps         Limit  store the velocities at the start of the tick
 //! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
 //! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
@@ -39,6 +40,7 @@
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{forces, momentum, predict, recover, sleep, time_step, velocities};
 use crate::solver::kinematic::{anchors, targets, tick_targets};
+use crate::solver::rebase;
 use crate::solver::self_collide::particle_contacts;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::stage::Stage;
@@ -97,6 +99,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         advance_clock(world);
         return false;
     }
+    rebase::follow_cloth(world);
     world.particles.x_prev_tick.copy_from(&world.particles.x);
     timed!(world, Colliders, time_step::begin_tick(world));
     if world.settings.max_stretch > 0.0 {

@@ -23,9 +23,8 @@ use crate::mesh::grid::GridFrame;
 use crate::mesh::seams::Seams;
 use crate::mesh::split_edge::CutSite;
 use crate::mesh::split_vertex::OpenedEdge;
-use crate::mesh::{Corner, Fan, Mesh, triangle_of};
+use crate::mesh::{Corner, Mesh, triangle_of};
 use crate::model::constraints::Constraints;
-use crate::model::crack_tips;
 use crate::model::folds::Folds;
 use crate::model::grid_cells::GridCells;
 use crate::model::material::Material;
@@ -93,8 +92,10 @@ pub(crate) struct World {
     /// Whether `pin_stretch` is up to date: no pin moves and no grab is held. Set by
     /// `tether_slack`; cleared when pins or positions change.
     pub is_pin_stretch_current: bool,
-    /// Rest position of each site [m]. Cuts append sites.
+    /// Rest position of each site, relative to `rest_origin` [m]. Cuts append sites.
     pub rest: Vec<Vec3>,
+    /// The origin that the cloth was made with, see `solver::rebase` [m].
+    pub rest_origin: Vec3,
     /// Edge points where cuts made sites; these sites follow those of the original vertices.
     /// Written by cuts.
     pub cut_sites: Vec<CutSite>,
@@ -116,6 +117,8 @@ pub(crate) struct World {
     pub crack_tips: Vec<bool>,
     /// Mean rest length of the edges [m].
     pub mean_edge: f32,
+    /// Absolute position of the point that all positions are relative to [m], see `solver::rebase`.
+    pub origin: Vec3,
     /// Position [m], velocity [m/s], history, mass [kg] and inverse mass [1/kg] of each particle.
     /// Written by most stages.
     pub particles: Particles,
@@ -132,7 +135,7 @@ pub(crate) struct World {
     /// Animated targets [m] with a max distance and a backstop. Written by the host, by
     /// `kinematic::targets`, by `tick_targets`, and by tears and cuts.
     pub anchors: AnchorConstraints,
-    /// Pose [m] of the body that the cloth follows when that body teleports. Written by
+    /// Absolute pose [m] of the body that the cloth follows when that body teleports. Written by
     /// `cloth::teleport`.
     pub reference_pose: Pose,
     /// Collider bodies: shapes, poses [m] and impulses [N s]. Written by the host, by stage
@@ -392,14 +395,6 @@ impl World {
                 *areas = corner_areas(sites.map(|site| rest[site as usize]));
             }
         }
-    }
-
-    /// Rebuilds `crack_tips` for all vertices.
-    pub fn rebuild_crack_tips(&mut self) {
-        let mut fan = Fan::default();
-        let is_tip = |vertex| crack_tips::is_crack_tip(&self.mesh, &self.rest, vertex, &mut fan);
-        self.crack_tips.clear();
-        self.crack_tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
     }
 
     /// Sets the position `x` [m] and the velocity `v` [m/s] of a particle, and wakes the cloth.

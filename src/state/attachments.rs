@@ -2,6 +2,7 @@
 
 use crate::arena::Arena;
 use crate::state::pose::Pose;
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A handle to an attachment of one cloth. It becomes stale when the attachment is removed.
@@ -21,13 +22,16 @@ impl Attachment {
     }
 }
 
-/// The motion of an attachment over the next tick. The default is at rest at the origin.
+/// The motion of an attachment over the next tick: poses of its `center`, as for colliders. The
+/// default is at rest at the origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AttachmentPose {
     /// Pose at the end of the last tick.
     pub last: Pose,
     /// Pose at the end of the next tick.
     pub next: Pose,
+    /// A point near the cloth in the frame of the attachment [m].
+    pub center: Vec3,
     /// Pose at the end of an `advance`, while its ticks run; see `solver::kinematic::tick_targets`.
     #[serde(skip)]
     pub final_pose: Pose,

@@ -1,6 +1,7 @@
 //! Collider descriptors: shape, pose and surface properties as a host gives them.
 
 use crate::error::{Error, Result, check, check_index};
+use crate::geometry::aabb::Aabb;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::convex_hull;
 use crate::geometry::features::ShapeFeatures;
@@ -9,6 +10,7 @@ use crate::geometry::primitives::{Capsule, Cuboid, HalfSpace, Sphere};
 use crate::geometry::triangle_surface;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::hasher::StateHasher;
+use crate::state::origin::whole_metres;
 use crate::state::pose::{COLLIDER_FIELDS, check_pose};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
@@ -144,6 +146,10 @@ const MAX_HEIGHTS: u32 = 4096;
 /// f32.
 const MAX_COORDINATE: f32 = 1.0e6;
 
+/// Largest distance of a convex hull or mesh from zero in its frame, before its coordinates are
+/// made relative to its center [m].
+const MAX_SHAPE_DISTANCE: f32 = 16.0;
+
 fn is_size(v: f32) -> bool {
     v > 0.0 && v < MAX_COORDINATE
 }
@@ -226,13 +232,30 @@ impl ColliderDesc {
         check(all_near, "collider.positions", "be between -1e6 and 1e6")
     }
 
-    /// Builds the collision shape of a checked descriptor.
+    /// The point that the coordinates of the collision shape are relative to, in the local frame
+    /// [m]: zero, or whole metres in a convex hull or mesh that is far from zero, e.g. because its
+    /// positions are those in a large world.
+    pub(crate) fn shape_center(&self) -> Vec3 {
+        let bounds = match self.shape {
+            Shape::Convex | Shape::Mesh => Aabb::from_points(self.positions.iter().copied()),
+            _ => return Vec3::ZERO,
+        };
+        if bounds.expanded(MAX_SHAPE_DISTANCE).contains(&Aabb::from_points([Vec3::ZERO])) {
+            Vec3::ZERO
+        } else {
+            whole_metres(Vec3::ZERO, bounds.center())
+        }
+    }
+
+    /// Builds the collision shape of a checked descriptor, relative to `shape_center`.
     ///
     /// # Errors
     /// `BadValue` if the points of a convex hull lie in one plane, or no triangle of a mesh has an
     /// area.
     pub(crate) fn collision_shape(&self) -> Result<CollisionShape> {
         let bad = |field, must| Error::BadValue { field, must };
+        let center = self.shape_center();
+        let positions: Vec<Vec3> = self.positions.iter().map(|x| *x - center).collect();
         Ok(match self.shape {
             Shape::Plane => CollisionShape::HalfSpace(HalfSpace),
             Shape::Sphere => CollisionShape::Sphere(Sphere { radius: self.radius }),
@@ -245,21 +268,18 @@ impl ColliderDesc {
                 CollisionShape::Cuboid(cuboid, cuboid.features())
             }
             Shape::Convex => {
-                let (body, triangles) = convex_hull::build(&self.positions)
+                let (body, triangles) = convex_hull::build(&positions)
                     .ok_or(bad("collider.positions", "not lie in one plane"))?;
-                CollisionShape::ConvexHull(
-                    body,
-                    ShapeFeatures::build(&self.positions, &triangles, true),
-                )
+                CollisionShape::ConvexHull(body, ShapeFeatures::build(&positions, &triangles, true))
             }
             Shape::Mesh => {
                 let (triangles, _) = self.indices.as_chunks::<3>();
-                let triangles = triangle_surface::non_degenerate(&self.positions, triangles);
-                let surface = TriangleSurface::new(&self.positions, &triangles)
+                let triangles = triangle_surface::non_degenerate(&positions, triangles);
+                let surface = TriangleSurface::new(&positions, &triangles)
                     .ok_or(bad("collider.indices", "hold a triangle with an area"))?;
                 CollisionShape::TriangleSurface(
                     surface,
-                    ShapeFeatures::build(&self.positions, &triangles, false),
+                    ShapeFeatures::build(&positions, &triangles, false),
                 )
             }
             Shape::Heightfield => {

@@ -4,10 +4,11 @@
 //! evenly over the ticks of an `advance` and their substeps, so that contacts are swept.
 
 use crate::arena::Arena;
-use crate::error::{Result, check_finite};
+use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::math::max;
-use crate::state::collider_desc::ColliderDesc;
+use crate::state::collider_desc::{ColliderDesc, Shape};
+use crate::state::origin::{is_valid_origin, whole_metres};
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
@@ -40,9 +41,16 @@ pub struct Impulse {
     pub angular: Vec3,
 }
 
-/// One collider of a cloth. Field order is part of the save format.
+/// One collider of a cloth. Its poses are those of its `center`, relative to the origin of the
+/// cloth, so that coordinates near the cloth are small in both frames:
+///
+/// ```text
+/// position of a pose = absolute position − origin + rotation · center
+/// ```
+/// Field order is part of the save format.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct ColliderBody {
+    /// Its pose is absolute: the one that the host gave last.
     pub desc: ColliderDesc,
     /// Pose at the end of the last tick.
     pub last: Pose,
@@ -50,7 +58,11 @@ pub(crate) struct ColliderBody {
     pub next: Pose,
     /// Impulse received during the last tick.
     pub impulse: Impulse,
-    /// Pose at the end of an `advance`, while its ticks run; see `solver::kinematic::tick_targets`.
+    /// A point in the local frame [m]: that of `ColliderDesc::shape_center`, or a point of a plane
+    /// near the origin of the cloth.
+    center: Vec3,
+    /// Pose at the end of an `advance`; equal to `next` except while its ticks run, see
+    /// `solver::kinematic::tick_targets`.
     #[serde(skip)]
     pub final_pose: Pose,
     /// Shape built from the descriptor; `None` between reading a save and `restore`.
@@ -59,12 +71,22 @@ pub(crate) struct ColliderBody {
 }
 
 impl ColliderBody {
-    pub fn new(desc: ColliderDesc) -> Result<Self> {
+    pub fn new(desc: ColliderDesc, origin: Vec3) -> Result<Self> {
         desc.check()?;
         let pose = Pose::new(desc.position, desc.rotation);
-        let collision_shape = Some(Arc::new(desc.collision_shape()?));
-        let impulse = Impulse::default();
-        Ok(Self { desc, last: pose, next: pose, impulse, final_pose: pose, collision_shape })
+        let (center, shape) = (desc.shape_center(), Arc::new(desc.collision_shape()?));
+        let mut body = Self {
+            desc,
+            last: pose,
+            next: pose,
+            impulse: Impulse::default(),
+            center,
+            final_pose: pose,
+            collision_shape: Some(shape),
+        };
+        body.place(pose.rotation, origin);
+        body.last = body.next;
+        Ok(body)
     }
 
     /// Validates a collider from a save and builds its shape.
@@ -72,8 +94,13 @@ impl ColliderBody {
         self.desc.check()?;
         check_finite(self.impulse.linear, "collider.impulse")?;
         check_finite(self.impulse.angular, "collider.impulse")?;
+        check(is_valid_origin(self.center), "collider.center", "be in whole metres")?;
+        if self.desc.shape != Shape::Plane {
+            self.center = self.desc.shape_center();
+        }
         check_pose(self.last.position, self.last.rotation, COLLIDER_FIELDS)?;
         check_pose(self.next.position, self.next.rotation, COLLIDER_FIELDS)?;
+        self.final_pose = self.next;
         self.collision_shape = Some(Arc::new(self.desc.collision_shape()?));
         Ok(())
     }
@@ -96,16 +123,53 @@ impl ColliderBody {
         farthest * max(1.0 - dot * dot, 0.0)
     }
 
-    /// Sets the pose that the collider reaches at the end of the next tick.
-    pub fn move_to(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
+    /// Sets the absolute pose that the collider reaches at the end of the next tick.
+    pub fn move_to(&mut self, position: Vec3, rotation: Quat, origin: Vec3) -> Result<()> {
         check_pose(position, rotation, COLLIDER_FIELDS)?;
-        self.next = Pose::new(position, rotation);
+        self.desc.position = position;
+        self.place(Pose::new(position, rotation).rotation, origin);
         Ok(())
     }
 
-    /// Sets the pose immediately, without motion in between.
-    pub fn teleport(&mut self, position: Vec3, rotation: Quat) -> Result<()> {
-        self.move_to(position, rotation)?;
+    /// Sets `next` and `final_pose` from the absolute position of the descriptor and a unit
+    /// `rotation`. The center of a plane moves to the origin of the cloth.
+    fn place(&mut self, rotation: Quat, origin: Vec3) {
+        let mut pose = Pose { position: self.desc.position - origin, rotation };
+        if self.desc.shape == Shape::Plane {
+            let to_origin = if origin == Vec3::ZERO { Vec3::ZERO } else { -pose.position };
+            let Vec3 { x, z, .. } = pose.to_transform().vector_to_local(to_origin);
+            let center = whole_metres(Vec3::ZERO, Vec3::new(x, 0.0, z));
+            self.last.position =
+                self.last.offset(self.last.position.as_dvec3(), center - self.center);
+            self.center = center;
+        }
+        pose.position = pose.offset(self.desc.position.as_dvec3() - origin.as_dvec3(), self.center);
+        (self.next, self.final_pose) = (pose, pose);
+    }
+
+    /// The position that the host gave last, relative to the origin of the cloth [m].
+    pub fn position(&self) -> Vec3 {
+        self.next.offset(self.next.position.as_dvec3(), -self.center)
+    }
+
+    /// Makes the poses relative to `origin`, which is `shift` from the last one.
+    ///
+    /// At rest, they are computed from the absolute position, which keeps its digits while the
+    /// cloth is far away.
+    pub fn move_origin(&mut self, origin: Vec3, shift: Vec3) {
+        if self.last == self.next && self.next == self.final_pose {
+            self.place(self.next.rotation, origin);
+            self.last = self.next;
+        } else {
+            for pose in [&mut self.last, &mut self.next, &mut self.final_pose] {
+                pose.position -= shift;
+            }
+        }
+    }
+
+    /// Sets the absolute pose immediately, without motion in between.
+    pub fn teleport(&mut self, position: Vec3, rotation: Quat, origin: Vec3) -> Result<()> {
+        self.move_to(position, rotation, origin)?;
         self.finish_tick();
         Ok(())
     }
@@ -113,7 +177,6 @@ impl ColliderBody {
     /// Completes the motion of a tick: the collider has arrived at its next pose.
     pub fn finish_tick(&mut self) {
         self.last = self.next;
-        self.desc.position = self.next.position;
         self.desc.rotation = self.next.rotation;
     }
 }

@@ -7,6 +7,7 @@ pub(crate) mod colliders;
 pub(crate) mod events;
 pub(crate) mod grabs;
 pub(crate) mod mass_scales;
+pub(crate) mod origin;
 pub(crate) mod particles;
 pub(crate) mod pins;
 pub(crate) mod pose;

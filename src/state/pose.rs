@@ -6,7 +6,7 @@
 use crate::error::{Result, check, check_finite};
 use crate::geometry::transform::Transform;
 use crate::math::{saturate, trig};
-use glam::{Quat, Vec3};
+use glam::{DVec3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Position [m] and unit rotation. The default is the origin, not rotated.
@@ -41,6 +41,21 @@ impl Pose {
         let [x, y, z, w] = rotation.to_array();
         let scale = 1.0 / (x * x + y * y + z * z + w * w).sqrt();
         Self { position, rotation: Quat::from_xyzw(x * scale, y * scale, z * scale, w * scale) }
+    }
+
+    /// Returns the pose moved by `shift` [m].
+    pub fn translated(self, shift: Vec3) -> Self {
+        Self { position: self.position + shift, ..self }
+    }
+
+    /// Adds a vector of the local frame [m] to `position`, in f64.
+    pub fn offset(&self, position: DVec3, local: Vec3) -> Vec3 {
+        if local == Vec3::ZERO {
+            return position.as_vec3();
+        }
+        let [x, y, z] = self.to_transform().axes.map(Vec3::as_dvec3);
+        let [a, b, c] = local.to_array().map(f64::from);
+        (position + x * a + y * b + z * c).as_vec3()
     }
 
     /// Rotates `v`, with the formula v + 2 w (a × v) + 2 a × (a × v) for a quaternion (a, w).
@@ -118,6 +133,9 @@ impl Pose {
     }
 
     /// Converts to a transform with axes, for use on many points.
+    ///
+    /// `#[inline(never)]`: many cold callers would contain it.
+    #[inline(never)]
     pub fn to_transform(self) -> Transform {
         Transform {
             origin: self.position,

@@ -77,8 +77,9 @@ impl Wind {
         )
     }
 
-    /// Evaluates the wind at `time` [s]: gusts and direction; turbulence is added per particle.
-    pub(crate) fn sample(&self, time: f64) -> WindSample {
+    /// Evaluates the wind at `time` [s]: gusts and direction; turbulence is added per particle, at
+    /// positions relative to `origin` [m].
+    pub(crate) fn sample(&self, time: f64, origin: Vec3) -> WindSample {
         let speed = self.velocity.length();
         if speed == 0.0 {
             return WindSample { mean: Vec3::ZERO, turbulence: 0.0, phase: [0.0; 3] };
@@ -99,14 +100,19 @@ impl Wind {
         let heading = along * cos(angle) + side;
         let mean = heading * (speed * (1.0 + self.gust * swell));
         let turn = core::f64::consts::TAU;
+        let [x, y, z] = origin.to_array().map(f64::from);
+        let [one, other] = TURBULENCE_WAVES.map(f64::from);
+        let at_origin = [y * one + z * other, z * one + x * other, x * one + y * other];
         // Reduced modulo 2π in f64, because the SIMD kernels compute in f32.
-        let phase = [2.9, 3.7, 4.3].map(|rate| ((t * rate + phase * 4.8) % turn) as f32);
+        let phase_of = |rate: f64, start: f64| ((t * rate + phase * 4.8 + start) % turn) as f32;
+        let phase = [(0, 2.9), (1, 3.7), (2, 4.3)].map(|(k, rate)| phase_of(rate, at_origin[k]));
         WindSample { mean, turbulence: self.turbulence * speed, phase }
     }
 
-    /// Acceleration of the sine field at `time` [s] for a particle at `x` [m], in m/s².
-    pub(crate) fn sine_field(&self, time: f64, x: Vec3) -> Vec3 {
-        let (px, py, pz) = (f64::from(x.x), f64::from(x.y), f64::from(x.z));
+    /// Acceleration of the sine field at `time` [s] for a particle at `x` relative to `origin` [m],
+    /// in m/s².
+    pub(crate) fn sine_field(&self, time: f64, origin: Vec3, x: Vec3) -> Vec3 {
+        let [px, py, pz] = (origin.as_dvec3() + x.as_dvec3()).to_array();
         let strength = self.velocity.length();
         Vec3::new(
             sin(time * 1.3 + px * 0.5) * 0.5 + sin(time * 2.7 + pz * 0.3) * 0.3,
@@ -115,6 +121,9 @@ impl Wind {
         ) * strength
     }
 }
+
+/// Wave numbers of the turbulence along two axes [rad/m].
+const TURBULENCE_WAVES: [f32; 2] = [3.1, 1.7];
 
 /// The wind at one moment.
 #[derive(Clone, Copy, Debug)]
@@ -131,13 +140,14 @@ impl WindSample {
         self.turbulence > 0.0
     }
 
-    /// Velocity that turbulence adds at a position [m/s].
+    /// Velocity that turbulence adds at a position relative to the origin [m/s].
     #[inline(always)]
     pub fn turbulence_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
+        let [one, other] = TURBULENCE_WAVES;
         [
-            sin_branchless(y * 3.1 + z * 1.7 + self.phase[0]) * self.turbulence,
-            sin_branchless(z * 3.1 + x * 1.7 + self.phase[1]) * self.turbulence,
-            sin_branchless(x * 3.1 + y * 1.7 + self.phase[2]) * self.turbulence,
+            sin_branchless(y * one + z * other + self.phase[0]) * self.turbulence,
+            sin_branchless(z * one + x * other + self.phase[1]) * self.turbulence,
+            sin_branchless(x * one + y * other + self.phase[2]) * self.turbulence,
         ]
     }
 }
@@ -150,7 +160,7 @@ mod tests {
     fn a_steady_wind_is_its_velocity_at_any_time() {
         let wind = Wind { velocity: Vec3::new(0.0, 0.0, 2.0), ..Wind::default() };
         for time in [0.0, 1.7, 33.0] {
-            let sample = wind.sample(time);
+            let sample = wind.sample(time, Vec3::ZERO);
             assert!((sample.mean - wind.velocity).length() < 1.0e-6 && !sample.is_turbulent());
         }
     }
@@ -160,12 +170,24 @@ mod tests {
         let velocity = Vec3::new(3.0, 0.0, 0.0);
         let wind = Wind { velocity, gust: 0.5, ..Wind::default() };
         let speeds: Vec<f32> =
-            (0..600).map(|i| wind.sample(f64::from(i) * 0.1).mean.length()).collect();
+            (0..600).map(|i| wind.sample(f64::from(i) * 0.1, Vec3::ZERO).mean.length()).collect();
         let (low, high) = (
             speeds.iter().copied().fold(9.0, f32::min),
             speeds.iter().copied().fold(0.0, f32::max),
         );
         assert!(low >= 1.499 && high <= 4.501 && high - low > 1.5, "{low} to {high}");
+    }
+
+    #[test]
+    fn the_wind_at_a_place_does_not_depend_on_the_origin() {
+        let wind = Wind { velocity: Vec3::X * 3.0, turbulence: 0.5, ..Wind::default() };
+        let (origin, x) = (Vec3::new(40.0, -17.0, 300.0), Vec3::new(0.4, -0.8, 1.1));
+        let gust = |origin, x: Vec3| wind.sample(1.25, origin).turbulence_at(x.x, x.y, x.z);
+        for (near, far) in gust(Vec3::ZERO, origin + x).iter().zip(gust(origin, x)) {
+            assert!((near - far).abs() < 1.0e-3, "{near} and {far} m/s");
+        }
+        let field = |origin, x| wind.sine_field(1.25, origin, x);
+        assert!((field(Vec3::ZERO, origin + x) - field(origin, x)).length() < 1.0e-4);
     }
 
     #[test]
@@ -178,7 +200,7 @@ mod tests {
             (t * 0.7 + py * 0.4).sin() * 0.1 * 3.0,
             ((t * 1.1 + px * 0.4).cos() * 0.4 + (t * 3.1 + py * 0.2).cos() * 0.2) * 3.0,
         ];
-        let computed = wind.sine_field(t, x).to_array();
+        let computed = wind.sine_field(t, Vec3::ZERO, x).to_array();
         for (computed, exact) in computed.iter().zip(exact) {
             assert!((f64::from(*computed) - exact).abs() < 1.0e-6, "{computed} {exact}");
         }

@@ -81,6 +81,7 @@ static void null_pointers_are_refused_by_name(void) {
   REFUSED(muslin_cloth_view(cloth, NULL), BAD_VALUE, "`out_view`");
   REFUSED(muslin_cloth_get_stats(cloth, NULL), BAD_VALUE, "`out_stats`");
   REFUSED(muslin_cloth_get_mesh_report(cloth, NULL), BAD_VALUE, "`out_report`");
+  REFUSED(muslin_cloth_get_origin(cloth, NULL), BAD_VALUE, "`out_origin`");
   REFUSED(muslin_cloth_state_hash(cloth, NULL), BAD_VALUE, "`out_hash`");
   REFUSED(muslin_cloth_save(cloth, NULL, 0, NULL), BAD_VALUE, "`out_needed`");
   CHECK(some == 7 && grab.id == 0 && collider.id == 0 && at.x == 0);

@@ -210,9 +210,35 @@ static void streams_are_refused_by_field_and_nothing_is_written(void) {
   BAD_DESC(transform[0], 0, "`transform` must be one that can be inverted");
   BAD_DESC(flip_normals, 2, "`flip_normals`");
   BAD_DESC(offset, NAN, "`offset`");
+  BAD_DESC(relative, 2, "`relative`");
   for (size_t i = 0; i < sizeof room; i++) CHECK(room[i] == 0xee);
   DONE(muslin_cloth_write_vertices(cloth, &good, 1, NULL));
 #undef room
+}
+
+static void a_cloth_far_from_zero_has_an_origin_and_relative_positions(void) {
+  MuslinCloth far = {0};
+  MuslinGridDesc grid;
+  muslin_grid_desc_init(&grid);
+  grid.columns = grid.rows = 20;
+  grid.origin.x = 5000.25f;
+  DONE(muslin_cloth_create_grid(&grid, &far));
+  MuslinVec3 origin = {0, 0, 0};
+  DONE(muslin_cloth_get_origin(far, &origin));
+  CHECK(origin.x == 5001.0f && origin.z == 0.0f);
+  static float positions[3 * 400], relative[3 * 400];
+  const MuslinStream streams[] = {muslin_stream(BOTH(POSITION, F32), positions, 0, sizeof positions),
+                                  muslin_stream(BOTH(POSITION, F32), relative, 0, sizeof relative)};
+  MuslinWriteDesc desc;
+  muslin_write_desc_init(&desc);
+  DONE(muslin_cloth_write_vertices(far, streams, 1, &desc));
+  desc.relative = 1;
+  DONE(muslin_cloth_write_vertices(far, streams + 1, 1, &desc));
+  for (int i = 0; i < 400; i++) {
+    CHECK(positions[3 * i] == origin.x + relative[3 * i]);
+    CHECK(fabsf(relative[3 * i] - (0.05f * (float)(i % 20) - 0.75f)) < 1e-6f);
+  }
+  DONE(muslin_cloth_destroy(far));
 }
 
 /* Streams of a newer header: longer by one field, which must be 0 for this library. */
@@ -244,6 +270,7 @@ int main(void) {
   TEST(separate_blocks_receive_transformed_vertices);
   TEST(uploading_the_changed_ranges_is_enough);
   TEST(streams_are_refused_by_field_and_nothing_is_written);
+  TEST(a_cloth_far_from_zero_has_an_origin_and_relative_positions);
   TEST(streams_of_a_newer_program_are_read_with_their_own_size);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;

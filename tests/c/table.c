@@ -307,6 +307,10 @@ static void views_statistics_and_streams(void) {
   ANY(muslin_cloth_changes, since_topology_revision);
   ROW(muslin_cloth_changes, out_changes, VALUE, "`out_changes`", (cloth, 0, NULL));
   uint64_t bits = 7;
+  MuslinVec3 origin = {7, 7, 7};
+  OF_NONE(muslin_cloth_get_origin, (none, &origin));
+  ROW(muslin_cloth_get_origin, out_origin, VALUE, "`out_origin`", (cloth, NULL));
+  CHECK(origin.x == 7);
   OF_NONE(muslin_cloth_state_hash, (none, &bits));
   ROW(muslin_cloth_state_hash, out_hash, VALUE, "`out_hash`", (cloth, NULL));
   CHECK(bits == 7);

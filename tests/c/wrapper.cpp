@@ -120,6 +120,7 @@ void a_cloth_does_all_that_c_does() {
   cloth.write_indices(indices.data(), 2 * indices.size(), 16).value();
   CHECK(indices.back() == view.indices[view.index_count - 1]);
   CHECK(cloth.stats().value().particles == view.vertex_count);
+  CHECK(cloth.origin().value().x == 0.0f);
 
   const std::vector<unsigned char> saved = cloth.save().value();
   muslin::Cloth same = muslin::Cloth::restore(saved.data(), saved.size()).value();

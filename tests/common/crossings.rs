@@ -1,7 +1,7 @@
 //! Exact intersection test between the triangles of a cloth, in double precision.
 
 use muslin::Cloth;
-use muslin::glam::DVec3;
+use muslin::glam::{DVec3, Vec3};
 
 /// Number of triangle pairs that intersect and share no vertex.
 pub fn crossing_count(cloth: &Cloth) -> usize {
@@ -13,7 +13,12 @@ pub fn crossing_count(cloth: &Cloth) -> usize {
 ///
 /// Sorts the bounding boxes by their lower x and tests only pairs whose boxes overlap.
 pub fn crossing_pairs(cloth: &Cloth) -> Vec<[u32; 2]> {
-    let x: Vec<DVec3> = cloth.positions().iter().map(|x| x.as_dvec3()).collect();
+    crossing_pairs_at(cloth, cloth.positions())
+}
+
+/// The same with the vertices at `positions`.
+pub fn crossing_pairs_at(cloth: &Cloth, positions: &[Vec3]) -> Vec<[u32; 2]> {
+    let x: Vec<DVec3> = positions.iter().map(|x| x.as_dvec3()).collect();
     let triangles = super::triangles(cloth);
     let corners = |t: usize| triangles[t].map(|v| x[v as usize]);
     let bounds = |t: usize| {

@@ -163,6 +163,7 @@ refuses("a short transform", "`desc.transform` must be 12 numbers", desc({ trans
 refuses("a singular transform", "`transform` must be one that can be inverted", desc({ transform: Array(12).fill(1) }));
 refuses("an infinite transform", "`transform` must be finite", desc({ transform: Array(12).fill(Infinity) }));
 refuses("a number instead of a boolean", "`desc.flipNormals` must be true or false", desc({ flipNormals: 1 }));
+refuses("a number for `relative`", "`desc.relative` must be true or false", desc({ relative: 1 }));
 refuses("an infinite offset", "`offset` must be finite", desc({ offset: Infinity }));
 refuses("floats for indices", "`buffer` must be a Uint16Array", (cloth) => cloth.writeIndices(new Float32Array(999)));
 refuses("a short buffer for indices", "`buffer` must have room for", (cloth) => cloth.writeIndices(new Uint16Array(9)));

@@ -113,7 +113,8 @@ cloth.reset();
 cloth.advance("1");
 const clocks: number = cloth.time + cloth.blend + ticks;
 
-const floats: Float32Array[] = [cloth.positions, cloth.normals, cloth.uvs];
+const floats: Float32Array[] = [cloth.positions, cloth.relativePositions, cloth.normals, cloth.uvs];
+const placeOfOrigin: readonly number[] = cloth.origin;
 const integers: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.vertexParticles, cloth.pinned];
 const report: Readonly<MeshReport> = other.meshReport;
 const repaired: number = report.weldedVertices + report.turnedTriangles + Number(report.isGrid);
@@ -211,7 +212,7 @@ const streams: Stream[] = [
   { attribute: "position", buffer: new Float32Array(9), stride: 12 },
   { attribute: "normal", format: "octahedral16", buffer: new ArrayBuffer(12), offset: 0 },
 ];
-const writeDesc: WriteDesc = { blend: cloth.blend, transform: new Float32Array(12), flipNormals: true };
+const writeDesc: WriteDesc = { blend: cloth.blend, transform: new Float32Array(12), flipNormals: true, relative: false };
 const writtenVertices: number = cloth.writeVertices(streams, writeDesc);
 const writtenIndices: number = cloth.writeIndices(new Uint16Array(3), { flip: true, baseVertex: 4 });
 // @ts-expect-error: no such attribute

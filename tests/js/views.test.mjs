@@ -7,7 +7,7 @@ import init, { Cloth } from "muslin";
 
 await init();
 
-const LISTS = ["positions", "normals", "uvs", "indices", "sourceVertices", "vertexParticles", "frayed"];
+const LISTS = ["positions", "relativePositions", "normals", "uvs", "indices", "sourceVertices", "vertexParticles", "frayed"];
 
 /** Creates cloths until the memory grows, which detaches `view`. */
 function growMemory(view) {
@@ -80,6 +80,20 @@ test("a view that is kept shows the current positions", () => {
   const before = positions[1];
   cloth.step(10);
   assert.ok(positions[1] < before, "the kept view shows the fall");
+});
+
+test("positions are relative to an origin that follows cloth far from zero", () => {
+  const cloth = Cloth.grid();
+  assert.deepEqual(cloth.origin, [0, 0, 0]);
+  assert.deepEqual(cloth.relativePositions, cloth.positions);
+  cloth.teleport([5000, 0, -300]);
+  cloth.step(1);
+  const { origin, positions, relativePositions } = cloth;
+  assert.deepEqual(origin, [5000, 0, -300]);
+  assert.ok(positions.every((x, i) => x === Math.fround(origin[i % 3] + relativePositions[i])));
+  const buffer = new Float32Array(positions.length);
+  cloth.writeVertices([{ attribute: "position", buffer }], { relative: true });
+  assert.deepEqual(buffer, relativePositions.slice());
 });
 
 test("topologyRevision and stateRevision change with triangles and positions", () => {

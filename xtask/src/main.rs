@@ -36,6 +36,7 @@ mod sources;
 mod steps;
 mod test;
 mod tools;
+mod traps;
 mod verify;
 mod wasm;
 mod web;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::failure::{During, Result};
-use crate::{files, setup, shell};
+use crate::{files, setup, shell, traps};
 
 /// The Rust target of pages.
 pub const TARGET: &str = "wasm32-unknown-unknown";
@@ -43,12 +43,12 @@ pub fn build(package: &str, dir: &Path, name: &str) -> Result {
     write(&mut bindgen, dir, name).during(during)
 }
 
-/// Writes `name_bg.wasm` and `name_bg.js` into `dir`. The script receives the exports of the module
+/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics. The script receives the exports of the module
 /// from its caller, so that JavaScript can replace the module; it needs neither reference types nor
 /// multiple results.
 pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
     let during = || format!("binding {}", module.display());
-    let mut bytes = std::fs::read(module).during(during)?;
+    let mut bytes = traps::from_panics(&std::fs::read(module).during(during)?)?;
     for feature in ["reference-types", "multivalue"] {
         remove_feature(&mut bytes, feature);
     }

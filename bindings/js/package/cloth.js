@@ -162,6 +162,15 @@ export class Cloth {
     return this.#view("positions", Float32Array, live.positions_ptr(), 3 * live.vertex_count());
   }
 
+  get relativePositions() {
+    const live = this.#live;
+    return this.#view("relative", Float32Array, live.relative_positions_ptr(), 3 * live.vertex_count());
+  }
+
+  get origin() {
+    return Array.from(this.#live.origin());
+  }
+
   get normals() {
     const live = this.#live;
     return this.#view("normals", Float32Array, live.normals_ptr(), 3 * live.vertex_count());

@@ -112,6 +112,7 @@ export const WRITE = {
   transform: TRANSFORM,
   flipNormals: BOOLEAN,
   offset: NUMBER,
+  relative: BOOLEAN,
 };
 
 /** Converts a flat list to a frozen object. */

@@ -69,7 +69,8 @@ export interface WriteDesc {
   /**
    * Affine transform of positions, applied after `offset`: three rows of four numbers, so that x
    * becomes t[0] · x + t[1] · y + t[2] · z + t[3]. Normals stay perpendicular to the surface and on
-   * their side of it, and tangents stay along it.
+   * their side of it, and tangents stay along it. A transform that takes a cloth far from zero to a
+   * place near zero loses no digits of the positions.
    *
    * @defaultValue identity
    */
@@ -78,4 +79,9 @@ export interface WriteDesc {
   flipNormals?: boolean;
   /** Distance by which positions move along the written normals [m]. @defaultValue 0 */
   offset?: number;
+  /**
+   * Whether positions are relative to `cloth.origin`, also those that `transform` applies to; else
+   * they are absolute. @defaultValue false
+   */
+  relative?: boolean;
 }

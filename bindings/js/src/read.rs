@@ -35,6 +35,18 @@ impl RawCloth {
         self.cloth.positions().as_ptr().cast()
     }
 
+    /// Returns the address of the positions relative to the origin: 3 f32 per vertex.
+    pub fn relative_positions_ptr(&mut self) -> *const f32 {
+        self.cloth.relative_positions().as_ptr().cast()
+    }
+
+    /// Returns the origin [m].
+    pub fn origin(&self) -> Vec<f64> {
+        let mut list = Writer::default();
+        list.vector(self.cloth.origin());
+        list.0
+    }
+
     /// Returns the address of the normals: 3 f32 per vertex. Computes them if positions changed.
     pub fn normals_ptr(&mut self) -> *const f32 {
         self.cloth.normals().as_ptr().cast()

@@ -80,6 +80,7 @@ pub fn default_write() -> Vec<f64> {
     list.numbers(&[x.x, x.y, x.z, t.x, y.x, y.y, y.z, t.y, z.x, z.y, z.z, t.z]);
     list.counts(&[desc.flip_normals.into()]);
     list.number(desc.offset);
+    list.counts(&[desc.relative.into()]);
     list.0
 }
 
@@ -99,5 +100,6 @@ fn unpack_write(list: &[f64]) -> WriteDesc {
         },
         flip_normals: list.count() == 1,
         offset: list.number(),
+        relative: list.count() == 1,
     }
 }

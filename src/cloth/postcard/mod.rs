@@ -5,8 +5,8 @@
 //! framing.
 //!
 //! Muslin has its own implementation to keep the code small: serde generates code per field, and
-//! the postcard crate would be a twentieth of what a web page loads. For the same reason writing
-//! cannot fail for the types of a save, and reading continues with zeros after the first error and
+//! the postcard crate would be a twentieth of what a web page loads. For the same reason neither
+//! has errors for serde: writing cannot fail for the types of a save, and reading continues with zeros after the first error and
 //! reports that error at the end.
 //!
 //! Reads and writes only its arguments.
@@ -16,23 +16,29 @@ mod error;
 mod read;
 mod write;
 
-use crate::cloth::postcard::error::{PostcardError, PostcardResult};
 use crate::cloth::postcard::read::ByteReader;
 use crate::cloth::postcard::write::ByteWriter;
 use serde::{Deserialize, Serialize};
 
 /// Appends the encoded value to `prefix` and returns all bytes.
-pub(crate) fn write(value: &impl Serialize, prefix: Vec<u8>) -> PostcardResult<Vec<u8>> {
+///
+/// # Panics
+/// If the value contains a type that saves never contain, such as a text.
+pub(crate) fn write(value: &impl Serialize, prefix: Vec<u8>) -> Vec<u8> {
     let mut writer = ByteWriter(prefix);
-    value.serialize(&mut writer)?;
-    Ok(writer.0)
+    let Ok(()) = value.serialize(&mut writer);
+    writer.0
 }
 
-/// Decodes a value from the start of `bytes`; ignores the bytes after it.
-pub(crate) fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> PostcardResult<T> {
+/// Decodes a value from the start of `bytes`; ignores the bytes after it. Returns nothing if the
+/// bytes do not encode such a value.
+///
+/// # Panics
+/// As [`write()`].
+pub(crate) fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Option<T> {
     let mut reader = ByteReader::new(bytes);
-    let value = T::deserialize(&mut reader)?;
-    if reader.has_failed { Err(PostcardError) } else { Ok(value) }
+    let Ok(value) = T::deserialize(&mut reader);
+    (!reader.has_failed).then_some(value)
 }
 
 #[cfg(test)]
@@ -95,19 +101,19 @@ mod tests {
 
     #[test]
     fn values_are_encoded_as_postcard_does_and_decoded_again() {
-        let bytes = write(&all(), vec![1, 2]).unwrap();
+        let bytes = write(&all(), vec![1, 2]);
         assert_eq!(bytes[..2], [1, 2]);
         assert_eq!(bytes[2..], postcard::to_allocvec(&all()).unwrap());
-        assert_eq!(read(&bytes[2..]), Ok(all()));
+        assert_eq!(read(&bytes[2..]), Some(all()));
         let followed = [&bytes[2..], &[9]].concat();
-        assert_eq!(read(&followed), Ok(all()));
+        assert_eq!(read(&followed), Some(all()));
     }
 
     #[test]
     fn damaged_bytes_give_the_same_value_or_error_as_in_postcard() {
-        let bytes_of_all = write(&all(), Vec::new()).unwrap();
+        let bytes_of_all = write(&all(), Vec::new());
         for end in 0..bytes_of_all.len() {
-            assert_eq!(read::<All>(&bytes_of_all[..end]), Err(PostcardError), "{end} bytes");
+            assert_eq!(read::<All>(&bytes_of_all[..end]), None, "{end} bytes");
         }
         let mut still_readable = 0;
         for at in 0..bytes_of_all.len() {
@@ -115,8 +121,8 @@ mod tests {
                 let mut bytes = bytes_of_all.clone();
                 bytes[at] ^= change;
                 let (ours, theirs) = (read::<All>(&bytes), postcard::from_bytes::<All>(&bytes));
-                assert_eq!(ours.is_ok(), theirs.is_ok(), "byte {at} by {change}");
-                if let (Ok(ours), Ok(theirs)) = (ours, theirs) {
+                assert_eq!(ours.is_some(), theirs.is_ok(), "byte {at} by {change}");
+                if let (Some(ours), Ok(theirs)) = (ours, theirs) {
                     // Compare as text, since NaN is not equal to NaN.
                     assert_eq!(format!("{ours:?}"), format!("{theirs:?}"), "byte {at} by {change}");
                     still_readable += 1;
@@ -130,27 +136,28 @@ mod tests {
     fn varints_with_too_many_bits_are_refused() {
         for last in 0..=255 {
             let short = [0xff, 0xff, last];
-            assert_eq!(read::<u16>(&short).ok(), postcard::from_bytes(&short).ok(), "{last}");
+            assert_eq!(read::<u16>(&short), postcard::from_bytes(&short).ok(), "{last}");
             let middle = [0xff, 0xff, 0xff, 0xff, last];
-            assert_eq!(read::<u32>(&middle).ok(), postcard::from_bytes(&middle).ok(), "{last}");
+            assert_eq!(read::<u32>(&middle), postcard::from_bytes(&middle).ok(), "{last}");
             let mut long = [0xff; 10];
             long[9] = last;
-            assert_eq!(read::<u64>(&long).ok(), postcard::from_bytes(&long).ok(), "{last}");
+            assert_eq!(read::<u64>(&long), postcard::from_bytes(&long).ok(), "{last}");
         }
     }
 
     #[test]
     fn a_false_list_length_allocates_no_memory() {
         let claim = [0xff, 0xff, 0xff, 0xff, 0x0f, 1, 2, 3];
-        assert_eq!(read::<Vec<[u64; 4]>>(&claim), Err(PostcardError));
-        assert_eq!(read::<Vec<Vec<Variants>>>(&claim), Err(PostcardError));
+        assert_eq!(read::<Vec<[u64; 4]>>(&claim), None);
+        assert_eq!(read::<Vec<Vec<Variants>>>(&claim), None);
     }
 
     #[test]
-    fn types_that_saves_never_contain_are_refused() {
-        assert_eq!(write(&"text", Vec::new()), Err(PostcardError));
-        assert_eq!(write(&-1, Vec::new()), Err(PostcardError));
-        assert_eq!(read::<i32>(&[1]), Err(PostcardError));
-        assert_eq!(read::<String>(&[1, 65]), Err(PostcardError));
+    fn types_that_saves_never_contain_panic() {
+        let panics = |run: fn()| std::panic::catch_unwind(run).is_err();
+        assert!(panics(|| drop(write(&"text", Vec::new()))));
+        assert!(panics(|| drop(write(&-1, Vec::new()))));
+        assert!(panics(|| assert_eq!(read::<i32>(&[1]), None)));
+        assert!(panics(|| drop(read::<String>(&[1, 65]))));
     }
 }

@@ -4,7 +4,7 @@
 //! Invariant: after the first error, `has_failed` is set and every further read returns zeros, so
 //! that the code for each field needs no branch.
 
-use crate::cloth::postcard::error::{PostcardError, PostcardResult};
+use crate::cloth::postcard::error::{PostcardError, PostcardResult, unsupported};
 use serde::de::{DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer};
 use serde::de::{SeqAccess, VariantAccess, Visitor};
 use serde::forward_to_deserialize_any;
@@ -66,6 +66,17 @@ impl<'a> ByteReader<'a> {
         0
     }
 
+    /// Reads the index of one of `count` variants.
+    #[inline(never)]
+    fn variant(&mut self, count: u32) -> u32 {
+        let at = self.number(u32::BITS) as u32;
+        if at < count {
+            return at;
+        }
+        self.fail();
+        0
+    }
+
     /// Reads four little-endian bytes.
     #[inline(never)]
     fn word(&mut self) -> u32 {
@@ -104,7 +115,8 @@ macro_rules! numbers {
 impl<'de> Deserializer<'de> for &mut ByteReader<'de> {
     type Error = PostcardError;
 
-    // Types that saves never contain, and self-describing values, which the format does not have.
+    // Types that saves never contain, and self-describing values, which the format does not have:
+    // reading one panics.
     forward_to_deserialize_any! {
         i8 i16 i32 i64 i128 u128 char str string bytes byte_buf map identifier ignored_any
     }
@@ -120,7 +132,7 @@ impl<'de> Deserializer<'de> for &mut ByteReader<'de> {
     }
 
     fn deserialize_any<V: Visitor<'de>>(self, _: V) -> PostcardResult<V::Value> {
-        Err(PostcardError)
+        unsupported()
     }
 
     #[inline]
@@ -211,10 +223,11 @@ impl<'de> Deserializer<'de> for &mut ByteReader<'de> {
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
-        _: &'static [&'static str],
+        variants: &'static [&'static str],
         visitor: V,
     ) -> PostcardResult<V::Value> {
-        visitor.visit_enum(self)
+        let at = self.variant(variants.len() as u32);
+        visitor.visit_enum(Variant { reader: self, at })
     }
 }
 
@@ -233,10 +246,13 @@ impl<'de, const IS_LIST: bool> SeqAccess<'de> for Elements<'_, 'de, IS_LIST> {
         &mut self,
         seed: T,
     ) -> PostcardResult<Option<T::Value>> {
-        if self.left == 0 || IS_LIST && self.reader.has_failed {
-            return Ok(None);
+        // The generated code asks for each field of a struct or tuple once.
+        if IS_LIST {
+            if self.left == 0 || self.reader.has_failed {
+                return Ok(None);
+            }
+            self.left -= 1;
         }
-        self.left -= 1;
         Ok(Some(seed.deserialize(&mut *self.reader)?))
     }
 
@@ -246,14 +262,23 @@ impl<'de, const IS_LIST: bool> SeqAccess<'de> for Elements<'_, 'de, IS_LIST> {
     }
 }
 
-impl<'de> EnumAccess<'de> for &mut ByteReader<'de> {
+/// A variant of an enum: its index, and the reader of its fields.
+struct Variant<'a, 'de> {
+    reader: &'a mut ByteReader<'de>,
+    at: u32,
+}
+
+impl<'a, 'de> EnumAccess<'de> for Variant<'a, 'de> {
     type Error = PostcardError;
-    type Variant = Self;
+    type Variant = &'a mut ByteReader<'de>;
 
     #[inline]
-    fn variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> PostcardResult<(T::Value, Self)> {
-        let at = self.number(u32::BITS) as u32;
-        Ok((seed.deserialize(IntoDeserializer::<PostcardError>::into_deserializer(at))?, self))
+    fn variant_seed<T: DeserializeSeed<'de>>(
+        self,
+        seed: T,
+    ) -> PostcardResult<(T::Value, Self::Variant)> {
+        let at = IntoDeserializer::<PostcardError>::into_deserializer(self.at);
+        Ok((seed.deserialize(at)?, self.reader))
     }
 }
 

@@ -3,7 +3,7 @@
 //! Reads the value; writes the bytes.
 //! Invariant: it cannot fail for the types that a save contains.
 
-use crate::cloth::postcard::error::{PostcardError, PostcardResult};
+use crate::cloth::postcard::error::{PostcardError, PostcardResult, unsupported};
 use serde::ser::{Impossible, Serialize, Serializer};
 use serde::ser::{SerializeSeq, SerializeStruct, SerializeStructVariant};
 use serde::ser::{SerializeTuple, SerializeTupleStruct, SerializeTupleVariant};
@@ -33,11 +33,11 @@ impl ByteWriter {
     }
 }
 
-/// Serialize functions of types that saves never contain.
+/// Serialize functions of types that saves never contain. They panic.
 macro_rules! refuse {
     ($($name:ident: $type:ty,)*) => {$(
         fn $name(self, _: $type) -> PostcardResult<()> {
-            Err(PostcardError)
+            unsupported()
         }
     )*};
 }
@@ -162,7 +162,7 @@ impl<'a> Serializer for &'a mut ByteWriter {
 
     #[inline]
     fn serialize_seq(self, count: Option<usize>) -> PostcardResult<Self> {
-        self.number(count.ok_or(PostcardError)? as u64);
+        self.number(count.unwrap_or_else(|| unsupported()) as u64);
         Ok(self)
     }
 
@@ -189,7 +189,7 @@ impl<'a> Serializer for &'a mut ByteWriter {
     }
 
     fn serialize_map(self, _: Option<usize>) -> PostcardResult<Self::SerializeMap> {
-        Err(PostcardError)
+        unsupported()
     }
 
     #[inline]

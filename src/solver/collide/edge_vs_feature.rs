@@ -113,7 +113,7 @@ pub(super) fn push(
         let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
         let from = interpolate(corners.map(|i| particles.start_position(i)), weights);
         let to = interpolate(corners.map(|i| particles.end_position(i)), weights);
-        let correction = particles.correction(from, to, penetration);
+        let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
         let w = corners.map(|i| particles.w[i]);
         pushes.add(corners, weights, w, correction, penetration);

@@ -119,6 +119,8 @@ pub(super) struct LocalParticles<'a> {
     pub scheme: BdfScheme,
     /// The index of the collider among the live ones.
     pub body: u32,
+    /// Whether the origin of the cloth is not zero.
+    pub is_far_from_zero: bool,
     pub contacts: &'a mut Vec<ColliderContact>,
     /// For each particle the index of its last contact in `contacts`.
     pub contact_slots: &'a mut [u32],
@@ -137,14 +139,36 @@ impl LocalParticles<'_> {
         self.frames[1].point_to_local(self.x.get(i))
     }
 
-    /// Returns the correction of a point that moved from `start` to `end` [m]: out of the
-    /// penetration, and back along the surface by friction.
-    pub fn correction(&self, start: Vec3, end: Vec3, penetration: Penetration) -> Vec3 {
+    /// Returns the path of a point of a triangle in this substep, in world space [m].
+    #[inline(never)]
+    fn path(&self, corners: &[usize], weights: &[f32]) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for (i, weight) in corners.iter().zip(weights) {
+            let start = self.predicted.get(*i) - self.displacement.get(*i);
+            sum += (self.x.get(*i) - start) * *weight;
+        }
+        sum
+    }
+
+    /// Returns the correction of a point of a triangle that moved from `start` to `end` [m]: out
+    /// of the penetration, and back along the surface by friction.
+    pub fn correction(
+        &self,
+        (corners, weights): ([usize; 3], [f32; 3]),
+        [start, end]: [Vec3; 2],
+        penetration: Penetration,
+    ) -> Vec3 {
         let out = penetration.normal * penetration.depth;
         if penetration.is_frictionless {
             return out;
         }
-        let slide = end + out - start;
+        let slide = if self.is_far_from_zero && self.frames[0] == self.frames[1] {
+            // Local positions may have lost digits: those in a large collider that the cloth is at
+            // the far end of.
+            self.frames[1].vector_to_local(self.path(&corners, &weights)) + out
+        } else {
+            end + out - start
+        };
         let tangential = slide - penetration.normal * slide.dot(penetration.normal);
         let length = tangential.length();
         out - tangential * self.material.friction_fraction(length, penetration.depth)

@@ -48,6 +48,7 @@ use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::world::World;
 use crate::state::colliders::{ColliderBody, Impulse};
+use glam::Vec3;
 
 /// Rounds per substep that push triangles out of a shape: the smallest number while any triangle
 /// penetrates, and the largest number while one is too deep.
@@ -100,7 +101,7 @@ pub(crate) fn finish_tick(world: &mut World) {
     for (body, impulse) in world.colliders.iter_mut().zip(&world.scratch.contacts.impulses) {
         body.finish_tick();
         let Impulse { linear, angular } = *impulse;
-        let angular = angular - body.next.position.cross(linear);
+        let angular = angular - body.position().cross(linear);
         body.impulse = Impulse { linear: saturate(linear), angular: saturate(angular) };
     }
 }
@@ -232,6 +233,7 @@ fn solve_colliders(
             },
             scheme,
             body: at as u32,
+            is_far_from_zero: world.origin != Vec3::ZERO,
             contacts: &mut contacts.collider_contacts,
             contact_slots: &mut contacts.contact_slots,
         };

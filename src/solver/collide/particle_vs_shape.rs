@@ -96,7 +96,7 @@ pub(super) fn solve_particle(
         CollisionShape::Heightfield(terrain) => terrain_contact(terrain, start, end, gap),
     };
     let Some(penetration) = penetration else { return };
-    let correction = particles.correction(start, end, penetration);
+    let correction = particles.correction(([i; 3], [1.0, 0.0, 0.0]), [start, end], penetration);
     // Friction moves along a plane and can cross a bent surface.
     let correction = match shape {
         CollisionShape::TriangleSurface(surface, _)

@@ -78,7 +78,7 @@ pub(super) fn solve(
         let penetration =
             particles.depenetration.penetration(normal, gap, start_distance, end_distance);
         let Some(penetration) = penetration else { return };
-        let correction = particles.correction(from, to, penetration);
+        let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
         let w = corners.map(|i| particles.w[i]);
         pushes.add(corners, weights, w, correction, penetration);

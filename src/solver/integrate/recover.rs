@@ -8,11 +8,12 @@
 
 use crate::math::simd::leveled;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
-use crate::state::events::{Event, EventKind};
+use crate::state::events::EventKind;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glam::Vec3;
 
-/// Largest valid coordinate [m]; f32 cannot resolve millimetres long before this distance.
+/// Largest valid coordinate, relative to the origin [m]. The cloth is near its origin at any speed
+/// below this per tick.
 const MAX_COORDINATE: f32 = 1.0e6;
 
 /// Restores all invalid particles, and pushes one event with their number if there are any.
@@ -38,7 +39,7 @@ pub(crate) fn restore_invalid(world: &mut World) {
         p.set_motion(i, last, Vec3::ZERO, gravity, h);
     }
     if restored > 0 {
-        let mut event = Event::new(EventKind::Recovered, world.tick, first);
+        let mut event = world.event_at(EventKind::Recovered, first);
         event.count = restored;
         world.events.push(event);
     }

@@ -26,9 +26,12 @@ use crate::solver::vertex_sums::triangles::sum_in_bands;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use glam::Vec3;
 
-/// Writes the position of each render vertex [m].
+/// Writes the absolute position of each render vertex [m].
 pub(crate) fn positions(world: &World, out: &mut Vec<Vec3>) {
     scatter_to_vertices(world, &world.particles.x, out);
+    if world.origin != Vec3::ZERO {
+        out.iter_mut().for_each(|x| *x += world.origin);
+    }
 }
 
 /// Copies a vector per particle to each render vertex of that particle.

@@ -12,7 +12,7 @@
 
 use crate::math::pack::{BLOCK, FloatBlock};
 use crate::math::simd::{Level, leveled};
-use glam::{Affine3, DMat3, Mat3};
+use glam::{Affine3, DMat3, Mat3, Vec3};
 
 /// One vector per vertex of a block, as columns x, y, z.
 pub(crate) type VertexBlock = [FloatBlock; 3];
@@ -119,6 +119,17 @@ impl VertexTransform {
             handedness.iter_mut().for_each(|sign| *sign = -*sign);
         }
     }
+}
+
+/// Returns the transform that takes positions relative to `origin` to where `transform` takes the
+/// absolute ones.
+pub(crate) fn from_origin(transform: Affine3, origin: Vec3) -> Affine3 {
+    if origin == Vec3::ZERO {
+        return transform;
+    }
+    let at_origin = transform.matrix3.as_dmat3() * origin.as_dvec3();
+    let translation = (at_origin + transform.translation.as_dvec3()).as_vec3();
+    Affine3 { translation, ..transform }
 }
 
 /// Copies `count` entries of each column from `first` on to a block; entries beyond stay.

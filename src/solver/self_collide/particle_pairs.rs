@@ -110,6 +110,11 @@ impl ParticleCollision {
             + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())
     }
 
+    /// Makes the next pass rebuild the list, after positions moved to another origin.
+    pub fn invalidate(&mut self) {
+        self.listed_at.clear();
+    }
+
     /// Rebuilds the list if a particle has moved by more than the margin, relative to the mean
     /// displacement.
     pub fn refresh_pairs(&mut self, input: PairListInput<'_>) {

@@ -48,7 +48,7 @@ use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{rollback, tethers};
 use crate::solver::world::World;
-use crate::state::events::{Event, EventKind};
+use crate::state::events::EventKind;
 use glam::Vec3;
 
 /// The largest number of rounds before the cloth rolls back.
@@ -317,7 +317,7 @@ fn push_event(world: &mut World, limit: f32) {
         return;
     };
     let middle = (world.particles.x.get(a) + world.particles.x.get(b)) * 0.5;
-    let mut event = Event::new(EventKind::HeldApart, world.tick, middle);
+    let mut event = world.event_at(EventKind::HeldApart, middle);
     (event.particle_a, event.particle_b) = (a as u32, b as u32);
     event.count = world.over_stretched;
     world.events.push(event);

@@ -26,7 +26,7 @@ use crate::model::cut_links::{LinksOfTriangle, RestShape};
 use crate::solver::topology::tear::{push_edge_torn_event, push_split_vertex, update_pieces};
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;
-use crate::state::events::{Event, EventKind};
+use crate::state::events::EventKind;
 use glam::Vec3;
 
 /// A crossing nearer to an end of its edge than this share of the edge moves to the end.
@@ -148,7 +148,7 @@ fn split_edge(
     }
     let rest_shape = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
     world.constraints.split_edge(rest_shape, &division, links_of_triangle);
-    let mut event = Event::new(EventKind::EdgeDivided, world.tick, world.particles.x.get(new));
+    let mut event = world.event_at(EventKind::EdgeDivided, world.particles.x.get(new));
     (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);
 }

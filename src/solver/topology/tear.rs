@@ -26,7 +26,7 @@ use crate::solver::topology::piece_labels::PieceLabels;
 use crate::solver::topology::tear_scratch::{TearCandidate, TearScratch};
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;
-use crate::state::events::{Event, EventKind};
+use crate::state::events::EventKind;
 
 /// Seed of the random tear strength of the links.
 const STRENGTH_SEED: u32 = 0x6d75_736c;
@@ -100,7 +100,7 @@ fn can_tear(world: &mut World, particle: u32) -> bool {
     if !world.reserve_reported {
         world.reserve_reported = true;
         let place = world.particles.x.get(particle as usize);
-        world.events.push(Event::new(EventKind::ReserveUsedUp, world.tick, place));
+        world.events.push(world.event_at(EventKind::ReserveUsedUp, place));
     }
     false
 }
@@ -202,7 +202,7 @@ fn open_border_edge(world: &mut World, scratch: &mut TearScratch, a: u32, b: u32
 /// Pushes the event that the edge between two particles tore.
 pub(crate) fn push_edge_torn_event(world: &mut World, a: u32, b: u32) {
     let middle = (world.particles.x.get(a as usize) + world.particles.x.get(b as usize)) * 0.5;
-    let mut event = Event::new(EventKind::EdgeTorn, world.tick, middle);
+    let mut event = world.event_at(EventKind::EdgeTorn, middle);
     (event.particle_a, event.particle_b) = (a, b);
     world.events.push(event);
 }
@@ -316,7 +316,7 @@ pub(crate) fn push_split_vertex(world: &mut World, new: u32, from: u32, fan: &mu
         world.anchors.insert(AnchorConstraint { particle: new, ..anchor });
     }
     [from, new].into_iter().for_each(|vertex| world.refresh_inverse_mass(vertex));
-    let mut event = Event::new(EventKind::VertexSplit, world.tick, world.particles.x.get(at));
+    let mut event = world.event_at(EventKind::VertexSplit, world.particles.x.get(at));
     let events = &mut world.events;
     let mut push_event = |vertex, source| {
         (event.vertex, event.source) = (vertex, source);
@@ -410,8 +410,18 @@ fn push_detached_events(world: &mut World, pieces: &mut PieceLabels, count: u32)
             continue;
         }
         let place = world.particles.x.get(world.mesh.triangles[at][0] as usize);
-        let mut event = Event::new(EventKind::PieceDetached, world.tick, place);
+        let mut event = world.event_at(EventKind::PieceDetached, place);
         (event.vertex, event.count) = (world.render_vertex(3 * at as u32), size(*label));
         world.events.push(event);
+    }
+}
+
+impl World {
+    /// Rebuilds `crack_tips` for all vertices.
+    pub fn rebuild_crack_tips(&mut self) {
+        let mut fan = Fan::default();
+        let is_tip = |vertex| crack_tips::is_crack_tip(&self.mesh, &self.rest, vertex, &mut fan);
+        self.crack_tips.clear();
+        self.crack_tips.extend((0..self.mesh.vertex_count() as u32).map(is_tip));
     }
 }

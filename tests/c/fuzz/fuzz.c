@@ -267,13 +267,14 @@ static void call_body(void) {
   } while (0)
 
 static void call_read(void) {
-  switch (byte() % 7) {
+  switch (byte() % 8) {
     case 0: REPORT(MuslinView, muslin_view_init, VIEW, muslin_cloth_view(cloth, into)); break;
     case 1: REPORT(MuslinChanges, muslin_changes_init, CHANGES, muslin_cloth_changes(cloth, below(9), into)); break;
     case 2: REPORT(MuslinMeshReport, muslin_mesh_report_init, GET_MESH_REPORT, muslin_cloth_get_mesh_report(cloth, into)); break;
     case 3: REPORT(MuslinStats, muslin_stats_init, GET_STATS, muslin_cloth_get_stats(cloth, into)); break;
     case 4: REPORT(MuslinSettings, muslin_settings_init, GET_SETTINGS, muslin_cloth_get_settings(cloth, into)); break;
     case 5: REPORT(MuslinMaterial, muslin_material_init, GET_MATERIAL, muslin_cloth_get_material(cloth, into)); break;
+    case 6: check_result(GET_ORIGIN, muslin_cloth_get_origin(cloth, out(12))); break;
     default: check_result(STATE_HASH, muslin_cloth_state_hash(cloth, out(8)));
   }
 }

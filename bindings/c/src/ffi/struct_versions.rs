@@ -46,7 +46,7 @@ versioned_structs! {
     MuslinMeshReport: is_grid[4], is_grid[4], "muslin_mesh_report_init";
     MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
     MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
-    MuslinWriteDesc: offset[4], offset[4], "muslin_write_desc_init";
+    MuslinWriteDesc: offset[4], relative[4], "muslin_write_desc_init";
     MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], reserved[4], "muslin_stats_init";
 }
 

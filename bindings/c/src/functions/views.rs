@@ -7,7 +7,7 @@ use crate::status::MuslinStatus;
 use crate::types::changes::MuslinChanges;
 use crate::types::mesh_report::MuslinMeshReport;
 use crate::types::stats::MuslinStats;
-use crate::types::value::MuslinCloth;
+use crate::types::value::{MuslinCloth, MuslinVec3};
 use crate::types::view::MuslinView;
 use std::sync::LazyLock;
 use std::time::Instant;
@@ -26,6 +26,26 @@ pub unsafe extern "C" fn muslin_cloth_view(
     let out = unsafe { OutStruct::new("out_view", out_view) };
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.view().into());
+        Ok(())
+    })
+}
+
+/// Returns the origin of the cloth [m]: the point that it is simulated relative to, a whole number
+/// of metres along each axis.
+///
+/// It is zero while most of the cloth stays within 16 m of zero along each axis. Beyond, it follows
+/// the cloth, so that positions far from zero are as exact as near it. All positions that you pass
+/// or read are absolute, except for those that muslin_cloth_write_vertices writes with `relative`.
+/// Only ticks and calls that place particles move the origin.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_origin(
+    cloth: MuslinCloth,
+    out_origin: *mut MuslinVec3,
+) -> MuslinStatus {
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+    let out_origin = unsafe { Out::new("out_origin", out_origin) };
+    with_cloth(cloth, |cloth| {
+        out_origin?.write(cloth.origin().into());
         Ok(())
     })
 }

@@ -115,14 +115,18 @@ pub struct MuslinWriteDesc {
     /// for smooth motion. Normals and tangents belong to the interpolated surface.
     pub blend: f32,
     /// Transform of the positions, applied after the offset: three rows of four numbers, so that x
-    /// becomes t[0] x + t[1] y + t[2] z + t[3]. Default: identity. Normals stay perpendicular to
-    /// the surface and on their side of it; tangents stay in the surface.
+    /// becomes t[0] x + t[1] y + t[2] z + t[3]. Default: identity. A transform that takes a cloth
+    /// far from zero to a place near zero loses no digits. Normals stay perpendicular to the
+    /// surface and on their side of it; tangents stay in the surface.
     pub transform: [f32; 12],
     /// 1 if normals point to the other side, e.g. for the back of the cloth. Default 0.
     pub flip_normals: u32,
     /// Distance by which positions are moved along the written normals [m]. Default 0. Half of the
     /// thickness on either side gives the cloth a visible thickness.
     pub offset: f32,
+    /// 1 if positions are relative to the origin of muslin_cloth_get_origin, also those that
+    /// `transform` applies to. Default 0: they are absolute.
+    pub relative: u32,
 }
 
 impl Default for MuslinWriteDesc {
@@ -136,6 +140,7 @@ impl Default for MuslinWriteDesc {
             transform: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
             flip_normals: desc.flip_normals.into(),
             offset: desc.offset,
+            relative: desc.relative.into(),
         }
     }
 }
@@ -144,8 +149,10 @@ impl TryFrom<MuslinWriteDesc> for WriteDesc {
     type Error = CallError;
 
     fn try_from(desc: MuslinWriteDesc) -> Result<Self> {
-        if desc.flip_normals > 1 {
-            return Err(CallError::bad_value("flip_normals", "be 0 or 1"));
+        for (field, flag) in [("flip_normals", desc.flip_normals), ("relative", desc.relative)] {
+            if flag > 1 {
+                return Err(CallError::bad_value(field, "be 0 or 1"));
+            }
         }
         let t = desc.transform;
         let column = |at: usize| Vec3::new(t[at], t[at + 4], t[at + 8]);
@@ -159,6 +166,7 @@ impl TryFrom<MuslinWriteDesc> for WriteDesc {
             },
             flip_normals: desc.flip_normals == 1,
             offset: desc.offset,
+            relative: desc.relative == 1,
         })
     }
 }
