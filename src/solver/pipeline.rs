@@ -37,7 +37,9 @@
 //! before non-crossing surfaces, and these before the strain limit, whose excess is reported.
 
 use crate::model::links::LinkKind;
-use crate::solver::integrate::{forces, momentum, predict, recover, sleep, velocities};
+use crate::solver::integrate::{
+    forces, momentum, piece_momentum, predict, recover, sleep, velocities,
+};
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::self_collide::particle_contacts;
 use crate::solver::self_collide::surface::surface_stages;
@@ -168,6 +170,7 @@ fn run_substep(world: &mut World, number: u32) {
     }
     timed!(world, Bend, mesh_kernel::scatter(world));
     timed!(world, Pairs, particle_contacts::refresh_pairs(world));
+    timed!(world, SelfContacts, piece_momentum::begin_particle_contacts(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
     timed!(world, SelfContacts, momentum::remove_internal_momentum(world));
     timed!(world, Pairs, collide::broad_phase::refresh(world));

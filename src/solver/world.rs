@@ -46,6 +46,7 @@ use crate::solver::stretch::end_weights::EndWeights;
 use crate::solver::stretch::line_scratch::LineScratch;
 use crate::solver::stretch::rollback_state::RollbackState;
 use crate::solver::topology::piece_labels::PieceLabels;
+use crate::solver::topology::piece_members::PieceGroups;
 use crate::solver::topology::tear_scratch::TearScratch;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
@@ -244,8 +245,11 @@ pub(crate) struct TickScratch {
     pub rollback: RollbackState,
     /// Edges that the current vertex split opened. Written by `topology::tear`.
     pub opened_edges: Vec<OpenedEdge>,
-    /// Piece of each triangle, now and before the last tear or cut. Written by tears and cuts.
+    /// Piece of each triangle, now and before the last tear or cut, and the particles of each piece.
+    /// Written by tears and cuts.
     pub pieces: PieceLabels,
+    /// Pieces that touch each other in this substep. Written by `piece_momentum`.
+    pub piece_groups: PieceGroups,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
 }
@@ -272,9 +276,10 @@ impl TickScratch {
             damping: DampingScratch::default(),
             contacts: ContactScratch::default(),
             tear: TearScratch::with_capacity(max_tears),
-            rollback: RollbackState::with_capacity(capacity, triangles),
+            rollback: RollbackState::with_capacity(capacity),
             opened_edges: Vec::with_capacity(2),
-            pieces: PieceLabels::new(triangles),
+            pieces: PieceLabels::new(capacity, triangles),
+            piece_groups: PieceGroups::with_capacity(capacity, triangles),
             piece_stack: Vec::with_capacity(triangles),
         };
         zero(&mut scratch.acceleration);
@@ -422,6 +427,13 @@ impl World {
     /// cloth [m].
     pub fn max_displacement(&self) -> f32 {
         self.settings.max_displacement * self.mean_edge
+    }
+
+    /// Labels the pieces of the mesh, counts them, and sorts the particles by piece.
+    pub fn label_pieces(&mut self) {
+        let (mesh, TickScratch { pieces, piece_stack, .. }) = (&self.mesh, &mut self.scratch);
+        self.pieces = mesh.label_pieces(&mut pieces.label, piece_stack);
+        pieces.members.sort(mesh, &pieces.label, self.pieces as usize, |piece| piece);
     }
 
     /// Rebuilds all tethers, after pins or pieces changed.
