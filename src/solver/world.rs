@@ -410,7 +410,7 @@ impl World {
     /// The history of the particle becomes that of free fall.
     pub fn set_particle_state(&mut self, particle: usize, x: Vec3, v: Vec3) {
         self.wake();
-        let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
+        let (h, gravity) = (self.settings.scheme().h, self.gravity_of_history());
         self.particles.set_motion(particle, x, v, gravity, h);
         self.is_pin_stretch_current = false;
         self.tether_slack = f32::INFINITY;
@@ -419,8 +419,15 @@ impl World {
     /// Resets the history of every particle to free fall, after the length or the order of the
     /// substep changed. Positions and velocities stay.
     pub fn reset_history(&mut self) {
-        let (h, gravity) = (self.settings.scheme().h, self.settings.gravity);
+        let (h, gravity) = (self.settings.scheme().h, self.gravity_of_history());
         self.particles.reset_history(gravity, h);
+    }
+
+    /// The acceleration that a new history contains [m/s²]: gravity for BDF2. BDF1 extrapolates
+    /// nothing, so that any acceleration in its history would be a jump of velocity.
+    fn gravity_of_history(&self) -> Vec3 {
+        let is_extrapolated = self.settings.scheme().extrapolation > 0.0;
+        if is_extrapolated { self.settings.gravity } else { Vec3::ZERO }
     }
 
     /// Largest displacement of a particle per substep relative to the rigid motion of the
